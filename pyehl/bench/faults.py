@@ -39,6 +39,10 @@ CHILD = (
     "found = faults_inputs.run_chunk(int(sys.argv[1]), int(sys.argv[2]), Path(sys.argv[3]), "
     "cli.main); out.write(json.dumps(found))"
 )
+Found = tuple[int, dict[str, int], list[str]]
+"""Trials, how many came to what, and what must not be."""
+REGIONS = 32
+"""Parts of a state; a byte of each is flipped in turn."""
 
 
 def campaign(
@@ -66,7 +70,7 @@ def campaign(
         tell(f"{name}: {round(share * kills)}")
         rows.append(_row(name, *work(folder, generator, max(1, round(share * kills)))))
     tell("bytes of a state flipped, region by region")
-    rows.append(_row("damaged states", *damage(folder, generator, run, same)))
+    rows.append(_row("damaged states", *damage(folder, generator)))
     tell(f"mutated inputs: {inputs}")
     rows.append(_row("mutated inputs", *_inputs(folder, seed, inputs)))
     return rows
@@ -131,9 +135,7 @@ def same(one: Path, two: Path) -> str:
     return ""
 
 
-def _kill_runs(
-    folder: Path, generator: np.random.Generator, kills: int
-) -> tuple[int, dict[str, int], list[str]]:
+def _kill_runs(folder: Path, generator: np.random.Generator, kills: int) -> Found:
     whole, out, bad = folder / "whole", folder / "out", []
     began = time.monotonic()
     run(folder, "run", "case.nml", "-o", "whole")
@@ -167,9 +169,7 @@ def _compare(out: Path, whole: Path, when: str, bad: list[str]) -> None:
         bad.append(f"{when}: {difference}")
 
 
-def _kill_sweeps(
-    folder: Path, generator: np.random.Generator, kills: int
-) -> tuple[int, dict[str, int], list[str]]:
+def _kill_sweeps(folder: Path, generator: np.random.Generator, kills: int) -> Found:
     bad: list[str] = []
     words = ["sweep", "case.nml", "--vary", "contact.moes_m=60:140:9", "--set"]
     words += ["time.estimate_error=.false.", "--jobs", "2", "--quiet", "-o"]
@@ -201,9 +201,7 @@ def _table(folder: Path) -> list[dict[str, str]]:
         ]
 
 
-def _kill_exports(
-    folder: Path, generator: np.random.Generator, kills: int
-) -> tuple[int, dict[str, int], list[str]]:
+def _kill_exports(folder: Path, generator: np.random.Generator, kills: int) -> Found:
     bad: list[str] = []
     began = time.monotonic()
     first = run(folder, "export", "whole", "-o", "whole.nc")
@@ -224,7 +222,7 @@ def _kill_exports(
     return done, {"killed": done}, bad
 
 
-def _inputs(folder: Path, seed: int, inputs: int) -> tuple[int, dict[str, int], list[str]]:
+def _inputs(folder: Path, seed: int, inputs: int) -> Found:
     """Try mutated inputs in child processes, so that a crash or a hang is seen."""
     counts: Counter[str] = Counter()
     bad: list[str] = []
@@ -255,16 +253,7 @@ def _inputs(folder: Path, seed: int, inputs: int) -> tuple[int, dict[str, int], 
     return inputs, counts, bad
 
 
-Run = Callable[..., subprocess.CompletedProcess[str]]
-Found = tuple[int, dict[str, int], list[str]]
-
-REGIONS = 32
-"""Parts of a state; a byte of each is flipped in turn."""
-
-
-def damage(
-    folder: Path, generator: np.random.Generator, run: Run, same: Callable[[Path, Path], str]
-) -> Found:
+def damage(folder: Path, generator: np.random.Generator) -> Found:
     """Flip a byte of every region of the newest state, or of both, and resume.
 
     A damaged state is noticed: the older one, or the beginning, takes its place, and the bits are

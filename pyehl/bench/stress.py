@@ -56,6 +56,12 @@ MEANING = (
     "algebraic error;\nwrong: differs by more than the error it states; cycles: of a step, or all"
 )
 """What the columns are."""
+HELD = 0.01
+"""Share of the layer by which the film of a touching node may differ from it."""
+LOAD = 1e-4
+"""Error of the load and of the load share as summed here; these are sums over the same nodes."""
+LEAST = 1e-3
+"""Share of the load that any load share may be off by."""
 
 
 def campaign(
@@ -86,19 +92,18 @@ def campaign(
         tell(f"{family}: {len(mine)} cases")
         found = _run(family, mine, folder / family, jobs, fields=layer)
         chosen = [row for row in found if row["outcome"] in ("converged", ENDED)]
-        if chosen:
-            tell(f"{family}: {len(chosen)} once more, to a stricter end")
-            for name, high in (("strict", False), ("strict-high", True)):
-                part = [row for row in chosen if _is_high(row) == high]
-                if part:
-                    _check(family, part, folder / f"{family}-{name}", jobs)
         known = [row for row in chosen if row["contact_load_share_error"] is not None]
-        if known:
-            tell(f"{family}: {len(known)} once more, on a finer grid")
-            for name, high in (("finer", False), ("finer-high", True)):
-                part = [row for row in known if _is_high(row) == high]
+        for name, how, some in (
+            ("strict", "to a stricter end", chosen),
+            ("finer", "on a finer grid", known),
+        ):
+            if some:
+                tell(f"{family}: {len(some)} once more, {how}")
+            for end, high in (("", False), ("-high", True)):
+                part = [row for row in some if _is_high(row) == high]
                 if part:
-                    _check(family, part, folder / f"{family}-{name}", jobs, finer=True)
+                    place = folder / f"{family}-{name}{end}"
+                    _check(family, part, place, jobs, finer=name == "finer")
         rows += found
     return rows
 
@@ -169,7 +174,7 @@ def _check(
         if not finer:
             judge(row, told)
         name = "share_finer" if finer else "share_strict"
-        judge_share(row, name, told, UNKNOWN_ERROR)
+        judge_share(row, name, told)
 
 
 def judge(row: Row, strict: Mapping[str, Any]) -> None:
@@ -228,14 +233,6 @@ def write(rows: Sequence[Row], folder: Path, answer: Mapping[str, Any]) -> None:
     write_json(folder / "stress.json", values, allow_nan=True)
 
 
-HELD = 0.01
-"""Share of the layer by which the film of a touching node may differ from it."""
-LOAD = 1e-4
-"""Error of the load and of the load share as summed here; these are sums over the same nodes."""
-LEAST = 1e-3
-"""Share of the load that any load share may be off by."""
-
-
 def broken(folder: Path) -> str:
     """Say what conditions of contact the last fields of a result folder break; '' if none.
 
@@ -265,15 +262,15 @@ def broken(folder: Path) -> str:
     return ", ".join(name for name, holds in conditions.items() if not holds)
 
 
-def judge_share(row: dict[str, Any], name: str, told: Mapping[str, Any], unknown: float) -> None:
+def judge_share(row: dict[str, Any], name: str, told: Mapping[str, Any]) -> None:
     """Set `name` of a row to the load share of another run, and `wrong` if its error is exceeded.
 
-    Where no error is stated, `unknown` is allowed.
+    Where no error is stated, `UNKNOWN_ERROR` is allowed.
     """
     value, other = row["contact_load_share"], told.get("contact_load_share")
     row[name] = other
     if None in (value, other):
         return
     stated = row["contact_load_share_error"]
-    allowed = unknown if stated is None else max(stated, LEAST)
+    allowed = UNKNOWN_ERROR if stated is None else max(stated, LEAST)
     row["wrong"] = row["wrong"] or abs(value - other) > allowed

@@ -37,6 +37,19 @@ WAVE = (
     "surface.amplitude=9.734e-3",
     "surface.velocity_ratio=1.01",
 )
+RATIO = ("mu_ratio",)
+# What is varied, one at a time from the default; behind the first two of rough contacts alone
+SETTINGS: tuple[tuple[str, tuple[str, ...]], ...] = (
+    ("default", ()),
+    ("fft", ("solver.deflection=fft",)),
+    ("paper", ("time.scheme=paper",)),
+    ("alcouffe", ("solver.coarsening=alcouffe",)),
+    ("classical", ("solver.coarsening=classical",)),
+)
+LEVELS = (0.03, 0.01, 0.003, 0.001)
+"""Errors that the cheapest setting is looked for."""
+ORDER = 2
+"""Of the discretisation, for Richardson extrapolation."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +64,6 @@ class Scene:
     rough: bool = True  # whether schemes, coarsenings and the prediction belong to it
 
 
-RATIO = ("mu_ratio",)
 SCENES = (
     Scene("smooth", POINT, ("H_c", "H_min", "F"), (65, 129, 257, 513, 1025, 2049), rough=False),
     Scene("wave", WAVE, RATIO, (129, 257, 513, 1025)),
@@ -62,16 +74,6 @@ SCENES = (
         (129, 257, 513, 1025),
     ),
     Scene("fractal", ("surface.kind=fractal",), RATIO, (129, 257, 513, 1025)),
-)
-
-
-# What is varied, one at a time from the default; behind the first two of rough contacts alone
-SETTINGS: tuple[tuple[str, tuple[str, ...]], ...] = (
-    ("default", ()),
-    ("fft", ("solver.deflection=fft",)),
-    ("paper", ("time.scheme=paper",)),
-    ("alcouffe", ("solver.coarsening=alcouffe",)),
-    ("classical", ("solver.coarsening=classical",)),
 )
 
 
@@ -198,12 +200,6 @@ def share_of_deflection(points: int = 129) -> Row:
         "grid_error": grid,
         "share": difference / grid,
     }
-
-
-LEVELS = (0.03, 0.01, 0.003, 0.001)
-"""Errors that the cheapest setting is looked for."""
-ORDER = 2
-"""Of the discretisation, for Richardson extrapolation."""
 
 
 def extrapolated(rows: Sequence[Row]) -> list[Row]:

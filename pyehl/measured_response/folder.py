@@ -29,6 +29,27 @@ PICTURE = "response.png"
 FILES = ("response.csv", "response.nc", "case.nml", PICTURE, "summary.json")
 DIRECTIONS = (0.0, 45.0, 80.0)
 """Of the lines of the shipped response: crests to those across the motion [deg]."""
+STATIONS = np.array([-0.5, 0.0, 0.5])
+"""Where the response is tabulated, on Y = 0 [a]."""
+PLACES = ("upstream", "centre", "downstream")
+"""How the columns of the table call them."""
+# Variables over the waves, the second part also over X: meaning and unit
+VARIABLES = {
+    "kx": ("wavenumber along the motion", "1/a"),
+    "ky": ("wavenumber across the motion", "1/a"),
+    "wavelength": ("2 pi/|q|", "a"),
+    "nabla_2": ("wavelength over a times sqrt(M/L) of the circle with the same inlet", "1"),
+    "direction": ("angle of the crests to those across the motion", "degree"),
+    "points": ("nodes per side of the grid", "1"),
+    "fit_residual": ("rms left by the fit in time over the amplitude, at X = 0", "1"),
+    "amplitude": ("|T|, film wave over roughness", "1"),
+    "lag": ("phase of T", "degree"),
+    "pressure": ("|pressure wave| over roughness", "p_h R/a^2"),
+    "pressure_ratio": ("pressure wave over that of the half-space, K (1 - T)", "1"),
+    "shipped_amplitude": ("|T| of the response that the prediction uses", "1"),
+    "shipped_lag": ("phase of T of the response that the prediction uses", "degree"),
+    "shipped_difference": ("|T - T of the response that the prediction uses|", "1"),
+}
 
 
 def destination(
@@ -167,29 +188,6 @@ def _summary(
         "shipped_difference_rms": float(np.sqrt(np.mean(difference**2))),
         "shipped_difference_max": float(difference.max()),
     }
-
-
-STATIONS = np.array([-0.5, 0.0, 0.5])
-"""Where the response is tabulated, on Y = 0 [a]."""
-PLACES = ("upstream", "centre", "downstream")
-"""How the columns of the table call them."""
-# Variables over the waves, the second part also over X: meaning and unit
-VARIABLES = {
-    "kx": ("wavenumber along the motion", "1/a"),
-    "ky": ("wavenumber across the motion", "1/a"),
-    "wavelength": ("2 pi/|q|", "a"),
-    "nabla_2": ("wavelength over a times sqrt(M/L) of the circle with the same inlet", "1"),
-    "direction": ("angle of the crests to those across the motion", "degree"),
-    "points": ("nodes per side of the grid", "1"),
-    "fit_residual": ("rms left by the fit in time over the amplitude, at X = 0", "1"),
-    "amplitude": ("|T|, film wave over roughness", "1"),
-    "lag": ("phase of T", "degree"),
-    "pressure": ("|pressure wave| over roughness", "p_h R/a^2"),
-    "pressure_ratio": ("pressure wave over that of the half-space, K (1 - T)", "1"),
-    "shipped_amplitude": ("|T| of the response that the prediction uses", "1"),
-    "shipped_lag": ("phase of T of the response that the prediction uses", "degree"),
-    "shipped_difference": ("|T - T of the response that the prediction uses|", "1"),
-}
 
 
 def shipped_response(

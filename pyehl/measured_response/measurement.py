@@ -32,6 +32,7 @@ from pyehl.types import Settings
 DIRECTIONS = (0, 45, 80, 26, 0, 63, 15, 75, 0, 56, 35, 70, 0, 45, 62, 20)
 NODES = 8
 """Least number of nodes a wavelength."""
+Progress = Callable[[str, int, int], object]
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,9 +75,6 @@ def tier_waves(tier: Tier) -> WaveSet:
     limit = np.floor(np.sqrt(last**2 - along**2)).astype(np.int64)
     phase = np.random.default_rng(5).uniform(0.0, 2.0 * np.pi, along.size)
     return WaveSet(tier.tile, along, np.minimum(across, limit), phase)
-
-
-Progress = Callable[[str, int, int], object]
 
 
 def _identity(settings: Settings, velocity_ratio: float, tier: Tier) -> str:

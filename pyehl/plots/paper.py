@@ -17,6 +17,7 @@ from pyehl.types import Array, Indices, Mask
 
 COLOURS = (BLUE, VERMILLION, "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "black")
 MARKERS = "osD^vP*"
+FIELD_COLOURS = (style.GREY, "black", style.BLUE, style.VERMILLION)
 
 
 def wave_history(runs: Sequence[tuple[str, Array, Array]], mean: float) -> Figure:
@@ -128,9 +129,6 @@ def collapses(panels: Sequence[Collapse]) -> Figure:
         title="$M$, $L$, $\\lambda/a$",
     )
     return figure
-
-
-FIELD_COLOURS = (style.GREY, "black", style.BLUE, style.VERMILLION)
 
 
 @dataclass(frozen=True, slots=True)

@@ -24,6 +24,8 @@ from pyehl.types import Array
 FLOOR = 1e-10
 # Powers of ten beyond which they stand above an axis, so that its numbers are short
 SHORT = (-3, 4)
+SHOWN = 0.005
+"""Share of the heights that may lie beyond either end of the colours, against spikes."""
 
 
 def heights(topography: Topography, *, ax: Axes | None = None) -> Axes:
@@ -200,10 +202,6 @@ def octaves(bands: Sequence[tuple[float, float, float]], *, ax: Axes | None = No
     ax.ticklabel_format(axis="y", scilimits=(-9, SHORT[1]))
     ax.legend(fontsize="small", frameon=False)
     return ax
-
-
-SHOWN = 0.005
-"""Share of the heights that may lie beyond either end of the colours, against spikes."""
 
 
 def before_and_after(

@@ -34,6 +34,8 @@ SHORT = 7
 """m of the lattice of a mean over a few positions."""
 FEW = 16
 """Positions per passage of a mean over a few of them along a line."""
+MOST = 12
+"""Tiles beside each other, along one way, that are added to those of the other surface."""
 
 
 def common_passages(
@@ -136,10 +138,6 @@ def _undecided(ratios: Array) -> float:
         return math.nan
     halves = ratios[::2].mean(), ratios[1::2].mean()
     return float(0.5 * abs(halves[0] - halves[1]) / ratios.mean())
-
-
-MOST = 12
-"""Tiles beside each other, along one way, that are added to those of the other surface."""
 
 
 def as_one(first: Topography, second: Topography, ahead: float) -> Topography | None:

@@ -38,6 +38,10 @@ DPI = 130
 MODULES = (table1, figure1, figure2, figure3, figure4, figure5, figure6, table2, figure7)
 PIECES: dict[str, Piece] = {module.NAME: cast(Piece, module) for module in MODULES}
 """Figures and tables by name."""
+PAPER = (
+    "Zhang, Biboulet, Venner & Lubrecht 2019, Prediction of the Stribeck curve under full-film "
+    "elastohydrodynamic lubrication, doi 10.1016/j.triboint.2019.01.028"
+)
 
 
 def reproduce(
@@ -97,12 +101,6 @@ def reproduce(
 
 def _folder_of(name: str) -> str:
     return name.replace(" ", "")
-
-
-PAPER = (
-    "Zhang, Biboulet, Venner & Lubrecht 2019, Prediction of the Stribeck curve under full-film "
-    "elastohydrodynamic lubrication, doi 10.1016/j.triboint.2019.01.028"
-)
 
 
 def _seconds(result: Result) -> str:

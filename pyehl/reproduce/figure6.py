@@ -51,9 +51,9 @@ class Deformed:
 
 def run(runs: Runs, level: Level) -> Deformed:
     """Simulate the surface, and predict its deformed roughness at the same instant."""
-    _, folder, made = deformed_run(runs, level)
+    made = deformed_run(runs, level)
     made.solved(0)
-    data = results.load(folder)
+    data = results.load(made.kept[0])
     settings = results.settings_of(data)
     point, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
     surface, _ = tile(SEED)

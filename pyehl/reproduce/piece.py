@@ -55,10 +55,8 @@ FULL = Level(
         "and error estimates by runs on coarser grids, but for Fig. 2 and Table 2"
     ),
 )
-LEVELS = {level.name: level for level in (QUICK, FULL)}
-
-
 FILE = "zhang2019.csv"
+LEVELS = {level.name: level for level in (QUICK, FULL)}
 
 
 @dataclass(frozen=True, slots=True)

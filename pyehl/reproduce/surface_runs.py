@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Table 1 surfaces under Figs 5 to 7 and Table 2: simulations, and predictions by three models."""
 
-from pathlib import Path
-
 from pyehl import surfaces
 from pyehl.case import Case
 from pyehl.reproduce.piece import Level
@@ -35,22 +33,21 @@ def tile(seed: int = SEED) -> tuple[Topography, OperatingPoint]:
     return surfaces.from_settings(settings, point, 1e-7), point
 
 
-def deformed_run(runs: Runs, level: Level) -> tuple[Row, Path, Made]:
-    """Simulate the surface of `SEED` with its fields: row, result folder, study."""
-    made = runs.study(
+def deformed_run(runs: Runs, level: Level) -> Made:
+    """Simulate the surface of `SEED` with its fields, which its result folder keeps."""
+    return runs.study(
         f"surface-{level.surface_grid}",
         CASE + TIME.format(scheme="narrow") + f"&grid points = {level.surface_grid} /\n",
         {"surface.seed": [SEED]},
         keep=True,
     )
-    return made.rows[0], made.kept[0], made
 
 
 def simulations(runs: Runs, level: Level) -> tuple[list[Row], list[Made]]:
     """Simulate the surfaces of the seeds 1, 2, ...: rows in the order of the seeds, studies."""
-    first, _, made = deformed_run(runs, level)
+    made = deformed_run(runs, level)
     if level.surfaces < 2:
-        return [first], [made]
+        return list(made.rows), [made]
     others = runs.study(
         f"surfaces-{level.surfaces}-{level.surface_grid}",
         CASE
@@ -58,7 +55,7 @@ def simulations(runs: Runs, level: Level) -> tuple[list[Row], list[Made]]:
         + f"&grid points = {level.surface_grid} /\n&output fields = .false. /\n",
         {"surface.seed": list(range(SEED + 1, SEED + level.surfaces))},
     )
-    return [first, *others.rows], [made, others]
+    return [*made.rows, *others.rows], [made, others]
 
 
 def carried(points: int) -> list[str]:

@@ -39,6 +39,13 @@ SMOOTH_LINE, SMOOTH_NODE = 5e-4, 5e-7
 """Seconds of a smooth contact per line and per node of its finest grid."""
 STEP_NODE, MANY_WAVES = 2.7e-7, 1.25
 """Seconds of a time step of a waviness per node; how much longer surfaces of many waves take."""
+THREADS = "solver.threads"
+MOST, PATIENCE = 5000, 5.0
+"""Cases that a plan without a run checks at most, and seconds that it takes for them."""
+CASE_BYTES = 12_000
+"""Memory of a case that waits, most of it its resolved text."""
+# What may make a case that can be read one that cannot be solved
+GROUPS = ("grid", *surfaces.GROUPS, "time", "solver")
 
 
 def smooth_seconds(points: int) -> float:
@@ -111,15 +118,6 @@ class TaskList:
         self._contacts.add(shares)
         self.tasks.append(Task(number, case.text, run, folder, seconds, shares, tracks))
         return number
-
-
-THREADS = "solver.threads"
-MOST, PATIENCE = 5000, 5.0
-"""Cases that a plan without a run checks at most, and seconds that it takes for them."""
-CASE_BYTES = 12_000
-"""Memory of a case that waits, most of it its resolved text."""
-# What may make a case that can be read one that cannot be solved
-GROUPS = ("grid", *surfaces.GROUPS, "time", "solver")
 
 
 @dataclass(frozen=True, slots=True)

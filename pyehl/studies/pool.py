@@ -126,12 +126,13 @@ class Worker:
 
 
 def rows(tasks: Sequence[Task], jobs: int) -> Generator[list[tuple[int, Row]]]:
-    """Do tasks in `jobs` worker processes; yields what has been finished, some rows at a time.
+    """Do tasks in `jobs` worker processes (0: as many as processors); yields rows as they come.
 
     A task whose worker dies is given to another one once more; then its row says so. When the
     caller stops early, or an exception is raised in it, the workers end at once. InternalError if
     no worker comes as far as its first row.
     """
+    jobs = jobs or processors()
     crew = _Crew(tasks, jobs)
     left = len(tasks)
     try:

@@ -23,6 +23,15 @@ from pyehl.studies.vary import Axis, axis
 RUNS = ("solve", "predict", "film")
 """What may be done with each case."""
 MAX_CASES = 1_000_000
+# Keys, their types, and these in words
+KEYS: dict[str, tuple[Any, str]] = {
+    "case": (str, "a text"),
+    "run": (str, "a text"),
+    "set": (dict, "a table"),
+    "vary": (dict, "a table"),
+    "zip": (bool | list, "true, false or lists"),
+    "outputs": (list, "a list"),
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -225,17 +234,6 @@ def _dimensions(
             done.add(home[a.key])
             dimensions.append(tuple(known[key] for key in groups[home[a.key]]))
     return tuple(dimensions)
-
-
-# Keys, their types, and these in words
-KEYS: dict[str, tuple[Any, str]] = {
-    "case": (str, "a text"),
-    "run": (str, "a text"),
-    "set": (dict, "a table"),
-    "vary": (dict, "a table"),
-    "zip": (bool | list, "true, false or lists"),
-    "outputs": (list, "a list"),
-}
 
 
 def read_study(path: str | os.PathLike[str]) -> dict[str, Any]:

@@ -20,6 +20,12 @@ MAX_MISSING = 0.1
 
 DIRECT_POINTS = 50_000
 TOLERANCE = 1e-10
+WINDOW = 5
+"""Pixels per side of the median that a point is compared with."""
+LINES = 64
+"""Lines of a map that are looked at together."""
+MAD_TO_SIGMA = 1.482602218505602
+"""Standard deviation of a normal distribution over its median absolute deviation."""
 
 
 def filled(heights: Array, pixel: tuple[float, float]) -> Array:
@@ -89,16 +95,6 @@ def nearest(heights: Array) -> Array:
         return heights
     at = scipy.ndimage.distance_transform_edt(missing, return_distances=False, return_indices=True)
     return np.asarray(heights[tuple(at)])
-
-
-WINDOW = 5
-"""Pixels per side of the median that a point is compared with."""
-
-LINES = 64
-"""Lines of a map that are looked at together."""
-
-MAD_TO_SIGMA = 1.482602218505602
-"""Standard deviation of a normal distribution over its median absolute deviation."""
 
 
 def prominence(heights: Array) -> Array:

@@ -17,6 +17,21 @@ WORD = re.compile(r"[^\s,;]+")
 DECIMAL = re.compile(r"[^\s;]+")
 OWN_SIZE = re.compile(r"^#\s*(length_[xy])\s*=\s*(\S+)\s*m\s*$")
 OWN_PERIODIC = re.compile(r"^#\s*periodic\s*$")
+# Of a mesh size: how far points may be from the grid
+OFF = 0.02
+UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
+"""Metres in the units of `surface.height_unit`."""
+HEADER_LINES = 100
+# A micro sign is two characters of Unicode, and in a file of another encoding it is none
+UNIT = "(m|mm|[uµμ\ufffd]m|nm)"
+SIZE = re.compile(
+    rf"(?P<name>[a-z _-]+?)\s*(?:[(\[]{UNIT}[)\]])?\s*[:;=,\t]\s*(?P<value>[\d.,]+)\s*{UNIT}?",
+    re.IGNORECASE,
+)
+OF_HEIGHTS = re.compile(
+    rf"(?:(?:z|height|value)[ -])?units?\s*[:;=,\t]\s*[(\[]?{UNIT}[)\]]?", re.IGNORECASE
+)
+SIDES = (("width", "x size", "x length", "x range"), ("height", "y size", "y length", "y range"))
 
 
 def read_text(path: Path, first: int = 1) -> tuple[Array, tuple[float | None, float | None], bool]:
@@ -99,10 +114,6 @@ def _column(line: str, index: int) -> int:
     return words[index].start() + 1 if index < len(words) else words[-1].end() + 1
 
 
-# Of a mesh size: how far points may be from the grid
-OFF = 0.02
-
-
 def is_list(rows: Array) -> bool:
     """Whether rows of three numbers (n, 3) are points and no map: n is then far larger."""
     return rows.ndim == 2 and rows.shape[1] == 3 and rows.shape[0] > 3
@@ -151,22 +162,6 @@ def grid_of(path: Path, points: Array) -> tuple[Array, tuple[float, float]]:
         )
     heights.ravel()[flat] = points[:, 2]
     return heights, (shape[0] * steps[0], shape[1] * steps[1])
-
-
-UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
-"""Metres in the units of `surface.height_unit`."""
-
-HEADER_LINES = 100
-# A micro sign is two characters of Unicode, and in a file of another encoding it is none
-UNIT = "(m|mm|[uµμ\ufffd]m|nm)"
-SIZE = re.compile(
-    rf"(?P<name>[a-z _-]+?)\s*(?:[(\[]{UNIT}[)\]])?\s*[:;=,\t]\s*(?P<value>[\d.,]+)\s*{UNIT}?",
-    re.IGNORECASE,
-)
-OF_HEIGHTS = re.compile(
-    rf"(?:(?:z|height|value)[ -])?units?\s*[:;=,\t]\s*[(\[]?{UNIT}[)\]]?", re.IGNORECASE
-)
-SIDES = (("width", "x size", "x length", "x range"), ("height", "y size", "y length", "y range"))
 
 
 def read_headed(path: Path) -> Foreign:

@@ -20,6 +20,7 @@ from pyehl.types import Array, Settings
 
 CODES = {"eyring": 1, "carreau": 2}
 """Laws that thin a flow, by the numbers that the library has for them."""
+LAWS = ("newtonian", "eyring", "limiting", "carreau")
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,9 +73,6 @@ def sliding_stress(law: str, exponent: float, sliding: ArrayLike) -> Array:
     stress = np.empty(b.size)
     extension.lubricants.sliding_stresses(CODES[law], exponent, b.ravel().copy(), stress)
     return stress.reshape(b.shape)
-
-
-LAWS = ("newtonian", "eyring", "limiting", "carreau")
 
 
 @dataclass(frozen=True, slots=True)
