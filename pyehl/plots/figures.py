@@ -32,18 +32,14 @@ def scales_of(data: xr.Dataset, units: str = "auto") -> Scales | None:
     return None
 
 
-def _stretch(data: xr.Dataset) -> float:
-    """How much higher maps of a wide contact are, to be as broad as those of a circle."""
-    along, across = Outline.of(data).reach
-    return min(2.0, max(1.0, across / along))
-
-
 def _size(data: xr.Dataset, count: int, broad: float) -> tuple[float, float]:
     """Width and height [in] of so many maps with equal axes; `broad`: width of those of a circle.
 
-    As narrow as maps of a wide contact and their colour bars are, and the title still is.
+    As narrow as maps of a wide contact and their colour bars are, and the title still is; higher,
+    so that they are as broad.
     """
-    slender, height = Outline.of(data).slender, 3.6 * _stretch(data)
+    slender = Outline.of(data).slender
+    height = 3.6 * min(2.0, max(1.0, slender))
     if slender <= 1.0:
         return broad * count / 2, height
     return min(broad * count / 2, max(6.4, count * ((height - 1.0) / slender + 1.4))), height
@@ -75,12 +71,9 @@ def _centre_lines(data: xr.Dataset, scales: Scales | None, title: str) -> Figure
     left, right = figure.axes
     x, y, p, h = (data[name].values for name in "XYPH")
     i, j = nearest(x, 0.0), nearest(y, 0.0)
-    contact.pressure_and_film(
-        x, p[:, j], h[:, j], scales, name="x", half=Outline.of(data).chords[0], ax=left
-    )
-    contact.pressure_and_film(
-        y, p[i, :], h[i, :], scales, name="y", half=Outline.of(data).chords[1], ax=right
-    )
+    along, across = Outline.of(data).chords
+    contact.pressure_and_film(x, p[:, j], h[:, j], scales, name="x", half=along, ax=left)
+    contact.pressure_and_film(y, p[i, :], h[i, :], scales, name="y", half=across, ax=right)
     twins = [ax for ax in figure.axes if ax not in (left, right)]
     lines = [*left.get_lines(), *twins[0].get_lines()]
     figure.legend(handles=lines, loc="outside lower center", ncols=3)
@@ -96,10 +89,8 @@ def _film(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
     x, y, film = (data[name].values for name in "XYH")
     fringes = None
     if "H_smooth" in data:
-        fringes = contact.fringe_spacings(
-            float(data.H_smooth.values[nearest(x, 0.0), nearest(y, 0.0)]) * film_unit(scales)[0],
-            scales,
-        )
+        central = float(data.H_smooth.values[nearest(x, 0.0), nearest(y, 0.0)])
+        fringes = contact.fringe_spacings(central * film_unit(scales)[0], scales)
     contact.interferogram(x, y, film, scales, fringes=fringes, outline=outline, ax=left)
     contact.contours(x, y, film, scales, outline=outline, ax=right)
     for ax in more:

@@ -198,13 +198,7 @@ def _band(ax: Axes, x: Array, curve: Curve, name: str, colour: str, factor: floa
 
 
 def _points(
-    ax: Axes,
-    x: Array,
-    curve: Curve,
-    name: str,
-    colour: str,
-    factor: float = 1.0,
-    marker: str = "s",
+    ax: Axes, x: Array, curve: Curve, name: str, colour: str, factor: float = 1.0, marker: str = "s"
 ) -> None:
     """Draw a column of the full simulation; a load share with its error."""
     y = factor * curve.column(name)

@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 
 from pyehl.plots import style
 from pyehl.plots.outline import Outline
-from pyehl.surfaces import Preparation, Topography, interpolated, psd_2d, psd_isotropic
+from pyehl.surfaces import Topography, interpolated, psd_2d, psd_isotropic
 from pyehl.surfaces.holes import nearest
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.types import Array
@@ -218,8 +218,12 @@ def before_and_after(
     lengths = (surface.length_x, surface.length_y)
     curves = [("prepared" if made else "surface", style.BLUE, surface)]
     if made:
-        raw = _as_measured(made)
-        _map(axes[0], made.scan.heights - np.nanmean(made.scan.heights), _size(made), "as measured")
+        scan = made.scan
+        size = scan.length_x, scan.length_y
+        _map(axes[0], scan.heights - np.nanmean(scan.heights), size, "as measured")
+        # as if it were a tile, its holes closed by what is next to them
+        z = nearest(scan.heights)
+        raw = Topography(z - z.mean(), size)
         nx, ny = made.prepared.shape
         lengths = (nx * made.pixel[0], ny * made.pixel[1])
         _map(axes[1], made.prepared, lengths, "prepared")
@@ -229,16 +233,6 @@ def before_and_after(
     _spectra(axes[-1], curves, conditions)
     style.letter(axes)
     return figure
-
-
-def _size(made: Preparation) -> tuple[float, float]:
-    return made.scan.length_x, made.scan.length_y
-
-
-def _as_measured(made: Preparation) -> Topography:
-    """Map as read, as if it were a tile, its holes closed by what is next to them."""
-    z = nearest(made.scan.heights)
-    return Topography(z - z.mean(), _size(made))
 
 
 def _map(ax: Axes, heights: Array, size: tuple[float, float], title: str) -> None:

@@ -42,10 +42,7 @@ class BelowZero:
 
 
 def below_zero(
-    deformed: Array,
-    pixel: tuple[float, float],
-    semi_axes: tuple[float, float],
-    borne: Borne,
+    deformed: Array, pixel: tuple[float, float], semi_axes: tuple[float, float], borne: Borne
 ) -> BelowZero:
     """Find where the film over a tile ends, in the strip that passes through the contact.
 

@@ -29,9 +29,7 @@ Predicted = Callable[[Sequence[int], float], RoughFriction]
 
 
 def carrying_wavelength(
-    shortest: float,
-    longest: float,
-    carries: Callable[[float], bool],
+    shortest: float, longest: float, carries: Callable[[float], bool]
 ) -> float | None:
     """Find the cut-off [m] at which the film is full: shorter waves are taken off.
 
@@ -54,9 +52,7 @@ def carrying_wavelength(
 
 
 def carrying_outliers(
-    prominence: Array,
-    without_spikes: Callable[[float], Topography],
-    carries: Carries,
+    prominence: Array, without_spikes: Callable[[float], Topography], carries: Carries
 ) -> tuple[float, int] | None:
     """Find the threshold of spikes at which the film is full, if a few points are what breaks it.
 

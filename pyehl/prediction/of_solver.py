@@ -128,11 +128,7 @@ def resolution(case: Case, tiles: Mapping[str, Topography] | None = None) -> Res
 
 
 def _tile(
-    settings: Settings,
-    group: str,
-    tile: Topography | None,
-    operating: OperatingPoint,
-    film: float,
+    settings: Settings, group: str, tile: Topography | None, operating: OperatingPoint, film: float
 ) -> tuple[Topography, str]:
     """Surface of a group with a film h_c [m], and its name where it is not the whole of it."""
     if tile is not None:

@@ -26,6 +26,6 @@ from pyehl.surfaces.of_case import (
 from pyehl.surfaces.options import Options
 from pyehl.surfaces.prepare import Preparation, prepare
 from pyehl.surfaces.reading import Scan, read_scan
-from pyehl.surfaces.solver_surface import SolverSurface, SolverSurfaces, for_solver, gather
+from pyehl.surfaces.solver_surface import SolverSurface, for_solver, gather
 from pyehl.surfaces.tile import MAX_PIXELS, Topography
 from pyehl.surfaces.working_map import Record
