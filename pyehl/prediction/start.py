@@ -35,7 +35,6 @@ from pyehl.types import Array, Complex, Settings
 
 LOG = logging.getLogger(__name__)
 
-
 # Points per half of the shortest wave along the motion, between which a cubic spline is used
 REFINEMENT = 2
 # A grid carries waves of more than two nodes: so that rounding does not decide
