@@ -11,9 +11,9 @@ from pyehl.plots import paper
 from pyehl.plots.paper import Step
 from pyehl.prediction import of_case
 from pyehl.prediction.result import Prediction
+from pyehl.reproduce.cases import CASE, MODELS, SEED
 from pyehl.reproduce.piece import Check, Level, References, Result
 from pyehl.reproduce.runs import Runs
-from pyehl.reproduce.surface_runs import CASE, MODELS, SEED
 from pyehl.theory.amplitude import component_amplitude_ratio
 
 Array = paper.Array

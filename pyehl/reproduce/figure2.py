@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from pyehl.plots import paper
+from pyehl.reproduce.cases import SCHEMES
 from pyehl.reproduce.piece import Check, Level, References, Result
 from pyehl.reproduce.runs import Made, Runs
-from pyehl.reproduce.waves import SCHEMES
 from pyehl.studies.reference_table import read_reference
 from pyehl.types import Array
 

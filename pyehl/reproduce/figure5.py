@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from pyehl.plots import paper
+from pyehl.reproduce.cases import SEED, tile
 from pyehl.reproduce.piece import Check, Level, References, Result
 from pyehl.reproduce.runs import Runs
-from pyehl.reproduce.surface_runs import SEED, tile
 from pyehl.surfaces import Topography, psd_2d, psd_isotropic
 
 NAME = "figure 5"

@@ -8,9 +8,9 @@ import numpy as np
 from pyehl import results
 from pyehl.plots import paper
 from pyehl.prediction.smooth import solve_contact, zone_of
+from pyehl.reproduce.cases import SEED, deformed_run, tile
 from pyehl.reproduce.piece import Check, Finding, Level, References, Result
 from pyehl.reproduce.runs import Made, Runs
-from pyehl.reproduce.surface_runs import SEED, deformed_run, tile
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint

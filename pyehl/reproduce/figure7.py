@@ -7,9 +7,9 @@ import numpy as np
 
 from pyehl.plots import paper
 from pyehl.prediction.by_response import STIFFER
+from pyehl.reproduce.cases import MODELS, SEED, carried, predictions, simulations
 from pyehl.reproduce.piece import Check, Finding, Level, References, Result
 from pyehl.reproduce.runs import Made, Runs, friction_of
-from pyehl.reproduce.surface_runs import MODELS, SEED, carried, predictions, simulations
 from pyehl.reproduce.table1 import CASE
 from pyehl.types import Array
 

@@ -4,10 +4,9 @@
 import math
 from dataclasses import dataclass
 
+from pyehl.reproduce.cases import CASE, MODELS, SCHEMES, SEED, WIDTH, deformed_run, tile
 from pyehl.reproduce.piece import Check, Finding, Level, References, Result
 from pyehl.reproduce.runs import Made, Runs, friction_of
-from pyehl.reproduce.surface_runs import CASE, MODELS, SEED, WIDTH, deformed_run, tile
-from pyehl.reproduce.waves import SCHEMES
 from pyehl.types import Row
 
 NAME = "table 2"

@@ -12,7 +12,7 @@ from typing import Any
 
 from pyehl.destination import Destination
 from pyehl.run import signals_to
-from pyehl.studies import cluster, pool
+from pyehl.studies import pool
 from pyehl.studies.journal import Journal
 from pyehl.studies.tasks import FAILED, Task
 from pyehl.types import Row
@@ -99,7 +99,7 @@ def gather(
         left = [task for task in tasks if task.number not in journal.rows]
         stop = _Stop()
         began = written = time.monotonic()
-        workers = cluster.rows(left, scheduler) if scheduler else pool.rows(left, jobs)
+        workers = pool.cluster_rows(left, scheduler) if scheduler else pool.rows(left, jobs)
         try:
             with signals_to(stop.take), closing(workers) as source:
                 for rows in source:
