@@ -119,7 +119,13 @@ class Case:
 
     def __repr__(self) -> str:
         """Operating point, surface and grid in one line."""
-        return f"Case({', '.join(self._facts())})"
+        groups = self.resolve()
+        contact = groups["contact"]
+        names = {"moes_m": "M", "moes_l": "L", "load": "load_N", "mean_velocity": "velocity_m_s"}
+        facts = [f"{names[key]}={contact[key]:g}" for key in names if key in contact]
+        kinds = (groups[name]["kind"] for name in ("surface", "second_surface") if name in groups)
+        facts += [" and ".join(kinds), f"{groups['grid']['points']} points"]
+        return f"Case({', '.join(facts)})"
 
     def _repr_html_(self) -> str:
         """Draw all groups and their values, for notebooks."""
@@ -128,16 +134,6 @@ class Case:
             f"{group}.{key}": value for group, keys in groups.items() for key, value in keys.items()
         }
         return display.table(repr(self), rows)
-
-    def _facts(self) -> list[str]:
-        groups = self.resolve()
-        contact = groups["contact"]
-        names = {"moes_m": "M", "moes_l": "L", "load": "load_N", "mean_velocity": "velocity_m_s"}
-        facts = [f"{names[key]}={contact[key]:g}" for key in names if key in contact]
-        kinds = [
-            str(groups[name]["kind"]) for name in ("surface", "second_surface") if name in groups
-        ]
-        return [*facts, " and ".join(kinds), f"{groups['grid']['points']} points"]
 
     def resolve(self) -> dict[str, dict[str, Any]]:
         """Give all groups and values.

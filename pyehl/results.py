@@ -99,7 +99,6 @@ SUFFIXES = {
     "seconds": "s",
 }
 
-
 # What is a number has a unit in the schema; T, the time at the end, has the name of a coordinate
 SCALARS = {q.name: q for q in QUANTITIES if q.unit and q.name not in {f.name for f in SOLUTION}}
 SI = {"s", "m", "Pa", "N", "K", "Pa s", "1/s", "1/Pa", "m/s", "byte"}

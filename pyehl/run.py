@@ -28,7 +28,6 @@ AnyPath = str | os.PathLike[str]
 
 LOG = logging.getLogger(__name__)
 
-
 SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 

@@ -161,11 +161,14 @@ class Solver(SolverHandle):
         self._tiles = tiles
         own = gather(case.resolve(), heights, tiles)
         # how maps became tiles, by group
-        self.preparations: dict[str, Record] = own.preparations
-        whole = bool(heights) or not own.parts
-        self._predictions = Predictions(case, own.parts, whole=whole)
-        text = case.with_options(*own.options).text if own.options else case.text
-        super().__init__(text, *own.heights)
+        self.preparations: dict[str, Record] = {
+            group: made.preparation for group, made in own.items() if made.preparation
+        }
+        parts = {group: made.part for group, made in own.items() if made.part is not None}
+        self._predictions = Predictions(case, parts, whole=bool(heights) or not parts)
+        options = [option for made in own.values() for option in made.options]
+        text = case.with_options(*options).text if options else case.text
+        super().__init__(text, *(made.heights for made in own.values()))
 
     def take_preparation(self, group: str, made: SolverSurface) -> None:
         """Take how the surface of a group was prepared, which came as heights of an earlier run."""

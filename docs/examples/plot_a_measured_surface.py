@@ -9,7 +9,7 @@ A scan as an instrument delivers it has holes, spikes, tilt and curvature, and i
 
 import pyehl
 from pyehl import surfaces
-from pyehl.plots.preparation import before_and_after
+from pyehl.plots.surface import before_and_after
 
 scan = surfaces.read_scan("../../cases/scan.x3p")
 scan

@@ -44,7 +44,6 @@ FORMATS = ("png", "svg", "pdf")
 WIDTHS = {"0": "as they are", "84": "84 mm (one column)", "174": "174 mm (two columns)"}
 MAPS = ".npy,.txt,.csv,.dat,.asc,.x3p,.sdf,.al3d,.opd,.plux,.sur,.gwy,.nc,.h5"
 
-
 # Each part and each picture is a root of its own: where a size changes, be it by a text, the
 # browser lays out the root anew and paints all pictures in it
 TEMPLATE = """

@@ -32,6 +32,8 @@ OWNED = {
 # Keys of the oil of an opened case that no other oil has
 OF_SHEET = ("density_15", "thermal_expansion")
 STEEL = {"modulus_1": 206.0, "poisson_1": 0.3, "modulus_2": 206.0, "poisson_2": 0.3}
+STEEL_MODULUS = STEEL["modulus_1"] * 1e9 / (1.0 - STEEL["poisson_1"] ** 2)
+"""E' of two such bodies [Pa]."""
 DEFAULTS: dict[str, Value] = {
     "oil": "at the inlet",
     "oil_name": next(iter(known_oils())),
@@ -253,7 +255,8 @@ def from_case(case: Case, files: Mapping[str, str] | None = None) -> tuple[Posit
     if bodies is not None:
         scales = {name: 1e-9 if name.startswith("modulus") else 1.0 for name in STEEL}
         values |= {name: _tidy(float(bodies[name]) * scales[name]) for name in STEEL}
-    elif not _of_steel(point.reduced_modulus):
+    elif not math.isclose(point.reduced_modulus, STEEL_MODULUS, rel_tol=2e-3):
+        # steel has it to the digits that people write
         note += f" E' = {point.reduced_modulus * 1e-9:.6g} GPa until a modulus is turned."
     file = str(surface.get("file", "")) if kind == "map" else ""
     if file and files is not None:
@@ -263,12 +266,6 @@ def from_case(case: Case, files: Mapping[str, str] | None = None) -> tuple[Posit
         file = files[name]
     kept = _kept(case.text)
     return Position(values, kept, point.reduced_modulus, file, values["oil"]), note.strip()
-
-
-def _of_steel(modulus: float) -> bool:
-    """Whether E' [Pa] is that of two steel bodies, to the digits that people write."""
-    steel = STEEL["modulus_1"] * 1e9 / (1.0 - STEEL["poisson_1"] ** 2)
-    return math.isclose(modulus, steel, rel_tol=2e-3)
 
 
 def _oil(lubricant: Mapping[str, Any]) -> dict[str, Value]:

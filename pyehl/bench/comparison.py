@@ -46,18 +46,18 @@ def compare(
     quantity: str,
     usual: Callable[[], Values],
     other: Callable[[], Values],
-    allowed: Callable[[Values], float],
+    allowed: float | Callable[[Values], float],
     *,
     besides: bool = False,
 ) -> Row:
     """Make both; differences are relative, the greatest one where `quantity` is an array.
 
-    `besides`: the other is work on top of the usual one.
+    `allowed` may hang on what the usual one gave; `besides`: the other is work on top of it.
     """
     (seconds, values), (without, others) = timed(usual), timed(other)
     one, two = (np.asarray(found[quantity], dtype=float) for found in (values, others))
     difference = float(np.max(np.abs(one - two)) / np.max(np.abs(one)))
-    limit = allowed(values)
+    limit = allowed(values) if callable(allowed) else allowed
     without += seconds if besides else 0.0
     return {
         "scene": scene,
@@ -70,16 +70,6 @@ def compare(
         "allowed": limit,
         "same": difference <= limit,
     }
-
-
-def nothing(values: Values) -> float:
-    """Allow no difference."""
-    return 0.0
-
-
-def rounding(values: Values) -> float:
-    """Allow what another order of sums makes."""
-    return ROUNDING
 
 
 def step_tolerance(values: Values) -> float:

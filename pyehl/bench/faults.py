@@ -20,7 +20,6 @@ from typing import Any
 
 import numpy as np
 
-from pyehl.bench.faults_states import damage
 from pyehl.types import Row
 
 COLUMNS = (("campaign", "s"), ("trials", "d"), ("wrong", "d"), ("outcomes", "s"))
@@ -40,6 +39,10 @@ CHILD = (
     "found = faults_inputs.run_chunk(int(sys.argv[1]), int(sys.argv[2]), Path(sys.argv[3]), "
     "cli.main); out.write(json.dumps(found))"
 )
+Found = tuple[int, dict[str, int], list[str]]
+"""Trials, how many came to what, and what must not be."""
+REGIONS = 32
+"""Parts of a state; a byte of each is flipped in turn."""
 
 
 def campaign(
@@ -67,7 +70,7 @@ def campaign(
         tell(f"{name}: {round(share * kills)}")
         rows.append(_row(name, *work(folder, generator, max(1, round(share * kills)))))
     tell("bytes of a state flipped, region by region")
-    rows.append(_row("damaged states", *damage(folder, generator, run, same)))
+    rows.append(_row("damaged states", *damage(folder, generator)))
     tell(f"mutated inputs: {inputs}")
     rows.append(_row("mutated inputs", *_inputs(folder, seed, inputs)))
     return rows
@@ -132,9 +135,7 @@ def same(one: Path, two: Path) -> str:
     return ""
 
 
-def _kill_runs(
-    folder: Path, generator: np.random.Generator, kills: int
-) -> tuple[int, dict[str, int], list[str]]:
+def _kill_runs(folder: Path, generator: np.random.Generator, kills: int) -> Found:
     whole, out, bad = folder / "whole", folder / "out", []
     began = time.monotonic()
     run(folder, "run", "case.nml", "-o", "whole")
@@ -168,9 +169,7 @@ def _compare(out: Path, whole: Path, when: str, bad: list[str]) -> None:
         bad.append(f"{when}: {difference}")
 
 
-def _kill_sweeps(
-    folder: Path, generator: np.random.Generator, kills: int
-) -> tuple[int, dict[str, int], list[str]]:
+def _kill_sweeps(folder: Path, generator: np.random.Generator, kills: int) -> Found:
     bad: list[str] = []
     words = ["sweep", "case.nml", "--vary", "contact.moes_m=60:140:9", "--set"]
     words += ["time.estimate_error=.false.", "--jobs", "2", "--quiet", "-o"]
@@ -202,9 +201,7 @@ def _table(folder: Path) -> list[dict[str, str]]:
         ]
 
 
-def _kill_exports(
-    folder: Path, generator: np.random.Generator, kills: int
-) -> tuple[int, dict[str, int], list[str]]:
+def _kill_exports(folder: Path, generator: np.random.Generator, kills: int) -> Found:
     bad: list[str] = []
     began = time.monotonic()
     first = run(folder, "export", "whole", "-o", "whole.nc")
@@ -225,7 +222,7 @@ def _kill_exports(
     return done, {"killed": done}, bad
 
 
-def _inputs(folder: Path, seed: int, inputs: int) -> tuple[int, dict[str, int], list[str]]:
+def _inputs(folder: Path, seed: int, inputs: int) -> Found:
     """Try mutated inputs in child processes, so that a crash or a hang is seen."""
     counts: Counter[str] = Counter()
     bad: list[str] = []
@@ -254,3 +251,59 @@ def _inputs(folder: Path, seed: int, inputs: int) -> tuple[int, dict[str, int], 
         counts.update(found["counts"])
         shutil.rmtree(place)
     return inputs, counts, bad
+
+
+def damage(folder: Path, generator: np.random.Generator) -> Found:
+    """Flip a byte of every region of the newest state, or of both, and resume.
+
+    A damaged state is noticed: the older one, or the beginning, takes its place, and the bits are
+    those of an unbroken run.
+    """
+    counts: Counter[str] = Counter()
+    bad: list[str] = []
+    # a run that is not converged leaves its states
+    run(folder, "run", "case.nml", "-o", "state", "--set", "time.steps=60")
+    kept = folder / "state.checkpoint"
+    if not kept.is_dir():
+        return 0, {}, ["a run that ended early has left no state"]
+    whole = folder / "resumed"
+    _copy(folder, whole)
+    run(folder, "run", "--resume", "resumed", "--set", "time.steps=62")
+    files = sorted(path.name for path in kept.glob("*checkpoint.*"))
+    trials = 0
+    for both in (False, True):
+        for region in range(REGIONS):
+            trials += 1
+            out = folder / "damaged"
+            _copy(folder, out)
+            newest = max(files, key=lambda name: (kept / name).stat().st_mtime_ns)
+            for name in files if both else [newest]:
+                _flip(out.with_name("damaged.checkpoint") / name, region, generator)
+            done = run(folder, "run", "--resume", "damaged", "--set", "time.steps=62")
+            if "Traceback" in done.stderr or done.returncode not in (0, 1, 2):
+                bad.append(f"region {region}, both {both}: {done.returncode} {done.stderr}")
+            elif done.returncode == 2 or "damaged" in done.stderr.replace("--resume damaged", ""):
+                counts["told"] += 1
+            if done.returncode in (0, 1):
+                difference = same(whole, out)
+                counts["same bits" if not difference else "other bits"] += 1
+                if difference:
+                    bad.append(f"region {region}, both {both}: {difference}: {done.stderr}")
+    return trials, dict(counts), bad
+
+
+def _copy(folder: Path, out: Path) -> None:
+    for suffix in ("", ".checkpoint"):
+        target = out.with_name(out.name + suffix)
+        shutil.rmtree(target, ignore_errors=True)
+        source = folder / f"state{suffix}"
+        if source.is_dir():
+            shutil.copytree(source, target)
+
+
+def _flip(path: Path, region: int, generator: np.random.Generator) -> None:
+    data = bytearray(path.read_bytes())
+    first, last = (len(data) * k // REGIONS for k in (region, region + 1))
+    at = int(generator.integers(first, max(first + 1, last)))
+    data[at] ^= int(generator.integers(1, 256))
+    path.write_bytes(bytes(data))

@@ -19,8 +19,6 @@ from pyehl.bench.comparison import (
     Values,
     compare,
     mean_tolerance,
-    nothing,
-    rounding,
     solve,
     solve_from_prediction,
 )
@@ -96,21 +94,21 @@ def smooth_scene(points: int) -> list[Row]:
             "H_c",
             usual,
             lambda: solve(grid, "solver.symmetry=full"),
-            rounding,
+            ROUNDING,
         ),
         row(
             "roughness, time levels and time steps",
             "mu_ratio",
             usual,
             transient_run,
-            lambda values: 1e-4,
+            1e-4,
         ),
         row(
             "a solve on the next coarser grid for the error",
             "coarser H_c",
             estimated,
             coarser,
-            lambda values: START_TOLERANCE,
+            START_TOLERANCE,
             besides=True,
         ),
         _deflection_row(scene, points),
@@ -132,7 +130,7 @@ def _deflection_row(scene: str, points: int) -> Row:
         return deflect
 
     what = f"corrections where P = 0, {count} deflections"
-    return compare(scene, what, "deflection", call(pressure), call(everywhere), rounding)
+    return compare(scene, what, "deflection", call(pressure), call(everywhere), ROUNDING)
 
 
 def _run_rows(scene: str, options: Sequence[str], *, symmetric: bool) -> list[Row]:
@@ -160,7 +158,7 @@ def _run_rows(scene: str, options: Sequence[str], *, symmetric: bool) -> list[Ro
                 "mu_ratio",
                 lambda: solve(*options, EXACTER),
                 lambda: solve(*options, EXACTER, "solver.symmetry=full"),
-                rounding,
+                ROUNDING,
             )
         )
     rows += [
@@ -183,14 +181,14 @@ def _run_rows(scene: str, options: Sequence[str], *, symmetric: bool) -> list[Ro
             "mu_ratio",
             lambda: solve(*options, "time.estimate_error=.false."),
             at_the_end,
-            lambda values: mean_tolerance(first),
+            mean_tolerance(first),
         ),
         row(
             "a solve of the smooth contact for mu_s",
             "F",
             usual,
             lambda: _smooth_of(options, symmetric=symmetric),
-            nothing,
+            0.0,
             besides=True,
         ),
     ]
@@ -236,7 +234,7 @@ def prediction_scene(points: int) -> list[Row]:
             "mu_ratio",
             lambda: ratios(keep=True),
             lambda: ratios(keep=False),
-            nothing,
+            0.0,
         )
     ]
 

@@ -12,11 +12,15 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from pyehl.bench import stress_contact
+import numpy as np
+
 from pyehl.bench.stress_cases import FAMILIES, StressCase, draw, study_of
 from pyehl.destination import write_json
+from pyehl.results import load, settings_of
 from pyehl.studies.plan import Plan, plan
 from pyehl.studies.sweep import CASES, perform
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Row
 
 STRICT = {"solver.accuracy": 0.005, "solver.max_cycles": 200}
@@ -52,6 +56,12 @@ MEANING = (
     "algebraic error;\nwrong: differs by more than the error it states; cycles: of a step, or all"
 )
 """What the columns are."""
+HELD = 0.01
+"""Share of the layer by which the film of a touching node may differ from it."""
+LOAD = 1e-4
+"""Error of the load and of the load share as summed here; these are sums over the same nodes."""
+LEAST = 1e-3
+"""Share of the load that any load share may be off by."""
 
 
 def campaign(
@@ -82,19 +92,18 @@ def campaign(
         tell(f"{family}: {len(mine)} cases")
         found = _run(family, mine, folder / family, jobs, fields=layer)
         chosen = [row for row in found if row["outcome"] in ("converged", ENDED)]
-        if chosen:
-            tell(f"{family}: {len(chosen)} once more, to a stricter end")
-            for name, high in (("strict", False), ("strict-high", True)):
-                part = [row for row in chosen if _is_high(row) == high]
-                if part:
-                    _check(family, part, folder / f"{family}-{name}", jobs)
         known = [row for row in chosen if row["contact_load_share_error"] is not None]
-        if known:
-            tell(f"{family}: {len(known)} once more, on a finer grid")
-            for name, high in (("finer", False), ("finer-high", True)):
-                part = [row for row in known if _is_high(row) == high]
+        for name, how, some in (
+            ("strict", "to a stricter end", chosen),
+            ("finer", "on a finer grid", known),
+        ):
+            if some:
+                tell(f"{family}: {len(some)} once more, {how}")
+            for end, high in (("", False), ("-high", True)):
+                part = [row for row in some if _is_high(row) == high]
                 if part:
-                    _check(family, part, folder / f"{family}-{name}", jobs, finer=True)
+                    place = folder / f"{family}-{name}{end}"
+                    _check(family, part, place, jobs, finer=name == "finer")
         rows += found
     return rows
 
@@ -117,7 +126,7 @@ def _run(
         row["outcome"] = _outcome(row)
         row |= {"difference": None, "allowed": None, "strict_status": None, "wrong": False}
         if fields and row["outcome"] in ("converged", ENDED):
-            row["broken"] = stress_contact.broken(Path(task.folder))
+            row["broken"] = broken(Path(task.folder))
             row["wrong"] = row["broken"] != ""
         rows.append(row)
     return rows
@@ -165,7 +174,7 @@ def _check(
         if not finer:
             judge(row, told)
         name = "share_finer" if finer else "share_strict"
-        stress_contact.judge_share(row, name, told, UNKNOWN_ERROR)
+        judge_share(row, name, told)
 
 
 def judge(row: Row, strict: Mapping[str, Any]) -> None:
@@ -222,3 +231,46 @@ def write(rows: Sequence[Row], folder: Path, answer: Mapping[str, Any]) -> None:
     """Write ``stress.json`` into a folder."""
     values = {**answer, "summary": summary(rows), "rows": rows}
     write_json(folder / "stress.json", values, allow_nan=True)
+
+
+def broken(folder: Path) -> str:
+    """Say what conditions of contact the last fields of a result folder break; '' if none.
+
+    Film and pressure are those of the folder, the density is that of the Python side.
+    """
+    data = load(folder)
+    settings = settings_of(data)
+    point = OperatingPoint.from_settings(settings)
+    pressure, film = data["P"].to_numpy(), data["H"].to_numpy()
+    oil = Lubricant.from_settings(settings)
+    layer = settings["lubricant"]["boundary_film"] / point.film_scale
+    mass = oil.density_ratio(pressure * point.hertz_pressure) * film / layer
+    touching = (pressure > 0.0) & (mass <= 1.0 + HELD)
+    cell = float(data["X"][1] - data["X"][0]) * float(data["Y"][1] - data["Y"][0])
+    last = "history_" if "history_load_share" in data else "contact_"
+    share = pressure[touching].sum() / pressure.sum()
+    told = float(data[f"{last}load_share"].to_numpy().flat[-1])
+    given = data[f"{last.removeprefix('contact_')}layer_supply"].to_numpy().flat[-1]
+    carried = pressure.sum() * cell / (2.0 * np.pi / 3.0) + float(data["load_beyond"])
+    conditions = {
+        "P >= 0": pressure.min() >= 0.0,
+        "film of the layer": mass.min() >= 1.0 - HELD,
+        "load": abs(carried - 1.0) <= LOAD,
+        "load share": abs(share - told) <= LOAD,
+        "N <= 0": given >= -HELD,
+    }
+    return ", ".join(name for name, holds in conditions.items() if not holds)
+
+
+def judge_share(row: dict[str, Any], name: str, told: Mapping[str, Any]) -> None:
+    """Set `name` of a row to the load share of another run, and `wrong` if its error is exceeded.
+
+    Where no error is stated, `UNKNOWN_ERROR` is allowed.
+    """
+    value, other = row["contact_load_share"], told.get("contact_load_share")
+    row[name] = other
+    if None in (value, other):
+        return
+    stated = row["contact_load_share_error"]
+    allowed = UNKNOWN_ERROR if stated is None else max(stated, LEAST)
+    row["wrong"] = row["wrong"] or abs(value - other) > allowed

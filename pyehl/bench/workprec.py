@@ -2,13 +2,15 @@
 """``pyehl bench workprec``: error against seconds and against units, and the cheapest settings.
 
 Every setting is one run. Seconds are those of the processor; the unit, one scipy.fft deflection at
-the same grid, is measured before each run.
+the same grid, is measured before each run. The reference of the errors is extrapolated from the two
+finest grids by the narrow scheme; its error bar is what one grid more has changed it by.
 """
 
-from collections.abc import Callable, Sequence
+import itertools
+import math
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from pyehl.bench.precision import add_errors, extrapolated
 from pyehl.bench.unit import processor_seconds, unit_seconds
 from pyehl.case import Case
 from pyehl.prediction.of_case import predict
@@ -35,6 +37,19 @@ WAVE = (
     "surface.amplitude=9.734e-3",
     "surface.velocity_ratio=1.01",
 )
+RATIO = ("mu_ratio",)
+# What is varied, one at a time from the default; behind the first two of rough contacts alone
+SETTINGS: tuple[tuple[str, tuple[str, ...]], ...] = (
+    ("default", ()),
+    ("fft", ("solver.deflection=fft",)),
+    ("paper", ("time.scheme=paper",)),
+    ("alcouffe", ("solver.coarsening=alcouffe",)),
+    ("classical", ("solver.coarsening=classical",)),
+)
+LEVELS = (0.03, 0.01, 0.003, 0.001)
+"""Errors that the cheapest setting is looked for."""
+ORDER = 2
+"""Of the discretisation, for Richardson extrapolation."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +64,6 @@ class Scene:
     rough: bool = True  # whether schemes, coarsenings and the prediction belong to it
 
 
-RATIO = ("mu_ratio",)
 SCENES = (
     Scene("smooth", POINT, ("H_c", "H_min", "F"), (65, 129, 257, 513, 1025, 2049), rough=False),
     Scene("wave", WAVE, RATIO, (129, 257, 513, 1025)),
@@ -60,16 +74,6 @@ SCENES = (
         (129, 257, 513, 1025),
     ),
     Scene("fractal", ("surface.kind=fractal",), RATIO, (129, 257, 513, 1025)),
-)
-
-
-# What is varied, one at a time from the default; behind the first two of rough contacts alone
-SETTINGS: tuple[tuple[str, tuple[str, ...]], ...] = (
-    ("default", ()),
-    ("fft", ("solver.deflection=fft",)),
-    ("paper", ("time.scheme=paper",)),
-    ("alcouffe", ("solver.coarsening=alcouffe",)),
-    ("classical", ("solver.coarsening=classical",)),
 )
 
 
@@ -196,3 +200,85 @@ def share_of_deflection(points: int = 129) -> Row:
         "grid_error": grid,
         "share": difference / grid,
     }
+
+
+def extrapolated(rows: Sequence[Row]) -> list[Row]:
+    """Richardson: the value of a grid and of the next coarser one, at the cost of both."""
+    found = {(r["quantity"], r["setting"], r["threads"], r["points"]): r for r in rows}
+    more = []
+    for (quantity, setting, threads, points), fine in found.items():
+        coarse = found.get((quantity, setting, threads, (points + 1) // 2))
+        if coarse is None or fine["value"] is None or coarse["value"] is None:
+            continue
+        # nested iteration has solved the coarser grid of a smooth contact anyway
+        extra = 0.0 if fine["scene"] == "smooth" else coarse["seconds"]
+        seconds = fine["seconds"] + extra
+        value = fine["value"] + (fine["value"] - coarse["value"]) / (2**ORDER - 1)
+        more.append(
+            fine
+            | {
+                "setting": f"{setting}, extrapolated",
+                "seconds": seconds,
+                "units": seconds / fine["unit_seconds"],
+                "value": value,
+                "estimate": None,
+            }
+        )
+    return more
+
+
+def _reference(values: Mapping[int, float]) -> tuple[float, float]:
+    """Limit of the two finest grids, and its relative error."""
+    grids = sorted(values)[-3:]
+    if len(grids) < 2:
+        return math.nan, math.nan
+    limits = [
+        values[b] + (values[b] - values[a]) / (2**ORDER - 1) for a, b in itertools.pairwise(grids)
+    ]
+    last = limits[-1]
+    bar = abs(last - limits[0]) if len(limits) > 1 else abs(last - values[grids[-1]])
+    return last, bar / abs(last)
+
+
+def add_errors(rows: Sequence[Row], quantities: Sequence[str]) -> None:
+    """Add to the rows of a scene `error`, relative to the reference, and `bar`, its own error."""
+    for quantity in quantities:
+        mine = [row for row in rows if row["quantity"] == quantity]
+        values = {
+            row["points"]: row["value"]
+            for row in mine
+            if row["setting"] == "default" and row["value"] is not None
+        }
+        limit, bar = _reference(values)
+        for row in mine:
+            known = row["value"] is not None and math.isfinite(limit)
+            row["error"] = abs(row["value"] / limit - 1.0) if known else None
+            row["bar"] = bar if known else None
+
+
+def cheapest(rows: Sequence[Row]) -> list[Row]:
+    """Give the setting of least seconds for each of `LEVELS`, by scene and quantity.
+
+    An error below the bar of the reference counts as the bar.
+    """
+    found = []
+    for scene, quantity in dict.fromkeys((row["scene"], row["quantity"]) for row in rows):
+        mine = [
+            row
+            for row in rows
+            if (row["scene"], row["quantity"]) == (scene, quantity) and row["error"] is not None
+        ]
+        for level in LEVELS:
+            good = [row for row in mine if max(row["error"], row["bar"]) <= level]
+            best = min(good, key=lambda row: row["seconds"], default=None)
+            found.append({"scene": scene, "quantity": quantity, "level": level, "best": best})
+    return found
+
+
+def told(row: Row) -> str:
+    """Give a row of `cheapest` in a line."""
+    best, how = row["best"], "none of these"
+    if best is not None:
+        how = f"{best['setting']}, {best['points']} x {best['points']}, threads {best['threads']}: "
+        how += f"{best['seconds']:.3g} s, error {best['error']:.1e}"
+    return f"{row['scene']}, {row['quantity']} to {row['level']:.1%}: {how}"

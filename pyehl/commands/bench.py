@@ -7,7 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from pyehl.bench import deflection, faults, precision, skips, smooth, step, stress, sweep, workprec
+from pyehl.bench import deflection, faults, skips, smooth, step, stress, sweep, workprec
 from pyehl.bench.unit import machine
 from pyehl.commands.arguments import add_force
 from pyehl.commands.bench_arguments import DECLARE
@@ -130,9 +130,9 @@ def _workprec(args: argparse.Namespace, answer: Answer) -> Rows:
         args.scenes, grids=args.points, threads=args.threads, full=args.full, tell=_tell
     )
     _print(rows, workprec.COLUMNS)
-    answer["cheapest"] = precision.cheapest(rows)
+    answer["cheapest"] = workprec.cheapest(rows)
     for row in answer["cheapest"]:
-        print(precision.told(row))
+        print(workprec.told(row))
     if "wave" in args.scenes:
         share = answer["share_of_deflection"] = workprec.share_of_deflection()
         print(

@@ -13,8 +13,7 @@ from pyehl.commands.arguments import add_force
 from pyehl.commands.watching import Terminal, jobs_of
 from pyehl.errors import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, InputError
 from pyehl.reproduce.driver import PIECES, reproduce
-from pyehl.reproduce.level import LEVELS, Level
-from pyehl.reproduce.piece import Result
+from pyehl.reproduce.piece import LEVELS, Level, Result
 from pyehl.studies.plan import Plan
 
 PAPERS = ("zhang2019",)

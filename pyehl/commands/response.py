@@ -9,7 +9,7 @@ from pyehl.case import Case, exchanged
 from pyehl.commands.arguments import add_case_arguments, add_force
 from pyehl.commands.watching import Bar
 from pyehl.measured_response.folder import response
-from pyehl.measured_response.tiers import TIERS
+from pyehl.measured_response.measurement import TIERS
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

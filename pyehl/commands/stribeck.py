@@ -111,9 +111,9 @@ def draw(
         Curve,
         Points,
         draw_stribeck,
+        draw_traction,
     )
     from pyehl.plots.style import save  # noqa: PLC0415
-    from pyehl.plots.traction import draw_traction  # noqa: PLC0415
 
     key = plan.study.keys[0]
     absolute = absolute_friction(plan, rows)

@@ -165,8 +165,8 @@ def _write(
     with new_file(beside) as fresh:
         fresh.write_text(MADE + _seal(path) + text, encoding="utf-8")
     if plots:
-        from pyehl.plots.preparation import before_and_after  # noqa: PLC0415 (slow to import)
         from pyehl.plots.style import save  # noqa: PLC0415
+        from pyehl.plots.surface import before_and_after  # noqa: PLC0415 (slow to import)
 
         figure = before_and_after(surface, conditions)
         written.append(save(figure, picture, command="surface"))

@@ -11,8 +11,7 @@ from pyehl.commands.watching import Terminal, add_worker_arguments, jobs_of, tel
 from pyehl.errors import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, InputError
 from pyehl.studies.gather import Outcome
 from pyehl.studies.plan import MOST, duration, plan
-from pyehl.studies.study import RUNS, make
-from pyehl.studies.study_file import read_study
+from pyehl.studies.study import RUNS, make, read_study
 from pyehl.studies.sweep import CASES, CSV, NETCDF, perform
 from pyehl.studies.tasks import why_none
 from pyehl.studies.vary import parse_axis

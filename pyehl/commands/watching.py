@@ -75,11 +75,8 @@ class Terminal(Watcher):
         self._failed += sum(row.get("status") == FAILED for _, row in rows)
         self._done += sum(self._seconds[number] for number, _ in rows)
         if self._bar is not None:
-            self._bar.show(self._done, self._told())
-
-    def _told(self) -> str:
-        failed = f", {self._failed} failed" if self._failed else ""
-        return f"{self._count} of {self._size} cases{failed}"
+            failed = f", {self._failed} failed" if self._failed else ""
+            self._bar.show(self._done, f"{self._count} of {self._size} cases{failed}")
 
     def close(self) -> None:
         """End the bar."""

@@ -1,18 +1,24 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figures of a solution: film, pressure and, of a transient run, friction."""
+"""Figures of a solution (film, pressure, friction in time) and of a prediction."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from matplotlib.figure import Figure
 
 from pyehl import namelist
-from pyehl.plots import contact, transient
+from pyehl.plots import contact, surface, transient
 from pyehl.plots.outline import CIRCLE, Outline
 from pyehl.plots.panels import headline, no_second_label, panels
 from pyehl.plots.style import BLUE, VERMILLION, Scales, film_unit, nearest, pressure_unit
+from pyehl.surfaces import Topography, wavenumbers
+from pyehl.theory.ellipse import ellipse
 from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.transport import stiffness
+from pyehl.types import Array
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -26,18 +32,14 @@ def scales_of(data: xr.Dataset, units: str = "auto") -> Scales | None:
     return None
 
 
-def _stretch(data: xr.Dataset) -> float:
-    """How much higher maps of a wide contact are, to be as broad as those of a circle."""
-    along, across = Outline.of(data).reach
-    return min(2.0, max(1.0, across / along))
-
-
 def _size(data: xr.Dataset, count: int, broad: float) -> tuple[float, float]:
     """Width and height [in] of so many maps with equal axes; `broad`: width of those of a circle.
 
-    As narrow as maps of a wide contact and their colour bars are, and the title still is.
+    As narrow as maps of a wide contact and their colour bars are, and the title still is; higher,
+    so that they are as broad.
     """
-    slender, height = Outline.of(data).slender, 3.6 * _stretch(data)
+    slender = Outline.of(data).slender
+    height = 3.6 * min(2.0, max(1.0, slender))
     if slender <= 1.0:
         return broad * count / 2, height
     return min(broad * count / 2, max(6.4, count * ((height - 1.0) / slender + 1.4))), height
@@ -69,12 +71,9 @@ def _centre_lines(data: xr.Dataset, scales: Scales | None, title: str) -> Figure
     left, right = figure.axes
     x, y, p, h = (data[name].values for name in "XYPH")
     i, j = nearest(x, 0.0), nearest(y, 0.0)
-    contact.pressure_and_film(
-        x, p[:, j], h[:, j], scales, name="x", half=Outline.of(data).chords[0], ax=left
-    )
-    contact.pressure_and_film(
-        y, p[i, :], h[i, :], scales, name="y", half=Outline.of(data).chords[1], ax=right
-    )
+    along, across = Outline.of(data).chords
+    contact.pressure_and_film(x, p[:, j], h[:, j], scales, name="x", half=along, ax=left)
+    contact.pressure_and_film(y, p[i, :], h[i, :], scales, name="y", half=across, ax=right)
     twins = [ax for ax in figure.axes if ax not in (left, right)]
     lines = [*left.get_lines(), *twins[0].get_lines()]
     figure.legend(handles=lines, loc="outside lower center", ncols=3)
@@ -90,10 +89,8 @@ def _film(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
     x, y, film = (data[name].values for name in "XYH")
     fringes = None
     if "H_smooth" in data:
-        fringes = contact.fringe_spacings(
-            float(data.H_smooth.values[nearest(x, 0.0), nearest(y, 0.0)]) * film_unit(scales)[0],
-            scales,
-        )
+        central = float(data.H_smooth.values[nearest(x, 0.0), nearest(y, 0.0)])
+        fringes = contact.fringe_spacings(central * film_unit(scales)[0], scales)
     contact.interferogram(x, y, film, scales, fringes=fringes, outline=outline, ax=left)
     contact.contours(x, y, film, scales, outline=outline, ax=right)
     for ax in more:
@@ -155,5 +152,76 @@ def _extremes(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
     films = {"least film": data.history_H_min.values, "film at the centre": data.history_H_c.values}
     transient.extremes_history(
         data.history_T.values, data.history_P_max.values, films, scales, ax=figure.axes[0]
+    )
+    return figure
+
+
+def prediction_figures(
+    about: Mapping[str, Any], arrays: Mapping[str, Array], tables: Mapping[str, Mapping[str, Array]]
+) -> dict[str, Figure]:
+    """All figures of a prediction, by the names of their files.
+
+    `about` is its summary; of the `tables` ``passage`` and ``bands`` are shown.
+    """
+    title = headline(about)
+    figures: dict[str, Figure] = {}
+    for prefix in ("", "second_") if "second_surface" in about else ("",):
+        figures |= _side(about, arrays, prefix, title)
+    if about["status"] == "predicted":
+        figures["passage"] = _passage(tables, about["length_x_m"], title)
+    return figures
+
+
+def _side(
+    about: Mapping[str, Any], arrays: Mapping[str, Array], prefix: str, title: str
+) -> dict[str, Figure]:
+    """Figures of the rough surface whose names begin with a prefix."""
+    size = about[f"{prefix}length_x_m"], about[f"{prefix}length_y_m"]
+    tile = Topography(arrays[f"{prefix}surface"], size, about[f"{prefix}surface"])
+    deformed = arrays[f"{prefix}deformed"]
+    figure = panels(3, (11.6, 3.2), title, room=(0.8, 1.9, 0.8))
+    first, second, third = figure.axes
+    third.set_box_aspect(1.0)
+    surface.heights(tile, ax=first)
+    surface.spectrum_map(tile, ax=second)
+    flattened = _flattened(about, Topography(arrays[f"{prefix}delta_p"], size))
+    surface.spectrum_line(tile, deformed, flattened, ax=third)
+    figure.axes[-1].set_box_aspect(1.0)
+    figures = {f"{prefix}surface_spectrum": figure}
+    figure = panels(2, (7.2, 3.4), title, sharey=True, room=(0.75, 0.35, 1.15))
+    for ax, values, name in zip(
+        list(figure.axes),
+        (tile.heights, deformed),
+        ("(a) undeformed,", "(b) deformed,"),
+        strict=True,
+    ):
+        last = values is deformed
+        a, kappa = about["hertz_radius_m"], about.get("ellipticity", 1.0)
+        surface.roughness(tile, values, a, name=name, bar=last, ellipticity=kappa, ax=ax)
+    no_second_label(figure.axes[1])
+    figures[f"{prefix}roughness"] = figure
+    return figures
+
+
+def _flattened(about: Mapping[str, Any], tile: Topography) -> Array:
+    """Return what pressure [Pa] flattens of a tile [m]: it over E'|q|/4 of the half-space."""
+    kernel_ratio = ellipse(about.get("radius_ratio", 1.0)).kernel_ratio
+    stiff = stiffness(np.hypot(*wavenumbers(tile)) * about["hertz_radius_m"]) / kernel_ratio
+    # the mean is not flattened
+    stiff[0, 0] = np.inf
+    unit = about["film_scale_m"] / about["hertz_pressure_Pa"]
+    part = np.fft.rfft2(tile.heights) * unit / stiff
+    return np.asarray(np.fft.irfft2(part, s=tile.shape))
+
+
+def _passage(tables: Mapping[str, Mapping[str, Array]], length: float, title: str) -> Figure:
+    figure = panels(2, (7.6, 3.2), title, room=(0.9, 1.05, 0.15))
+    left, right = figure.axes
+    shift, ratio = tables["passage"]["shift_m"], tables["passage"]["mu_ratio"]
+    second = tables["passage"].get("second_shift_m")
+    surface.passage(shift, ratio, length, second=second, ax=left)
+    columns = [tables["bands"][name] for name in ("longest_m", "shortest_m", "rise")]
+    surface.octaves(
+        [(float(a), float(b), float(c)) for a, b, c in zip(*columns, strict=True)], ax=right
     )
     return figure

@@ -13,8 +13,7 @@ from matplotlib.figure import Figure
 from pyehl.destination import check_files
 from pyehl.errors import InputError
 from pyehl.given import check_kind, path_of
-from pyehl.plots.figures import solution_figures
-from pyehl.plots.predicted import prediction_figures
+from pyehl.plots.figures import prediction_figures, solution_figures
 from pyehl.plots.style import DPI, page_width, save
 from pyehl.types import Array
 

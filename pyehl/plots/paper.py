@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figures 2 to 4 of Zhang et al. 2019: friction of waves, with the numbers of the paper over it."""
+"""Figures of Zhang et al. 2019: friction of waves (2 to 4), rough surfaces (1, 5 to 7)."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,11 +9,15 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
+from pyehl.plots import style
+from pyehl.plots import surface as panels
 from pyehl.plots.style import BLUE, GREY, VERMILLION, new_figure
-from pyehl.types import Array
+from pyehl.surfaces import Topography, psd_isotropic
+from pyehl.types import Array, Indices, Mask
 
 COLOURS = (BLUE, VERMILLION, "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "black")
 MARKERS = "osD^vP*"
+FIELD_COLOURS = (style.GREY, "black", style.BLUE, style.VERMILLION)
 
 
 def wave_history(runs: Sequence[tuple[str, Array, Array]], mean: float) -> Figure:
@@ -105,8 +109,8 @@ def collapses(panels: Sequence[Collapse]) -> Figure:
     axes = np.atleast_1d(figure.subplots(rows, 2, sharey=True)).ravel()
     for mark, ax, panel in zip("abcdef", axes, panels, strict=False):
         _points(ax, panel.series, lines=False)
-        for label, style, place, friction in panel.curves:
-            ax.plot(place, friction, style, lw=1.3, color="black", label=label, zorder=3)
+        for label, line, place, friction in panel.curves:
+            ax.plot(place, friction, line, lw=1.3, color="black", label=label, zorder=3)
         ax.set_title(f"({mark}) {panel.title}", fontsize="medium", loc="left")
         ax.set(xlabel=panel.abscissa, ylabel=r"$\mu_r/\mu_s$")
         _logarithmic(ax)
@@ -124,4 +128,112 @@ def collapses(panels: Sequence[Collapse]) -> Figure:
         fontsize="x-small",
         title="$M$, $L$, $\\lambda/a$",
     )
+    return figure
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """One step of the prediction: what it is, its field (nx, ny), unit, and if it is signed."""
+
+    title: str
+    field: Array
+    unit: str
+    signed: bool
+
+
+def flow(steps: Sequence[Step], result: str) -> Figure:
+    """Draw the steps of the prediction with arrows from each to the next (Fig. 1)."""
+    figure = style.new_figure(12.0, 6.4)
+    axes = figure.subplots(2, -(-len(steps) // 2)).ravel()
+    for k, (ax, step) in enumerate(zip(axes, steps, strict=False)):
+        inside = step.field[np.isfinite(step.field)]
+        top = float(np.quantile(np.abs(inside), 0.999))
+        low = -top
+        if not step.signed:
+            low, top = (float(v) for v in np.quantile(inside, (0.001, 0.999)))
+        image = ax.imshow(
+            step.field.T, origin="lower", cmap=style.DIVERGING if step.signed else style.SEQUENTIAL,
+            vmin=low, vmax=top,
+        )  # fmt: skip
+        style.colour_bar(image, ax, step.unit, shrink=0.8)
+        arrow = r"  $\longrightarrow$" if k + 1 < len(steps) else ""
+        ax.set_title(f"{k + 1}. {step.title}{arrow}", fontsize="medium", loc="left")
+        ax.set_xticks([])
+        ax.set_yticks([])
+    for ax in axes[len(steps) :]:
+        ax.set_axis_off()
+    figure.suptitle(result, fontsize="medium")
+    return figure
+
+
+def spectrum(topography: Topography) -> Figure:
+    """Draw a surface, its two-dimensional spectrum, and the radial mean (Fig. 5)."""
+    figure = style.new_figure(12.0, 3.6)
+    axes = figure.subplots(1, 3)
+    panels.heights(topography, ax=axes[0])
+    panels.spectrum_map(topography, ax=axes[1])
+    q, c_iso = psd_isotropic(topography)
+    shown = c_iso > 0.0
+    axes[2].loglog(q[shown], c_iso[shown], "o", ms=2.5, color=style.BLUE, label=r"$C^{iso}$")
+    line = c_iso[8] * (q / q[8]) ** -3.6
+    axes[2].loglog(q, line, "--", color="black", lw=1.0, label="$q^{-2-2H}$, $H$ = 0.8")
+    axes[2].set(xlabel=r"$|q|$ [rad/m]", ylabel=r"$C^{iso}$ [m$^4$]")
+    axes[2].legend(fontsize="small")
+    style.letter(list(axes))
+    return figure
+
+
+def deformed(x: Array, y: Array, inside: Mask, fields: Mapping[str, Array]) -> Figure:
+    """Draw roughness fields on one scale, their height distributions and centre lines (Fig. 6).
+
+    At places (nx,), (ny,) [a], where `inside` (nx, ny); heights (nx, ny) [m] by name, the
+    undeformed ones first, then the simulation.
+    """
+    figure = style.new_figure(13.0, 6.6)
+    grid = figure.add_gridspec(2, len(fields))
+    maps = [figure.add_subplot(grid[0, k]) for k in range(len(fields))]
+    top = 1e9 * max(float(np.abs(f[inside]).max()) for n, f in fields.items() if n != "undeformed")
+    for ax, (name, field) in zip(maps, fields.items(), strict=True):
+        image = ax.imshow(
+            np.where(inside, field * 1e9, np.nan).T, origin="lower", extent=style.extent_of(x, y),
+            cmap=style.DIVERGING, vmin=-top, vmax=top, interpolation="nearest",
+        )  # fmt: skip
+        rms = 1e9 * float(np.std(field[inside]))
+        ax.set_title(f"{name}: rms {rms:.3g} nm", fontsize="medium", loc="left")
+        ax.set_xlabel("$X$")
+        style.hertz_ticks(ax)
+    maps[0].set_ylabel("$Y$")
+    figure.colorbar(image, ax=maps, shrink=0.8, label="height [nm]", extend="both")
+    half = len(fields) // 2
+    histogram = figure.add_subplot(grid[1, :half])
+    middle = figure.add_subplot(grid[1, half:])
+    bins = np.linspace(-1.2 * top, 1.2 * top, 61).tolist()
+    line = int(np.argmin(np.abs(y)))
+    for (name, field), colour in zip(fields.items(), FIELD_COLOURS, strict=False):
+        histogram.hist(
+            1e9 * field[inside], bins=bins, density=True, histtype="step", color=colour, label=name
+        )
+        if name != "undeformed":
+            shown = inside[:, line]
+            middle.plot(x[shown], 1e9 * field[shown, line], color=colour, lw=1.1, label=name)
+    histogram.set(xlabel="height [nm]", ylabel="share per nm")
+    histogram.legend(fontsize="small")
+    middle.set(xlabel="$X$ on the line $Y$ = 0", ylabel="height [nm]")
+    middle.legend(fontsize="small")
+    return figure
+
+
+def by_seed(seeds: Indices, simulated: Array, predicted: Sequence[tuple[str, Array]]) -> Figure:
+    """Draw mu_r/mu_s by seed, simulated and predicted (Fig. 7)."""
+    figure = style.new_figure(8.0, 4.2)
+    ax = figure.subplots()
+    ax.plot(seeds, simulated, "o", color="black", ms=6, label="simulation")
+    for (label, values), marker, colour in zip(
+        predicted, "sD^", (style.BLUE, style.VERMILLION, style.GREEN), strict=False
+    ):
+        ax.plot(seeds, values, marker, color=colour, mfc="none", ms=6, label=label)
+    ax.axhline(1.0, color=style.GREY, lw=0.8, ls=":")
+    ax.set_xticks(seeds)
+    ax.set(xlabel="seed of the surface", ylabel=r"$\mu_r/\mu_s$")
+    ax.legend(fontsize="small")
     return figure

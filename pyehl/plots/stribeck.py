@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The picture of Stribeck curves: friction over Hersey number, Lambda and theta_2 side by side."""
+"""Pictures of Stribeck curves and of traction curves.
+
+Friction over Hersey number, Lambda and theta_2 side by side, below it contact at a boundary film;
+friction and temperature over the slide-to-roll ratio.
+"""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -9,9 +13,9 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
 from pyehl.plots import style
-from pyehl.plots.stribeck_contact import draw_contact
 from pyehl.theory import stribeck
 from pyehl.types import Array
 
@@ -159,3 +163,100 @@ def _draw_eq_16(ax: Axes) -> None:
     shown = ratio < top
     ax.plot(theta[shown], ratio[shown], "--", lw=1, color="black", label="harmonic waves (eq. 16)")
     ax.set(xlim=(low, high), ylim=(min(bottom, float(ratio.min()) - 0.02), top))
+
+
+def draw_contact(
+    panels: NDArray[Any], abscissae: Sequence[str], curves: Sequence[tuple[Curve, str]]
+) -> None:
+    """Draw shares of load and area on the first row of panels (2, n), least film on the second.
+
+    Lines are predictions, squares and diamonds full simulations.
+    """
+    for (share, film), name in zip(panels.T, abscissae, strict=True):
+        for curve, colour in curves:
+            x = curve.column(name)
+            _band(share, x, curve, "contact_load_share", colour)
+            share.plot(x, curve.column("contact_area_share"), "--", lw=1, color=colour)
+            _points(share, x, curve, "contact_load_share_ehl", colour)
+            _points(share, x, curve, "contact_area_share_ehl", colour, marker="D")
+            _band(film, x, curve, "h_min_rough_m", colour, 1e9)
+            _points(film, x, curve, "h_min_rough_ehl_m", colour, 1e9)
+        share.set_ylim(-0.03, 1.03)
+        film.set_ylim(bottom=0.0)
+        for ax in (share, film):
+            ax.grid(visible=True, which="major", color="0.92", lw=0.6)
+            ax.set_axisbelow(True)
+    panels[0, 0].set_ylabel("load, area (dashed)")
+    panels[1, 0].set_ylabel("least film [nm]")
+
+
+def _band(ax: Axes, x: Array, curve: Curve, name: str, colour: str, factor: float = 1.0) -> None:
+    """Draw a column with its error."""
+    y, error = factor * curve.column(name), factor * curve.column(_error(name))
+    ax.plot(x, y, "o-", ms=3, lw=1.2, color=colour)
+    style.band(ax, x, y, error, color=colour, alpha=0.35)
+
+
+def _points(
+    ax: Axes, x: Array, curve: Curve, name: str, colour: str, factor: float = 1.0, marker: str = "s"
+) -> None:
+    """Draw a column of the full simulation; a load share with its error."""
+    y = factor * curve.column(name)
+    error = curve.column(_error(name)) if name.startswith("contact_load") else 0.0 * y
+    style.points(ax, x, y, error, fmt=marker, ms=5, mfc="white", color=colour, capsize=3)
+
+
+def _error(name: str) -> str:
+    return name.removesuffix("_m") + ("_error_m" if name.endswith("_m") else "_error")
+
+
+def draw_traction(
+    curves: Sequence[Curve],
+    slips: Sequence[Array],
+    surface: str,
+    measured: Points | None = None,
+    law: str = "",
+) -> Figure:
+    """Draw coefficients of friction, and the greatest temperature rise where it was computed.
+
+    `slips` are the slide-to-roll ratios of each curve; without sliding there is no friction of
+    sliding. `surface` says what the surface is; measured friction is laid over; `law` says what an
+    empirical curve is.
+    """
+    warm = any(np.isfinite(curve.column("temperature_rise_max_K")).any() for curve in curves)
+    figure = style.new_figure(10.0 if warm else 6.0, 4.4)
+    axes = figure.subplots(1, 2 if warm else 1, squeeze=False)[0]
+    for curve, slip, colour in zip(curves, slips, COLOURS * 9, strict=False):
+        tail = f" ({curve.label})" if curve.label else ""
+        resting = slip == 0.0
+        for name, line, words in (
+            ("mu", "o-", "with heat" if warm else "friction"),
+            ("mu_isothermal", ":", "isothermal"),
+            ("mu_empirical", "--", "empirical"),
+        ):
+            if name not in curve.rows[0] or (name == "mu_isothermal" and not warm):
+                continue
+            mu = np.where(resting, 0.0, curve.column(name))
+            known = np.isfinite(mu)
+            axes[0].plot(
+                slip[known], mu[known], line, ms=3, lw=1.2, color=colour, label=f"{words}{tail}"
+            )
+        if warm:
+            rise = np.where(resting, 0.0, curve.column("temperature_rise_max_K"))
+            known = np.isfinite(rise)
+            axes[1].plot(slip[known], rise[known], "o-", ms=3, lw=1.2, color=colour)
+    if measured is not None:
+        measured.draw(axes[0], "contact.slide_to_roll")
+    for ax in axes:
+        ax.set_xlabel("slide-to-roll ratio")
+        ax.grid(visible=True, which="major", color="0.92", lw=0.6)
+        ax.set_axisbelow(True)
+        ax.set_ylim(bottom=0.0)
+    axes[0].set_ylabel(r"$\mu$")
+    if warm:
+        axes[1].set_ylabel("greatest rise of temperature in the film [K]")
+        style.letter(axes)
+    axes[0].legend(fontsize="small")
+    words = "; ".join(f"{c.label + ': ' if c.label else ''}{c.ends}" for c in curves if c.ends)
+    figure.suptitle("\n".join((surface, words, *wrap(law, 90))), fontsize="medium")
+    return figure

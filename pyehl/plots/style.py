@@ -163,8 +163,10 @@ def extent_of(
     x: NDArray[np.floating[Any]], y: NDArray[np.floating[Any]], unit: float = 1.0
 ) -> tuple[float, float, float, float]:
     """Outer edges of a map with such pixels, for imshow, in a unit."""
-    (left, right), (bottom, top) = edges(x), edges(y)
-    return left * unit, right * unit, bottom * unit, top * unit
+    half_x, half_y = 0.5 * (x[1] - x[0]), 0.5 * (y[1] - y[0])
+    ends = x[0] - half_x, x[-1] + half_x, y[0] - half_y, y[-1] + half_y
+    left, right, bottom, top = (float(end) * unit for end in ends)
+    return left, right, bottom, top
 
 
 def save(figure: Figure, path: str | Path, dpi: int = DPI, command: str = "plot") -> Path:
@@ -266,12 +268,6 @@ def band(ax: Axes, x: Array, y: Array, error: Array, **how: Any) -> None:  # noq
 def height_unit(largest: float) -> tuple[float, str]:
     """Factor from metres to the unit for heights up to `largest`, and its name."""
     return (1e9, "nm") if largest < 5e-7 else (1e6, "µm")
-
-
-def edges(centres: NDArray[np.floating[Any]]) -> tuple[float, float]:
-    """Outer edges of the first and the last pixel around equally spaced centres."""
-    half = 0.5 * (centres[1] - centres[0])
-    return float(centres[0] - half), float(centres[-1] + half)
 
 
 def nearest(values: Array, target: float) -> int:

@@ -143,21 +143,17 @@ def extremes_history(
     return ax
 
 
-def _around(x: Array, y: Array, outline: Outline) -> tuple[Mask, Mask]:
-    """Which columns and rows the contact has."""
+def _box(x: Array, y: Array, outline: Outline) -> tuple[tuple[Any, ...], Array, Array, Mask]:
+    """Index of the box around the contact, its x and y, and which of its nodes are inside."""
     along, across = outline.reach
-    return np.abs(x) <= along, np.abs(y) <= across
-
-
-def _inside(x: Array, y: Array, outline: Outline) -> tuple[tuple[Any, ...], Mask]:
-    """Index of the box around the contact, and which of its nodes are in it."""
-    inner_x, inner_y = _around(x, y, outline)
-    return np.ix_(inner_x, inner_y), outline.inside(x[inner_x], y[inner_y])
+    columns, rows = np.abs(x) <= along, np.abs(y) <= across
+    x, y = x[columns], y[rows]
+    return np.ix_(columns, rows), x, y, outline.inside(x, y)
 
 
 def roughness_top(x: Array, y: Array, *fields: Array, outline: Outline = CIRCLE) -> float:
     """Largest height of several fields inside the Hertz ellipse, for a common scale."""
-    at, circle = _inside(x, y, outline)
+    at, _, _, circle = _box(x, y, outline)
     return max(float(np.abs(field[at][circle]).max()) for field in fields)
 
 
@@ -191,7 +187,7 @@ def roughness(
         Of the dry contact.
     """
     ax = style.axes_or_new(ax, 4.0, 3.4)
-    at, circle = _inside(x, y, outline)
+    at, within_x, within_y, circle = _box(x, y, outline)
     top = top or roughness_top(x, y, heights, outline=outline)
     if scales is None:
         unit, label = 1e3, "10⁻³ a²/R"
@@ -200,8 +196,6 @@ def roughness(
         unit *= scales.film
     unit_x, label_x = style.axis_unit(scales, "x")
     _, label_y = style.axis_unit(scales, "y")
-    columns, rows = _around(x, y, outline)
-    within_x, within_y = x[columns], y[rows]
     extent = style.extent_of(within_x, within_y, unit_x)
     shown = np.where(circle, heights[at], np.nan) * unit
     style.contact_heights(

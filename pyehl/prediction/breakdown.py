@@ -13,8 +13,8 @@ import numpy as np
 
 from pyehl.prediction.carrying import Carries, carrying_outliers, carrying_wavelength
 from pyehl.surfaces.cutting import cropped
+from pyehl.surfaces.holes import prominence
 from pyehl.surfaces.prepare import Preparation
-from pyehl.surfaces.spikes import prominence
 from pyehl.surfaces.tile import Topography
 from pyehl.types import Array
 
@@ -42,10 +42,7 @@ class BelowZero:
 
 
 def below_zero(
-    deformed: Array,
-    pixel: tuple[float, float],
-    semi_axes: tuple[float, float],
-    borne: Borne,
+    deformed: Array, pixel: tuple[float, float], semi_axes: tuple[float, float], borne: Borne
 ) -> BelowZero:
     """Find where the film over a tile ends, in the strip that passes through the contact.
 

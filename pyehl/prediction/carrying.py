@@ -2,11 +2,14 @@
 """What would carry where a film ends: a cut-off or a threshold of spikes, found by bisection."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
 from pyehl.prediction.errors import KNOWN_RATIO
+from pyehl.prediction.friction import RoughFriction
+from pyehl.prediction.spectrum import Spectrum
+from pyehl.surfaces import GROUPS
 from pyehl.surfaces.tile import Topography
 from pyehl.types import Array
 
@@ -21,12 +24,12 @@ CUT_OFF_TOLERANCE, THRESHOLD_TOLERANCE = 0.05, 0.1
 
 LEAST_THRESHOLD = 5.0
 """Below it, points of a normal distribution would be taken for spikes."""
+Below = Callable[[tuple[float, float]], float]
+Predicted = Callable[[Sequence[int], float], RoughFriction]
 
 
 def carrying_wavelength(
-    shortest: float,
-    longest: float,
-    carries: Callable[[float], bool],
+    shortest: float, longest: float, carries: Callable[[float], bool]
 ) -> float | None:
     """Find the cut-off [m] at which the film is full: shorter waves are taken off.
 
@@ -49,13 +52,11 @@ def carrying_wavelength(
 
 
 def carrying_outliers(
-    prominence: Array,
-    without_spikes: Callable[[float], Topography],
-    carries: Carries,
+    prominence: Array, without_spikes: Callable[[float], Topography], carries: Carries
 ) -> tuple[float, int] | None:
     """Find the threshold of spikes at which the film is full, if a few points are what breaks it.
 
-    `prominence` is (nx, ny), see :func:`pyehl.surfaces.spikes.prominence`; `without_spikes` takes
+    `prominence` is (nx, ny), see :func:`pyehl.surfaces.holes.prominence`; `without_spikes` takes
     a threshold. Threshold and number of points beyond it; None if more than a few have to go.
     """
     allowed = float(np.quantile(prominence, 1.0 - FEW))
@@ -110,3 +111,37 @@ def _two_digits(value: float) -> float:
     """Two digits of a wavelength, rounded up."""
     scale = 10.0 ** (math.floor(math.log10(value)) - 1)
     return float(f"{math.ceil(value / scale - 1e-9) * scale:.2g}")
+
+
+def known_by_cut_off(
+    spectra: Sequence[Spectrum],
+    order: tuple[int, int],
+    radius: float,
+    below: Below,
+    without: Predicted,
+) -> str:
+    """Say which cut-offs would bring the ratio into the range of the model; '' for none.
+
+    Of surfaces with these `spectra`, whose numbers are `order`, in a contact of a Hertz `radius`
+    [m]. `below` gives mu_r/mu_s of the waves with |q| below a limit [1/a] of each, `without` the
+    friction without the waves shorter than a length [m] of the surfaces so numbered.
+    """
+    ways = []
+    shortest = min(min(spectrum.pixel) for spectrum in spectra)
+    longest = 2.0 * math.pi / min(float(s.q[s.q > 0].min()) for s in spectra)
+    for numbers in ((0,), (1,), (0, 1)):
+
+        def ratio(length: float, numbers: Sequence[int] = numbers) -> float:
+            first, second = (2.0 * math.pi / length if k in numbers else math.inf for k in order)
+            return below((first, second))
+
+        def known(length: float, numbers: Sequence[int] = numbers) -> bool:
+            found = without(numbers, length)
+            return found.status == "predicted" and found.mu_ratio <= KNOWN_RATIO
+
+        high = within_range(ratio, shortest, longest)
+        cut = None if high is None else confirmed(high * radius, longest * radius, known)
+        if cut is not None:
+            names = " with ".join(f"{GROUPS[k]}.shortest_wavelength" for k in numbers)
+            ways.append(f"{names} = {cut:g}")
+    return f"; {', or '.join(ways)} would leave {KNOWN_RATIO:g} or less" if ways else ""

@@ -59,12 +59,7 @@ class ShearedContact:
         self.levels, self.below = levels, np.zeros(len(levels), dtype=np.int64)
 
     def meet(
-        self,
-        rise: Array | Single,
-        pressure: Array,
-        film: Array,
-        inner: Mask,
-        near: Mask,
+        self, rise: Array | Single, pressure: Array, film: Array, inner: Mask, near: Mask
     ) -> None:
         """Note what a position has: rise of pressure, pressure and film at points within."""
         squares = np.square(rise, dtype=np.float64)

@@ -41,11 +41,7 @@ class Edge:
 
     @classmethod
     def of(
-        cls,
-        spectrum: Spectrum,
-        flattened: Complex,
-        shape: Ellipse,
-        beside: Complex | None = None,
+        cls, spectrum: Spectrum, flattened: Complex, shape: Ellipse, beside: Complex | None = None
     ) -> Edge:
         """Of a tile, each component flattened by a factor (shape of the spectrum).
 

@@ -5,7 +5,6 @@ import gc
 import os
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from pathlib import Path
 
 import numpy as np
 
@@ -29,19 +28,12 @@ def destination(
 ) -> Destination:
     """Give the place of the result of a prediction, to check it before there is one."""
     names = [f"{name}.csv" for name in TABLES] + [f"{name}.npy" for name in ARRAYS + ARRAYS_OF_TWO]
-    names += [f"{name}.png" for name in PICTURES + PICTURES_OF_SECOND] + [
-        "case.nml",
-        "summary.json",
-    ]
+    names += [f"{name}.png" for name in PICTURES + PICTURES_OF_SECOND]
+    names += ["case.nml", "summary.json"]
     return Destination(folder, "prediction", tuple(names), tuple(inputs), force=force)
 
 
-def write(
-    prediction: Prediction,
-    place: Destination,
-    *,
-    plots: bool = False,
-) -> None:
+def write(prediction: Prediction, place: Destination, *, plots: bool = False) -> None:
     """Write the result folder, whole or not at all.
 
     Files: ``case.nml`` (resolved), ``summary.json``, ``passage.csv``, ``spectrum.csv``,
@@ -60,18 +52,14 @@ def write(
             np.save(folder / f"{name}.npy", values)
         if plots:
             with _uncollected():
-                _draw(prediction, folder)
+                # matplotlib takes longer to import than the prediction takes to compute
+                from pyehl.plots.figures import prediction_figures  # noqa: PLC0415
+                from pyehl.plots.folder import save_all  # noqa: PLC0415
+
+                parts = prediction.summary, prediction.arrays, prediction.tables
+                save_all(prediction_figures(*parts), folder)
         files = sorted(["summary.json", *(path.name for path in folder.iterdir())])
         write_json(folder / "summary.json", prediction.summary | {"files": files})
-
-
-def _draw(prediction: Prediction, folder: Path) -> None:
-    # matplotlib takes longer to import than the prediction takes to compute
-    from pyehl.plots.folder import save_all  # noqa: PLC0415
-    from pyehl.plots.predicted import prediction_figures  # noqa: PLC0415
-
-    made = prediction_figures(prediction.summary, prediction.arrays, prediction.tables)
-    save_all(made, folder)
 
 
 @contextmanager

@@ -17,7 +17,6 @@ STATUSES = ("predicted", "film breakdown", BEYOND, "load lost", "overflow")
 TRACKS = 8
 """Tracks over which mean and spread are taken unless asked for otherwise."""
 
-
 LARGEST_RATIO = 10.0
 """Largest mu_r/mu_s that is told."""
 

@@ -8,8 +8,8 @@ k = 0 ... n - 1, with n = m^2 - 1. As m^2 is 1 modulo n, it is the same for eith
 """
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 
@@ -17,6 +17,7 @@ import numpy as np
 
 from pyehl.prediction.options import MAX_POSITIONS
 from pyehl.prediction.passage import POSITION_TOLERANCE
+from pyehl.surfaces import MAX_PIXELS, Topography, resampled, shifted
 from pyehl.types import Array
 
 Friction = Callable[[tuple[float, float]], float]
@@ -33,6 +34,8 @@ SHORT = 7
 """m of the lattice of a mean over a few positions."""
 FEW = 16
 """Positions per passage of a mean over a few of them along a line."""
+MOST = 12
+"""Tiles beside each other, along one way, that are added to those of the other surface."""
 
 
 def common_passages(
@@ -135,3 +138,34 @@ def _undecided(ratios: Array) -> float:
         return math.nan
     halves = ratios[::2].mean(), ratios[1::2].mean()
     return float(0.5 * abs(halves[0] - halves[1]) / ratios.mean())
+
+
+def as_one(first: Topography, second: Topography, ahead: float) -> Topography | None:
+    """Return a tile with the heights of two, the second one ahead by a way [m] along the motion.
+
+    It holds whole tiles of both. None: not so few of both are as long, or they have too many
+    pixels.
+    """
+    if ahead != 0.0:
+        second = shifted(second, ahead)
+    counts = [Fraction(b / a) for a, b in zip(first.size, second.size, strict=True)]
+    counts = [ratio.limit_denominator(MOST) for ratio in counts]
+    for ratio, a, b in zip(counts, first.size, second.size, strict=True):
+        if ratio.numerator > MOST or not math.isclose(ratio * a, b, rel_tol=SAME):
+            return None
+    nx, ny = (
+        max(ratio.numerator * m, ratio.denominator * n)
+        for ratio, m, n in zip(counts, first.shape, second.shape, strict=True)
+    )
+    if nx * ny > MAX_PIXELS:
+        return None
+    first = _repeated(first, [ratio.numerator for ratio in counts])
+    second = _repeated(second, [ratio.denominator for ratio in counts])
+    heights = resampled(first, (nx, ny)).heights + resampled(second, (nx, ny)).heights
+    return Topography(heights, first.size, f"{first.origin} and {second.origin}")
+
+
+def _repeated(tile: Topography, times: Sequence[int]) -> Topography:
+    """Return so many of a tile beside each other along x and y."""
+    size = tile.length_x * times[0], tile.length_y * times[1]
+    return replace(tile, heights=np.tile(tile.heights, times), size=size)

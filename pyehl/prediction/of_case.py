@@ -4,7 +4,7 @@
 import math
 import os
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, cast
@@ -95,10 +95,14 @@ def predict(
         return contact.at(x / a, y / a)[1] * operating.film_scale * ends
 
     keys = [settings[group] for group in groups]
-    predicted = (_of_pair if len(alone) > 1 else _of_one)(
-        alone, keys, borne, 0 if brief else tracks, brief=brief
-    )
-    friction, over, bands, below, advice = predicted
+    tracks = 0 if brief else tracks
+    predicted = (_of_pair if len(alone) > 1 else _of_one)(alone, keys, borne, tracks, brief=brief)
+    friction, over, bands, below, advise_on = predicted
+    if friction.status == "predicted" and below.deepest <= 0.0:
+        # the positions of the passage have missed it
+        friction = broken(friction, below.deepest)
+        over, bands = (math.nan, math.nan), []
+    advice = advise_on() if friction.status == "film breakdown" and not brief else None
     second = None
     if len(alone) > 1 and friction.second is not None:
         other = alone[1]
@@ -127,7 +131,7 @@ def predict(
         tracks=over,
         seconds=time.perf_counter() - start,
         text=text,
-        track_count=0 if brief else tracks,
+        track_count=tracks,
         below=below,
         advice=advice,
         second=second,
@@ -165,24 +169,13 @@ def _of_one(
     tracks: int,
     *,
     brief: bool,
-) -> tuple[RoughFriction, tuple[float, float], list[Band], BelowZero, Advice | None]:
-    """Predict one surface: friction, over tracks, bands, and where the film ends."""
+) -> tuple[RoughFriction, tuple[float, float], list[Band], BelowZero, Callable[[], Advice]]:
+    """Predict one surface: friction, over tracks, bands, where the film ends, what would carry."""
     passage = alone[0]
     friction, over, bands = passage.run(tracks, brief=brief)
-    below = below_zero(
-        friction.response.deformed,
-        passage.topography.pixel,
-        passage.operating.semi_axes,
-        borne,
-    )
-    if friction.status == "predicted" and below.deepest <= 0.0:
-        # the positions of the passage have missed it
-        friction = broken(friction, below.deepest)
-        over, bands = (math.nan, math.nan), []
-    advice = None
-    if friction.status == "film breakdown" and not brief:
-        advice = _advice(passage, keys[0], borne)
-    return friction, over, bands, below, advice
+    tile, semi_axes = passage.topography, passage.operating.semi_axes
+    below = below_zero(friction.response.deformed, tile.pixel, semi_axes, borne)
+    return friction, over, bands, below, lambda: _advice(passage, keys[0], borne)
 
 
 def _of_pair(
@@ -192,7 +185,7 @@ def _of_pair(
     tracks: int,
     *,
     brief: bool,
-) -> tuple[RoughFriction, tuple[float, float], list[Band], PairBelowZero, PairAdvice | None]:
+) -> tuple[RoughFriction, tuple[float, float], list[Band], PairBelowZero, Callable[[], PairAdvice]]:
     """Predict two surfaces, as `_of_one` does one."""
     fronts = [float(group["x_start"]) for group in keys]
     filters = [str(group.get("filter", "sharp")) for group in keys]
@@ -202,21 +195,10 @@ def _of_pair(
     deformed = [friction.response.deformed, second.response.deformed]
     share, together = second.touching, pair.as_one
     if together is not None:
-        share = below_zero(
-            together.deformed(),
-            together.topography.pixel,
-            together.operating.semi_axes,
-            borne,
-        ).share
+        tile, semi_axes = together.topography, together.operating.semi_axes
+        share = below_zero(together.deformed(), tile.pixel, semi_axes, borne).share
     below = replace(pair_below_zero(pair, deformed, borne), share=share)
-    if friction.status == "predicted" and below.deepest <= 0.0:
-        # the positions of the passage have missed it
-        friction = broken(friction, below.deepest)
-        over, bands = (math.nan, math.nan), []
-    advice = None
-    if friction.status == "film breakdown" and not brief:
-        advice = advise_pair(pair, below, borne)
-    return friction, over, bands, below, advice
+    return friction, over, bands, below, lambda: advise_pair(pair, below, borne)
 
 
 def _options(settings: Mapping[str, Mapping[str, Any]], tracks: int) -> Options:

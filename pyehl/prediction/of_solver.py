@@ -3,13 +3,140 @@
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any
 
+from pyehl import surfaces
 from pyehl.case import Case
-from pyehl.errors import EhlError
+from pyehl.errors import EhlError, InputError
 from pyehl.handle import SolverHandle
-from pyehl.prediction.resolution import Resolution, resolution
+from pyehl.prediction.by_response import RoughPassage
+from pyehl.prediction.options import Options, unpredictable
+from pyehl.prediction.pair import RoughPair
+from pyehl.prediction.smooth import solve_contact
+from pyehl.prediction.spectrum import Spectrum
 from pyehl.surfaces import Topography
+from pyehl.theory.film import central_film as formula_film
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
+from pyehl.types import Settings
+
+NODES = 8
+"""Nodes that a wave needs to be resolved."""
+CARRIED = 2
+"""Nodes that a wave needs to be on the grid at all."""
+TOLERANCE = 0.01
+"""Share of mu_r/mu_s that may hang on waves that are not resolved, without a warning."""
+
+
+@dataclass(frozen=True, slots=True)
+class Resolution:
+    """How much of a predicted mu_r/mu_s a grid resolves."""
+
+    mu_ratio: float  # predicted with all waves [-]
+    # The same without the waves that have fewer than NODES, or CARRIED nodes [-]
+    resolved: float
+    carried: float
+    shortest: float  # wavelength that has NODES nodes [m]
+    part: str = ""  # which part of a large surface it was predicted with; empty: the whole
+
+    @property
+    def matters(self) -> bool:
+        """Whether more than TOLERANCE of the answer hangs on waves that are not resolved."""
+        return abs(self.unresolved) > TOLERANCE * self.mu_ratio
+
+    def __str__(self) -> str:
+        """Say it in a line."""
+        rise, part = self.mu_ratio - 1.0, self.unresolved
+        return (
+            f"predicted   mu_r/mu_s {self.mu_ratio:.3f}; of the rise {rise:+.3f}, {part:+.3f} come "
+            f"from waves shorter than {self.shortest * 1e6:.3g} um, {NODES} nodes of this grid"
+            + (f" (predicted with {self.part})" if self.part else "")
+        )
+
+    def report(self) -> list[str]:
+        """Lines of the plan."""
+        lines = [str(self)]
+        if self.matters:
+            lines.append(
+                f"warning: more than {TOLERANCE:.0%} of mu_r/mu_s hangs on waves with fewer than "
+                f"{NODES} nodes; a finer grid (grid.points) or surface.shortest_wavelength "
+                "resolves what is left"
+            )
+        return lines
+
+    @property
+    def unresolved(self) -> float:
+        """Part of the ratio in waves with fewer than NODES nodes [-]."""
+        return self.mu_ratio - self.resolved
+
+    @property
+    def left_out(self) -> float:
+        """Part of the ratio in waves with fewer than CARRIED nodes [-].
+
+        The error from two grids knows nothing of them: neither grid carries them.
+        """
+        return self.mu_ratio - self.carried
+
+
+def resolution(case: Case, tiles: Mapping[str, Topography] | None = None) -> Resolution | None:
+    """Predict what the grid of a case resolves.
+
+    None for surfaces that are no tile of heights on the move, and for those without waves that the
+    grid does not resolve. `tiles` are the surfaces by group on their tracks, of a large one a part,
+    before their spectrum is cut; one that is not there is made as the case says, of a large one the
+    part of :func:`pyehl.surfaces.part_of`. EhlError if the smooth contact has no solution, or the
+    prediction gives no ratio; InputError or FileError if a surface is not usable.
+    """
+    settings = case.resolve()
+    groups = surfaces.rough_groups(settings)
+    rough = [settings[group] for group in groups]
+    if not any(s["kind"] in ("map", "fractal") and s["velocity_ratio"] != 0.0 for s in rough):
+        return None
+    why = unpredictable(settings)
+    if why:
+        raise InputError(why)
+    operating = OperatingPoint.from_settings(settings)
+    lubricant = Lubricant.from_settings(settings)
+    grid = settings["grid"]
+    mesh = max(
+        (float(grid["x_outlet"]) - float(grid["x_inlet"])) / (int(grid["points"]) - 1),
+        2.0 * float(grid["y_extent"]) / (int(grid["points_y"]) - 1),
+    )
+    # of two surfaces one may be a share of the film; else that is not asked for
+    film = formula_film(operating, lubricant) if len(groups) > 1 else 0.0
+    found = [_tile(settings, group, (tiles or {}).get(group), operating, film) for group in groups]
+    shortest = NODES * mesh * operating.hertz_radius
+    spectra = [Spectrum.of(tile.heights, tile.length_x, tile.length_y) for tile, _ in found]
+    if not any(spectrum.share_below(shortest) > 0.0 for spectrum in spectra):
+        return None
+    contact = solve_contact(settings)
+    alone = [
+        RoughPassage(tile, contact, operating, lubricant, Options(), float(keys["velocity_ratio"]))
+        for (tile, _), keys in zip(found, rough, strict=True)
+    ]
+    passage: RoughPassage | RoughPair = alone[0]
+    if len(alone) > 1:
+        fronts = float(rough[0]["x_start"]), float(rough[1]["x_start"])
+        passage = RoughPair((alone[0], alone[1]), fronts)
+    friction, _, _ = passage.run(0, brief=True)
+    if not math.isfinite(friction.mu_ratio):
+        raise EhlError(f"{friction.status}: {friction.message}")
+    resolved, carried = (passage.below(nodes * mesh) for nodes in (NODES, CARRIED))
+    parts = " and ".join(part for _, part in found if part)
+    return Resolution(friction.mu_ratio, resolved, carried, shortest, parts)
+
+
+def _tile(
+    settings: Settings, group: str, tile: Topography | None, operating: OperatingPoint, film: float
+) -> tuple[Topography, str]:
+    """Surface of a group with a film h_c [m], and its name where it is not the whole of it."""
+    if tile is not None:
+        tile = surfaces.finished(tile, {**settings[group], "track": 0.0})
+        return tile, tile.origin
+    tile = surfaces.from_settings({**settings, "surface": settings[group]}, operating, film)
+    middle = surfaces.part_of(tile.heights, tile.pixel, tile.origin)
+    return (tile, "") if middle is None else (middle, middle.origin)
 
 
 class Predictions:

@@ -18,6 +18,7 @@ import numpy as np
 
 from pyehl.prediction.bands import Band, joining
 from pyehl.prediction.by_response import RoughPassage
+from pyehl.prediction.carrying import known_by_cut_off
 from pyehl.prediction.contact import Response
 from pyehl.prediction.deformed import film_levels
 from pyehl.prediction.edge import Edge
@@ -30,10 +31,8 @@ from pyehl.prediction.friction import (
     outcome,
     passed,
 )
-from pyehl.prediction.meeting import Meeting
-from pyehl.prediction.moving_together import as_one
+from pyehl.prediction.meeting import Meeting, as_one
 from pyehl.prediction.pair_contact import PairContact, TileOnPoints
-from pyehl.prediction.pair_cut_off import known_by_cut_off
 from pyehl.prediction.passage import longer_waves, working_grid
 from pyehl.prediction.smooth import circle_of, zone_of
 from pyehl.prediction.spectrum import Spectrum

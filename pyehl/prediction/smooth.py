@@ -20,8 +20,7 @@ from pyehl.handle import SolverHandle
 from pyehl.theory.film import circle_with_same_inlet
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-from pyehl.theory.shear import ShearLaw
-from pyehl.theory.thinning import FlowFactors, flow_factors
+from pyehl.theory.shear import FlowFactors, ShearLaw, flow_factors
 from pyehl.theory.transport import Zone
 from pyehl.types import Array, Settings
 

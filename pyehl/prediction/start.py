@@ -35,7 +35,6 @@ from pyehl.types import Array, Complex, Settings
 
 LOG = logging.getLogger(__name__)
 
-
 # Points per half of the shortest wave along the motion, between which a cubic spline is used
 REFINEMENT = 2
 # A grid carries waves of more than two nodes: so that rounding does not decide
@@ -45,11 +44,7 @@ EDGE_WIDTH = 0.1
 
 
 def starting_pressure(
-    settings: Settings,
-    tiles: Mapping[str, Topography],
-    x: Array,
-    y: Array,
-    fronts: Array,
+    settings: Settings, tiles: Mapping[str, Topography], x: Array, y: Array, fronts: Array
 ) -> Array:
     """Pressure (nx, ny, n) [p_h] that the roughness of a resolved case adds, Fortran order.
 
@@ -80,7 +75,12 @@ def starting_pressure(
         pair = RoughPair((passages[0], passages[1]), (fronts[0, 0], fronts[0, 1]))
         together = pair.as_one
         if together is None:
-            return _pressure_of_pair(pair, x, y, fronts)
+            error = model_error(pair.mean())
+            both = [
+                _Waves(part, pair.of[k].velocity_ratio, pair.of[k], x, y)
+                for part, k in zip(pair.parts(), pair.order, strict=True)
+            ]
+            return _pressure(both, error, x, y, fronts[:, list(pair.order)])
         # the tile of both lies as the first in their order does
         passages, fronts = [replace(together, mesh=passages[0].mesh)], fronts[:, [pair.order[0]]]
     parts = passages[0].parts()
@@ -88,16 +88,6 @@ def starting_pressure(
     # takes the waves that the grid does not carry off the spectrum
     waves = _Waves(parts[1:], ratio, passages[0], x, y)
     return _pressure([waves], model_error(passages[0].mean(parts)), x, y, fronts)
-
-
-def _pressure_of_pair(pair: RoughPair, x: Array, y: Array, fronts: Array) -> Array:
-    """Give the pressure of two surfaces, fronts in the order of `pair.of`."""
-    error = model_error(pair.mean())
-    waves = [
-        _Waves(part, pair.of[k].velocity_ratio, pair.of[k], x, y)
-        for part, k in zip(pair.parts(), pair.order, strict=True)
-    ]
-    return _pressure(waves, error, x, y, fronts[:, list(pair.order)])
 
 
 def _pressure(waves: Sequence[_Waves], error: float, x: Array, y: Array, fronts: Array) -> Array:
@@ -120,11 +110,7 @@ def _pressure(waves: Sequence[_Waves], error: float, x: Array, y: Array, fronts:
 
 
 def hand_over(
-    solver: SolverHandle,
-    settings: Settings,
-    tiles: Mapping[str, Topography],
-    *,
-    whole: bool,
+    solver: SolverHandle, settings: Settings, tiles: Mapping[str, Topography], *, whole: bool
 ) -> None:
     """Give a solver the pressure that it asks for, or say why there is none.
 

@@ -7,18 +7,16 @@ import numpy as np
 import scipy.fft
 
 from pyehl.case import Case
-from pyehl.plots import paper_surfaces
-from pyehl.plots.paper_surfaces import Step
+from pyehl.plots import paper
+from pyehl.plots.paper import Step
 from pyehl.prediction import of_case
 from pyehl.prediction.result import Prediction
-from pyehl.reproduce.level import Level
-from pyehl.reproduce.piece import Check, Result
-from pyehl.reproduce.references import References
+from pyehl.reproduce.cases import CASE, MODELS, SEED
+from pyehl.reproduce.piece import Check, Level, References, Result
 from pyehl.reproduce.runs import Runs
-from pyehl.reproduce.surface_runs import CASE, MODELS, SEED
 from pyehl.theory.amplitude import component_amplitude_ratio
 
-Array = paper_surfaces.Array
+Array = paper.Array
 
 NAME = "figure 1"
 TITLE = "Flow of the prediction"
@@ -117,7 +115,7 @@ def show(data: Flow, references: References, level: Level) -> Result:
     return Result(
         checks,
         (("model", "mu_ratio", "rms_height_m", "rms_deformed_m", "rms_pressure_Pa"), rows),
-        paper_surfaces.flow(steps, result),
+        paper.flow(steps, result),
         "The steps as fields of one surface.",
         notes,
         alone=data.paper.seconds + data.ours.seconds,

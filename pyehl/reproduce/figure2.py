@@ -7,11 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from pyehl.plots import paper
-from pyehl.reproduce.level import Level
-from pyehl.reproduce.piece import Check, Result
-from pyehl.reproduce.references import References
+from pyehl.reproduce.cases import SCHEMES
+from pyehl.reproduce.piece import Check, Level, References, Result
 from pyehl.reproduce.runs import Made, Runs
-from pyehl.reproduce.waves import SCHEMES
 from pyehl.studies.reference_table import read_reference
 from pyehl.types import Array
 

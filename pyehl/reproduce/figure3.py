@@ -4,11 +4,9 @@
 import numpy as np
 
 from pyehl.plots import paper
-from pyehl.reproduce.level import Level
-from pyehl.reproduce.piece import Result
-from pyehl.reproduce.references import References
+from pyehl.reproduce.cases import SCHEMES, WaveSet, smooth_films, waves
+from pyehl.reproduce.piece import Level, References, Result
 from pyehl.reproduce.runs import Runs
-from pyehl.reproduce.waves import SCHEMES, WaveSet, smooth_films, waves
 
 NAME = "figure 3"
 TITLE = "Relative friction of moving waves over H_c/A_i"

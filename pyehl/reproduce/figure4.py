@@ -7,14 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from pyehl.plots import paper
+from pyehl.reproduce.cases import SCHEMES, VELOCITY_RATIO, WaveSet, waves
 from pyehl.reproduce.figure3 import series, without_result
 from pyehl.reproduce.fit import Fit, evaluate, fit, scatter
-from pyehl.reproduce.level import Level
 from pyehl.reproduce.parameter import SMALL_WAVES, response_parameter
-from pyehl.reproduce.piece import Check, Finding, Result
-from pyehl.reproduce.references import References
+from pyehl.reproduce.piece import Check, Finding, Level, References, Result
 from pyehl.reproduce.runs import Runs
-from pyehl.reproduce.waves import SCHEMES, VELOCITY_RATIO, WaveSet, waves
 from pyehl.theory.stribeck import theta_2
 from pyehl.types import Array, Mask
 

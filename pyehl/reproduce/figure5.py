@@ -6,12 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pyehl.plots import paper_surfaces
-from pyehl.reproduce.level import Level
-from pyehl.reproduce.piece import Check, Result
-from pyehl.reproduce.references import References
+from pyehl.plots import paper
+from pyehl.reproduce.cases import SEED, tile
+from pyehl.reproduce.piece import Check, Level, References, Result
 from pyehl.reproduce.runs import Runs
-from pyehl.reproduce.surface_runs import SEED, tile
 from pyehl.surfaces import Topography, psd_2d, psd_isotropic
 
 NAME = "figure 5"
@@ -23,8 +21,8 @@ class Spectrum:
     """Surface, its radial mean spectrum (q [rad/m], C_iso [m^4]), what follows from it."""
 
     surface: Topography
-    q: paper_surfaces.Array
-    c_iso: paper_surfaces.Array
+    q: paper.Array
+    c_iso: paper.Array
     rms: float
     hurst: float
 
@@ -59,5 +57,5 @@ def show(data: Spectrum, references: References, level: Level) -> Result:
     ]
     caption = "Surface, its two-dimensional spectrum, its radial mean with the slope -2 - 2H."
     rows = list(zip(data.q, data.c_iso, strict=True))
-    figure = paper_surfaces.spectrum(data.surface)
+    figure = paper.spectrum(data.surface)
     return Result(checks, (("q_rad_per_m", "c_iso_m4"), rows), figure, caption, notes)

@@ -6,13 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from pyehl import results
-from pyehl.plots import paper_surfaces
+from pyehl.plots import paper
 from pyehl.prediction.smooth import solve_contact, zone_of
-from pyehl.reproduce.level import Level
-from pyehl.reproduce.piece import Check, Finding, Result
-from pyehl.reproduce.references import References
+from pyehl.reproduce.cases import SEED, deformed_run, tile
+from pyehl.reproduce.piece import Check, Finding, Level, References, Result
 from pyehl.reproduce.runs import Made, Runs
-from pyehl.reproduce.surface_runs import SEED, deformed_run, tile
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -53,9 +51,9 @@ class Deformed:
 
 def run(runs: Runs, level: Level) -> Deformed:
     """Simulate the surface, and predict its deformed roughness at the same instant."""
-    _, folder, made = deformed_run(runs, level)
+    made = deformed_run(runs, level)
     made.solved(0)
-    data = results.load(folder)
+    data = results.load(made.kept[0])
     settings = results.settings_of(data)
     point, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
     surface, _ = tile(SEED)
@@ -186,7 +184,7 @@ def show(data: Deformed, references: References, level: Level) -> Result:
     return Result(
         checks,
         (("X", "Y", "undeformed_m", "simulated_m", "response_m", "paper_m"), rows),
-        paper_surfaces.deformed(data.x, data.y, inside, centred),
+        paper.deformed(data.x, data.y, inside, centred),
         caption,
         *_told(data, ours, theirs),
         [data.made],

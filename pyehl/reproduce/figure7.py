@@ -5,13 +5,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pyehl.plots import paper_surfaces
+from pyehl.plots import paper
 from pyehl.prediction.by_response import STIFFER
-from pyehl.reproduce.level import Level
-from pyehl.reproduce.piece import Check, Finding, Result
-from pyehl.reproduce.references import References
+from pyehl.reproduce.cases import MODELS, SEED, carried, predictions, simulations
+from pyehl.reproduce.piece import Check, Finding, Level, References, Result
 from pyehl.reproduce.runs import Made, Runs, friction_of
-from pyehl.reproduce.surface_runs import MODELS, SEED, carried, predictions, simulations
 from pyehl.reproduce.table1 import CASE
 from pyehl.types import Array
 
@@ -73,7 +71,7 @@ def show(data: Surfaces, references: References, level: Level) -> Result:
         "paper": f"the paper's model: {100 * means['paper'][0]:.1f} %",
     }
     shown = [(labels[model], data.predicted[model]) for model in labels]
-    figure = paper_surfaces.by_seed(seeds, data.simulated, shown)
+    figure = paper.by_seed(seeds, data.simulated, shown)
     names = ["seed", "simulated"]
     names += [f"{word}_{model}" for word in ("predicted", "deviation") for model in MODELS]
     rows = [

@@ -1,16 +1,99 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a piece of the paper is, and what becomes of it."""
 
+import csv
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from importlib import resources
 from pathlib import Path
 from typing import Any, Protocol, Self
 
+from pyehl.errors import InternalError
 from pyehl.plots.style import Figure
-from pyehl.reproduce.level import Level
-from pyehl.reproduce.references import Reference, References
 from pyehl.reproduce.runs import Made, Runs
+
+
+@dataclass(frozen=True, slots=True)
+class Level:
+    """How much of the paper is computed."""
+
+    name: str  # of the level
+    # Nodes per side of Fig. 2, the coarsest first; the last is compared with the paper
+    wave_grids: tuple[int, ...]
+    collapse_grid: int  # nodes per side of the waves of Figs 3 and 4
+    film_grid: int  # nodes per side of the smooth contacts whose film amplitudes are a share of
+    surface_grid: int  # nodes per side of the surfaces of Figs 6 and 7
+    meshes: tuple[int, ...]  # nodes per side of Table 2
+    surfaces: int  # number of surfaces of Fig. 7
+    leaves_out: str  # what the level leaves out, in words
+
+
+QUICK = Level(
+    "quick",
+    wave_grids=(257, 513),
+    collapse_grid=257,
+    film_grid=513,
+    surface_grid=257,
+    meshes=(129, 257),
+    surfaces=4,
+    leaves_out=(
+        "the waves of Figs 3 and 4 are on 257 x 257 nodes in place of 513 x 513; Fig. 6 and Fig. 7 "
+        "are on 257 x 257, Fig. 7 has 4 surfaces of 20; Table 2 ends at 257 x 257"
+    ),
+)
+FULL = Level(
+    "full",
+    wave_grids=(257, 513),
+    collapse_grid=513,
+    film_grid=513,
+    surface_grid=513,
+    meshes=(257, 513, 1025),
+    surfaces=20,
+    leaves_out=(
+        "nothing of the paper; what it does not give is left out: Fig. 7 beyond 513 x 513 nodes, "
+        "and error estimates by runs on coarser grids, but for Fig. 2 and Table 2"
+    ),
+)
+FILE = "zhang2019.csv"
+LEVELS = {level.name: level for level in (QUICK, FULL)}
+
+
+@dataclass(frozen=True, slots=True)
+class Reference:
+    """One number of the paper."""
+
+    name: str  # of the number
+    # As printed
+    value: float
+    unit: str
+    # Where it stands, and how it was read: 'text', 'table', 'derived', 'digitised'
+    page: str
+    where: str
+    how: str
+    reading: float  # uncertainty of the reading, in its unit
+    # Allowed deviation, in its unit; None: not compared, and `why` says why
+    tolerance: float | None
+    why: str  # what the tolerance is
+
+
+References = Mapping[str, Reference]
+
+
+def read_references() -> dict[str, Reference]:
+    """Read the numbers of the paper."""
+    file = resources.files("pyehl").joinpath("reproduce", "data", FILE)
+    text = file.read_text(encoding="utf-8")
+    found = {}
+    for row in csv.DictReader(x for x in text.splitlines() if not x.startswith("#")):
+        try:
+            values: dict[str, Any] = dict(row)
+            for key in ("value", "reading", "tolerance"):
+                values[key] = float(row[key]) if row[key] or key != "tolerance" else None
+            found[row["name"]] = Reference(**values)
+        except (KeyError, TypeError, ValueError) as error:
+            raise InternalError(f"{FILE}: a row is not complete: {row} ({error})") from error
+    return found
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,9 +3,7 @@
 
 from pyehl import surfaces
 from pyehl.case import Case
-from pyehl.reproduce.level import Level
-from pyehl.reproduce.piece import Check, Result
-from pyehl.reproduce.references import References
+from pyehl.reproduce.piece import Check, Level, References, Result
 from pyehl.reproduce.runs import Runs
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint

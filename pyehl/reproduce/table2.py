@@ -4,12 +4,10 @@
 import math
 from dataclasses import dataclass
 
-from pyehl.reproduce.level import Level
-from pyehl.reproduce.piece import Check, Finding, Result
-from pyehl.reproduce.references import References
+from pyehl.reproduce.cases import CASE, MODELS, SCHEMES, SEED, WIDTH, deformed_run, tile
+from pyehl.reproduce.piece import Check, Finding, Level, References, Result
 from pyehl.reproduce.runs import Made, Runs, friction_of
-from pyehl.reproduce.surface_runs import CASE, MODELS, SEED, WIDTH, deformed_run, tile
-from pyehl.reproduce.waves import SCHEMES
+from pyehl.types import Row
 
 NAME = "table 2"
 TITLE = "Relative friction of one surface on three meshes"
@@ -29,7 +27,7 @@ class Meshes:
 
 def run(runs: Runs, level: Level) -> Meshes:
     """Simulate the surface under both schemes, and predict what each mesh carries of it."""
-    first, _, shared = deformed_run(runs, level)
+    shared = deformed_run(runs, level)
     cases = [
         (mesh, scheme)
         for mesh in level.meshes
@@ -42,19 +40,11 @@ def run(runs: Runs, level: Level) -> Meshes:
         {"grid.points": [c[0] for c in cases], "time.scheme": [c[1] for c in cases]},
     )
     rows = [
-        (
-            mesh,
-            f"simulation, {scheme}",
-            float(friction_of([row])[0]),
-            float(row["seconds"] or math.nan),
-        )
+        _row(mesh, f"simulation, {scheme}", row)
         for (mesh, scheme), row in zip(cases, made.rows, strict=True)
     ]
     if level.surface_grid in level.meshes:
-        value = float(friction_of([first])[0])
-        rows.append(
-            (level.surface_grid, "simulation, narrow", value, float(first["seconds"] or math.nan))
-        )
+        rows.append(_row(level.surface_grid, "simulation, narrow", shared.rows[0]))
     # a mesh carries waves of more than two nodes
     shortest = [2.0 * WIDTH / (mesh - 1) * tile()[1].hertz_radius for mesh in level.meshes]
     shortest = [float(f"{length:.6g}") for length in shortest]
@@ -68,15 +58,14 @@ def run(runs: Runs, level: Level) -> Meshes:
         )
         studies.append(done)
         rows += [
-            (
-                mesh,
-                f"prediction, {model}",
-                float(friction_of([row])[0]),
-                float(row["seconds"] or math.nan),
-            )
+            _row(mesh, f"prediction, {model}", row)
             for mesh, row in zip(level.meshes, done.rows, strict=True)
         ]
     return Meshes(sorted(rows), studies)
+
+
+def _row(mesh: int, method: str, row: Row) -> tuple[int, str, float, float]:
+    return mesh, method, float(friction_of([row])[0]), float(row["seconds"] or math.nan)
 
 
 def show(data: Meshes, references: References, level: Level) -> Result:

@@ -15,8 +15,7 @@ from pyehl import surfaces
 from pyehl.case import Case, files_of
 from pyehl.errors import InputError
 from pyehl.prediction.options import turned, unpredictable
-from pyehl.studies.estimate import TaskList
-from pyehl.studies.plan import check_memory, duration, formula_film
+from pyehl.studies.plan import TaskList, check_memory, duration, formula_film
 from pyehl.studies.study import MAX_CASES, Point, Study, make
 from pyehl.studies.tasks import Task
 from pyehl.studies.vary import Axis

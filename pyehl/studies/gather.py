@@ -4,7 +4,7 @@
 import os
 import time
 from collections import Counter
-from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from types import FrameType
@@ -12,7 +12,7 @@ from typing import Any
 
 from pyehl.destination import Destination
 from pyehl.run import signals_to
-from pyehl.studies import cluster, pool
+from pyehl.studies import pool
 from pyehl.studies.journal import Journal
 from pyehl.studies.tasks import FAILED, Task
 from pyehl.types import Row
@@ -99,8 +99,9 @@ def gather(
         left = [task for task in tasks if task.number not in journal.rows]
         stop = _Stop()
         began = written = time.monotonic()
+        workers = pool.cluster_rows(left, scheduler) if scheduler else pool.rows(left, jobs)
         try:
-            with signals_to(stop.take), closing(_source(left, jobs, scheduler)) as source:
+            with signals_to(stop.take), closing(workers) as source:
                 for rows in source:
                     with stop.held():
                         journal.append(rows)
@@ -116,9 +117,3 @@ def gather(
         if write is not None:
             write(journal.rows)
     return outcome
-
-
-def _source(tasks: Sequence[Task], jobs: int, scheduler: str) -> Generator[list[tuple[int, Row]]]:
-    if scheduler:
-        return cluster.rows(tasks, scheduler)
-    return pool.rows(tasks, jobs or pool.processors())

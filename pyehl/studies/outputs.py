@@ -14,7 +14,6 @@ LAST = ("status", "seconds", "message")
 TRACKS = ("tracks", "mu_ratio_tracks", "mu_ratio_tracks_spread")
 """Results of a prediction that are made only where they are asked for."""
 
-
 KINDS = {"solve": "solution", "predict": "prediction", "film": "film"}
 NOT_IN_A_TABLE = frozenset(
     "bands film_breakdown formulas pixels second_pixels second_surface_preparation "

@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Worker processes on this machine: tasks to rows, in the order in which they are finished."""
+"""Worker processes, of this machine or of a dask scheduler: tasks to rows, as they are finished.
+
+A task whose worker of dask is lost goes to another one: dask does that, and gives a task up when
+several workers were lost with it (``distributed.scheduler.allowed-failures``).
+"""
 
 import json
 import os
@@ -7,11 +11,13 @@ import selectors
 import signal
 import subprocess
 import sys
+import uuid
 from collections import deque
 from collections.abc import Generator, Sequence
+from typing import Any
 
-from pyehl.errors import InternalError
-from pyehl.studies.tasks import FAILED, Task
+from pyehl.errors import EhlError, InputError, InternalError
+from pyehl.studies.tasks import FAILED, Task, execute
 from pyehl.types import Row
 
 # A worker has the next task waiting where tasks are shorter than this [s]
@@ -19,6 +25,8 @@ SHORT = 0.5
 # How often a task may end its worker before it has failed
 TRIES = 2
 ONE_THREAD = {name: "1" for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")}
+# Seconds to wait for the scheduler
+PATIENCE = 20
 
 
 def processors() -> int:
@@ -126,12 +134,13 @@ class Worker:
 
 
 def rows(tasks: Sequence[Task], jobs: int) -> Generator[list[tuple[int, Row]]]:
-    """Do tasks in `jobs` worker processes; yields what has been finished, some rows at a time.
+    """Do tasks in `jobs` worker processes (0: as many as processors); yields rows as they come.
 
     A task whose worker dies is given to another one once more; then its row says so. When the
     caller stops early, or an exception is raised in it, the workers end at once. InternalError if
     no worker comes as far as its first row.
     """
+    jobs = jobs or processors()
     crew = _Crew(tasks, jobs)
     left = len(tasks)
     try:
@@ -222,3 +231,50 @@ class _Crew:
         for task in left:
             self.waiting.put_back(task)
         return failed
+
+
+def _execute(message: dict[str, Any]) -> Row:
+    return execute(Task(**message))
+
+
+def cluster_rows(tasks: Sequence[Task], address: str) -> Generator[list[tuple[int, Row]]]:
+    """Do tasks with the workers of a scheduler; yields what has been finished, some at a time.
+
+    When the caller stops early, what has not begun is taken back. InputError if dask.distributed
+    is not installed; EhlError if the scheduler does not answer.
+    """
+    try:
+        from distributed import Client, as_completed  # noqa: PLC0415 (an optional extra)
+    except ImportError as error:
+        raise InputError("--scheduler needs dask: pip install 'pyehl[cluster]'") from error
+    try:
+        client = Client(address, timeout=PATIENCE, set_as_default=False)
+    except (OSError, ValueError) as error:
+        raise EhlError(f"the dask scheduler at '{address}' does not answer: {error}") from error
+    study = uuid.uuid4().hex
+    # dask begins with what comes first
+    ordered = sorted(tasks, key=lambda task: (-task.seconds, task.shares, task.number))
+    with client:
+        futures = client.map(
+            _execute,
+            [task.message() for task in ordered],
+            key=[f"pyehl-{study}-{task.number}" for task in ordered],
+            pure=False,
+        )
+        numbers = {future.key: task.number for future, task in zip(futures, ordered, strict=True)}
+        try:
+            done = as_completed(futures, loop=client.loop, with_results=True, raise_errors=False)
+            for batch in done.batches():
+                yield [(numbers[future.key], _row(future, result)) for future, result in batch]
+        finally:
+            client.cancel(futures)
+
+
+def _row(future: Any, result: Any) -> Row:  # noqa: ANN401 (types of an optional extra)
+    """Give the row of a future; what dask gave up is a row too."""
+    if future.status == "finished":
+        row: Row = result
+        return row
+    error = future.exception() if future.status == "error" else None
+    message = f"{type(error).__name__}: {error}" if error else f"the task is {future.status}"
+    return {"status": FAILED, "message": message, "seconds": None}

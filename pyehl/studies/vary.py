@@ -57,8 +57,10 @@ def axis(key: str, values: str | Iterable[Any] | Value) -> Axis:
     """
     key = key.strip().lower()
     try:
-        if isinstance(values, str):
-            found = _spaced(values) if ":" in values else _listed(values)
+        if isinstance(values, str) and ":" in values:
+            found = _spaced(values)
+        elif isinstance(values, str):
+            found = [_word(word.strip()) for word in values.split(",")]
         elif isinstance(values, Iterable):
             found = [plain(value) for value in islice(values, MAX_VALUES + 1)]
         else:
@@ -109,10 +111,6 @@ def _spaced(text: str) -> list[Value]:
 def _check_count(count: int) -> None:
     if not 1 <= count <= MAX_VALUES:
         raise ValueError(f"{count} values; there can be 1 to {MAX_VALUES}")
-
-
-def _listed(text: str) -> list[Value]:
-    return [_word(word.strip()) for word in text.split(",")]
 
 
 def _word(word: str) -> Value:

@@ -7,7 +7,7 @@ from typing import cast
 import numpy as np
 
 from pyehl.errors import InputError
-from pyehl.surfaces.spectra import wavenumbers
+from pyehl.surfaces.filters import wavenumbers
 from pyehl.surfaces.tile import Topography
 from pyehl.types import Array, Complex
 

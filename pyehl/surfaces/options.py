@@ -14,7 +14,7 @@ class Options:
 
     detrend: str = "auto"  # ``"none"``, ``"centre"``, ``"tilt"``, ``"curvature"`` or ``"auto"``
     fill: str = "harmonic"  # ``"harmonic"`` or ``"none"``, which refuses maps with missing points
-    # Threshold, see :func:`pyehl.surfaces.spikes.prominence`; 0: none are removed
+    # Threshold, see :func:`pyehl.surfaces.holes.prominence`; 0: none are removed
     outliers: float = 0.0
     edges: str = "auto"  # ``"mirror"``, ``"window"``, ``"periodic"`` or ``"auto"``
     # (x_min, x_max, y_min, y_max) [m], a maximum of 0 being the far edge

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from pyehl.errors import InputError
-from pyehl.surfaces import cutting, holes, levelling, seams, spikes
+from pyehl.surfaces import cutting, holes, levelling, seams
 from pyehl.surfaces.memory import check_pixels
 from pyehl.surfaces.options import NEUTRAL, Options, defaults
 from pyehl.surfaces.reading import Scan
@@ -112,7 +112,7 @@ def _prepared(
     valid = None if complete else np.isfinite(work.z)
     if options.outliers > 0.0:
         _tell(scan, "outliers")
-        spiky = spikes.prominence(work.z) > options.outliers
+        spiky = holes.prominence(work.z) > options.outliers
         valid = ~spiky if valid is None else valid & ~spiky
         work.begin()
         work.own()[spiky] = np.nan

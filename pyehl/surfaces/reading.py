@@ -14,11 +14,9 @@ import numpy as np
 
 from pyehl.errors import EhlError, FileError, InputError
 from pyehl.library import check_memory
-from pyehl.surfaces.headed_table import UNITS, read_headed
 from pyehl.surfaces.instruments import Foreign, UnknownFormatError, read_instrument
 from pyehl.surfaces.memory import check_pixels
-from pyehl.surfaces.point_list import grid_of, is_list
-from pyehl.surfaces.text_map import read_text
+from pyehl.surfaces.text_map import UNITS, grid_of, is_list, read_headed, read_text
 from pyehl.types import Array
 
 PIXEL_BAND = (1e-10, 1e-3)
@@ -102,7 +100,7 @@ def read_scan(
     along the line, separated by blanks, commas or semicolons; or a list of the x, y and z of all
     points of a grid), heights in `height_unit` ('m', 'mm', 'um' or 'nm'), as are the places of a
     list, NaN where they are missing; any other file must be one that SurfaceTopography reads, or a
-    text with its table under lines of words (:mod:`pyehl.surfaces.headed_table`). Where such a file
+    text with its table under lines of words (:mod:`pyehl.surfaces.text_map`). Where such a file
     names neither size nor unit (MATLAB, HDF5), its heights are in that unit, too.
     `channel` is the name of a channel of an instrument file, or its number, counted from 1; empty:
     the one that the file calls its first height channel.

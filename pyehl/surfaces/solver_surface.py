@@ -40,22 +40,10 @@ class SolverSurface:
     part: Topography | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class SolverSurfaces:
-    """What the solver needs from Python for both surfaces of a case."""
-
-    # (nx, ny) [m]; None where the solver makes or reads the surface itself
-    heights: tuple[Array | None, ...]
-    options: tuple[str, ...]  # as those of `SolverSurface`
-    preparations: dict[str, Record]  # how maps became tiles, by group
-    # What a prediction is made with by group, where it is not the surface of the case
-    parts: dict[str, Topography]
-
-
 def gather(
     settings: Settings, heights: Mapping[str, Array], tiles: Mapping[str, Topography]
-) -> SolverSurfaces:
-    """Make what the solver needs from Python for both surfaces of a resolved case.
+) -> dict[str, SolverSurface]:
+    """Make what the solver needs from Python for both surfaces of a resolved case, by group.
 
     `heights` [m] by group stand in for the surfaces of the case; `tiles` are what they were made
     of. InputError if a surface that they stand in for is none of heights; else as `for_solver`.
@@ -73,12 +61,7 @@ def gather(
         made = tiles[group].preparation if group in tiles else None
         stand_in = given(np.asarray(heights[group], dtype=np.float64), settings[group])
         both[group] = SolverSurface(heights[group], (), made.record if made else None, stand_in)
-    return SolverSurfaces(
-        heights=tuple(own.heights for own in both.values()),
-        options=tuple(option for own in both.values() for option in own.options),
-        preparations={group: own.preparation for group, own in both.items() if own.preparation},
-        parts={group: own.part for group, own in both.items() if own.part is not None},
-    )
+    return both
 
 
 def for_solver(settings: Settings, group: str = "surface") -> SolverSurface:

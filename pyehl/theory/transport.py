@@ -24,7 +24,7 @@ what the flow of the smooth contact does to the wave, where it leaks a lot. In t
 falls by orders of magnitude, the coefficients change slowly for short waves only: `upstream`.
 
 A lubricant that thins by shear flows phi_x times as easily along the motion and phi_y times across
-(:mod:`pyehl.theory.thinning`). Then eps |q|^2 is eps_t k^2 + eps_y k_Y^2 with eps_t = -dq_x/d(P'),
+(:mod:`pyehl.theory.shear`). Then eps |q|^2 is eps_t k^2 + eps_y k_Y^2 with eps_t = -dq_x/d(P'),
 eps' and eps'' terms have eps_t, eps P' is eps_x P', and of delta ln eps_x = g the part of the
 pressure is c - (d ln eta/dP) (1 - d ln phi_x/d ln B), that of the film 3 - d ln phi_x/d ln B +
 d ln phi_x/d ln S.
@@ -37,7 +37,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from pyehl.theory.thinning import FlowFactors
+from pyehl.theory.shear import FlowFactors
 from pyehl.types import Array, Complex
 
 INLET = -0.8

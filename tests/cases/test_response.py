@@ -16,12 +16,15 @@ import pyehl
 from pyehl import cli, schema
 from pyehl.case import Case
 from pyehl.errors import EhlError
-from pyehl.measured_response import measurement, tiers
+from pyehl.measured_response import measurement
 from pyehl.measured_response.folder import destination
 from pyehl.measured_response.superposition import SLOPE, WaveSet, superpose
 
 # Long waves and short ones in a thick film, where a coarse grid does
-TINY = (tiers.Tier("long", 2.0, 65, 2.0, 0.5), tiers.Tier("middle", 1.0, 257, 0.5, 0.25))
+TINY = (
+    measurement.Tier("long", 2.0, 65, 2.0, 0.5),
+    measurement.Tier("middle", 1.0, 257, 0.5, 0.25),
+)
 CASE = "&contact moes_m = 200.0 moes_l = 10.0 /\n&surface velocity_ratio = 1.05 /\n"
 
 
@@ -122,17 +125,17 @@ def test_an_interrupt_leaves_the_tiers_that_have_ended(tmp_path: Path):
 def test_failed_run_is_named(tmp_path: Path):
     """At this load the inlet is finer than the grid."""
     case = Case.from_text("&contact moes_m = 20000.0 moes_l = 20.0 /\n")
-    tier = tiers.Tier("long", 4.0, 17, 4.0, 2.0)
+    tier = measurement.Tier("long", 4.0, 17, 4.0, 2.0)
     with pytest.raises(EhlError, match="tier 'long': the run ended too early"):
         measurement.measure(case, destination(tmp_path / "out"), tiers=[tier])
     assert not list((tmp_path / "out").iterdir())
 
 
-@pytest.mark.parametrize("tier", tiers.TIERS, ids=lambda tier: tier.name)
-def test_waves_of_a_tier(tier: tiers.Tier):
-    waves = tiers.tier_waves(tier)
+@pytest.mark.parametrize("tier", measurement.TIERS, ids=lambda tier: tier.name)
+def test_waves_of_a_tier(tier: measurement.Tier):
+    waves = measurement.tier_waves(tier)
     nodes = 2.0 * np.pi / waves.q * (tier.points - 1) / 4.0
-    assert nodes.min() >= tiers.NODES - 1e-9
+    assert nodes.min() >= measurement.NODES - 1e-9
     assert np.unique(waves.along).size == waves.along.size
     angle = np.degrees(np.arctan2(waves.ky, waves.kx))
     assert np.count_nonzero(angle == 0.0) >= 3
@@ -142,7 +145,7 @@ def test_waves_of_a_tier(tier: tiers.Tier):
 
 def test_too_coarse_a_grid_is_refused():
     with pytest.raises(ValueError, match="4 nodes for the shortest wave"):
-        tiers.tier_waves(tiers.Tier("long", 4.0, 129, 4.0, 0.125))
+        measurement.tier_waves(measurement.Tier("long", 4.0, 129, 4.0, 0.125))
 
 
 def test_waves_of_one_frequency_are_refused():
@@ -154,7 +157,7 @@ def test_waves_of_one_frequency_are_refused():
 def test_small_waves_are_linear():
     """Half the amplitude gives the same response."""
     settings = Case.from_text("&contact moes_m = 1000.0 moes_l = 10.0 /\n").resolve()
-    waves = tiers.tier_waves(tiers.Tier("long", 4.0, 129, 4.0, 0.25))
+    waves = measurement.tier_waves(measurement.Tier("long", 4.0, 129, 4.0, 0.25))
     found = [
         superpose(
             settings, waves, points=129, velocity_ratio=1.01, slope=slope, solver={"accuracy": 1e-4}

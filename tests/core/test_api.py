@@ -17,7 +17,7 @@ import xarray as xr
 
 import pyehl
 from pyehl import cli
-from pyehl.measured_response import tiers
+from pyehl.measured_response import measurement
 
 SMOOTH = (
     "&contact moes_m = 100.0 moes_l = 5.0 /\n"
@@ -254,7 +254,7 @@ def test_stribeck_is_that_of_the_command(fractal: Path, tmp_path: Path, capsys):
 
 
 def test_response_is_read_as_it_was_written(tmp_path: Path, monkeypatch):
-    tiny = (tiers.Tier("long", 2.0, 65, 2.0, 0.5),)
+    tiny = (measurement.Tier("long", 2.0, 65, 2.0, 0.5),)
     for module in ("measured_response.measurement", "measured_response.folder"):
         monkeypatch.setattr(f"pyehl.{module}.TIERS", tiny)
     case = pyehl.Case(contact={"moes_m": 100.0, "moes_l": 5.0})

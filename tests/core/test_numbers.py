@@ -169,7 +169,7 @@ def test_nothing_is_predicted_where_nothing_is_left_out(monkeypatch):
     def never(*_: object) -> None:
         raise AssertionError
 
-    monkeypatch.setattr("pyehl.prediction.resolution.solve_contact", never)
+    monkeypatch.setattr("pyehl.prediction.of_solver.solve_contact", never)
     with Solver(Case.from_text(LEFT_OUT)) as solver:
         while not solver.advance() and "steps" not in solver.summary():
             pass

@@ -17,7 +17,7 @@ import pytest
 import pyehl
 from pyehl import cli
 from pyehl.bench import smooth
-from pyehl.measured_response import tiers
+from pyehl.measured_response import measurement
 
 SMOOTH = (
     "&contact moes_m = 100.0 moes_l = 5.0 /\n"
@@ -395,7 +395,7 @@ def test_pictures_and_exports_go_with_the_result(call: Call, tmp_path: Path):
 
 def test_response_with_foreign_case(call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     """Beside a tier of its own, without a summary."""
-    tiny = (tiers.Tier("long", 2.0, 65, 2.0, 0.5),)
+    tiny = (measurement.Tier("long", 2.0, 65, 2.0, 0.5),)
     for module in (
         "measured_response.measurement",
         "measured_response.folder",

@@ -12,7 +12,7 @@ import pytest
 import pyehl
 from pyehl import Case, Solver, cli
 from pyehl.errors import InputError
-from pyehl.prediction.resolution import resolution
+from pyehl.prediction.of_solver import resolution
 
 CONTACT = (
     "&contact load = 20.0 slide_to_roll = 0.5 /\n"

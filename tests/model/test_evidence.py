@@ -14,7 +14,7 @@ import pytest
 import pyehl
 from pyehl.prediction import wavy_contact
 from pyehl.prediction.errors import KNOWN_RATIO, model_error
-from pyehl.prediction.resolution import resolution
+from pyehl.prediction.of_solver import resolution
 from pyehl.prediction.second_order import INLET_FILM
 from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant

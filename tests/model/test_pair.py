@@ -9,10 +9,9 @@ import pytest
 
 import pyehl
 from pyehl import cli
-from pyehl.prediction import moving_together
+from pyehl.prediction import meeting
 from pyehl.prediction.by_response import RoughPassage
-from pyehl.prediction.meeting import Meeting, common_passages
-from pyehl.prediction.moving_together import as_one
+from pyehl.prediction.meeting import Meeting, as_one, common_passages
 from pyehl.prediction.options import Options
 from pyehl.prediction.pair import RoughPair
 from pyehl.prediction.pair_breakdown import pair_below_zero
@@ -320,7 +319,7 @@ def test_no_tile_of_too_many_pixels(monkeypatch):
     one, other = rough(3, length=4e-4), rough(4, length=4e-4 * 12 / 11)
     both = as_one(one, other, 0.0)
     assert both.length_x == pytest.approx(12 * one.length_x)
-    monkeypatch.setattr(moving_together, "MAX_PIXELS", both.heights.size - 1)
+    monkeypatch.setattr(meeting, "MAX_PIXELS", both.heights.size - 1)
     assert as_one(one, other, 0.0) is None
 
 

@@ -12,7 +12,7 @@ from matplotlib.image import imread
 from matplotlib.transforms import Bbox
 
 from pyehl import cli, namelist
-from pyehl.plots import contact, folder, panels, predicted, style, surface, transient
+from pyehl.plots import contact, figures, folder, panels, style, surface, transient
 from pyehl.prediction.folder import destination, write
 from pyehl.prediction.of_case import predict
 from pyehl.theory.operating import OperatingPoint
@@ -186,7 +186,7 @@ def test_writing_in_the_pictures_of_a_prediction_is_whole(settings, rms, length,
     settings["surface"] |= {"rms_height": rms, "length_x": length, "length_y": length, "pixels": 64}
     settings["psd"] |= {"reduction": reduction}
     result = predict(settings)
-    made = predicted.prediction_figures(result.summary, result.arrays, result.tables)
+    made = figures.prediction_figures(result.summary, result.arrays, result.tables)
     assert len(made) == 3
     for figure in made.values():
         figure.canvas.draw()

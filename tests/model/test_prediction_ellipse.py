@@ -12,7 +12,7 @@ import pytest
 
 import pyehl
 from pyehl.errors import InputError
-from pyehl.measured_response.table import shipped_response
+from pyehl.measured_response.folder import shipped_response
 from pyehl.prediction.across import LINES, harmonics, pressed
 from pyehl.prediction.errors import model_error, outside_range
 from pyehl.prediction.options import Options

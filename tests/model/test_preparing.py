@@ -10,10 +10,9 @@ from pyehl import surfaces
 from pyehl.surfaces import Options, Scan, Topography, prepare
 from pyehl.surfaces.areal import areal_numbers, extent, texture_aspect_ratio
 from pyehl.surfaces.cutting import cropped, rotated
-from pyehl.surfaces.holes import filled
+from pyehl.surfaces.holes import filled, prominence
 from pyehl.surfaces.levelling import level
 from pyehl.surfaces.seams import jump, mirrored, unmirrored, windowed
-from pyehl.surfaces.spikes import prominence
 from pyehl.surfaces.writing import write_map
 
 PIXEL = (1e-6, 1e-6)

@@ -11,14 +11,14 @@ import pytest
 
 import pyehl
 from pyehl.case import Case
-from pyehl.prediction.resolution import resolution
+from pyehl.prediction.of_solver import resolution
 from pyehl.prediction.smooth import solve_contact, zone_of
 from pyehl.prediction.start import starting_pressure
 from pyehl.prediction.transfer import _at_amplitude
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import inlet_transfer
-from pyehl.theory.thinning import flow_factors, sliding_stress
+from pyehl.theory.shear import flow_factors, sliding_stress
 from pyehl.theory.transport import transport
 
 SURFACE = (

@@ -14,10 +14,9 @@ import pytest
 from matplotlib.image import imread
 
 import pyehl
-from pyehl.bench import faults_inputs, precision, skips, smooth, step, stress, stress_cases, sweep
-from pyehl.bench.faults import CASE, run, same
-from pyehl.bench.faults_states import damage
-from pyehl.bench.stress_contact import broken, judge_share
+from pyehl.bench import faults_inputs, skips, smooth, step, stress, stress_cases, sweep, workprec
+from pyehl.bench.faults import CASE, damage
+from pyehl.bench.stress import broken, judge_share
 from pyehl.cli import main
 from pyehl.studies.gather import Outcome
 from pyehl.studies.journal import NAME
@@ -207,7 +206,7 @@ def test_cases_with_a_boundary_film_are_the_same_scenes():
 )
 def test_wrong_load_shares_are_seen(other: float, error: float | None, *, wrong: bool):
     row = {"contact_load_share": 0.3, "contact_load_share_error": error, "wrong": False}
-    judge_share(row, "share_finer", {"contact_load_share": other}, 0.03)
+    judge_share(row, "share_finer", {"contact_load_share": other})
     assert row["wrong"] is wrong
     assert row["share_finer"] == other
 
@@ -230,9 +229,9 @@ def test_mutated_inputs(tmp_path: Path):
 
 @pytest.mark.slow
 def test_damaged_states(tmp_path: Path, monkeypatch):
-    monkeypatch.setattr("pyehl.bench.faults_states.REGIONS", 2)
+    monkeypatch.setattr("pyehl.bench.faults.REGIONS", 2)
     (tmp_path / "case.nml").write_text(CASE)
-    trials, counts, bad = damage(tmp_path, np.random.default_rng(1), run, same)
+    trials, counts, bad = damage(tmp_path, np.random.default_rng(1))
     assert (trials, bad) == (4, [])
     assert counts["same bits"] + counts.get("told", 0) >= 4
 
@@ -289,7 +288,7 @@ def test_defaults_are_on_the_front_that_was_measured(root: Path):
     # one deflection by FFT on 129 x 129 nodes is cheaper than by multi-integration
     others = ("default", "alcouffe", "classical")
     for scene in ("smooth", "wave", "resolved fractal"):
-        for level in precision.LEVELS:
+        for level in workprec.LEVELS:
             assert least(scene, level, ("default",)) <= 1.1 * least(scene, level, others)
             assert least(scene, level, ("default",)) <= 1.2 * least(scene, level, ("fft",))
     predicted = least("resolved fractal", 3e-3, ("prediction",))
@@ -331,8 +330,8 @@ def test_cheapest_setting():
         return {"setting": setting, "seconds": seconds, "error": error} | names
 
     rows = [row("dear", 9.0, 1e-5), row("cheap", 1.0, 0.02), row("mean", 2.0, 0.008)]
-    found = {r["level"]: r["best"] for r in precision.cheapest(rows)}
+    found = {r["level"]: r["best"] for r in workprec.cheapest(rows)}
     assert found[0.03]["setting"] == "cheap"
     assert found[0.01]["setting"] == "mean"
     assert found[0.001]["setting"] == "dear"
-    assert math.isclose(sum(found), sum(precision.LEVELS))
+    assert math.isclose(sum(found), sum(workprec.LEVELS))

@@ -14,14 +14,14 @@ import pytest
 
 import pyehl
 from pyehl import InputError
-from pyehl.studies import cluster
+from pyehl.studies import pool
 from pyehl.studies.journal import NAME
 
 
 def test_without_dask_it_is_said_what_to_install(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
     with pytest.raises(InputError, match=r"pyehl\[cluster\]"):
-        next(cluster.rows([], "tcp://127.0.0.1:1"))
+        next(pool.cluster_rows([], "tcp://127.0.0.1:1"))
 
 
 def dask(stack: ExitStack, *words: str) -> subprocess.Popen[bytes]:

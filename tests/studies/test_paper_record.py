@@ -9,8 +9,7 @@ from typing import Any
 import pytest
 
 from pyehl.reproduce.driver import PIECES, reproduce
-from pyehl.reproduce.level import QUICK
-from pyehl.reproduce.references import read_references
+from pyehl.reproduce.piece import QUICK, read_references
 
 
 @pytest.fixture(scope="module")

@@ -13,15 +13,11 @@ import pytest
 
 from pyehl.case import Case
 from pyehl.cli import main
-from pyehl.reproduce import figure2, surface_runs
-from pyehl.reproduce import waves as wave_module
-from pyehl.reproduce.driver import PIECES, reproduce
+from pyehl.reproduce import cases, figure2
+from pyehl.reproduce.driver import PIECES, reproduce, write_report
 from pyehl.reproduce.fit import evaluate, fit, scatter
-from pyehl.reproduce.level import FULL, QUICK, Level
 from pyehl.reproduce.parameter import SMALL_WAVES, response_parameter
-from pyehl.reproduce.piece import Check, Result
-from pyehl.reproduce.references import read_references
-from pyehl.reproduce.report import write_report
+from pyehl.reproduce.piece import FULL, QUICK, Check, Level, Result, read_references
 from pyehl.studies.journal import NAME
 
 SMALL = Level("small", (257,), 97, 129, 129, (97, 129), 2, "most of it")
@@ -126,10 +122,10 @@ def test_nothing_that_computes_reads_the_numbers_of_the_paper(root: Path):
         home = path.relative_to(root / "pyehl").as_posix()
         if any(name.startswith("pyehl.reproduce") for name in names):
             assert home.startswith("reproduce/") or home == "commands/reproduce.py", home
-        if "pyehl.reproduce.references.read_references" in names:
+        if "pyehl.reproduce.piece.read_references" in names:
             assert home == "reproduce/driver.py"
         if "zhang2019.csv" in path.read_text():
-            assert home == "reproduce/references.py"
+            assert home == "reproduce/piece.py"
         if home.startswith("reproduce/"):
             for node in ast.walk(tree):
                 if isinstance(node, ast.FunctionDef) and node.name == "run":
@@ -211,8 +207,8 @@ def test_a_failed_run_fails_its_piece_alone(tmp_path: Path, monkeypatch: pytest.
 def test_waves_and_surfaces_on_coarse_grids(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     """All other pieces, small: what they find, not how well the paper is met on such grids."""
     curves = ((1000.0, 10.0, 1.0), (1000.0, 10.0, 0.5), (500.0, 5.0, 1.0), (500.0, 10.0, 0.5))
-    monkeypatch.setattr(wave_module, "CURVES", curves)
-    monkeypatch.setattr(wave_module, "RATIOS", (1.6, 2.5, 5.0))
+    monkeypatch.setattr(cases, "CURVES", curves)
+    monkeypatch.setattr(cases, "RATIOS", (1.6, 2.5, 5.0))
     names = [n for n in PIECES if n not in ("table 1", "figure 1", "figure 2", "figure 5")]
     found = {r.name: r for r in reproduce(names, SMALL, tmp_path)}
     assert set(found) == set(names)
@@ -264,13 +260,13 @@ def test_command(tmp_path: Path, capsys: Any):
 
 
 def test_levels_differ_as_they_say():
-    assert len(wave_module.CURVES) * len(wave_module.RATIOS) >= 60
+    assert len(cases.CURVES) * len(cases.RATIOS) >= 60
     assert FULL.surfaces == 20
     assert FULL.meshes == (257, 513, 1025)
     assert QUICK.collapse_grid < FULL.collapse_grid == 513
 
 
 def test_predictions_have_the_waves_of_the_grid():
-    (option,) = surface_runs.carried(257)
-    shortest = Case.from_text(surface_runs.CASE, [option]).resolve()["surface"]
+    (option,) = cases.carried(257)
+    shortest = Case.from_text(cases.CASE, [option]).resolve()["surface"]
     assert shortest["shortest_wavelength"] == pytest.approx(8.0 / 256 * 4.154e-4, rel=1e-3)

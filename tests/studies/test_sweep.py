@@ -15,9 +15,8 @@ import xarray as xr
 import pyehl
 from pyehl.cli import main
 from pyehl.studies import plan as plan_module
-from pyehl.studies.estimate import seconds_of
 from pyehl.studies.journal import NAME
-from pyehl.studies.plan import plan
+from pyehl.studies.plan import plan, seconds_of
 from pyehl.studies.study import make
 from pyehl.studies.vary import parse_axis
 

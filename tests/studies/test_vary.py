@@ -8,8 +8,7 @@ import pytest
 
 from pyehl import InputError
 from pyehl.given import option
-from pyehl.studies.study import Study, make
-from pyehl.studies.study_file import read_study
+from pyehl.studies.study import Study, make, read_study
 from pyehl.studies.vary import axis, parse_axis
 
 

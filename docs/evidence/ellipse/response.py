@@ -24,8 +24,8 @@ from numpy.typing import NDArray
 
 from cases import HERE, case_of_circle
 from pyehl.handle import SolverHandle
+from pyehl.measured_response.measurement import TIERS, tier_waves
 from pyehl.measured_response.superposition import Superposition, WaveSet, superpose, transient_case
-from pyehl.measured_response.tiers import TIERS, tier_waves
 from pyehl.prediction.smooth import solve_contact, zone_on
 from pyehl.theory.film import circle_with_same_inlet
 from pyehl.theory.lubricant import Lubricant

@@ -18,8 +18,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from pyehl.reproduce.driver import PIECES, reproduce
-from pyehl.reproduce.level import FULL, QUICK, Level
-from pyehl.reproduce.piece import Result
+from pyehl.reproduce.piece import FULL, QUICK, Level, Result
 
 HERE = Path(__file__).resolve().parent
 # Not 1025 nodes a side: they take longer than all the rest

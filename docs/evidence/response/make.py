@@ -22,8 +22,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pyehl.case import Case
+from pyehl.measured_response.measurement import TIERS, tier_waves
 from pyehl.measured_response.superposition import FILLING, Superposition, WaveSet, superpose
-from pyehl.measured_response.tiers import TIERS, tier_waves
 from pyehl.prediction.smooth import zone_on
 from pyehl.solver import Solver
 from pyehl.theory.lubricant import Lubricant
