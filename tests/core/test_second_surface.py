@@ -235,14 +235,8 @@ def test_prediction_of_either_body_and_of_both(heights, tmp_path: Path, monkeypa
     (tmp_path / "case.nml").write_text(CONTACT + first + second)
     assert cli.main(["predict", "case.nml", "--tracks", "1", "--no-plots", "-o", "one"]) == 0
     summary = json.loads((tmp_path / "one" / "summary.json").read_text())
-    words = [
-        "sweep",
-        "case.nml",
-        "--run",
-        "predict",
-        "--vary",
-        f"contact.slide_to_roll=0.4,{FASTER - SLOWER}",
-    ]
+    slips = f"contact.slide_to_roll=0.4,{FASTER - SLOWER}"
+    words = ["sweep", "case.nml", "--run", "predict", "--vary", slips]
     assert cli.main([*words, "-o", "swept"]) == 0
     with (tmp_path / "swept" / "results.csv").open(newline="") as stream:
         _, swept = csv.DictReader(stream)
@@ -270,17 +264,7 @@ def test_curve_of_two(tmp_path: Path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     both = CONTACT + FRACTAL.format("surface") + FRACTAL.format("second_surface")
     (tmp_path / "case.nml").write_text(both)
-    words = [
-        "stribeck",
-        "case.nml",
-        "--speed",
-        "0.5",
-        "--surfaces",
-        "2",
-        "--jobs",
-        "1",
-        "--no-plots",
-    ]
+    words = ["stribeck", "case.nml", "--speed", "0.5", "--surfaces", "2", "--jobs", "1"]
     assert cli.main([*words, "-o", "out"]) == 0
     (path,) = tmp_path.glob("out/*.csv")
     lines = [x for x in path.read_text().splitlines() if not x.startswith("#")]
