@@ -169,14 +169,14 @@ class RoughPassage:
         return self.options.as_in_paper or math.isfinite(model_error(self.mean()))
 
     def run(
-        self, tracks: int = 8, *, brief: bool = False
+        self, tracks: int = 8, *, brief: bool = False, parts: Parts | None = None
     ) -> tuple[RoughFriction, tuple[float, float], list[Band]]:
         """Friction over the passage, mean and spread over the tracks, and what each band adds.
 
         `brief`: of the bands the shortest alone, and without a search for what would help where
-        the linear response ends. No tracks: NaN for mean and spread.
+        the linear response ends. No tracks: NaN for mean and spread. `parts`: if they were made.
         """
-        grid, spectrum, transfer, edge = self.parts()
+        grid, spectrum, transfer, edge = parts or self.parts()
         with np.errstate(over="ignore", invalid="ignore"):
             contact = self._contact(spectrum, transfer, edge)
             t = transfer.at_centre(spectrum, self.velocity_ratio)
@@ -200,11 +200,18 @@ class RoughPassage:
         over = (float(ratios.mean()), float(ratios.std())) if tracks else (math.nan, math.nan)
         return found, over, bands
 
-    def below(self, shortest: float) -> float:
-        """mu_r/mu_s without the waves shorter than a length [a], over a few positions [-]."""
-        _, spectrum, transfer, edge = self.parts()
+    def run_and_below(self, *shortest: float) -> tuple[RoughFriction, list[float]]:
+        """Friction in brief, and mu_r/mu_s without the waves shorter than some lengths [a].
+
+        The latter over a few positions each, and none where friction is not predicted.
+        """
+        parts = self.parts()
+        found, _, _ = self.run(0, brief=True, parts=parts)
+        if found.status != "predicted":
+            return found, []
+        limits = [2.0 * math.pi / length for length in shortest]
         with np.errstate(over="ignore", invalid="ignore"):
-            return self._below(spectrum, transfer, edge, 2.0 * math.pi / shortest)
+            return found, [self._below(*parts[1:], limit) for limit in limits]
 
     def _result(
         self,

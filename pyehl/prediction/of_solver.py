@@ -119,10 +119,10 @@ def resolution(case: Case, tiles: Mapping[str, Topography] | None = None) -> Res
     if len(alone) > 1:
         fronts = float(rough[0]["x_start"]), float(rough[1]["x_start"])
         passage = RoughPair((alone[0], alone[1]), fronts)
-    friction, _, _ = passage.run(0, brief=True)
+    friction, below = passage.run_and_below(NODES * mesh, CARRIED * mesh)
     if not math.isfinite(friction.mu_ratio):
         raise EhlError(f"{friction.status}: {friction.message}")
-    resolved, carried = (passage.below(nodes * mesh) for nodes in (NODES, CARRIED))
+    resolved, carried = below
     parts = " and ".join(part for _, part in found if part)
     return Resolution(friction.mu_ratio, resolved, carried, shortest, parts)
 

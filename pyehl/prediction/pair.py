@@ -40,6 +40,7 @@ from pyehl.prediction.transfer import Transfer
 from pyehl.surfaces import Topography, filtered, track_offsets
 from pyehl.types import Array
 
+PairWaves = list[tuple[Spectrum, Transfer]]
 PairParts = list[tuple[Spectrum, Transfer, Edge]]
 
 
@@ -77,14 +78,34 @@ class RoughPair:
             (self.fronts[i], self.fronts[j]),
         )
 
-    def parts(self, tiles: Sequence[Topography] | None = None) -> PairParts:
-        """Components of both tiles and what becomes of them, in their order.
+    def parts(self) -> PairParts:
+        """Components of both tiles on the grids that are worked on, and what becomes of them.
 
-        Of `tiles` in place of those on the grids that are worked on, as they are.
+        In their order.
         """
         one = self.of[0]
-        if tiles is None:
-            tiles = [working_grid(part.topography, part.operating, 0) for part in self.of]
+        tiles = [working_grid(part.topography, part.operating, 0) for part in self.of]
+        ratios = [self.of[k].velocity_ratio for k in self.order]
+        return [
+            (
+                spectrum,
+                transfer,
+                Edge.of(
+                    spectrum,
+                    1.0 - transfer.at_centre(spectrum, ratio),
+                    one.operating.ellipse,
+                    transfer.beside(spectrum.qx, ratio),
+                ),
+            )
+            for (spectrum, transfer), ratio in zip(self._waves(tiles), ratios, strict=True)
+        ]
+
+    def _waves(self, tiles: Sequence[Topography]) -> PairWaves:
+        """Components of tiles in place of the two, and what the contact makes of them.
+
+        In the order in which the two are summed.
+        """
+        one = self.of[0]
         passages = [self.of[k] for k in self.order]
         spectra = [one.spectrum(tiles[k]) for k in self.order]
         moving = [(s, p.velocity_ratio) for s, p in zip(spectra, passages, strict=True)]
@@ -99,19 +120,7 @@ class RoughPair:
             )
         else:
             transfers = [one.transfer(spectrum) for spectrum in spectra]
-        return [
-            (
-                spectrum,
-                transfer,
-                Edge.of(
-                    spectrum,
-                    1.0 - transfer.at_centre(spectrum, ratio),
-                    one.operating.ellipse,
-                    transfer.beside(spectrum.qx, ratio),
-                ),
-            )
-            for (spectrum, ratio), transfer in zip(moving, transfers, strict=True)
-        ]
+        return list(zip(spectra, transfers, strict=True))
 
     def _moving(self, parts: PairParts) -> list[tuple[Spectrum, Transfer, float]]:
         return [
@@ -153,9 +162,11 @@ class RoughPair:
         tiles = [one.topography for one in self.of]
         shapes = [tiles[k].shape for k in self.order]
         if parts is None or [spectrum.shape for spectrum, _, _ in parts] != shapes:
-            parts = self.parts(tiles)
+            waves = self._waves(tiles)
+        else:
+            waves = [(spectrum, transfer) for spectrum, transfer, _ in parts]
         for k in (0, 1):
-            spectrum, transfer, _ = parts[self.order.index(k)]
+            spectrum, transfer = waves[self.order.index(k)]
             ratio = self.of[k].velocity_ratio
             pressure = spectrum.tile(transfer.pressure_at_centre(spectrum, ratio))
             deformed = spectrum.tile(transfer.at_centre(spectrum, ratio))
@@ -186,11 +197,11 @@ class RoughPair:
         return math.isfinite(model_error(self.mean()))
 
     def run(
-        self, tracks: int = 8, *, brief: bool = False
+        self, tracks: int = 8, *, brief: bool = False, parts: PairParts | None = None
     ) -> tuple[RoughFriction, tuple[float, float], list[Band]]:
         """Friction over all positions, mean and spread over tracks, and what each band adds.
 
-        The bands are those of the wavelengths of both. `brief`, and no tracks: as of
+        The bands are those of the wavelengths of both. `brief`, `parts` and no tracks: as of
         :meth:`RoughPassage.run`. The response of the result is that of the first surface.
         """
         one, meeting = self.of[0], self.meeting
@@ -200,7 +211,7 @@ class RoughPair:
             responses = self.responses()
             second = SecondPassage(responses[1], alone.shift, 0.0)
             return replace(alone, response=responses[0], second=second), spread, bands
-        parts = self.parts()
+        parts = parts or self.parts()
         with np.errstate(over="ignore", invalid="ignore"):
             contact = self._contact(parts)
             left = [(s.power, np.abs(t.at_centre(s, ratio))) for s, t, ratio in self._moving(parts)]
@@ -231,14 +242,21 @@ class RoughPair:
         )
         return [(one[k], other[-k % tracks]) for k in range(tracks)]
 
-    def below(self, shortest: float) -> float:
-        """mu_r/mu_s without waves shorter than a length [a] of either, over a few positions [-]."""
+    def run_and_below(self, *shortest: float) -> tuple[RoughFriction, list[float]]:
+        """Friction in brief, and mu_r/mu_s without waves of either shorter than some lengths [a].
+
+        As of :meth:`RoughPassage.run_and_below`.
+        """
         one = self.as_one
         if one is not None:
-            return one.below(shortest)
-        limit = 2.0 * math.pi / shortest
+            return one.run_and_below(*shortest)
+        parts = self.parts()
+        found, _, _ = self.run(0, brief=True, parts=parts)
+        if found.status != "predicted":
+            return found, []
+        limits = [2.0 * math.pi / length for length in shortest]
         with np.errstate(over="ignore", invalid="ignore"):
-            return self.below_limits(self.parts(), (limit, limit))
+            return found, [self.below_limits(parts, (limit, limit)) for limit in limits]
 
     def below_limits(self, parts: PairParts, limits: tuple[float, float]) -> float:
         """mu_r/mu_s of the waves with |q| below a limit [1/a] of each, in their order."""

@@ -98,6 +98,11 @@ def pressure(shape: Ellipse, qx: Array, qy: Array, x: Array, y: Array) -> Comple
     legendre = _legendre(last, np.append(z, 0.0))
     harmonics = _harmonics(kappa, last)
     total = np.zeros((x.size, q.size), dtype=complex)
+    every = np.arange(last + 1)
+    waves = [
+        (sign, wave(np.outer(every, phi)), wave(np.outer(theta, every)))
+        for sign, wave in ((1.0, np.cos), (-1.0, np.sin))
+    ]
     for n in range(1, last + 1):
         orders = np.arange(n % 2, n + 1, 2)
         radial = legendre[n, orders]
@@ -105,14 +110,14 @@ def pressure(shape: Ellipse, qx: Array, qy: Array, x: Array, y: Array) -> Comple
         together = harmonics[np.add.outer(orders, orders)]
         apart = harmonics[np.abs(np.subtract.outer(orders, orders))]
         part = np.zeros((x.size, q.size))
-        for sign, wave in ((1.0, np.cos), (-1.0, np.sin)):
+        for sign, of_phi, of_theta in waves:
             # there is no sine of order 0
             first = 1 if sign < 0.0 and orders[0] == 0 else 0
-            m = orders[first:]
-            if m.size:
+            m = slice(n % 2 + 2 * first, n + 1, 2)
+            if first < orders.size:
                 matrix = 0.5 * (apart + sign * together)[first:, first:]
-                weights = np.linalg.solve(matrix, wave(np.outer(m, phi)))
-                part += (radial[:, first:] * wave(np.outer(theta, m))) @ weights
+                weights = np.linalg.solve(matrix, of_phi[m])
+                part += (radial[:, first:] * of_theta[:, m]) @ weights
         total += (1j**n * (2 * n + 1)) * part * bessel[n]
     return np.asarray(math.pi / shape.kernel_ratio * total)
 

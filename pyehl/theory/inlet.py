@@ -17,6 +17,10 @@ does to the wave is left out.
 
 from __future__ import annotations
 
+import pickle
+from dataclasses import replace
+from functools import lru_cache
+
 import numpy as np
 import scipy
 from numpy.typing import ArrayLike, NDArray
@@ -119,20 +123,32 @@ def passed(zone: Zone, qx: ArrayLike, qy: ArrayLike, velocity_ratio: float) -> C
     smooth over wavenumber and direction. Beyond WAVENUMBERS it is held.
     """
     kx, ky = np.asarray(qx, dtype=float), np.asarray(qy, dtype=float)
-
-    def transported(x: Array, y: Array) -> Complex:
-        share = 1.0 / (1.0 + (SHORT / np.maximum(np.hypot(x, y), 1e-12)) ** 3)
-        return np.asarray(share * upstream(zone, x, y, velocity_ratio))
-
-    added = []
-    for direction in DIRECTIONS:
-        x, y = WAVENUMBERS * np.cos(direction), WAVENUMBERS * np.sin(direction)
-        added.append(at_inlet(zone, x, y, velocity_ratio) - transported(x, y))
-    # a wave that goes against the motion is the conjugate of one that goes along it
-    table = np.array([*added, *np.conj(added[-2::-1])])
+    table = _added(pickle.dumps(replace(zone, newtonian=None)), velocity_ratio)
     low, high = np.log(WAVENUMBERS[[0, -1]])
     q = np.clip(np.log(np.maximum(np.hypot(kx, ky), 1e-12)), low, high)
     column = (q - low) * ((WAVENUMBERS.size - 1) / (high - low))
     row = np.arctan2(ky, kx) * (2.0 / np.pi * (DIRECTIONS.size - 1))
     found = scipy.ndimage.map_coordinates(table, [row, column], order=3, mode="mirror")
-    return np.asarray(transported(kx, ky) + found)
+    return np.asarray(_transported(zone, kx, ky, velocity_ratio) + found)
+
+
+def _transported(zone: Zone, qx: Array, qy: Array, velocity_ratio: float) -> Complex:
+    """Share of :func:`pyehl.theory.transport.upstream` that short waves have."""
+    share = 1.0 / (1.0 + (SHORT / np.maximum(np.hypot(qx, qy), 1e-12)) ** 3)
+    return np.asarray(share * upstream(zone, qx, qy, velocity_ratio))
+
+
+@lru_cache(maxsize=16)
+def _added(pickled: bytes, velocity_ratio: float) -> Complex:
+    """Return what `passed` adds to `_transported`, by direction and |q|; the last few are kept.
+
+    Of a zone as bytes: two with the same numbers are the same.
+    """
+    zone = pickle.loads(pickled)
+    added = []
+    for direction in DIRECTIONS:
+        x, y = WAVENUMBERS * np.cos(direction), WAVENUMBERS * np.sin(direction)
+        wave = zone, x, y, velocity_ratio
+        added.append(at_inlet(*wave) - _transported(*wave))
+    # a wave that goes against the motion is the conjugate of one that goes along it
+    return np.array([*added, *np.conj(added[-2::-1])])

@@ -14,8 +14,11 @@ from pyehl import Case, Solver, cli
 from pyehl.errors import InputError
 from pyehl.prediction.of_solver import resolution
 
+# One body twice as fast as the other: the fewest positions in which tiles of one length meet
+FASTER, SLOWER = 4.0 / 3.0, 2.0 / 3.0
+SLIP = f"slide_to_roll = {FASTER - SLOWER} "
 CONTACT = (
-    "&contact load = 20.0 slide_to_roll = 0.5 /\n"
+    f"&contact load = 20.0 {SLIP}/\n"
     "&grid points = 65 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
 )
 FRACTAL = "&{} kind = 'fractal' pixels = 32 length_x = 1e-4 length_y = 1e-4 rms_height = 5e-9 /\n"
@@ -110,7 +113,7 @@ def test_feature_waits_for_the_roughness():
 
 def test_too_long_a_way(heights, tmp_path: Path):
     """What is refused names the slower surface and the periods that it takes."""
-    text = CONTACT.replace("0.5", "1.99998") + FRACTAL.format("surface")
+    text = CONTACT.replace(SLIP, "slide_to_roll = 1.99998 ") + FRACTAL.format("surface")
     case = Case.from_text(text + FRACTAL.format("second_surface"))
     with pytest.raises(InputError, match=r"second_surface\.velocity_ratio = ") as caught:
         Solver(case)
@@ -127,7 +130,7 @@ SCENES = {
 
 @pytest.mark.parametrize("name", SCENES)
 def test_both_drivers_give_the_same_bits(drive, heights, tmp_path: Path, name: str):
-    contact = CONTACT.replace("slide_to_roll = 0.5 ", "") if "rest" in name else CONTACT
+    contact = CONTACT.replace(SLIP, "") if "rest" in name else CONTACT
     (tmp_path / "case.nml").write_text(contact + SCENES[name] + STEPS.format(6))
     for driver in ("ehl", "pyehl"):
         done = drive(driver, "case.nml", "-o", driver)
@@ -142,7 +145,7 @@ def test_both_drivers_give_the_same_bits(drive, heights, tmp_path: Path, name: s
 
 @pytest.mark.parametrize("name", ["fractal and map", "map at rest"])
 def test_resumed_to_the_same_bits(drive, heights, tmp_path: Path, name: str):
-    contact = CONTACT.replace("slide_to_roll = 0.5 ", "") if "rest" in name else CONTACT
+    contact = CONTACT.replace(SLIP, "") if "rest" in name else CONTACT
     (tmp_path / "case.nml").write_text(contact + SCENES[name])
     often = ["--set", "output.checkpoint_interval=1e-3"]
     assert drive("ehl", "case.nml", "-o", "whole", "--set", "time.steps=9").returncode == 1
@@ -232,13 +235,14 @@ def test_prediction_of_either_body_and_of_both(heights, tmp_path: Path, monkeypa
     (tmp_path / "case.nml").write_text(CONTACT + first + second)
     assert cli.main(["predict", "case.nml", "--tracks", "1", "--no-plots", "-o", "one"]) == 0
     summary = json.loads((tmp_path / "one" / "summary.json").read_text())
-    words = ["sweep", "case.nml", "--run", "predict", "--vary", "contact.slide_to_roll=0.4,0.5"]
+    slips = f"contact.slide_to_roll=0.4,{FASTER - SLOWER}"
+    words = ["sweep", "case.nml", "--run", "predict", "--vary", slips]
     assert cli.main([*words, "-o", "swept"]) == 0
     with (tmp_path / "swept" / "results.csv").open(newline="") as stream:
         _, swept = csv.DictReader(stream)
     # more digits than a table has are not compared
     assert float(swept["mu_ratio"]) == pytest.approx(summary["mu_ratio"], rel=1e-6)
-    assert float(swept["second_velocity_ratio"]) == 0.75
+    assert float(swept["second_velocity_ratio"]) == pytest.approx(SLOWER)
     # one on body 2 is predicted by either name
     alone = Case.from_text(CONTACT + second)
     other = Case.from_text(CONTACT + first, ["contact.rough_surface=2"])
@@ -278,8 +282,9 @@ def test_curve_of_two(tmp_path: Path, monkeypatch, capsys):
 
 def test_waves_that_are_left_out_are_predicted(heights, tmp_path: Path):
     """Of two rough surfaces, too, the error holds the waves that no grid has."""
-    text = CONTACT.replace("65", "33").replace("slide_to_roll = 0.5", "slide_to_roll = 0.2")
-    text += FRACTAL.format("surface") + FRACTAL.format("second_surface").replace("1e-4", "9e-5")
+    # the tile of the slower body is half as long: both are back at their start at the same time
+    text = CONTACT.replace("65", "33") + FRACTAL.format("surface")
+    text += FRACTAL.format("second_surface").replace("1e-4", "5e-5")
     with Solver(Case.from_text(text + "&time max_periods = 3 tolerance = 0.3 /\n")) as solver:
         plan = solver.describe()
         solver.run()
@@ -305,7 +310,7 @@ def test_second_surface_as_a_map(heights, tmp_path: Path, monkeypatch, capsys):
     values = heights["two"] - heights["two"].mean()
     assert np.load("tile.npy") == pytest.approx(values, abs=1e-20)
     made = Case.read("tile.npy.nml").resolve()
-    assert made["surface"]["velocity_ratio"] == 0.75
+    assert made["surface"]["velocity_ratio"] == pytest.approx(SLOWER, rel=1e-15)
     assert cli.main([*words[:3], "--set", "second_surface.kind=smooth"]) == 2
     assert "expected: second_surface.kind" in capsys.readouterr().err
 
@@ -331,7 +336,7 @@ def test_pictures(heights, tmp_path: Path, monkeypatch):
     data = pyehl.solve(Case.from_text(text), {"time.estimate_error": False}, output="out")
     assert data.attrs["status"] == "converged"
     x = data.X.values[:, None]
-    ahead = [u * data.attrs["T"] - 2.5 for u in (1.25, 0.75)]
+    ahead = [u * data.attrs["T"] - 2.5 for u in (FASTER, SLOWER)]
     k, y = 2.0 * np.pi, data.Y.values
     expected = sum(2e-3 * np.cos(k * (x - front)) for front in ahead) * np.cos(k * y)
     assert data.RR.values == pytest.approx(expected, abs=1e-14)

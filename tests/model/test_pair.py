@@ -89,13 +89,13 @@ def test_smooth_second_surface_changes_nothing():
     assert one.bands == other.bands
 
 
-@pytest.mark.parametrize("ratio", [pytest.param(1.05, marks=pytest.mark.long), 0.9])
+@pytest.mark.parametrize("ratio", [pytest.param(1.05, marks=pytest.mark.long), 0.8])
 def test_hardly_rough_second_surface(contact, ratio):
     """The points of a pair are others than those of one surface."""
     single, _, _ = alone(contact, rough(3), ratio).run(0)
     both, _, _ = pair(contact, (rough(3), rough(4, 1e-15)), (ratio, 2.0 - ratio)).run(0)
-    # 1e-4 at 1.05, 6e-4 at 0.9
-    assert both.mu_ratio == pytest.approx(single.mu_ratio, rel=2e-3)
+    # 1e-4 at both; at 0.8 the tiles are back at their start after few passages
+    assert both.mu_ratio == pytest.approx(single.mu_ratio, rel=5e-4)
 
 
 def test_without_sliding_they_are_one_surface(contact):
