@@ -44,7 +44,8 @@ def report(prediction: Prediction) -> str:
             f"{b.rise:+.4f} from {b.longest * 1e6:.0f} to {b.shortest * 1e6:.0f} um"
             for b in strongest
         )
-        lines.append(f"rise       {parts}")
+        if parts:
+            lines.append(f"rise       {parts}")
     if prediction.advice:
         lines += prediction.advice.report()
     if f.cavitated_share > 0.0:
@@ -73,20 +74,22 @@ def _surface(name: str, tile: Topography) -> str:
 
 def _deformed(values: Mapping[str, Any]) -> list[str]:
     """Say what becomes of the surface."""
-    text = (
-        f"deformed   rms {_told(values, 'rms_deformed_m', 1e6)} um, pressure rms "
-        f"{_told(values, 'p_rise_rms_Pa', 1e-6)} MPa, greatest rise "
-        f"{_told(values, 'p_rise_max_Pa', 1e-6)} MPa"
-    )
+    surface = [f"rms {_told(values, 'rms_deformed_m', 1e6)} um"]
+    for words, name in (("pressure rms", "p_rise_rms_Pa"), ("greatest rise", "p_rise_max_Pa")):
+        if values[name] is not None:
+            surface.append(f"{words} {_told(values, name, 1e-6)} MPa")
     film = []
     if values["lambda_ratio_deformed"] is not None:
         film.append(f"h_min over its rms {_told(values, 'lambda_ratio_deformed', 1.0)}")
-    if values["film_limit_m"] is not None:
+    if values["film_below_limit_share"] is not None:
         film.append(
             f"{_told(values, 'film_below_limit_share', 100.0)} % of the contact below "
             f"{values['film_limit_m'] * 1e6:.4g} um"
         )
-    return [text, *(f"           {', '.join(film)}" for _ in film[:1])]
+    return [
+        f"deformed   {', '.join(surface)}",
+        *(f"           {', '.join(film)}" for _ in film[:1]),
+    ]
 
 
 def _model(prediction: Prediction) -> str:

@@ -55,7 +55,9 @@ def solution_figures(data: xr.Dataset, units: str = "auto") -> dict[str, Figure]
     figures = {}
     if "P" in data:
         figures["centre_lines"] = _centre_lines(data, scales, title)
-        figures["film"] = _film(data, scales, title)
+        # fringes and contours are those of a film
+        if data.H.values[nearest(data.X.values, 0.0), nearest(data.Y.values, 0.0)] > 0.0:
+            figures["film"] = _film(data, scales, title)
     if "A_d" in data:
         figures["deformed_roughness"] = _deformed(data, scales, title)
         figures["rough_and_smooth"] = _rough_and_smooth(data, scales, title)

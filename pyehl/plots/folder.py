@@ -135,7 +135,12 @@ def plot(
 
 
 def _of_prediction(data: xr.Dataset) -> dict[str, Figure]:
-    arrays = {name: data[f"{name}_{unit}"].values for name, unit in PREDICTED.items()}
+    arrays = {
+        f"{side}{name}": data[f"{side}{name}_{unit}"].values
+        for side in ("", "second_")
+        for name, unit in PREDICTED.items()
+        if f"{side}{name}_{unit}" in data
+    }
     tables: dict[str, dict[str, Array]] = {"passage": {}, "bands": {}}
     for name, values in data.variables.items():
         table, _, column = str(name).partition("_")

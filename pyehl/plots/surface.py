@@ -182,22 +182,25 @@ def octaves(bands: Sequence[tuple[float, float, float]], *, ax: Axes | None = No
     Parameters
     ----------
     bands
-        Longest and shortest wavelength [m] and rise [-] of each octave.
+        Longest and shortest wavelength [m] and rise [-] of each octave; NaN where it is not known.
     """
     ax = style.axes_or_new(ax, 3.8, 2.9)
-    for longest, shortest, rise in bands:
-        if math.isfinite(rise):
-            ax.fill_between(
-                [shortest * 1e6, longest * 1e6], 0.0, [rise, rise], color=style.GREEN, alpha=0.75,
-                lw=0.8, ec="white",
-            )  # fmt: skip
+    ax.set(xlabel="wavelength of the component [μm]", ylabel="contribution to relative friction")
     known = sorted((band for band in bands if math.isfinite(band[2])), reverse=True)
+    if not known:
+        ax.set(xticks=[], yticks=[])
+        ax.text(0.5, 0.5, "not known", ha="center", va="center", transform=ax.transAxes)
+        return ax
+    for longest, shortest, rise in known:
+        ax.fill_between(
+            [shortest * 1e6, longest * 1e6], 0.0, [rise, rise], color=style.GREEN, alpha=0.75,
+            lw=0.8, ec="white",
+        )  # fmt: skip
     cut, total = [band[1] * 1e6 for band in known], np.cumsum([band[2] for band in known])
     ax.plot(cut, total, "o-", ms=3, lw=1.2, color=style.BLUE, label="with all longer ones")
     ax.axhline(0.0, color=style.GREY, lw=0.8)
     ax.set_xscale("log")
     style.label_decades(ax.xaxis)
-    ax.set(xlabel="wavelength of the component [μm]", ylabel="contribution to relative friction")
     # a power of ten above the panel would lie on its letter: for large contributions alone
     ax.ticklabel_format(axis="y", scilimits=(-9, SHORT[1]))
     ax.legend(fontsize="small", frameon=False)

@@ -26,6 +26,10 @@ def touching(
         return friction, tracks
     fine = interpolated(partial.passage, 8)
     known = math.isfinite(partial.friction)
+    if friction.status != "predicted":
+        # a full film that breaks down has no pressures
+        friction = replace(friction, rise_rms=math.nan, rise_max=math.nan, pressure_max=math.nan)
+        friction = replace(friction, below_limit=math.nan, below_limit_error=math.nan)
     return replace(
         friction,
         status="predicted",

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 import pyehl
+from pyehl import cli
 from pyehl.prediction.obstacle import Compliance, lifted
 from pyehl.studies.curve_contact import lift_off
 
@@ -55,6 +56,22 @@ def test_friction_of_the_layer_is_not_known():
     assert summary["contact_load_share"] > 0.0
     assert (summary["mu"], summary["mu_ratio"]) == (None, None)
     assert "lubricant.boundary_friction" in summary["mu_ratio_error_note"]
+
+
+def test_contact_where_a_full_film_breaks_down(tmp_path, capsys):
+    """Numbers of a full film are none then, and neither table nor pictures need them."""
+    case = tmp_path / "case.nml"
+    case.write_text(SCENE.format(0.02, 2e-8, 0.1).replace("rms_height = 3e-8", "rms_height = 1e-7"))
+    assert cli.main(["predict", str(case), "-o", str(tmp_path / "out"), "--tracks", "1"]) == 0
+    summary = pyehl.load(tmp_path / "out").attrs
+    assert summary["message"].startswith("partial film")
+    assert summary["contact_load_share"] > 0.1
+    names = "p_rise_rms_Pa", "p_rise_max_Pa", "mu_ratio_tracks"
+    assert [summary.get(name) for name in names] == [None] * 3
+    said = capsys.readouterr().out
+    assert "deformed   rms" in said
+    assert "greatest rise" not in said
+    assert (tmp_path / "out" / "passage.png").is_file()
 
 
 def test_hardness_is_left_out():

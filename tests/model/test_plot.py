@@ -11,7 +11,7 @@ from matplotlib import pyplot
 from matplotlib.image import imread
 from matplotlib.transforms import Bbox
 
-from pyehl import cli, namelist
+from pyehl import Case, cli, namelist
 from pyehl.plots import contact, figures, folder, panels, style, surface, transient
 from pyehl.prediction.folder import destination, write
 from pyehl.prediction.of_case import predict
@@ -272,6 +272,31 @@ SUMMARY = {
     "status": "converged", "moes_m": 1000.0, "moes_l": 10.0, "hertz_pressure_Pa": 1.66e9,
     "H_c": 0.0243, "H_min": 0.008,
 }  # fmt: skip
+
+
+def test_subcommand_on_a_prediction_of_two_surfaces(tmp_path):
+    tiles = ({"kind": "fractal", "pixels": 64, "seed": seed} for seed in (1, 2))
+    case = Case(**dict(zip(("surface", "second_surface"), tiles, strict=True)))
+    write(predict(case.resolve(), tracks=1), destination(tmp_path / "out"), plots=False)
+    assert run_subcommand(tmp_path / "out") == 0
+    drawn = {p.name for p in (tmp_path / "out").glob("*.png")}
+    assert drawn >= {"roughness.png", "second_roughness.png", "second_surface_spectrum.png"}
+
+
+def test_octaves_that_are_not_known():
+    ax = surface.octaves([(1e-4, 5e-5, np.nan)])
+    assert [text.get_text() for text in ax.texts] == ["not known"]
+    ax.figure.canvas.draw()
+
+
+def test_negative_film_has_no_map(settings, fields, tmp_path):
+    x, y, pressure, film = fields
+    (tmp_path / "summary.json").write_text(json.dumps(SUMMARY | {"status": "negative film"}))
+    (tmp_path / "case.nml").write_text(namelist.text_of(settings))
+    for name, values in zip("XYPH", (x, y, pressure, film - 0.03), strict=True):
+        np.save(tmp_path / f"{name}.npy", np.asfortranarray(values))
+    assert run_subcommand(tmp_path) == 0
+    assert {p.name for p in tmp_path.glob("*.png")} == {"centre_lines.png"}
 
 
 def test_subcommand_on_a_run(settings, fields, tmp_path):
