@@ -177,6 +177,21 @@ def fields(read: Read) -> Iterator[str]:
             assert float(row["p_square"]) > 1.5 * float(row["gamma"]), row["name"]
 
 
+def lobes(read: Read) -> Iterator[str]:
+    """Correlations of the loss of film, and its rms, at little and at much slip."""
+    rows = read("fields/lobes.csv")
+    for names in ("g1, g4, h1, h3, h7, h8", "i1 to i6"):
+        group = [row for row in rows if (row["name"][0] == "i") == (names[0] == "i")]
+        slip = 2.0 * np.abs(of(group, "velocity_ratio") - 1.0)
+        places = [
+            span(of([r for r in group if r["place"] == place], "correlation"), ".3f")
+            for place in ("r < 0.4", "lobes")
+        ]
+        yield f"| {names} | {slip.min():.2g} to {slip.max():.2g} | {' | '.join(places)} |"
+    shares = [float(r["rms_predicted"]) / float(r["rms_simulated"]) for r in group]
+    yield f"the predicted loss is {min(shares):.2f} to {max(shares):.2f} of that"
+
+
 def curve(read: Read) -> Iterator[str]:
     """Loads by Moes, and the speed at which contact ends."""
     rows = read("mixed_curve/curve.csv")
@@ -261,7 +276,7 @@ PAGES: dict[str, tuple[Said, ...]] = {
     "ellipse": (ellipse, ellipse_waves),
     "errors": (rough_errors,),
     "errors_ellipses": (wide_ellipses, extreme_ellipses),
-    "fields": (fields,),
+    "fields": (fields, lobes),
     "mixed_curve": (curve,),
     "partial": (partial,),
     "response": (response,),

@@ -3,6 +3,7 @@
 
     python docs/evidence/fields/fields.py NAME ... [--points N]     simulates and adds rows
     python docs/evidence/fields/fields.py                           prints the table
+    python docs/evidence/fields/fields.py NAME ... --lobes          the same of lobes.csv
 
 NAME is a row of docs/evidence/prediction/cases.csv or of docs/evidence/thinning/rough.py. Eight
 moments of the last period are compared. One minute each on 513 x 513 nodes and one core.
@@ -48,9 +49,12 @@ MOMENTS = 8
 RINGS = {"r < 0.4": (0.0, 0.4), "0.4 to 0.7": (0.4, 0.7), "0.7 to 0.9": (0.7, 0.9)}
 STRIPS = {"X = -0.5": (-0.65, -0.35), "X = 0": (-0.15, 0.15), "X = 0.5": (0.35, 0.65)}
 SIDE = 0.5
+# Where the least film lies: X and |Y| [a]
+LOBE_X, LOBE_Y = (0.1, 0.3), (0.88, 0.97)
 COLUMNS = (
     "name points place p_correlation p_slope p_square gamma film_correlation film_slope film_square"
 ).split()
+LOBE_COLUMNS = "name points velocity_ratio place correlation rms_simulated rms_predicted".split()
 
 
 @dataclass(frozen=True, slots=True)
@@ -172,16 +176,43 @@ def compare(name: str, points: int, moments: list[Moment]) -> list[dict[str, Any
     return rows
 
 
-def add(new: list[dict[str, Any]]) -> None:
-    """Add rows to the table, in place of those of the same case and grid."""
-    path = HERE / "table.csv"
+def lobes(name: str, points: int, moments: list[Moment]) -> list[dict[str, Any]]:
+    """Loss of film of first order in the side lobes and at the centre, simulated and predicted.
+
+    Correlation, and both rms [a^2/R].
+    """
+    case, tile = case_of(name, points)
+    passage, start = passage_of(case, tile), float(case.resolve()["surface"]["x_start"])
+    parts: dict[str, list[Array]] = {}
+    for moment in moments:
+        contact, change, _, _ = at(moment, passage, start)
+        smooth = on_points(moment.smooth_film, moment, contact)
+        moved = smooth * contact.smooth_film() / contact.film
+        both = np.stack([moved - on_points(moment.film, moment, contact), change[..., 0]])
+        x, y = contact.x, np.abs(contact.across)
+        lobe = np.logical_and.outer(
+            (x > LOBE_X[0]) & (x < LOBE_X[1]), (y > LOBE_Y[0]) & (y < LOBE_Y[1])
+        )
+        for place, mask in {"r < 0.4": contact.radius < 0.4, "lobes": lobe}.items():
+            parts.setdefault(place, []).append(both[:, mask & (contact.radius < 1.0)])
+    rows = []
+    for place, pieces in parts.items():
+        both = np.concatenate(pieces, axis=1)
+        rms = (f"{v:.6f}" for v in both.std(axis=1))
+        texts = passage.velocity_ratio, place, f"{np.corrcoef(both)[0, 1]:.4f}", *rms
+        rows.append(dict(zip(LOBE_COLUMNS, (name, points, *texts), strict=True)))
+    return rows
+
+
+def add(new: list[dict[str, Any]], path: Path) -> None:
+    """Add rows to a table, in place of those of the same case and grid."""
     old = []
     if path.exists():
         with path.open(newline="", encoding="utf-8") as stream:
             old = list(csv.DictReader(stream))
     made = {(row["name"], str(row["points"])) for row in new}
     with path.open("w", newline="", encoding="utf-8") as stream:
-        writer = csv.DictWriter(stream, COLUMNS, lineterminator="\n")
+        writer = csv.DictWriter(stream, list(new[0]), lineterminator="\n")
         writer.writeheader()
         writer.writerows([*(r for r in old if (r["name"], r["points"]) not in made), *new])
 
@@ -191,12 +222,14 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("names", nargs="*")
     parser.add_argument("--points", type=int, default=513)
+    parser.add_argument("--lobes", action="store_true")
     given = parser.parse_args()
+    path, statistics = (HERE / "lobes.csv", lobes) if given.lobes else (HERE / "table.csv", compare)
     for name in given.names:
         case, tile = case_of(name, given.points)
         moments = simulate(case, None if name in rough.PLAN else tile.heights)
-        add(compare(name, given.points, moments))
-    print((HERE / "table.csv").read_text(encoding="utf-8"))
+        add(statistics(name, given.points, moments), path)
+    print(path.read_text(encoding="utf-8"))
     print(f"INLET_PRESSURE {second_order.INLET_PRESSURE}, INLET_FILM {second_order.INLET_FILM}")
 
 
