@@ -79,11 +79,13 @@ contains
       real(dp) :: beyond(most), ss(most, 2), share, bound
       integer :: i, n, outside, from, to
 
+      n = size(b)
       if (flows_newtonian(self%law, b, s)) then
+         ! what was kept of another state would be taken for that of this one (film_power)
+         if (any(self%values(:n, f_b, stretch, j) > none)) self%values(:n, f_b, stretch, j) = none
          call newtonian_factors(b, rows)
          return
       end if
-      n = size(b)
       share = merge(0.0_dp, self%reach, self%law%law == eyring)
       associate (kept => self%values(:, :, stretch, j))
          do i = 1, n
