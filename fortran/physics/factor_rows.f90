@@ -10,7 +10,7 @@ module ehl_factor_rows
    use ehl_thinning, only: eyring, most, slopes, thinning_t
    implicit none (type, external)
    private
-   public :: factor_rows_t, find_factors, second_order
+   public :: factor_rows_t, find_factors, flows_newtonian, newtonian_factors, second_order
 
    !> Factors that differ less from 1 than this are 1; relative error of factors of second order
    real(dp), parameter :: negligible = 1.0e-6_dp, tolerance = 1.0e-4_dp
@@ -43,18 +43,10 @@ contains
       !> B >= 0, and S along X and along Y of as many nodes, or more, shape (nodes, 2)
       real(dp), contiguous, intent(in) :: b(:), s(:, :)
       type(factor_rows_t), intent(inout) :: rows
-      real(dp) :: rise
       integer :: list(most), count, i
 
-      rise = 0.15_dp*law%curvature()
-      if (.not. any(rise*(20.0_dp*b**2 + s(:size(b), 1)**2 + s(:size(b), 2)**2) >= negligible)) then
-         rows%phi = 1.0_dp
-         rows%tangent = 1.0_dp
-         rows%by_sliding = 0.0_dp
-         rows%by_gradient = 0.0_dp
-         rows%stress(:size(b)) = b
-         rows%stress_by_sliding = 1.0_dp
-         rows%stress_by_gradient = 0.0_dp
+      if (flows_newtonian(law, b, s)) then
+         call newtonian_factors(b, rows)
          return
       end if
       call second_order(law, b, s, rows)
@@ -67,6 +59,32 @@ contains
       end do
       if (count > 0) call through_film(law, b, s, list(:count), rows)
    end subroutine find_factors
+
+   !> Whether the factors of size(b) nodes are all 1 but for `negligible`
+   pure logical function flows_newtonian(law, b, s)
+      type(thinning_t), intent(in) :: law
+      !> As in `find_factors`
+      real(dp), contiguous, intent(in) :: b(:), s(:, :)
+      real(dp) :: rise
+
+      rise = 0.15_dp*law%curvature()
+      flows_newtonian = .not. any(rise*(20.0_dp*b**2 + s(:size(b), 1)**2 + s(:size(b), 2)**2) >= negligible)
+   end function flows_newtonian
+
+   !> Those factors
+   pure subroutine newtonian_factors(b, rows)
+      !> B of the nodes
+      real(dp), contiguous, intent(in) :: b(:)
+      type(factor_rows_t), intent(inout) :: rows
+
+      rows%phi = 1.0_dp
+      rows%tangent = 1.0_dp
+      rows%by_sliding = 0.0_dp
+      rows%by_gradient = 0.0_dp
+      rows%stress(:size(b)) = b
+      rows%stress_by_sliding = 1.0_dp
+      rows%stress_by_gradient = 0.0_dp
+   end subroutine newtonian_factors
 
    !> Factors of films that slide under a small gradient: to second order in S, their change with the sliding to none
    pure subroutine second_order(law, b, s, rows)

@@ -1,10 +1,11 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Flow factors (factor_rows.f90) of the nodes of a grid, kept with their changes: near the sliding B and the gradient
 !> S that they were found at, factors and stress follow to first order, with an error below 1e-4 beside that of factor_rows.f90.
-!> Sweeps and cycles change most nodes by less. So factors depend on what was kept, until that is forgotten.
+!> Sweeps and cycles change most nodes by less. So factors depend on what was kept, until that is forgotten. Where the
+!> lubricant flows as a Newtonian one nothing is kept: to read and write it costs more than to see that it is not needed.
 module ehl_kept_factors
    use, intrinsic :: iso_fortran_env, only: int64, real32
-   use ehl_factor_rows, only: factor_rows_t, find_factors
+   use ehl_factor_rows, only: factor_rows_t, find_factors, flows_newtonian, newtonian_factors
    use ehl_kinds, only: dp
    use ehl_thinning, only: eyring, most, thinning_t
    implicit none (type, external)
@@ -79,6 +80,12 @@ contains
       integer :: i, n, outside, from, to
 
       n = size(b)
+      if (flows_newtonian(self%law, b, s)) then
+         ! what was kept of another state would be taken for that of this one (film_power)
+         if (any(self%values(:n, f_b, stretch, j) > none)) self%values(:n, f_b, stretch, j) = none
+         call newtonian_factors(b, rows)
+         return
+      end if
       share = merge(0.0_dp, self%reach, self%law%law == eyring)
       associate (kept => self%values(:, :, stretch, j))
          do i = 1, n
@@ -170,6 +177,11 @@ contains
       real(dp), contiguous, intent(out) :: values(:), by_sliding(:)
       integer :: i
 
+      if (flows_newtonian(self%law, b, s)) then
+         values = b
+         by_sliding = 1.0_dp
+         return
+      end if
       associate (kept => self%values(:, :, stretch, j), changes => self%changes(:, :, stretch, j))
          do i = 1, size(b)
             by_sliding(i) = changes(i, c_stress_by_sliding)
@@ -187,8 +199,10 @@ contains
       real(dp) :: s(2), by_gradient(2)
       integer :: stretch, k
 
+      film_power = 3.0_dp
       stretch = (i - 1)/self%width + 1
       k = i - (stretch - 1)*self%width
+      if (.not. self%values(k, f_b, stretch, j) > none) return
       associate (kept => self%values(k, :, stretch, j), changes => self%changes(k, :, stretch, j))
          s = kept(f_s:f_s + 1)
          ! as keep has them
