@@ -24,6 +24,7 @@ CUT_OFF_TOLERANCE, THRESHOLD_TOLERANCE = 0.05, 0.1
 
 LEAST_THRESHOLD = 5.0
 """Below it, points of a normal distribution would be taken for spikes."""
+
 Below = Callable[[tuple[float, float]], float]
 Predicted = Callable[[Sequence[int], float], RoughFriction]
 

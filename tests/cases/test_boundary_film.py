@@ -274,6 +274,7 @@ def test_single_nodes_that_touch(solve):
     assert 0.02 < done["contact_load_share"] < 0.08
 
 
+@pytest.mark.long
 def test_contact_of_a_coarse_grid(solve):
     """Where a grid does not resolve the inlet bodies touch on it, and no error is told."""
     done = solve(None, 129, STEEL | MIXED)
@@ -294,6 +295,7 @@ def test_a_layer_that_would_have_to_give_much(solve):
     assert "where the model ends" in done["judgement"]
 
 
+@pytest.mark.long
 def test_no_error_where_a_layer_that_gives_much_carries_most(solve, root):
     """A wave of the stress campaign, whose load share two grids tell no error of."""
     wave = {

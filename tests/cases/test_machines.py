@@ -69,6 +69,7 @@ def test_ball_bearing(root: Path, ehl: str, tmp_path: Path):
     assert given["contact"]["load"] == pytest.approx(5.0 * 500.0 / 8.0)
 
 
+@pytest.mark.long
 def test_gear_pair(root: Path, ehl: str, tmp_path: Path):
     """The page has the numbers of the record, and the record those of the smooth contact."""
     case, page = root / "cases" / "gear_pair.nml", root / "docs" / "howto" / "gear.md"

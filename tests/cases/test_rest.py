@@ -18,6 +18,7 @@ WAVE = {
 REST = WAVE | {"surface.velocity_ratio": 0.0}
 
 
+@pytest.mark.long
 def test_rest_is_the_limit_of_slow_motion(solve):
     """The mean over the positions of a wave at rest is that of a wave that creeps through."""
     positions = np.arange(8) / 8.0 * WAVELENGTH

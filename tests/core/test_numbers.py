@@ -295,6 +295,7 @@ def test_no_error_where_no_limit_is_in_sight():
             assert found["mu_ratio_error_grid"] >= 1.99 * film * abs(found["mu_ratio"] - 1.0)
 
 
+@pytest.mark.long
 def test_what_is_read_while_another_thread_advances_is_a_state():
     """No field, summary or line is a mixture of two states; without locks one in four is."""
     text = WAVE.format(65, 0.2)

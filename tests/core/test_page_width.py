@@ -94,6 +94,7 @@ def test_other_widths_are_refused(moving, tmp_path, capsys, given, why):
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.long
 def test_movie_keeps_its_pace_and_states_it(moving, tmp_path, monkeypatch, capsys):
     monkeypatch.setattr("pyehl.plots.movie.DPI", 40)
     words = ["plot", str(moving), "-o", str(tmp_path), "--movie", "--frame-seconds"]

@@ -290,6 +290,7 @@ def test_no_states_when_none_are_wanted(drive, tmp_path: Path):
         assert {path.name for path in tmp_path.iterdir()} == {"case.nml", "out"}
 
 
+@pytest.mark.long
 def test_yielding_solids_are_resumed(drive, tmp_path: Path):
     """What yields in a step follows from what is kept of those before it."""
     (tmp_path / "case.nml").write_text(

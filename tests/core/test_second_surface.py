@@ -259,6 +259,7 @@ def test_prediction_of_either_body_and_of_both(heights, tmp_path: Path, monkeypa
     assert not (tmp_path / "two").exists()
 
 
+@pytest.mark.long
 def test_curve_of_two(tmp_path: Path, monkeypatch, capsys):
     """Other seeds of both; the film over the composite roughness."""
     monkeypatch.chdir(tmp_path)

@@ -181,6 +181,7 @@ def test_roughness_shares_one_scale(settings):
         (5e-8, 8e-4, "amplitude"),
     ],
 )
+@pytest.mark.long
 def test_writing_in_the_pictures_of_a_prediction_is_whole(settings, rms, length, reduction):
     """Every panel with its labels is inside of the picture, and none covers another."""
     settings["surface"] |= {"rms_height": rms, "length_x": length, "length_y": length, "pixels": 64}
@@ -275,7 +276,7 @@ SUMMARY = {
 
 
 def test_subcommand_on_a_prediction_of_two_surfaces(tmp_path):
-    tiles = ({"kind": "fractal", "pixels": 64, "seed": seed} for seed in (1, 2))
+    tiles = ({"kind": "fractal", "pixels": 32, "seed": seed} for seed in (1, 2))
     case = Case(**dict(zip(("surface", "second_surface"), tiles, strict=True)))
     write(predict(case.resolve(), tracks=1), destination(tmp_path / "out"), plots=False)
     assert run_subcommand(tmp_path / "out") == 0

@@ -22,6 +22,7 @@ from pyehl.studies.gather import Outcome
 from pyehl.studies.journal import NAME
 
 
+@pytest.mark.long
 def test_skips_change_nothing(tmp_path: Path, capsys, monkeypatch):
     """Rows on small grids; the exit status says that nothing differs."""
     monkeypatch.setattr(skips, "LEAST", 65)

@@ -51,6 +51,7 @@ def write(path: Path, rows: list[tuple[float, float]]) -> Path:
     ],
     ids=lambda law: str(law["shear_law"]),
 )
+@pytest.mark.long
 def test_the_law_behind_a_curve_is_found(case: Path, tmp_path: Path, law: dict[str, object]):
     data = write(tmp_path / "data.csv", curve(case, **law))
     name = str(law["shear_law"])

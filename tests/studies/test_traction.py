@@ -90,6 +90,7 @@ def test_load_share_refuses(numbers):
         LoadShare(*numbers)
 
 
+@pytest.mark.long
 def test_empirical_left_end(tmp_path: Path):
     """Thin films tend to the boundary friction; no number without the flag."""
     (tmp_path / "ball.nml").write_text(
