@@ -350,6 +350,7 @@ def test_a_failed_contact_names_a_finer_grid(solve):
 
 
 @pytest.mark.parametrize("kappa", [0.1, 0.2, 0.5, 2.0, 5.0, 10.0])
+@pytest.mark.long
 def test_from_a_tenth_to_ten(solve, kappa: float):
     """Thick and thin films, with the M and L of the round contact with the same equations."""
     shape = ellipse(float(elliprd(0.0, 1.0, kappa**2) / elliprd(0.0, kappa**2, 1.0)))

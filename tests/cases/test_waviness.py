@@ -112,6 +112,7 @@ def test_other_cases_converge(solve, point: tuple[float, float], wavelength: flo
     assert np.abs(done.history["load_error"]).max() <= 1e-6
 
 
+@pytest.mark.long
 def test_extrapolated_ratio_is_nearer_to_finer_grids(solve):
     """The run on the coarser grid that tells the error gives a better value too."""
     finest = next(r for r in WAVINESS if (r.points, r.scheme) == (513, "narrow"))
@@ -129,6 +130,7 @@ def test_extrapolated_ratio_is_nearer_to_finer_grids(solve):
         ((500.0, 15.0), 0.5, 0.5),
     ],
 )
+@pytest.mark.long
 def test_coarsening_does_not_matter(
     solve, point: tuple[float, float], wavelength: float, share: float
 ):

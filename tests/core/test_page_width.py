@@ -33,6 +33,7 @@ def moving(tmp_path_factory, root: Path) -> Path:
         pytest.param("3.3in", 83.82, marks=pytest.mark.long),
     ],
 )
+@pytest.mark.long
 def test_pdf_is_as_wide_as_asked_with_its_fonts(moving, tmp_path, given, wide):
     words = ["plot", str(moving), "-o", str(tmp_path), "--format", "pdf", "--width", given]
     assert main(words) == 0

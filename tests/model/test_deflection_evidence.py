@@ -30,6 +30,7 @@ def test_this_build_makes_the_stored_errors(evidence):
             assert found[name] == pytest.approx(stored[name], rel=1e-3, abs=1e-13), (points, name)
 
 
+@pytest.mark.long
 def test_share_in_the_friction_of_a_short_wave(root: Path):
     found = share_of_deflection()
     share = f"{100.0 * found['share']:.1f} % of the grid error there"

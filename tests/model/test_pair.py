@@ -122,6 +122,7 @@ def test_small_waves_are_deformed_as_if_alone(contact):
         assert found.deformed == pytest.approx(expected, abs=1e-6 * np.abs(expected).max())
 
 
+@pytest.mark.long
 def test_rises_of_small_waves_add(contact):
     """Where they meet in all positions, products of waves of different surfaces have no mean."""
     tiles = rough(3, 2e-9), rough(4, 2e-9, 3.1e-4)

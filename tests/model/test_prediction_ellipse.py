@@ -45,6 +45,7 @@ def corner(u, v):
 
 
 @pytest.mark.parametrize("ratio", [WIDE, pytest.param(NARROW, marks=pytest.mark.long)])
+@pytest.mark.long
 def test_pressure_of_waves_on_an_ellipse_against_elements(ratio):
     """Squares of constant pressure that deflect the ellipse by a wave but for a constant."""
     shape = ellipse(ratio)

@@ -47,6 +47,7 @@ def test_smooth_contact_of_the_readme(says, cases: Path):
     assert found["shear_stress_max_Pa"] == pytest.approx(2e13, rel=0.1)
 
 
+@pytest.mark.long
 def test_tutorial(says, cases: Path):
     found = pyehl.solve(cases / "quick.nml").attrs
     values = [found[f"H_c{end}"] for end in ("", "_extrapolated", "_error", "_error_grid")]

@@ -108,6 +108,7 @@ def test_full_simulation_at_some_points(wave: tuple[Path, str]):
     assert float(rows[1]["mu_ratio_ehl"]) == pytest.approx(float(rows[1]["mu_ratio"]), abs=0.01)
 
 
+@pytest.mark.long
 def test_smooth_surfaces_have_the_ratio_one(cases: Path, tmp_path: Path):
     """Beside rough ones: the same film and the same coefficient of the smooth contact."""
     case = str(cases / "table1.nml")

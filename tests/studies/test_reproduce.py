@@ -72,6 +72,7 @@ def figure_2(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Result]:
     return folder, one("figure 2", folder)
 
 
+@pytest.mark.long
 def test_figure_2_on_a_coarser_grid(figure_2: tuple[Path, Result]):
     """257 x 257: what another program has there, and 0.6 % below what the paper prints."""
     _, result = figure_2
