@@ -177,7 +177,7 @@ contains
       real(dp), contiguous, intent(out) :: values(:), by_sliding(:)
       integer :: i
 
-      if (flows_newtonian(self%law, b, s)) then
+      if (.not. self%values(1, f_b, stretch, j) > none) then
          values = b
          by_sliding = 1.0_dp
          return
