@@ -6,7 +6,7 @@ module ehl_table
    use ehl_whole_file, only: end_writing, open_to_write
    use ehl_kinds, only: dp
    use ehl_status, only: ehl_internal, status_t
-   use ehl_text, only: join, to_text
+   use ehl_text, only: to_text
    implicit none (type, external)
    private
    public :: table_t
@@ -37,9 +37,14 @@ contains
    subroutine init(self, names)
       class(table_t), intent(inout) :: self
       character(len=*), intent(in) :: names(:)
+      integer :: k
 
       if (allocated(self%values)) deallocate (self%values)
-      self%names = adjustl(names)
+      if (allocated(self%names)) deallocate (self%names)
+      allocate (self%names(size(names)))
+      do k = 1, size(names)
+         self%names(k) = adjustl(names(k))
+      end do
       allocate (self%values(size(names), 64))
       self%rows = 0
    end subroutine init
@@ -115,15 +120,21 @@ contains
       end if
       call open_to_write(path, "formatted", lun, status)
       if (status%failed()) return
-      whole = all(is_whole(self%values(:, :self%rows)), dim=2)
-      line = join(self%names, ",")
+      allocate (whole(size(self%names)))
+      line = ""
+      do k = 1, size(self%names)
+         whole(k) = all(is_whole(self%values(k, :self%rows)))
+         if (k > 1) line = line // ","
+         line = line // trim(self%names(k))
+      end do
       write (lun, "(a)", iostat=stat, iomsg=reason) line
       length = len(line) + 1
       do i = 1, self%rows
          if (stat /= 0) exit
-         line = cell(self%values(1, i), whole(1))
-         do k = 2, size(self%names)
-            line = line // "," // cell(self%values(k, i), whole(k))
+         line = ""
+         do k = 1, size(self%names)
+            if (k > 1) line = line // ","
+            line = line // cell(self%values(k, i), whole(k))
          end do
          write (lun, "(a)", iostat=stat, iomsg=reason) line
          length = length + len(line) + 1

@@ -6,7 +6,7 @@ module ehl_text
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
-   public :: newline, to_text, fixed, short, lower_case, is_letter, is_digit, nearest_word, quoted, join
+   public :: newline, to_text, fixed, short, lower_case, is_letter, is_digit, nearest_word, quoted
 
    !> Line separator in texts and files
    character(len=*), parameter :: newline = new_line("a")
@@ -137,18 +137,6 @@ contains
       text = ".false."
       if (flag) text = ".true."
    end function logical_to_text
-
-   !> Names with something between them
-   pure function join(names, between) result(text)
-      character(len=*), intent(in) :: names(:), between
-      character(len=:), allocatable :: text
-      integer :: k
-
-      text = trim(names(1))
-      do k = 2, size(names)
-         text = text//between//trim(names(k))
-      end do
-   end function join
 
    !> Text between single quotes, inner quotes doubled as a namelist wants them
    pure function quoted(text) result(answer)

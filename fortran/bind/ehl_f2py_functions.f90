@@ -18,7 +18,7 @@ module ehl_f2py_functions
    use ehl_kinds, only: pi
    use ehl_lubricant, only: lubricant_t
    use ehl_memory, only: check_memory, free_bytes
-   use ehl_plan_friction, only: heat_plan_t, plan_given
+   use ehl_plan_heat, only: heat_plan_t, plan_given
    use ehl_record, only: record_t
    use ehl_result_folder, only: result_names
    use ehl_status, only: status_t

@@ -4,7 +4,7 @@ module ehl_f2py_predicted
    use, intrinsic :: iso_c_binding, only: c_double, c_int
    use ehl_handles, only: reply, run_of, run_t
    use ehl_predicted_start, only: fronts_at_start => start_fronts
-   use ehl_report, only: waves_t
+   use ehl_ratio_error, only: waves_t
    use ehl_status, only: ehl_bad_input, status_t
    implicit none (type, external)
    private

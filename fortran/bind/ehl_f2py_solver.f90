@@ -1,10 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Solvers for Python, by number.
 !>
-!> The modules for Python are in the small part of Fortran that f2py reads. No arithmetic in them, but for the sums of
-!> ehl_f2py_surfaces: every routine hands its arguments on, and ends in a status and a message. Only the long routines release
-!> Python's lock (threadsafe): gfortran keeps the lengths of text that functions return in static memory, so that routines that
-!> make text must not run side by side.
+!> The modules for Python are in the small part of Fortran that f2py reads. No arithmetic in them:
+!> every routine hands its arguments on, and ends in a status and a message. Only the long
+!> routines release Python's lock (threadsafe): gfortran keeps the lengths of text that functions
+!> return in static memory, so that routines that make text must not run side by side.
 module ehl_f2py_solver
    use, intrinsic :: iso_c_binding, only: c_double, c_int
    use ehl_case, only: case_t

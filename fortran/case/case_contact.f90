@@ -3,13 +3,13 @@
 module ehl_case_contact
    use ehl_case, only: case_t
    use ehl_contact, only: contact_t
+   use ehl_contact_factory, only: hertz_scales, new_contact
    use ehl_domain, only: domain_t, flooded_by_default, needed_domain
-   use ehl_elliptical, only: new_contact
    use ehl_grid, only: find_levels
    use ehl_kinds, only: dp, pi
    use ehl_moes, only: operating_from_moes, operating_from_si, operating_t
    use ehl_keys, only: bind_keys
-   use ehl_scales, only: scales_from_si, scales_t
+   use ehl_scales, only: scales_t
    use ehl_schema, only: schema_t
    use ehl_status, only: status_t
    use ehl_text, only: short, to_text
@@ -90,7 +90,7 @@ contains
       call new_contact(input%contact%radius_ratio, input%contact%angle*pi/180.0_dp, contact)
       associate (c => input%contact, l => input%lubricant)
          if (c%si) then
-            scales = scales_from_si(c%load, c%radius_x, c%reduced_modulus, contact%ellipticity, contact%kernel_factor)
+            scales = hertz_scales(contact, c%load, c%radius_x, c%reduced_modulus)
             point = operating_point(input, contact, scales, l%viscosity)
          else
             point = operating_from_moes(c%moes_m, c%moes_l, contact%ellipticity, contact%kernel_factor)

@@ -99,13 +99,10 @@ contains
       type(status_t), intent(inout) :: status
       type(isotherm_t), allocatable :: isotherms(:)
       type(viscosity_table_t) :: table
-      type(ambient_viscosity_t) :: ambient
 
       select case (name)
       case ("dicke")
-         ambient = new_ambient_viscosity([l%vogel_viscosity, l%vogel_b, l%vogel_c], &
-                                         [l%kinematic_viscosity_40, l%kinematic_viscosity_100], l%density_15, l%thermal_expansion)
-         allocate (law, source=new_dicke(ambient, [l%dicke_a1, l%dicke_a2], [l%dicke_b1, l%dicke_b2], hertz_pressure, &
+         allocate (law, source=new_dicke(ambient_of(l), [l%dicke_a1, l%dicke_a2], [l%dicke_b1, l%dicke_b2], hertz_pressure, &
                                          l%temperature))
       case ("yasutomi")
          allocate (law, source=new_yasutomi(l%yasutomi_tg0, l%yasutomi_a1, l%yasutomi_a2, l%yasutomi_b1, l%yasutomi_b2, &
@@ -138,6 +135,15 @@ contains
       state = new_tait(l%tait_modulus, l%tait_rate, l%tait_softening, l%tait_expansion, l%tait_temperature + freezing, &
                        hertz_pressure, l%temperature + freezing)
    end function tait_of
+
+   !> Viscosity at ambient pressure
+   pure function ambient_of(l) result(ambient)
+      type(lubricant_case_t), intent(in) :: l
+      type(ambient_viscosity_t) :: ambient
+
+      ambient = new_ambient_viscosity([l%vogel_viscosity, l%vogel_b, l%vogel_c], &
+                                      [l%kinematic_viscosity_40, l%kinematic_viscosity_100], l%density_15, l%thermal_expansion)
+   end function ambient_of
 
    !> A table of a single temperature holds at that one
    subroutine check_single(l, isotherm, status)

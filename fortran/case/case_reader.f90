@@ -4,10 +4,12 @@ module ehl_case_reader
    use ehl_case, only: case_t
    use ehl_case_check, only: check_case, complete_case
    use ehl_case_value, only: set_value
-   use ehl_group_reader, only: find_key, known_groups, read_groups
+   use ehl_group_reader, only: read_groups
+   use ehl_key_finder, only: find_key, known_groups
+   use ehl_scanner, only: scan_token, token_atom, token_string, token_t
    use ehl_keys, only: bind_keys
    use ehl_schema, only: schema_t
-   use ehl_source, only: scan_token, source_t, token_atom, token_string, token_t
+   use ehl_source, only: source_t
    use ehl_status, only: ehl_bad_input, status_t
    use ehl_text, only: lower_case, newline
    use ehl_whole_file, only: read_text

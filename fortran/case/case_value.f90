@@ -4,7 +4,8 @@ module ehl_case_value
    use ehl_case, only: path_length, word_length
    use ehl_case_key, only: allowed_length, choices, key_t, kind_integer, kind_logical, kind_path, kind_real, kind_word, origin_t
    use ehl_kinds, only: dp
-   use ehl_source, only: source_t, token_atom, token_open_string, token_string, token_t
+   use ehl_scanner, only: token_atom, token_open_string, token_string, token_t
+   use ehl_source, only: source_t
    use ehl_status, only: status_t
    use ehl_text, only: lower_case, nearest_word, to_text
    implicit none (type, external)

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The resolved case as namelist text, and the list of all options
 module ehl_case_writer
-   use ehl_case, only: case_t, is_feature, surface_case_t
+   use ehl_case, only: case_t, contact_case_t, is_feature, lubricant_case_t, surface_case_t
    use ehl_case_key, only: key_t, mark_default, mark_derived, name_length
    use ehl_case_law, only: knows_temperature, own_law, uses_law
    use ehl_kinds, only: dp
@@ -53,70 +53,107 @@ contains
       if (allocated(input%given)) has_second = has_second .or. any(input%given .and. schema%keys%group == "second_surface")
    end function has_second
 
-   !> Whether a key carries a value, and its rival does not; constants of a law of the lubricant begin with its name
+   !> Whether a key carries a value, and its rival does not
    pure logical function holds(input, key)
       type(case_t), intent(in) :: input
       type(key_t), intent(in) :: key
-      type(surface_case_t) :: s
-      logical :: knows
 
-      s = input%surface
-      if (key%group == "second_surface") s = input%second_surface
-      holds = input%bodies%given .or. key%group /= "bodies"
-      associate (c => input%contact, l => input%lubricant)
-         knows = knows_temperature(l) .or. l%temperature_viscosity > 0.0_dp
-         select case (trim(key%name))
-         case ("moes_m", "moes_l", "radius_ratio")
-            holds = .not. c%si
-         case ("load", "mean_velocity", "reduced_modulus")
-            holds = c%si
-         case ("hardness", "thermal_conductivity_2", "thermal_diffusivity_2")
-            holds = key%real_value > 0.0_dp
-         case ("radius")
-            holds = c%si .and. c%round
-         case ("radius_x", "radius_y")
-            holds = c%si .and. .not. c%round
-         case ("amplitude")
-            holds = s%amplitude_given
-         case ("amplitude_over_film")
-            holds = (s%kind == "harmonic" .or. is_feature(s%kind)) .and. .not. (s%amplitude_given .or. s%height_m > 0.0_dp)
-         case ("width")
-            holds = .not. s%width_m > 0.0_dp
-         case ("length")
-            holds = .not. s%length_m > 0.0_dp
-         case ("name")
-            holds = l%name /= ""
-         case ("table")
-            holds = l%table /= ""
-         case ("temperature")
-            holds = knows
-         case ("thermal_expansion")
-            holds = knows
-            if (l%density_law == "tait") holds = l%kinematic_viscosity_40 > 0.0_dp
-         case ("density_15")
-            holds = l%kinematic_viscosity_40 > 0.0_dp
-         case ("limiting_coefficient")
-            holds = l%limiting_stress <= 0.0_dp
-         case default
-            select case (key%name(:index(key%name, "_")))
-            case ("vogel_", "dicke_")
-               holds = uses_law(l, "dicke")
-            case ("yasutomi_")
-               holds = uses_law(l, "yasutomi")
-            case ("doolittle_")
-               holds = uses_law(l, "doolittle")
-            case ("tait_")
-               holds = uses_law(l, "doolittle") .or. l%density_law == "tait"
-            case ("murnaghan_")
-               holds = l%density_law == "murnaghan"
-            case ("range_")
-               holds = own_law(l) /= ""
-            case default
-               continue
-            end select
-         end select
-      end associate
+      select case (trim(key%group))
+      case ("contact")
+         holds = holds_of_contact(input%contact, key)
+      case ("bodies")
+         holds = input%bodies%given
+      case ("lubricant")
+         holds = holds_of_lubricant(input%lubricant, key)
+      case ("surface")
+         holds = holds_of_surface(input%surface, key)
+      case ("second_surface")
+         holds = holds_of_surface(input%second_surface, key)
+      case default
+         holds = .true.
+      end select
    end function holds
+
+   !> The same of a key of a surface
+   pure logical function holds_of_surface(s, key)
+      type(surface_case_t), intent(in) :: s
+      type(key_t), intent(in) :: key
+
+      select case (trim(key%name))
+      case ("amplitude")
+         holds_of_surface = s%amplitude_given
+      case ("amplitude_over_film")
+         holds_of_surface = (s%kind == "harmonic" .or. is_feature(s%kind)) .and. .not. s%amplitude_given .and. &
+                            .not. s%height_m > 0.0_dp
+      case ("width")
+         holds_of_surface = .not. s%width_m > 0.0_dp
+      case ("length")
+         holds_of_surface = .not. s%length_m > 0.0_dp
+      case default
+         holds_of_surface = .true.
+      end select
+   end function holds_of_surface
+
+   !> The same of a key of the contact
+   pure logical function holds_of_contact(c, key)
+      type(contact_case_t), intent(in) :: c
+      type(key_t), intent(in) :: key
+
+      select case (trim(key%name))
+      case ("moes_m", "moes_l", "radius_ratio")
+         holds_of_contact = .not. c%si
+      case ("load", "mean_velocity", "reduced_modulus")
+         holds_of_contact = c%si
+      case ("hardness", "thermal_conductivity_2", "thermal_diffusivity_2")
+         holds_of_contact = key%real_value > 0.0_dp
+      case ("radius")
+         holds_of_contact = c%si .and. c%round
+      case ("radius_x", "radius_y")
+         holds_of_contact = c%si .and. .not. c%round
+      case default
+         holds_of_contact = .true.
+      end select
+   end function holds_of_contact
+
+   !> The same of a key of the lubricant; constants of a law begin with its name
+   pure logical function holds_of_lubricant(l, key)
+      type(lubricant_case_t), intent(in) :: l
+      type(key_t), intent(in) :: key
+
+      holds_of_lubricant = .true.
+      select case (trim(key%name))
+      case ("name")
+         holds_of_lubricant = l%name /= ""
+      case ("table")
+         holds_of_lubricant = l%table /= ""
+      case ("temperature")
+         holds_of_lubricant = knows_temperature(l) .or. l%temperature_viscosity > 0.0_dp
+      case ("thermal_expansion")
+         holds_of_lubricant = knows_temperature(l) .or. l%temperature_viscosity > 0.0_dp
+         if (l%density_law == "tait") holds_of_lubricant = l%kinematic_viscosity_40 > 0.0_dp
+      case ("density_15")
+         holds_of_lubricant = l%kinematic_viscosity_40 > 0.0_dp
+      case ("limiting_coefficient")
+         holds_of_lubricant = l%limiting_stress <= 0.0_dp
+      case default
+         select case (key%name(:index(key%name, "_")))
+         case ("vogel_", "dicke_")
+            holds_of_lubricant = uses_law(l, "dicke")
+         case ("yasutomi_")
+            holds_of_lubricant = uses_law(l, "yasutomi")
+         case ("doolittle_")
+            holds_of_lubricant = uses_law(l, "doolittle")
+         case ("tait_")
+            holds_of_lubricant = uses_law(l, "doolittle") .or. l%density_law == "tait"
+         case ("murnaghan_")
+            holds_of_lubricant = l%density_law == "murnaghan"
+         case ("range_")
+            holds_of_lubricant = own_law(l) /= ""
+         case default
+            continue
+         end select
+      end select
+   end function holds_of_lubricant
 
    !> One key with its value and its meaning
    function key_line(key, mark) result(line)

@@ -1,12 +1,12 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The one table of all keys: group, name, unit, allowed values, meaning, and where the value lives in a case; the
-!> defaults are those of the types in ehl_case.
+!> defaults are those of the types in ehl_case. ehl_law_keys has the constants of oils.
 module ehl_keys
-   use ehl_case, only: case_t, lubricant_case_t, surface_case_t
+   use ehl_case, only: case_t, surface_case_t
    use ehl_case_key, only: kind_path, kind_text
+   use ehl_law_keys, only: add_law_keys
    use ehl_oils, only: oil_names
    use ehl_schema, only: schema_t
-   use ehl_text, only: join
    implicit none (type, external)
    private
    public :: bind_keys
@@ -62,7 +62,7 @@ contains
       end associate
       self%group = "lubricant"
       associate (l => input%lubricant)
-         call self%words("name", l%name, join(oil_names, "|")//"|", &
+         call self%words("name", l%name, oil_words(), &
                          "an oil whose constants are known ('pyehl lubricants'); keys given beside it rule")
          call self%texts("table", l%table, kind_path, "measured viscosities over pressure and temperature: CSV")
          call self%reals("viscosity", l%viscosity, "Pa s", "[1e-4, 10]", "viscosity at ambient pressure")
@@ -188,6 +188,17 @@ contains
       self%keys = self%keys(:self%n)
    end subroutine bind_keys
 
+   !> Names of oils as choices, with none as the last one
+   pure function oil_words() result(words)
+      character(len=:), allocatable :: words
+      integer :: k
+
+      words = ""
+      do k = 1, size(oil_names)
+         words = words//trim(oil_names(k))//"|"
+      end do
+   end function oil_words
+
    !> A surface, in the group that is set
    subroutine add_surface_keys(self, s)
       type(schema_t), intent(inout) :: self
@@ -258,54 +269,4 @@ contains
       call self%integers("seed", s%seed, "[0, 2147483647]", "seed of the random phases")
       call self%words("modulus", s%modulus, "deterministic|gaussian", "modulus of the Fourier components")
    end subroutine add_surface_keys
-
-   !> Constants of an oil: its laws of viscosity and density, and where they were measured
-   subroutine add_law_keys(self, l)
-      type(schema_t), intent(inout) :: self
-      type(lubricant_case_t), intent(inout), target :: l
-
-      call self%reals("vogel_viscosity", l%vogel_viscosity, "Pa s", "0 or [1e-9, 1]", &
-                      "K of eta = K exp(B/(theta + C)), for dicke")
-      call self%reals("vogel_b", l%vogel_b, "K", "[0, 1e4]", "B of it")
-      call self%reals("vogel_c", l%vogel_c, "degC", "[-100, 300]", "C of it")
-      call self%reals("dicke_a1", l%dicke_a1, "Pa", "[-1e10, 1e10]", &
-                      "a1 of ln(eta/eta0) = p/(a1 + a2 theta + (b1 + b2 theta) p), theta in degC")
-      call self%reals("dicke_a2", l%dicke_a2, "Pa/K", "[-1e8, 1e8]", "a2 of it")
-      call self%reals("dicke_b1", l%dicke_b1, "-", "[-1, 1]", "b1 of it")
-      call self%reals("dicke_b2", l%dicke_b2, "1/K", "[-0.01, 0.01]", "b2 of it")
-      call self%reals("yasutomi_tg0", l%yasutomi_tg0, "degC", "[-200, 100]", &
-                      "glass temperature at ambient pressure, of the improved Yasutomi correlation")
-      call self%reals("yasutomi_a1", l%yasutomi_a1, "K", "[0, 1e4]", "A1 of it")
-      call self%reals("yasutomi_a2", l%yasutomi_a2, "1/Pa", "[0, 1e-7]", "A2 of it")
-      call self%reals("yasutomi_b1", l%yasutomi_b1, "1/Pa", "[0, 1e-6]", "b1 of it")
-      call self%reals("yasutomi_b2", l%yasutomi_b2, "-", "[-2, 0]", "b2 of it")
-      call self%reals("yasutomi_c1", l%yasutomi_c1, "-", "0 or [1, 100]", "C1 of it")
-      call self%reals("yasutomi_c2", l%yasutomi_c2, "K", "0 or [1, 500]", "C2 of it")
-      call self%reals("yasutomi_viscosity", l%yasutomi_viscosity, "Pa s", "[1e3, 1e15]", "viscosity of the glass")
-      call self%reals("doolittle_viscosity", l%doolittle_viscosity, "Pa s", "0 or [1e-6, 1e3]", &
-                      "viscosity eta_R at doolittle_temperature and p = 0, of Doolittle's law; it needs tait_...")
-      call self%reals("doolittle_temperature", l%doolittle_temperature, "degC", "[-100, 300]", "T_R of it")
-      call self%reals("doolittle_b", l%doolittle_b, "-", "0 or [0.1, 50]", "B of it")
-      call self%reals("doolittle_r0", l%doolittle_r0, "-", "0 or [0.1, 0.99]", &
-                      "R0 of it: occupied volume at T_R over the whole one")
-      call self%reals("doolittle_expansion", l%doolittle_expansion, "1/K", "[-0.01, 0.01]", &
-                      "thermal expansion epsilon of the occupied volume")
-      call self%words("density_law", l%density_law, "dowson-higginson|incompressible|murnaghan|tait", "density under pressure")
-      call self%reals("murnaghan_modulus", l%murnaghan_modulus, "Pa", "0 or [1e8, 1e12]", &
-                      "K00 of the bulk modulus K0 = K00 exp(-beta_K T), T in K")
-      call self%reals("murnaghan_rate", l%murnaghan_rate, "-", "0 or [1, 50]", "K0', its rate with pressure")
-      call self%reals("murnaghan_softening", l%murnaghan_softening, "1/K", "[0, 0.1]", "beta_K of it")
-      call self%reals("tait_modulus", l%tait_modulus, "Pa", "0 or [1e8, 1e12]", &
-                      "K00 of the bulk modulus K0 = K00 exp(-beta_K T), T in K, of Tait's law")
-      call self%reals("tait_rate", l%tait_rate, "-", "0 or [1, 50]", "K0', its rate with pressure")
-      call self%reals("tait_softening", l%tait_softening, "1/K", "[0, 0.1]", "fall beta_K of K0 with temperature")
-      call self%reals("tait_expansion", l%tait_expansion, "1/K", "[0, 5e-3]", &
-                      "expansion a_V of the volume at tait_temperature; thermal_expansion is not used")
-      call self%reals("tait_temperature", l%tait_temperature, "degC", "[-100, 300]", "T_R of it")
-      call self%reals("range_temperature_min", l%range_temperature_min, "degC", "[-100, 500]", &
-                      "the constants of the law were measured from there on; both 0: not known")
-      call self%reals("range_temperature_max", l%range_temperature_max, "degC", "[-100, 500]", "and up to there")
-      call self%reals("range_pressure_max", l%range_pressure_max, "Pa", "0 or [1e5, 1e11]", &
-                      "and up to this pressure; 0: not known")
-   end subroutine add_law_keys
 end module ehl_keys

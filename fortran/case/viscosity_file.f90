@@ -54,6 +54,7 @@ contains
       source = source_t(path, text//newline)
       call read_states(source, states, status)
       if (status%failed()) return
+      call sort(states)
       first = 1
       do while (first <= size(states))
          last = first
@@ -69,7 +70,7 @@ contains
       end do
    end subroutine read_isotherms
 
-   !> All lines behind the names, in order
+   !> All lines behind the names
    subroutine read_states(source, states, status)
       type(source_t), intent(in) :: source
       type(state_t), allocatable, intent(out) :: states(:)
@@ -95,8 +96,7 @@ contains
                   do k = 1, 3
                      call read_value(source, first, last, places(k), k, state%values(k), status)
                   end do
-                  k = count(.not. is_before(state, states))
-                  states = [states(:k), state, states(k + 1:)]
+                  states = [states, state]
                end if
             end if
          end associate
@@ -149,7 +149,24 @@ contains
    end subroutine read_value
 
    !> By temperature, then by pressure
-   elemental logical function is_before(a, b)
+   pure subroutine sort(states)
+      type(state_t), intent(inout) :: states(:)
+      type(state_t) :: moved
+      integer :: i, k
+
+      do i = 2, size(states)
+         moved = states(i)
+         k = i - 1
+         do while (k >= 1)
+            if (.not. is_before(moved, states(k))) exit
+            states(k + 1) = states(k)
+            k = k - 1
+         end do
+         states(k + 1) = moved
+      end do
+   end subroutine sort
+
+   pure logical function is_before(a, b)
       type(state_t), intent(in) :: a, b
       is_before = a%values(2) < b%values(2) .or. (.not. a%values(2) > b%values(2) .and. a%values(1) < b%values(1))
    end function is_before

@@ -1,6 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The domain that a contact needs, what a domain costs, and what a grid resolves of a smooth contact, all before anything is
-!> solved.
+!> The domain that a contact needs, and what a domain costs.
 !>
 !> Either the border has the pressure that a fully flooded contact has there (ehl_far_field). What that leaves out falls
 !> with the third power of the distance in thick films, whose load is then slightly wrong, and with the fifth in thin ones,
@@ -14,15 +13,12 @@
 !> What the factors were fitted to: docs/evidence/errors.
 module ehl_domain
    use ehl_contact, only: contact_t
-   use ehl_grid, only: grid_t
    use ehl_kinds, only: dp, pi
    use ehl_moes, only: operating_t
    use ehl_scales, only: circle_factor
-   use ehl_text, only: to_text
    implicit none (type, external)
    private
-   public :: domain_t, flooded_by_default, needed_domain, domain_cost, ratio_cost, too_small, relative_errors, has_solution, &
-             too_coarse, better_grid
+   public :: domain_t, flooded_by_default, needed_domain, domain_cost, ratio_cost, too_small
 
    !> Why an error has no part from the domain, where its cost is 1 or more
    character(len=*), parameter :: too_small = "the domain is so small that the film of a flooded contact cannot be told from it"
@@ -55,15 +51,6 @@ module ehl_domain
    real(dp), parameter :: most_wide = 4.0_dp, wide_power = 0.4_dp
    !> Points of an integral
    integer, parameter :: points = 100
-
-   !> Most that half of the a-priori error of H_min may be where the equations have a solution (docs/robustness.md)
-   real(dp), parameter :: most_unresolved = 0.6_dp
-   !> What grids miss in contacts that are narrow, over what they miss in round ones, by H_c and by H_min: 1 + a (1/kappa^2 - 1)
-   !> and b/kappa^2 (docs/evidence/errors_ellipses)
-   real(dp), parameter :: narrow_central = 0.05_dp, narrow_minimum = 0.3_dp
-   !> Semi-axis across the motion over that along it from which on cells a quarter as long across can be too long, and a side
-   !> of an eighth of the length of the domain is far enough
-   real(dp), parameter :: most_narrow = 0.105_dp
 
 contains
 
@@ -175,62 +162,4 @@ contains
       real(dp), intent(in) :: r
       dry_gap = ((r**2 - 2.0_dp)*acos(1.0_dp/r) + sqrt(r**2 - 1.0_dp))/pi
    end function dry_gap
-
-   !> Rough a-priori errors of H_c and H_min by the second-order wedge term, relative: 0.16 M h^2 (fitted to grids of 65^2 to
-   !> 513^2 for 20 <= M <= 1000, 10 <= L <= 15), and twice that; more in narrow contacts, whose ends are sharp
-   pure function relative_errors(contact, point, grid) result(errors)
-      class(contact_t), intent(in) :: contact
-      type(operating_t), intent(in) :: point
-      type(grid_t), intent(in) :: grid
-      real(dp) :: errors(2)
-      real(dp) :: square
-
-      square = min(1.0_dp, contact%reach(2)/contact%reach(1))**2
-      errors = 0.16_dp*point%round_m*grid%hx**2
-      errors(1) = errors(1)*(1.0_dp + narrow_central*(1.0_dp/square - 1.0_dp))
-      errors(2) = 2.0_dp*errors(2)*max(1.0_dp, narrow_minimum/square)
-   end function relative_errors
-
-   !> Whether the equations have a solution on a grid, as far as that can be told
-   pure logical function has_solution(contact, point, grid)
-      class(contact_t), intent(in) :: contact
-      type(operating_t), intent(in) :: point
-      type(grid_t), intent(in) :: grid
-      real(dp) :: errors(2)
-
-      errors = relative_errors(contact, point, grid)
-      has_solution = 0.5_dp*errors(2) <= most_unresolved
-   end function has_solution
-
-   !> Why a grid has hardly a solution, with the nodes along X that will do; empty where it has one
-   pure function too_coarse(contact, point, finest) result(text)
-      class(contact_t), intent(in) :: contact
-      type(operating_t), intent(in) :: point
-      type(grid_t), intent(in) :: finest
-      character(len=:), allocatable :: text
-      type(grid_t) :: grid
-
-      text = ""
-      grid = finest
-      do while (.not. has_solution(contact, point, grid))
-         grid = grid%finer()
-      end do
-      if (grid%nx > finest%nx) text = "the grid is too coarse for a solution at this load: grid.points = "// &
-                                      to_text(grid%nx)//" or more"
-   end function too_coarse
-
-   !> What may help where there is no solution: a grid that has one, or in a narrow contact on a grid that seems fine enough cells
-   !> half as long across, in a domain a quarter as wide; empty where nothing is known (docs/evidence/errors_ellipses)
-   pure function better_grid(contact, point, finest) result(text)
-      class(contact_t), intent(in) :: contact
-      type(operating_t), intent(in) :: point
-      type(grid_t), intent(in) :: finest
-      character(len=:), allocatable :: text
-
-      text = too_coarse(contact, point, finest)
-      if (text /= "" .or. contact%reach(2) > most_narrow*contact%reach(1) .or. 6.0_dp*finest%hy < finest%hx) return
-      text = "the ends of a narrow contact need shorter cells across the motion: grid.y_extent = "// &
-             to_text(0.125_dp*finest%hx*(finest%nx - 1))//", grid.points_y = "//to_text(2*finest%nx - 1)// &
-             " and solver.max_cycles = 100 may do"
-   end function better_grid
 end module ehl_domain

@@ -1,6 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> From the bodies of a contact to its shape: round, or elliptical (Hertz 1881; Johnson 1985, section 4.2). No other module
-!> names a shape.
+!> The elliptical contact of bodies with two radii (Hertz 1881; Johnson 1985, section 4.2)
 !>
 !> Lengths are scaled by the semi-axis a along the motion, or along the axis that is turned against it by an angle; the other
 !> one is kappa a. The Hertz pressure on this ellipse has
@@ -16,7 +15,7 @@ module ehl_elliptical
    use ehl_scales, only: circle_factor
    implicit none (type, external)
    private
-   public :: new_contact
+   public :: new_elliptical
 
    type, extends(contact_t) :: elliptical_t
       private
@@ -28,19 +27,6 @@ module ehl_elliptical
    end type elliptical_t
 
 contains
-
-   !> The shape of a contact: round where both radii are the same
-   subroutine new_contact(radius_ratio, angle, contact)
-      !> D = R_x/R_y; angle of the plane of R_x against that of the motion [rad]
-      real(dp), intent(in) :: radius_ratio, angle
-      class(contact_t), allocatable, intent(out) :: contact
-
-      if (abs(radius_ratio - 1.0_dp) > 0.0_dp) then
-         allocate (contact, source=new_elliptical(radius_ratio, angle))
-      else
-         allocate (contact_t :: contact)
-      end if
-   end subroutine new_contact
 
    !> The contact of a ratio of radii
    pure function new_elliptical(radius_ratio, angle) result(contact)

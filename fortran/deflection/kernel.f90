@@ -75,10 +75,7 @@ contains
    !> The coefficient of a cell at (x, y) by 3 x 3 Gauss points
    elemental real(dp) function by_gauss(factor, x, y, hx, hy)
       real(dp), intent(in) :: factor, x, y, hx, hy
-
-      associate (gx => node*hx, gy => node*hy)
-         by_gauss = factor*hx*hy*(inner*line(x, y, gx) + outer*(line(x, y - gy, gx) + line(x, y + gy, gx)))
-      end associate
+      by_gauss = factor*hx*hy*gauss(x, y, node*hx, node*hy)
    end function by_gauss
 
    !> Twofold antiderivative of 1/r, odd in x and in y; x and y are never zero at a corner
@@ -86,6 +83,13 @@ contains
       real(dp), intent(in) :: x, y
       corner = x*asinh(y/abs(x)) + y*asinh(x/abs(y))
    end function corner
+
+   !> Mean of 1/r over a cell at (x, y) by 3 x 3 Gauss points at distances (gx, gy)
+   elemental real(dp) function gauss(x, y, gx, gy)
+      real(dp), intent(in) :: x, y, gx, gy
+
+      gauss = inner*line(x, y, gx) + outer*(line(x, y - gy, gx) + line(x, y + gy, gx))
+   end function gauss
 
    !> Mean of 1/r over three Gauss points on a line in x
    elemental real(dp) function line(x, y, gx)

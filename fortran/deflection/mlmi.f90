@@ -97,9 +97,7 @@ contains
             if (grid%mirror) extent(2) = extent(2) + high(2)
             call stage%stencil%make(axis, step, extent, factor, grid%hx, grid%hy, self%omega, tolerance*ratio**(s - 1), met)
             if (goal < fine_limit .or. .not. met) then
-               call status%fail(ehl_bad_input, "deflection by 'mlmi' to a relative accuracy of "//fixed(accuracy, "es9.2")// &
-                                " was asked for, at least "//fixed(fine_limit, "es9.2")// &
-                                " was expected; 'fft' is exact to rounding")
+               call refuse(accuracy, status)
                return
             end if
             call stage%halve(low, high, axis, grid%mirror, size(self%omega), status)
@@ -158,6 +156,16 @@ contains
          next_axis = findloc(many, .true., dim=1)
       end if
    end function next_axis
+
+   !> The accuracy is out of reach
+   subroutine refuse(accuracy, status)
+      real(dp), intent(in) :: accuracy
+      type(status_t), intent(inout) :: status
+
+      call status%fail(ehl_bad_input, "deflection by 'mlmi' to a relative accuracy of " &
+                       //fixed(accuracy, "es9.2")//" was asked for, at least " &
+                       //fixed(fine_limit, "es9.2")//" was expected; 'fft' is exact to rounding")
+   end subroutine refuse
 
    !> W = K P
    subroutine apply(self, p, w)

@@ -5,16 +5,18 @@ module ehl_plan
    use ehl_case_contact, only: find_contact, operating_point
    use ehl_contact, only: contact_t
    use ehl_cycle, only: coarsening_alcouffe, coarsening_classical, cycle_options_t
-   use ehl_domain, only: domain_cost, domain_t, has_solution, relative_errors
+   use ehl_domain, only: domain_cost, domain_t
    use ehl_friction_mean, only: automatic_periods
    use ehl_grid, only: coarsest_most, find_levels, grid_t, new_grid
    use ehl_kinds, only: dp
    use ehl_lubricant, only: lubricant_t
    use ehl_moes, only: operating_t
    use ehl_moving_surfaces, only: moving_surfaces_t
-   use ehl_plan_friction, only: heat_plan_t, plan_heat, plan_sliding, sliding_t
+   use ehl_plan_friction, only: plan_sliding, sliding_t
+   use ehl_plan_heat, only: heat_plan_t, plan_heat
    use ehl_plan_lubricant, only: alpha_note, law_note, plan_lubricant
    use ehl_plan_surface, only: check_carried, make_surfaces
+   use ehl_resolution, only: has_solution, relative_errors
    use ehl_scales, only: scales_t
    use ehl_status, only: ehl_bad_input, status_t
    use ehl_steady_options, only: steady_options_t

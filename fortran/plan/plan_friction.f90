@@ -2,21 +2,15 @@
 !> What absolute friction and the heat of it need to know of a case
 module ehl_plan_friction
    use ehl_case, only: case_t
-   use ehl_case_contact, only: find_contact, operating_point
+   use ehl_case_contact, only: operating_point
    use ehl_contact, only: contact_t
-   use ehl_heat, only: flash_temperature, thermal_loading, thermal_reduction
-   use ehl_heated_friction, only: film_heat_t
+   use ehl_heat, only: thermal_loading, thermal_reduction
    use ehl_kinds, only: dp
-   use ehl_lubricant, only: lubricant_t
    use ehl_moes, only: operating_t
-   use ehl_plan_lubricant, only: plan_lubricant
    use ehl_scales, only: scales_t
-   use ehl_status, only: status_t
-   use ehl_text, only: fixed
-   use ehl_wall_heat, only: heat_source, speed_of_rest, wall_strength
    implicit none (type, external)
    private
-   public :: sliding_t, plan_sliding, heat_plan_t, plan_heat, plan_given
+   public :: sliding_t, plan_sliding
 
    !> Motion, load and heat of a contact
    type :: sliding_t
@@ -37,20 +31,6 @@ module ehl_plan_friction
    contains
       procedure :: speeds
    end type sliding_t
-
-   !> Relative change of the stress under the Hertz pressure below which heat is left out
-   real(dp), parameter :: least_change = 1.0e-3_dp
-
-   !> The heat of friction of a contact
-   type :: heat_plan_t
-      !> Whether it is computed
-      logical :: counts = .false.
-      type(film_heat_t) :: film
-      !> Rise of temperature up to which the viscosity was measured [K]; huge: not known
-      real(dp) :: measured_rise = huge(1.0_dp)
-      !> What a coefficient of friction is, in words: with or without it, and why
-      character(len=:), allocatable :: note
-   end type heat_plan_t
 
 contains
 
@@ -125,103 +105,4 @@ contains
       point = operating_point(input, contact, scales, exp(log_viscosity))
       film_at = contact%film_formula(point%moes_m, point%moes_l)
    end function film_at
-
-   !> Decide by the greatest heat of the contact, that at the Hertz pressure in the central film by formula: the flash
-   !> temperature of Tian & Kennedy for it, and the mean across the film over that
-   function plan_heat(input, contact, scales, sliding, lubricant, film) result(plan)
-      type(case_t), intent(in) :: input
-      class(contact_t), intent(in) :: contact
-      type(scales_t), intent(in) :: scales
-      type(sliding_t), intent(in) :: sliding
-      type(lubricant_t), intent(in) :: lubricant
-      !> Central film by formula [a^2/R]
-      real(dp), intent(in) :: film
-      type(heat_plan_t) :: plan
-      real(dp) :: stress, warm, rise, rest, source(2)
-
-      associate (l => input%lubricant, heat => plan%film)
-         heat%speed = abs(sliding%slide_to_roll)*sliding%mean_velocity
-         if (l%thermal_friction == "never") then
-            plan%note = "isothermal: lubricant.thermal_friction is 'never'"
-            return
-         else if (.not. knows_temperature(input)) then
-            plan%note = "isothermal: nothing tells how the viscosity falls with temperature "// &
-                        "(lubricant.temperature_viscosity, or the viscosities of a data sheet)"
-            return
-         else if (.not. heat%speed > 0.0_dp) then
-            plan%note = "isothermal: there is no sliding that makes heat"
-            return
-         end if
-         heat%conductivity = l%thermal_conductivity
-         heat%length = scales%length
-         heat%film = scales%film
-         if (l%range_temperature_max > l%range_temperature_min) plan%measured_rise = l%range_temperature_max - l%temperature
-         rest = speed_of_rest(contact)
-         source = heat_source(contact)
-         heat%strengths = [wall(1), wall(2)]
-         stress = stress_at(0.0_dp)
-         if (.not. lubricant%shear%thins() .and. stress > sliding%newtonian_limit) then
-            plan%note = "isothermal: the Newtonian stress is above lubricant.eyring_stress, its heat is not computed"
-            return
-         end if
-         rise = flash_temperature(stress*heat%speed, source(1)*scales%length, source(2), sliding%speeds(), &
-                                  sliding%conductivity, sliding%diffusivity) &
-                + stress*heat%speed*film*scales%film/(12.0_dp*heat%conductivity)
-         warm = stress_at(rise)
-         plan%counts = l%thermal_friction == "always" .or. .not. stress - warm < least_change*stress
-         if (plan%counts) then
-            plan%note = "with the temperature of film and walls; pressure and film thickness are isothermal"
-         else
-            plan%note = "isothermal: by estimate a rise of "//fixed(rise, "es7.1e2")//" K changes it by less than 0.1 %"
-         end if
-      end associate
-
-   contains
-
-      pure real(dp) function wall(k)
-         integer, intent(in) :: k
-         real(dp) :: speeds(2)
-
-         speeds = sliding%speeds()
-         wall = wall_strength(speeds(k), sliding%conductivity(k), sliding%diffusivity(k), rest, scales%length, source(2))
-      end function wall
-
-      !> Shear stress [Pa] under the Hertz pressure at a rise of temperature [K]
-      real(dp) function stress_at(rise)
-         real(dp), intent(in) :: rise
-         real(dp) :: values(1)
-
-         call lubricant%log_viscosity_at([1.0_dp], [rise], values)
-         values = exp(values)/film
-         if (lubricant%shear%thins()) call lubricant%shear%reduce([1.0_dp], values)
-         stress_at = lubricant%shear%scale*values(1)
-      end function stress_at
-   end function plan_heat
-
-   !> The same, and the lubricant, of a case whose pressure and film are known already
-   subroutine plan_given(input, plan, lubricant, status)
-      type(case_t), intent(in) :: input
-      type(heat_plan_t), intent(out) :: plan
-      type(lubricant_t), intent(out) :: lubricant
-      type(status_t), intent(inout) :: status
-      class(contact_t), allocatable :: contact
-      type(scales_t) :: scales
-      type(operating_t) :: point
-      type(sliding_t) :: sliding
-      real(dp) :: rho(1), slope(1)
-
-      call find_contact(input, contact, scales, point)
-      sliding = plan_sliding(input, contact, scales)
-      if (input%contact%si) point = operating_point(input, contact, scales, sliding%inlet_viscosity)
-      call plan_lubricant(input, point, scales, lubricant, status)
-      if (status%failed()) return
-      call lubricant%density([1.0_dp], rho, slope)
-      plan = plan_heat(input, contact, scales, sliding, lubricant, contact%film_formula(point%moes_m, point%moes_l)/rho(1))
-   end subroutine plan_given
-
-   !> Whether a case tells how the viscosity falls with temperature
-   pure logical function knows_temperature(input)
-      type(case_t), intent(in) :: input
-      knows_temperature = input%contact%si .and. input%lubricant%temperature_viscosity > 0.0_dp
-   end function knows_temperature
 end module ehl_plan_friction

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The rough surfaces that a case asks for; height maps from .npy files
+!> The rough surfaces that a case asks for
 module ehl_plan_surface
    use, intrinsic :: iso_fortran_env, only: int32
    use ehl_case, only: case_t, has_no_height, is_feature, surface_case_t
@@ -9,11 +9,10 @@ module ehl_plan_surface
    use ehl_harmonic, only: new_harmonic
    use ehl_height_map, only: height_map_t
    use ehl_kinds, only: dp
-   use ehl_memory, only: check_memory
+   use ehl_map_file, only: check_heights, read_map
    use ehl_moving_surfaces, only: moving_surfaces_t
-   use ehl_npy, only: npy_shape, read_npy
    use ehl_scales, only: scales_t
-   use ehl_status, only: ehl_bad_input, ehl_file, ehl_no_memory, status_t
+   use ehl_status, only: ehl_bad_input, ehl_no_memory, status_t
    use ehl_surface, only: aliased_below, surface_t
    use ehl_text, only: to_text
    use ehl_tile_filter, only: filter_t
@@ -233,38 +232,4 @@ contains
                        to_text(grid%nx)//" x "//to_text(grid%full_ny())//" nodes, in space or in the time steps: it carries "// &
                        "nothing of them"//new_line("a")//"expected: a finer grid (grid.points), or longer waves")
    end subroutine check_carried
-
-   !> Heights of a map [m], X first; finite, at least 4 x 4 pixels
-   subroutine read_map(path, heights, status)
-      character(len=*), intent(in) :: path
-      real(dp), allocatable, intent(out) :: heights(:, :)
-      type(status_t), intent(inout) :: status
-      integer :: n(2), j
-
-      call npy_shape(trim(path), n, status)
-      call check_heights(trim(path), n, status)
-      allocate (heights(0, 0))
-      if (.not. status%failed()) call read_npy(trim(path), heights, status)
-      if (status%failed()) return
-      do j = 1, size(heights, 2)
-         if (all(abs(heights(:, j)) < huge(1.0_dp))) cycle
-         call status%fail(ehl_file, trim(path)//": the map has points that are not finite: fill them first")
-         return
-      end do
-      if (size(heights, 1) < 4 .or. size(heights, 2) < 4) then
-         call status%fail(ehl_file, trim(path)//": the map has "//to_text(size(heights, 1))//" x "// &
-                          to_text(size(heights, 2))//" pixels; at least 4 x 4 are needed")
-      end if
-   end subroutine read_map
-
-   !> Refuse a map that would not fit. It needs room twice: for the heights and their spectrum.
-   subroutine check_heights(what, n, status)
-      !> What wants the memory
-      character(len=*), intent(in) :: what
-      !> Pixels along X and Y
-      integer, intent(in) :: n(2)
-      type(status_t), intent(inout) :: status
-
-      call check_memory(what//": a map of "//to_text(n(1))//" x "//to_text(n(2))//" heights", 16.0_dp*n(1)*real(n(2), dp), status)
-   end subroutine check_heights
 end module ehl_plan_surface

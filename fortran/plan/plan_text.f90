@@ -2,11 +2,11 @@
 !> The plan of a run in words
 module ehl_plan_text
    use ehl_cycle, only: coarsening_alcouffe, cycle_options_t
-   use ehl_domain, only: too_coarse
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
    use ehl_plan, only: plan_t
    use ehl_plan_need, only: need_lines
+   use ehl_resolution, only: too_coarse
    use ehl_steady, only: largest_error
    use ehl_surface_text, only: scene_lines, wave_lines
    use ehl_text, only: fixed, newline, to_text

@@ -8,8 +8,8 @@ module ehl_contact_run
    use ehl_heated_friction, only: heated_t
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
-   use ehl_level, only: gap
    use ehl_outcome, only: outcome_converged, outcome_running, outcome_target_missed
+   use ehl_level, only: gap
    use ehl_plan, only: plan_t
    use ehl_plan_surface, only: check_carried
    use ehl_predicted_start, only: predicted_start_t

@@ -2,9 +2,9 @@
 !> Why a run has no answer, where it ended, and what to do about it: one line
 module ehl_no_answer
    use ehl_contact_run, only: contact_run_t
-   use ehl_domain, only: better_grid
    use ehl_kinds, only: dp
    use ehl_outcome, only: outcome_cycle_limit, outcome_diverged, outcome_interrupted, outcome_negative_film, outcome_unsettled
+   use ehl_resolution, only: better_grid
    use ehl_text, only: fixed, to_text
    implicit none (type, external)
    private

@@ -1,10 +1,9 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Results of a run by name: its scene, the waves of its surfaces, the rough contact in time steps, of a feature that passes, and
-!> at rest; the error of mu_ratio with its parts
+!> at rest
 module ehl_report
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ehl_contact_run, only: contact_run_t
-   use ehl_frames, only: extreme_film, extreme_pressure, extremes_t
+   use ehl_extremes, only: extreme_film, extreme_pressure, extremes_t
    use ehl_kinds, only: dp, not_known, pi
    use ehl_moving_surfaces, only: moving_surfaces_t
    use ehl_plan, only: plan_t
@@ -13,27 +12,7 @@ module ehl_report
    use ehl_wedge, only: wedge_narrow
    implicit none (type, external)
    private
-   public :: report_passage, report_rest, report_scene, report_transient, report_waves, ratio_error_t, waves_t
-
-   !> The sum so far. A part that is not known makes it unknown.
-   type :: ratio_error_t
-      private
-      real(dp) :: sum = 0.0_dp
-      character(len=:), allocatable :: note
-   contains
-      procedure :: add
-      procedure :: report
-   end type ratio_error_t
-
-   !> What a prediction says of the waves that the grid leaves out, and of those that it does not resolve
-   type :: waves_t
-      !> Whether somebody has predicted
-      logical :: known = .false.
-      !> Parts of mu_ratio in these waves; NaN where the prediction gives none
-      real(dp) :: left_out = 0.0_dp, unresolved = 0.0_dp
-      !> Why it gives none
-      character(len=:), allocatable :: why
-   end type waves_t
+   public :: report_passage, report_rest, report_scene, report_transient, report_waves
 
 contains
 
@@ -242,37 +221,4 @@ contains
          call record%set("rough_residual", rest%residual)
       end associate
    end subroutine report_rest
-
-   !> Add a part to the sum, and to a record under its name
-   subroutine add(self, record, name, part, why)
-      class(ratio_error_t), intent(inout) :: self
-      type(record_t), intent(inout) :: record
-      character(len=*), intent(in) :: name
-      !> Of either sign; NaN where it is not known
-      real(dp), intent(in) :: part
-      !> Why it is not known
-      character(len=*), intent(in) :: why
-
-      call record%set(name, abs(part))
-      self%sum = self%sum + abs(part)
-      if (ieee_is_finite(part)) return
-      if (.not. allocated(self%note)) then
-         self%note = why
-      else if (index(self%note, why) == 0) then
-         self%note = self%note//"; "//why
-      end if
-   end subroutine add
-
-   !> The sum, null where a part is not known, and then the reasons
-   subroutine report(self, record)
-      class(ratio_error_t), intent(in) :: self
-      type(record_t), intent(inout) :: record
-
-      call record%set("mu_ratio_error", self%sum)
-      if (allocated(self%note)) then
-         call record%set("mu_ratio_error_note", self%note)
-      else
-         call record%set("mu_ratio_error_note", "")
-      end if
-   end subroutine report
 end module ehl_report

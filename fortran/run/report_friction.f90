@@ -9,7 +9,7 @@ module ehl_report_friction
    use ehl_level, only: gap
    use ehl_plan, only: plan_t
    use ehl_record, only: record_t
-   use ehl_report_smooth, only: no_boundary_friction
+   use ehl_report_touching, only: no_boundary_friction
    use ehl_text, only: fixed, to_text
    use ehl_touching, only: same_film
    use ehl_wall_heat, only: heat_source
@@ -151,11 +151,11 @@ contains
       type(grid_t), intent(in) :: grid
       real(dp), intent(in) :: h(:, :)
       real(dp) :: area, x(grid%nx), pressure(grid%nx)
-      integer :: j
+      integer :: i, j
 
       mean_inverse = 0.0_dp
       area = 0.0_dp
-      x = grid%columns()
+      x = grid%x([(i, i=1, grid%nx)])
       do j = 1, grid%ny
          call contact%pressure_row(x, grid%y(j), pressure)
          area = area + grid%weight(j)*count(pressure > 0.0_dp)

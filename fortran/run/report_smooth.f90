@@ -1,32 +1,21 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Results of the smooth contact by name, each with the error that its grids and its domain leave; and of contact at a boundary
-!> film, over a run too: what of the load it carries, where, and what the layer gives
+!> Results of the smooth contact by name, each with the error that its grids and its domain leave
 module ehl_report_smooth
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ehl_contact_results, only: contact_results_t
-   use ehl_contact_run, only: contact_run_t
-   use ehl_domain, only: better_grid, has_solution, relative_errors, too_small
-   use ehl_friction_mean, only: friction_mean_t
+   use ehl_domain, only: too_small
    use ehl_kinds, only: dp, not_known, pi
    use ehl_level_result, only: discretisation_error, extrapolated, limit_error
-   use ehl_outcome, only: outcome_converged
    use ehl_plan, only: plan_t
    use ehl_record, only: record_t
+   use ehl_resolution, only: better_grid, relative_errors
    use ehl_steady, only: steady_t
-   use ehl_touching, only: at_depth, known_names, mostly_touching, much_supplied, touching_names
    implicit none (type, external)
    private
-   public :: report_smooth, report_touching, knows_friction, load_share_of, no_boundary_friction
+   public :: report_smooth
 
    !> What a domain of twice the size would add to F, int 2/r^2 dA = 4 pi ln 2 over a gap of r^2/2 and the viscosity of
    !> the inlet. It counts for lubricants whose viscosity hardly rises with pressure.
    real(dp), parameter :: friction_beyond = 4.0_dp*pi*log(2.0_dp)
-
-   !> Layer over the central film by formula from which on that film hardly matters
-   real(dp), parameter :: dry_from = 2.0_dp
-   !> Why there is no friction
-   character(len=*), parameter :: no_boundary_friction = "the bodies touch, and the friction there is not known: "// &
-                                                         "lubricant.boundary_friction and sliding are needed"
 
 contains
 
@@ -53,7 +42,7 @@ contains
          end do
          values = not_known
       end if
-      if (.not. knows_smooth(plan, m)) values(4) = not_known
+      if (.not. knows_friction(plan, m)) values(4) = not_known
       error = not_known
       limit = not_known
       coarser = .false.
@@ -128,7 +117,7 @@ contains
          known = .false.
          if (good) note = too_small
       end if
-      known(2) = known(2) .and. knows_smooth(plan, steady%results(n)%m)
+      known(2) = known(2) .and. knows_friction(plan, steady%results(n)%m)
       associate (m => steady%results(n)%m)
          error = error + [m%pressure_maximum, m%friction]*plan%domain_cost(1) + [0.0_dp, friction_beyond]
       end associate
@@ -140,141 +129,9 @@ contains
    end subroutine report_limits
 
    !> Whether friction is known: of the boundary film, too, where the bodies touch
-   pure logical function knows_smooth(plan, m)
+   pure logical function knows_friction(plan, m)
       type(plan_t), intent(in) :: plan
       type(contact_results_t), intent(in) :: m
-      knows_smooth = .not. m%touching%load_share > 0.0_dp .or. plan%lubricant%boundary_stress > 0.0_dp
-   end function knows_smooth
-
-   !> That of the rough surfaces where there are any, null unless it is good; nothing where there is no boundary film
-   subroutine report_touching(record, run, good, converged, why_no_grid_error)
-      type(record_t), intent(inout) :: record
-      class(contact_run_t), intent(in) :: run
-      !> Whether the smooth contact is converged, and the run
-      logical, intent(in) :: good, converged
-      !> Why the run on the next coarser grid tells no error of a rough contact
-      character(len=*), intent(in) :: why_no_grid_error
-      !> As touching.f90 has them; the load share on the next coarser grid; its errors by the grid and by the end of the run
-      real(dp) :: numbers(size(touching_names)), coarser, error, stop_error
-      character(len=:), allocatable :: note, why
-      integer :: n
-
-      if (.not. run%plan%lubricant%boundary_film > 0.0_dp) return
-      numbers = not_known
-      coarser = not_known
-      stop_error = not_known
-      why = "there is no solution on the next coarser grid"
-      if (run%plan%surfaces%rough()) then
-         if (converged) then
-            numbers = touching_of(run)
-            stop_error = share_stop_error(run)
-         end if
-         if (run%coarse_outcome == outcome_converged) coarser = run%coarse_load_share
-         why = why_no_grid_error
-      else if (good) then
-         numbers = touching_of(run)
-         stop_error = 0.0_dp
-         n = run%level()
-         if (n > 1) then
-            if (run%steady%results(n - 1)%solved) coarser = run%steady%results(n - 1)%m%touching%load_share
-         end if
-      end if
-      ! of order 1, as the edge of a touching zone lies between two nodes
-      error = abs(numbers(1) - coarser)
-      note = ""
-      associate (plan => run%plan)
-         if (.not. ieee_is_finite(numbers(1))) then
-            note = "there is no solution"
-         else if (.not. ieee_is_finite(coarser)) then
-            note = why
-         else if (.not. (is_dry(plan) .or. has_solution(plan%contact, plan%point, run%grid%coarser()))) then
-            note = "the next coarser grid does not resolve the inlet, and bodies touch on it for that"
-            error = not_known
-         else if (.not. is_dry(plan) .and. numbers(1) > mostly_touching .and. numbers(3) > much_supplied) then
-            note = "most of the load is at a layer that would have to give much of the flow: the share may change on any grid"
-            error = not_known
-         end if
-         call record%set("boundary_film", plan%lubricant%boundary_film)
-         call record%set("contact_load_share", numbers(1))
-         call record%set("contact_load_share_error", error + stop_error)
-         call record%set("contact_load_share_error_grid", error)
-         call record%set("contact_load_share_error_stop", stop_error)
-         call record%set("contact_load_share_error_note", note)
-         call record%set("contact_area_share", numbers(2)/(pi*plan%contact%ellipticity))
-         call record%set("layer_supply", numbers(3))
-         if (.not. plan%lubricant%boundary_limit > 0.0_dp) return
-         call record%set("load_share_at_hardness", numbers(4))
-         call record%set("area_share_at_hardness", numbers(5)/(pi*plan%contact%ellipticity))
-         call record%set("plastic_depth_max_m", numbers(6)*plan%scales%film)
-         call record%set("flowing_load_share_at_hardness", numbers(7))
-      end associate
-   end subroutine report_touching
-
-   !> Whether the film that the inlet makes is nothing beside the layer
-   logical function is_dry(plan)
-      type(plan_t), intent(in) :: plan
-
-      associate (point => plan%point)
-         is_dry = plan%lubricant%boundary_film > dry_from*plan%contact%film_formula(point%moes_m, point%moes_l)
-      end associate
-   end function is_dry
-
-   !> Whether friction is known: everywhere in the film, or of the boundary film, too
-   logical function knows_friction(run, converged)
-      class(contact_run_t), intent(in) :: run
-      logical, intent(in) :: converged
-      real(dp) :: share
-
-      knows_friction = .not. run%plan%lubricant%boundary_film > 0.0_dp .or. run%plan%lubricant%boundary_stress > 0.0_dp
-      if (knows_friction) return
-      share = 0.0_dp
-      if (run%resting) share = run%rest%m%touching%load_share
-      if (run%in_steps) share = run%transient%m%touching%load_share
-      if (run%in_steps .and. converged) share = load_share_of(run)
-      knows_friction = .not. (share > 0.0_dp .or. run%steady%results(run%level())%m%touching%load_share > 0.0_dp)
+      knows_friction = .not. m%touching%load_share > 0.0_dp .or. plan%lubricant%boundary_stress > 0.0_dp
    end function knows_friction
-
-   !> What reynolds/touching.f90 reads off the contact of a run that has converged; in time steps means over the time of the mean
-   !> friction ratio, and the greatest depth
-   function touching_of(run) result(numbers)
-      class(contact_run_t), intent(in) :: run
-      real(dp) :: numbers(size(touching_names))
-      integer :: k, first
-
-      if (run%in_steps) then
-         first = run%transient%mean%first_of_mean()
-         numbers = 0.0_dp
-         do k = 1, known_names(run%plan%lubricant)
-            associate (values => run%history%column(touching_names(k)))
-               numbers(k) = sum(values(first:))/max(1, size(values) - first + 1)
-               if (k == at_depth) numbers(k) = maxval(values(first:))
-            end associate
-         end do
-      else if (run%resting) then
-         numbers = run%rest%m%touching%numbers()
-      else
-         numbers = run%steady%results(run%level())%m%touching%numbers()
-      end if
-   end function touching_of
-
-   !> The load share alone
-   real(dp) function load_share_of(run)
-      class(contact_run_t), intent(in) :: run
-      real(dp) :: numbers(size(touching_names))
-
-      numbers = touching_of(run)
-      load_share_of = numbers(1)
-   end function load_share_of
-
-   !> Error of the load share by the end of the run: that of a mean over time, as of the friction ratio; else 0
-   real(dp) function share_stop_error(run)
-      class(contact_run_t), intent(in) :: run
-      type(friction_mean_t) :: mean
-
-      share_stop_error = 0.0_dp
-      if (.not. run%in_steps) return
-      mean = run%transient%mean
-      mean%values = run%history%column(touching_names(1))
-      share_stop_error = mean%uncertainty()
-   end function share_stop_error
 end module ehl_report_smooth

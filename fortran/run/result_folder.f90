@@ -87,7 +87,7 @@ contains
       associate (grid => solver%finest())
          ny = grid%full_ny()
          allocate (x(grid%nx), y(ny), values(grid%nx, ny))
-         x(:) = grid%columns()
+         x(:) = grid%x([(i, i=1, grid%nx)])
          y(:) = grid%y([(i, i=1, ny)] - (ny - grid%ny))
       end associate
       call write_npy(folder // "X.npy", x, status)

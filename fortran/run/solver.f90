@@ -12,9 +12,9 @@ module ehl_solver
    use ehl_outcome, only: outcome_converged, outcome_failed, outcome_interrupted, outcome_running
    use ehl_plan, only: make_plan
    use ehl_plan_need, only: check_need
+   use ehl_ratio_error, only: waves_t
    use ehl_record, only: record_t
-   use ehl_report, only: waves_t
-   use ehl_report_smooth, only: load_share_of
+   use ehl_report_touching, only: load_share_of
    use ehl_smooth_film, only: film_by_finer_grids, known_film
    use ehl_status, only: status_t
    implicit none (type, external)

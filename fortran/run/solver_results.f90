@@ -7,9 +7,11 @@ submodule (ehl_solver) ehl_solver_results
    use ehl_level_result, only: discretisation_error, spike_grows
    use ehl_no_answer, only: why_no_answer
    use ehl_outcome, only: outcome_names, outcome_target_missed
-   use ehl_report, only: ratio_error_t, report_passage, report_rest, report_scene, report_transient, report_waves
+   use ehl_ratio_error, only: ratio_error_t
+   use ehl_report, only: report_passage, report_rest, report_scene, report_transient, report_waves
    use ehl_report_friction, only: report_friction
-   use ehl_report_smooth, only: knows_friction, no_boundary_friction, report_smooth, report_touching
+   use ehl_report_smooth, only: report_smooth
+   use ehl_report_touching, only: knows_friction, no_boundary_friction, report_touching
    use ehl_surface_text, only: window_words
    use ehl_text, only: newline
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite

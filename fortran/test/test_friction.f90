@@ -3,7 +3,7 @@
 module test_friction
    use check, only: is_close, is_true
    use ehl_contact, only: contact_t
-   use ehl_elliptical, only: new_contact
+   use ehl_contact_factory, only: new_contact
    use ehl_film, only: update_coefficients
    use ehl_flow_factory, only: new_flow
    use ehl_grid, only: new_grid

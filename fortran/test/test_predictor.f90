@@ -6,8 +6,8 @@ module test_predictor
    use ehl_grid, only: new_grid
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
+   use ehl_predictor, only: predictor_t
    use ehl_status, only: status_t
-   use ehl_time_levels, only: predictor_t
    implicit none (type, external)
    private
    public :: run_predictor

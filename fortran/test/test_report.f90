@@ -6,8 +6,8 @@ module test_report
    use ehl_judgement, only: holds, judge, no_answer, with_care
    use ehl_kinds, only: dp, not_known
    use ehl_lock, only: lock, lock_t, unlock
+   use ehl_ratio_error, only: ratio_error_t
    use ehl_record, only: record_t
-   use ehl_report, only: ratio_error_t
    use ehl_status, only: ehl_internal, status_t
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    implicit none (type, external)

@@ -5,8 +5,8 @@ module test_sealed
    use check, only: has_text, is_close, is_true
    use ehl_files, only: process_mark, remove_file
    use ehl_kinds, only: dp
+   use ehl_sealed_file, only: end_reading, end_sealed, is_sealed, open_sealed
    use ehl_status, only: status_t
-   use ehl_whole_file, only: end_reading, end_sealed, is_sealed, open_sealed
    implicit none (type, external)
    private
    public :: run_sealed

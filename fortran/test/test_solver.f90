@@ -8,9 +8,9 @@ module test_solver
    use ehl_case, only: case_t
    use ehl_case_reader, only: read_case
    use ehl_contact, only: contact_t
+   use ehl_contact_factory, only: hertz_scales, new_contact
    use ehl_deflection, only: deflection_t
    use ehl_deflection_factory, only: new_deflection
-   use ehl_elliptical, only: new_contact
    use ehl_film, only: update_coefficients
    use ehl_flow_factory, only: new_flow
    use ehl_grid, only: grid_t, new_grid
@@ -21,9 +21,9 @@ module test_solver
    use ehl_moes, only: operating_from_si, operating_t
    use ehl_relaxation, only: full_trust, relax
    use ehl_solver, only: solver_t
-   use ehl_scales, only: scales_from_si, scales_t
+   use ehl_scales, only: scales_t
    use ehl_status, only: status_t
-   use ehl_step_policy, only: loosest, step_tolerance
+   use ehl_step_accuracy, only: loosest, step_tolerance
    use ehl_wedge, only: wedge_narrow, wedge_steady
    use ehl_workspace, only: line_width, workspace_t
    implicit none (type, external)
@@ -61,7 +61,7 @@ contains
       type(scales_t) :: scales
 
       call new_contact(1.0_dp, 0.0_dp, contact)
-      scales = scales_from_si(600.0_dp, 0.018_dp, 2.26e11_dp, contact%ellipticity, contact%kernel_factor)
+      scales = hertz_scales(contact, 600.0_dp, 0.018_dp, 2.26e11_dp)
       point = operating_from_si(600.0_dp, 0.84_dp, 0.018_dp, 2.26e11_dp, 0.04_dp, 2.2e-8_dp, scales%pressure, &
                                 contact%ellipticity, contact%kernel_factor)
       call is_close(scales%length, 4.1540e-4_dp, 1.0e-8_dp, "Hertz radius")

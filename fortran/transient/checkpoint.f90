@@ -7,11 +7,11 @@ module ehl_checkpoint
    use ehl_frames, only: frames_t
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
+   use ehl_sealed_file, only: end_reading, end_sealed, is_sealed, open_sealed
    use ehl_status, only: ehl_bad_input, ehl_file, status_t
    use ehl_table, only: table_t
    use ehl_text, only: newline, to_text
    use ehl_transient, only: transient_t
-   use ehl_whole_file, only: end_reading, end_sealed, is_sealed, open_sealed
    implicit none (type, external)
    private
    public :: checkpoint_t, coarser, frame_file, state_files

@@ -1,48 +1,18 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What a time step takes from the ones before it, and leaves to the next; and the first approximation of its pressure.
-!>
-!> That is a weighted mean of several extrapolations in time. Each node weighs them by how right they were around it in the
-!> step before, judged by what their errors do in the equation: where the lubricant flows, a small rough error is a large
-!> residual. That of first order is for nodes where what a step has left unsolved is larger than what changes from step to
-!> step: of it the second order makes twice as much. The weights must not change steeply from node to node: between candidates
-!> that differ they would make a rough pressure.
+!> What a time step takes from the ones before it, and leaves to the next
 module ehl_time_levels
    use ehl_contact, only: contact_t
    use ehl_flow, only: along
    use ehl_kernel, only: kernel_coefficient
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
-   use ehl_node_state, only: cavitate, stay_cavitated
-   use ehl_status, only: ehl_no_memory, status_t
    implicit none (type, external)
    private
-   public :: set_geometry, set_history, keep, predictor_t
+   public :: set_geometry, set_history, keep
 
    !> A residual is answered partly by the squeeze of the film, partly by the Poiseuille flow. Half of it is passed on to
    !> the next step where the flow is so many times the squeeze.
    real(dp), parameter :: flows_away = 1.0e4_dp
-
-   !> Errors are compared over squares of (2 reach + 1)^2 nodes
-   integer, parameter :: reach = 2
-   !> Errors that are nothing
-   real(dp), parameter :: least_error = 1.0e-60_dp
-
-   type :: predictor_t
-      !> Extrapolations: of second order at the node (what stands), and at the nodes where things were that a surface
-      !> carries along, one for each surface that moves; of first order at the node
-      integer, private :: candidates = 3
-      !> Weights of the candidates but the first, which has the rest; (nx, ny, candidates - 1)
-      real(dp), allocatable :: weights(:, :, :)
-      !> Errors of the candidates in the last step by their weight in the equation; (nx, ny, candidates)
-      real(dp), allocatable, private :: error(:, :, :)
-      !> Nodes that the surfaces move in a step
-      real(dp), allocatable :: shifts(:)
-   contains
-      procedure :: setup
-      procedure :: predict
-      procedure :: learn
-      procedure, private :: compare
-   end type predictor_t
 
 contains
 
@@ -109,150 +79,4 @@ contains
       end do
       !$omp end parallel do
    end subroutine keep
-
-   !> Allocate, with all weight on the first candidate
-   subroutine setup(self, nx, ny, shifts, status)
-      class(predictor_t), intent(inout) :: self
-      integer, intent(in) :: nx, ny
-      !> Nodes that the surfaces move in a step
-      real(dp), intent(in) :: shifts(:)
-      type(status_t), intent(inout) :: status
-      integer :: stat
-
-      if (status%failed()) return
-      self%shifts = shifts
-      self%candidates = size(shifts) + 2
-      if (allocated(self%error)) deallocate (self%error, self%weights)
-      associate (n => self%candidates)
-         allocate (self%weights(nx, ny, n - 1), self%error(nx, ny, n), source=0.0_dp, stat=stat)
-      end associate
-      if (stat /= 0) call status%fail(ehl_no_memory, "no memory for the predictor of a time step")
-   end subroutine setup
-
-   !> Pressure expected from that of the last three steps; nodes that were cavitated stay so
-   subroutine predict(self, before, level)
-      class(predictor_t), intent(in) :: self
-      !> Pressures of the last three steps, the latest first, (nx, ny, 3)
-      real(dp), contiguous, intent(in) :: before(:, :, :)
-      type(level_t), intent(inout) :: level
-      real(dp) :: c(level%grid%nx, self%candidates), p(level%grid%nx)
-      integer :: j, k
-
-      !$omp parallel do default(none) shared(self, before, level) private(c, p, k) &
-      !$omp num_threads(level%threads) if(level%parallel) schedule(static)
-      do j = 1, level%grid%ny
-         call extrapolate(self%shifts, before(:, j, 1), before(:, j, 2), before(:, j, 3), c)
-         p = c(:, 1)
-         do k = 2, self%candidates
-            p = p + self%weights(:, j, k - 1)*(c(:, k) - c(:, 1))
-         end do
-         level%p(:, j) = p
-         call cavitate(level%p(:, j))
-         call stay_cavitated(before(:, j, 1), level%p(:, j))
-      end do
-      !$omp end parallel do
-   end subroutine predict
-
-   !> See which candidate was right, now that the step is solved
-   subroutine learn(self, before, level)
-      class(predictor_t), intent(inout) :: self
-      !> Pressures of the three steps before that of the level
-      real(dp), contiguous, intent(in) :: before(:, :, :)
-      type(level_t), intent(in) :: level
-      real(dp) :: c(level%grid%nx, self%candidates), error(level%grid%nx)
-      integer :: j, k
-
-      !$omp parallel do default(none) shared(self, before, level) private(c, error, k) &
-      !$omp num_threads(level%threads) if(level%parallel) schedule(static)
-      do j = 1, level%grid%ny
-         call extrapolate(self%shifts, before(:, j, 1), before(:, j, 2), before(:, j, 3), c)
-         do k = 1, self%candidates
-            error = level%p(:, j) - c(:, k)
-            call weigh(level, j, error, self%error(:, j, k))
-         end do
-      end do
-      !$omp end parallel do
-      !$omp parallel do default(none) shared(self, level) &
-      !$omp num_threads(level%threads) if(level%parallel) schedule(static)
-      do j = 1, level%grid%ny
-         call self%compare(level, j)
-      end do
-      !$omp end parallel do
-   end subroutine learn
-
-   !> The candidates of a row
-   pure subroutine extrapolate(shifts, p1, p2, p3, c)
-      real(dp), intent(in) :: shifts(:)
-      !> Pressures of the row in the last three steps, the latest first, shape (nx)
-      real(dp), contiguous, intent(in) :: p1(:), p2(:), p3(:)
-      !> Shape (nx, candidates)
-      real(dp), contiguous, intent(out) :: c(:, :)
-      !> Changes of the last step and of the one before
-      real(dp), dimension(size(p1)) :: last, former
-      real(dp) :: t, t2
-      integer :: i, k, n, n2
-
-      last = p1 - p2
-      former = p2 - p3
-      c(:, 1) = p1 + 2.0_dp*last - former
-      c(:, size(shifts) + 2) = p1 + last
-      ! from one step and from two steps up a surface's way, linear between nodes
-      do k = 1, size(shifts)
-         c(:, k + 1) = p1
-         n = int(shifts(k))
-         t = shifts(k) - n
-         n2 = int(2.0_dp*shifts(k))
-         t2 = 2.0_dp*shifts(k) - n2
-         do i = n2 + 2, size(last)
-            c(i, k + 1) = c(i, k + 1) + 2.0_dp*((1.0_dp - t)*last(i - n) + t*last(i - n - 1)) &
-                          - ((1.0_dp - t2)*former(i - n2) + t2*former(i - n2 - 1))
-         end do
-      end do
-   end subroutine extrapolate
-
-   !> What errors of row j weigh: squared, by the deflection they cause (of the order of the error, in the squeeze term)
-   !> and by the flow along X they cause
-   pure subroutine weigh(level, j, error, weight)
-      type(level_t), intent(in) :: level
-      integer, intent(in) :: j
-      !> Shape (nx)
-      real(dp), contiguous, intent(in) :: error(:)
-      real(dp), contiguous, intent(out) :: weight(:)
-      real(dp) :: flow(size(error))
-
-      call level%poiseuille%flow_row(level%flow, j, error, flow)
-      weight = error**2
-      weight = weight + flow**2
-   end subroutine weigh
-
-   !> Weights of row j: the inverse squared errors around
-   subroutine compare(self, level, j)
-      class(predictor_t), intent(inout) :: self
-      type(level_t), intent(in) :: level
-      integer, intent(in) :: j
-      real(dp) :: across(level%grid%nx), q(level%grid%nx, self%candidates)
-      integer :: first, last, i, k, row
-
-      first = 1 + reach
-      last = level%grid%nx - reach
-      do k = 1, self%candidates
-         across = 0.0_dp
-         do i = j - reach, min(j + reach, level%grid%ny)
-            row = i
-            if (row < 1 .and. level%grid%mirror) row = 2 - row
-            if (row >= 1) across = across + self%error(:, row, k)
-         end do
-         do i = first, last
-            q(i, k) = 1.0_dp/(across(i - 2) + across(i - 1) + across(i) + across(i + 1) + across(i + 2) + least_error)
-         end do
-      end do
-      across(first:last) = q(first:last, 1)
-      do k = 2, self%candidates
-         across(first:last) = across(first:last) + q(first:last, k)
-      end do
-      across(first:last) = 1.0_dp/across(first:last)
-      do k = 2, self%candidates
-         self%weights(first:last, j, k - 1) = q(first:last, k)*across(first:last)
-      end do
-   end subroutine compare
 end module ehl_time_levels

@@ -3,9 +3,9 @@
 module ehl_transient
    use ehl_contact, only: contact_t
    use ehl_cycle, only: coarsening_alcouffe, coarsening_classical
+   use ehl_extremes, only: extremes_t
    use ehl_film, only: refresh
    use ehl_force_balance, only: balance_load
-   use ehl_frames, only: extremes_t
    use ehl_friction_mean, only: friction_mean_t, periods_compared
    use ehl_hierarchy, only: hierarchy_t
    use ehl_iteration, only: iteration_t
@@ -16,10 +16,12 @@ module ehl_transient
    use ehl_node_state, only: cavitate
    use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_running
    use ehl_predicted_start, only: first_mean, predicted_start_t, start_lag, transit
+   use ehl_predictor, only: predictor_t
    use ehl_reynolds, only: update_residual
    use ehl_status, only: ehl_no_memory, status_t
-   use ehl_step_policy, only: attempt_predicted, step_accuracy_t, step_begins_again, step_ends, step_policy_t
-   use ehl_time_levels, only: keep, predictor_t, set_geometry, set_history
+   use ehl_step_accuracy, only: step_accuracy_t
+   use ehl_step_policy, only: attempt_predicted, step_begins_again, step_ends, step_policy_t
+   use ehl_time_levels, only: keep, set_geometry, set_history
    use ehl_wedge, only: old_times
    implicit none (type, external)
    private

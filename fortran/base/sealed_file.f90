@@ -1,0 +1,110 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Binary files that end with a checksum of what stands before it
+module ehl_sealed_file
+   use, intrinsic :: iso_fortran_env, only: int64, int8
+   use ehl_files, only: file_bytes, flush_file
+   use ehl_status, only: ehl_file, status_t
+   use ehl_whole_file, only: end_writing
+   implicit none (type, external)
+   private
+   public :: open_sealed, end_sealed, end_reading, is_sealed
+
+   !> Bytes that are read at a time, those of a checksum
+   integer, parameter :: block = 65536, of_checksum = 8
+   !> The checksum of nothing, and the bits by which it is turned for each byte
+   integer(int64), parameter :: nothing = 1234567890123456789_int64
+   integer, parameter :: turn = 7
+
+contains
+
+   !> Open a file to "write" it, in place of what was there, or to "read" it
+   subroutine open_sealed(path, action, lun, status)
+      character(len=*), intent(in) :: path, action
+      integer, intent(out) :: lun
+      type(status_t), intent(inout) :: status
+      character(len=256) :: reason
+      integer :: stat
+
+      open (newunit=lun, file=path, status=trim(merge("replace", "old    ", action == "write")), action=action, &
+            access="stream", form="unformatted", iostat=stat, iomsg=reason)
+      if (stat /= 0) call status%fail(ehl_file, path//": error: cannot "//action//": "//trim(reason))
+   end subroutine open_sealed
+
+   !> Close a file that was written and seal it. It is on the disk itself then, lest it is lost with the power.
+   subroutine end_sealed(lun, path, stat, reason, status)
+      integer, intent(in) :: lun
+      character(len=*), intent(in) :: path
+      !> iostat and iomsg of the last write
+      integer, intent(in) :: stat
+      character(len=*), intent(in) :: reason
+      type(status_t), intent(inout) :: status
+      character(len=256) :: why
+      integer(int64) :: bytes, ours
+      integer :: again, sealing
+
+      inquire (unit=lun, pos=bytes)
+      bytes = bytes - 1
+      call end_writing(lun, path, bytes, stat, reason, status)
+      if (status%failed()) return
+      ours = checksum(path, bytes)
+      open (newunit=again, file=path, status="old", action="write", position="append", access="stream", &
+            form="unformatted", iostat=sealing, iomsg=why)
+      if (sealing == 0) write (again, iostat=sealing, iomsg=why) ours
+      call end_writing(again, path, bytes + of_checksum, sealing, why, status)
+      if (status%failed()) return
+      if (.not. flush_file(path)) call status%fail(ehl_file, path//": cannot write: it does not get onto the disk")
+   end subroutine end_sealed
+
+   !> Close a file that was read
+   subroutine end_reading(lun, path, stat, reason, status)
+      integer, intent(in) :: lun
+      character(len=*), intent(in) :: path
+      !> iostat and iomsg of the last read
+      integer, intent(in) :: stat
+      character(len=*), intent(in) :: reason
+      type(status_t), intent(inout) :: status
+
+      close (lun)
+      if (stat /= 0) call status%fail(ehl_file, path//": error: cannot read: "//trim(reason))
+   end subroutine end_reading
+
+   !> Whether all of a file is there as it was written
+   logical function is_sealed(path)
+      character(len=*), intent(in) :: path
+      integer(int64) :: bytes, theirs
+      integer :: lun, stat
+
+      is_sealed = .false.
+      bytes = file_bytes(path) - of_checksum
+      if (bytes < 0) return
+      open (newunit=lun, file=path, status="old", action="read", access="stream", form="unformatted", iostat=stat)
+      if (stat /= 0) return
+      read (lun, pos=bytes + 1, iostat=stat) theirs
+      close (lun)
+      if (stat == 0) is_sealed = theirs == checksum(path, bytes)
+   end function is_sealed
+
+   !> Of so many bytes of a file; of those that can be read
+   integer(int64) function checksum(path, bytes)
+      character(len=*), intent(in) :: path
+      integer(int64), intent(in) :: bytes
+      integer(int8) :: piece(block)
+      integer(int64) :: left
+      integer :: lun, stat, n, k
+
+      checksum = nothing
+      open (newunit=lun, file=path, status="old", action="read", access="stream", form="unformatted", iostat=stat)
+      left = bytes
+      if (stat /= 0) return
+      do while (left > 0)
+         n = int(min(left, size(piece, kind=int64)))
+         read (lun, iostat=stat) piece(:n)
+         if (stat /= 0) exit
+         do k = 1, n
+            checksum = ieor(ishftc(checksum, turn), int(piece(k), int64))
+         end do
+         left = left - n
+      end do
+      close (lun)
+   end function checksum
+end module ehl_sealed_file

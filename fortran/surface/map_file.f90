@@ -1,0 +1,48 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Height maps from .npy files
+module ehl_map_file
+   use ehl_kinds, only: dp
+   use ehl_memory, only: check_memory
+   use ehl_npy, only: npy_shape, read_npy
+   use ehl_status, only: ehl_file, status_t
+   use ehl_text, only: to_text
+   implicit none (type, external)
+   private
+   public :: read_map, check_heights
+
+contains
+
+   !> Heights of a map [m], X first; finite, at least 4 x 4 pixels
+   subroutine read_map(path, heights, status)
+      character(len=*), intent(in) :: path
+      real(dp), allocatable, intent(out) :: heights(:, :)
+      type(status_t), intent(inout) :: status
+      integer :: n(2), j
+
+      call npy_shape(trim(path), n, status)
+      call check_heights(trim(path), n, status)
+      allocate (heights(0, 0))
+      if (.not. status%failed()) call read_npy(trim(path), heights, status)
+      if (status%failed()) return
+      do j = 1, size(heights, 2)
+         if (all(abs(heights(:, j)) < huge(1.0_dp))) cycle
+         call status%fail(ehl_file, trim(path)//": the map has points that are not finite: fill them first")
+         return
+      end do
+      if (size(heights, 1) < 4 .or. size(heights, 2) < 4) then
+         call status%fail(ehl_file, trim(path)//": the map has "//to_text(size(heights, 1))//" x "// &
+                          to_text(size(heights, 2))//" pixels; at least 4 x 4 are needed")
+      end if
+   end subroutine read_map
+
+   !> Refuse a map that would not fit. It needs room twice: for the heights and their spectrum.
+   subroutine check_heights(what, n, status)
+      !> What wants the memory
+      character(len=*), intent(in) :: what
+      !> Pixels along X and Y
+      integer, intent(in) :: n(2)
+      type(status_t), intent(inout) :: status
+
+      call check_memory(what//": a map of "//to_text(n(1))//" x "//to_text(n(2))//" heights", 16.0_dp*n(1)*real(n(2), dp), status)
+   end subroutine check_heights
+end module ehl_map_file

@@ -1,0 +1,51 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Extremes of pressure and film while something passes the contact, with where and when
+module ehl_extremes
+   use ehl_kinds, only: dp
+   use ehl_level, only: gap, level_t
+   implicit none (type, external)
+   private
+   public :: extremes_t, extreme_pressure, extreme_film
+
+   !> Largest pressure; least film; largest pressure above that of the smooth contact at the same place; least film
+   !> over that of the smooth contact there
+   integer, parameter :: extreme_pressure = 1, extreme_film = 2, extreme_rise = 3, extreme_ratio = 4
+
+   type :: extremes_t
+      !> Value [p_h or a^2/R or -], T [a/u], X, Y [a] of each
+      real(dp) :: found(4, 4) = spread([-huge(1.0_dp), huge(1.0_dp), -huge(1.0_dp), huge(1.0_dp)], 1, 4)
+   contains
+      procedure :: see
+      procedure, private :: note
+   end type extremes_t
+
+contains
+
+   !> Look at the state after a time step; the first of equal values counts
+   subroutine see(self, level, p_smooth, h_smooth, time)
+      class(extremes_t), intent(inout) :: self
+      type(level_t), intent(in) :: level
+      !> Pressure and film of the smooth contact, (nx, ny)
+      real(dp), intent(in) :: p_smooth(:, :), h_smooth(:, :)
+      real(dp), intent(in) :: time
+
+      call self%note(level, extreme_pressure, 1.0_dp, level%p, time)
+      call self%note(level, extreme_film, -1.0_dp, gap(level), time)
+      call self%note(level, extreme_rise, 1.0_dp, level%p - p_smooth, time)
+      call self%note(level, extreme_ratio, -1.0_dp, gap(level)/h_smooth, time)
+   end subroutine see
+
+   !> Keep the largest value (sign 1) or the least (-1), with its place, when it is beyond the one kept
+   subroutine note(self, level, which, sign, values, time)
+      class(extremes_t), intent(inout) :: self
+      type(level_t), intent(in) :: level
+      integer, intent(in) :: which
+      real(dp), intent(in) :: sign, time
+      real(dp), contiguous, intent(in) :: values(:, :)
+      integer :: place(2)
+
+      if (.not. maxval(sign*values) > sign*self%found(1, which)) return
+      place = maxloc(sign*values)
+      self%found(:, which) = [values(place(1), place(2)), time, level%grid%x(place(1)), level%grid%y(place(2))]
+   end subroutine note
+end module ehl_extremes
