@@ -59,6 +59,7 @@ contains
       end do
       !$omp end parallel do
       coarse%poiseuille%frozen = .false.
+      coarse%flow%kept%correcting = .true.
       if (allocated(fine%boundary)) call freeze_states(fine, coarse)
       call update_coefficients(coarse)
       if (kind_of_coarsening == coarsening_alcouffe) call build_galerkin(fine, coarse, coarsening)
@@ -239,6 +240,7 @@ contains
          fine%h00 = coarse%h00
       end if
       coarse%poiseuille%frozen = .false.
+      coarse%flow%kept%correcting = .false.
       if (allocated(coarse%boundary)) coarse%boundary%frozen = .false.
       nx = fine%grid%nx
       !$omp parallel do default(none) shared(fine, coarse, space, transfer, coarsening, nx) private(row) &

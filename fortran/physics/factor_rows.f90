@@ -10,7 +10,7 @@ module ehl_factor_rows
    use ehl_thinning, only: eyring, most, slopes, thinning_t
    implicit none (type, external)
    private
-   public :: factor_rows_t, find_factors, flows_newtonian, newtonian_factors, second_order
+   public :: factor_rows_t, find_factors, flows_newtonian, second_order
 
    !> Factors that differ less from 1 than this are 1; relative error of factors of second order
    real(dp), parameter :: negligible = 1.0e-6_dp, tolerance = 1.0e-4_dp
@@ -46,7 +46,13 @@ contains
       integer :: list(most), count, i
 
       if (flows_newtonian(law, b, s)) then
-         call newtonian_factors(b, rows)
+         rows%phi = 1.0_dp
+         rows%tangent = 1.0_dp
+         rows%by_sliding = 0.0_dp
+         rows%by_gradient = 0.0_dp
+         rows%stress(:size(b)) = b
+         rows%stress_by_sliding = 1.0_dp
+         rows%stress_by_gradient = 0.0_dp
          return
       end if
       call second_order(law, b, s, rows)
@@ -70,21 +76,6 @@ contains
       rise = 0.15_dp*law%curvature()
       flows_newtonian = .not. any(rise*(20.0_dp*b**2 + s(:size(b), 1)**2 + s(:size(b), 2)**2) >= negligible)
    end function flows_newtonian
-
-   !> Those factors
-   pure subroutine newtonian_factors(b, rows)
-      !> B of the nodes
-      real(dp), contiguous, intent(in) :: b(:)
-      type(factor_rows_t), intent(inout) :: rows
-
-      rows%phi = 1.0_dp
-      rows%tangent = 1.0_dp
-      rows%by_sliding = 0.0_dp
-      rows%by_gradient = 0.0_dp
-      rows%stress(:size(b)) = b
-      rows%stress_by_sliding = 1.0_dp
-      rows%stress_by_gradient = 0.0_dp
-   end subroutine newtonian_factors
 
    !> Factors of films that slide under a small gradient: to second order in S, their change with the sliding to none
    pure subroutine second_order(law, b, s, rows)

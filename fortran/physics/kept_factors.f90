@@ -5,7 +5,7 @@
 !> lubricant flows as a Newtonian one nothing is kept: to read and write it costs more than to see that it is not needed.
 module ehl_kept_factors
    use, intrinsic :: iso_fortran_env, only: int64, real32
-   use ehl_factor_rows, only: factor_rows_t, find_factors, flows_newtonian, newtonian_factors
+   use ehl_factor_rows, only: factor_rows_t, find_factors, flows_newtonian
    use ehl_kinds, only: dp
    use ehl_thinning, only: eyring, most, thinning_t
    implicit none (type, external)
@@ -15,9 +15,11 @@ module ehl_kept_factors
    !> Changes that are small: of B, relative to B and this much more; of S, for Carreau relative to 1 + |S|. They are smaller
    !> the other way round where the curvature of F is above `straight`; held by test/test_flow.f90
    real(dp), parameter :: small = 0.01_dp, slight = 0.1_dp, straight = 0.15_dp
+   !> Changes that a correction may make are so many times as large: an error of a few per mille of the factors is nothing to it
+   real(dp), parameter :: wider = 5.0_dp
    !> A part of S much below this changes the factors by its square only: quotients by it would be those of rounding
    real(dp), parameter :: faint = 0.05_dp
-   !> B of a node without factors, near no other
+   !> B of a node without factors, near no other: all nodes of a stretch have factors, or none
    real(dp), parameter :: none = -1.0_dp
    !> What is kept of a node: B, S, phi and the stress; and as numbers of single precision, since memory is what time goes
    !> to, the changes of phi and of the stress: those of ln(phi) with ln(B), and of ln(phi_x) and ln(phi_y) with S_x, with S_y
@@ -30,6 +32,8 @@ module ehl_kept_factors
       !> Whether factors follow small changes, and how large those may be
       logical :: follows = .true.
       real(dp), private :: reach = 0.0_dp
+      !> Whether the level is solved for a correction to a finer one: factors follow larger changes then
+      logical :: correcting = .false.
       !> Nodes of a row that are found together, at most `most`
       integer :: width = 0
       !> By node of such a stretch, field, stretch and row
@@ -69,28 +73,31 @@ contains
    end subroutine forget
 
    !> Factors of a stretch of row j, of size(b) nodes, their changes with the sliding, and that of the flow
-   pure subroutine find(self, b, s, stretch, j, rows)
+   pure subroutine find(self, b, s, stretch, j, rows, newtonian)
       class(kept_factors_t), intent(inout) :: self
       !> B >= 0, and S along X and along Y of as many nodes, or more, shape (nodes, 2)
       real(dp), contiguous, intent(in) :: b(:), s(:, :)
       integer, intent(in) :: stretch, j
       type(factor_rows_t), intent(inout) :: rows
+      !> Whether the whole stretch flows as a Newtonian lubricant; `rows` is then as it was
+      logical, intent(out) :: newtonian
       type(factor_rows_t) :: found
-      real(dp) :: beyond(most), ss(most, 2), share, bound
+      real(dp) :: beyond(most), ss(most, 2), reach, share, bound
       integer :: i, n, outside, from, to
 
       n = size(b)
-      if (flows_newtonian(self%law, b, s)) then
+      newtonian = flows_newtonian(self%law, b, s)
+      if (newtonian) then
          ! what was kept of another state would be taken for that of this one (film_power)
-         if (any(self%values(:n, f_b, stretch, j) > none)) self%values(:n, f_b, stretch, j) = none
-         call newtonian_factors(b, rows)
+         if (self%values(1, f_b, stretch, j) > none) self%values(:n, f_b, stretch, j) = none
          return
       end if
-      share = merge(0.0_dp, self%reach, self%law%law == eyring)
+      reach = self%reach*merge(wider, 1.0_dp, self%correcting)
+      share = merge(0.0_dp, reach, self%law%law == eyring)
       associate (kept => self%values(:, :, stretch, j))
          do i = 1, n
-            bound = self%reach + share*(abs(kept(i, f_s)) + abs(kept(i, f_s + 1)))
-            beyond(i) = max(abs(b(i) - kept(i, f_b)) - self%reach*(kept(i, f_b) + slight), abs(s(i, 1) - kept(i, f_s)) - bound, &
+            bound = reach + share*(abs(kept(i, f_s)) + abs(kept(i, f_s + 1)))
+            beyond(i) = max(abs(b(i) - kept(i, f_b)) - reach*(kept(i, f_b) + slight), abs(s(i, 1) - kept(i, f_s)) - bound, &
                             abs(s(i, 2) - kept(i, f_s + 1)) - bound)
          end do
          outside = 0

@@ -64,6 +64,7 @@ contains
       real(dp), dimension(most) :: b, newtonian, by_density
       real(dp) :: log_eta(size(p, 1)), slope(size(p, 1)), s(most, 2)
       integer :: stretch, first, n, i, k
+      logical :: without
 
       call lubricant%log_viscosity(p(:last, j), log_eta(:last), slope(:last))
       if (last < size(p, 1)) then
@@ -82,15 +83,23 @@ contains
             newtonian(k) = rho(i)*h(i, j)**3/newtonian(k)*self%inverse_speed
             by_density(k) = drho_dp(i)/rho(i)
          end do
-         call self%kept%find(b(:n), s, stretch, j, factors)
+         call self%kept%find(b(:n), s, stretch, j, factors, without)
          do k = along, sideways
-            do i = first, first + n - 1
-               associate (m => i - first + 1)
-                  self%eps(i, j, k) = factors%phi(m, k)*newtonian(m)
-                  self%tangent(i, j, k) = factors%tangent(m, k)*newtonian(m)
-                  self%dlneps_dp(i, j, k) = by_density(m) - slope(i)*(1.0_dp - factors%by_sliding(m, k))
-               end associate
-            end do
+            if (without) then
+               do i = first, first + n - 1
+                  self%eps(i, j, k) = newtonian(i - first + 1)
+                  self%tangent(i, j, k) = newtonian(i - first + 1)
+                  self%dlneps_dp(i, j, k) = by_density(i - first + 1) - slope(i)
+               end do
+            else
+               do i = first, first + n - 1
+                  associate (m => i - first + 1)
+                     self%eps(i, j, k) = factors%phi(m, k)*newtonian(m)
+                     self%tangent(i, j, k) = factors%tangent(m, k)*newtonian(m)
+                     self%dlneps_dp(i, j, k) = by_density(m) - slope(i)*(1.0_dp - factors%by_sliding(m, k))
+                  end associate
+               end do
+            end if
          end do
       end do
    end subroutine find_row

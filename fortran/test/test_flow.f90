@@ -103,6 +103,7 @@ contains
       type(factors_t) :: exact
       real(dp) :: b(nodes), s(nodes, 2), stress(nodes), by_sliding(nodes), phase, share, reach, worst(3)
       integer :: i, k, l, stat
+      logical :: newtonian
 
       do l = 1, size(laws)
          worst = 0.0_dp
@@ -118,7 +119,7 @@ contains
                s(i, :) = 10.0_dp**(1.5_dp*sin(2.3_dp*phase))*[cos(phase), sin(phase)]
             end do
             associate (n => store%width)
-               call store%find(b(:n), s, 2, 1, rows)
+               call store%find(b(:n), s, 2, 1, rows, newtonian)
                call find_factors(laws(l), b(:n), s, anew)
                call is_close(maxval(abs(rows%phi(:n, :)/anew%phi(:n, :) - 1.0_dp)), 0.0_dp, 0.0_dp, "beyond reach: found anew")
                do i = 1, n
@@ -126,7 +127,7 @@ contains
                   b(i) = b(i)*(1.0_dp + reach*sign(1.0_dp, sin(phase)))
                   s(i, :) = s(i, :) + reach*sign(1.0_dp + share*sum(abs(s(i, :))), [sin(2.0_dp*phase), sin(3.0_dp*phase)])
                end do
-               call store%find(b(:n), s, 2, 1, rows)
+               call store%find(b(:n), s, 2, 1, rows, newtonian)
                call store%stress(b(:n), s, 2, 1, stress, by_sliding)
                do i = 1, n
                   exact = exact_factors(laws(l), b(i), s(i, :))
@@ -137,7 +138,7 @@ contains
                worst(3) = max(worst(3), maxval(abs(rows%phi(:n, :)/anew%phi(:n, :) - 1.0_dp)))
                if (modulo(k, 2) == 0) cycle
                call store%forget()
-               call store%find(b(:n), s, 2, 1, rows)
+               call store%find(b(:n), s, 2, 1, rows, newtonian)
                call is_close(maxval(abs(rows%phi(:n, :)/anew%phi(:n, :) - 1.0_dp)), 0.0_dp, 0.0_dp, "forgotten: found anew")
             end associate
          end do
