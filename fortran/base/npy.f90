@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Arrays of real(dp) as .npy files (NumPy format 1.0), the file that both drivers share
 module ehl_npy
-   use, intrinsic :: iso_fortran_env, only: int32, int64, int8
+   use, intrinsic :: iso_fortran_env, only: int32, int64, int8, real32
    use ehl_whole_file, only: end_writing, open_to_write
    use ehl_kinds, only: dp
    use ehl_status, only: ehl_file, ehl_no_memory, status_t
@@ -100,26 +100,26 @@ contains
       character(len=*), intent(in) :: path
       integer, intent(out) :: n(2)
       type(status_t), intent(inout) :: status
-      logical :: by_rows
+      logical :: by_rows, single
       integer :: lun
 
-      call open_npy(path, lun, n, by_rows, status)
+      call open_npy(path, lun, n, by_rows, single, status)
       if (.not. status%failed()) close (lun)
    end subroutine npy_shape
 
-   !> Read a matrix of little-endian float64 in either order, format 1.0 to 3.0;
+   !> Read a matrix of little-endian float64 or float32 in either order, format 1.0 to 3.0;
    !> values(i, j) is the file's [i - 1, j - 1]
    subroutine read_npy(path, values, status)
       character(len=*), intent(in) :: path
       real(dp), allocatable, intent(inout) :: values(:, :)
       type(status_t), intent(inout) :: status
-      !> Rows of the file that are read at a time where its order is not Fortran's
+      !> Rows of the file, or columns where its order is Fortran's, that are read at a time
       integer, parameter :: block = 64
       real(dp), allocatable :: rows(:, :)
-      logical :: by_rows
+      logical :: by_rows, single
       integer :: lun, stat, n(2), i, last
 
-      call open_npy(path, lun, n, by_rows, status)
+      call open_npy(path, lun, n, by_rows, single, status)
       if (status%failed()) return
       if (allocated(values)) deallocate (values)
       allocate (values(n(1), n(2)), stat=stat)
@@ -129,23 +129,44 @@ contains
          allocate (rows(n(2), min(block, n(1))))
          do i = 1, n(1), block
             last = min(i + block - 1, n(1))
-            read (lun, iostat=stat) rows(:, :last - i + 1)
+            call read_values(lun, single, rows(:, :last - i + 1), stat)
             if (stat /= 0) exit
             values(i:last, :) = transpose(rows(:, :last - i + 1))
          end do
       else
-         read (lun, iostat=stat) values
+         do i = 1, n(2), block
+            call read_values(lun, single, values(:, i:min(i + block - 1, n(2))), stat)
+            if (stat /= 0) exit
+         end do
       end if
       if (stat /= 0) call status%fail(ehl_file, path // ": cannot read the array: it is shorter than it says")
       close (lun)
    end subroutine read_npy
 
+   !> The next numbers of a file
+   subroutine read_values(lun, single, values, stat)
+      integer, intent(in) :: lun
+      !> Whether they are of single precision
+      logical, intent(in) :: single
+      real(dp), contiguous, intent(inout) :: values(:, :)
+      integer, intent(out) :: stat
+      real(real32), allocatable :: short(:, :)
+
+      if (single) then
+         allocate (short(size(values, 1), size(values, 2)))
+         read (lun, iostat=stat) short
+         if (stat == 0) values = real(short, dp)
+      else
+         read (lun, iostat=stat) values
+      end if
+   end subroutine read_values
+
    !> Open a file and read its header, as far as the first number
-   subroutine open_npy(path, lun, n, by_rows, status)
+   subroutine open_npy(path, lun, n, by_rows, single, status)
       character(len=*), intent(in) :: path
       integer, intent(out) :: lun, n(2)
-      !> Whether the last index of the array runs fastest
-      logical, intent(out) :: by_rows
+      !> Whether the last index of the array runs fastest; whether its numbers are of single precision
+      logical, intent(out) :: by_rows, single
       type(status_t), intent(inout) :: status
       character(len=:), allocatable :: head, problem
       character(len=10) :: front
@@ -156,6 +177,7 @@ contains
 
       n = 0
       by_rows = .true.
+      single = .false.
       head = ""
       if (status%failed()) return
       open (newunit=lun, file=path, status="old", action="read", access="stream", &
@@ -179,7 +201,8 @@ contains
             if (stat == 0) call read_header(head, n, problem)
          end if
       end if
-      if (problem == "" .and. 8*int(n(1), int64)*n(2) > bytes) problem = "it is shorter than it says"
+      single = index(head, "'descr': '<f4'") > 0
+      if (problem == "" .and. merge(4, 8, single)*int(n(1), int64)*n(2) > bytes) problem = "it is shorter than it says"
       by_rows = index(head, "'fortran_order': True") == 0
       if (problem == "") return
       call status%fail(ehl_file, path // ": cannot read the array: " // problem)
@@ -194,8 +217,8 @@ contains
       integer :: first, last, stat, i
 
       n = 0
-      if (index(head, "'descr': '<f8'") == 0) then
-         problem = "its numbers are not little-endian float64"
+      if (index(head, "'descr': '<f8'") == 0 .and. index(head, "'descr': '<f4'") == 0) then
+         problem = "its numbers are not little-endian float64 or float32"
          return
       end if
       problem = "it is not a matrix"

@@ -219,10 +219,10 @@ def _check_pixel(scan: Scan) -> None:
 
 
 def plain_array(path: str) -> bool:
-    """Whether a file is one that the solver reads itself: ``.npy`` of little-endian float64."""
+    """Whether a file is one that the solver reads itself: ``.npy`` of little-endian floats."""
     if not path.endswith(".npy"):
         return False
-    return bool(np.load(path, mmap_mode="r", allow_pickle=False).dtype.str == "<f8")
+    return bool(np.load(path, mmap_mode="r", allow_pickle=False).dtype.str in {"<f8", "<f4"})
 
 
 def _read_npy(path: Path) -> Array:

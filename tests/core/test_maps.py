@@ -127,8 +127,9 @@ def test_program_refuses_exports(tmp_path: Path, drive):
     assert "it is no .npy array" in refused.stderr
 
 
-def test_neutral_arrays_have_the_same_bits(tmp_path: Path, drive):
-    np.save(tmp_path / "map.npy", heights())
+@pytest.mark.parametrize(("numbers", "order"), [("f8", "C"), ("f4", "C"), ("f4", "F")])
+def test_neutral_arrays_have_the_same_bits(tmp_path: Path, drive, numbers: str, order):
+    np.save(tmp_path / "map.npy", np.array(heights(), dtype=numbers, order=order))
     size = f"length_x = {LENGTH} length_y = {LENGTH}"
     case = write_case(tmp_path / "case.nml", "map.npy", size)
     assert drive("ehl", case, "-o", "ehl").returncode == run(case, tmp_path / "pyehl") == 1
@@ -139,7 +140,7 @@ def test_neutral_arrays_have_the_same_bits(tmp_path: Path, drive):
     assert summary["surface_preparation"]["steps"] == []
     assert "taken as it is" in (tmp_path / "pyehl" / "plan.txt").read_text()
     # `sign` twice is nothing: a prepared map runs as the same heights from a file do
-    np.save(tmp_path / "map.npy", -heights())
+    np.save(tmp_path / "map.npy", -heights().astype(numbers))
     other = write_case(tmp_path / "other.nml", "map.npy", f"{size} sign = -1")
     assert run(other, tmp_path / "other") == 1
     one, same = (np.load(tmp_path / d / "P.npy") for d in ("pyehl", "other"))
