@@ -155,10 +155,10 @@ contains
       if (single) then
          allocate (short(size(values, 1), size(values, 2)))
          read (lun, iostat=stat) short
-         if (stat == 0) values = real(short, dp)
       else
          read (lun, iostat=stat) values
       end if
+      if (single .and. stat == 0) values = real(short, dp)
    end subroutine read_values
 
    !> Open a file and read its header, as far as the first number
