@@ -100,6 +100,12 @@ def axes_or_new(ax: Axes | None, width: float, height: float) -> Axes:
     return ax
 
 
+def not_known(ax: Axes) -> None:
+    """Say so in axes that have nothing to show."""
+    ax.set(xticks=[], yticks=[])
+    ax.text(0.5, 0.5, "not known", ha="center", va="center", transform=ax.transAxes)
+
+
 def colour_bar(
     image: ScalarMappable, ax: Axes, label: str, *, shrink: float = 1.0, slender: float = 1.0
 ) -> None:

@@ -152,7 +152,8 @@ def passage(
     Parameters
     ----------
     shift, ratio
-        (n,) displacement of the tile [m], equally spaced from 0, and mu_r/mu_s there [-].
+        (n,) displacement of the tile [m], equally spaced from 0, and mu_r/mu_s there [-]; NaN where
+        it is not known.
     length
         Of the tile along x [m].
     second
@@ -160,14 +161,21 @@ def passage(
         not those of a common period but all that two tiles may have, in no order of time.
     """
     ax = style.axes_or_new(ax, 3.8, 2.9)
-    mean = float(ratio.mean())
+    known = np.isfinite(ratio)
     if second is None or bool(np.all(np.diff(second) >= 0.0)):
-        fine = interpolated(ratio, 16)
         length *= round(float(shift[-1]) * (1.0 + 1.0 / max(1, shift.size - 1)) / length) or 1
-        at = np.arange(fine.size + 1) * length / fine.size
-        ax.plot(at * 1e3, np.append(fine, fine[0]), color=style.BLUE, lw=1.4)
+        if known.all():
+            fine = interpolated(ratio, 16)
+            at = np.arange(fine.size + 1) * length / fine.size
+            ax.plot(at * 1e3, np.append(fine, fine[0]), color=style.BLUE, lw=1.4)
     ax.plot(shift * 1e3, ratio, "o", ms=3.0, color=style.BLUE)
-    ax.axhline(mean, color=style.VERMILLION, lw=1.0, ls="--", label=f"mean {mean:.3f}")
+    if known.all():
+        mean = float(ratio.mean())
+        ax.axhline(mean, color=style.VERMILLION, lw=1.0, ls="--", label=f"mean {mean:.3f}")
+    if not known.any():
+        style.not_known(ax)
+        ax.set(xlabel="displacement of the surface [mm]", ylabel="relative friction")
+        return ax
     ax.axhline(1.0, color=style.GREY, lw=0.8, ls=":", label="smooth")
     ax.set(xlim=(0.0, length * 1e3), xlabel="displacement of the surface [mm]")
     ax.set(ylabel="relative friction")
@@ -188,8 +196,7 @@ def octaves(bands: Sequence[tuple[float, float, float]], *, ax: Axes | None = No
     ax.set(xlabel="wavelength of the component [μm]", ylabel="contribution to relative friction")
     known = sorted((band for band in bands if math.isfinite(band[2])), reverse=True)
     if not known:
-        ax.set(xticks=[], yticks=[])
-        ax.text(0.5, 0.5, "not known", ha="center", va="center", transform=ax.transAxes)
+        style.not_known(ax)
         return ax
     for longest, shortest, rise in known:
         ax.fill_between(

@@ -239,6 +239,7 @@ class Prediction:
         f, o, s = self.friction, self.operating, self.surface
         layer = float(self.settings["lubricant"].get("boundary_film", 0.0)) / o.film_scale
         sigma = math.hypot(s.rms_height, self.second.surface.rms_height if self.second else 0.0)
+        lacking = self.partial is not None and self.partial.lacks_friction
         rough = max(f.pressure_max, self.pressure_maximum) if f.status == "predicted" else None
         values: dict[str, Any] = {
             "kind": "prediction",
@@ -271,6 +272,7 @@ class Prediction:
             "shear_law": self.lubricant.shear.law,
             "slide_to_roll": o.slide_to_roll,
             **absolute_friction(o, self.lubricant, self.film, f.mu_smooth, f.mu_ratio, self.heat),
+            **({"mu_note": NO_FRICTION} if lacking else {}),
             "thermal_reduction": o.thermal_reduction,
             "h_c_m": self.film,
             "h_c_error_m": self.film_errors[0],

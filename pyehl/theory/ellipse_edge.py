@@ -47,7 +47,7 @@ class EllipseEdge:
         x, y = (values.ravel() for values in np.meshgrid(*lines, indexing="ij"))
         inside = np.hypot(x, y) <= RADIUS
         self.x, self.y = x, y = x[inside], y[inside]
-        self._inverse = np.linalg.pinv(self.functions(x, y).T)
+        self._inverse = np.asarray(np.linalg.pinv(self.functions(x, y).T), dtype=float)
         # by the semi-axes
         largest = self.largest * max(1.0, kappa)
         self._inside = Series(shape, x, y, largest, self._inverse)

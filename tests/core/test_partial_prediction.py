@@ -6,6 +6,7 @@ import pytest
 
 import pyehl
 from pyehl import cli
+from pyehl.plots import surface
 from pyehl.prediction.obstacle import Compliance, lifted
 from pyehl.studies.curve_contact import lift_off
 
@@ -56,6 +57,18 @@ def test_friction_of_the_layer_is_not_known():
     assert summary["contact_load_share"] > 0.0
     assert (summary["mu"], summary["mu_ratio"]) == (None, None)
     assert "lubricant.boundary_friction" in summary["mu_ratio_error_note"]
+    assert summary["mu_note"] == summary["mu_ratio_error_note"]
+
+
+@pytest.mark.parametrize(
+    ("ratio", "texts", "labels"),
+    [([np.nan] * 4, ["not known"], []), ([1.0, np.nan, 1.2, 1.1], [], ["smooth"])],
+)
+def test_picture_of_friction_that_is_not_known(ratio, texts, labels):
+    """Of none of the positions, or of some."""
+    ax = surface.passage(np.arange(4) * 1e-4, np.array(ratio), 4e-4)
+    assert [text.get_text() for text in ax.texts] == texts
+    assert ax.get_legend_handles_labels()[1] == labels
 
 
 def test_contact_where_a_full_film_breaks_down(tmp_path, capsys):
