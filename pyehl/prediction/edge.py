@@ -11,6 +11,7 @@ import numpy as np
 
 from pyehl.prediction.across import harmonics
 from pyehl.prediction.spectrum import Spectrum
+from pyehl.prediction.transfer import Transfer
 from pyehl.theory.disc import LARGEST, RADIUS, RIM_ANGLES, disc_correction, disc_rim, monomials
 from pyehl.theory.ellipse import Ellipse
 from pyehl.theory.ellipse_edge import ellipse_edge
@@ -37,12 +38,12 @@ class Edge:
 
     @classmethod
     def of(
-        cls, spectrum: Spectrum, flattened: Complex, shape: Ellipse, beside: Complex | None = None
+        cls, spectrum: Spectrum, transfer: Transfer, velocity_ratio: float, shape: Ellipse
     ) -> Edge:
-        """Of a tile, each component flattened by a factor (shape of the spectrum).
-
-        `beside`: by how much less on lines beside the centre line of an ellipse (lines, ...).
-        """
+        """Of a tile that moves, by what is left of its components."""
+        flattened = 1.0 - transfer.at_centre(spectrum, velocity_ratio)
+        # by how much less on lines beside the centre line of an ellipse (lines, ...)
+        beside = transfer.beside(spectrum.qx, velocity_ratio)
         nx, ny = spectrum.shape
         q = spectrum.q
         strong = np.abs(spectrum.values) > 1e-9 * np.abs(spectrum.values).max()
