@@ -71,6 +71,20 @@ def test_picture_of_friction_that_is_not_known(ratio, texts, labels):
     assert ax.get_legend_handles_labels()[1] == labels
 
 
+@pytest.mark.parametrize("layer", [5e-9, 1.2e-7])
+def test_friction_is_isothermal_as_in_a_run(layer):
+    """With a layer, whether bodies touch or not; its heat is not computed."""
+    text = SCENE.format(3.0, layer, 0.1).replace(
+        "&lubricant", "&lubricant temperature_viscosity = 0.04"
+    )
+    summary = summary_of(text)
+    case = pyehl.Case.from_text(text, ["grid.points=33", "time.steps=1"])
+    run = pyehl.solve(case, check=False).attrs
+    assert summary["mu"] == summary["mu_isothermal"]
+    assert summary["mu_note"] == run["mu_note"]
+    assert summary["mu_note"].startswith("isothermal: the heat where bodies touch")
+
+
 def test_contact_where_a_full_film_breaks_down(tmp_path, capsys):
     """Numbers of a full film are none then, and neither table nor pictures need them."""
     case = tmp_path / "case.nml"
