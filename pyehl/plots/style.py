@@ -56,6 +56,8 @@ class Scales:
 PAGE_WIDTH: ContextVar[float] = ContextVar("PAGE_WIDTH", default=0.0)
 # Letters as journals want them in their columns [pt], and how many go into an inch
 PAGE_FONT, LETTERS_PER_INCH = 7.0, 17.0
+# As many of the others
+LARGE_PER_INCH = 13.3
 
 
 @contextmanager
@@ -72,14 +74,14 @@ def page_width(metres: float) -> Iterator[None]:
         PAGE_WIDTH.reset(token)
 
 
-def wrapped(title: str, width: float) -> str:
+def wrapped(title: str, width: float, per_inch: float = LETTERS_PER_INCH) -> str:
     """Break a line of parts, ',  ' between them, so that it fits a width in inches."""
     lines: list[str] = []
     for part in title.split(",  "):
         joined = f"{lines[-1]},  {part}" if lines else part
         # what mathematics is written with is not seen
         seen = len(re.sub(r"\\[a-z]+|[${}]", "", joined))
-        if lines and seen <= width * LETTERS_PER_INCH:
+        if lines and seen <= width * per_inch:
             lines[-1] = joined
         else:
             lines.append(part)

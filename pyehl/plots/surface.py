@@ -81,10 +81,15 @@ def spectrum_line(
     style.y_label(ax, "isotropic spectrum [m⁴]", style.BLUE)
     style.label_decades(ax.xaxis, ax.yaxis)
     twin = ax.twinx()
-    for values, line, label in ((deformed, "-", "|T|"), (flattened, "--", "|1 − T|")):
+    for values, line, mark, label in (
+        (deformed, "-", "o", "|T|"),
+        (flattened, "--", "x", "|1 − T|"),
+    ):
         part = Topography(values, topography.size)
         share = np.sqrt(psd_isotropic(part)[1][shown] / c_iso[shown])
-        twin.plot(q[shown], share, line, color=style.VERMILLION, lw=1.4, label=label)
+        # a single wave is a point
+        marker = mark if share.size == 1 else ""
+        twin.plot(q[shown], share, line, marker=marker, color=style.VERMILLION, lw=1.4, label=label)
     style.y_label(twin, "response at the centre (rms)", style.VERMILLION)
     # the spectrum falls and the response rises: below both there is room
     twin.legend(loc="lower center", fontsize="small")

@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Prediction of contact at a boundary film."""
 
+from collections import defaultdict
+
 import numpy as np
 import pytest
 
 import pyehl
 from pyehl import cli
 from pyehl.plots import surface
+from pyehl.plots.stribeck import Curve, draw_stribeck
 from pyehl.prediction.obstacle import Compliance, lifted
 from pyehl.studies.curve_contact import lift_off
 
@@ -69,6 +72,14 @@ def test_picture_of_friction_that_is_not_known(ratio, texts, labels):
     ax = surface.passage(np.arange(4) * 1e-4, np.array(ratio), 4e-4)
     assert [text.get_text() for text in ax.texts] == texts
     assert ax.get_legend_handles_labels()[1] == labels
+
+
+@pytest.mark.parametrize(("share", "rows"), [(None, 1), (0.0, 3)])
+def test_picture_of_a_curve_whose_contact_is_not_known(share, rows):
+    """As of two surfaces: no panels without a line."""
+    row = defaultdict(lambda: 1.0, contact_load_share=share)
+    figure = draw_stribeck([Curve("", [row, row], "", (), absolute=False)], "two surfaces")
+    assert {ax.get_subplotspec().get_gridspec().nrows for ax in figure.axes} == {rows}
 
 
 @pytest.mark.parametrize("layer", [5e-9, 1.2e-7])

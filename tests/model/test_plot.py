@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pictures: what they show, on fields that are known."""
 
+import io
 import json
 import struct
 
@@ -124,6 +125,21 @@ def test_every_function_takes_axes_and_returns_them(fields, settings):
         ax = style.new_figure(3.0, 3.0).subplots()
         assert call(ax) is ax
         assert ax.has_data()
+
+
+@pytest.mark.parametrize("room", [None, (0.75, 0.35, 1.15)])
+@pytest.mark.parametrize("width", [6.4, 7.2, 8.0])
+def test_headline_is_as_wide_as_the_figure(width, room):
+    """Its lines lie in the figure, above the letters of the panels."""
+    about = {"moes_m": 412.9, "moes_l": 10.73, "hertz_pressure_Pa": 0.997e9, "h_c_m": 1.32e-7}
+    about |= {"h_min_m": 8.74e-8, "status": "beyond linear response"}
+    figure = panels.panels(2, (width, 3.4), panels.headline(about), room=room)
+    figure.savefig(io.BytesIO(), dpi=100)
+    title = next(t for t in figure.texts if "motion" in t.get_text()).get_window_extent()
+    assert 0.0 <= title.x0 < title.x1 <= figure.bbox.x1
+    assert title.y1 <= figure.bbox.y1
+    letters = [ax._left_title.get_window_extent() for ax in figure.axes]
+    assert max(box.y1 for box in letters) <= title.y0
 
 
 def test_headline():
