@@ -263,7 +263,12 @@ def load(folder: str | os.PathLike[str]) -> xr.Dataset:
     folder = Path(path_of(folder, "folder"))
     for name in ("summary.json", "case.nml"):
         if not (folder / name).is_file():
-            raise InputError(f"{folder}: not a result folder (there is no {name})")
+            study = (folder / "journal.jsonl").is_file()
+            why = "a study has its table and pictures in its folder" if study else f"no {name}"
+            raise InputError(
+                f"{folder}: not a result folder of one case ({why})\n"
+                "expected: what -o of run or predict named"
+            )
     try:
         summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
         case = (folder / "case.nml").read_text(encoding="utf-8")

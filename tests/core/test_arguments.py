@@ -73,6 +73,7 @@ CALLS: dict[str, tuple[Callable[[str], Any], str]] = {
     "heights nan": (lambda q: pyehl.Solver.open(q, np.full((8, 8), np.nan)), "finite"),
     "load None": (lambda q: pyehl.load(None), "expected a path"),
     "load file": (pyehl.load, "not a result folder"),
+    "report nothing": (lambda q: pyehl.report("nowhere"), "nowhere: there is no such folder"),
     "load nothing": (lambda q: pyehl.load("nowhere"), "nowhere: not a result folder"),
     "sweep list": (lambda q: pyehl.sweep(q, ["contact.load=3"]), "values by key"),
     "sweep key": (lambda q: pyehl.sweep(q, {3: [1.0]}), "group.key"),
