@@ -94,7 +94,7 @@ def test_differences_that_are_many_are_counted(tmp_path: Path):
     assert len(lines) < 18
     assert lines[-2].endswith("more")
     assert lines[-1] == "expected: another folder"
-    with pytest.raises(InputError, match=r"not a result folder of one case \(a study"):
+    with pytest.raises(InputError, match=r"not a result folder of one case \(of a study"):
         load(tmp_path)
 
 
