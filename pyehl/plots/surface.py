@@ -212,7 +212,11 @@ def octaves(bands: Sequence[tuple[float, float, float]], *, ax: Axes | None = No
     ax.plot(cut, total, "o-", ms=3, lw=1.2, color=style.BLUE, label="with all longer ones")
     ax.axhline(0.0, color=style.GREY, lw=0.8)
     ax.set_xscale("log")
-    style.label_decades(ax.xaxis)
+    low, high = ax.get_xlim()
+    if high < 100.0 * low:
+        style.label_log_ticks(ax)
+    else:
+        style.label_decades(ax.xaxis)
     # a power of ten above the panel would lie on its letter: for large contributions alone
     ax.ticklabel_format(axis="y", scilimits=(-9, SHORT[1]))
     ax.legend(fontsize="small", frameon=False)

@@ -2,6 +2,7 @@
 """Pictures: what they show, on fields that are known."""
 
 import io
+import itertools
 import json
 import struct
 
@@ -125,6 +126,25 @@ def test_every_function_takes_axes_and_returns_them(fields, settings):
         ax = style.new_figure(3.0, 3.0).subplots()
         assert call(ax) is ax
         assert ax.has_data()
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 5, 8])
+def test_wavelengths_of_few_octaves_are_readable(count):
+    """The numbers below the axis do not lie on each other."""
+    figure = panels.panels(2, (7.6, 3.2), "octaves", room=(0.9, 1.05, 0.15))
+    ax = figure.axes[1]
+    surface.octaves([(1.2e-4 / 2**k, 0.6e-4 / 2**k, 0.01) for k in range(count)], ax=ax)
+    figure.savefig(io.BytesIO(), dpi=100)
+    labels = [*ax.get_xticklabels(), *ax.get_xticklabels(minor=True)]
+    low, high = ax.get_xlim()
+    boxes = sorted(
+        (box.x0, box.x1)
+        for label in labels
+        if label.get_text() and low <= label.get_position()[0] <= high
+        for box in [label.get_window_extent()]
+    )
+    assert len(boxes) > 1
+    assert all(one[1] < other[0] for one, other in itertools.pairwise(boxes))
 
 
 @pytest.mark.parametrize("room", [None, (0.75, 0.35, 1.15)])
