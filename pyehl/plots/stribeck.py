@@ -101,7 +101,7 @@ def draw_stribeck(
         if name == "theta_2" and not absolute:
             _draw_eq_16(ax)
         ax.set_xscale("log")
-        style.label_log_ticks(ax)
+        style.label_log_ticks(ax.xaxis)
         panels[-1, list(axes).index(ax)].set_xlabel(label)
         ax.grid(visible=True, which="major", color="0.92", lw=0.6)
         ax.set_axisbelow(True)

@@ -39,6 +39,7 @@ def heights(topography: Topography, *, ax: Axes | None = None) -> Axes:
         z.T * unit, origin="lower", extent=extent, cmap=style.DIVERGING, vmin=-top, vmax=top
     )
     style.colour_bar(image, ax, f"height [{name}]")
+    style.few_ticks(ax)
     ax.set(xlabel="x [mm]", ylabel="y [mm]")
     return ax
 
@@ -54,6 +55,7 @@ def spectrum_map(topography: Topography, *, ax: Axes | None = None) -> Axes:
         norm=LogNorm(vmin=FLOOR * most, vmax=most),
     )  # fmt: skip
     style.colour_bar(image, ax, "spectrum [m⁴]")
+    style.few_ticks(ax)
     ax.set(xlabel="q along x [rad/µm]", ylabel="q along y [rad/µm]")
     return ax
 
@@ -212,11 +214,7 @@ def octaves(bands: Sequence[tuple[float, float, float]], *, ax: Axes | None = No
     ax.plot(cut, total, "o-", ms=3, lw=1.2, color=style.BLUE, label="with all longer ones")
     ax.axhline(0.0, color=style.GREY, lw=0.8)
     ax.set_xscale("log")
-    low, high = ax.get_xlim()
-    if high < 100.0 * low:
-        style.label_log_ticks(ax)
-    else:
-        style.label_decades(ax.xaxis)
+    style.label_decades(ax.xaxis)
     # a power of ten above the panel would lie on its letter: for large contributions alone
     ax.ticklabel_format(axis="y", scilimits=(-9, SHORT[1]))
     ax.legend(fontsize="small", frameon=False)
@@ -234,6 +232,7 @@ def before_and_after(
     made = surface.preparation
     figure = style.new_figure(10.2 if made else 7.0, 2.9)
     axes = list(figure.subplots(1, 3 if made else 2))
+    style.letter(axes)
     lengths = (surface.length_x, surface.length_y)
     curves = [("prepared" if made else "surface", style.BLUE, surface)]
     if made:
@@ -250,7 +249,6 @@ def before_and_after(
     else:
         _map(axes[0], surface.heights, lengths, "surface")
     _spectra(axes[-1], curves, conditions)
-    style.letter(axes)
     return figure
 
 
@@ -267,7 +265,9 @@ def _map(ax: Axes, heights: Array, size: tuple[float, float], title: str) -> Non
     bar.set_label(f"height [{name}]")
     rms = float(np.nanstd(heights)) * unit
     peak = float(np.nanmax(np.abs(heights))) * unit
-    ax.set_title(f"{title}\nrms {rms:.3g}, peak {peak:.3g} {name}", fontsize="small", loc="right")
+    head = f"{ax.get_title(loc='left')} {title}\nrms {rms:.3g}, peak {peak:.3g} {name}"
+    ax.set_title(head, fontsize="small", loc="left")
+    style.few_ticks(ax)
     ax.set(xlabel="x [mm]", ylabel="y [mm]")
 
 
@@ -283,6 +283,7 @@ def _spectra(
         ax.loglog(q[shown], c_iso[shown], "-", lw=1.2, color=colour, label=label)
         ends += [float(q[0]), float(q[-1])]
     ax.set(xlabel="|q| [rad/m]", ylabel="isotropic spectrum [m⁴]")
+    style.label_decades(ax.xaxis)
     ax.legend(loc="lower left", fontsize="small")
     if conditions is None:
         return

@@ -17,6 +17,7 @@ from pyehl import Case, cli, namelist
 from pyehl.plots import contact, figures, folder, panels, style, surface, transient
 from pyehl.prediction.folder import destination, write
 from pyehl.prediction.of_case import predict
+from pyehl.surfaces import Topography
 from pyehl.theory.operating import OperatingPoint
 
 
@@ -128,23 +129,37 @@ def test_every_function_takes_axes_and_returns_them(fields, settings):
         assert ax.has_data()
 
 
+def clear(ax):
+    """Whether the numbers below axes do not lie on each other; there are some."""
+    low, high = ax.get_xlim()
+    boxes = sorted(
+        (box.x0, box.x1)
+        for label in (*ax.get_xticklabels(), *ax.get_xticklabels(minor=True))
+        if label.get_text() and low <= label.get_position()[0] <= high
+        for box in [label.get_window_extent()]
+    )
+    return boxes and all(one[1] < other[0] for one, other in itertools.pairwise(boxes))
+
+
 @pytest.mark.parametrize("count", [1, 2, 3, 5, 8])
 def test_wavelengths_of_few_octaves_are_readable(count):
-    """The numbers below the axis do not lie on each other."""
     figure = panels.panels(2, (7.6, 3.2), "octaves", room=(0.9, 1.05, 0.15))
     ax = figure.axes[1]
     surface.octaves([(1.2e-4 / 2**k, 0.6e-4 / 2**k, 0.01) for k in range(count)], ax=ax)
     figure.savefig(io.BytesIO(), dpi=100)
-    labels = [*ax.get_xticklabels(), *ax.get_xticklabels(minor=True)]
-    low, high = ax.get_xlim()
-    boxes = sorted(
-        (box.x0, box.x1)
-        for label in labels
-        if label.get_text() and low <= label.get_position()[0] <= high
-        for box in [label.get_window_extent()]
-    )
-    assert len(boxes) > 1
-    assert all(one[1] < other[0] for one, other in itertools.pairwise(boxes))
+    assert clear(ax)
+
+
+@pytest.mark.parametrize("sides", [(8.0, 1.0), (1.0, 8.0), (1.0, 1.0)])
+def test_slender_maps_are_readable(sides):
+    heights = np.random.default_rng(1).normal(scale=1e-8, size=(24, 24))
+    tile = Topography(heights, tuple(3.6e-4 * side for side in sides))
+    figure = panels.panels(3, (11.6, 3.2), "tile", room=(0.8, 1.9, 0.8))
+    surface.heights(tile, ax=figure.axes[0])
+    surface.spectrum_map(tile, ax=figure.axes[1])
+    surface.spectrum_line(tile, heights, heights, ax=figure.axes[2])
+    figure.savefig(io.BytesIO(), dpi=100)
+    assert all(clear(ax) for ax in figure.axes[:3])
 
 
 @pytest.mark.parametrize("room", [None, (0.75, 0.35, 1.15)])
