@@ -82,6 +82,15 @@ def test_picture_of_a_curve_whose_contact_is_not_known(share, rows):
     assert {ax.get_subplotspec().get_gridspec().nrows for ax in figure.axes} == {rows}
 
 
+def test_curve_says_why_it_has_no_friction(tmp_path, capsys):
+    case = tmp_path / "case.nml"
+    case.write_text(SCENE.format(0.3, 1.2e-7, 0.0) + "&grid points = 65 /\n")
+    words = ["stribeck", str(case), "--speed", "0.3", "--jobs", "1", "-o"]
+    # without friction at any point it has no picture
+    assert cli.main([*words, str(tmp_path / "out")]) == 1
+    assert "mu         none: the bodies touch, and the friction" in capsys.readouterr().out
+
+
 @pytest.mark.parametrize("layer", [5e-9, 1.2e-7])
 def test_friction_is_isothermal_as_in_a_run(layer):
     """With a layer, whether bodies touch or not; its heat is not computed."""
