@@ -263,7 +263,8 @@ def load(folder: str | os.PathLike[str]) -> xr.Dataset:
     folder = Path(path_of(folder, "folder"))
     for name in ("summary.json", "case.nml"):
         if not (folder / name).is_file():
-            raise InputError(f"{folder}: not a result folder (there is no {name})")
+            study = (folder / "journal.jsonl").is_file()
+            raise InputError(_no_case(folder, "of a study" if study else f"no {name}"))
     try:
         summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
         case = (folder / "case.nml").read_text(encoding="utf-8")
@@ -271,6 +272,8 @@ def load(folder: str | os.PathLike[str]) -> xr.Dataset:
         raise FileError(f"{folder}: cannot read: {error.filename}: {error.strerror}") from error
     except ValueError as error:
         raise FileError(f"{folder}: summary.json or case.nml is damaged: {error}") from error
+    if summary.get("kind", "solution") not in ("solution", "prediction"):
+        raise InputError(_no_case(folder, f"of '{summary['kind']}'"))
     prediction = summary.get("kind") == "prediction"
     files = list(PREDICTION) if prediction else [field.file for field in SOLUTION]
     arrays = {
@@ -285,3 +288,10 @@ def load(folder: str | os.PathLike[str]) -> xr.Dataset:
     }
     make = prediction_dataset if prediction else _solution_dataset
     return make(summary, case, arrays, tables)
+
+
+def _no_case(folder: Path, why: str) -> str:
+    return (
+        f"{folder}: not a result folder of one case ({why}); tables and pictures of other results "
+        "are in their folders\nexpected: what -o of run or predict named"
+    )

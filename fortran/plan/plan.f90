@@ -119,10 +119,6 @@ contains
       call plan%lubricant%density([1.0_dp], rho, slope)
       film = plan%contact%film_formula(plan%point%moes_m, plan%point%moes_l)/rho(1)
       plan%heat = plan_heat(input, plan%contact, plan%scales, plan%sliding, plan%lubricant, film)
-      if (plan%lubricant%boundary_film > 0.0_dp) then
-         plan%heat%counts = .false.
-         plan%heat%note = "isothermal: the heat where bodies touch at the boundary film is not computed"
-      end if
       film = plan%lubricant%shear%thinned_film(film, plan%point%speed_parameter)
       plan%touches = plan%lubricant%boundary_film > contact_from*film
       plan%film_expected = max(film, plan%lubricant%boundary_film)

@@ -50,7 +50,10 @@ contains
 
       associate (l => input%lubricant, heat => plan%film)
          heat%speed = abs(sliding%slide_to_roll)*sliding%mean_velocity
-         if (l%thermal_friction == "never") then
+         if (l%boundary_film > 0.0_dp) then
+            plan%note = "isothermal: the heat where bodies touch at the boundary film is not computed"
+            return
+         else if (l%thermal_friction == "never") then
             plan%note = "isothermal: lubricant.thermal_friction is 'never'"
             return
          else if (.not. knows_temperature(input)) then

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The pictures of the page, and how answers get into them."""
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -219,9 +220,8 @@ class Pictures:
         if octaves["rise"]:
             change(self.bands.x_range, start=min(octaves["left"]), end=max(octaves["right"]))
             self._around(self.bands, [0.0, *octaves["rise"]])
-        known = made.friction.status == "predicted"
         self._empty(self.passage)
-        if known:
+        if math.isfinite(made.mu_ratio):
             shift, ratio = made.friction.shift * 1e3, made.friction.passage
             change(self.passage, data={"shift": shift, "ratio": ratio})
             change(self.over.x_range, end=width)

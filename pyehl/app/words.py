@@ -73,11 +73,14 @@ def rough_rows(found: Rough) -> list[tuple[str, str]]:
         return [("no prediction", found.why)]
     s = p.summary
     rows = []
-    if p.friction.status == "predicted":
+    if p.friction.status == "predicted" and not math.isfinite(p.mu_ratio):
+        rows.append(("μ_r/μ_s", f"not known: {p.why_no_error}"))
+    elif p.friction.status == "predicted":
         error = p.model_error if math.isfinite(p.model_error) else None
         rows.append(("μ_r/μ_s", with_error(p.mu_ratio, error)))
         rows.append(("over the passage", f"{s['mu_ratio_min']:.4g} … {s['mu_ratio_max']:.4g}"))
-        rows.append((f"over {p.track_count} tracks", with_error(*p.tracks)))
+        if math.isfinite(p.tracks[0]):
+            rows.append((f"over {p.track_count} tracks", with_error(*p.tracks)))
         if error is None:
             rows.append(("error of the model", "not known"))
     else:

@@ -7,7 +7,6 @@ a run that was killed and resumed gives the bits of an unbroken one.
 
 import csv
 import json
-import os
 import shutil
 import signal
 import subprocess
@@ -20,6 +19,7 @@ from typing import Any
 
 import numpy as np
 
+from pyehl.bench.faults_inputs import HANG, Found, mutated
 from pyehl.types import Row
 
 COLUMNS = (("campaign", "s"), ("trials", "d"), ("wrong", "d"), ("outcomes", "s"))
@@ -30,17 +30,6 @@ CASE = """&contact moes_m = 100.0 moes_l = 6.0 /
 """
 # Times do not repeat
 TIMES = ("wall_seconds", "seconds_per_step", "seconds", "bytes")
-CHUNK = 250
-"""Inputs tried by a child process, which may not take longer than HANG seconds."""
-HANG = 900.0
-CHILD = (
-    "import json, sys; from pathlib import Path; from pyehl import cli; "
-    "from pyehl.bench import faults_inputs; out = sys.stdout; "
-    "found = faults_inputs.run_chunk(int(sys.argv[1]), int(sys.argv[2]), Path(sys.argv[3]), "
-    "cli.main); out.write(json.dumps(found))"
-)
-Found = tuple[int, dict[str, int], list[str]]
-"""Trials, how many came to what, and what must not be."""
 REGIONS = 32
 """Parts of a state; a byte of each is flipped in turn."""
 
@@ -72,7 +61,7 @@ def campaign(
     tell("bytes of a state flipped, region by region")
     rows.append(_row("damaged states", *damage(folder, generator)))
     tell(f"mutated inputs: {inputs}")
-    rows.append(_row("mutated inputs", *_inputs(folder, seed, inputs)))
+    rows.append(_row("mutated inputs", *mutated(folder, seed, inputs)))
     return rows
 
 
@@ -220,37 +209,6 @@ def _kill_exports(folder: Path, generator: np.random.Generator, kills: int) -> F
                 bad.append(f"kill {done}: half a file")
             out.unlink()
     return done, {"killed": done}, bad
-
-
-def _inputs(folder: Path, seed: int, inputs: int) -> Found:
-    """Try mutated inputs in child processes, so that a crash or a hang is seen."""
-    counts: Counter[str] = Counter()
-    bad: list[str] = []
-    for chunk, first in enumerate(range(0, inputs, CHUNK)):
-        number = 1000 * seed + chunk
-        place = folder / f"inputs-{chunk}"
-        place.mkdir()
-        words = [str(number), str(min(CHUNK, inputs - first)), str(place)]
-        try:
-            done = subprocess.run(
-                [sys.executable, "-P", "-c", CHILD, *words],
-                capture_output=True,
-                text=True,
-                timeout=HANG,
-                check=False,
-                env=os.environ | {"OMP_NUM_THREADS": "1"},
-            )
-        except subprocess.TimeoutExpired:
-            bad.append(f"seed {number}: a hang")
-            continue
-        if done.returncode:
-            bad.append(f"seed {number}: exit status {done.returncode}: {done.stderr[-2000:]}")
-            continue
-        found = json.loads(done.stdout)
-        bad += found["bad"]
-        counts.update(found["counts"])
-        shutil.rmtree(place)
-    return inputs, counts, bad
 
 
 def damage(folder: Path, generator: np.random.Generator) -> Found:

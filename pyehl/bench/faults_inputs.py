@@ -6,6 +6,9 @@ import io
 import json
 import os
 import re
+import shutil
+import subprocess
+import sys
 import traceback
 from collections import Counter
 from collections.abc import Callable, Sequence
@@ -17,6 +20,17 @@ from pyehl.case import Case
 from pyehl.errors import EhlError
 
 Command = Callable[[Sequence[str]], int]
+CHUNK = 250
+"""Inputs tried by a child process, which may not take longer than HANG seconds."""
+HANG = 900.0
+CHILD = (
+    "import json, sys; from pathlib import Path; from pyehl import cli; "
+    "from pyehl.bench import faults_inputs; out = sys.stdout; "
+    "found = faults_inputs.run_chunk(int(sys.argv[1]), int(sys.argv[2]), Path(sys.argv[3]), "
+    "cli.main); out.write(json.dumps(found))"
+)
+Found = tuple[int, dict[str, int], list[str]]
+"""Trials, how many came to what, and what must not be."""
 
 CASE = b"""! a small case
 &contact
@@ -185,3 +199,34 @@ def _small(case: Path) -> bool:
     target = float(settings["grid"]["target_error"]) > 0.0
     small = int(settings["grid"]["points"]) <= MOST_POINTS and not target
     return small and (not moving or 0 < steps <= MOST_STEPS)
+
+
+def mutated(folder: Path, seed: int, inputs: int) -> Found:
+    """Try mutated inputs in child processes, so that a crash or a hang is seen."""
+    counts: Counter[str] = Counter()
+    bad: list[str] = []
+    for chunk, first in enumerate(range(0, inputs, CHUNK)):
+        number = 1000 * seed + chunk
+        place = folder / f"inputs-{chunk}"
+        place.mkdir()
+        words = [str(number), str(min(CHUNK, inputs - first)), str(place)]
+        try:
+            done = subprocess.run(
+                [sys.executable, "-P", "-c", CHILD, *words],
+                capture_output=True,
+                text=True,
+                timeout=HANG,
+                check=False,
+                env=os.environ | {"OMP_NUM_THREADS": "1"},
+            )
+        except subprocess.TimeoutExpired:
+            bad.append(f"seed {number}: a hang")
+            continue
+        if done.returncode:
+            bad.append(f"seed {number}: exit status {done.returncode}: {done.stderr[-2000:]}")
+            continue
+        found = json.loads(done.stdout)
+        bad += found["bad"]
+        counts.update(found["counts"])
+        shutil.rmtree(place)
+    return inputs, counts, bad

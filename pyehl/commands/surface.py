@@ -83,7 +83,8 @@ def execute(args: argparse.Namespace) -> int:
     try:
         surface = from_settings(settings, operating, central_film(operating, lubricant))
     except (InputError, FileError) as error:
-        raise InputError(f"{args.case}: {error}") from error
+        named = "" if args.case in str(error) else f"{args.case}: "
+        raise InputError(f"{named}{error}") from error
     print("\n".join([*_lines(surface), *numbers(surface)]))
     if args.output is not None:
         known = is_case or any(o.startswith(("contact.", "lubricant.")) for o in args.overrides)

@@ -7,10 +7,10 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from pyehl.plots.style import PAGE_WIDTH, Scales, letter, new_figure, wrapped
+from pyehl.plots.style import LARGE_PER_INCH, PAGE_WIDTH, Scales, letter, new_figure, wrapped
 
-# Room below and above a row of panels [in]
-BELOW, ABOVE = 0.52, 0.57
+# Room below and above a row of panels, and of one more line above them [in]
+BELOW, ABOVE, LINE = 0.52, 0.57, 0.17
 # Panels narrower than this are put below one another [in]
 LEAST_PANEL = 2.0
 
@@ -51,14 +51,17 @@ def panels(
     page = PAGE_WIDTH.get()
     if page:
         return _on_page(count, size, wrapped(title, page), page, sharey=sharey)
+    title = wrapped(title, size[0], LARGE_PER_INCH)
     if room is None:
         figure = new_figure(*size)
     else:
-        (width, height), (left, between, right) = size, room
+        more = LINE * title.count("\n")
+        (width, height), (left, between, right) = (size[0], size[1] + more), room
         panel = (width - left - right - (count - 1) * between) / count
-        figure = Figure(figsize=size)
+        top = 1.0 - (ABOVE + more) / height
+        figure = Figure(figsize=(width, height))
         figure.subplots_adjust(
-            left / width, BELOW / height, 1.0 - right / width, 1.0 - ABOVE / height, between / panel
+            left / width, BELOW / height, 1.0 - right / width, top, between / panel
         )
     letter(list(figure.subplots(1, count, sharey=sharey, squeeze=False)[0]))
     figure.suptitle(title, fontsize="medium")

@@ -82,7 +82,9 @@ def draw_stribeck(
         for name, label in ABSCISSAE.items()
         if any(np.isfinite(curve.column(name)).any() for curve in curves)
     }
-    touching = [c for c in curves if "contact_load_share" in c.rows[0]]
+    # none of two surfaces without full simulations
+    shares = ("contact_load_share", "contact_load_share_ehl")
+    touching = any(r.get(name) is not None for c in curves for r in c.rows for name in shares)
     figure = style.new_figure(11.5 if len(shown) > 1 else 7.0, 7.4 if touching else 4.4)
     panels = figure.subplots(
         3 if touching else 1, len(shown), sharex="col", sharey="row", squeeze=False
@@ -99,7 +101,7 @@ def draw_stribeck(
         if name == "theta_2" and not absolute:
             _draw_eq_16(ax)
         ax.set_xscale("log")
-        style.label_log_ticks(ax)
+        style.label_log_ticks(ax.xaxis)
         panels[-1, list(axes).index(ax)].set_xlabel(label)
         ax.grid(visible=True, which="major", color="0.92", lw=0.6)
         ax.set_axisbelow(True)

@@ -24,7 +24,7 @@ from matplotlib.axis import Axis
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 from numpy.typing import NDArray
 
 from pyehl.destination import mark, new_file
@@ -56,6 +56,10 @@ class Scales:
 PAGE_WIDTH: ContextVar[float] = ContextVar("PAGE_WIDTH", default=0.0)
 # Letters as journals want them in their columns [pt], and how many go into an inch
 PAGE_FONT, LETTERS_PER_INCH = 7.0, 17.0
+# As many of the others
+LARGE_PER_INCH = 13.3
+# Long over short side of a map from which the latter has one number alone
+SLENDER = 4.0
 
 
 @contextmanager
@@ -72,14 +76,14 @@ def page_width(metres: float) -> Iterator[None]:
         PAGE_WIDTH.reset(token)
 
 
-def wrapped(title: str, width: float) -> str:
+def wrapped(title: str, width: float, per_inch: float = LETTERS_PER_INCH) -> str:
     """Break a line of parts, ',  ' between them, so that it fits a width in inches."""
     lines: list[str] = []
     for part in title.split(",  "):
         joined = f"{lines[-1]},  {part}" if lines else part
         # what mathematics is written with is not seen
         seen = len(re.sub(r"\\[a-z]+|[${}]", "", joined))
-        if lines and seen <= width * LETTERS_PER_INCH:
+        if lines and seen <= width * per_inch:
             lines[-1] = joined
         else:
             lines.append(part)
@@ -98,6 +102,12 @@ def axes_or_new(ax: Axes | None, width: float, height: float) -> Axes:
 
         _, ax = pyplot.subplots(figsize=(width, height), layout="constrained")
     return ax
+
+
+def not_known(ax: Axes) -> None:
+    """Say so in axes that have nothing to show."""
+    ax.set(xticks=[], yticks=[])
+    ax.text(0.5, 0.5, "not known", ha="center", va="center", transform=ax.transAxes)
 
 
 def colour_bar(
@@ -120,12 +130,23 @@ def y_label(ax: Axes, label: str, colour: str) -> None:
 
 
 def label_decades(*axes: Axis) -> None:
-    """Label the decades of logarithmic axes as `POWERS` does, where there are two or more."""
+    """Label the decades of logarithmic axes as `POWERS` does, or numbers between where few are."""
     for axis in axes:
         low, high = axis.get_view_interval()
         if high > 30.0 * low:
             axis.set_major_formatter(POWERS)
             axis.set_minor_formatter(NullFormatter())
+        else:
+            label_log_ticks(axis)
+
+
+def few_ticks(ax: Axes) -> None:
+    """Leave one number on the short side of a slender map, where more would lie on each other."""
+    for axis, other in ((ax.xaxis, ax.yaxis), (ax.yaxis, ax.xaxis)):
+        (low, high), long = axis.get_view_interval(), np.ptp(other.get_view_interval())
+        if SLENDER * (high - low) < long:
+            place = 0.0 if low < 0.0 else float(high)
+            axis.set_ticks([place], [f"{place:.3g}"])
 
 
 def contact_heights(
@@ -232,21 +253,24 @@ def hertz_ticks(ax: Axes, outline: Outline = CIRCLE) -> None:
         ax.set_yticks([-across, 0.0, across], [f"{-across:.3g}", "0", f"{across:.3g}"])
 
 
-def label_log_ticks(ax: Axes) -> None:
-    """Label 1, 2 and 5 of each decade of a logarithmic x axis where there are few decades."""
-    low, high = ax.get_xlim()
+def label_log_ticks(axis: Axis) -> None:
+    """Label 1, 2 and 5 of each decade of a logarithmic axis where there are few decades."""
+    low, high = axis.get_view_interval()
     if high < 100.0 * low:
-        ax.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if high > 4.0 * low else "all"))
-        ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: _short(value)))
-        ax.xaxis.set_minor_formatter(NullFormatter())
+        decades = 10.0 ** np.arange(math.floor(math.log10(low)), math.log10(high))
+        places = np.outer(decades, (1.0, 2.0, 5.0))
+        few = np.count_nonzero((low <= places) & (places <= high)) < 2
+        axis.set_major_locator(MaxNLocator(3) if few else LogLocator(subs=(1.0, 2.0, 5.0)))
+        axis.set_major_formatter(FuncFormatter(lambda value, _: _short(value)))
+        axis.set_minor_formatter(NullFormatter())
 
 
 def _short(value: float) -> str:
     """Write the number of a tick; as a power of ten where it is very large or small."""
     if 1e-3 <= value < 1e4:
         return f"{value:g}"
-    digits, _, power = f"{value:.0e}".partition("e")
-    factor = "" if digits == "1" else rf"{digits}\cdot"
+    digits, _, power = f"{value:.2e}".partition("e")
+    factor = "" if float(digits) == 1.0 else rf"{float(digits):g}\cdot"
     return f"${factor}10^{{{int(power)}}}$"
 
 

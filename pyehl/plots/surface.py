@@ -39,6 +39,7 @@ def heights(topography: Topography, *, ax: Axes | None = None) -> Axes:
         z.T * unit, origin="lower", extent=extent, cmap=style.DIVERGING, vmin=-top, vmax=top
     )
     style.colour_bar(image, ax, f"height [{name}]")
+    style.few_ticks(ax)
     ax.set(xlabel="x [mm]", ylabel="y [mm]")
     return ax
 
@@ -54,6 +55,7 @@ def spectrum_map(topography: Topography, *, ax: Axes | None = None) -> Axes:
         norm=LogNorm(vmin=FLOOR * most, vmax=most),
     )  # fmt: skip
     style.colour_bar(image, ax, "spectrum [m⁴]")
+    style.few_ticks(ax)
     ax.set(xlabel="q along x [rad/µm]", ylabel="q along y [rad/µm]")
     return ax
 
@@ -81,10 +83,15 @@ def spectrum_line(
     style.y_label(ax, "isotropic spectrum [m⁴]", style.BLUE)
     style.label_decades(ax.xaxis, ax.yaxis)
     twin = ax.twinx()
-    for values, line, label in ((deformed, "-", "|T|"), (flattened, "--", "|1 − T|")):
+    for values, line, mark, label in (
+        (deformed, "-", "o", "|T|"),
+        (flattened, "--", "x", "|1 − T|"),
+    ):
         part = Topography(values, topography.size)
         share = np.sqrt(psd_isotropic(part)[1][shown] / c_iso[shown])
-        twin.plot(q[shown], share, line, color=style.VERMILLION, lw=1.4, label=label)
+        # a single wave is a point
+        marker = mark if share.size == 1 else ""
+        twin.plot(q[shown], share, line, marker=marker, color=style.VERMILLION, lw=1.4, label=label)
     style.y_label(twin, "response at the centre (rms)", style.VERMILLION)
     # the spectrum falls and the response rises: below both there is room
     twin.legend(loc="lower center", fontsize="small")
@@ -152,7 +159,8 @@ def passage(
     Parameters
     ----------
     shift, ratio
-        (n,) displacement of the tile [m], equally spaced from 0, and mu_r/mu_s there [-].
+        (n,) displacement of the tile [m], equally spaced from 0, and mu_r/mu_s there [-]; NaN where
+        it is not known.
     length
         Of the tile along x [m].
     second
@@ -160,14 +168,21 @@ def passage(
         not those of a common period but all that two tiles may have, in no order of time.
     """
     ax = style.axes_or_new(ax, 3.8, 2.9)
-    mean = float(ratio.mean())
+    known = np.isfinite(ratio)
     if second is None or bool(np.all(np.diff(second) >= 0.0)):
-        fine = interpolated(ratio, 16)
         length *= round(float(shift[-1]) * (1.0 + 1.0 / max(1, shift.size - 1)) / length) or 1
-        at = np.arange(fine.size + 1) * length / fine.size
-        ax.plot(at * 1e3, np.append(fine, fine[0]), color=style.BLUE, lw=1.4)
+        if known.all():
+            fine = interpolated(ratio, 16)
+            at = np.arange(fine.size + 1) * length / fine.size
+            ax.plot(at * 1e3, np.append(fine, fine[0]), color=style.BLUE, lw=1.4)
     ax.plot(shift * 1e3, ratio, "o", ms=3.0, color=style.BLUE)
-    ax.axhline(mean, color=style.VERMILLION, lw=1.0, ls="--", label=f"mean {mean:.3f}")
+    if known.all():
+        mean = float(ratio.mean())
+        ax.axhline(mean, color=style.VERMILLION, lw=1.0, ls="--", label=f"mean {mean:.3f}")
+    if not known.any():
+        style.not_known(ax)
+        ax.set(xlabel="displacement of the surface [mm]", ylabel="relative friction")
+        return ax
     ax.axhline(1.0, color=style.GREY, lw=0.8, ls=":", label="smooth")
     ax.set(xlim=(0.0, length * 1e3), xlabel="displacement of the surface [mm]")
     ax.set(ylabel="relative friction")
@@ -188,8 +203,7 @@ def octaves(bands: Sequence[tuple[float, float, float]], *, ax: Axes | None = No
     ax.set(xlabel="wavelength of the component [μm]", ylabel="contribution to relative friction")
     known = sorted((band for band in bands if math.isfinite(band[2])), reverse=True)
     if not known:
-        ax.set(xticks=[], yticks=[])
-        ax.text(0.5, 0.5, "not known", ha="center", va="center", transform=ax.transAxes)
+        style.not_known(ax)
         return ax
     for longest, shortest, rise in known:
         ax.fill_between(
@@ -218,6 +232,7 @@ def before_and_after(
     made = surface.preparation
     figure = style.new_figure(10.2 if made else 7.0, 2.9)
     axes = list(figure.subplots(1, 3 if made else 2))
+    style.letter(axes)
     lengths = (surface.length_x, surface.length_y)
     curves = [("prepared" if made else "surface", style.BLUE, surface)]
     if made:
@@ -234,7 +249,6 @@ def before_and_after(
     else:
         _map(axes[0], surface.heights, lengths, "surface")
     _spectra(axes[-1], curves, conditions)
-    style.letter(axes)
     return figure
 
 
@@ -251,7 +265,9 @@ def _map(ax: Axes, heights: Array, size: tuple[float, float], title: str) -> Non
     bar.set_label(f"height [{name}]")
     rms = float(np.nanstd(heights)) * unit
     peak = float(np.nanmax(np.abs(heights))) * unit
-    ax.set_title(f"{title}\nrms {rms:.3g}, peak {peak:.3g} {name}", fontsize="small", loc="right")
+    head = f"{ax.get_title(loc='left')} {title}\nrms {rms:.3g}, peak {peak:.3g} {name}"
+    ax.set_title(head, fontsize="small", loc="left")
+    style.few_ticks(ax)
     ax.set(xlabel="x [mm]", ylabel="y [mm]")
 
 
@@ -267,6 +283,7 @@ def _spectra(
         ax.loglog(q[shown], c_iso[shown], "-", lw=1.2, color=colour, label=label)
         ends += [float(q[0]), float(q[-1])]
     ax.set(xlabel="|q| [rad/m]", ylabel="isotropic spectrum [m⁴]")
+    style.label_decades(ax.xaxis)
     ax.legend(loc="lower left", fontsize="small")
     if conditions is None:
         return

@@ -147,14 +147,18 @@ class RoughPassage:
         t = self.transfer(spectrum).at_centre(spectrum, self.velocity_ratio)
         return np.asarray(spectrum.tile(t) * self.operating.film_scale)
 
+    def response(self, spectrum: Spectrum, transfer: Transfer) -> Response:
+        """Pressure [Pa] and deformed roughness [m] at the centre of the contact."""
+        u, o = self.velocity_ratio, self.operating
+        pressure = spectrum.tile(transfer.pressure_at_centre(spectrum, u)) * o.hertz_pressure
+        return Response(pressure, spectrum.tile(transfer.at_centre(spectrum, u)) * o.film_scale)
+
     def parts(self) -> Parts:
         """Tile on the grid that is worked on, its components, and what becomes of them."""
         grid = working_grid(self.topography, self.operating, self.options.positions)
         spectrum = self.spectrum(grid)
         transfer = self.transfer(spectrum)
-        flattened = 1.0 - transfer.at_centre(spectrum, self.velocity_ratio)
-        beside = transfer.beside(spectrum.qx, self.velocity_ratio)
-        edge = Edge.of(spectrum, flattened, self.operating.ellipse, beside)
+        edge = Edge.of(spectrum, transfer, self.velocity_ratio, self.operating.ellipse)
         return grid, spectrum, transfer, edge
 
     def mean(self, parts: Parts | None = None) -> float:
@@ -261,13 +265,7 @@ class RoughPassage:
         if not same:
             spectrum = self.spectrum(self.topography)
             transfer = self.transfer(spectrum)
-        t = transfer.at_centre(spectrum, self.velocity_ratio)
-        o = self.operating
-        pressure = transfer.pressure_at_centre(spectrum, self.velocity_ratio)
-        return Response(
-            spectrum.tile(pressure) * o.hertz_pressure,
-            spectrum.tile(t) * o.film_scale,
-        )
+        return self.response(spectrum, transfer)
 
     def _bands(
         self, spectrum: Spectrum, transfer: Transfer, edge: Edge, total: float, brief: bool

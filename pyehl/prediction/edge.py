@@ -7,19 +7,16 @@ it: the contact is wider where they press and narrower where they give way.
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from pyehl.prediction.across import harmonics
 from pyehl.prediction.spectrum import Spectrum
-from pyehl.theory.disc import LARGEST, RADIUS, disc_correction, disc_rim, monomials
+from pyehl.prediction.transfer import Transfer
+from pyehl.theory.disc import LARGEST, RADIUS, RIM_ANGLES, disc_correction, disc_rim, monomials
 from pyehl.theory.ellipse import Ellipse
 from pyehl.theory.ellipse_edge import ellipse_edge
 from pyehl.types import Array, Complex
 
-ANGLES = 96
-"""Places along the edge at which it is known how far it is moved."""
 # The polynomials of the edge of a circle are held constant beyond this radius
 EDGE_RADIUS = 0.85
 
@@ -29,8 +26,8 @@ class Edge:
 
     `coefficients` (n, m) of the polynomials [p_h] for the waves of the tile with wavenumbers
     qx >= 0, qy (m,) [1/a]: of :func:`pyehl.theory.disc.monomials` (n = 28) in a circle, of
-    :mod:`pyehl.theory.ellipse_edge` in an ellipse. `rim` (ANGLES, m): how far they move the edge
-    outwards [semi-axes].
+    :mod:`pyehl.theory.ellipse_edge` in an ellipse. `rim` (k, m): how far they move the edge
+    outwards at RIM_ANGLES [semi-axes].
     """
 
     def __init__(
@@ -41,12 +38,12 @@ class Edge:
 
     @classmethod
     def of(
-        cls, spectrum: Spectrum, flattened: Complex, shape: Ellipse, beside: Complex | None = None
+        cls, spectrum: Spectrum, transfer: Transfer, velocity_ratio: float, shape: Ellipse
     ) -> Edge:
-        """Of a tile, each component flattened by a factor (shape of the spectrum).
-
-        `beside`: by how much less on lines beside the centre line of an ellipse (lines, ...).
-        """
+        """Of a tile that moves, by what is left of its components."""
+        flattened = 1.0 - transfer.at_centre(spectrum, velocity_ratio)
+        # by how much less on lines beside the centre line of an ellipse (lines, ...)
+        beside = transfer.beside(spectrum.qx, velocity_ratio)
         nx, ny = spectrum.shape
         q = spectrum.q
         strong = np.abs(spectrum.values) > 1e-9 * np.abs(spectrum.values).max()
@@ -57,10 +54,10 @@ class Edge:
         twice = np.where((i == 0) | ((nx % 2 == 0) & (i == nx // 2)), 1.0, 2.0)
         amplitude = twice * spectrum.values[i, j] * flattened[i, j] / (nx * ny)
         if not i.size:
-            return cls(qx, qy, np.zeros((0, 0), complex), np.zeros((ANGLES, 0), complex), shape)
-        theta = np.linspace(0.0, 2.0 * math.pi, ANGLES, endpoint=False)
+            nothing = np.zeros((0, 0), complex), np.zeros((RIM_ANGLES.size, 0), complex)
+            return cls(qx, qy, *nothing, shape)
         found = ellipse.correction(qx, qy) if ellipse else disc_correction(qx, qy)
-        rim = ellipse.rim(qx, qy, theta) if ellipse else disc_rim(qx, qy, theta)
+        rim = ellipse.rim(qx, qy) if ellipse else disc_rim(qx, qy)
         found, rim = found * amplitude, rim * amplitude
         if ellipse and beside is not None:
             # a wave whose amplitude changes across the motion is a sum of waves
@@ -72,7 +69,7 @@ class Edge:
                 if feels.any():
                     wave = qx[feels], there[feels]
                     found[:, feels] += ellipse.correction(*wave) * part[feels]
-                    rim[:, feels] += ellipse.rim(*wave, theta) * part[feels]
+                    rim[:, feels] += ellipse.rim(*wave) * part[feels]
         return cls(qx, qy, found, rim, shape)
 
     def below(self, limit: float) -> Edge:
@@ -82,7 +79,7 @@ class Edge:
         return Edge(self.qx[keep], self.qy[keep], *parts, self.shape)
 
     def at(self, shift: float, track: float) -> tuple[Array, Array]:
-        """Coefficients (n,) and how far the edge is moved outwards (ANGLES,).
+        """Coefficients (n,) and how far the edge is moved outwards at RIM_ANGLES (k,).
 
         For a tile moved along and across the motion [a].
         """

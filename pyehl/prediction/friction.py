@@ -8,6 +8,8 @@ import numpy as np
 
 from pyehl.prediction.contact import Response, ShearedContact
 from pyehl.surfaces import interpolated
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Array
 
 BEYOND = "beyond linear response"
@@ -19,6 +21,16 @@ TRACKS = 8
 
 LARGEST_RATIO = 10.0
 """Largest mu_r/mu_s that is told."""
+
+NEWTONIAN_NOTE = (
+    "Newtonian: a ratio at this slip, no absolute coefficient; shear thinning brings it close to "
+    "1, see lubricant.shear_law"
+)
+NEWTONIAN_FLOW_NOTE = (
+    "; film and waves are those of a Newtonian flow: where the oil thins in it, too, the ratio is "
+    "nearer to 1, see lubricant.flow"
+)
+STRESS_NOTE = "ratio of friction coefficients at the given slide-to-roll ratio"
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,6 +82,18 @@ class RoughFriction:
     load_error: float
     response: Response  # delta p and deformed roughness on the grid of the given tile
     second: SecondPassage | None = None  # of the second rough surface
+
+
+def thins(lubricant: Lubricant, operating: OperatingPoint) -> bool:
+    """Whether the shear stress is another than the Newtonian one."""
+    return lubricant.shear.law != "newtonian" and operating.sliding_speed > 0.0
+
+
+def meaning(lubricant: Lubricant, operating: OperatingPoint) -> str:
+    """Say what mu_r/mu_s is."""
+    stress = STRESS_NOTE + ("" if lubricant.shear.in_flow else NEWTONIAN_FLOW_NOTE)
+    note = stress if thins(lubricant, operating) else NEWTONIAN_NOTE
+    return note + lubricant.beyond(operating.hertz_pressure)
 
 
 def outcome(

@@ -14,6 +14,7 @@ from pyehl.errors import InputError
 from pyehl.prediction.bands import Band
 from pyehl.prediction.breakdown import Advice, BelowZero, Borne, advise, below_zero
 from pyehl.prediction.by_response import RoughPassage
+from pyehl.prediction.folder import read_contact
 from pyehl.prediction.friction import TRACKS, RoughFriction, SecondPassage, broken
 from pyehl.prediction.heated import heat_of
 from pyehl.prediction.options import Options, unpredictable
@@ -23,7 +24,7 @@ from pyehl.prediction.partial import Partial, partial_film, without
 from pyehl.prediction.result import Prediction
 from pyehl.prediction.second_order import FILM_ENDS
 from pyehl.prediction.sides import SecondSurface
-from pyehl.prediction.smooth import SmoothContact, hertz_contact, read_contact, solve_contact
+from pyehl.prediction.smooth import SmoothContact, hertz_contact, solve_contact
 from pyehl.prediction.touching import touching
 from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant

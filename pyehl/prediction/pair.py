@@ -32,7 +32,7 @@ from pyehl.prediction.friction import (
     passed,
 )
 from pyehl.prediction.meeting import Meeting, as_one
-from pyehl.prediction.pair_contact import PairContact, TileOnPoints
+from pyehl.prediction.pair_contact import PairContact, PairParts
 from pyehl.prediction.passage import longer_waves, working_grid
 from pyehl.prediction.smooth import circle_of, zone_of
 from pyehl.prediction.spectrum import Spectrum
@@ -41,7 +41,6 @@ from pyehl.surfaces import Topography, filtered, track_offsets
 from pyehl.types import Array
 
 PairWaves = list[tuple[Spectrum, Transfer]]
-PairParts = list[tuple[Spectrum, Transfer, Edge]]
 
 
 @dataclass(frozen=True)
@@ -83,20 +82,11 @@ class RoughPair:
 
         In their order.
         """
-        one = self.of[0]
         tiles = [working_grid(part.topography, part.operating, 0) for part in self.of]
         ratios = [self.of[k].velocity_ratio for k in self.order]
+        shape = self.of[0].operating.ellipse
         return [
-            (
-                spectrum,
-                transfer,
-                Edge.of(
-                    spectrum,
-                    1.0 - transfer.at_centre(spectrum, ratio),
-                    one.operating.ellipse,
-                    transfer.beside(spectrum.qx, ratio),
-                ),
-            )
+            (spectrum, transfer, Edge.of(spectrum, transfer, ratio, shape))
             for (spectrum, transfer), ratio in zip(self._waves(tiles), ratios, strict=True)
         ]
 
@@ -128,50 +118,31 @@ class RoughPair:
         ]
 
     def _contact(
-        self, parts: PairParts, powers: Sequence[Array] | None = None, tracks: Sequence[float] = ()
+        self,
+        parts: PairParts,
+        powers: Sequence[Array] | None = None,
+        tracks: tuple[float, float] = (0.0, 0.0),
     ) -> PairContact:
         """Contact of parts; `powers` of the components as the transfers were made for them.
 
         `tracks`: how far both are moved across the motion [a].
         """
-        one = self.of[0]
-        second = parts[0][1].second
-        powers = powers or [spectrum.power for spectrum, _, _ in parts]
-        found = PairContact(
-            one.contact,
-            one.operating,
-            one.lubricant,
-            [edge for _, _, edge in parts],
-            second.of(*powers) if second else None,
-        )
-        film, points = one.contact.central_film, (found.x, found.y, found.across)
-        ratios = [self.of[k].velocity_ratio for k in self.order]
-        found.tiles = tuple(
-            TileOnPoints(*part, film, ratio, points, track)
-            for part, ratio, track in zip(parts, ratios, tracks or (0.0, 0.0), strict=True)
-        )
-        return found
+        one, ratios = self.of[0], [self.of[k].velocity_ratio for k in self.order]
+        of = one.contact, one.operating, one.lubricant
+        return PairContact(*of, parts, ratios, powers=powers, tracks=tracks)
 
     def responses(self, parts: PairParts | None = None) -> list[Response]:
         """Pressure [Pa] and deformed roughness [m] of each at the centre, on its pixels.
 
         By the `parts` that were worked with, if they have these pixels.
         """
-        found: list[Response] = []
-        o = self.of[0].operating
         tiles = [one.topography for one in self.of]
         shapes = [tiles[k].shape for k in self.order]
         if parts is None or [spectrum.shape for spectrum, _, _ in parts] != shapes:
             waves = self._waves(tiles)
         else:
             waves = [(spectrum, transfer) for spectrum, transfer, _ in parts]
-        for k in (0, 1):
-            spectrum, transfer = waves[self.order.index(k)]
-            ratio = self.of[k].velocity_ratio
-            pressure = spectrum.tile(transfer.pressure_at_centre(spectrum, ratio))
-            deformed = spectrum.tile(transfer.at_centre(spectrum, ratio))
-            found.append(Response(pressure * o.hertz_pressure, deformed * o.film_scale))
-        return found
+        return [self.of[k].response(*waves[self.order.index(k)]) for k in (0, 1)]
 
     @cached_property
     def as_one(self) -> RoughPassage | None:
@@ -271,15 +242,12 @@ class RoughPair:
     def _bands(self, parts: PairParts, total: float, brief: bool) -> list[Band]:
         """Return what each octave, or the last one alone, adds when it joins all longer ones."""
         waves = [
-            (
-                spectrum.q.ravel(),
-                spectrum.power.ravel(),
-                np.abs(transfer.at_centre(spectrum, ratio)).ravel(),
-                np.abs(transfer.pressure_at_centre(spectrum, ratio)).ravel(),
-            )
-            for spectrum, transfer, ratio in self._moving(parts)
+            (s.q, s.power, np.abs(t.at_centre(s, u)), np.abs(t.pressure_at_centre(s, u)))
+            for s, t, u in self._moving(parts)
         ]
-        q, power, deformed, pressure = (np.concatenate(both) for both in zip(*waves, strict=True))
+        q, power, deformed, pressure = (
+            np.concatenate([part.ravel() for part in both]) for both in zip(*waves, strict=True)
+        )
         return joining(
             (q, power, deformed, pressure),
             lambda limit: self.below_limits(parts, (limit, limit)),

@@ -23,6 +23,8 @@ from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Array, Single
 
+PairParts = list[tuple[Spectrum, Transfer, Edge]]
+
 POINTS = 60.5
 """Points per semi-axis; half a one more, so that the next semi-axis has other ones."""
 
@@ -69,29 +71,42 @@ class TileOnPoints:
 
 
 class PairContact(WavyContact):
-    """Points of a contact with the waves of two tiles."""
+    """Points of a contact with the waves of two tiles.
+
+    `parts` of both move by velocity `ratios`; `powers` of the components as the transfers were made
+    for them, `tracks`: how far both are moved across the motion [a].
+    """
 
     def __init__(
         self,
         contact: SmoothContact,
         operating: OperatingPoint,
         lubricant: Lubricant,
-        edges: Sequence[Edge],
-        second: tuple[Array, Array] | None,
+        parts: PairParts,
+        ratios: Sequence[float],
+        *,
+        powers: Sequence[Array] | None = None,
+        tracks: tuple[float, float] = (0.0, 0.0),
     ) -> None:
+        second = parts[0][1].second
+        powers = powers or [spectrum.power for spectrum, _, _ in parts]
         half = int(REACH * POINTS)
         line = np.arange(-half, half + 1) / POINTS
         super().__init__(
             contact,
             line,
             line * operating.ellipse.ellipticity,
-            edges=edges,
+            edges=[edge for _, _, edge in parts],
             area=operating.hertz_radius * operating.semi_axis_y / POINTS**2,
             operating=operating,
             lubricant=lubricant,
-            second=second,
+            second=second.of(*powers) if second else None,
         )
-        self.tiles: tuple[TileOnPoints, ...] = ()
+        points = self.x, self.y, self.across
+        self.tiles = tuple(
+            TileOnPoints(*part, contact.central_film, ratio, points, track)
+            for part, ratio, track in zip(parts, ratios, tracks, strict=True)
+        )
         self.touching = 0  # points with a film that is not positive, at all positions
 
     def friction(self, shifts: tuple[float, float]) -> float:

@@ -16,7 +16,7 @@ from pyehl.prediction.bands import BAND_COLUMNS, Band, records
 from pyehl.prediction.breakdown import Advice, BelowZero
 from pyehl.prediction.deformed import deformed_surface
 from pyehl.prediction.errors import cutoff_error, model_error, outside_range, why_no_error
-from pyehl.prediction.friction import TRACKS, RoughFriction
+from pyehl.prediction.friction import TRACKS, RoughFriction, meaning, thins
 from pyehl.prediction.options import Options
 from pyehl.prediction.pair_breakdown import PairAdvice, PairBelowZero
 from pyehl.prediction.partial import Partial
@@ -32,17 +32,6 @@ from pyehl.types import Array, Settings
 if TYPE_CHECKING:
     import xarray
     from matplotlib.axes import Axes
-
-
-NEWTONIAN_NOTE = (
-    "Newtonian: a ratio at this slip, no absolute coefficient; shear thinning brings it close to "
-    "1, see lubricant.shear_law"
-)
-NEWTONIAN_FLOW_NOTE = (
-    "; film and waves are those of a Newtonian flow: where the oil thins in it, too, the ratio is "
-    "nearer to 1, see lubricant.flow"
-)
-STRESS_NOTE = "ratio of friction coefficients at the given slide-to-roll ratio"
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -136,16 +125,9 @@ class Prediction:
         return display.table("Prediction", rows)
 
     @property
-    def thins(self) -> bool:
-        """Whether the shear stress is another than the Newtonian one."""
-        return self.lubricant.shear.law != "newtonian" and self.operating.sliding_speed > 0.0
-
-    @property
     def note(self) -> str:
         """What `mu_ratio` is."""
-        stress = STRESS_NOTE + ("" if self.lubricant.shear.in_flow else NEWTONIAN_FLOW_NOTE)
-        note = stress if self.thins else NEWTONIAN_NOTE
-        return note + self.lubricant.beyond(self.operating.hertz_pressure)
+        return meaning(self.lubricant, self.operating)
 
     @property
     def mu_ratio(self) -> float:
@@ -181,7 +163,7 @@ class Prediction:
         if self.partial and self.partial.lacks_friction:
             return NO_FRICTION
         of = self.mu_ratio, self.outside_range, self.options
-        alone = self.thins and not self.lubricant.shear.in_flow
+        alone = thins(self.lubricant, self.operating) and not self.lubricant.shear.in_flow
         return why_no_error(*of, friction_alone_thins=alone)
 
     @property
@@ -239,6 +221,7 @@ class Prediction:
         f, o, s = self.friction, self.operating, self.surface
         layer = float(self.settings["lubricant"].get("boundary_film", 0.0)) / o.film_scale
         sigma = math.hypot(s.rms_height, self.second.surface.rms_height if self.second else 0.0)
+        lacking = self.partial is not None and self.partial.lacks_friction
         rough = max(f.pressure_max, self.pressure_maximum) if f.status == "predicted" else None
         values: dict[str, Any] = {
             "kind": "prediction",
@@ -271,6 +254,7 @@ class Prediction:
             "shear_law": self.lubricant.shear.law,
             "slide_to_roll": o.slide_to_roll,
             **absolute_friction(o, self.lubricant, self.film, f.mu_smooth, f.mu_ratio, self.heat),
+            **({"mu_note": NO_FRICTION} if lacking else {}),
             "thermal_reduction": o.thermal_reduction,
             "h_c_m": self.film,
             "h_c_error_m": self.film_errors[0],

@@ -3,19 +3,16 @@
 
 from __future__ import annotations
 
-import json
 import math
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pyehl import namelist
-from pyehl.arrays import read_array
 from pyehl.case import Case
-from pyehl.errors import EhlError, InputError
+from pyehl.errors import EhlError
 from pyehl.handle import SolverHandle
 from pyehl.theory.film import circle_with_same_inlet
 from pyehl.theory.lubricant import Lubricant
@@ -199,55 +196,6 @@ def _on_grid(text: str, points: int) -> tuple[SmoothContact | None, str]:
         minimum_film_error=errors[1],
     )
     return contact, "converged"
-
-
-def read_contact(
-    folder: str | Path, operating: OperatingPoint, settings: Settings
-) -> SmoothContact:
-    """Pressure and film from a result folder, of a smooth contact or under a transient run.
-
-    InputError if it is not the folder of a converged solution of the same contact: M and L, ratio
-    of the radii along and across the motion, and the law that the flow obeys.
-    """
-    folder = Path(folder)
-    try:
-        of_folder = namelist.values((folder / "case.nml").read_text(encoding="utf-8"))
-        summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
-        rough = (folder / "P_smooth.npy").is_file()
-        names = ("X", "Y", "P_smooth", "H_smooth") if rough else ("X", "Y", "P", "H")
-        x, y, pressure, film = (read_array(folder / f"{n}.npy") for n in names)
-    except (OSError, ValueError) as error:
-        why = error.strerror if isinstance(error, OSError) and error.strerror else error
-        raise InputError(f"{folder}: not a result folder with fields ({why})") from error
-    if summary["status"] != "converged":
-        raise InputError(f"{folder}: not a solution, its status is '{summary['status']}'")
-    for name, here in (("moes_m", operating.moes_m), ("moes_l", operating.moes_l)):
-        there = summary[name]
-        if not math.isclose(there, here, rel_tol=1e-4):
-            raise InputError(f"{folder}: {name} is {there:.6g} there and {here:.6g} in the case")
-    there, here = float(summary.get("radius_ratio") or 1.0), operating.radius_ratio
-    if not math.isclose(there, here, rel_tol=1e-4):
-        raise InputError(f"{folder}: radius_ratio is {there:.6g} there and {here:.6g} in the case")
-    angle = float(of_folder["contact"].get("angle", 0.0))
-    if here != 1.0 and angle != 0.0:
-        raise InputError(f"{folder}: contact.angle is {angle:g} there and 0 in the case")
-    flows = _flow(of_folder), _flow(settings)
-    if flows[0] != flows[1]:
-        raise InputError(f"{folder}: the flow is {flows[0]} there and {flows[1]} in the case")
-    middle = np.argmin(np.abs(x)), np.argmin(np.abs(y))
-    source = f"smooth contact in {folder}"
-    central, least = float(film[middle]), float(film.min())
-    return SmoothContact(x, y, pressure, film, central, math.nan, source, least)
-
-
-def _flow(settings: Settings) -> str:
-    """Law of the flow in words, with all that it depends on."""
-    law = ShearLaw.from_settings(settings)
-    if not law.in_flow:
-        return "newtonian"
-    exponent = f" with exponent {law.carreau_exponent:g}" if law.law == "carreau" else ""
-    slip = abs(float(settings["contact"]["slide_to_roll"]))
-    return f"{law.law} at {law.scale:g} Pa{exponent}, slide_to_roll {slip:g},"
 
 
 def hertz_contact(central_film: float, source: str) -> SmoothContact:

@@ -16,11 +16,12 @@ from numpy.typing import NDArray
 
 from pyehl import extension
 from pyehl.prediction.contact import INNER, NEAR, ShearedContact
-from pyehl.prediction.edge import ANGLES, Edge
+from pyehl.prediction.edge import Edge
 from pyehl.prediction.second_order import FILM_ENDS, film_left
 from pyehl.prediction.smooth import SmoothContact
 from pyehl.prediction.transfer import AXIS, LINES, STATIONS
 from pyehl.prediction.waves import Waves
+from pyehl.theory.disc import RIM_ANGLES
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Array, Single
@@ -82,7 +83,7 @@ class WavyContact(ShearedContact):
         self.points = int(np.count_nonzero(self.inside))
         self.inner, self.near = (self.inside & (self.radius < r) for r in (INNER, NEAR))
         self.rings = np.searchsorted(RINGS, self.radius[self.inside], side="right") - 1
-        self.contact, self.moved = contact, np.zeros(ANGLES)
+        self.contact, self.moved = contact, np.zeros(RIM_ANGLES.size)
         self.outer = np.nonzero(self.inside & (self.radius > OUTER))
         self.least = math.inf
         self.weights = station_weights(self.x).astype(np.float32)
@@ -156,8 +157,9 @@ class WavyContact(ShearedContact):
         film = self.film.copy()
         i, j = self.outer
         x, y, radius = self.x[i], self.across[j], self.radius[i, j]
-        place = np.arctan2(y, x) * (0.5 * ANGLES / math.pi)
-        outwards = np.interp(place, np.arange(ANGLES), self.moved, period=ANGLES)
+        count = RIM_ANGLES.size
+        place = np.arctan2(y, x) * (0.5 * count / math.pi)
+        outwards = np.interp(place, np.arange(count), self.moved, period=count)
         share = 1.0 - outwards / radius
         film[i, j] = self.contact.film_at(x * share, self.y[j] * share)
         return film

@@ -29,6 +29,7 @@ from pyehl.studies.journal import NAME, read_header
 LARGEST = 2_000_000
 # Keys that name a file
 FILES = ("file", "table")
+EXPECTED = "expected: what -o of run, predict, stribeck, sweep or response named"
 DOTS = (120, 100, 80, 60, 45)
 PICTURES = {
     "centre_lines": "Pressure and film through the centre, along and across the motion",
@@ -95,9 +96,10 @@ def report(
     printed = path.with_suffix(".pdf")
     if pdf and path == printed:
         raise InputError(f"-o {path}: the page and its PDF have one name\nexpected: FILE.html")
+    if not source.is_dir():
+        raise InputError(f"{source}: there is no such folder\n{EXPECTED}")
     own = {os.path.realpath(place) for place in ((path, printed) if pdf else (path,))}
-    entries = source.iterdir() if source.is_dir() else ()
-    inside = [entry for entry in entries if os.path.realpath(entry) not in own]
+    inside = [entry for entry in source.iterdir() if os.path.realpath(entry) not in own]
     check_files([path, printed] if pdf else [path], "report", inside if output else ())
     if pdf:
         browser.browser()
@@ -119,18 +121,14 @@ def _content(folder: Path) -> tuple[str, Judgement, list[str]]:
         summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
     except FileNotFoundError as error:
         raise InputError(
-            f"{folder}: no result folder (there is neither summary.json nor {NAME})\n"
-            "expected: what -o of run, predict, stribeck, sweep or response named"
+            f"{folder}: no result folder (there is neither summary.json nor {NAME})\n{EXPECTED}"
         ) from error
     except (OSError, ValueError) as error:
         raise FileError(f"{folder}: summary.json cannot be read: {error}") from error
     if summary.get("kind") == "response":
         return _response(folder, summary)
     if summary.get("kind") not in ("solution", "prediction"):
-        raise InputError(
-            f"{folder}: a result of '{summary.get('kind')}' has no report\n"
-            "expected: a folder of run, predict, stribeck, sweep or response"
-        )
+        raise InputError(f"{folder}: a result of '{summary.get('kind')}' has no report\n{EXPECTED}")
     return _single(folder, summary)
 
 

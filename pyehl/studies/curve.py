@@ -10,6 +10,7 @@ import numpy as np
 from pyehl import library
 from pyehl.prediction.deformed import deformed_surfaces
 from pyehl.prediction.errors import KNOWN_RATIO
+from pyehl.prediction.touching import NO_FRICTION
 from pyehl.results import unit_of
 from pyehl.studies.curve_contact import contact_columns, touches
 from pyehl.studies.curve_pattern import SMOOTH, Pattern, kept_pattern
@@ -125,6 +126,8 @@ def conclude(point: CurvePoint, row: Values) -> library.Conclusion:
     note = "" if row["mu_ratio_model_error"] is not None else message
     law = point.settings["lubricant"]["shear_law"]
     more = {"status": status, "message": message, "mu_ratio_error_note": note, "shear_law": law}
+    if NO_FRICTION in message:
+        more["mu_note"] = NO_FRICTION
     # the ratio of smooth surfaces is no finding
     known = row if row["surfaces"] else {k: v for k, v in row.items() if k != "mu_ratio"}
     return library.conclude({**known, **more})
@@ -177,6 +180,9 @@ def _friction(found: Sequence[Values], smooth: Values) -> dict[str, Any]:
     outside = sorted({row["outside_range"] for row in found if row.get("outside_range")})
     if any((row["mu_ratio"] or 0.0) > KNOWN_RATIO for row in found):
         outside.append(f"mu_ratio above {KNOWN_RATIO:g}")
+    told = [f"outside the range of the prediction: {'; '.join(outside)}"] if outside else []
+    if touches(found) and any(row["mu_ratio"] is None for row in found):
+        told.append(NO_FRICTION)
     coefficient, isothermal = smooth.get("mu_smooth"), smooth.get("mu_smooth_isothermal")
     absolute: list[Values] = [
         {
@@ -196,7 +202,7 @@ def _friction(found: Sequence[Values], smooth: Values) -> dict[str, Any]:
         "p_max_rough_Pa": _largest(found, "p_max_rough_Pa"),
         "mu_ratio_model_error": _largest(found, "mu_ratio_model_error"),
         "status": MIXED if touches(found) else OUTSIDE if outside else FULL_FILM,
-        "message": f"outside the range of the prediction: {'; '.join(outside)}" if outside else "",
+        "message": "; ".join(told),
     }
 
 

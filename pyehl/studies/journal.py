@@ -22,6 +22,8 @@ from pyehl.errors import FileError, InputError
 from pyehl.types import Row
 
 NAME = "journal.jsonl"
+# Differences of two studies that a message has
+MOST_TOLD = 12
 VERSION = 1
 
 
@@ -158,8 +160,12 @@ class Journal:
         wrong = difference(found, header)
         if wrong:
             self.close()
+            told = wrong[:MOST_TOLD]
+            if len(wrong) > MOST_TOLD:
+                told.append(f"and {len(wrong) - MOST_TOLD} more")
+            told[-1] += "\nexpected: another folder"
             raise InputError(
-                "\n  ".join([f"{self.folder}: holds another study. It differs in", *wrong])
+                "\n  ".join([f"{self.folder}: holds another study. It differs in", *told])
             )
         if len(whole) < len(data):
             self._file.truncate(len(whole))

@@ -62,9 +62,10 @@ def execute(task: Task) -> Row:
     try:
         row = RUNNERS[task.run](task)
     except Exception as error:
-        row = {"status": FAILED, "message": f"{type(error).__name__}: {error}"}
+        row = {"status": FAILED, "message": str(error)}
         if not isinstance(error, EhlError):
             # no fault of the case: the journal keeps where it was raised
+            row["message"] = f"{type(error).__name__}: {error}"
             row["traceback"] = traceback.format_exc()
     row["seconds"] = round(time.perf_counter() - began, 6)
     return row

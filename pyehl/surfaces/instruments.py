@@ -18,7 +18,7 @@ Foreign = tuple[Array, Sizes, bool, str, str]
 
 
 class UnknownFormatError(InputError):
-    """A file is of no format that SurfaceTopography knows."""
+    """A file is of no format that SurfaceTopography knows, or lacks the unit of its size."""
 
 
 def read_instrument(path: Path, channel: str = "") -> Foreign:
@@ -62,7 +62,7 @@ def read_instrument(path: Path, channel: str = "") -> Foreign:
     if scan.unit is not None:
         scan = scan.to_unit("m")
     elif sized:
-        raise InputError(
+        raise UnknownFormatError(
             f"{path}: the file names no unit of its size and heights; save its heights in m as "
             ".npy or text, and give surface.length_x and surface.length_y"
         )

@@ -15,7 +15,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.polynomial import chebyshev
 
-from pyehl.theory.disc import DEGREE, LARGEST, RADIUS, RIM, spherical_bessel
+from pyehl.theory.disc import DEGREE, LARGEST, RADIUS, RIM, RIM_ANGLES, spherical_bessel
 from pyehl.theory.ellipse import Ellipse
 from pyehl.types import Array, Complex
 
@@ -46,8 +46,14 @@ class EllipseEdge:
         )
         x, y = (values.ravel() for values in np.meshgrid(*lines, indexing="ij"))
         inside = np.hypot(x, y) <= RADIUS
-        self.x, self.y = x[inside], y[inside]
-        self._inverse = np.linalg.pinv(self.functions(self.x, self.y).T)
+        self.x, self.y = x, y = x[inside], y[inside]
+        self._inverse = np.asarray(np.linalg.pinv(self.functions(x, y).T), dtype=float)
+        # by the semi-axes
+        largest = self.largest * max(1.0, kappa)
+        self._inside = Series(shape, x, y, largest, self._inverse)
+        radius = math.sqrt(1.0 - RIM * RIM)
+        x, y = radius * np.cos(RIM_ANGLES), radius * np.sin(RIM_ANGLES)
+        self._rim = Series(shape, x, y, largest)
 
     def functions(self, x: Array, y: Array) -> Array:
         """Polynomials (n, ...) at places by the semi-axes, x/a and y/b, within RADIUS."""
@@ -66,17 +72,14 @@ class EllipseEdge:
         kappa = self.shape.ellipticity
         local = 0.25 * math.pi / self.shape.kernel_ratio * np.hypot(qx, qy)
         phase = np.outer(self.x, qx) + np.outer(kappa * self.y, qy)
-        found = pressure(self.shape, qx, qy, self.x, self.y) - local * np.exp(1j * phase)
-        return np.asarray(self._inverse @ found)
+        return np.asarray(self._inside.of(qx, qy) - self._inverse @ (local * np.exp(1j * phase)))
 
-    def rim(self, qx: Array, qy: Array, theta: Array) -> Complex:
-        """How far waves move the edge outwards, :func:`pyehl.theory.disc.disc_rim`.
+    def rim(self, qx: Array, qy: Array) -> Complex:
+        """How far waves (m,) move the edge outwards, :func:`pyehl.theory.disc.disc_rim`.
 
-        Of the distance from the centre by the semi-axes, at angles of x/a and y/b (n,): (n, m).
+        Of the distance from the centre by the semi-axes, at RIM_ANGLES of x/a and y/b: (n, m).
         """
-        radius = math.sqrt(1.0 - RIM * RIM)
-        x, y = radius * np.cos(theta), radius * np.sin(theta)
-        return RIM * pressure(self.shape, qx, qy, x, y)
+        return RIM * self._rim.of(qx, qy)
 
 
 @lru_cache(maxsize=4)
@@ -85,41 +88,51 @@ def ellipse_edge(shape: Ellipse) -> EllipseEdge:
     return EllipseEdge(shape)
 
 
-def pressure(shape: Ellipse, qx: Array, qy: Array, x: Array, y: Array) -> Complex:
-    """Pressure [p_h] that deflects the ellipse by waves exp(i q r) [a^2/R_x] but for a constant.
+class Series:
+    """Pressure at places, or a linear function of it, as a sum over the waves of the roughness.
 
-    Waves (m,) [1/a], places (n,) by the semi-axes: (n, m). It carries no load.
+    `part` (k, n) of the pressure at places (n,) by the semi-axes, None for all of it. For |q| up to
+    a largest one [1/a], q by the semi-axes.
     """
-    kappa = shape.ellipticity
-    q, phi = np.hypot(qx, kappa * qy), np.arctan2(kappa * qy, qx)
-    last = math.ceil(float(q.max())) + 12
-    bessel = spherical_bessel(last + 1, q)
-    z, theta = np.sqrt(1.0 - x * x - y * y), np.arctan2(y, x)
-    legendre = _legendre(last, np.append(z, 0.0))
-    harmonics = _harmonics(kappa, last)
-    total = np.zeros((x.size, q.size), dtype=complex)
-    every = np.arange(last + 1)
-    waves = [
-        (sign, wave(np.outer(every, phi)), wave(np.outer(theta, every)))
-        for sign, wave in ((1.0, np.cos), (-1.0, np.sin))
-    ]
-    for n in range(1, last + 1):
-        orders = np.arange(n % 2, n + 1, 2)
-        radial = legendre[n, orders]
-        radial = (radial[:, :-1] / radial[:, -1:] / z).T
-        together = harmonics[np.add.outer(orders, orders)]
-        apart = harmonics[np.abs(np.subtract.outer(orders, orders))]
-        part = np.zeros((x.size, q.size))
-        for sign, of_phi, of_theta in waves:
-            # there is no sine of order 0
-            first = 1 if sign < 0.0 and orders[0] == 0 else 0
-            m = slice(n % 2 + 2 * first, n + 1, 2)
-            if first < orders.size:
-                matrix = 0.5 * (apart + sign * together)[first:, first:]
-                weights = np.linalg.solve(matrix, of_phi[m])
-                part += (radial[:, first:] * of_theta[:, m]) @ weights
-        total += (1j**n * (2 * n + 1)) * part * bessel[n]
-    return np.asarray(math.pi / shape.kernel_ratio * total)
+
+    def __init__(
+        self, shape: Ellipse, x: Array, y: Array, largest: float, part: Array | None = None
+    ) -> None:
+        self.shape, self.last = shape, math.ceil(largest) + 12
+        z, theta = np.sqrt(1.0 - x * x - y * y), np.arctan2(y, x)
+        legendre = _legendre(self.last, np.append(z, 0.0))
+        harmonics = _harmonics(shape.ellipticity, self.last)
+        self._terms = []
+        for n in range(1, self.last + 1):
+            orders = np.arange(n % 2, n + 1, 2)
+            radial = legendre[n, orders]
+            radial = (radial[:, :-1] / radial[:, -1:] / z).T
+            together = harmonics[np.add.outer(orders, orders)]
+            apart = harmonics[np.abs(np.subtract.outer(orders, orders))]
+            for sign, wave in ((1.0, np.cos), (-1.0, np.sin)):
+                # there is no sine of order 0
+                first = 1 if sign < 0.0 and orders[0] == 0 else 0
+                m = orders[first:]
+                if m.size:
+                    matrix = 0.5 * (apart + sign * together)[first:, first:]
+                    there = radial[:, first:] * wave(np.outer(theta, m))
+                    there = there if part is None else part @ there
+                    self._terms.append((n, m, wave, np.linalg.solve(matrix, there.T).T))
+
+    def of(self, qx: Array, qy: Array) -> Complex:
+        """Of waves exp(i q r) [a^2/R_x] with wavevectors (m,) [1/a]: (k, m) [p_h]."""
+        kappa = self.shape.ellipticity
+        q, phi = np.hypot(qx, kappa * qy), np.arctan2(kappa * qy, qx)
+        last = min(self.last, math.ceil(float(q.max())) + 12)
+        bessel = spherical_bessel(last + 1, q)
+        even, odd = (np.zeros((self._terms[0][3].shape[0], q.size)) for _ in range(2))
+        waves = {wave: wave(np.outer(np.arange(last + 1), phi)) for wave in (np.cos, np.sin)}
+        for n, m, wave, there in self._terms:
+            if n <= last:
+                factor = (-1) ** (n // 2) * (2 * n + 1) * bessel[n]
+                total = odd if n % 2 else even
+                total += (there @ waves[wave][m]) * factor
+        return np.asarray(math.pi / self.shape.kernel_ratio * (even + 1j * odd))
 
 
 def _harmonics(kappa: float, last: int) -> Array:

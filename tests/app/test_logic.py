@@ -443,3 +443,16 @@ def test_a_thousand_turns_leave_nothing(start):
     # kilobytes: less than 20 for a turn
     assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 20_000
     assert threading.active_count() == threads
+
+
+def test_contact_without_friction_of_the_layer():
+    """Of an opened case that has a boundary film; the page has no knob for it."""
+    text = """&contact load = 20.0 mean_velocity = 0.3 radius = 0.0127 slide_to_roll = 0.1 /
+    &lubricant shear_law = 'eyring' boundary_film = 1.2e-7 {} /
+    &surface kind = 'fractal' rms_height = 3e-8 length_x = 1.2e-4 length_y = 1.2e-4 pixels = 64 /"""
+    for friction, known in (("", False), ("boundary_friction = 0.1", True)):
+        position, _ = from_case(Case.from_text(text.format(friction)))
+        rows = dict(words.rough_rows(answers.rough(position)))
+        assert ("boundary_friction" in rows["μ_r/μ_s"]) != known
+        assert ("over the passage" in rows) == ("friction μ" in rows) == known
+        assert not [row for row in rows.values() if "nan" in row]

@@ -73,6 +73,7 @@ CALLS: dict[str, tuple[Callable[[str], Any], str]] = {
     "heights nan": (lambda q: pyehl.Solver.open(q, np.full((8, 8), np.nan)), "finite"),
     "load None": (lambda q: pyehl.load(None), "expected a path"),
     "load file": (pyehl.load, "not a result folder"),
+    "report nothing": (lambda q: pyehl.report("nowhere"), "nowhere: there is no such folder"),
     "load nothing": (lambda q: pyehl.load("nowhere"), "nowhere: not a result folder"),
     "sweep list": (lambda q: pyehl.sweep(q, ["contact.load=3"]), "values by key"),
     "sweep key": (lambda q: pyehl.sweep(q, {3: [1.0]}), "group.key"),
@@ -180,3 +181,12 @@ def test_damaged_result_folder(quick: str, tmp_path: Path, damage: str):
     kind = pyehl.errors.NoMemoryError if damage == "large array" else pyehl.FileError
     with pytest.raises(kind, match=r"P\.npy|summary\.json"):
         pyehl.load(tmp_path / "out")
+
+
+@pytest.mark.parametrize("command", ["plot", "export"])
+def test_result_of_another_kind(tmp_path: Path, capsys: pytest.CaptureFixture[str], command: str):
+    """The folder of a response has a case and a summary, too."""
+    (tmp_path / "case.nml").write_text(SMALL)
+    (tmp_path / "summary.json").write_text('{"kind": "response", "moes_m": 200.0}')
+    assert cli.main([command, str(tmp_path)]) == 2
+    assert "not a result folder of one case (of 'response')" in capsys.readouterr().err

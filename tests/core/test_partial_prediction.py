@@ -1,11 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Prediction of contact at a boundary film."""
 
+from collections import defaultdict
+
 import numpy as np
 import pytest
 
 import pyehl
 from pyehl import cli
+from pyehl.plots import surface
+from pyehl.plots.stribeck import Curve, draw_stribeck
 from pyehl.prediction.obstacle import Compliance, lifted
 from pyehl.studies.curve_contact import lift_off
 
@@ -56,6 +60,49 @@ def test_friction_of_the_layer_is_not_known():
     assert summary["contact_load_share"] > 0.0
     assert (summary["mu"], summary["mu_ratio"]) == (None, None)
     assert "lubricant.boundary_friction" in summary["mu_ratio_error_note"]
+    assert summary["mu_note"] == summary["mu_ratio_error_note"]
+
+
+@pytest.mark.parametrize(
+    ("ratio", "texts", "labels"),
+    [([np.nan] * 4, ["not known"], []), ([1.0, np.nan, 1.2, 1.1], [], ["smooth"])],
+)
+def test_picture_of_friction_that_is_not_known(ratio, texts, labels):
+    """Of none of the positions, or of some."""
+    ax = surface.passage(np.arange(4) * 1e-4, np.array(ratio), 4e-4)
+    assert [text.get_text() for text in ax.texts] == texts
+    assert ax.get_legend_handles_labels()[1] == labels
+
+
+@pytest.mark.parametrize(("share", "rows"), [(None, 1), (0.0, 3)])
+def test_picture_of_a_curve_whose_contact_is_not_known(share, rows):
+    """As of two surfaces: no panels without a line."""
+    row = defaultdict(lambda: 1.0, contact_load_share=share)
+    figure = draw_stribeck([Curve("", [row, row], "", (), absolute=False)], "two surfaces")
+    assert {ax.get_subplotspec().get_gridspec().nrows for ax in figure.axes} == {rows}
+
+
+def test_curve_says_why_it_has_no_friction(tmp_path, capsys):
+    case = tmp_path / "case.nml"
+    case.write_text(SCENE.format(0.3, 1.2e-7, 0.0) + "&grid points = 65 /\n")
+    words = ["stribeck", str(case), "--speed", "0.3", "--jobs", "1", "-o"]
+    # without friction at any point it has no picture
+    assert cli.main([*words, str(tmp_path / "out")]) == 1
+    assert "mu         none: the bodies touch, and the friction" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("layer", [5e-9, 1.2e-7])
+def test_friction_is_isothermal_as_in_a_run(layer):
+    """With a layer, whether bodies touch or not; its heat is not computed."""
+    text = SCENE.format(3.0, layer, 0.1).replace(
+        "&lubricant", "&lubricant temperature_viscosity = 0.04"
+    )
+    summary = summary_of(text)
+    case = pyehl.Case.from_text(text, ["grid.points=33", "time.steps=1"])
+    run = pyehl.solve(case, check=False).attrs
+    assert summary["mu"] == summary["mu_isothermal"]
+    assert summary["mu_note"] == run["mu_note"]
+    assert summary["mu_note"].startswith("isothermal: the heat where bodies touch")
 
 
 def test_contact_where_a_full_film_breaks_down(tmp_path, capsys):

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pictures: what they show, on fields that are known."""
 
+import io
+import itertools
 import json
 import struct
 
@@ -15,6 +17,7 @@ from pyehl import Case, cli, namelist
 from pyehl.plots import contact, figures, folder, panels, style, surface, transient
 from pyehl.prediction.folder import destination, write
 from pyehl.prediction.of_case import predict
+from pyehl.surfaces import Topography
 from pyehl.theory.operating import OperatingPoint
 
 
@@ -124,6 +127,54 @@ def test_every_function_takes_axes_and_returns_them(fields, settings):
         ax = style.new_figure(3.0, 3.0).subplots()
         assert call(ax) is ax
         assert ax.has_data()
+
+
+def clear(ax):
+    """Whether the numbers below axes do not lie on each other; there are some."""
+    low, high = ax.get_xlim()
+    boxes = sorted(
+        (box.x0, box.x1)
+        for label in (*ax.get_xticklabels(), *ax.get_xticklabels(minor=True))
+        if label.get_text() and low <= label.get_position()[0] <= high
+        for box in [label.get_window_extent()]
+    )
+    return boxes and all(one[1] < other[0] for one, other in itertools.pairwise(boxes))
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 5, 8])
+def test_wavelengths_of_few_octaves_are_readable(count):
+    figure = panels.panels(2, (7.6, 3.2), "octaves", room=(0.9, 1.05, 0.15))
+    ax = figure.axes[1]
+    surface.octaves([(1.2e-4 / 2**k, 0.6e-4 / 2**k, 0.01) for k in range(count)], ax=ax)
+    figure.savefig(io.BytesIO(), dpi=100)
+    assert clear(ax)
+
+
+@pytest.mark.parametrize("sides", [(8.0, 1.0), (1.0, 8.0), (1.0, 1.0)])
+def test_slender_maps_are_readable(sides):
+    heights = np.random.default_rng(1).normal(scale=1e-8, size=(24, 24))
+    tile = Topography(heights, tuple(3.6e-4 * side for side in sides))
+    figure = panels.panels(3, (11.6, 3.2), "tile", room=(0.8, 1.9, 0.8))
+    surface.heights(tile, ax=figure.axes[0])
+    surface.spectrum_map(tile, ax=figure.axes[1])
+    surface.spectrum_line(tile, heights, heights, ax=figure.axes[2])
+    figure.savefig(io.BytesIO(), dpi=100)
+    assert all(clear(ax) for ax in figure.axes[:3])
+
+
+@pytest.mark.parametrize("room", [None, (0.75, 0.35, 1.15)])
+@pytest.mark.parametrize("width", [6.4, 7.2, 8.0])
+def test_headline_is_as_wide_as_the_figure(width, room):
+    """Its lines lie in the figure, above the letters of the panels."""
+    about = {"moes_m": 412.9, "moes_l": 10.73, "hertz_pressure_Pa": 0.997e9, "h_c_m": 1.32e-7}
+    about |= {"h_min_m": 8.74e-8, "status": "beyond linear response"}
+    figure = panels.panels(2, (width, 3.4), panels.headline(about), room=room)
+    figure.savefig(io.BytesIO(), dpi=100)
+    title = next(t for t in figure.texts if "motion" in t.get_text()).get_window_extent()
+    assert 0.0 <= title.x0 < title.x1 <= figure.bbox.x1
+    assert title.y1 <= figure.bbox.y1
+    letters = [ax._left_title.get_window_extent() for ax in figure.axes]
+    assert max(box.y1 for box in letters) <= title.y0
 
 
 def test_headline():

@@ -12,11 +12,12 @@ import pyehl
 from pyehl.prediction import of_case, second_order
 from pyehl.prediction.by_response import RoughPassage
 from pyehl.prediction.errors import KNOWN_RATIO
+from pyehl.prediction.folder import read_contact
 from pyehl.prediction.friction import outcome
 from pyehl.prediction.of_solver import resolution
 from pyehl.prediction.options import Options
 from pyehl.prediction.second_order import film_left, loss_at
-from pyehl.prediction.smooth import hertz_contact, read_contact, solve_contact, zone_of
+from pyehl.prediction.smooth import hertz_contact, solve_contact, zone_of
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer, _at_amplitude
 from pyehl.prediction.waves import Waves

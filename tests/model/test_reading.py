@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import scipy.io
 
+from pyehl import cli
 from pyehl.errors import NoMemoryError
 from pyehl.surfaces import Options, prepare, read_scan, reading
 
@@ -167,7 +168,8 @@ def test_decimal_commas(tmp_path, separator):
         read_scan(tmp_path / "bad.csv", *SIZE)
 
 
-def test_lists_of_points(tmp_path):
+@pytest.mark.parametrize("header", ["", "x,y,z", "x y z"])
+def test_lists_of_points(tmp_path, header):
     """In any order, places rounded, a point missing; size and heights in one unit."""
     z = slope_map()
     nx, ny = z.shape
@@ -175,7 +177,8 @@ def test_lists_of_points(tmp_path):
     points = [(3e-6 + i * pixel[0], j * pixel[1], z[i, j]) for i in range(nx) for j in range(ny)]
     np.random.default_rng(1).shuffle(points)
     gone = points.pop()
-    np.savetxt(tmp_path / "list.xyz.txt", 1e6 * np.array(points), fmt="%.7g")
+    how = {"fmt": "%.7g", "header": header, "comments": "", "delimiter": "," if header else " "}
+    np.savetxt(tmp_path / "list.xyz.txt", 1e6 * np.array(points), **how)
     scan = read_scan(tmp_path / "list.xyz.txt", height_unit="um")
     assert (scan.length_x, scan.length_y) == pytest.approx(SIZE, rel=1e-5)
     missing = np.argwhere(np.isnan(scan.heights))
@@ -417,3 +420,10 @@ def test_empty_file(tmp_path):
     (tmp_path / "scan.x3p").write_bytes(b"")
     with pytest.raises(ValueError, match=r"scan\.x3p: the file is empty"):
         read_scan(tmp_path / "scan.x3p")
+
+
+def test_command_names_a_broken_map_once(tmp_path, capsys):
+    path = tmp_path / "bad.csv"
+    path.write_text("1,2,3,4\n1,2,3\n")
+    assert cli.main(["surface", str(path)]) == 2
+    assert capsys.readouterr().err.count(str(path)) == 1

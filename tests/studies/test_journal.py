@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from pyehl import Case, FileError, InputError
+from pyehl.results import load
 from pyehl.studies import journal as journal_module
 from pyehl.studies.journal import NAME, Journal, difference
 
@@ -81,6 +82,20 @@ def test_another_study_is_refused_with_the_difference(tmp_path: Path):
     assert "vary.surface.seed: there nothing, here [1]" in text
     assert "contact.load" not in text
     assert rows_of(tmp_path) == {}
+
+
+def test_differences_that_are_many_are_counted(tmp_path: Path):
+    """A study of another command differs in every key."""
+    with Journal(tmp_path, {f"key{k}": 1 for k in range(30)}):
+        pass
+    with pytest.raises(InputError) as caught, Journal(tmp_path, STUDY):
+        pass
+    lines = str(caught.value).splitlines()
+    assert len(lines) < 18
+    assert lines[-2].endswith("more")
+    assert lines[-1] == "expected: another folder"
+    with pytest.raises(InputError, match=r"not a result folder of one case \(of a study"):
+        load(tmp_path)
 
 
 def test_difference_of_the_same_is_nothing():

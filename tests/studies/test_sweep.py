@@ -240,6 +240,13 @@ def test_a_message_for_each_case_without_a_result(cases: Path, tmp_path: Path):
     assert data.status.values.tolist() == ["cycle limit", "converged"]
 
 
+def test_a_case_that_fails_says_so_in_words(cases: Path, tmp_path: Path):
+    """Without the name of the class of its error."""
+    words = ("--run", "predict", "--vary", "contact.mean_velocity=0.002")
+    _, complaint = sweep(tmp_path / "out", str(cases / "table1.nml"), *words, expect=1)
+    assert "failed: the smooth contact under the prediction did not converge" in complaint
+
+
 @pytest.mark.long
 def test_a_plan_of_a_million_cases(cases: Path, tmp_path: Path):
     """It checks some, among them both ends of what is varied, and says so."""
