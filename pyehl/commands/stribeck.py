@@ -58,8 +58,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         nargs=2,
         default=AIHARA,
         metavar=("B", "C"),
-        help="constants of that law: exp(-B Lambda^C) of the load is on asperities (default "
-        f"{AIHARA[0]:g} {AIHARA[1]:g})",
+        help="constants of that law: exp(-B (h_c/sigma)^C) of the load is on asperities "
+        f"(default {AIHARA[0]:g} {AIHARA[1]:g})",
     )
     parser.add_argument("--dpi", type=int, default=150, help="of the picture (default 150)")
     add_worker_arguments(parser)

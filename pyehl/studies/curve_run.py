@@ -145,7 +145,7 @@ def stribeck(
         Coefficient of friction of the asperities [-]: adds what an empirical law says of thin films
         (``mu_empirical``); None: no number where the film ends.
     load_share
-        B and C of that law: exp(-B Lambda^C) of the load is on asperities.
+        B and C of that law: exp(-B (h_c/sigma)^C) of the load is on asperities.
     output
         Folder for journal and table, from which an interrupted curve is resumed; None: nothing is
         kept on disk.

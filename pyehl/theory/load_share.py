@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Friction of a contact whose film is thinner than its roughness, by an empirical law.
 
-Asperities carry the share exp(-B Lambda^C) of the load (Zhou & Hoeprich 1991, J. Tribol. 113, 590,
-eq. 29), Lambda being the central film over the composite rms height, and have a boundary friction
-of their own; the film has its friction on the rest of the load. B and C belong to a pair of
-surfaces.
+Asperities carry the share exp(-B (h_c/sigma)^C) of the load (Zhou & Hoeprich 1991, J. Tribol.
+113, 590, eq. 29), h_c/sigma being the central film over the composite rms height, and have a
+boundary friction of their own; the film has its friction on the rest of the load. B and C belong
+to a pair of surfaces.
 """
 
 import math
@@ -43,12 +43,12 @@ class LoadShare:
     def words(self) -> str:
         """The law with its numbers, and where its constants are from."""
         source = (
-            "constants of Aihara 1987 for pressures below 0.4 GPa and Lambda up to 2"
+            "constants of Aihara 1987 for pressures below 0.4 GPa and h_c/sigma up to 2"
             if (self.b, self.c) == AIHARA
             else "constants as given"
         )
         return (
-            f"empirical: exp(-{self.b:g} Lambda^{self.c:g}) of the load, Lambda = h_c/sigma, at a "
+            f"empirical: exp(-{self.b:g} (h_c/sigma)^{self.c:g}) of the load, at a "
             f"boundary friction of {self.boundary_friction:g} (Zhou & Hoeprich 1991; {source})"
         )
 
