@@ -194,8 +194,8 @@ def test_killed_at_random_it_has_every_finished_row(cases: Path, tmp_path: Path,
         process = begin(folder, cases / "quick.nml")
         # most kills while rows are written; the others wherever the time falls
         if kills % 4:
-            wait_for_rows(folder, min(len(before) + draw.randint(0, 8), 199))
-        time.sleep(draw.uniform(0.0, 0.05 if kills % 4 else 2.0))
+            wait_for_rows(folder, min(len(before) + draw.randint(0, 6), 199))
+        time.sleep(draw.uniform(0.0, 0.02 if kills % 4 else 1.2))
         process.kill()
         process.communicate()
         if process.returncode != -signal.SIGKILL:
