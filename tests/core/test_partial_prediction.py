@@ -8,8 +8,10 @@ import pytest
 
 import pyehl
 from pyehl import cli
+from pyehl.errors import EhlError
 from pyehl.plots import surface
 from pyehl.plots.stribeck import Curve, draw_stribeck
+from pyehl.prediction import of_case, smooth
 from pyehl.prediction.obstacle import Compliance, lifted
 from pyehl.studies.curve_contact import lift_off
 
@@ -53,6 +55,43 @@ def test_share_grows_with_the_layer_up_to_dry_contact():
     assert all(s["contact_load_share_error"] >= 0.0 for s in found)
     assert all(s["status"] == "predicted" for s in found)
     assert "mixed film" in found[1]["judgement"]
+
+
+@pytest.mark.parametrize(("velocity", "layer"), [(0.3, 1.2e-7), (0.02, 2e-8)])
+def test_smooth_films_are_those_of_a_run_with_the_layer(velocity, layer):
+    """Films, pressure and Lambda, as of a run and on a curve; a layer of no contact costs none."""
+    values = predicted(layer, velocity=velocity)
+    case = pyehl.Case.from_text(SCENE.format(velocity, layer, 0.1), {"grid.points": 257})
+    run = pyehl.solve(case.with_options({"surface.kind": "smooth"})).attrs
+    for name in ("c", "min"):
+        error = run[f"H_{name}_error"] * run["film_scale_m"]
+        limit = run[f"H_{name}_extrapolated"] * run["film_scale_m"]
+        assert values[f"h_{name}_m"] == pytest.approx(limit, abs=error)
+    assert values["h_min_m"] == pytest.approx(values["lambda_ratio"] * values["rms_height_m"])
+    assert values["p_max_Pa"] == pytest.approx(run["p_max_Pa"], rel=0.01)
+    assert values["h_min_rough_m"] < values["h_min_m"]
+    row = pyehl.stribeck(case, speed=[velocity], jobs=1)
+    for name in ("h_c_m", "h_min_m", "lambda_ratio", "lambda_ratio_deformed"):
+        assert values[name] == pytest.approx(float(row[name][0]), rel=0.02), name
+
+
+def test_smooth_contact_with_the_layer_that_does_not_converge(monkeypatch):
+    """No films of another contact in place of its own."""
+    settings = pyehl.Case.from_text(SCENE.format(0.3, 1.2e-7, 0.1)).resolve()
+    solved = smooth._solved
+
+    def lost(text, *finest):
+        if finest:
+            raise EhlError("did not converge")
+        return solved(text)
+
+    monkeypatch.setattr(smooth, "_solved", lost)
+    summary = of_case.predict(settings, tracks=1).summary
+    names = "h_c_m", "h_min_m", "h_c_error_m", "p_max_Pa", "lambda_ratio", "lambda_ratio_deformed"
+    assert [summary[name] for name in names] == [None] * len(names)
+    assert summary["h_c_source"] == "did not converge"
+    assert summary["contact_load_share"] > 0.0
+    assert summary["mu"] > 0.0
 
 
 def test_friction_of_the_layer_is_not_known():
