@@ -30,8 +30,8 @@ FINEST = 1025
 """Grids up to this one are tried where there is no solution, or none to extrapolate from: the inlet
 of a contact under a high load is steep (M above 2000 or so)."""
 
-FINEST_WITH_LAYER = 513
-"""The same for a contact with a boundary film, which finer grids seldom help."""
+COARSE = 129
+"""With a boundary film this is tried instead, which finer grids seldom help."""
 TOUCHES = 1.2
 """Films thicker than this many layers are taken not to touch on any grid."""
 
@@ -153,19 +153,12 @@ def with_layer(settings: Settings, contact: SmoothContact, lubricant: Lubricant)
     held = lubricant.density_ratio(pressure) * contact.film
     if float(held.min()) > TOUCHES * layer:
         return contact
-    try:
-        return _solved(smooth_case(settings, layer=True), FINEST_WITH_LAYER)
-    except EhlError as error:
-        n = math.nan
-        return replace(
-            contact,
-            source=str(error),
-            pressure=np.full_like(pressure, n),
-            central_film=n,
-            central_film_error=n,
-            minimum_film=n,
-            minimum_film_error=n,
-        )
+    found = _solved_with_layer(smooth_case(settings, layer=True))
+    if found is not None:
+        return found
+    n = math.nan
+    lost = "not known: with the boundary film it does not converge"
+    return SmoothContact(contact.x, contact.y, n * pressure, n * pressure, n, n, lost)
 
 
 def circle_of(
@@ -179,12 +172,13 @@ def circle_of(
 def forget() -> None:
     """Solve anew what was kept, as `pyehl bench skips` does to see what keeping saves."""
     _solved.cache_clear()
+    _solved_with_layer.cache_clear()
 
 
 @lru_cache(maxsize=8)
-def _solved(text: str, finest: int = FINEST) -> SmoothContact:
+def _solved(text: str) -> SmoothContact:
     points, best = POINTS, None
-    while points <= finest:
+    while points <= FINEST:
         found, status = _on_grid(text, points)
         best = found or best
         if found is not None and found.extrapolated:
@@ -192,10 +186,15 @@ def _solved(text: str, finest: int = FINEST) -> SmoothContact:
         points = 2 * points - 1
     if best is None:
         raise EhlError(
-            f"the smooth contact under the prediction did not converge on {finest} x {finest} "
+            f"the smooth contact under the prediction did not converge on {FINEST} x {FINEST} "
             f"nodes: {status}"
         )
     return best
+
+
+@lru_cache(maxsize=8)
+def _solved_with_layer(text: str) -> SmoothContact | None:
+    return _on_grid(text, POINTS)[0] or _on_grid(text, COARSE)[0]
 
 
 def _on_grid(text: str, points: int) -> tuple[SmoothContact | None, str]:
