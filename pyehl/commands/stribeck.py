@@ -178,11 +178,12 @@ def execute(args: argparse.Namespace) -> int:
         watcher.goes_on(folder)
         return EXIT_INTERRUPTED
     written = [CSV, NETCDF]
-    if any(row["mu_ratio"] is not None for row in rows):
+    drawn = "mu_ratio", "contact_load_share", "contact_load_share_ehl"
+    if any(row.get(name) is not None for row in rows for name in drawn):
         draw(plan, rows, measured, folder / PICTURE, args.dpi)
         written.append(PICTURE)
     else:
-        print("note: no point has a friction; there is no picture", file=sys.stderr)
+        print("note: no point has a friction or a load share; there is no picture", file=sys.stderr)
     if not args.quiet:
         print(report(plan, rows))
         if measured is not None:

@@ -116,13 +116,22 @@ def test_picture_of_a_curve_whose_contact_is_not_known(share, rows):
     assert {ax.get_subplotspec().get_gridspec().nrows for ax in figure.axes} == {rows}
 
 
+def test_picture_of_a_curve_without_friction():
+    row = defaultdict(lambda: 1.0, contact_load_share=0.4, mu_ratio=None, mu=None)
+    row |= {"mu_ratio_ehl": None, "mu_empirical": None}
+    figure = draw_stribeck([Curve("", [row, row], "", (0, 1), absolute=False)], "contact")
+    labels = [ax.get_ylabel() for ax in figure.axes]
+    assert [label for label in labels if label] == ["load, area (dashed)", "least film [nm]"]
+
+
 def test_curve_says_why_it_has_no_friction(tmp_path, capsys):
     case = tmp_path / "case.nml"
     case.write_text(SCENE.format(0.3, 1.2e-7, 0.0) + "&grid points = 65 /\n")
     words = ["stribeck", str(case), "--speed", "0.3", "--jobs", "1", "-o"]
-    # without friction at any point it has no picture
-    assert cli.main([*words, str(tmp_path / "out")]) == 1
+    assert cli.main([*words, str(tmp_path / "out")]) == 0
     assert "mu         none: the bodies touch, and the friction" in capsys.readouterr().out
+    # shares and films are drawn without friction at any point
+    assert (tmp_path / "out" / "stribeck.png").is_file()
 
 
 @pytest.mark.parametrize("layer", [5e-9, 1.2e-7])
