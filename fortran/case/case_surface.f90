@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The two surfaces of a case: defaults that depend on other keys, and what each kind needs
 module ehl_case_surface
-   use ehl_case, only: case_t, has_no_height, is_feature, surface_case_t
+   use ehl_case, only: case_t, is_feature, surface_case_t
    use ehl_case_feature, only: check_arrival, check_feature, late_start
    use ehl_files, only: file_exists, is_file
    use ehl_kinds, only: dp
@@ -75,11 +75,6 @@ contains
       call check_feature(schema, group, s, si, status)
       if (.not. status%failed()) call check_filter(schema, group, s, status)
       if (.not. status%failed()) call check_map(schema, group, s, status)
-      if (.not. (status%failed() .or. si .or. has_no_height(s)) .and. (s%kind == "map" .or. s%kind == "fractal")) then
-         call schema%refuse(group//".kind", group//".kind = '"//trim(s%kind)//"': a surface in metres needs a contact in "// &
-                            "SI units", "&contact load, mean_velocity, radius and reduced_modulus instead of moes_m and moes_l", &
-                            status)
-      end if
    end subroutine check_surface
 
    !> A single wave or feature has no spectrum to cut, and something must be left of others

@@ -163,6 +163,18 @@ def execute(args: argparse.Namespace) -> int:
     jobs = jobs_of(args)
     measured = None if args.measured is None else _measured(args.measured, plan)
     folder = Path(args.output)
+    try:
+        return _curve(args, plan, jobs, measured)
+    except KeyboardInterrupt as stop:
+        kept = f"what is finished is kept; the same command resumes it in {folder}"
+        raise KeyboardInterrupt(kept) from stop
+
+
+def _curve(
+    args: argparse.Namespace, plan: CurvePlan, jobs: int, measured: Measured | None
+) -> int:
+    """Run a curve that is planned, draw and tell it."""
+    folder = Path(args.output)
     inputs = tuple(word for word in (args.case, args.measured) if word is not None)
     with closing(Terminal(lambda done: plan.text(jobs, done), quiet=args.quiet)) as watcher:
         outcome, rows = perform(

@@ -296,8 +296,6 @@ FAULTS: list[tuple[str, str, list[str], list[str]]] = [
     ("two widths", "&surface kind='dent' width=0.5 §width_m=1e-4 /", [], ["contradicts", "surface.width"]),
     ("metres without a size", "&contact moes_m=100.0/\n&surface kind='dent' width_m = §1e-4 /", [],
      ["surface.width_m", "Moes numbers", "surface.width"]),
-    ("map without a size", "&contact moes_m=100.0/\n&surface kind=§'fractal' rms_height=1e-8 /", [],
-     ["surface.kind = 'fractal'", "needs a contact in SI units", "&contact load, mean_velocity"]),
     ("feature inside the contact", "&surface kind='bump' x_start = §-0.5 /", [], ["surface.x_start", "-1.25"]),
     ("spectrum of a feature", "&surface kind='ridge' shortest_wavelength = §1e-5 /", [], ["closed form"]),
     ("sign of zero", "&surface sign = §0 /", [], ["surface.sign = 0", "1 or -1"]),
