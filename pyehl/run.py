@@ -133,13 +133,13 @@ def _open(case: Case, resumed: AnyPath, given: tuple[Surface | None, Surface | N
 
 
 def _open_named(
-    inputs: tuple[str | bytes, ...],
+    inputs: tuple[AnyPath, ...],
     case: Case,
     resumed: AnyPath,
     given: tuple[Surface | None, Surface | None],
 ) -> Solver:
     """Open a solver; what is wrong with the case is told with the name of its file."""
-    with named(os.fsdecode(inputs[0]) if inputs else ""):
+    with named(os.fspath(inputs[0]) if inputs else ""):
         return _open(case, resumed, given)
 
 
@@ -173,7 +173,7 @@ def run(
     holds something else than results, or cannot be written; EhlError if the solver failed: nothing
     is written then.
     """
-    inputs = tuple(map(os.fspath, inputs))
+    inputs = tuple(inputs)
     sources = (*inputs, *files_of(case.resolve()))
     Destination(folder, "solution", inputs=sources, force=force).check()
     request = StopRequest()

@@ -170,9 +170,7 @@ def execute(args: argparse.Namespace) -> int:
         raise KeyboardInterrupt(kept) from stop
 
 
-def _curve(
-    args: argparse.Namespace, plan: CurvePlan, jobs: int, measured: Measured | None
-) -> int:
+def _curve(args: argparse.Namespace, plan: CurvePlan, jobs: int, measured: Measured | None) -> int:
     """Run a curve that is planned, draw and tell it."""
     folder = Path(args.output)
     inputs = tuple(word for word in (args.case, args.measured) if word is not None)

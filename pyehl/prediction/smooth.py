@@ -111,9 +111,9 @@ OF_CONTACT = ("boundary_film", "boundary_friction")
 def smooth_case(settings: Settings, *, layer: bool = False) -> str:
     """Text of the case whose solution is the smooth contact under a resolved case.
 
-    `layer`: with its boundary film. Cases that differ in their surface or the heat of friction alone have the same; where the flow
-    is Newtonian and the inlet not heated by shear, so have those that differ in their slip or their
-    shear law.
+    `layer`: with its boundary film. Cases that differ in their surface or the heat of friction
+    alone have the same; where the flow is Newtonian and the inlet not heated by shear, so have
+    those that differ in their slip or their shear law.
     """
     thins = ShearLaw.from_settings(settings).in_flow
     heated = bool(settings["lubricant"].get("thermal_reduction", False))
@@ -187,7 +187,8 @@ def _solved(text: str) -> SmoothContact:
     if best is None:
         raise EhlError(
             f"the smooth contact under the prediction did not converge on {FINEST} x {FINEST} "
-            f"nodes: {status}"
+            f"nodes: {status}; a lighter load or a wider contact may, and 'pyehl predict --smooth' "
+            "takes one that 'pyehl run' has solved on another grid"
         )
     return best
 
@@ -230,7 +231,7 @@ def _on_grid(text: str, points: int) -> tuple[SmoothContact | None, str]:
 
 
 def film_of(summary: Mapping[str, Any], name: str) -> tuple[float, float | None]:
-    """Film ``H_c`` or ``H_min`` of a converged run and its error, extrapolated where it could be."""
+    """Film ``H_c`` or ``H_min`` of a run, extrapolated where it could be, and its error."""
     limit = summary.get(f"{name}_extrapolated")
     return summary[name] if limit is None else limit, summary.get(f"{name}_error")
 
