@@ -4,12 +4,11 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from pyehl.case import Case, files_of, with_surface
-from pyehl.errors import InputError, NotConverged
+from pyehl.errors import NotConverged, named
 from pyehl.given import Option, check_kind, path_of
 from pyehl.prediction import film_sheet, folder, of_case
 from pyehl.prediction.friction import TRACKS
@@ -23,17 +22,6 @@ if TYPE_CHECKING:
     import xarray
 
 Progress = bool | Callable[[Solver], object]
-
-
-@contextmanager
-def _named(name: str) -> Iterator[None]:
-    """Put the name of the case file before what is wrong with the case."""
-    try:
-        yield
-    except InputError as error:
-        if not name:
-            raise
-        raise InputError(f"{name}: {error}") from error
 
 
 def solve(
@@ -92,14 +80,16 @@ def solve(
     >>> round(float(ds.H_c), 3), ds.hertz_pressure_Pa.attrs["units"]
     (0.072, 'Pa')
     """
-    inputs = () if isinstance(case, Case) else (case,)
+    inputs, name = ((), "") if isinstance(case, Case) else ((case,), path_of(case, "case"))
     case = Case.of(case, *options)
     check_kind(check, bool, "check", "True or False")
     if not callable(progress):
         check_kind(progress, bool, "progress", "True, False or a function")
         progress = ProgressBar().show if progress else lambda solver: None
     if output is None:
-        with Solver(case, surface=surface, second_surface=second_surface) as solver:
+        with named(name):
+            opened = Solver(case, surface=surface, second_surface=second_surface)
+        with opened as solver:
             while not solver.done:
                 solver.advance()
                 progress(solver)
@@ -195,7 +185,7 @@ def predict(
         place = folder.destination(path_of(output, "output"), inputs=inputs, force=force)
         place.check()
     settings = case.resolve()
-    with _named(name):
+    with named(name):
         found = of_case.predict(
             settings,
             case.text,
@@ -243,7 +233,7 @@ def film(case: Case | str | os.PathLike[str], *options: Option) -> dict[str, Any
     """
     name = "" if isinstance(case, Case) else path_of(case, "case")
     settings = Case.of(case, *options).resolve()
-    with _named(name):
+    with named(name):
         return film_sheet.sheet(settings)
 
 
@@ -273,6 +263,7 @@ def check(case: Case | str | os.PathLike[str], *options: Option) -> str:
     >>> "&grid" in pyehl.check("cases/quick.nml", {"grid.points": 65})
     True
     """
+    name = "" if isinstance(case, Case) else path_of(case, "case")
     case = Case.of(case, *options)
-    with Solver(case) as solver:
+    with named(name), Solver(case) as solver:
         return f"{case.text}\n{solver.describe(predict=False)}"

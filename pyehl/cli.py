@@ -112,5 +112,6 @@ def main(argv: Sequence[str] | None = None) -> int:
     except EhlError as error:
         print(f"pyehl: error: {error}", file=sys.stderr)
         return EXIT_FAILED
-    except KeyboardInterrupt:
+    except KeyboardInterrupt as stop:
+        print(f"interrupted; {stop if stop.args else 'no result is written'}", file=sys.stderr)
         return EXIT_INTERRUPTED

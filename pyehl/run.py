@@ -20,7 +20,7 @@ from pyehl import library
 from pyehl.arrays import read_array
 from pyehl.case import Case, files_of
 from pyehl.destination import Destination
-from pyehl.errors import FileError, InputError
+from pyehl.errors import FileError, InputError, named
 from pyehl.solver import Solver
 from pyehl.surfaces import GROUPS, Surface, for_solver
 
@@ -132,6 +132,17 @@ def _open(case: Case, resumed: AnyPath, given: tuple[Surface | None, Surface | N
     return solver
 
 
+def _open_named(
+    inputs: tuple[AnyPath, ...],
+    case: Case,
+    resumed: AnyPath,
+    given: tuple[Surface | None, Surface | None],
+) -> Solver:
+    """Open a solver; what is wrong with the case is told with the name of its file."""
+    with named(os.fspath(inputs[0]) if inputs else ""):
+        return _open(case, resumed, given)
+
+
 def _keep_state(solver: Solver, *, at_once: bool) -> bool:
     """Save the state, now or if its time has come. A run does not end because that fails."""
     try:
@@ -162,10 +173,12 @@ def run(
     holds something else than results, or cannot be written; EhlError if the solver failed: nothing
     is written then.
     """
+    inputs = tuple(inputs)
     sources = (*inputs, *files_of(case.resolve()))
     Destination(folder, "solution", inputs=sources, force=force).check()
     request = StopRequest()
-    with signals_to(request.take), _open(case, resumed, (surface, second_surface)) as solver:
+    given = surface, second_surface
+    with signals_to(request.take), _open_named(inputs, case, resumed, given) as solver:
         say(solver.describe())
         if os.fspath(resumed):
             begins = "there is no state yet: the run begins at its beginning"

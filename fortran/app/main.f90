@@ -67,6 +67,7 @@ program ehl
    call say_making(input%surface)
    call say_making(input%second_surface)
    call solver%start(input, status, heights, second_heights)
+   if (status%code == ehl_bad_input) status%message = arguments%case_file//": "//status%message
    call end_if_failed()
    call say(plan_text(solver%plan))
    if (arguments%resume /= "") then

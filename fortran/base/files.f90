@@ -141,7 +141,7 @@ contains
    logical function is_file(path)
       character(len=*), intent(in) :: path
       !> Do not wait for the other end of a pipe (Linux)
-      integer(c_int), parameter :: at_once = 2048, from_end = 2
+      integer(c_int), parameter :: at_once = 2048, from_start = 0, from_end = 2
       integer(c_int) :: descriptor, closed
       integer(c_size_t) :: length
       character(kind=c_char) :: byte(1)
@@ -152,8 +152,10 @@ contains
       if (descriptor < 0) return
       length = posix_lseek(descriptor, 0_c_size_t, from_end)
       is_file = length >= 0
-      ! a device has no length, but bytes
-      if (length == 0) is_file = posix_read(descriptor, byte, 1_c_size_t) == 0
+      ! a device has no length, but bytes, or no place behind its end
+      if (length == 0) is_file = posix_lseek(descriptor, 1_c_size_t, from_start) == 1
+      if (length == 0 .and. is_file) is_file = posix_lseek(descriptor, 0_c_size_t, from_start) == 0
+      if (length == 0 .and. is_file) is_file = posix_read(descriptor, byte, 1_c_size_t) == 0
       closed = posix_close(descriptor)
       if (closed /= 0) is_file = .false.
    end function is_file

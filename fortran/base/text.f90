@@ -6,7 +6,7 @@ module ehl_text
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
-   public :: newline, to_text, fixed, short, lower_case, is_letter, is_digit, nearest_word, quoted
+   public :: newline, to_text, fixed, percent, rounded, short, lower_case, is_letter, is_digit, nearest_word, quoted
 
    !> Line separator in texts and files
    character(len=*), parameter :: newline = new_line("a")
@@ -74,6 +74,30 @@ contains
       character(len=:), allocatable :: text
       text = fixed(x, "es10.3")
    end function short
+
+   !> A number to three digits, or so many
+   function rounded(x, digits) result(text)
+      real(dp), intent(in) :: x
+      integer, intent(in), optional :: digits
+      character(len=:), allocatable :: text
+      integer :: n, decimals
+
+      n = 3
+      if (present(digits)) n = digits
+      decimals = n
+      ! 9.996 is '10.0'
+      if (abs(x) > 0.0_dp) decimals = max(0, n - 1 - floor(log10(abs(x)*(1.0_dp + 0.5_dp*10.0_dp**(-n)))))
+      text = fixed(x, "f32."//to_text(decimals))
+      if (decimals == 0) text = text(:len(text) - 1)
+   end function rounded
+
+   !> A share in per cent
+   function percent(share) result(text)
+      real(dp), intent(in) :: share
+      character(len=:), allocatable :: text
+
+      text = rounded(100.0_dp*share, 2)//" %"
+   end function percent
 
    !> The digits of a mantissa, without sign, point and trailing zeros
    pure function keep_digits(mantissa) result(digits)

@@ -71,8 +71,9 @@ contains
          allocate (surface, source=new_harmonic(s%amplitude, s%wavelength_x, s%wavelength_y, s%velocity_ratio, s%x_start))
          if (.not. s%amplitude_given) amplitude_over_film = s%amplitude_over_film
       else if (.not. si) then
-         call status%fail(ehl_bad_input, "a surface in metres needs a contact in SI units: give &contact load, "// &
-                          "mean_velocity, radius and reduced_modulus instead of moes_m and moes_l")
+         call status%fail(ehl_bad_input, group//".kind = '"//trim(s%kind)//"': a surface in metres needs a contact in SI "// &
+                          "units"//new_line("a")//"expected: contact.load, mean_velocity, radius and reduced_modulus "// &
+                          "instead of contact.moes_m and moes_l")
       else if (has_heights) then
          call make_map(group, s, scales, heights, surface, status)
       else

@@ -6,7 +6,7 @@ module ehl_surface_text
    use ehl_moving_surfaces, only: moving_surfaces_t
    use ehl_plan, only: plan_t
    use ehl_surface, only: surface_t
-   use ehl_text, only: fixed, newline, to_text
+   use ehl_text, only: fixed, newline, percent, to_text
    implicit none (type, external)
    private
    public :: scene_lines, wave_lines, window_words
@@ -122,43 +122,60 @@ contains
    !> How much of the surfaces the finest grid carries
    function wave_lines(plan) result(text)
       type(plan_t), intent(in) :: plan
-      character(len=:), allocatable :: text
+      character(len=:), allocatable :: text, label
       integer :: k
       logical :: known
 
       text = ""
       associate (surfaces => plan%surfaces, scales => plan%scales)
          ! an amplitude that is a share of the film is not known at first
-         known = all([(surfaces%of(k)%surface%rms_height() > 0.0_dp, k=1, surfaces%count())])
+         known = surfaces%count() > 1 .and. all([(surfaces%of(k)%surface%rms_height() > 0.0_dp, k=1, surfaces%count())])
          if (surfaces%has_spectrum() .and. scales%has_size()) then
             do k = 1, surfaces%count()
-               text = text//height_line(surfaces%of(k)%surface, scales%film)
+               label = ""
+               if (surfaces%count() > 1) label = "&"//trim(surfaces%of(k)%group)//": "
+               text = text//height_line(surfaces%of(k)%surface, label, scales%film)
             end do
-            if (surfaces%count() > 1 .and. known) then
+            if (known) then
                text = text//"surface    composite rms height "//fixed(surfaces%rms_height()*scales%film, "es9.2")// &
                       " m, rms slope "//fixed(surfaces%rms_slope()*scales%film/scales%length, "f8.5")//newline
             end if
          end if
-         text = text//"waves      with fewer than 8 nodes a period hold "//fixed(surfaces%unresolved, "es8.1")// &
+         text = text//"waves      with fewer than 8 nodes a period hold "//share_words(surfaces%unresolved)// &
                 " of the variance of "
          if (surfaces%pass_once() .and. surfaces%count() == 1) then
             text = text//"its profile"
          else
-            text = text//"the surface; "//fixed(surfaces%left_out, "es8.1")//" of it, with 2 and fewer, is left out"
+            text = text//"the surface; "//share_words(surfaces%left_out)//" of it, with 2 and fewer, is left out"
          end if
       end associate
    end function wave_lines
 
+   !> A share of the variance in per cent
+   function share_words(share) result(text)
+      real(dp), intent(in) :: share
+      character(len=:), allocatable :: text
+
+      text = percent(share)
+      if (share < 1.0e-4_dp) text = "less than 0.01 %"
+      if (.not. share > 0.0_dp) text = "0 %"
+   end function share_words
+
    !> Rms height of a surface with a spectrum, and before that was cut
-   function height_line(surface, film_scale) result(text)
+   function height_line(surface, label, film_scale) result(text)
       class(surface_t), intent(in) :: surface
+      !> Of several surfaces the group that it is of
+      character(len=*), intent(in) :: label
       !> [m]
       real(dp), intent(in) :: film_scale
       character(len=:), allocatable :: text
 
       text = ""
-      if (.not. surface%variance > 0.0_dp) return
-      text = "surface    rms height "//fixed(sqrt(surface%variance)*film_scale, "es9.2")//" m"
+      if (.not. surface%rms_height() > 0.0_dp) then
+         if (label /= "") text = "surface    "//label//"rms height by its share of the film, once that is known"//newline
+         return
+      end if
+      text = "surface    "//label//"rms height "//fixed(surface%rms_height()*film_scale, "es9.2")//" m"
       if (surface%variance < surface%variance_whole) text = text//", of "// &
          fixed(sqrt(surface%variance_whole)*film_scale, "es9.2")//" m before its spectrum was cut"
       text = text//newline

@@ -94,7 +94,8 @@ contains
          if (known("p_rise_max_Pa")) then
             rise = with_error(summary%number("p_rise_max_Pa")*gigapascals, summary%number("p_rise_max_error_Pa")*gigapascals, &
                               "f10.4", " GPa above the smooth contact")
-            pressure = pressure//merge(", up to ", "; rough ", known("p_max_rough_Pa"))//rise
+            if (pressure == "") pressure = "p_max      not known"
+            pressure = pressure//merge("; rough ", ", up to ", known("p_max_Pa") .and. .not. known("p_max_rough_Pa"))//rise
          end if
          if (pressure /= "") pressure = pressure//newline
       end function pressure

@@ -3,7 +3,7 @@
 module ehl_judgement
    use ehl_kinds, only: dp
    use ehl_record, only: record_t
-   use ehl_text, only: fixed, to_text
+   use ehl_text, only: fixed, percent, short => rounded, to_text
    use ehl_touching, only: much_supplied
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    implicit none (type, external)
@@ -219,28 +219,4 @@ contains
       larger = .false.
       if (ieee_is_finite(a) .and. ieee_is_finite(b)) larger = a > b
    end function larger
-
-   !> A number to three digits, or so many
-   function short(x, digits) result(text)
-      real(dp), intent(in) :: x
-      integer, intent(in), optional :: digits
-      character(len=:), allocatable :: text
-      integer :: n, decimals
-
-      n = 3
-      if (present(digits)) n = digits
-      decimals = n
-      ! 9.996 is '10.0'
-      if (abs(x) > 0.0_dp) decimals = max(0, n - 1 - floor(log10(abs(x)*(1.0_dp + 0.5_dp*10.0_dp**(-n)))))
-      text = fixed(x, "f32."//to_text(decimals))
-      if (decimals == 0) text = text(:len(text) - 1)
-   end function short
-
-   !> A share in per cent
-   function percent(share) result(text)
-      real(dp), intent(in) :: share
-      character(len=:), allocatable :: text
-
-      text = short(100.0_dp*share, 2)//" %"
-   end function percent
 end module ehl_judgement

@@ -17,8 +17,10 @@ module ehl_no_answer
 contains
 
    !> Empty for a run that has an answer, or is not at its end
-   function why_no_answer(run) result(text)
+   function why_no_answer(run, coarse) result(text)
       class(contact_run_t), intent(in) :: run
+      !> The run for the grid error, while it runs
+      class(contact_run_t), intent(in), optional :: coarse
       character(len=:), allocatable :: text
 
       select case (run%outcome)
@@ -30,7 +32,12 @@ contains
       case (outcome_diverged)
          text = place(run)//" has a value that is not a number; "//finer(run)//" or solver.cycle = 'W'"
       case (outcome_interrupted)
-         text = "stopped from outside in "//place(run)
+         text = "stopped from outside in "
+         if (present(coarse)) then
+            text = text//"the run for the grid error: "//place(coarse)
+         else
+            text = text//place(run)
+         end if
          if (run%in_steps) text = text//"; --resume goes on from there"
       case (outcome_unsettled)
          text = "the mean of mu_r/mu_s has not settled at T = "//fixed(run%transient%time, "f10.4")

@@ -229,13 +229,12 @@ contains
       converged = self%stand() == outcome_converged
    end function converged
 
-   !> End the run here. The coarser run of a transient one stays: its state may have to be saved.
+   !> End the run here. A coarser run stays: it is where the run ended, and its state may have to be saved.
    subroutine interrupt(self)
       class(solver_t), intent(inout) :: self
 
       if (self%done()) return
       self%outcome = outcome_interrupted
-      if (self%resting .and. allocated(self%coarse)) deallocate (self%coarse)
    end subroutine interrupt
 
    !> The grid that fields refer to: the finest one of the plan; with a wanted error, which ends on a grid that nobody

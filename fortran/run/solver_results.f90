@@ -36,7 +36,11 @@ contains
       rough = self%in_steps .or. self%resting
       call record%set("kind", "solution")
       call record%set("status", trim(outcome_names(self%stand())))
-      why = why_no_answer(self)
+      if (allocated(self%coarse)) then
+         why = why_no_answer(self, self%coarse)
+      else
+         why = why_no_answer(self)
+      end if
       if (why /= "") call record%set("message", why)
       call record%set("converged", converged)
       ! the smooth results are good as soon as the rough contact has begun

@@ -163,6 +163,16 @@ def execute(args: argparse.Namespace) -> int:
     jobs = jobs_of(args)
     measured = None if args.measured is None else _measured(args.measured, plan)
     folder = Path(args.output)
+    try:
+        return _curve(args, plan, jobs, measured)
+    except KeyboardInterrupt as stop:
+        kept = f"what is finished is kept; the same command resumes it in {folder}"
+        raise KeyboardInterrupt(kept) from stop
+
+
+def _curve(args: argparse.Namespace, plan: CurvePlan, jobs: int, measured: Measured | None) -> int:
+    """Run a curve that is planned, draw and tell it."""
+    folder = Path(args.output)
     inputs = tuple(word for word in (args.case, args.measured) if word is not None)
     with closing(Terminal(lambda done: plan.text(jobs, done), quiet=args.quiet)) as watcher:
         outcome, rows = perform(
@@ -178,11 +188,12 @@ def execute(args: argparse.Namespace) -> int:
         watcher.goes_on(folder)
         return EXIT_INTERRUPTED
     written = [CSV, NETCDF]
-    if any(row["mu_ratio"] is not None for row in rows):
+    drawn = "mu_ratio", "contact_load_share", "contact_load_share_ehl"
+    if any(row.get(name) is not None for row in rows for name in drawn):
         draw(plan, rows, measured, folder / PICTURE, args.dpi)
         written.append(PICTURE)
     else:
-        print("note: no point has a friction; there is no picture", file=sys.stderr)
+        print("note: no point has a friction or a load share; there is no picture", file=sys.stderr)
     if not args.quiet:
         print(report(plan, rows))
         if measured is not None:

@@ -153,15 +153,23 @@ def measure(
         )
     folder = Path(place.folder)
     done = _check_folder(place, settings, ratio)
+    new = not folder.exists()
     with file_errors(folder, "cannot be made"):
         folder.mkdir(parents=True, exist_ok=True)
     found = {}
-    for tier in tiers:
-        path = _file(folder, tier)
-        if tier not in done:
-            _run_tier(settings, ratio, tier, path, partial(progress, tier.name))
-        with np.load(path, allow_pickle=False) as stored:
-            found[tier.name] = {name: stored[name] for name in stored.files}
+    try:
+        for tier in tiers:
+            path = _file(folder, tier)
+            if tier not in done:
+                _run_tier(settings, ratio, tier, path, partial(progress, tier.name))
+            with np.load(path, allow_pickle=False) as stored:
+                found[tier.name] = {name: stored[name] for name in stored.files}
+    except KeyboardInterrupt as stop:
+        kept = f"kept in {folder}: {', '.join(found)}; the same command goes on from there"
+        raise KeyboardInterrupt(kept if found else "no run has ended: nothing is kept") from stop
+    finally:
+        if new and not any(folder.iterdir()):
+            folder.rmdir()
     return found
 
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from matplotlib.figure import Figure
 
@@ -20,12 +20,25 @@ from pyehl.types import Array
 if TYPE_CHECKING:
     import xarray as xr
 
+EXPECTED = (
+    "expected a result of solve, predict or load, or a result folder of one case; the pictures of "
+    "stribeck and response are in the folders that they write"
+)
 FORMATS = ("png", "pdf", "svg")
 LEAST_WIDTH, MOST_WIDTH = 0.04, 0.4
 """Widths of figures [m]."""
 UNITS = ("auto", "si", "hertz")
 # Arrays of a prediction that are drawn, with their units
 PREDICTED = {"surface": "m", "deformed": "m", "delta_p": "Pa"}
+
+
+class Predicted(Protocol):
+    """What `pyehl.predict` gives."""
+
+    @property
+    def data(self) -> xr.Dataset:
+        """Fields, tables and scalars."""
+        ...
 
 
 def save_all(
@@ -53,7 +66,7 @@ def made(folder: str | os.PathLike[str]) -> Path:
 
 
 def plot(
-    results: xr.Dataset | str | os.PathLike[str],
+    results: xr.Dataset | Predicted | str | os.PathLike[str],
     output: str | os.PathLike[str] | None = None,
     *,
     units: str = "auto",
@@ -66,7 +79,7 @@ def plot(
     Parameters
     ----------
     results
-        What `pyehl.solve` and `pyehl.load` give, ``data`` of a prediction, or a result folder.
+        What `pyehl.solve`, `pyehl.predict` and `pyehl.load` give, or a result folder.
     output
         Folder for the pictures; None: nothing is kept on disk.
     units
@@ -115,10 +128,14 @@ def plot(
 
     from pyehl.results import load  # noqa: PLC0415
 
-    folder = "the Dataset" if isinstance(results, xr.Dataset) else path_of(results, "results")
-    data = results if isinstance(results, xr.Dataset) else load(folder)
+    kinds = xr.Dataset, str, bytes, os.PathLike
+    found = results if isinstance(results, kinds) else getattr(results, "data", None)
+    if not isinstance(found, kinds):
+        raise InputError(f"results of type {type(results).__name__}: {EXPECTED}")
+    folder = "the Dataset" if isinstance(found, xr.Dataset) else path_of(found, "results")
+    data = found if isinstance(found, xr.Dataset) else load(folder)
     if "case" not in data.attrs:
-        raise InputError(f"{folder}: expected a result of solve, load or predict")
+        raise InputError(f"{folder}: {EXPECTED}")
     with page_width(width):
         if data.attrs.get("kind") == "prediction":
             figures = _of_prediction(data)

@@ -85,27 +85,29 @@ def draw_stribeck(
     # none of two surfaces without full simulations
     shares = ("contact_load_share", "contact_load_share_ehl")
     touching = any(r.get(name) is not None for c in curves for r in c.rows for name in shares)
-    figure = style.new_figure(11.5 if len(shown) > 1 else 7.0, 7.4 if touching else 4.4)
-    panels = figure.subplots(
-        3 if touching else 1, len(shown), sharex="col", sharey="row", squeeze=False
-    )
+    # none where bodies touch and the friction there is not known
+    rubbing = not touching or any(_has_friction(curve) for curve in curves)
+    rows = rubbing + 2 * touching
+    figure = style.new_figure(11.5 if len(shown) > 1 else 7.0, 2.9 + 1.5 * rows)
+    panels = figure.subplots(rows, len(shown), sharex="col", sharey="row", squeeze=False)
     axes = panels[0]
     if touching:
-        draw_contact(panels[1:], list(shown), list(zip(curves, COLOURS * 9, strict=False)))
+        draw_contact(panels[rubbing:], list(shown), list(zip(curves, COLOURS * 9, strict=False)))
     for ax, (name, label) in zip(axes, shown.items(), strict=True):
-        for curve, colour in zip(curves, COLOURS * 9, strict=False):
+        for curve, colour in zip(curves if rubbing else [], COLOURS * 9, strict=False):
             _draw_curve(ax, curve, name, colour)
         _shade(ax, curves, name)
         if measured is not None:
             measured.draw(ax, name)
-        if name == "theta_2" and not absolute:
+        if name == "theta_2" and rubbing and not absolute:
             _draw_eq_16(ax)
         ax.set_xscale("log")
         style.label_log_ticks(ax.xaxis)
         panels[-1, list(axes).index(ax)].set_xlabel(label)
         ax.grid(visible=True, which="major", color="0.92", lw=0.6)
         ax.set_axisbelow(True)
-    axes[0].set_ylabel(r"$\mu$" if absolute else r"$\mu_r/\mu_s$")
+    if rubbing:
+        axes[0].set_ylabel(r"$\mu$" if absolute else r"$\mu_r/\mu_s$")
     style.letter(axes)
     # the last panel has all that the others have
     handles, labels = axes[-1].get_legend_handles_labels()
@@ -116,6 +118,13 @@ def draw_stribeck(
     words = "; ".join(f"{c.label + ': ' if c.label else ''}{c.ends}" for c in curves if c.ends)
     figure.suptitle("\n".join((surface, words, *wrap(law, 100))), fontsize="medium")
     return figure
+
+
+def _has_friction(curve: Curve) -> bool:
+    names = ["mu_ratio", "mu_ratio_ehl"]
+    if curve.absolute and "mu_empirical" in curve.rows[0]:
+        names.append("mu_empirical")
+    return any(np.isfinite(curve.column(name)).any() for name in names)
 
 
 def _draw_curve(ax: Axes, curve: Curve, name: str, colour: str) -> None:

@@ -24,7 +24,7 @@ from pyehl.prediction.partial import Partial, partial_film, without
 from pyehl.prediction.result import Prediction
 from pyehl.prediction.second_order import FILM_ENDS
 from pyehl.prediction.sides import SecondSurface
-from pyehl.prediction.smooth import SmoothContact, hertz_contact, solve_contact
+from pyehl.prediction.smooth import SmoothContact, hertz_contact, solve_contact, with_layer
 from pyehl.prediction.touching import touching
 from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
@@ -74,13 +74,17 @@ def predict(
         contact = read_contact(Path(smooth), operating, settings)
         if lubricant.shear.in_flow:
             contact = replace(contact, newtonian=solve_contact(settings).newtonian)
-    film = contact.central_film * operating.film_scale
+    films = contact
+    if options.smooth == "solved" and not float(settings["psd"]["film_thickness"]) > 0.0:
+        films = with_layer(settings, contact, lubricant)
+    film = films.central_film * operating.film_scale
+    known = film if math.isfinite(film) else contact.central_film * operating.film_scale
     alone = []
     for group in groups:
         values = settings[group]
         tile = given[group]
         if tile is None:
-            tile = surfaces.from_settings({**settings, "surface": values}, operating, film)
+            tile = surfaces.from_settings({**settings, "surface": values}, operating, known)
         else:
             tile = surfaces.finished(tile, values)
         ratio, kind = float(values["velocity_ratio"]), str(values.get("filter", "sharp"))
@@ -119,13 +123,13 @@ def predict(
         options=options,
         velocity_ratio=alone[0].velocity_ratio,
         film=film,
-        film_minimum=contact.minimum_film * operating.film_scale,
+        film_minimum=films.minimum_film * operating.film_scale,
         film_errors=(
-            contact.central_film_error * operating.film_scale,
-            contact.minimum_film_error * operating.film_scale,
+            films.central_film_error * operating.film_scale,
+            films.minimum_film_error * operating.film_scale,
         ),
-        film_source=contact.source,
-        pressure_maximum=float(contact.pressure.max()) * operating.hertz_pressure,
+        film_source=films.source,
+        pressure_maximum=float(films.pressure.max()) * operating.hertz_pressure,
         surface=alone[0].topography,
         friction=friction,
         bands=bands,

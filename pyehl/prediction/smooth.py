@@ -4,8 +4,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +29,11 @@ inlet error of the grid (4 % at M = 1000) is not in it."""
 FINEST = 1025
 """Grids up to this one are tried where there is no solution, or none to extrapolate from: the inlet
 of a contact under a high load is steep (M above 2000 or so)."""
+
+COARSE = 129
+"""With a boundary film this is tried instead, which finer grids seldom help."""
+TOUCHES = 1.2
+"""Films thicker than this many layers are taken not to touch on any grid."""
 
 THINNING_POWER = -4.0 / 3.0
 """Of the film in the viscosity that makes it, as waves notice it: the length of the inlet beside a
@@ -101,17 +108,20 @@ OF_SHEAR = (
 OF_CONTACT = ("boundary_film", "boundary_friction")
 
 
-def smooth_case(settings: Settings) -> str:
+def smooth_case(settings: Settings, *, layer: bool = False) -> str:
     """Text of the case whose solution is the smooth contact under a resolved case.
 
-    Cases that differ in their surface or the heat of friction alone have the same; where the flow
-    is Newtonian and the inlet not heated by shear, so have those that differ in their slip or their
-    shear law.
+    `layer`: with its boundary film. Cases that differ in their surface or the heat of friction
+    alone have the same; where the flow is Newtonian and the inlet not heated by shear, so have
+    those that differ in their slip or their shear law.
     """
     thins = ShearLaw.from_settings(settings).in_flow
     heated = bool(settings["lubricant"].get("thermal_reduction", False))
     of_contact = OF_SOLIDS + (() if thins or heated else OF_SLIP)
     of_lubricant = OF_CONTACT + (() if thins else OF_SHEAR) + (() if heated else OF_OIL)
+    if layer:
+        of_contact = tuple(key for key in of_contact if key != "hardness")
+        of_lubricant = tuple(key for key in of_lubricant if key != "boundary_film")
     contact = {k: v for k, v in settings["contact"].items() if k not in of_contact}
     lubricant = {k: v for k, v in settings["lubricant"].items() if k not in of_lubricant}
     lubricant["thermal_friction"] = "never"
@@ -132,6 +142,25 @@ def solve_contact(settings: Settings) -> SmoothContact:
     return replace(found, newtonian=_solved(smooth_case(newtonian)))
 
 
+def with_layer(settings: Settings, contact: SmoothContact, lubricant: Lubricant) -> SmoothContact:
+    """Smooth contact with the boundary film of a case; `contact`, that without, if it is thinner.
+
+    Its films are NaN, and the source says why, where it does not converge.
+    """
+    operating = OperatingPoint.from_settings(settings)
+    layer = float(settings["lubricant"].get("boundary_film", 0.0)) / operating.film_scale
+    pressure = np.maximum(contact.pressure, 0.0) * operating.hertz_pressure
+    held = lubricant.density_ratio(pressure) * contact.film
+    if float(held.min()) > TOUCHES * layer:
+        return contact
+    found = _solved_with_layer(smooth_case(settings, layer=True))
+    if found is not None:
+        return found
+    n = math.nan
+    lost = "not known: with the boundary film it does not converge"
+    return SmoothContact(contact.x, contact.y, n * pressure, n * pressure, n, n, lost)
+
+
 def circle_of(
     contact: SmoothContact, operating: OperatingPoint, lubricant: Lubricant
 ) -> tuple[float, float]:
@@ -143,6 +172,7 @@ def circle_of(
 def forget() -> None:
     """Solve anew what was kept, as `pyehl bench skips` does to see what keeping saves."""
     _solved.cache_clear()
+    _solved_with_layer.cache_clear()
 
 
 @lru_cache(maxsize=8)
@@ -157,9 +187,15 @@ def _solved(text: str) -> SmoothContact:
     if best is None:
         raise EhlError(
             f"the smooth contact under the prediction did not converge on {FINEST} x {FINEST} "
-            f"nodes: {status}"
+            f"nodes: {status}; a lighter load or a wider contact may, and 'pyehl predict --smooth' "
+            "takes one that 'pyehl run' has solved on another grid"
         )
     return best
+
+
+@lru_cache(maxsize=8)
+def _solved_with_layer(text: str) -> SmoothContact | None:
+    return _on_grid(text, POINTS)[0] or _on_grid(text, COARSE)[0]
 
 
 def _on_grid(text: str, points: int) -> tuple[SmoothContact | None, str]:
@@ -174,28 +210,30 @@ def _on_grid(text: str, points: int) -> tuple[SmoothContact | None, str]:
     # without a solution on the next coarser grid there is nothing to extrapolate from
     limit = summary["H_c_extrapolated"]
     how = "extrapolated" if limit is not None else "not extrapolated"
-    central, least = (
-        summary[name] if limit is None else summary[f"{name}_extrapolated"]
-        for name in ("H_c", "H_min")
-    )
+    (central, error), (least, least_error) = (film_of(summary, name) for name in ("H_c", "H_min"))
     scale = central / summary["H_c"]
     for values in (x, y, pressure, film):
         values.flags.writeable = False
     source = f"solved on {points} x {points} nodes, {how}"
-    errors = [math.nan if summary[k] is None else summary[k] for k in ("H_c_error", "H_min_error")]
     contact = SmoothContact(
         x,
         y,
         pressure,
         film * scale,
         central,
-        errors[0],
+        math.nan if error is None else error,
         source,
         least,
         limit is not None,
-        minimum_film_error=errors[1],
+        minimum_film_error=math.nan if least_error is None else least_error,
     )
     return contact, "converged"
+
+
+def film_of(summary: Mapping[str, Any], name: str) -> tuple[float, float | None]:
+    """Film ``H_c`` or ``H_min`` of a run, extrapolated where it could be, and its error."""
+    limit = summary.get(f"{name}_extrapolated")
+    return summary[name] if limit is None else limit, summary.get(f"{name}_error")
 
 
 def hertz_contact(central_film: float, source: str) -> SmoothContact:

@@ -10,6 +10,7 @@ import numpy as np
 from pyehl import library
 from pyehl.prediction.deformed import deformed_surfaces
 from pyehl.prediction.errors import KNOWN_RATIO
+from pyehl.prediction.smooth import film_of
 from pyehl.prediction.touching import NO_FRICTION
 from pyehl.results import unit_of
 from pyehl.studies.curve_contact import contact_columns, touches
@@ -139,9 +140,7 @@ def _film(smooth: Values, operating: OperatingPoint) -> dict[str, Any]:
         return {}
     values: dict[str, Any] = {}
     for name in ("c", "min"):
-        limit = smooth.get(f"H_{name}_extrapolated")
-        best = smooth[f"H_{name}"] if limit is None else limit
-        error = smooth.get(f"H_{name}_error")
+        best, error = film_of(smooth, f"H_{name}")
         values[f"h_{name}_m"] = best * operating.film_scale
         values[f"h_{name}_error_m"] = None if error is None else error * operating.film_scale
     return values

@@ -47,8 +47,9 @@ def checked(outputs: Sequence[str], run: str, origin: str = "") -> tuple[str, ..
     names = known(run)
     for name in outputs:
         if name not in names:
+            hint = did_you_mean(name, names) or f": {', '.join(names)}"
             raise InputError(
                 f"{origin}outputs: unknown result '{name}'\nexpected: names of the summary of "
-                f"run = '{run}'{did_you_mean(name, names)}"
+                f"run = '{run}'{hint}"
             )
     return tuple(dict.fromkeys(outputs))

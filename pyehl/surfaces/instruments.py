@@ -1,6 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Files of instruments, by the package SurfaceTopography (extra ``surfaces``)."""
 
+import io
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager, redirect_stderr, redirect_stdout
 from pathlib import Path
 from typing import Any
 
@@ -41,7 +45,7 @@ def read_instrument(path: Path, channel: str = "") -> Foreign:
         ) from None
     try:
         # every reader has errors of its own, for files that are damaged, too
-        with open_topography(str(path)) as reader:
+        with _unheard(), open_topography(str(path)) as reader:
             picked = _pick(path, list(reader.channels), reader.default_channel, channel)
             check_pixels(str(path), tuple(picked.nb_grid_pts))
             name = str(picked.name)
@@ -52,6 +56,8 @@ def read_instrument(path: Path, channel: str = "") -> Foreign:
     except Exception as error:
         reason = str(error).strip().partition("\n")[0] or type(error).__name__
         kind = InputError
+        if isinstance(error, LookupError | TypeError | AttributeError):
+            reason = "it is damaged, or not of the format that it seems to be of"
         if type(error).__name__ == "CannotDetectFileFormat":
             kind, reason = UnknownFormatError, "it is of no format that SurfaceTopography knows"
         raise kind(
@@ -74,6 +80,15 @@ def read_instrument(path: Path, channel: str = "") -> Foreign:
     if sized:
         size = (float(scan.physical_sizes[0]), float(scan.physical_sizes[1]))
     return heights, size, bool(scan.is_periodic), name, note
+
+
+@contextmanager
+def _unheard() -> Iterator[None]:
+    """Keep what readers warn of, log and print off the terminal: they try one format by another."""
+    nowhere = io.StringIO()
+    with warnings.catch_warnings(), redirect_stdout(nowhere), redirect_stderr(nowhere):
+        warnings.simplefilter("ignore")
+        yield
 
 
 def _pick(path: Path, channels: list[Any], default: Any, wanted: str) -> Any:  # noqa: ANN401

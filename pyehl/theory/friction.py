@@ -47,6 +47,8 @@ def absolute_friction(
         stress = float(shear_stress(newtonian, p, law))
         if law.law != "newtonian" or stress <= law.eyring_stress:
             smooth, note = mu_smooth, heat.note
+        elif math.isnan(stress):
+            note = "a ratio alone: the film of the smooth contact is not known"
         else:
             note = (
                 f"a ratio alone: the Newtonian shear stress reaches {stress:.1E} Pa, and oils "

@@ -111,6 +111,18 @@ def test_foreign_folder_is_refused(
     assert "letter.txt" in capsys.readouterr().err
 
 
+def test_an_interrupt_of_the_first_tier_leaves_no_folder(tmp_path: Path, capsys, monkeypatch):
+    def interrupted(*args, **words):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(measurement, "_run_tier", interrupted)
+    (tmp_path / "case.nml").write_text(CASE)
+    words = ["response", str(tmp_path / "case.nml"), "-o", str(tmp_path / "out")]
+    assert cli.main(words) == 130
+    assert not (tmp_path / "out").exists()
+    assert "interrupted; no run has ended: nothing is kept" in capsys.readouterr().err
+
+
 def test_an_interrupt_leaves_the_tiers_that_have_ended(tmp_path: Path):
     def interrupt(name: str, done: int, total: int) -> None:
         if name == "middle" and done == 3:
@@ -128,7 +140,7 @@ def test_failed_run_is_named(tmp_path: Path):
     tier = measurement.Tier("long", 4.0, 17, 4.0, 2.0)
     with pytest.raises(EhlError, match="tier 'long': the run ended too early"):
         measurement.measure(case, destination(tmp_path / "out"), tiers=[tier])
-    assert not list((tmp_path / "out").iterdir())
+    assert not (tmp_path / "out").exists()
 
 
 @pytest.mark.parametrize("tier", measurement.TIERS, ids=lambda tier: tier.name)

@@ -399,3 +399,45 @@ def test_examples_in_docstrings(name: str, root: Path, tmp_path: Path, monkeypat
     (found,) = (t for t in doctest.DocTestFinder(recurse=False).find(thing, name, globs={}))
     assert found.examples, f"pyehl.{name} has no example"
     doctest.DebugRunner(optionflags=doctest.ELLIPSIS).run(found)
+
+
+def test_a_case_that_cannot_be_planned_is_named(tmp_path: Path, capsys, drive):
+    """By check and both drivers, with the keys."""
+    (tmp_path / "case.nml").write_text("&contact moes_m = 100.0 /\n&surface kind = 'fractal' /\n")
+    said = [drive(driver, "case.nml", "-o", "out").stderr for driver in ("ehl", "pyehl")]
+    assert cli.main(["check", str(tmp_path / "case.nml")]) == 2
+    said.append(capsys.readouterr().err.removeprefix(f"{tmp_path}/"))
+    assert len(set(said)) == 1
+    assert said[0].startswith("case.nml: surface.kind = 'fractal': ")
+    assert "expected: contact.load" in said[0]
+
+
+def test_plot_takes_a_prediction_or_says_what_it_takes():
+    case = pyehl.Case.from_text("", {"surface.kind": "harmonic", "surface.wavelength": 0.5})
+    found = pyehl.predict(case, tracks=1)
+    assert set(pyehl.plot(found)) == set(pyehl.plot(found.data))
+    swept = pyehl.sweep(case, {"contact.moes_m": [100.0, 200.0]}, run="film", jobs=1)
+    for other in (pyehl.film(case), swept, None):
+        with pytest.raises(pyehl.InputError, match="expected a result of solve, predict or load"):
+            pyehl.plot(other)
+
+
+@pytest.mark.parametrize(
+    ("command", "stopped", "says"),
+    [
+        ("predict", "pyehl.commands.predict.predict", "no result is written"),
+        ("stribeck", "pyehl.commands.stribeck.plan_curve", "no result is written"),
+        ("stribeck", "pyehl.commands.stribeck.perform", "what is finished is kept; the same com"),
+    ],
+)
+def test_an_interrupt_says_what_is_kept(
+    cases: Path, tmp_path: Path, capsys, monkeypatch, command: str, stopped: str, says: str
+):
+    def interrupted(*args, **words):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(stopped, interrupted)
+    words = [command, str(cases / "table1.nml"), "-o", str(tmp_path / "out")]
+    words += ["--speed", "0.3", "--quiet"] if command == "stribeck" else []
+    assert cli.main(words) == 130
+    assert f"interrupted; {says}" in capsys.readouterr().err

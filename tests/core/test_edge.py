@@ -28,6 +28,7 @@ MAP = """&contact load = 20.0 /
 COMMANDS: tuple[tuple[tuple[str, ...], str], ...] = (
     (("check", "/dev/zero"), "/dev/zero"),
     (("check", "/dev/random"), "/dev/random"),
+    (("check", "/dev/null"), "/dev/null"),
     (("check", "pipe"), "pipe"),
     (("check", "."), "folder"),
     (("check", "binary.nml"), "binary.nml"),

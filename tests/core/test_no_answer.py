@@ -95,10 +95,10 @@ def test_film_breakdown_of_a_feature_in_metres():
         ),
         ([], 2, "interrupted", "stopped from outside in the smooth contact on 33 x 33 nodes"),
         (
-            [],
+            ["time.estimate_error=.false."],
             30,
             "interrupted",
-            "stopped from outside in the time step to T = 1.0000 on 65 x 65 nodes; --resume goes "
+            "stopped from outside in the time step to T = 2.3750 on 65 x 65 nodes; --resume goes "
             "on from there",
         ),
     ],
@@ -114,3 +114,19 @@ def test_an_answer_has_no_message():
     with Solver(Case.from_text(WAVE, ["surface.kind=smooth"])) as solver:
         assert solver.run()
         assert "message" not in solver.summary()
+
+
+@pytest.mark.parametrize(
+    ("ratio", "at"), [(1.25, "the time step to T = "), (0.0, "the roughness at rest")]
+)
+def test_interrupted_in_the_run_for_the_grid_error(ratio: float, at: str):
+    case = Case.from_text(WAVE, {"surface.velocity_ratio": ratio})
+    begun = ": step " if ratio else "mu_r/mu_s"
+    with Solver(case) as solver:
+        while "on the next coarser grid" not in solver.progress() or begun not in solver.progress():
+            assert not solver.done
+            solver.advance()
+        solver.interrupt()
+        told = solver.summary()["message"]
+    assert told.startswith(f"stopped from outside in the run for the grid error: {at}")
+    assert " on 33 x 33 nodes" in told

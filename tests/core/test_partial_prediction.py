@@ -8,8 +8,10 @@ import pytest
 
 import pyehl
 from pyehl import cli
+from pyehl.commands.predict import report
 from pyehl.plots import surface
 from pyehl.plots.stribeck import Curve, draw_stribeck
+from pyehl.prediction import of_case, smooth
 from pyehl.prediction.obstacle import Compliance, lifted
 from pyehl.studies.curve_contact import lift_off
 
@@ -55,6 +57,38 @@ def test_share_grows_with_the_layer_up_to_dry_contact():
     assert "mixed film" in found[1]["judgement"]
 
 
+@pytest.mark.parametrize(("velocity", "layer"), [(0.3, 1.2e-7), (0.02, 2e-8)])
+def test_smooth_films_are_those_of_a_run_with_the_layer(velocity, layer):
+    """Films, pressure and Lambda, as of a run and on a curve; a layer of no contact costs none."""
+    values = predicted(layer, velocity=velocity)
+    case = pyehl.Case.from_text(SCENE.format(velocity, layer, 0.1), {"grid.points": 257})
+    run = pyehl.solve(case.with_options({"surface.kind": "smooth"})).attrs
+    for name in ("c", "min"):
+        error = run[f"H_{name}_error"] * run["film_scale_m"]
+        limit = run[f"H_{name}_extrapolated"] * run["film_scale_m"]
+        assert values[f"h_{name}_m"] == pytest.approx(limit, abs=error)
+    assert values["h_min_m"] == pytest.approx(values["lambda_ratio"] * values["rms_height_m"])
+    assert values["p_max_Pa"] == pytest.approx(run["p_max_Pa"], rel=0.01)
+    assert values["h_min_rough_m"] < values["h_min_m"]
+    row = pyehl.stribeck(case, speed=[velocity], jobs=1)
+    for name in ("h_c_m", "h_min_m", "lambda_ratio", "lambda_ratio_deformed"):
+        assert values[name] == pytest.approx(float(row[name][0]), rel=0.02), name
+
+
+def test_smooth_contact_with_the_layer_that_does_not_converge(monkeypatch):
+    """No films of another contact in place of its own."""
+    monkeypatch.setattr(smooth, "_solved_with_layer", lambda text: None)
+    settings = pyehl.Case.from_text(SCENE.format(0.3, 1.2e-7, 0.1)).resolve()
+    prediction = of_case.predict(settings, tracks=1)
+    summary = prediction.summary
+    names = "h_c_m", "h_min_m", "h_c_error_m", "p_max_Pa", "lambda_ratio", "lambda_ratio_deformed"
+    assert [summary[name] for name in names] == [None] * len(names)
+    assert "does not converge" in summary["h_c_source"]
+    assert "p_max      not known, up to" in report(prediction)
+    assert summary["contact_load_share"] > 0.0
+    assert summary["mu"] > 0.0
+
+
 def test_friction_of_the_layer_is_not_known():
     summary = predicted(1.2e-7, friction=0.0)
     assert summary["contact_load_share"] > 0.0
@@ -82,13 +116,22 @@ def test_picture_of_a_curve_whose_contact_is_not_known(share, rows):
     assert {ax.get_subplotspec().get_gridspec().nrows for ax in figure.axes} == {rows}
 
 
+def test_picture_of_a_curve_without_friction():
+    row = defaultdict(lambda: 1.0, contact_load_share=0.4, mu_ratio=None, mu=None)
+    row |= {"mu_ratio_ehl": None, "mu_empirical": None}
+    figure = draw_stribeck([Curve("", [row, row], "", (0, 1), absolute=False)], "contact")
+    labels = [ax.get_ylabel() for ax in figure.axes]
+    assert [label for label in labels if label] == ["load, area (dashed)", "least film [nm]"]
+
+
 def test_curve_says_why_it_has_no_friction(tmp_path, capsys):
     case = tmp_path / "case.nml"
     case.write_text(SCENE.format(0.3, 1.2e-7, 0.0) + "&grid points = 65 /\n")
     words = ["stribeck", str(case), "--speed", "0.3", "--jobs", "1", "-o"]
-    # without friction at any point it has no picture
-    assert cli.main([*words, str(tmp_path / "out")]) == 1
+    assert cli.main([*words, str(tmp_path / "out")]) == 0
     assert "mu         none: the bodies touch, and the friction" in capsys.readouterr().out
+    # shares and films are drawn without friction at any point
+    assert (tmp_path / "out" / "stribeck.png").is_file()
 
 
 @pytest.mark.parametrize("layer", [5e-9, 1.2e-7])

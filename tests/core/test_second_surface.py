@@ -3,6 +3,7 @@
 
 import csv
 import json
+import re
 import shutil
 from pathlib import Path
 
@@ -98,6 +99,20 @@ def test_messages(text: str, words: list[str], tmp_path: Path, monkeypatch):
         Case.from_text(text)
     for word in words:
         assert word in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("height", "words"), [("= 0.1", "4.96E-08 m\n"), ("_over_film = 0.1", "by its share of")]
+)
+def test_plan_has_the_heights_of_both(height: str, words: str):
+    """Shares of the variance are per cents."""
+    text = CONTACT + FRACTAL.format("surface")
+    text += f"&second_surface kind = 'harmonic' amplitude{height} wavelength = 0.5 /\n"
+    told = pyehl.check(Case.from_text(text))
+    assert "surface    &surface: rms height " in told
+    assert f"surface    &second_surface: rms height {words}" in told
+    share = told.partition("hold ")[2]
+    assert re.match(r"[\d.]+ % of the variance of the surface; (less than )?[\d.]+ % of it", share)
 
 
 def test_feature_waits_for_the_roughness():

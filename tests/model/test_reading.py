@@ -9,7 +9,7 @@ import pytest
 import scipy.io
 
 from pyehl import cli
-from pyehl.errors import NoMemoryError
+from pyehl.errors import InputError, NoMemoryError
 from pyehl.surfaces import Options, prepare, read_scan, reading
 
 pytest.importorskip("SurfaceTopography")
@@ -215,6 +215,17 @@ def test_unreadable_instrument_file(tmp_path):
     (tmp_path / "scan.sdf").write_bytes(whole[: len(whole) // 2])
     with pytest.raises(ValueError, match=r"scan\.sdf: cannot be read"):
         read_scan(tmp_path / "scan.sdf")
+
+
+@pytest.mark.parametrize("data", [b"II*\0" + bytes(range(250)) * 2, b"\0\0\0" + b"1 2 3\n" * 30])
+def test_readers_are_not_heard(tmp_path, capfd, recwarn, data):
+    """What they log and warn of a binary file with the name of a text."""
+    (tmp_path / "map.csv").write_bytes(data)
+    with pytest.raises(InputError, match=r"map\.csv: .*map") as refused:
+        read_scan(tmp_path / "map.csv")
+    assert "list index" not in str(refused.value)
+    assert not any(capfd.readouterr())
+    assert not recwarn.list
 
 
 def test_file_without_a_unit_is_refused(tmp_path):

@@ -144,5 +144,5 @@ def test_high_loads_take_a_finer_grid():
         # the formula is good to a per cent; without extrapolation the film is 10 % low
         assert contact.central_film == pytest.approx(formula, rel=0.015)
     assert high.central_film_error < 0.05 * high.central_film
-    with pytest.raises(pyehl.EhlError, match="did not converge on 1025 x 1025 nodes"):
+    with pytest.raises(pyehl.EhlError, match=r"on 1025 x 1025 nodes: .*; a lighter load"):
         solved(60000.0)

@@ -114,6 +114,7 @@ def test_another_study_in_the_same_folder_is_refused(done: tuple[Path, str], cas
         (["--vary", "contact.moes_m=1:2", "--jobs", "-1"], "--jobs -1"),
         (["--vary", "contact.moes_m=1:2", "--outputs", "H_c,h_cm"], "--outputs: unknown result"),
         (["--vary", "contact.moes_m=1:2", "--outputs", "h_cm"], "did you mean 'h_c_m'"),
+        (["--vary", "contact.moes_m=1:2", "--outputs", "xyzzy"], "run = 'solve': kind, "),
         (["--vary", "contact.moes_m=1:2", "--outputs", "mu_ratio_tracks"], "run = 'solve'"),
         (["--vary", "contact.moes_m=1:9:1000000001"], "there can be 1 to 1000000"),
         (["--vary", "contact.moes_m=1:9:1001", "--vary", "contact.moes_l=1:9:1000"], "can have"),
