@@ -109,7 +109,7 @@ def test_traction_near_the_origin(says, cases: Path):
     assert slopes[2] / slopes[0] < 0.5
     says("docs/howto/traction.md", "in proportion to the ratio only below 10⁻⁶")
     assert np.exp(-1.8 * 2.0**1.2) < 0.02
-    says("docs/howto/traction.md", "above Λ = 2 nearly all of the load is on the film")
+    says("docs/howto/traction.md", "above h_c/σ = 2 nearly all of the load is on the film")
 
 
 def test_fitted_shear_law(says, cases: Path):
