@@ -6,7 +6,8 @@ pyehl bench step --points 1025 --front 0 --steps 16 -o step_1025.json
 pyehl bench smooth -o smooth.json
 pyehl bench skips -o skips.json
 pyehl bench sweep -o sweep.json
-pyehl bench step --points 257 --threads 1 --cases wave-law,fractal-law,two-fractals -o laws.json
+pyehl bench step --points 257 --threads 1 --steps 384 \
+    --cases wave-law,fractal-law,two-fractals -o laws.json
 pyehl bench smooth --points 257,513 --threads 1 --engines mlmi --cases circle,law,ellipse \
     -o more.json
 python docs/evidence/speed/make.py read FOLDER    writes the tables, from these files
