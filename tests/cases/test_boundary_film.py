@@ -193,6 +193,7 @@ def of_shape(settings: dict) -> dict:
     return {k: v for k, v in settings.items() if k not in DOMAIN and k != "contact.radius"}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("scene", [{}, REST, MIXED], ids=["smooth", "rest", "wave"])
 def test_hardness_above_all_pressures_changes_no_bit(solve, scene):
     touching = STEEL | {"contact.mean_velocity": 0.05, "lubricant.boundary_film": 3e-8} | scene

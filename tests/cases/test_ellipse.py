@@ -325,10 +325,8 @@ def test_too_coarse_a_grid_names_one_that_will_do(ehl: str, tmp_path: Path):
     assert json.loads((tmp_path / "fine" / "summary.json").read_text())["restarts"] == 0
 
 
-@pytest.mark.parametrize(
-    "moes_l",
-    [pytest.param(5.0, marks=pytest.mark.long), 10.0, pytest.param(15.0, marks=pytest.mark.long)],
-)
+@pytest.mark.long
+@pytest.mark.parametrize("moes_l", [5.0, 10.0, 15.0])
 def test_wide_thin_films_begin_again_with_care(solve, moes_l: float):
     """The first attempt diverges, or goes to and fro; H_c is that of a formula and a finer grid."""
     shape = ellipse(RATIO_OF_TEN)
@@ -416,9 +414,8 @@ def test_what_is_for_circles_says_so():
         pyehl.predict(case)
 
 
-@pytest.mark.parametrize(
-    ("kappa", "round_m"), [(0.1, 400.0), pytest.param(1.0 / 30.0, 50.0, marks=pytest.mark.long)]
-)
+@pytest.mark.long
+@pytest.mark.parametrize(("kappa", "round_m"), [(0.1, 400.0), (1.0 / 30.0, 50.0)])
 def test_cells_that_a_narrow_contact_needs(kappa: float, round_m: float):
     """Where cells by default end without convergence the message names others that do."""
     square = kappa**2

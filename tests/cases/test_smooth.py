@@ -88,7 +88,11 @@ def test_friction(solve, table):
 
 
 @pytest.mark.parametrize(
-    "point", [(200.0, 10.0), pytest.param((500.0, 15.0), marks=pytest.mark.long), (1000.0, 10.0)]
+    "point",
+    [
+        (200.0, 10.0),
+        *(pytest.param(p, marks=pytest.mark.long) for p in [(500.0, 15.0), (1000.0, 10.0)]),
+    ],
 )
 def test_order_is_two(solve, point: tuple[float, float]):
     runs = [solve(point, points, TIGHT) for points in (257, 513, 1025)]

@@ -44,6 +44,7 @@ def test_full_film_is_as_without_a_layer():
     }
 
 
+@pytest.mark.long
 def test_share_grows_with_the_layer_up_to_dry_contact():
     found = [predicted(layer) for layer in (9e-8, 1.1e-7, 1.3e-7, 4e-7)]
     shares = [summary["contact_load_share"] for summary in found]
@@ -57,7 +58,9 @@ def test_share_grows_with_the_layer_up_to_dry_contact():
     assert "mixed film" in found[1]["judgement"]
 
 
-@pytest.mark.parametrize(("velocity", "layer"), [(0.3, 1.2e-7), (0.02, 2e-8)])
+@pytest.mark.parametrize(
+    ("velocity", "layer"), [(0.3, 1.2e-7), pytest.param(0.02, 2e-8, marks=pytest.mark.long)]
+)
 def test_smooth_films_are_those_of_a_run_with_the_layer(velocity, layer):
     """Films, pressure and Lambda, as of a run and on a curve; a layer of no contact costs none."""
     values = predicted(layer, velocity=velocity)
@@ -233,6 +236,7 @@ def test_lift_off_with_its_error():
     assert lift_off("contact.mean_velocity", speeds[:2], rows[:2]) is None
 
 
+@pytest.mark.long
 def test_curve_with_a_layer():
     case = pyehl.Case.from_text(SCENE.format(0.3, 1e-7, 0.1) + "&grid points = 65 /\n")
     curve = pyehl.stribeck(case, speed=[0.2, 1.2], jobs=1)

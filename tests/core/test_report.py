@@ -284,6 +284,7 @@ def test_pdf(folders, tmp_path, monkeypatch):
     assert not (tmp_path / "page.html").exists()
 
 
+@pytest.mark.long
 @pytest.mark.skipif(not shutil.which("chromium"), reason="no browser: chromium is not installed")
 def test_pdf_printed(folders, tmp_path):
     pyehl.report(folders / "smooth", tmp_path / "page.html", pdf=True)

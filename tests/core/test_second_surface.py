@@ -244,6 +244,7 @@ def test_maps_are_prepared(heights, tmp_path: Path, monkeypatch, capsys):
         assert list(solver.preparations) == ["second_surface"]
 
 
+@pytest.mark.long
 def test_prediction_of_either_body_and_of_both(heights, tmp_path: Path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     first, second = FRACTAL.format("surface"), FRACTAL.format("second_surface")
