@@ -23,10 +23,10 @@ module ehl_case_contact
       [character(len=16) :: "load", "mean_velocity", "radius", "reduced_modulus", "radius_x", "radius_y"]
    !> Least distance of the sides of the domain, in terms of the contact
    real(dp), parameter :: beyond_contact = 1.05_dp
-   !> Fewest intervals along Y of a coarsest grid
-   integer, parameter :: fewest_rows = 8
+   !> Fewest and most intervals along Y of a coarsest grid
+   integer, parameter :: fewest_rows = 8, few_rows = 32
    !> Least and largest ratio of the sides of a cell
-   real(dp), parameter :: least_ratio = 0.25_dp, largest_ratio = 1.5_dp
+   real(dp), parameter :: least_ratio = 0.25_dp, largest_ratio = 1.41_dp
    !> Difference of velocity ratios that is none
    real(dp), parameter :: rounding = 1.0e-9_dp
 
@@ -178,7 +178,8 @@ contains
    pure integer function rows(input, contact)
       type(case_t), intent(in) :: input
       class(contact_t), intent(in) :: contact
-      integer :: levels, intervals(2), halved
+      integer :: levels, intervals(2), halved, multiple
+      real(dp) :: wanted
 
       rows = input%grid%points
       if (contact%is_round()) return
@@ -186,9 +187,14 @@ contains
       if (levels == 0) return
       halved = (rows - 1)/intervals(1)
       associate (g => input%grid)
-         rows = 2*nint(g%y_extent*intervals(1)/(cell_ratio(contact%reach(2)/contact%reach(1))*(g%x_outlet - g%x_inlet)))
+         wanted = 2.0_dp*g%y_extent*intervals(1)/(cell_ratio(contact%reach(2)/contact%reach(1))*(g%x_outlet - g%x_inlet))
       end associate
-      rows = max(fewest_rows, rows)*halved + 1
+      ! many rows are halved further, until they are few
+      multiple = 2
+      do while (wanted > 0.5_dp*multiple*few_rows)
+         multiple = 2*multiple
+      end do
+      rows = max(fewest_rows, multiple*nint(wanted/multiple))*halved + 1
    end function rows
 
    !> Side of a cell along Y over that along X: cells longer along the longer axis reach the same error with fewer nodes, as

@@ -49,6 +49,9 @@ module ehl_domain
    !> Around an ellipse the bodies are deflected as much further out as kappa k_b is larger than that of a round contact:
    !> what that costs with a flooded border, at the most, and with P = 0, where a narrow contact costs more, too
    real(dp), parameter :: most_wide = 4.0_dp, wide_power = 0.4_dp
+   !> Sides of a wide contact in terms of its half width, and length of the films from which on they are further out: both leave
+   !> less than 0.1 % of the film (docs/evidence/machines)
+   real(dp), parameter :: beyond_ends = 1.3_dp, thick_at_ends = 0.95_dp
    !> Points of an integral
    integer, parameter :: points = 100
 
@@ -72,17 +75,31 @@ contains
       domain%side = domain%side*sides_over_round(contact)
       domain%inlet = domain%inlet*contact%reach(1)
       domain%outlet = domain%outlet*contact%reach(1)
-      if (.not. flooded) return
       wanted = 4.0_dp
-      do
+      do while (flooded)
          cost = domain_cost(contact, point, domain, flooded)
-         if (.not. cost(1) > tolerance) return
+         if (.not. cost(1) > tolerance) exit
          wanted = 1.02_dp*wanted
          unit = 0.32_dp*10.0_dp**max(0, floor(log10(0.25_dp*wanted)))
          width = unit*ceiling(wanted/unit)
          domain = domain_t(-0.625_dp*width, 0.375_dp*width, 0.5_dp*width*sides_over_round(contact))
       end do
+      domain%side = min(domain%side, side_of_wide(contact, point))
    end function needed_domain
+
+   !> Where the sides of a wide contact are far enough. Its ends are as far from one another as it is wide, and what lies beyond
+   !> an end concerns the film there alone.
+   pure real(dp) function side_of_wide(contact, point) result(side)
+      class(contact_t), intent(in) :: contact
+      type(operating_t), intent(in) :: point
+      real(dp) :: wide, length
+
+      wide = contact%reach(2)/contact%reach(1)
+      side = huge(side)
+      if (.not. wide > 1.0_dp) return
+      length = sqrt(2.0_dp*contact%film_formula(point%moes_m, point%moes_l))
+      side = contact%reach(2)*(beyond_ends + (2.0_dp - beyond_ends)/wide**2)*max(1.0_dp, (length/thick_at_ends)**2)
+   end function side_of_wide
 
    !> How much further out the sides are than those around a round contact: as the ends of a wide contact, and around a narrow
    !> one no less far, because in terms of its semi-axis the gap opens slowly there

@@ -25,6 +25,8 @@ module ehl_grid
       procedure :: y => y_of
       procedure :: columns
       procedure :: coarser
+      procedure :: coarsened
+      procedure :: intervals
       procedure :: finer
       procedure :: weight
       procedure :: cell
@@ -103,6 +105,23 @@ contains
 
       grid = grid_t((self%nx + 1)/2, (self%ny + 1)/2, self%x0, self%y0, 2.0_dp*self%hx, 2.0_dp*self%hy, self%mirror)
    end function coarser
+
+   !> The grid of every step-th node along X and along Y, steps of 1 or 2
+   pure function coarsened(self, step) result(grid)
+      class(grid_t), intent(in) :: self
+      integer, intent(in) :: step(2)
+      type(grid_t) :: grid
+
+      grid = grid_t((self%nx - 1)/step(1) + 1, (self%ny - 1)/step(2) + 1, self%x0, self%y0, step(1)*self%hx, step(2)*self%hy, &
+                    self%mirror)
+   end function coarsened
+
+   !> Intervals along X and along Y of the whole domain
+   pure function intervals(self)
+      class(grid_t), intent(in) :: self
+      integer :: intervals(2)
+      intervals = [self%nx, self%full_ny()] - 1
+   end function intervals
 
    !> The grid of half the mesh size
    pure function finer(self) result(grid)

@@ -37,16 +37,17 @@ contains
       type(workspace_t), intent(inout) :: space
       type(coarsening_t), intent(inout) :: coarsening
       integer, intent(in) :: kind_of_coarsening
-      integer :: j
+      integer :: j, step(2)
 
-      !$omp parallel do default(none) shared(fine, coarse, space) &
+      step = step_between(fine%grid, coarse%grid)
+      !$omp parallel do default(none) shared(fine, coarse, space, step) &
       !$omp num_threads(coarse%threads) if(coarse%parallel) schedule(static)
       do j = 1, coarse%grid%ny
-         call weight_row(coarse%grid, fine%p, j, coarse%p(:, j))
+         call weight_row(coarse%grid, step, fine%p, j, coarse%p(:, j))
          ! a cavitated node stays so
-         call stay_cavitated(fine%p(::2, 2*j - 1), coarse%p(:, j))
+         call stay_cavitated(fine%p(::step(1), step(2)*(j - 1) + 1), coarse%p(:, j))
          space%p_start(:, j) = coarse%p(:, j)
-         call weight_row(coarse%grid, fine%h, j, coarse%h(:, j))
+         call weight_row(coarse%grid, step, fine%h, j, coarse%h(:, j))
          space%h_start(:, j) = coarse%h(:, j)
       end do
       !$omp end parallel do
@@ -62,8 +63,8 @@ contains
       coarse%flow%kept%correcting = .true.
       if (allocated(fine%boundary)) call freeze_states(fine, coarse)
       call update_coefficients(coarse)
-      if (kind_of_coarsening == coarsening_alcouffe) call build_galerkin(fine, coarse, coarsening)
-      call restrict_residual(fine, coarse, coarsening%transfer)
+      if (kind_of_coarsening == coarsening_alcouffe .and. all(step == 2)) call build_galerkin(fine, coarse, coarsening)
+      call restrict_residual(fine, coarse, step, coarsening%transfer)
       call pass_load_on(fine, coarse)
    end subroutine restrict_problem
 
@@ -80,16 +81,24 @@ contains
          boundary%kept = 0.0_dp
          boundary%rate = fine%boundary%rate
          do j = 1, coarse%grid%ny
-            call weight_row(coarse%grid, fine%boundary%touching, j, boundary%touching(:, j))
+            call weight_row(coarse%grid, step_between(fine%grid, coarse%grid), fine%boundary%touching, j, boundary%touching(:, j))
             touches = boundary%touching(:, j) > 0.5_dp .and. coarse%p(:, j) > cavity_pressure
             boundary%touching(:, j) = merge(1.0_dp, 0.0_dp, touches)
          end do
       end associate
    end subroutine freeze_states
 
-   !> Coarse row j by full weighting, on the border by injection
-   pure subroutine weight_row(coarse, fine, j, values)
+   !> Mesh sizes of a coarse grid over those of a fine one
+   pure function step_between(fine, coarse) result(step)
+      type(grid_t), intent(in) :: fine, coarse
+      integer :: step(2)
+      step = fine%intervals()/coarse%intervals()
+   end function step_between
+
+   !> Coarse row j by full weighting along the axes that are halved, on the border by injection
+   pure subroutine weight_row(coarse, step, fine, j, values)
       type(grid_t), intent(in) :: coarse
+      integer, intent(in) :: step(2)
       !> Shape of the fine grid
       real(dp), intent(in) :: fine(:, :)
       integer, intent(in) :: j
@@ -99,10 +108,18 @@ contains
       integer :: i, l, nx
 
       nx = coarse%nx
-      l = 2*j - 1
-      values = fine(::2, l)
+      l = step(2)*(j - 1) + 1
+      values = fine(::step(1), l)
       if (coarse%is_border(j)) return
-      across = 0.25_dp*(fine(:, coarse%south(l)) + fine(:, l + 1)) + 0.5_dp*fine(:, l)
+      if (step(2) == 1) then
+         across = fine(:, l)
+      else
+         across = 0.25_dp*(fine(:, coarse%south(l)) + fine(:, l + 1)) + 0.5_dp*fine(:, l)
+      end if
+      if (step(1) == 1) then
+         values(2:nx - 1) = across(2:nx - 1)
+         return
+      end if
       do i = 2, nx - 1
          values(i) = 0.25_dp*(across(2*i - 2) + across(2*i)) + 0.5_dp*across(2*i - 1)
       end do
@@ -110,16 +127,17 @@ contains
 
    !> Right-hand side of the coarse level: its operator on what it starts from, and the residual, by full
    !> weighting or, if the coarse level has a Galerkin operator, by the transpose of interpolation
-   subroutine restrict_residual(fine, coarse, transfer)
+   subroutine restrict_residual(fine, coarse, step, transfer)
       type(level_t), intent(inout) :: fine, coarse
+      integer, intent(in) :: step(2)
       type(transfer_t), intent(in) :: transfer
       real(dp) :: operator_row(coarse%grid%nx), residual(coarse%grid%nx)
       integer :: i, j
 
-      if (allocated(coarse%boundary)) call restrict_touching(fine, coarse)
+      if (allocated(coarse%boundary)) call restrict_touching(fine, coarse, step)
       ! row 1 of a folded grid consists of half cells
       if (coarse%poiseuille%frozen .and. fine%grid%mirror) fine%residual(:, 1) = 0.5_dp*fine%residual(:, 1)
-      !$omp parallel do default(none) shared(fine, coarse, transfer) private(i, operator_row, residual) &
+      !$omp parallel do default(none) shared(fine, coarse, step, transfer) private(i, operator_row, residual) &
       !$omp num_threads(coarse%threads) if(coarse%parallel) schedule(static)
       do j = coarse%grid%first_inner(), coarse%grid%ny - 1
          call reynolds_operator(coarse, j, operator_row)
@@ -127,7 +145,7 @@ contains
             call transfer%restrict_row(fine%residual, j, residual)
             residual(2:coarse%grid%nx - 1) = residual(2:coarse%grid%nx - 1)*fine%grid%cell(2)/coarse%grid%cell(j)
          else
-            call weight_row(coarse%grid, fine%residual, j, residual)
+            call weight_row(coarse%grid, step, fine%residual, j, residual)
          end if
          if (allocated(coarse%boundary)) residual = merge(coarse%residual(:, j), residual, coarse%boundary%touching(:, j) > 0.0_dp)
          do i = 2, coarse%grid%nx - 1
@@ -138,7 +156,8 @@ contains
             else
                ! keep the slack of cavitated regions, and where there is none make a little, lest rounding
                ! decides which nodes stay cavitated
-               coarse%rhs(i, j) = max(coarse%rhs(i, j), fine%rhs(2*i - 1, 2*j - 1)) + least_slack
+               coarse%rhs(i, j) = max(coarse%rhs(i, j), fine%rhs(step(1)*(i - 1) + 1, step(2)*(j - 1) + 1)) &
+                                 + least_slack
             end if
          end do
       end do
@@ -148,8 +167,9 @@ contains
    !> Residuals of touching nodes to those of the coarse level, and to these alone: in the equation of a flowing node they would
    !> be a source that the motion carries through the contact. Those of flowing nodes are left. The film of the flow, which is
    !> found anew after the coarse problem, lends its place.
-   subroutine restrict_touching(fine, coarse)
+   subroutine restrict_touching(fine, coarse, step)
       type(level_t), intent(inout) :: fine, coarse
+      integer, intent(in) :: step(2)
       integer :: j
 
       do j = 1, fine%grid%ny
@@ -157,7 +177,7 @@ contains
          fine%residual(:, j) = fine%residual(:, j) - fine%boundary%film(:, j)
       end do
       do j = coarse%grid%first_inner(), coarse%grid%ny - 1
-         call weight_row(coarse%grid, fine%boundary%film, j, coarse%residual(:, j))
+         call weight_row(coarse%grid, step, fine%boundary%film, j, coarse%residual(:, j))
       end do
    end subroutine restrict_touching
 
@@ -225,8 +245,11 @@ contains
       !> Share of the change that is taken over
       real(dp), intent(in) :: part
       real(dp) :: row(fine%grid%nx)
-      integer :: j, nx
+      integer :: j, nx, step(2)
+      logical :: dependent
 
+      step = step_between(fine%grid, coarse%grid)
+      dependent = coarsening == coarsening_alcouffe .and. all(step == 2)
       !$omp parallel do default(none) shared(coarse, space, part) &
       !$omp num_threads(coarse%threads) if(coarse%parallel) schedule(static)
       do j = 1, coarse%grid%ny
@@ -243,18 +266,18 @@ contains
       coarse%flow%kept%correcting = .false.
       if (allocated(coarse%boundary)) coarse%boundary%frozen = .false.
       nx = fine%grid%nx
-      !$omp parallel do default(none) shared(fine, coarse, space, transfer, coarsening, nx) private(row) &
+      !$omp parallel do default(none) shared(fine, coarse, space, transfer, dependent, step, nx) private(row) &
       !$omp num_threads(fine%threads) if(fine%parallel) schedule(static)
       do j = 1, fine%grid%ny
-         call interpolate_row(coarse%grid, space%h_start, j, row)
+         call interpolate_row(coarse%grid, step, space%h_start, j, row)
          ! a film that comes of pressures which nodes do not take on says nothing about whether they yield
          if (yields(fine)) row = merge(0.0_dp, row, fine%boundary%kept(:, j) > 0.0_dp)
          fine%h(:, j) = fine%h(:, j) + row
          if (j < fine%grid%first_inner() .or. j == fine%grid%ny) cycle
-         if (coarsening == coarsening_alcouffe) then
+         if (dependent) then
             call transfer%prolong_row(space%p_start, j, row)
          else
-            call interpolate_row(coarse%grid, space%p_start, j, row)
+            call interpolate_row(coarse%grid, step, space%p_start, j, row)
          end if
          row = fine%p(:, j) + row
          if (yields(fine)) call fine%boundary%bound(fine%p(:, j), 1, j, row)
@@ -264,8 +287,9 @@ contains
    end subroutine correct
 
    !> Row j of the fine grid by bilinear interpolation
-   pure subroutine interpolate_row(coarse, values, j, row)
+   pure subroutine interpolate_row(coarse, step, values, j, row)
       type(grid_t), intent(in) :: coarse
+      integer, intent(in) :: step(2)
       !> Shape of the coarse grid
       real(dp), intent(in) :: values(:, :)
       integer, intent(in) :: j
@@ -274,9 +298,14 @@ contains
       real(dp) :: middle(coarse%nx)
       integer :: i, l
 
-      l = (j + 1)/2
-      middle = 0.5_dp*(values(:, l) + values(:, min(l + mod(j + 1, 2), coarse%ny)))
-      row(::2) = middle
+      if (step(2) == 1) then
+         middle = values(:, j)
+      else
+         l = (j + 1)/2
+         middle = 0.5_dp*(values(:, l) + values(:, min(l + mod(j + 1, 2), coarse%ny)))
+      end if
+      row(::step(1)) = middle
+      if (step(1) == 1) return
       do i = 1, coarse%nx - 1
          row(2*i) = 0.5_dp*(middle(i) + middle(i + 1))
       end do

@@ -13,12 +13,19 @@ module ehl_cycle
    use ehl_workspace, only: workspace_t
    implicit none (type, external)
    private
-   public :: careful_cycle, cycle_options_t, finest_cycle, prolong_solution
+   public :: careful_cycle, cycle_options_t, damped_cycle, finest_cycle, most_damping, prolong_solution
    public :: coarsening_classical, coarsening_alcouffe
 
    !> A careful cycle: largest change of the logarithm of a node's conductance, shares of the changes that are made. Where
    !> the pressure spike is a few nodes wide (L = 25 on 513 x 513 nodes) F cycles throw it about; docs/design.md.
    real(dp), parameter :: careful_trust = full_trust/3.0_dp, careful_share = 0.6_dp
+
+   !> Damped cycles by degree: the same, shares of the changes of a sweep and of a coarse grid. The first degree takes all that
+   !> a coarse grid finds: the film's level and the load come from there.
+   integer, parameter :: most_damping = 4
+   real(dp), parameter :: damped_trust(most_damping) = full_trust/[1.0_dp, 3.0_dp, 3.0_dp, 9.0_dp], &
+                          damped_sweep(most_damping) = [0.6_dp, 0.6_dp, 0.3_dp, 0.15_dp], &
+                          damped_correction(most_damping) = [1.0_dp, 0.6_dp, 0.5_dp, 0.25_dp]
 
    !> How a cycle is made
    type :: cycle_options_t
@@ -55,25 +62,40 @@ contains
       careful%correction_share = careful_share
    end function careful_cycle
 
+   !> The W cycle whose sweeps and coarse grids make a part of their changes, less with every degree
+   pure function damped_cycle(options, degree) result(damped)
+      type(cycle_options_t), intent(in) :: options
+      integer, intent(in) :: degree
+      type(cycle_options_t) :: damped
+
+      damped = careful_cycle(options)
+      damped%trust = damped_trust(degree)
+      damped%sweep_share = damped_sweep(degree)
+      damped%correction_share = damped_correction(degree)
+   end function damped_cycle
+
    !> One cycle with level n as the finest. Film and coefficients are up to date before and after.
-   subroutine finest_cycle(levels, spaces, coarsenings, n, coarsest, options, residual)
+   subroutine finest_cycle(levels, spaces, coarsenings, below, n, coarsest, options, residual)
       !> Coarsest level first
       type(level_t), intent(inout) :: levels(:)
       type(workspace_t), intent(inout) :: spaces(:)
       !> Operator-dependent transfer between each level and the next coarser one
       type(coarsening_t), intent(inout) :: coarsenings(:)
+      !> The level that each is corrected on; 0: it is solved directly
+      integer, intent(in) :: below(:)
       integer, intent(in) :: n
-      type(coarsest_t), intent(inout) :: coarsest
+      !> Direct solutions of the levels that need one
+      type(coarsest_t), intent(inout) :: coarsest(:)
       type(cycle_options_t), intent(in) :: options
       !> What is left (rms)
       real(dp), intent(out) :: residual
       integer :: k
 
-      if (n == 1) then
-         call coarsest%solve(levels(1))
-         call update_residual(levels(1), residual)
+      if (below(n) == 0) then
+         call coarsest(n)%solve(levels(n))
+         call update_residual(levels(n), residual)
       else
-         call visit_coarser(levels, spaces, coarsenings, n, coarsest, options)
+         call visit_coarser(levels, spaces, coarsenings, below, n, coarsest, options)
          if (options%post == 0) call update_residual(levels(n), residual)
          do k = 1, options%post
             call sweep(levels(n), spaces(n), 1, options%trust, options%sweep_share)
@@ -84,19 +106,19 @@ contains
    end subroutine finest_cycle
 
    !> One cycle on level n
-   recursive subroutine fas_cycle(levels, spaces, coarsenings, n, coarsest, options)
+   recursive subroutine fas_cycle(levels, spaces, coarsenings, below, n, coarsest, options)
       type(level_t), intent(inout) :: levels(:)
       type(workspace_t), intent(inout) :: spaces(:)
       type(coarsening_t), intent(inout) :: coarsenings(:)
-      integer, intent(in) :: n
-      type(coarsest_t), intent(inout) :: coarsest
+      integer, intent(in) :: below(:), n
+      type(coarsest_t), intent(inout) :: coarsest(:)
       type(cycle_options_t), intent(in) :: options
 
-      if (n == 1) then
-         call coarsest%solve(levels(1))
+      if (below(n) == 0) then
+         call coarsest(n)%solve(levels(n))
          return
       end if
-      call visit_coarser(levels, spaces, coarsenings, n, coarsest, options)
+      call visit_coarser(levels, spaces, coarsenings, below, n, coarsest, options)
       call sweep(levels(n), spaces(n), options%post, options%trust, options%sweep_share)
    end subroutine fas_cycle
 
@@ -115,17 +137,18 @@ contains
    end subroutine sweep
 
    !> Relax level n, solve its problem on the coarser ones and take over the change
-   recursive subroutine visit_coarser(levels, spaces, coarsenings, n, coarsest, options)
+   recursive subroutine visit_coarser(levels, spaces, coarsenings, below, n, coarsest, options)
       type(level_t), intent(inout) :: levels(:)
       type(workspace_t), intent(inout) :: spaces(:)
       type(coarsening_t), intent(inout) :: coarsenings(:)
-      integer, intent(in) :: n
-      type(coarsest_t), intent(inout) :: coarsest
+      integer, intent(in) :: below(:), n
+      type(coarsest_t), intent(inout) :: coarsest(:)
       type(cycle_options_t), intent(in) :: options
       type(cycle_options_t) :: coarser, v
       real(dp) :: rms
-      integer :: k
+      integer :: k, m, visits
 
+      m = below(n)
       coarser = options
       if (options%finest_only) then
          coarser%sweep_share = 1.0_dp
@@ -133,20 +156,27 @@ contains
       end if
       call sweep(levels(n), spaces(n), options%pre, options%trust, options%sweep_share)
       call update_residual(levels(n), rms)
-      call restrict_problem(levels(n), levels(n - 1), spaces(n - 1), coarsenings(n), options%coarsening)
-      do k = 1, options%gamma
-         call fas_cycle(levels, spaces, coarsenings, n - 1, coarsest, coarser)
-         if (n == 2) exit
+      call restrict_problem(levels(n), levels(m), spaces(m), coarsenings(n), options%coarsening)
+      ! what is solved directly, or has half as many nodes rather than a quarter, is visited once
+      visits = options%gamma
+      if (below(m) == 0) visits = 1
+      do k = 1, visits
+         call fas_cycle(levels, spaces, coarsenings, below, m, coarsest, coarser)
       end do
-      if (options%full .and. n > 2) then
+      if (options%full .and. below(m) > 0) then
          v = coarser
          v%full = .false.
-         call fas_cycle(levels, spaces, coarsenings, n - 1, coarsest, v)
+         call fas_cycle(levels, spaces, coarsenings, below, m, coarsest, v)
       end if
-      call correct(levels(n), levels(n - 1), spaces(n - 1), coarsenings(n)%transfer, options%coarsening, &
-                   options%correction_share)
+      call correct(levels(n), levels(m), spaces(m), coarsenings(n)%transfer, options%coarsening, options%correction_share)
       call update_coefficients(levels(n))
    end subroutine visit_coarser
+
+   !> Whether a coarser level has half as many nodes, rather than a quarter
+   pure logical function is_halved(fine, coarse)
+      type(level_t), intent(in) :: fine, coarse
+      is_halved = any(fine%grid%intervals() == coarse%grid%intervals())
+   end function is_halved
 
    !> First approximation on a finer level: cubic interpolation of the coarse pressure and its deflection
    subroutine prolong_solution(coarse, fine)

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The grids of a multigrid solution, coarsest first
+!> The grids of a multigrid solution: first those of full multigrid, coarsest first, then those between them (ehl_ladder)
 module ehl_hierarchy
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_coarsest, only: coarsest_t
@@ -9,6 +9,7 @@ module ehl_hierarchy
    use ehl_galerkin, only: coarsening_t
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
+   use ehl_ladder, only: find_ladder
    use ehl_level, only: level_t
    use ehl_lubricant, only: lubricant_t
    use ehl_status, only: ehl_no_memory, status_t
@@ -25,8 +26,11 @@ module ehl_hierarchy
       type(workspace_t), allocatable :: spaces(:)
       !> Operator-dependent coarsening from each level to the next coarser one; set up when first used
       type(coarsening_t), allocatable :: coarsenings(:)
-      type(coarsest_t) :: coarsest
-      !> Levels that have been set up
+      !> The level that each is corrected on; 0: it is solved directly
+      integer, allocatable :: below(:)
+      !> Direct solutions of these
+      type(coarsest_t), allocatable :: coarsest(:)
+      !> Levels of full multigrid that have been set up
       integer :: ready = 0
       character(len=:), allocatable :: engine
       !> Most threads
@@ -34,6 +38,7 @@ module ehl_hierarchy
    contains
       procedure :: setup
       procedure :: grow
+      procedure, private :: set_up
       procedure :: prepare_steps
       procedure :: prepare_coarsening
       procedure :: cycle => run_cycle
@@ -56,29 +61,32 @@ contains
       character(len=*), intent(in) :: engine
       integer, intent(in) :: threads
       type(status_t), intent(inout) :: status
+      type(grid_t), allocatable :: grids(:)
       integer :: k, stat
 
       if (status%failed()) return
       self%ready = 0
       self%engine = engine
       self%threads = threads
-      if (allocated(self%levels)) deallocate (self%levels, self%spaces, self%coarsenings)
-      allocate (self%levels(n), self%spaces(n), self%coarsenings(n), stat=stat)
+      call find_ladder(coarsest, n, grids, self%below)
+      if (allocated(self%levels)) deallocate (self%levels, self%spaces, self%coarsenings, self%coarsest)
+      associate (all => size(grids))
+         allocate (self%levels(all), self%spaces(all), self%coarsenings(all), self%coarsest(all), stat=stat)
+      end associate
       if (stat /= 0) then
          call status%fail(ehl_no_memory, "no memory for the grid levels")
          return
       end if
-      do k = 1, n
+      do k = 1, size(grids)
+         self%levels(k)%grid = grids(k)
          self%levels(k)%lubricant = lubricant
          self%levels(k)%kernel_factor = kernel_factor
          call new_flow(lubricant, speed_parameter, self%levels(k)%flow)
       end do
-      self%levels(1)%grid = coarsest
-      call self%coarsest%setup(coarsest, kernel_factor, status)
       call self%grow(1, status)
    end subroutine setup
 
-   !> Set up the levels as far as level n
+   !> Set up the levels of full multigrid as far as level n, and what they are corrected on
    subroutine grow(self, n, status)
       class(hierarchy_t), intent(inout) :: self
       integer, intent(in) :: n
@@ -86,24 +94,34 @@ contains
       integer :: k
 
       do k = self%ready + 1, n
-         associate (level => self%levels(k))
-            if (k > 1) then
-               level%grid = self%levels(k - 1)%grid%finer()
-               call self%spaces(k - 1)%prepare_coarse(status)
-            end if
-            level%threads = threads_that_pay(level%grid, self%threads)
-            call level%setup(status)
-            call self%spaces(k)%setup(level%grid, level%kernel_factor, level%threads, allocated(level%boundary), status)
-            if (status%failed()) return
-            call new_deflection(self%engine, level%engine, status)
-            if (status%failed()) return
-            call level%engine%setup(level%grid, level%kernel_factor, deflection_accuracy(level%grid), level%threads, &
-                                    status)
-            if (status%failed()) return
-         end associate
+         call self%set_up(k, status)
+         if (status%failed()) return
          self%ready = k
       end do
    end subroutine grow
+
+   !> Set up a level and those below it, unless that has been done
+   recursive subroutine set_up(self, k, status)
+      class(hierarchy_t), intent(inout) :: self
+      integer, intent(in) :: k
+      type(status_t), intent(inout) :: status
+
+      associate (level => self%levels(k), below => self%below(k))
+         if (status%failed() .or. allocated(level%p)) return
+         if (below > 0) then
+            call self%set_up(below, status)
+            call self%spaces(below)%prepare_coarse(status)
+         else
+            call self%coarsest(k)%setup(level%grid, level%kernel_factor, status)
+         end if
+         level%threads = threads_that_pay(level%grid, self%threads)
+         call level%setup(status)
+         call self%spaces(k)%setup(level%grid, level%kernel_factor, level%threads, allocated(level%boundary), status)
+         call new_deflection(self%engine, level%engine, status)
+         if (status%failed()) return
+         call level%engine%setup(level%grid, level%kernel_factor, deflection_accuracy(level%grid), level%threads, status)
+      end associate
+   end subroutine set_up
 
    !> Allocate what time steps need, and discretise wedge and squeeze terms for them
    subroutine prepare_steps(self, n, scheme, time_step, status)
@@ -116,7 +134,10 @@ contains
       type(status_t), intent(inout) :: status
       integer :: k
 
-      do k = 1, n
+      associate (unused => n)
+      end associate
+      do k = 1, size(self%levels)
+         if (.not. allocated(self%levels(k)%p)) cycle
          call self%spaces(k)%prepare_steps(status)
          if (status%failed()) return
          call self%levels(k)%wedge%set_step(scheme, self%levels(k)%grid%hx, time_step)
@@ -129,10 +150,11 @@ contains
       type(status_t), intent(inout) :: status
       integer :: k
 
-      do k = 2, self%ready
+      do k = 1, size(self%levels)
          if (status%failed()) return
-         if (self%coarsenings(k)%transfer%nx > 0) cycle
-         associate (fine => self%levels(k), coarse => self%levels(k - 1))
+         if (self%below(k) == 0 .or. .not. allocated(self%levels(k)%p) .or. self%coarsenings(k)%transfer%nx > 0) cycle
+         associate (fine => self%levels(k), coarse => self%levels(self%below(k)))
+            if (any(fine%grid%intervals() == coarse%grid%intervals())) cycle
             call coarse%poiseuille%prepare_product(status)
             call self%coarsenings(k)%setup(fine%grid, coarse%grid, fine%threads, fine%parallel, status)
          end associate
@@ -161,7 +183,7 @@ contains
       !> What is left (rms)
       real(dp), intent(out) :: residual
 
-      call finest_cycle(self%levels, self%spaces, self%coarsenings, n, self%coarsest, options, residual)
+      call finest_cycle(self%levels, self%spaces, self%coarsenings, self%below, n, self%coarsest, options, residual)
    end subroutine run_cycle
 
    !> Drop what one cycle leaves for the next beyond the fields of its finest level
@@ -170,7 +192,7 @@ contains
       integer :: k
 
       self%coarsest%factored = .false.
-      do k = 1, self%ready
+      do k = 1, size(self%levels)
          call self%levels(k)%flow%kept%forget()
       end do
    end subroutine forget
@@ -180,10 +202,11 @@ contains
       class(hierarchy_t), intent(in) :: self
       integer :: k
 
-      bytes = self%coarsest%bytes()
-      do k = 1, self%ready
+      bytes = 0
+      do k = 1, size(self%levels)
+         if (.not. allocated(self%levels(k)%p)) cycle
          bytes = bytes + self%levels(k)%bytes() + self%levels(k)%engine%bytes() + self%spaces(k)%bytes() &
-                 + self%coarsenings(k)%bytes()
+                 + self%coarsenings(k)%bytes() + self%coarsest(k)%bytes()
       end do
    end function bytes
 end module ehl_hierarchy

@@ -3,6 +3,7 @@
 !> a roughness at rest, a time step) extends iteration_t: it says when the state is good enough, and updates between two cycles
 !> what is to follow the state.
 module ehl_iteration
+   use ehl_anderson, only: anderson_t
    use ehl_contact_results, only: contact_results_t, load_tolerance, measure
    use ehl_cycle, only: cycle_options_t
    use ehl_force_balance, only: balance_load
@@ -30,6 +31,8 @@ module ehl_iteration
       integer :: cycles = 0
       type(contact_results_t) :: m
       real(dp) :: residual = 0.0_dp
+      !> Acceleration of cycles that stall
+      type(anderson_t) :: mixing
    contains
       procedure, non_overridable :: improve
       procedure, non_overridable :: unsound
@@ -67,9 +70,11 @@ contains
       real(dp) :: residual
 
       before = self%m
-      call hierarchy%cycle(self%n, self%options, residual)
-      self%cycles = self%cycles + 1
       associate (level => hierarchy%levels(self%n))
+         if (self%mixing%on) call self%mixing%remember(level)
+         call hierarchy%cycle(self%n, self%options, residual)
+         self%cycles = self%cycles + 1
+         if (self%mixing%on) call self%mixing%mix(level, residual)
          call self%look(level, residual)
          if (self%may_balance(before) .and. abs(self%m%load_error) > load_tolerance) then
             call balance_load(level)

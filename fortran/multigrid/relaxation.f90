@@ -89,7 +89,7 @@ contains
       real(dp) :: limit, greatest(level%grid%nx)
       integer :: i, j, below
 
-      limit = merge(switch_thinning, switch, level%flow%bends)*min(level%grid%hx, level%grid%hy)**2
+      limit = merge(switch_thinning, switch, level%flow%bends)*level%grid%hy**2
       !$omp parallel do default(none) shared(level, space, first, last, limit) private(i, below, greatest) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = first, last

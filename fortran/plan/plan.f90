@@ -126,6 +126,7 @@ contains
       plan%accuracy = input%solver%accuracy
       plan%max_cycles = input%solver%max_cycles
       plan%newtonian_circle = plan%contact%is_round() .and. .not. plan%lubricant%shear%thins_flow()
+      plan%guarded = .not. plan%contact%is_round()
       plan%threads = input%solver%threads
       plan%target_error = input%grid%target_error
       plan%scheme = merge(wedge_narrow, wedge_separate, input%time%scheme == "narrow")

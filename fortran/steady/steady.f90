@@ -3,15 +3,17 @@
 module ehl_steady
    use ehl_contact, only: contact_t
    use ehl_contact_results, only: contact_results_t, load_tolerance, measure
-   use ehl_cycle, only: careful_cycle, cycle_options_t, prolong_solution
+   use ehl_cycle, only: careful_cycle, cycle_options_t, damped_cycle, most_damping, prolong_solution
    use ehl_far_field, only: far_field_t
    use ehl_film, only: refresh
    use ehl_hierarchy, only: hierarchy_t
    use ehl_iteration, only: iteration_t, most_reduction, reduction
    use ehl_kinds, only: dp
    use ehl_level_result, only: discretisation_error, level_result_t
-   use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_running, outcome_target_missed
-   use ehl_status, only: status_t
+   use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_diverged, outcome_negative_film, outcome_running, &
+                          outcome_target_missed
+   use ehl_level, only: level_t
+   use ehl_status, only: ehl_no_memory, status_t
    use ehl_steady_options, only: end_rule_t, rule_of_circles, rule_of_others, steady_options_t
    use ehl_touching, only: mostly_touching, much_supplied
    implicit none (type, external)
@@ -35,6 +37,13 @@ module ehl_steady
    real(dp), parameter :: start_tolerance = 1.0e-3_dp, guess_tolerance = 3.0e-2_dp
    !> Relative algebraic error that a light cycle can be trusted with: where less is wanted it costs a cycle
    real(dp), parameter :: light_error = 3.0e-4_dp
+   !> Cycles after which the changes of a cycle are made larger again, and those in which the residual must halve
+   integer, parameter :: undamped_after = 3, patience = 8
+   !> Cycles of a level that leave more than this share of the residual stall, after so many
+   real(dp), parameter :: stalled = 0.6_dp
+   integer, parameter :: stalls_after = 5
+   !> A residual that no state on the way to a solution has, unless the one before it was nearly as large
+   real(dp), parameter :: most_residual = 2.0_dp
    !> Cycles that are few: on a level that began from a coarser one, and from the Hertz pressure
    integer, parameter :: few = 2, few_from_guess = 3
 
@@ -48,11 +57,24 @@ module ehl_steady
       integer :: outcome = outcome_running
       !> Whether level n has a first approximation, whether cycles are made with care
       logical, private :: entered = .false., careful = .false.
+      !> Whether a cycle that ends in no state of the contact is taken back, and cycles that stall are accelerated; how much
+      !> smaller the changes of the next cycle are, 0: not at all; cycles made since that was changed
+      logical, private :: guarded = .false.
+      integer, private :: damping = 0, since = 0, was_damped = 0, lasting = 0
+      !> State before the last cycle
+      real(dp), allocatable, private :: p_before(:, :)
+      real(dp), private :: h00_before = 0.0_dp
+      !> Residual after the last cycle that was not taken back
+      real(dp), private :: residual_kept = 0.0_dp
+      !> Residual some cycles ago
+      real(dp), private :: residual_then = huge(1.0_dp)
       !> Restarts: on a finer grid after a failure on a coarse one, with care after one on the finest
       integer :: restarts = 0
       type(level_result_t), allocatable :: results(:)
       !> Changes of H_c and H_min in the last cycle, and the residual after it
       real(dp), private :: change(2) = 0.0_dp, residual_before = 0.0_dp
+      !> Residual over that before the last cycle
+      real(dp), private :: stall = 0.0_dp
       !> Change of the load share of a boundary film in the last cycle, and its algebraic error
       real(dp), private :: share_change = 0.0_dp, share_error = 0.0_dp
    contains
@@ -75,6 +97,7 @@ contains
       if (how%flooded) call self%far_field%setup(contact)
       self%max_cycles = how%max_cycles
       self%of_film = .true.
+      self%guarded = how%guarded
       self%n = how%start
       self%results = spread(level_result_t(), 1, how%levels)
    end subroutine start
@@ -101,7 +124,10 @@ contains
       if (status%failed()) return
       if (self%how%flooded) call self%far_field%set_border(hierarchy%levels(self%n), self%contact%load)
       self%options = next_cycle(self)
+      if (self%guarded) call keep_state(self, hierarchy%levels(self%n), status)
       call self%improve(hierarchy)
+      if (self%guarded) call guard(self, hierarchy, status)
+      if (status%failed()) return
       finest = self%n == self%how%levels
       associate (result => self%results(self%n))
          result%m = self%m
@@ -109,6 +135,7 @@ contains
          result%residual = self%residual
          if (self%state == outcome_running) return
          result%solved = self%state == outcome_converged .or. (self%state == outcome_cycle_limit .and. .not. finest)
+         if (self%guarded .and. self%state == outcome_cycle_limit .and. self%residual > most_residual) result%solved = .false.
          if (.not. result%solved) then
             call fail_level(self)
          else if (self%state == outcome_converged .and. has_target(self)) then
@@ -121,6 +148,70 @@ contains
          end if
       end associate
    end subroutine advance
+
+   !> The state before a cycle
+   subroutine keep_state(self, level, status)
+      class(steady_t), intent(inout) :: self
+      type(level_t), intent(in) :: level
+      type(status_t), intent(inout) :: status
+      integer :: stat
+
+      if (.not. allocated(self%p_before)) then
+         allocate (self%p_before(level%grid%nx, level%grid%ny), stat=stat)
+         if (stat /= 0) then
+            call status%fail(ehl_no_memory, "no memory for the state before a cycle")
+            return
+         end if
+      end if
+      self%p_before = level%p
+      self%h00_before = level%h00
+   end subroutine keep_state
+
+   !> Take a cycle back that has left no state of the contact, and make smaller changes; accelerate cycles that stall
+   subroutine guard(self, hierarchy, status)
+      class(steady_t), intent(inout) :: self
+      type(hierarchy_t), intent(inout) :: hierarchy
+      type(status_t), intent(inout) :: status
+      logical :: lost
+
+      if (status%failed()) return
+      self%since = self%since + 1
+      lost = any(self%state == [outcome_diverged, outcome_negative_film])
+      if (self%state == outcome_running .and. self%residual > most_residual) lost = self%residual > &
+         most_residual*self%residual_kept
+      if (.not. lost) self%residual_kept = self%residual
+      if (lost) then
+         if (self%damping == most_damping .or. self%cycles >= self%max_cycles) return
+         ! the same amount again would be tried again and again
+         if (self%since == 1 .and. self%was_damped > 0) self%lasting = self%was_damped
+         self%damping = max(self%damping + 1, self%lasting)
+         self%was_damped = self%damping
+         self%since = 0
+         call hierarchy%forget()
+         associate (level => hierarchy%levels(self%n))
+            level%p = self%p_before
+            level%h00 = self%h00_before
+            call refresh(level)
+            self%m = measure(level)
+         end associate
+         self%residual = self%residual_kept
+         self%state = outcome_running
+         call self%mixing%finish()
+      else if (self%damping > self%lasting .and. self%since >= undamped_after) then
+         self%damping = self%damping - 1
+         self%since = 0
+      else if (self%state == outcome_running .and. mod(self%cycles, patience) == 0) then
+         if (self%residual > 0.5_dp*self%residual_then .and. self%damping < most_damping) then
+            self%damping = self%damping + 1
+            self%lasting = self%damping
+            self%since = 0
+            call self%mixing%finish()
+         end if
+         self%residual_then = self%residual
+      end if
+      if (self%state /= outcome_running .or. self%cycles < stalls_after) return
+      if (self%stall > stalled) call self%mixing%begin(hierarchy%levels(self%n), status)
+   end subroutine guard
 
    !> Begin on level n: from the solution on the next coarser one, or from the Hertz pressure
    subroutine enter_level(self, hierarchy, status)
@@ -154,6 +245,13 @@ contains
       self%cycles = 0
       self%residual = 0.0_dp
       self%entered = .true.
+      self%damping = self%lasting
+      self%since = 0
+      self%was_damped = 0
+      self%residual_then = huge(1.0_dp)
+      self%residual_kept = 0.0_dp
+      call self%mixing%finish()
+      if (allocated(self%p_before)) deallocate (self%p_before)
    end subroutine enter_level
 
    !> Algebraic errors by the change of the films
@@ -172,6 +270,7 @@ contains
       q = reduction(change, self%change, self%cycles, fall)
       self%results(self%n)%algebraic = change*q/(1.0_dp - q)
       self%change = change
+      self%stall = self%residual/max(self%residual_before, tiny(1.0_dp))
       call judge_share(self, abs(self%m%touching%load_share - before%touching%load_share))
       self%residual_before = self%residual
       error = abs(self%m%load_error)
@@ -218,7 +317,8 @@ contains
 
       options = self%how%cycle
       if (self%careful) options = careful_cycle(options)
-      if (self%careful .or. self%how%second_cycle%full .eqv. self%how%cycle%full) return
+      if (self%damping > 0) options = damped_cycle(self%how%cycle, self%damping)
+      if (self%careful .or. self%damping > 0 .or. self%how%second_cycle%full .eqv. self%how%cycle%full) return
       if (.not. has_coarser(self) .or. self%cycles /= 1) return
       if (any(wanted(self) < light_error*self%m%films())) return
       options = self%how%second_cycle
@@ -268,17 +368,23 @@ contains
    !> once from the first level on with care
    subroutine fail_level(self)
       class(steady_t), intent(inout) :: self
-      logical :: finest
+      logical :: finest, just_guarded
 
       finest = self%n == self%how%levels
+      just_guarded = .false.
       if (finest .and. (self%careful .or. .not. self%how%may_restart)) then
-         self%outcome = self%state
-         return
+         if (self%guarded) then
+            self%outcome = self%state
+            return
+         end if
+         self%guarded = .true.
+         just_guarded = .true.
+         self%careful = .false.
       end if
       self%results%solved = .false.
       self%restarts = self%restarts + 1
       self%entered = .false.
-      self%careful = self%careful .or. finest
+      self%careful = self%careful .or. (finest .and. .not. just_guarded)
       self%n = merge(self%how%start, self%n + 1, finest)
    end subroutine fail_level
 

@@ -23,6 +23,8 @@ module ehl_steady_options
       logical :: flooded = .false.
       !> Whether what fails on the finest level may begin again with care
       logical :: may_restart = .false.
+      !> Whether cycles that end in no state of the contact are taken back from the beginning on, and not only after all else
+      logical :: guarded = .false.
       !> Whether the contact is a circle and its flow Newtonian
       logical :: newtonian_circle = .true.
    end type steady_options_t
