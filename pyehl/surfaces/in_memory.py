@@ -33,6 +33,7 @@ READY: Mapping[str, Any] = {
     "surface.rotate": 0.0,
     "surface.sign": 1,
     "surface.height_unit": "m",
+    "surface.lateral_unit": "same",
     "surface.crop_x_min": 0.0,
     "surface.crop_x_max": 0.0,
     "surface.crop_y_min": 0.0,

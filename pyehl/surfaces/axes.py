@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Axes of a table of heights: a first line of x, a first column of y."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from pyehl.surfaces.text_cells import BadCellError, Cells
+from pyehl.types import Array
+
+LEAST_PLACES = 5
+# Of a step: how far places may be from equal steps, for they are rounded
+OFF = 0.02
+
+
+@dataclass(frozen=True, slots=True)
+class Axes:
+    """Axes that were taken off a table."""
+
+    # Along a line and from line to line, in the numbers of the file; None where it has no such
+    # axis. None as a whole where they are numbers of pixels
+    steps: tuple[float | None, float | None] | None
+    note: str
+
+
+def is_axis(values: Array) -> bool:
+    """Whether numbers grow, or fall, in equal steps."""
+    if values.size < LEAST_PLACES or not np.isfinite(values).all():
+        return False
+    step = (values[-1] - values[0]) / (values.size - 1)
+    line = values[0] + step * np.arange(values.size)
+    return bool(step) and bool(np.abs(values - line).max() <= OFF * abs(step))
+
+
+def _is_numbering(values: Array) -> bool:
+    """Whether an axis counts pixels from 0 or 1."""
+    return values[0] in (0.0, 1.0) and bool((np.diff(values) == 1.0).all())
+
+
+def without_axes(
+    rows: Array, header: Sequence[str], cells: Cells
+) -> tuple[Array, Axes | None]:
+    """Heights of a table without its axes, and these; None where it has none.
+
+    Heights never lie on a straight line while those beside them do not: such a first line is that
+    of x, such a first column that of y. The line of x may have a word at its corner, and is then
+    the last line of the header.
+    """
+    across = along = None
+    if min(rows.shape) > LEAST_PLACES:
+        # an index of the lines stands before the x, y and z of a list as well
+        if is_axis(rows[1:, 0]) and not is_axis(rows[1:, 1]):
+            across = rows[:, 0]
+        if is_axis(rows[0, 1:]) and not is_axis(rows[1, 1:]):
+            along = rows[0]
+    elif rows.shape[1] == LEAST_PLACES - 1 and is_axis(rows[:, 0]) and not is_axis(rows[:, 1]):
+        return rows[:, 1:], Axes(None, "the first column numbers the lines")
+    if along is None and across is not None and header:
+        along = _heading(header[-1], cells, rows.shape[1])
+    elif along is not None:
+        rows = rows[1:]
+        across = across[1:] if across is not None else None
+    if along is not None:
+        along = along[-(rows.shape[1] - (across is not None)) :]
+    if across is not None:
+        rows = rows[:, 1:]
+    if along is None and across is None:
+        return rows, None
+    return _rising(rows, along, across)
+
+
+def _heading(line: str, cells: Cells, columns: int) -> Array | None:
+    """Places of a line whose first cell is a word, or left out; None if they are none."""
+    words = cells.split(line.lstrip("#"))
+    if len(words) not in (columns, columns - 1):
+        return None
+    words = words[len(words) - columns + 1 :]
+    try:
+        values = Cells(cells.separator).numbers(
+            (cells.separator if cells.separator != " " else " ").join(words)
+        )
+    except BadCellError:
+        return None
+    return values if values is not None and is_axis(values) else None
+
+
+def _rising(rows: Array, along: Array | None, across: Array | None) -> tuple[Array, Axes]:
+    """Heights in the order of rising places, with the steps."""
+    found = [axis for axis in (along, across) if axis is not None]
+    steps: list[float | None] = []
+    for number, axis in ((1, along), (0, across)):
+        if axis is None:
+            steps.append(None)
+            continue
+        step = float((axis[-1] - axis[0]) / (axis.size - 1))
+        if step < 0.0:
+            rows = np.flip(rows, number)
+        steps.append(abs(step))
+    names = " and ".join(
+        name for name, axis in (("line", along), ("column", across)) if axis is not None
+    )
+    if all(_is_numbering(axis) for axis in found):
+        return rows, Axes(None, f"the first {names} number the pixels and are no heights")
+    return rows, Axes((steps[0], steps[1]), f"the first {names} are places and no heights")

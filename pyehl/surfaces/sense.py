@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Whether heights that were read can be those of a surface: marks of missing points, slopes."""
+
+import numpy as np
+
+from pyehl.types import Array
+
+_MARKS = (999.0, 9999.0, 99999.0, 999999.0, 32767.0, 32768.0, 65535.0, 65534.0, 1000001.0,
+          2147483640.0, 2147483647.0, 2147483648.0, 4294967295.0)  # fmt: skip
+"""Numbers that programs write for a missing point, of either sign."""
+HUGE = 1e30
+"""Numbers from it on are no heights in any unit."""
+APART = 0.5
+"""Of the range of all other heights: how far off a mark of missing points is at the least."""
+OFTEN, TIMES = 5, 8
+"""A height is said to be there often if it is so many times, and so many times as often as any
+other."""
+STEEP = 1.0
+"""Slope of 45 degrees."""
+SAMPLE = 2**20
+NORMAL = 0.6744897501960817
+"""Median of the absolute value of a normal distribution, over its standard deviation."""
+
+
+def unmarked(heights: Array) -> list[str]:
+    """Take the marks of missing points out of heights in the numbers of the file, in place.
+
+    Notes say which, and how many. A mark is a number that programs write for a missing point, at
+    one end of all heights and far off the others.
+    """
+    notes = []
+    infinite = np.isinf(heights)
+    if infinite.any():
+        heights[infinite] = np.nan
+        notes.append(f"{int(infinite.sum())} infinite heights are missing points")
+    huge = np.abs(np.nan_to_num(heights)) >= HUGE
+    marks = [huge] if huge.any() else []
+    heights[huge] = np.nan
+    # one at each end, and a second one there
+    for _ in range(4):
+        mark = _mark(heights)
+        if mark is None:
+            break
+        marks.append(heights == mark)
+        notes.append(f"{int(marks[-1].sum())} heights of {mark:.10g} are marks of missing points")
+        heights[marks[-1]] = np.nan
+    if huge.any():
+        notes.append(f"{int(huge.sum())} heights beyond {HUGE:g} are marks of missing points")
+    return notes
+
+
+def _mark(heights: Array) -> float | None:
+    """Mark of missing points at one end of the heights; None if there is none."""
+    finite = heights[np.isfinite(heights)]
+    if finite.size < 2:
+        return None
+    for end in (float(finite.min()), float(finite.max())):
+        if abs(end) not in _MARKS:
+            continue
+        others = finite[finite != end]
+        if others.size < 2:
+            continue
+        low, high = float(others.min()), float(others.max())
+        if max(end - high, low - end) > APART * (high - low):
+            return end
+    return None
+
+
+def doubts(heights: Array) -> list[str]:
+    """Notes on heights that may be none: one value very often, or often at an end of them."""
+    finite = heights[np.isfinite(heights)]
+    if finite.size < OFTEN:
+        return []
+    values, counts = np.unique(finite, return_counts=True)
+    if values.size < 2 * OFTEN:
+        return []
+    notes = []
+    order = np.argsort(counts)
+    top, second = int(order[-1]), int(order[-2])
+    often = counts[top] >= max(OFTEN, TIMES * counts[second])
+    if often and counts[top] < finite.size // 2:
+        value = values[top]
+        apart = ""
+        if top in (0, values.size - 1):
+            others = np.delete(values, top)
+            gap = float(np.abs(others - value).min())
+            if gap > float(np.ptp(others)):
+                apart = f", and {gap:.6g} off all others"
+        notes.append(
+            f"{counts[top]} heights are exactly {value:.10g}, no other one is there more than "
+            f"{counts[second]} x{apart}: if it marks missing points, write nan in its place"
+        )
+    for end, name in ((0, "least"), (-1, "largest")):
+        if end % values.size != top or not often:
+            near = counts[1 if end == 0 else -2]
+            if counts[end] >= max(OFTEN, TIMES * near) and counts[end] >= TIMES * counts[second]:
+                notes.append(
+                    f"{counts[end]} heights are exactly the {name} one, {values[end]:.10g}: the "
+                    "range of the instrument may end there"
+                )
+    return notes
+
+
+def slopes(heights: Array, pixel: tuple[float, float]) -> tuple[float, float]:
+    """Usual slope of a map (standard deviation by the median), and the share of steep steps.
+
+    Heights (nx, ny) [m], pixel size along x and y [m]. Of a large map lines in equal distances.
+    """
+    usual, steep, count = 0.0, 0, 0
+    for axis, size in enumerate(pixel):
+        lines = np.moveaxis(heights, axis, 1)
+        lines = lines[:: max(1, heights.size // SAMPLE)]
+        steps = np.abs(np.diff(lines, axis=1)) / size
+        steps = steps[np.isfinite(steps)]
+        if steps.size:
+            usual = max(usual, float(np.median(steps)) / NORMAL)
+            steep += int(np.count_nonzero(steps > STEEP))
+            count += steps.size
+    return usual, steep / count if count else 0.0

@@ -1,0 +1,208 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the lines above a table of heights say: units, size, pixels."""
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from pyehl.surfaces.found import UNIT, unit_of
+
+_NUMBER = r"[-+]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:e[-+]?\d+)?"
+_PER = r"(?:\s*(?:/|per)\s*(?:px|pix|pixels?|pts?|points?|samples?|digits?|画素))?"
+_BRACKETS = re.compile(rf"[(\[{{]\s*({UNIT}){_PER}\s*[)\]}}]", re.IGNORECASE)
+_ENTRY = re.compile(r"([^:：=,;\t]+?)\s*[:：=,;\t][:：=,;\t\s]*(.*)")
+# 'Pixel size 1.5 um', with blanks alone
+_BLANKS = re.compile(rf"([^\W\d][^:=,;\t]*?)\s+({_NUMBER}\s*{UNIT}{_PER})", re.IGNORECASE)
+_VALUE = re.compile(rf"({_NUMBER})[\s,;:\t]*({UNIT})?{_PER}[\s,;:\t]*", re.IGNORECASE)
+_WORDS = re.compile(r"[^\W\d_]+")
+# 'heights in nm', 'z in um'
+_IN = re.compile(rf"\b(?:heights?|z|values?|data)\b\W.*?\bin\s+({UNIT})(?![^\W_])", re.IGNORECASE)
+
+# Words of the names of entries, in lower case; those of Gwyddion in all of its languages
+_X = set("x dx nx width columns cols column horizontal breite šířka anchura largeur larghezza 幅 폭 "
+         "largura ширина 横 spalten xcalibration samples".split())  # fmt: skip
+_Y = set("y dy ny height rows row lines line profiles vertical höhe výška altura hauteur altezza 高さ "
+         "높이 высота 縦 zeilen".split())  # fmt: skip
+_SIDES = set("width height breite höhe šířka výška anchura altura largeur hauteur larghezza altezza "
+             "幅 高さ 폭 높이 largura ширина высота".split())  # fmt: skip
+_SIZE = _SIDES | set("size length range extent field span dimension länge lange größe area".split())
+_PITCH = set("pitch step spacing increment calibration kalibrierung calibrage calibración sampling "
+             "interval inc dx dy キャリブレーション schrittweite pixelabstand pixelsize pas paso "
+             "resolution auflösung".split())  # fmt: skip
+_POINTS = set("pixels pixel points point columns cols rows lines profiles samples number num count "
+              "horizontal vertical nx ny 横 縦 zeilen spalten punkte".split())  # fmt: skip
+_UNITS = set("unit units einheit einheiten unité unités unità unidad unidades jednotky единицы 単位 "
+             "값 単 unitxy unitz zunit xyunit xunit yunit".split())  # fmt: skip
+_UNIT_PHRASES = ("値の単位", "값 단위", "単位", "단위")
+_HEIGHTS = set("z height heights value values data valore valor hodnot höhe höhen zunit unitz wert "
+               "werte hauteur измерения".split())  # fmt: skip
+_LATERAL = set("x y xy lateral laterals xunit yunit xyunit unitxy horizontal".split())
+_CHANNEL = set("channel kanál kanal canal canale チャネル 채널 канал".split())
+# What these describe is not the map
+_OTHER = set("tip stylus radius filter cutoff wavelength offset origin position start min max "
+             "minimum maximum aperture magnification speed average time date laser lens zoom "
+             "roughness rms".split())  # fmt: skip
+_FACTOR = set("factor scale faktor scaling gain multiplier skalierung".split())
+
+
+@dataclass(slots=True)
+class Header:
+    """What the lines of a header say; None for what they do not, or say in two ways."""
+
+    size: list[float | None] = field(default_factory=lambda: [None, None])  # [m]
+    pitch: list[float | None] = field(default_factory=lambda: [None, None])  # [m]
+    # Lengths without a unit: sizes, or numbers of points
+    bare: list[float | None] = field(default_factory=lambda: [None, None])
+    points: list[int | None] = field(default_factory=lambda: [None, None])
+    # Metres in the unit of the heights, and of lengths and places
+    height_unit: float | None = None
+    lateral_unit: float | None = None
+    # Metres in the units of the columns x, y and z of a list
+    columns: tuple[float, ...] = ()
+    channel: str = ""
+    # Whether the heights have a unit that is none of length: volts, degrees
+    is_other: bool = False
+    # Whether a comment alone names the unit: the file is an array all the same
+    by_comment: bool = False
+    notes: list[str] = field(default_factory=list)
+
+    @property
+    def says(self) -> bool:
+        """Whether there is more than a comment on heights."""
+        return bool(
+            any(v is not None for v in (*self.size, *self.pitch, *self.points, self.lateral_unit))
+            or (self.height_unit is not None and not self.by_comment)
+            or self.channel
+            or self.columns
+            or self.is_other
+        )
+
+
+@dataclass(slots=True)
+class _Entry:
+    """One line: a name in words, a number, a unit, each of them or none."""
+
+    words: set[str]
+    number: float | None
+    unit: float | None
+    rest: str
+
+
+def header_of(lines: Sequence[str]) -> Header:
+    """Read the lines above a table."""
+    header = Header()
+    found: dict[tuple[str, int], set[float]] = {}
+    for line in lines:
+        text = line.strip().lstrip("#;%/ ").replace('"', "").strip().rstrip(";,\t ")
+        units = [unit_of(unit) for unit in _BRACKETS.findall(text)]
+        if len(units) == 3:
+            header.columns = tuple(unit for unit in units if unit is not None)
+            continue
+        if match := _IN.search(text):
+            header.height_unit = header.height_unit or unit_of(match[1])
+            header.by_comment = True
+            continue
+        entry = _entry(text)
+        if entry is not None:
+            _sort(entry, header, found)
+    _settle(header, found)
+    return header
+
+
+def _entry(text: str) -> _Entry | None:
+    """Take a line apart; None if it is no entry of a header."""
+    match = _ENTRY.fullmatch(text) or _BLANKS.fullmatch(text)
+    if match is None:
+        return None
+    name, rest = match[1], match[2].strip()
+    units = _BRACKETS.findall(name)
+    name = _BRACKETS.sub(" ", name).lower()
+    words = set(_WORDS.findall(name))
+    if any(phrase in name for phrase in _UNIT_PHRASES):
+        words |= {"unit"}
+    value = _VALUE.fullmatch(rest)
+    if value is None:
+        return _Entry(words, None, unit_of(rest), rest)
+    # 'pixel_size_um: 1.5'
+    bare = [word for word in words if len(word) == 2 and unit_of(word)]
+    unit = value[2] or next(iter(units + bare), "")
+    return _Entry(words, float(value[1].replace(",", ".")), unit_of(unit) if unit else None, rest)
+
+
+def _sort(entry: _Entry, header: Header, found: dict[tuple[str, int], set[float]]) -> None:
+    """Put an entry where it belongs, by the words of its name."""
+    words = entry.words
+    if words & _CHANNEL and entry.number is None:
+        header.channel = entry.rest
+        return
+    if words & _OTHER:
+        return
+    if entry.number is None:
+        if words & _UNITS:
+            _put_unit(entry, header, found)
+        return
+    if "z" in words or (words & _HEIGHTS and words & _FACTOR):
+        if words & (_FACTOR | _PITCH) and entry.number != 1.0:
+            header.notes.append(
+                f"the header has a line '{' '.join(sorted(words))}' of {entry.rest} that was not "
+                "applied to the heights"
+            )
+        return
+    if words & _UNITS:
+        return
+    sides = [side for side, names in enumerate((_X, _Y)) if words & names] or [0, 1]
+    if "xy" in words:
+        sides = [0, 1]
+    kind = ""
+    if entry.unit is not None and (words & _PITCH or ("pixel" in words and words & _SIZE)):
+        kind = "pitch"
+    elif words & _SIZE and (words & (_X | _Y) or words & {"scan", "field", "lateral"}):
+        kind = "size" if entry.unit is not None else "bare"
+    elif words & _PITCH and words & (_X | _Y | {"xy", "lateral"}):
+        kind = "bare pitch"
+    elif words & _POINTS and entry.number == int(entry.number) and entry.unit is None:
+        kind = "points"
+    if kind and not (kind == "points" and len(sides) == 2):
+        for side in sides:
+            found.setdefault((kind, side), set()).add(entry.number * (entry.unit or 1.0))
+
+
+def _put_unit(entry: _Entry, header: Header, found: dict[tuple[str, int], set[float]]) -> None:
+    """Keep the unit of heights, of lengths, or of both."""
+    words = entry.words
+    lateral = bool(words & _LATERAL)
+    if entry.unit is None:
+        is_height = bool(entry.rest) and words <= _UNITS | _HEIGHTS
+        header.is_other = header.is_other or is_height
+        return
+    if not lateral:
+        found.setdefault(("height", 0), set()).add(entry.unit)
+    if lateral or not words & _HEIGHTS:
+        found.setdefault(("lateral", 0), set()).add(entry.unit)
+
+
+def _settle(header: Header, found: dict[tuple[str, int], set[float]]) -> None:
+    """Take what is said once."""
+    for (kind, side), values in list(found.items()):
+        if len(values) > 1:
+            header.notes.append(f"the header says its {kind} in two ways: neither was taken")
+            del found[(kind, side)]
+
+    def once(kind: str, side: int = 0) -> float | None:
+        return next(iter(found.get((kind, side), ())), None)
+
+    if header.height_unit is None or once("height"):
+        header.height_unit, header.by_comment = once("height"), False
+    header.lateral_unit = once("lateral")
+    for side in (0, 1):
+        header.size[side], header.pitch[side] = once("size", side), once("pitch", side)
+        header.bare[side] = once("bare", side)
+        number = once("bare pitch", side)
+        if number is not None and header.pitch[side] is None and header.lateral_unit is not None:
+            header.pitch[side] = number * header.lateral_unit
+        points = once("points", side)
+        if points is not None:
+            header.points[side] = int(points)
+    # a height alone may be that of the surface
+    if header.size[0] is None:
+        header.size[1] = None
