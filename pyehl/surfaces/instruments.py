@@ -48,7 +48,11 @@ def read_instrument(path: Path, channel: str = "", text: bytes | None = None) ->
     it knows, or damaged, has no such channel, or is a profile along a line.
     """
     try:
-        from SurfaceTopography import IO  # noqa: PLC0415 (heavy, and optional)
+        from SurfaceTopography.IO import (  # noqa: PLC0415 (heavy, and optional)
+            MagicMatch,
+            lookup_reader_by_format,
+            readers,
+        )
     except ImportError:
         raise InputError(
             f"{path}: files of instruments are read by the package SurfaceTopography, which is "
@@ -58,8 +62,8 @@ def read_instrument(path: Path, channel: str = "", text: bytes | None = None) ->
         # what NumPy says of damaged files goes into the reason, or nowhere
         with np.errstate(all="ignore"):
             if text is not None:
-                return _read(path, IO.lookup_reader_by_format["asc"], io.BytesIO(text), channel)
-            return _first(path, _candidates(path, IO.readers, IO.MagicMatch), _source(path), channel)
+                return _read(path, lookup_reader_by_format["asc"], io.BytesIO(text), channel)
+            return _first(path, _candidates(path, readers, MagicMatch), _source(path), channel)
     except EhlError:
         raise
     except Exception as error:
@@ -188,7 +192,7 @@ def _bare(path: Path, wanted: str) -> Found:
     heights = np.ascontiguousarray(field["data"].reshape(shape).T, dtype=np.float64)
     return Found(
         heights,
-        (abs(float(field["xreal"])), abs(float(field["yreal"]))),
+        size=(abs(float(field["xreal"])), abs(float(field["yreal"]))),
         size_in_metres=False,
         ask_lateral_unit=True,
         channel=name,

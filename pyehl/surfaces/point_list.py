@@ -19,10 +19,10 @@ def is_list(rows: Array) -> bool:
 
 
 def are_pixel_numbers(points: Array) -> bool:
-    """Whether x and y count pixels: whole numbers in steps of one."""
+    """Whether x and y count pixels: whole numbers from 0 or 1 in steps of one."""
     for axis in (0, 1):
         places = np.unique(points[:, axis])
-        if not (places == np.rint(places)).all() or np.diff(places).min(initial=2.0) != 1.0:
+        if places[0] not in (0.0, 1.0) or not (np.diff(places) == 1.0).all():
             return False
     return True
 

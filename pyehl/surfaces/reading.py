@@ -22,7 +22,7 @@ from pyehl.surfaces.text_file import encoding_of, lines_of
 from pyehl.surfaces.text_header import header_of
 from pyehl.surfaces.text_map import LEAST_PIXELS, read_text_map
 from pyehl.surfaces.text_table import HEADER_LINES, begins_with_numbers
-from pyehl.surfaces.texts import read_known_text
+from pyehl.surfaces.texts import FLAVOUR, read_known_text
 from pyehl.types import Array
 
 PIXEL_BAND = (1e-10, 1e-3)
@@ -70,7 +70,8 @@ def is_array_file(path: str | Path) -> bool:
         return False
     first = [line for _, line in islice(lines_of(path, encoding), HEADER_LINES)]
     comments = [line for line in first if line.strip().startswith("#")]
-    return begins_with_numbers(first) and not header_of(comments).says
+    exported = header_of(comments).says or any(FLAVOUR.search(line) for line in first)
+    return begins_with_numbers(first) and not exported
 
 
 def read_scan(
@@ -134,7 +135,8 @@ def _read(
     if len(given_names) == 1:
         size_from += " and the file"
     if given_names and own != (None, None):
-        size_from += f" (in place of {own[0]:.6g} x {own[1]:.6g} m of the file)"
+        said = " x ".join("?" if size is None else f"{size:.6g}" for size in own)
+        size_from += f" (in place of {said} m of the file)"
     if not all(given):
         notes += why
     scan = Scan(
@@ -231,6 +233,7 @@ def _sensible(scan: Scan) -> Scan:
             f"{scan.origin}: the heights have a slope of {usual:.3g} nearly everywhere: a unit is "
             "wrong, of the heights (surface.height_unit), of x and y (surface.lateral_unit) or of "
             f"the size, {scan.length_x:.4g} x {scan.length_y:.4g} m"
+            + (f"\nknown: {scan.note}" if scan.note else "")
         )
     if share > 0.0:
         steep = (

@@ -152,7 +152,8 @@ def _closed(lines: Sequence[str], separator: str) -> bool:
     """Whether all lines of more than one cell end with the separator."""
     if separator == BLANKS:
         return False
-    with_it = [line for line in lines if separator in line]
+    cells = Cells(separator)
+    with_it = [line for line in lines if separator in line and count_numbers(cells, line)]
     return bool(with_it) and all(line.rstrip(" ").endswith(separator) for line in with_it)
 
 

@@ -70,7 +70,8 @@ class Header:
     def says(self) -> bool:
         """Whether there is more than a comment on heights."""
         return bool(
-            any(v is not None for v in (*self.size, *self.pitch, *self.points, self.lateral_unit))
+            any(v is not None for v in (*self.size, *self.bare, *self.pitch, *self.points))
+            or self.lateral_unit is not None
             or (self.height_unit is not None and not self.by_comment)
             or self.channel
             or self.columns

@@ -156,6 +156,9 @@ def _check_points(path: Path, table: Table, rows: Array, header: Header) -> None
             header.points[side] = count
         elif header.lateral_unit is not None:
             header.size[side] = bare * header.lateral_unit
+    # a height alone may be that of the surface
+    if header.size[0] is None:
+        header.size[1] = None
     x, y = header.points
     if (x is None or x == columns) and (y is None or y == lines):
         return
