@@ -231,7 +231,7 @@ def _sensible(scan: Scan) -> Scan:
     if usual > sense.STEEP:
         raise InputError(
             f"{scan.origin}: the heights have a slope of {usual:.3g} nearly everywhere: a unit is "
-            "wrong, of the heights (surface.height_unit), of x and y (surface.lateral_unit) or of "
+            "wrong, of the heights (surface.height_unit; are they in m?), of x and y (surface.lateral_unit) or of "
             f"the size, {scan.length_x:.4g} x {scan.length_y:.4g} m"
             + (f"\nknown: {scan.note}" if scan.note else "")
         )

@@ -18,6 +18,10 @@ _WORDS = re.compile(r"[^\W\d_]+")
 # 'heights in nm', 'z in um'
 _IN = re.compile(rf"\b(?:heights?|z|values?|data)\b\W.*?\bin\s+({UNIT})(?![^\W_])", re.IGNORECASE)
 
+# Lines that pyehl itself writes above heights
+OWN_SIZE = re.compile(r"^#\s*(length_[xy])\s*=\s*(\S+)\s*m\s*$")
+OWN_PERIODIC = re.compile(r"^#\s*periodic\s*$")
+
 # Words of the names of entries, in lower case; those of Gwyddion in all of its languages
 _X = set("x dx nx width columns cols column horizontal breite šířka anchura largeur larghezza 幅 폭 "
          "largura ширина 横 spalten xcalibration samples".split())  # fmt: skip
@@ -94,6 +98,8 @@ def header_of(lines: Sequence[str]) -> Header:
     header = Header()
     found: dict[tuple[str, int], set[float]] = {}
     for line in lines:
+        if OWN_SIZE.match(line):
+            continue
         text = line.strip().lstrip("#;%/ ").replace('"', "").strip().rstrip(";,\t ")
         units = [unit_of(unit) for unit in _BRACKETS.findall(text)]
         if len(units) == 3:

@@ -10,12 +10,10 @@ from pyehl.errors import InputError
 from pyehl.surfaces.axes import Axes, without_axes
 from pyehl.surfaces.found import Found, unit_of
 from pyehl.surfaces.point_list import are_pixel_numbers, grid_of, is_list
-from pyehl.surfaces.text_header import Header, header_of
+from pyehl.surfaces.text_header import OWN_PERIODIC, OWN_SIZE, Header, header_of
 from pyehl.surfaces.text_table import Table, tables_of
 from pyehl.types import Array
 
-OWN_SIZE = re.compile(r"^#\s*(length_[xy])\s*=\s*(\S+)\s*m\s*$")
-OWN_PERIODIC = re.compile(r"^#\s*periodic\s*$")
 LEAST_PIXELS = 4
 
 

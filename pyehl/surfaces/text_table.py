@@ -124,6 +124,8 @@ def _start(path: Path, first: list[str]) -> tuple[int, Cells]:
             best = found, counts[found], candidate
     if best is None and begins_with_numbers(first):
         return begins, cells_of(first[begins : begins + SAMPLE_LINES])
+    if best is None and not any(uncommented(line).strip() for line in first):
+        raise InputError(f"{path}: no heights in the file")
     if best is None:
         counts = [count_numbers(cells, line) for line in first]
         if any(one == other > 0 for one, other in pairwise(counts)):
@@ -165,7 +167,7 @@ def _goes_on(cells: Cells, line: str, size: int) -> bool:
 def _bad(path: Path, number: int, line: str, cells: Cells, error: BadCellError) -> InputError:
     """Say where a cell is no number."""
     place = f"{path}:{number}:{cells.column(line, error.index)}"
-    if error.index < 0:
+    if error.index < 0 or (cells.separator == "," and len(error.cell.split()) > 1):
         return InputError(
             f"{place}: commas and blanks both separate the numbers; if the comma is a decimal "
             "comma, write a point, or a semicolon between the numbers"
