@@ -10,6 +10,7 @@ from pyehl.given import real_numbers
 from pyehl.surfaces.memory import check_pixels
 from pyehl.types import Array
 
+
 def read_npy(path: Path) -> Array:
     """Heights (nx, ny) of a `.npy` file, in the numbers of the file.
 

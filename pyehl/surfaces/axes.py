@@ -38,9 +38,7 @@ def _is_numbering(values: Array) -> bool:
     return values[0] in (0.0, 1.0) and bool((np.diff(values) == 1.0).all())
 
 
-def without_axes(
-    rows: Array, header: Sequence[str], cells: Cells
-) -> tuple[Array, Axes | None]:
+def without_axes(rows: Array, header: Sequence[str], cells: Cells) -> tuple[Array, Axes | None]:
     """Heights of a table without its axes, and these; None where it has none.
 
     Heights never lie on a straight line while those beside them do not: such a first line is that

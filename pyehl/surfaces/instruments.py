@@ -18,9 +18,7 @@ from pyehl.surfaces.memory import check_pixels
 from pyehl.surfaces.x3p_variants import plain_x3p
 
 INSTALL = "pip install 'pyehl[surfaces]', or pip install SurfaceTopography"
-ELSE = (
-    "; save the heights in m as .npy or text, and give surface.length_x and surface.length_y"
-)
+ELSE = "; save the heights in m as .npy or text, and give surface.length_x and surface.length_y"
 HEAD = 512
 """Bytes that tell the format of a file."""
 # Formats without a mark at their beginning: they would take any file of the right length
@@ -69,7 +67,9 @@ def read_instrument(path: Path, channel: str = "", text: bytes | None = None) ->
     except Exception as error:
         if _is_of_the_system(error):
             raise
-        raise InputError(f"{path}: cannot be read as a height map: {_reason(error)}{ELSE}") from None
+        raise InputError(
+            f"{path}: cannot be read as a height map: {_reason(error)}{ELSE}"
+        ) from None
 
 
 def _is_of_the_system(error: Exception) -> bool:
@@ -96,8 +96,7 @@ def _candidates(path: Path, readers: list[Any], match: Any) -> tuple[list[Any], 
     verdicts = {
         reader: reader.can_read(head)
         for reader in readers
-        if reader.format() not in TEXT
-        and UNMARKED.get(reader.format(), suffix) == suffix
+        if reader.format() not in TEXT and UNMARKED.get(reader.format(), suffix) == suffix
     }
     sure = [reader for reader, verdict in verdicts.items() if verdict == match.YES]
     if sure:

@@ -11,11 +11,25 @@ from pyehl.types import Array
 
 # Of a mesh size: how far points may be from the grid
 OFF = 0.02
+MOST_COLUMNS = 8
+"""Of a list of points."""
 
 
 def is_list(rows: Array) -> bool:
     """Whether rows of three numbers (n, 3) are points and no map: n is then far larger."""
     return rows.ndim == 2 and rows.shape[1] == 3 and rows.shape[0] > 3
+
+
+def is_longer_list(path: Path, rows: Array) -> bool:
+    """Whether rows of few numbers are the x, y and z of points, and what else is known of them."""
+    lines, columns = rows.shape
+    if not (3 < columns <= MOST_COLUMNS and lines >= 4 * columns):
+        return False
+    try:
+        heights, _ = grid_of(path, rows[:, :3])
+    except InputError:
+        return False
+    return min(heights.shape) > 1 and heights.size <= 2 * lines
 
 
 def are_pixel_numbers(points: Array) -> bool:

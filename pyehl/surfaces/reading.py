@@ -109,9 +109,7 @@ def read_scan(
         raise FileError(f"{path}: cannot read: {error.strerror or error}") from error
 
 
-def _read(
-    path: Path, given: Sizes, channel: str, height_unit: str, lateral_unit: str
-) -> Scan:
+def _read(path: Path, given: Sizes, channel: str, height_unit: str, lateral_unit: str) -> Scan:
     length = path.stat().st_size
     if length == 0:
         raise InputError(f"{path}: the file is empty")
@@ -130,7 +128,9 @@ def _read(
             f"{path}: the size of the map is not known: {found.no_size or 'the file has none'}; "
             f"give {' and '.join(missing)} [m]{unit}"
         )
-    given_names = [f"surface.{k}" for k, v in zip(("length_x", "length_y"), given, strict=True) if v]
+    given_names = [
+        f"surface.{k}" for k, v in zip(("length_x", "length_y"), given, strict=True) if v
+    ]
     size_from = ", ".join(given_names) or "the file"
     if len(given_names) == 1:
         size_from += " and the file"

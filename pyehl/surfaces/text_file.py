@@ -42,4 +42,5 @@ def lines_of(path: Path, encoding: str) -> Iterator[tuple[int, str]]:
     """Lines of a text without their ends, with their numbers from 1."""
     with path.open(encoding=encoding, errors="replace") as lines:
         for number, line in enumerate(lines, 1):
-            yield number, line.rstrip("\r\n\x1a")
+            # the mark of the order of bytes, where files were joined
+            yield number, line.rstrip("\r\n\x1a\ufeff").lstrip("\ufeff")

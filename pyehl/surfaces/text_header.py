@@ -12,9 +12,13 @@ _PER = r"(?:\s*(?:/|per)\s*(?:px|pix|pixels?|pts?|points?|samples?|digits?|画�
 _BRACKETS = re.compile(rf"[(\[{{]\s*({UNIT}){_PER}\s*[)\]}}]", re.IGNORECASE)
 _ENTRY = re.compile(r"([^:：=,;\t]+?)\s*[:：=,;\t][:：=,;\t\s]*(.*)")
 # 'Pixel size 1.5 um', with blanks alone
-_BLANKS = re.compile(rf"([^\W\d][^:=,;\t]*?)\s+({_NUMBER}\s*{UNIT}{_PER})", re.IGNORECASE)
+_BLANKS = re.compile(
+    rf"([^\W\d][^:=,;\t]*?)\s+({_NUMBER}\s*{UNIT}{_PER}|(?<=units )\s*{UNIT}|(?<=unit )\s*{UNIT})",
+    re.IGNORECASE,
+)
 _VALUE = re.compile(rf"({_NUMBER})[\s,;:\t]*({UNIT})?{_PER}[\s,;:\t]*", re.IGNORECASE)
-_WORDS = re.compile(r"[^\W\d_]+")
+# Latin letters, or others: XYキャリブレーション are two words
+_WORDS = re.compile(r"[a-zÀ-ɏ]+|[^\W\d_a-zÀ-ɏ]+")
 # 'heights in nm', 'z in um'
 _IN = re.compile(rf"\b(?:heights?|z|values?|data)\b\W.*?\bin\s+({UNIT})(?![^\W_])", re.IGNORECASE)
 
@@ -145,7 +149,7 @@ def _sort(entry: _Entry, header: Header, found: dict[tuple[str, int], set[float]
     if words & _OTHER:
         return
     if entry.number is None:
-        if words & _UNITS:
+        if words & _UNITS or (entry.unit and (words <= _HEIGHTS or words <= _LATERAL)):
             _put_unit(entry, header, found)
         return
     if "z" in words or (words & _HEIGHTS and words & _FACTOR):
@@ -165,7 +169,7 @@ def _sort(entry: _Entry, header: Header, found: dict[tuple[str, int], set[float]
         kind = "pitch"
     elif words & _SIZE and (words & (_X | _Y) or words & {"scan", "field", "lateral"}):
         kind = "size" if entry.unit is not None else "bare"
-    elif words & _PITCH and words & (_X | _Y | {"xy", "lateral"}):
+    elif words & _PITCH and words & (_X | _Y | {"xy", "lateral", "pixel"}):
         kind = "bare pitch"
     elif words & _POINTS and entry.number == int(entry.number) and entry.unit is None:
         kind = "points"

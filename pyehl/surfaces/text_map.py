@@ -9,7 +9,7 @@ import numpy as np
 from pyehl.errors import InputError
 from pyehl.surfaces.axes import Axes, without_axes
 from pyehl.surfaces.found import Found, unit_of
-from pyehl.surfaces.point_list import are_pixel_numbers, grid_of, is_list
+from pyehl.surfaces.point_list import are_pixel_numbers, grid_of, is_list, is_longer_list
 from pyehl.surfaces.text_header import OWN_PERIODIC, OWN_SIZE, Header, header_of
 from pyehl.surfaces.text_table import Table, tables_of
 from pyehl.types import Array
@@ -35,7 +35,7 @@ def read_text_map(path: Path, encoding: str, channel: str = "") -> Found:
     found = _found(path, table, header)
     found.channel = header.channel
     found.notes += header.notes
-    if table.cells.words:
+    if table.cells.words and np.isnan(found.heights).any():
         words = ", ".join(f"{word!r} {times} x" if word else f"{times} empty cells"
                           for word, times in table.cells.words.most_common(3))  # fmt: skip
         found.notes.append(f"missing points in the file: {words}")
@@ -80,9 +80,17 @@ def _found(path: Path, table: Table, header: Header) -> Found:
         )
     words = any(line.strip() and not line.strip().startswith("#") for line in table.header)
     rows, axes = without_axes(table.rows, table.header, table.cells)
+    more = ""
+    if is_longer_list(path, rows):
+        more = (
+            f"the first three of {rows.shape[1]} columns are x, y and z, the others were not read"
+        )
+        rows = rows[:, :3]
     image = words or header.says or axes is not None
     if is_list(rows):
-        return _points(path, rows, table, header)
+        found = _points(path, rows, table, header)
+        found.notes += [note for note in (axes.note if axes else "", more) if note]
+        return found
     if not image:
         return _array(rows, table, header)
     _check_points(path, table, rows, header)

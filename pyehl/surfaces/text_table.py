@@ -111,6 +111,10 @@ def _start(path: Path, first: list[str]) -> tuple[int, Cells]:
     begins = next((n for n, line in enumerate(first) if uncommented(line).strip()), 0)
     cells = cells_of(first[begins : begins + SAMPLE_LINES])
     if begins_with_numbers(first) and count_numbers(cells, first[begins]):
+        counts = [count_numbers(cells, line) for line in first[begins : begins + 3]]
+        # a line of x without a corner above a column of y
+        if len(counts) == 3 and counts[0] + 1 == counts[1] == counts[2]:
+            begins += 1
         return begins, Cells(cells.separator, cells.closed)
     best: tuple[int, int, Cells] | None = None
     # the header may have other separators than the table: that of the last lines counts

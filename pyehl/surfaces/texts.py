@@ -16,8 +16,8 @@ from pyehl.surfaces.zygo_text import MAGIC, read_zygo
 # Headers of Wyko, SPIP, Attocube and Nova, which SurfaceTopography knows: their numbers need
 # factors that the header has
 FLAVOUR = re.compile(
-    r"^Wyko ASCII|^#\s*File Format\s*=\s*ASCII|\b[xyz]-(?:unit|length|pixels)\b\s*[=:]"
-    r"|^\s*(?:Unit|Scale) (?:X|Data)\s*=|height\s+conversion\s+factor|^\s*pixel\s+size\s*=",
+    r"^Wyko ASCII|^#\s*File Format\s*=\s*ASCII|^\s*(?:Unit|Scale) (?:X|Data)\s*="
+    r"|height\s+conversion\s+factor",
     re.IGNORECASE,
 )
 # A stylus instrument's, of Mahr

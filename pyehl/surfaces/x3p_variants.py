@@ -80,7 +80,7 @@ def _linked(root: ElementTree.Element, names: set[str], folder: str) -> bool:
         element = _find(root, f"Record3/DataLink/{link}")
         if element is None or not element.text:
             continue
-        place = element.text.strip().replace("\\", "/").removeprefix("./").lstrip("/")
+        place = re.sub(r"[\\/]+", "/", element.text.strip()).removeprefix("./").lstrip("/")
         place = place.removeprefix(folder)
         if folder + place not in names:
             # written in other capitals
