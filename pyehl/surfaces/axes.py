@@ -2,7 +2,7 @@
 """Axes of a table of heights: a first line of x, a first column of y."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -22,6 +22,10 @@ class Axes:
     # axis. None as a whole where they are numbers of pixels
     steps: tuple[float | None, float | None] | None
     note: str
+
+    def turned(self) -> "Axes":
+        """Give the axes of a table with one x per line."""
+        return replace(self, steps=self.steps and (self.steps[1], self.steps[0]))
 
 
 def is_axis(values: Array) -> bool:

@@ -1,7 +1,7 @@
 """Gwyddion files whose data have no units: Gwyddion writes none where they are not known.
 
-SurfaceTopography 1.27 takes such data for no heights. The module needs NumPy alone, so that it could
-be part of its reader as it is.
+SurfaceTopography 1.27 takes such data for no heights. The module needs NumPy alone, so that it
+could be part of its reader as it is.
 """
 # SPDX-License-Identifier: BSD-3-Clause
 
@@ -17,7 +17,7 @@ _ARRAYS = {"C": "S1", "I": "<i4", "Q": "<i8", "D": "<f8"}
 
 
 def data_fields(data: bytes) -> dict[str, dict[str, Any]]:
-    """Data fields of the channels of a Gwyddion file, by their title or number.
+    """Give the data fields of the channels of a Gwyddion file, by their title or number.
 
     Each has ``xres``, ``yres``, ``xreal``, ``yreal``, ``data`` and, where the file names them,
     ``si_unit_xy`` and ``si_unit_z``. ValueError if the file is none, or ends too early.

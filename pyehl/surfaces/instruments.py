@@ -132,7 +132,7 @@ def _first(
 
 
 def _reason(error: Exception) -> str:
-    """What a reader says, in one line."""
+    """Give what a reader says, in one line."""
     said = " ".join(str(error).split()).rstrip(".")
     if isinstance(error, LookupError):
         return f"there is no {said} in it" if said else "a part of it is missing"

@@ -231,8 +231,8 @@ def _sensible(scan: Scan) -> Scan:
     if usual > sense.STEEP:
         raise InputError(
             f"{scan.origin}: the heights have a slope of {usual:.3g} nearly everywhere: a unit is "
-            "wrong, of the heights (surface.height_unit; are they in m?), of x and y (surface.lateral_unit) or of "
-            f"the size, {scan.length_x:.4g} x {scan.length_y:.4g} m"
+            "wrong, of the heights (surface.height_unit; are they in m?), of x and y "
+            f"(surface.lateral_unit) or of the size, {scan.length_x:.4g} x {scan.length_y:.4g} m"
             + (f"\nknown: {scan.note}" if scan.note else "")
         )
     if share > 0.0:
@@ -264,8 +264,8 @@ def _check_pixel(scan: Scan) -> None:
             raise InputError(
                 f"{scan.origin}: length_{axis} = {length:.4g} m gives a pixel of {pixel:.3g} m, "
                 f"outside {PIXEL_BAND[0]:g} ... {PIXEL_BAND[1]:g} m; is the length in m? "
-                "surface.height_unit is the unit of heights, surface.lateral_unit that of a list of x, "
-                "y and z"
+                "surface.height_unit is the unit of heights, surface.lateral_unit that of a list "
+                "of x, y and z"
             )
 
 

@@ -67,7 +67,7 @@ def _mark(heights: Array) -> float | None:
 
 
 def doubts(heights: Array) -> list[str]:
-    """Notes on heights that may be none: one value very often, or often at an end of them."""
+    """Note heights that may be none: one value very often, or often at an end of them."""
     finite = heights[np.isfinite(heights)]
     if finite.size < OFTEN:
         return []

@@ -31,7 +31,8 @@ _MARKS = re.compile(
 # Two words for one point, where blanks separate the cells
 _PHRASES = re.compile(
     r"\b(?:no|not|out|kein|keine|nicht|pas|sin)[ _-]+"
-    r"(?:data|value|measured|valid|available|of[ _-]range|daten|wert|gemessen|de[ _-]données|datos)\b",
+    r"(?:data|value|measured|valid|available|of[ _-]range|daten|wert|gemessen|de[ _-]données|datos)"
+    r"\b",
     re.IGNORECASE,
 )
 # A comment begins a line, or follows a blank; #N/A is none

@@ -13,7 +13,7 @@ _BRACKETS = re.compile(rf"[(\[{{]\s*({UNIT}){_PER}\s*[)\]}}]", re.IGNORECASE)
 _ENTRY = re.compile(r"([^:：=,;\t]+?)\s*[:：=,;\t][:：=,;\t\s]*(.*)")
 # 'Pixel size 1.5 um', with blanks alone
 _BLANKS = re.compile(
-    rf"([^\W\d][^:=,;\t]*?)\s+({_NUMBER}\s*{UNIT}{_PER}|(?<=units )\s*{UNIT}|(?<=unit )\s*{UNIT})",
+    rf"([^\W\d][^:=,;\t]*?)\s+({_NUMBER}\s*{UNIT}{_PER}|(?:(?<=unit )|(?<=units ))\s*{UNIT})",
     re.IGNORECASE,
 )
 _VALUE = re.compile(rf"({_NUMBER})[\s,;:\t]*({UNIT})?{_PER}[\s,;:\t]*", re.IGNORECASE)
@@ -27,30 +27,47 @@ OWN_SIZE = re.compile(r"^#\s*(length_[xy])\s*=\s*(\S+)\s*m\s*$")
 OWN_PERIODIC = re.compile(r"^#\s*periodic\s*$")
 
 # Words of the names of entries, in lower case; those of Gwyddion in all of its languages
-_X = set("x dx nx width columns cols column horizontal breite šířka anchura largeur larghezza 幅 폭 "
-         "largura ширина 横 spalten xcalibration samples".split())  # fmt: skip
-_Y = set("y dy ny height rows row lines line profiles vertical höhe výška altura hauteur altezza 高さ "
-         "높이 высота 縦 zeilen".split())  # fmt: skip
-_SIDES = set("width height breite höhe šířka výška anchura altura largeur hauteur larghezza altezza "
-             "幅 高さ 폭 높이 largura ширина высота".split())  # fmt: skip
-_SIZE = _SIDES | set("size length range extent field span dimension länge lange größe area".split())
-_PITCH = set("pitch step spacing increment calibration kalibrierung calibrage calibración sampling "
-             "interval inc dx dy キャリブレーション schrittweite pixelabstand pixelsize pas paso "
-             "resolution auflösung".split())  # fmt: skip
-_POINTS = set("pixels pixel points point columns cols rows lines profiles samples number num count "
-              "horizontal vertical nx ny 横 縦 zeilen spalten punkte".split())  # fmt: skip
-_UNITS = set("unit units einheit einheiten unité unités unità unidad unidades jednotky единицы 単位 "
-             "값 単 unitxy unitz zunit xyunit xunit yunit".split())  # fmt: skip
+_X = frozenset(
+    "x dx nx width columns cols column horizontal samples spalten breite šířka anchura largeur "
+    "larghezza largura ширина 幅 폭 横".split()
+)
+_Y = frozenset(
+    "y dy ny height rows row lines line profiles vertical zeilen höhe výška altura hauteur altezza "
+    "высота 高さ 높이 縦".split()
+)
+_SIZE = frozenset(
+    "size length range extent field span dimension länge lange größe area width height breite höhe "
+    "šířka výška anchura altura largeur hauteur larghezza altezza largura ширина высота 幅 高さ 폭 "
+    "높이".split()
+)
+_PITCH = frozenset(
+    "pitch step spacing increment calibration kalibrierung calibrage calibración sampling interval "
+    "inc dx dy resolution auflösung schrittweite pixelabstand pixelsize pas paso "
+    "キャリブレーション".split()
+)
+_POINTS = frozenset(
+    "pixels pixel points point columns cols rows lines profiles samples number num count nx ny "
+    "horizontal vertical zeilen spalten punkte 横 縦".split()
+)
+_UNITS = frozenset(
+    "unit units einheit einheiten unité unités unità unidad unidades jednotky единицы unitxy unitz "
+    "zunit xyunit xunit yunit".split()
+)
 _UNIT_PHRASES = ("値の単位", "값 단위", "単位", "단위")
-_HEIGHTS = set("z height heights value values data valore valor hodnot höhe höhen zunit unitz wert "
-               "werte hauteur измерения".split())  # fmt: skip
-_LATERAL = set("x y xy lateral laterals xunit yunit xyunit unitxy horizontal".split())
-_CHANNEL = set("channel kanál kanal canal canale チャネル 채널 канал".split())
+_HEIGHTS = frozenset(
+    "z height heights value values data valore valor hodnot höhe höhen zunit unitz wert werte "
+    "hauteur измерения".split()
+)
+_LATERAL = frozenset("x y xy lateral laterals xunit yunit xyunit unitxy horizontal".split())
+_CHANNEL = frozenset("channel kanál kanal canal canale канал チャネル 채널".split())
 # What these describe is not the map
-_OTHER = set("tip stylus radius filter cutoff wavelength offset origin position start min max "
-             "minimum maximum aperture magnification speed average time date laser lens zoom "
-             "roughness rms".split())  # fmt: skip
-_FACTOR = set("factor scale faktor scaling gain multiplier skalierung".split())
+_OTHER = frozenset(
+    "tip stylus radius filter cutoff wavelength offset origin position start min max minimum "
+    "maximum aperture magnification speed average time date laser lens zoom roughness rms".split()
+)
+_FACTOR = frozenset("factor scale faktor scaling gain multiplier skalierung".split())
+# A number without a unit may be one of points
+_NO_PITCH = frozenset(("resolution", "auflösung"))
 
 
 @dataclass(slots=True)
@@ -153,29 +170,36 @@ def _sort(entry: _Entry, header: Header, found: dict[tuple[str, int], set[float]
             _put_unit(entry, header, found)
         return
     if "z" in words or (words & _HEIGHTS and words & _FACTOR):
-        if words & (_FACTOR | _PITCH) and entry.number != 1.0:
+        factor = words & _FACTOR or (words & _PITCH and entry.unit is None)
+        if factor and entry.number != 1.0:
             header.notes.append(
                 f"the header has a line '{' '.join(sorted(words))}' of {entry.rest} that was not "
                 "applied to the heights"
             )
         return
-    if words & _UNITS:
-        return
-    sides = [side for side, names in enumerate((_X, _Y)) if words & names] or [0, 1]
-    if "xy" in words:
+    sides = [side for side, names in enumerate((_X, _Y)) if words & names]
+    if not sides or "xy" in words:
         sides = [0, 1]
-    kind = ""
-    if entry.unit is not None and (words & _PITCH or ("pixel" in words and words & _SIZE)):
-        kind = "pitch"
-    elif words & _SIZE and (words & (_X | _Y) or words & {"scan", "field", "lateral"}):
-        kind = "size" if entry.unit is not None else "bare"
-    elif words & _PITCH and words & (_X | _Y | {"xy", "lateral", "pixel"}):
-        kind = "bare pitch"
-    elif words & _POINTS and entry.number == int(entry.number) and entry.unit is None:
-        kind = "points"
+    kind = _kind(entry)
     if kind and not (kind == "points" and len(sides) == 2):
         for side in sides:
             found.setdefault((kind, side), set()).add(entry.number * (entry.unit or 1.0))
+
+
+def _kind(entry: _Entry) -> str:
+    """Tell what the number of an entry is by its name; empty: nothing that is known."""
+    words, sides = entry.words, _X | _Y
+    if words & _UNITS:
+        return ""
+    if entry.unit is not None and (words & _PITCH or ("pixel" in words and words & _SIZE)):
+        return "pitch"
+    if words & _SIZE and words & (sides | {"scan", "field", "lateral"}):
+        return "size" if entry.unit is not None else "bare"
+    if entry.unit is not None:
+        return ""
+    if (words & _PITCH) - _NO_PITCH and words & (sides | {"xy", "lateral", "pixel"}):
+        return "bare pitch"
+    return "points" if words & _POINTS and entry.number == int(entry.number or 0) else ""
 
 
 def _put_unit(entry: _Entry, header: Header, found: dict[tuple[str, int], set[float]]) -> None:

@@ -93,8 +93,11 @@ def _found(path: Path, table: Table, header: Header) -> Found:
         return found
     if not image:
         return _array(rows, table, header)
-    _check_points(path, table, rows, header)
-    found = Found(np.ascontiguousarray(rows.T), header.height_unit)
+    turned = _check_points(path, table, rows, header)
+    found = Found(np.ascontiguousarray(rows if turned else rows.T), header.height_unit)
+    if turned:
+        found.notes.append("by the points that its header says, the file has one x per line")
+        axes = axes and axes.turned()
     _size(found, header, axes)
     return found
 
@@ -150,8 +153,11 @@ def _unit_at_end(cell: str) -> float | None:
     return unit_of(word)
 
 
-def _check_points(path: Path, table: Table, rows: Array, header: Header) -> None:
-    """Refuse a table that has not the lines and points that its header says."""
+def _check_points(path: Path, table: Table, rows: Array, header: Header) -> bool:
+    """Refuse a table that has not the lines and points that its header says.
+
+    True if it has, with one x per line: x along the lines is what files of images have.
+    """
     lines, columns = rows.shape
     for side, count in enumerate((columns, lines)):
         bare = header.bare[side]
@@ -167,7 +173,9 @@ def _check_points(path: Path, table: Table, rows: Array, header: Header) -> None
         header.size[1] = None
     x, y = header.points
     if (x is None or x == columns) and (y is None or y == lines):
-        return
+        return False
+    if (x, y) == (lines, columns):
+        return True
     raise InputError(
         f"{path}:{table.line}: the table has {columns} heights in a line and {lines} lines, but "
         f"the header says {columns if x is None else x} x {lines if y is None else y}"

@@ -102,7 +102,7 @@ def _listed(
 
 
 def _phases(rest: Iterable[str], intensities: int, phases: int) -> NDArray[np.float64]:
-    """Counts of phase: the block behind the intensities, each between two '#'."""
+    """Read counts of phase: the block behind the intensities, each between two '#'."""
     blocks: list[list[str]] = []
     for line in rest:
         words = line.split()
@@ -113,10 +113,9 @@ def _phases(rest: Iterable[str], intensities: int, phases: int) -> NDArray[np.fl
     # an end of file may follow the last '#'
     filled = [block for block in blocks if block]
     expected = [count for count in (intensities, phases) if count]
-    if [len(block) for block in filled] != expected:
-        raise ValueError(
-            f"blocks of {[len(block) for block in filled]} numbers, but lines 3 and 4 say {expected}"
-        )
+    lengths = [len(block) for block in filled]
+    if lengths != expected:
+        raise ValueError(f"blocks of {lengths} numbers, but lines 3 and 4 say {expected}")
     try:
         return np.array(filled[-1], dtype=float)
     except ValueError as error:

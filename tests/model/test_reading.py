@@ -293,7 +293,7 @@ def test_table_under_header_lines(tmp_path, header, size, unit):
     path.write_text(header + TABLE, encoding="utf-8")
     given = (2e-5, 3e-5) if size == (None, None) else (None, None)
     if unit == 1.0:
-        with pytest.raises(ValueError, match="slope of (.|\n)*names no unit: .* taken in m"):
+        with pytest.raises(ValueError, match=r"slope of (.|\n)*names no unit: .* taken in m"):
             read_scan(path, *given)
         unit, named = 1e-9, {"height_unit": "nm"}
     else:

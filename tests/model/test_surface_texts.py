@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Texts as instruments, spreadsheets and people write them: each line, cell and unit of the file."""
+"""Texts as instruments, spreadsheets and people write them: each line, cell and unit."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -55,8 +55,8 @@ def check(path: Path, missing: Sequence[tuple[int, int]] = (), **keys: object) -
 
 
 GWYDDION = ["# Channel: Z", "# Width: 30 µm", "# Height: 21 µm", "# Value units: µm"]
-WORDS = ["***", "*", "---", "-", "?", "void", "No Data", "no data", "N/A", "#N/A", "####", "BAD", "x",
-         "1.#QNAN", "NULL", "not measured", "Ungültig", "None", ".", "+++", "OVER"]  # fmt: skip
+WORDS = ["***", "*", "---", "-", "?", "void", "No Data", "no data", "N/A", "#N/A", "####", "BAD",
+         "x", "1.#QNAN", "NULL", "not measured", "Ungültig", "None", "+++", "OVER"]  # fmt: skip
 
 
 @pytest.mark.parametrize("word", WORDS)
@@ -234,7 +234,7 @@ def test_places_in_another_unit_than_the_heights(tmp_path: Path):
 def test_numbers_of_pixels_are_no_lengths(tmp_path: Path):
     path = write(tmp_path / "list.csv", points(1.0 / STEP))
     with pytest.raises(
-        InputError, match="whole numbers, as those of pixels; give surface.length_x"
+        InputError, match=r"whole numbers, as those of pixels; give surface\.length_x"
     ):
         read_scan(path, height_unit="um")
     check(path, length_x=SIZE[0], length_y=SIZE[1], height_unit="um")
@@ -289,7 +289,7 @@ def test_tables_of_pandas(tmp_path: Path):
     for text in (["," + numbers, *index], index, [numbers, *lines(",")], ["," + names, *index]):
         path = write(tmp_path / "frame.csv", text)
         assert "number the pixels" in check(path, height_unit="um", **size)
-        with pytest.raises(InputError, match="number the pixels .* give surface.length_x"):
+        with pytest.raises(InputError, match=r"number the pixels .* give surface\.length_x"):
             read_scan(path, height_unit="um")
 
 
@@ -395,5 +395,5 @@ def test_profiles_are_named_as_such(tmp_path: Path):
         "line.csv": ["Profil;R", "X [mm];Z [µm]", *columns],
         "line.txt": ["Profile curve", "2000\t0.5\tµm", *(f"{n}\t{v}" for n, v in enumerate(z))],
     }.items():
-        with pytest.raises(InputError, match="a profile along (a|one) line"):
+        with pytest.raises(InputError, match=r"a profile along (a|one) line"):
             read_scan(write(tmp_path / name, text, "latin-1", "\r\n"))

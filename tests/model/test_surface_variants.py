@@ -94,7 +94,7 @@ def test_x3p_with_heights_in_the_xml(tmp_path: Path, form: str):
         ("ISO5436 - 2000", "ISO5436 - 1999", "Revision should be"),
         (">SUR<", ">PRF<", "FeatureType should be"),
         ("<SizeX>12", "<SizeX>100000", r"(100000 x 9 points|expected|bytes)"),
-        ("<SizeX>12</SizeX><SizeY>9|<SizeX>12</SizeX>\\s*<SizeY>9", "<SizeX>100000</SizeX><SizeY>100000",
+        (r"<SizeX>12</SizeX>\s*<SizeY>9", "<SizeX>100000</SizeX><SizeY>100000",
          r"says 100000 x 100000 points, but there are \d+ bytes in it"),
     ],
 )  # fmt: skip
@@ -163,7 +163,7 @@ def test_gwyddion_without_units(tmp_path: Path):
     assert same(write_gwy(tmp_path / "scan.gwy", "m", "m")) == ""
     for units in ((), ("", "")):
         path = write_gwy(tmp_path / "scan.gwy", *units)
-        with pytest.raises(InputError, match="no unit of its size .* give .*lateral_unit"):
+        with pytest.raises(InputError, match=r"no unit of its size .* give .*lateral_unit"):
             read_scan(path)
         assert "names no unit" in same(path, lateral_unit="m")
         same(path, length_x=SIZE[0], length_y=SIZE[1])
@@ -258,7 +258,7 @@ def test_readers_change_nothing_of_the_process(tmp_path: Path, capfd):
     thread.start()
     count = 0
     while not done.is_set():
-        print("line")  # noqa: T201
+        print("line")
         count += 1
     thread.join()
     told = capfd.readouterr()
