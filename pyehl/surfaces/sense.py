@@ -33,31 +33,27 @@ def unmarked(heights: Array) -> list[str]:
     if infinite.any():
         heights[infinite] = np.nan
         notes.append(f"{int(infinite.sum())} infinite heights are missing points")
-    huge = np.abs(np.nan_to_num(heights)) >= HUGE
-    marks = [huge] if huge.any() else []
-    heights[huge] = np.nan
+    huge = np.abs(heights) >= HUGE
+    if huge.any():
+        heights[huge] = np.nan
+        notes.append(f"{int(huge.sum())} heights beyond {HUGE:g} are marks of missing points")
     # one at each end, and a second one there
     for _ in range(4):
         mark = _mark(heights)
         if mark is None:
             break
-        marks.append(heights == mark)
-        notes.append(f"{int(marks[-1].sum())} heights of {mark:.10g} are marks of missing points")
-        heights[marks[-1]] = np.nan
-    if huge.any():
-        notes.append(f"{int(huge.sum())} heights beyond {HUGE:g} are marks of missing points")
+        marked = heights == mark
+        notes.append(f"{int(marked.sum())} heights of {mark:.10g} are marks of missing points")
+        heights[marked] = np.nan
     return notes
 
 
 def _mark(heights: Array) -> float | None:
     """Mark of missing points at one end of the heights; None if there is none."""
-    finite = heights[np.isfinite(heights)]
-    if finite.size < 2:
-        return None
-    for end in (float(finite.min()), float(finite.max())):
+    for end in (float(np.fmin.reduce(heights, None)), float(np.fmax.reduce(heights, None))):
         if abs(end) not in _MARKS:
             continue
-        others = finite[finite != end]
+        others = heights[np.isfinite(heights) & (heights != end)]
         if others.size < 2:
             continue
         low, high = float(others.min()), float(others.max())
@@ -67,37 +63,27 @@ def _mark(heights: Array) -> float | None:
 
 
 def doubts(heights: Array) -> list[str]:
-    """Note heights that may be none: one value very often, or often at an end of them."""
-    finite = heights[np.isfinite(heights)]
-    if finite.size < OFTEN:
-        return []
-    values, counts = np.unique(finite, return_counts=True)
+    """Note heights that may be none: one value far more often than any other.
+
+    Of a large map a part of the heights is looked at.
+    """
+    part = heights.ravel()[:: max(1, heights.size // SAMPLE)]
+    values, counts = np.unique(part[np.isfinite(part)], return_counts=True)
     if values.size < 2 * OFTEN:
         return []
     notes = []
-    order = np.argsort(counts)
-    top, second = int(order[-1]), int(order[-2])
-    often = counts[top] >= max(OFTEN, TIMES * counts[second])
-    if often and counts[top] < finite.size // 2:
-        value = values[top]
-        apart = ""
-        if top in (0, values.size - 1):
-            others = np.delete(values, top)
-            gap = float(np.abs(others - value).min())
-            if gap > float(np.ptp(others)):
-                apart = f", and {gap:.6g} off all others"
+    ends = {0: "the least one", values.size - 1: "the largest one"}
+    # an end of the range of an instrument may be there at both
+    for place in np.argsort(counts)[:-3:-1]:
+        rest = np.delete(counts, [place, *ends]).max()
+        if counts[place] < max(OFTEN, TIMES * rest) or counts[place] > part.size // 2:
+            continue
+        value, often = float(values[place]), int(np.count_nonzero(heights == values[place]))
+        end = ends.get(int(place), "far more than are of any other value")
         notes.append(
-            f"{counts[top]} heights are exactly {value:.10g}, no other one is there more than "
-            f"{counts[second]} x{apart}: if it marks missing points, write nan in its place"
+            f"{often} heights are exactly {value:.10g}, {end}: if it marks missing points, or the "
+            "end of the range of the instrument, write nan in its place"
         )
-    for end, name in ((0, "least"), (-1, "largest")):
-        if end % values.size != top or not often:
-            near = counts[1 if end == 0 else -2]
-            if counts[end] >= max(OFTEN, TIMES * near) and counts[end] >= TIMES * counts[second]:
-                notes.append(
-                    f"{counts[end]} heights are exactly the {name} one, {values[end]:.10g}: the "
-                    "range of the instrument may end there"
-                )
     return notes
 
 

@@ -25,7 +25,7 @@ WORDS = frozenset(_WORDS.split())
 """Words in place of a missing point, in lower case."""
 # Marks without a letter or digit: ***, ---, ?, ..., and the like; and errors of spreadsheets
 _MARKS = re.compile(
-    r"[-+*_?.~#!–—−×|<>]+|#?(?:n/a|nv|num!|value!|wert!|ref!|div/0!)|[-+]?1\.#\w+|<\w+>|x+",
+    r"[-+*_?.~#!–—−×|<>]+|#?(?:n/a|nv|num!|value!|wert!|ref!|div/0!)|[-+]?1\.#\w+|<\w+>|x{2,}",
     re.IGNORECASE,
 )
 # Two words for one point, where blanks separate the cells

@@ -56,7 +56,7 @@ def check(path: Path, missing: Sequence[tuple[int, int]] = (), **keys: object) -
 
 GWYDDION = ["# Channel: Z", "# Width: 30 µm", "# Height: 21 µm", "# Value units: µm"]
 WORDS = ["***", "*", "---", "-", "?", "void", "No Data", "no data", "N/A", "#N/A", "####", "BAD",
-         "x", "1.#QNAN", "NULL", "not measured", "Ungültig", "None", "+++", "OVER"]  # fmt: skip
+         "xxx", "1.#QNAN", "NULL", "not measured", "Ungültig", "None", "+++", "OVER"]  # fmt: skip
 
 
 @pytest.mark.parametrize("word", WORDS)
@@ -310,12 +310,12 @@ def test_a_height_that_is_there_too_often(tmp_path: Path):
     np.save(tmp_path / "map.npy", 1e-8 * marked)
     scan = read_scan(tmp_path / "map.npy", 1e-4, 1e-4)
     count = int((marked == 0.0).sum())
-    assert f"{count} heights are exactly 0, no other one is there more than 1 x" in scan.note
+    assert f"{count} heights are exactly 0, far more than are of any other value" in scan.note
     assert np.isfinite(scan.heights).all()
     np.save(tmp_path / "map.npy", 1e-8 * np.minimum(z, 1.5))
     count = int((z >= 1.5).sum())
     note = read_scan(tmp_path / "map.npy", 1e-4, 1e-4).note
-    assert f"{count} heights are exactly 1.5e-08" in note
+    assert f"{count} heights are exactly 1.5e-08, the largest one" in note
     np.save(tmp_path / "map.npy", 1e-8 * z)
     assert read_scan(tmp_path / "map.npy", 1e-4, 1e-4).note == ""
 
