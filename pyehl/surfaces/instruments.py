@@ -134,8 +134,12 @@ def _first(
 def _reason(error: Exception) -> str:
     """Give what a reader says, in one line."""
     said = " ".join(str(error).split()).rstrip(".")
-    if isinstance(error, LookupError):
+    if isinstance(error, KeyError):
         return f"there is no {said} in it" if said else "a part of it is missing"
+    if isinstance(error, IndexError):
+        return "it ends too early, or a part of it is missing"
+    if isinstance(error, TypeError | AttributeError | AssertionError):
+        return f"its reader fails ({type(error).__name__}: {said})"
     return said or type(error).__name__
 
 

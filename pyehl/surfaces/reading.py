@@ -182,7 +182,7 @@ def _measured(path: Path, found: Found, height_unit: str) -> list[str]:
         raise InputError(
             f"{path}: surface.height_unit = '{height_unit}', but the file names its unit itself"
         )
-    notes = sense.unmarked(found.heights) + sense.doubts(found.heights)
+    notes = sense.unmarked(found.heights, found.height_unit) + sense.doubts(found.heights)
     if found.height_unit is None:
         found.heights *= UNITS[height_unit]
         if height_unit != "m":

@@ -8,8 +8,8 @@ from pyehl.types import Array
 _MARKS = (999.0, 9999.0, 99999.0, 999999.0, 32767.0, 32768.0, 65535.0, 65534.0, 1000001.0,
           2147483640.0, 2147483647.0, 2147483648.0, 4294967295.0)  # fmt: skip
 """Numbers that programs write for a missing point, of either sign."""
-HUGE = 1e30
-"""Numbers from it on are no heights in any unit."""
+HUGE, FAR = 1e30, 1e3
+"""Numbers from it on are no heights in any unit, and lengths [m] none of a surface."""
 APART = 0.5
 """Of the range of all other heights: how far off a mark of missing points is at the least."""
 OFTEN, TIMES = 5, 8
@@ -17,26 +17,30 @@ OFTEN, TIMES = 5, 8
 other."""
 STEEP = 1.0
 """Slope of 45 degrees."""
-SAMPLE = 2**20
+SAMPLE = 2**17
+"""Heights of a large map that are looked at, and of its slopes."""
+LINES = 256
 NORMAL = 0.6744897501960817
 """Median of the absolute value of a normal distribution, over its standard deviation."""
 
 
-def unmarked(heights: Array) -> list[str]:
+def unmarked(heights: Array, unit: float | None = None) -> list[str]:
     """Take the marks of missing points out of heights in the numbers of the file, in place.
 
-    Notes say which, and how many. A mark is a number that programs write for a missing point, at
-    one end of all heights and far off the others.
+    `unit` has the metres in the unit of these numbers, None where it is not known. Notes
+    say which, and how many. A mark is a number that programs write for a missing point, at one end
+    of all heights and far off the others.
     """
     notes = []
     infinite = np.isinf(heights)
     if infinite.any():
         heights[infinite] = np.nan
         notes.append(f"{int(infinite.sum())} infinite heights are missing points")
-    huge = np.abs(heights) >= HUGE
+    limit = HUGE if unit is None else min(HUGE, FAR / unit)
+    huge = np.abs(heights) >= limit
     if huge.any():
         heights[huge] = np.nan
-        notes.append(f"{int(huge.sum())} heights beyond {HUGE:g} are marks of missing points")
+        notes.append(f"{int(huge.sum())} heights beyond {limit:g} are marks of missing points")
     # one at each end, and a second one there
     for _ in range(4):
         mark = _mark(heights)
@@ -90,16 +94,17 @@ def doubts(heights: Array) -> list[str]:
 def slopes(heights: Array, pixel: tuple[float, float]) -> tuple[float, float]:
     """Usual slope of a map (standard deviation by the median), and the share of steep steps.
 
-    Heights (nx, ny) [m], pixel size along x and y [m]. Of a large map lines in equal distances.
+    Heights (nx, ny) [m], pixel size along x and y [m]. The usual slope of a large map is that of
+    lines in equal distances.
     """
     usual, steep, count = 0.0, 0, 0
     for axis, size in enumerate(pixel):
         lines = np.moveaxis(heights, axis, 1)
-        lines = lines[:: max(1, heights.size // SAMPLE)]
-        steps = np.abs(np.diff(lines, axis=1)) / size
-        steps = steps[np.isfinite(steps)]
-        if steps.size:
-            usual = max(usual, float(np.median(steps)) / NORMAL)
-            steep += int(np.count_nonzero(steps > STEEP))
+        some = np.abs(np.diff(lines[:: max(1, heights.size // SAMPLE)], axis=1)) / size
+        if np.isfinite(some).any():
+            usual = max(usual, float(np.nanmedian(some)) / NORMAL)
+        for first in range(0, lines.shape[0], LINES):
+            steps = np.abs(np.diff(lines[first : first + LINES], axis=1))
+            steep += int(np.count_nonzero(steps > STEEP * size))
             count += steps.size
     return usual, steep / count if count else 0.0

@@ -12,7 +12,8 @@ import numpy as np
 import pytest
 
 from pyehl.errors import InputError
-from pyehl.surfaces import read_scan
+from pyehl.surfaces import Topography as Tile
+from pyehl.surfaces import in_memory, read_scan
 
 pytest.importorskip("SurfaceTopography")
 from SurfaceTopography import Topography
@@ -20,7 +21,7 @@ from SurfaceTopography import Topography
 NX, NY, STEP = 12, 9, 1.5e-6
 SIZE = (NX * STEP, NY * STEP)
 Z = 5e-8 * np.random.default_rng(1).normal(size=(NX, NY))
-HOLES = np.where(np.random.default_rng(2).uniform(size=Z.shape) < 0.1, np.nan, Z)
+HOLES = np.where(np.random.default_rng(2).uniform(size=Z.shape) < 0.08, np.nan, Z)
 
 
 def same(path: Path, expected: np.ndarray = Z, atol: float = 1e-15, **keys: object) -> str:
@@ -264,3 +265,39 @@ def test_readers_change_nothing_of_the_process(tmp_path: Path, capfd):
     told = capfd.readouterr()
     assert told.out.count("line\n") == count
     assert told.err == ""
+
+
+GROUP = {"kind": "map", "length_x": SIZE[0], "length_y": SIZE[1]}
+
+
+def test_masked_arrays_keep_their_holes():
+    """What is under a mask is no height: the points are interpolated, as those of a file are."""
+    mask = np.isnan(HOLES)
+    spiky = np.ma.masked_array(np.where(mask, 1e-3, Z), mask)
+    tile = in_memory(spiky, GROUP)
+    assert np.abs(tile.heights).max() < 4 * Z.std()
+    assert f"{mask.sum()} missing points interpolated" in tile.origin
+    other = in_memory(HOLES, GROUP)
+    assert other.heights == pytest.approx(tile.heights, abs=1e-20)
+    # those that are there, about their mean, are as they were
+    shift = Z[~mask] - tile.heights[~mask]
+    assert shift == pytest.approx(shift.mean(), abs=1e-18)
+    for group in (GROUP | {"fill": "none"}, {"kind": "smooth"}):
+        with pytest.raises(InputError, match=r"heights are missing \(nan or masked\)"):
+            in_memory(spiky, group)
+    half = np.ma.masked_array(Z, np.arange(Z.size).reshape(Z.shape) % 2 == 0)
+    with pytest.raises(InputError, match=r"54 of 108 heights are missing \(50\.0 %\)"):
+        in_memory(half, GROUP)
+
+
+@pytest.mark.parametrize(("array", "kind"), KINDS)
+def test_arrays_in_memory_that_are_no_heights(array: np.ndarray, kind: str):
+    for call in (lambda: in_memory(array, GROUP), lambda: Tile(array, SIZE)):
+        with pytest.raises(InputError, match=f"heights must be real numbers, not {kind}"):
+            call()
+    assert in_memory(Z.astype("f4"), GROUP).shape == Z.shape
+    assert in_memory(Z.tolist(), GROUP).shape == Z.shape
+    for members in (Z.astype(object), Z.astype("f2").astype(object)):
+        assert in_memory(members, GROUP).shape == Z.shape
+    with pytest.raises(InputError, match="a matrix of numbers"):
+        in_memory(np.where(Z > 0, Z, None), GROUP)
