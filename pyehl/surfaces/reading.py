@@ -20,7 +20,7 @@ from pyehl.surfaces.found import UNITS, Found, Sizes
 from pyehl.surfaces.instruments import UnknownFormatError, read_instrument
 from pyehl.surfaces.text_file import encoding_of, lines_of
 from pyehl.surfaces.text_header import header_of
-from pyehl.surfaces.text_map import LEAST_PIXELS, read_text_map
+from pyehl.surfaces.text_map import LEAST_PIXELS, matrix_map, read_text_map
 from pyehl.surfaces.text_table import HEADER_LINES, begins_with_numbers
 from pyehl.surfaces.texts import FLAVOUR, read_known_text
 from pyehl.types import Array
@@ -161,7 +161,7 @@ def _found(path: Path, channel: str) -> Found:
             raise InputError(
                 f"{path}: surface.channel = '{channel}', but .npy and text hold one map alone"
             )
-        return Found(read_npy(path), is_array=True)
+        return matrix_map(path, read_npy(path))
     encoding = encoding_of(path)
     if encoding is None:
         return read_instrument(path, channel)
@@ -269,8 +269,12 @@ def _check_pixel(scan: Scan) -> None:
             )
 
 
-def plain_array(path: str) -> bool:
-    """Whether a file is one that the solver reads itself: ``.npy`` of little-endian floats."""
+def plain_array(path: str, shape: tuple[int, ...]) -> bool:
+    """Whether a file is one that the solver reads itself: ``.npy`` of little-endian floats.
+
+    All of it are heights, without axes.
+    """
     if not path.endswith(".npy"):
         return False
-    return bool(np.load(path, mmap_mode="r", allow_pickle=False).dtype.str in {"<f8", "<f4"})
+    array = np.load(path, mmap_mode="r", allow_pickle=False)
+    return array.dtype.str in {"<f8", "<f4"} and array.shape == shape

@@ -2,6 +2,7 @@
 """Whether heights that were read can be those of a surface: marks of missing points, slopes."""
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pyehl.types import Array
 
@@ -15,6 +16,8 @@ APART = 0.5
 OFTEN, TIMES = 5, 8
 """A height is said to be there often if it is so many times, and so many times as often as any
 other."""
+RANGES = 2.0
+"""Ranges of all other heights that are far."""
 STEEP = 1.0
 """Slope of 45 degrees."""
 SAMPLE = 2**17
@@ -75,7 +78,7 @@ def doubts(heights: Array) -> list[str]:
     values, counts = np.unique(part[np.isfinite(part)], return_counts=True)
     if values.size < 2 * OFTEN:
         return []
-    notes = []
+    notes = [_far_end(values, counts, end) for end in (0, -1)]
     ends = {0: "the least one", values.size - 1: "the largest one"}
     # an end of the range of an instrument may be there at both
     for place in np.argsort(counts)[:-3:-1]:
@@ -88,7 +91,19 @@ def doubts(heights: Array) -> list[str]:
             f"{often} heights are exactly {value:.10g}, {end}: if it marks missing points, or the "
             "end of the range of the instrument, write nan in its place"
         )
-    return notes
+    return [note for note in notes if note]
+
+
+def _far_end(values: Array, counts: NDArray[np.signedinteger], end: int) -> str:
+    """Note a least or largest height that is there twice or more, far off all others."""
+    others = values[1:] if end == 0 else values[:-1]
+    gap = float(np.abs(others - values[end]).min())
+    if counts[end] < 2 or gap <= RANGES * float(np.ptp(others)):
+        return ""
+    return (
+        f"heights of exactly {values[end]:.10g} are {gap:.6g} off all others: if they mark missing "
+        "points, write nan in their place"
+    )
 
 
 def slopes(heights: Array, pixel: tuple[float, float]) -> tuple[float, float]:

@@ -38,6 +38,7 @@ _PHRASES = re.compile(
 # A comment begins a line, or follows a blank; #N/A is none
 _COMMENT = re.compile(r"(?:^|(?<=\s))#(?!\s*(?:N/A|NV|NUM!|VALUE!|WERT!|REF!|DIV/0!|#+|$))", re.I)
 _WORD = re.compile(r"\S+")
+_FORTRAN = re.compile(r"^([-+.\d]+)[dD]([-+]?\d+)$")
 
 
 class BadCellError(ValueError):
@@ -53,8 +54,9 @@ class Cells:
     """How the cells of a table are separated, and what stood in place of missing points."""
 
     separator: str
-    # Whether each line ends with a separator, behind which there is no cell
+    # Whether each line ends with a separator, behind which there is no cell; begins with one
     closed: bool = False
+    opened: bool = False
     words: Counter[str] = field(default_factory=Counter)
 
     def split(self, line: str) -> list[str]:
@@ -72,7 +74,11 @@ class Cells:
             cells = text.split(self.separator)
         if self.closed and len(cells) > 1 and not cells[-1].strip():
             cells.pop()
-        return cells
+        return cells[1:] if self.opened and not cells[0].strip() else cells
+
+    def fresh(self) -> "Cells":
+        """Give the same separation, with nothing counted."""
+        return Cells(self.separator, self.closed, self.opened)
 
     def numbers(self, line: str) -> Array | None:
         """Numbers of a line, NaN where a point is missing; None for an empty line.
@@ -96,7 +102,8 @@ class Cells:
     def _value(self, index: int, cell: str) -> float:
         word = cell.strip().strip('"').strip()
         try:
-            return float(word.replace(",", "."))
+            # Fortran writes 1.0D-07
+            return float(_FORTRAN.sub(r"\1e\2", word.replace(",", ".")))
         except ValueError:
             if not is_missing(word):
                 raise BadCellError(index, word) from None
@@ -113,6 +120,7 @@ class Cells:
         cells = uncommented(line).split(self.separator)
         if index >= len(cells):
             return len(uncommented(line).rstrip()) + 1
+        index += self.opened and not cells[0].strip()
         before = sum(len(cell) + 1 for cell in cells[:index])
         return before + len(cells[index]) - len(cells[index].lstrip()) + 1
 
@@ -137,7 +145,7 @@ def cells_of(lines: Sequence[str]) -> Cells:
     """How the lines of a table are separated: so that most of them have equally many numbers."""
     best, score = None, (0, 0)
     for separator in SEPARATORS:
-        cells = Cells(separator, closed=_closed(lines, separator))
+        cells = Cells(separator, *_edges(lines, separator))
         counts = Counter(count for line in lines if (count := count_numbers(cells, line)))
         if counts:
             count, times = max(counts.items(), key=lambda item: (item[1] * item[0], item[0]))
@@ -146,16 +154,17 @@ def cells_of(lines: Sequence[str]) -> Cells:
     if best is None:
         text = "\n".join(lines)
         best = Cells(next((s for s in SEPARATORS if s in text), BLANKS))
-    return Cells(best.separator, best.closed)
+    return best.fresh()
 
 
-def _closed(lines: Sequence[str], separator: str) -> bool:
-    """Whether all lines of more than one cell end with the separator."""
+def _edges(lines: Sequence[str], separator: str) -> tuple[bool, bool]:
+    """Whether all lines of numbers end with the separator, and begin with it."""
     if separator == BLANKS:
-        return False
+        return False, False
     cells = Cells(separator)
     with_it = [line for line in lines if separator in line and count_numbers(cells, line)]
-    return bool(with_it) and all(line.rstrip(" ").endswith(separator) for line in with_it)
+    closed = bool(with_it) and all(line.rstrip(" ").endswith(separator) for line in with_it)
+    return closed, bool(with_it) and all(line.startswith(separator) for line in with_it)
 
 
 def count_numbers(cells: Cells, line: str) -> int:

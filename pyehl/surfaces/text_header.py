@@ -22,6 +22,13 @@ _WORDS = re.compile(r"[a-zÀ-ɏ]+|[^\W\d_a-zÀ-ɏ]+")
 # 'heights in nm', 'z in um'
 _IN = re.compile(rf"\b(?:heights?|z|values?|data)\b\W.*?\bin\s+({UNIT})(?![^\W_])", re.IGNORECASE)
 
+# 'Height [um]' above a table, and its numbers of points alone
+_HEADING = re.compile(
+    rf"(?:heights?|z|values?|data|höhe)\s*[(\[]\s*({UNIT})\s*[)\]]", re.IGNORECASE
+)
+_CAMEL = re.compile(r"(?<=[a-z])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])")
+_POINTS_ALONE = re.compile(r"\s*(\d+)\s+(\d+)\s*")
+
 # Lines that pyehl itself writes above heights
 OWN_SIZE = re.compile(r"^#\s*(length_[xy])\s*=\s*(\S+)\s*m\s*$")
 OWN_PERIODIC = re.compile(r"^#\s*periodic\s*$")
@@ -65,6 +72,7 @@ _OTHER = frozenset(
     "tip stylus radius filter cutoff wavelength offset origin position start min max minimum "
     "maximum aperture magnification speed average time date laser lens zoom roughness rms".split()
 )
+_MISSING = frozenset("nodata missing invalid undefined void bad ungültig".split())
 _FACTOR = frozenset("factor scale faktor scaling gain multiplier skalierung".split())
 # A number without a unit may be one of points
 _NO_PITCH = frozenset(("resolution", "auflösung"))
@@ -85,6 +93,8 @@ class Header:
     # Metres in the units of the columns x, y and z of a list
     columns: tuple[float, ...] = ()
     channel: str = ""
+    # Heights that the header says are none
+    marks: list[float] = field(default_factory=list)
     # Whether the heights have a unit that is none of length: volts, degrees
     is_other: bool = False
     # Whether a comment alone names the unit: the file is an array all the same
@@ -118,6 +128,8 @@ def header_of(lines: Sequence[str]) -> Header:
     """Read the lines above a table."""
     header = Header()
     found: dict[tuple[str, int], set[float]] = {}
+    if lines and (match := _POINTS_ALONE.fullmatch(lines[0])):
+        header.points = [int(match[1]), int(match[2])]
     for line in lines:
         if OWN_SIZE.match(line):
             continue
@@ -125,6 +137,9 @@ def header_of(lines: Sequence[str]) -> Header:
         units = [unit_of(unit) for unit in _BRACKETS.findall(text)]
         if len(units) == 3:
             header.columns = tuple(unit for unit in units if unit is not None)
+            continue
+        if match := _HEADING.fullmatch(text):
+            found.setdefault(("height", 0), set()).add(unit_of(match[1]) or 1.0)
             continue
         if match := _IN.search(text):
             header.height_unit = header.height_unit or unit_of(match[1])
@@ -144,7 +159,7 @@ def _entry(text: str) -> _Entry | None:
         return None
     name, rest = match[1], match[2].strip()
     units = _BRACKETS.findall(name)
-    name = _BRACKETS.sub(" ", name).lower()
+    name = _BRACKETS.sub(" ", _CAMEL.sub(" ", name)).lower()
     words = set(_WORDS.findall(name))
     if any(phrase in name for phrase in _UNIT_PHRASES):
         words |= {"unit"}
@@ -152,7 +167,7 @@ def _entry(text: str) -> _Entry | None:
     if value is None:
         return _Entry(words, None, unit_of(rest), rest)
     # 'pixel_size_um: 1.5'
-    bare = [word for word in words if len(word) == 2 and unit_of(word)]
+    bare = [word for word in words if len(word) > 1 and unit_of(word)]
     unit = value[2] or next(iter(units + bare), "")
     return _Entry(words, float(value[1].replace(",", ".")), unit_of(unit) if unit else None, rest)
 
@@ -162,6 +177,9 @@ def _sort(entry: _Entry, header: Header, found: dict[tuple[str, int], set[float]
     words = entry.words
     if words & _CHANNEL and entry.number is None:
         header.channel = entry.rest
+        return
+    if words & _MISSING and entry.number is not None:
+        header.marks.append(entry.number)
         return
     if words & _OTHER:
         return
@@ -236,7 +254,7 @@ def _settle(header: Header, found: dict[tuple[str, int], set[float]]) -> None:
         if number is not None and header.pitch[side] is None and header.lateral_unit is not None:
             header.pitch[side] = number * header.lateral_unit
         points = once("points", side)
-        if points is not None:
+        if points is not None and header.points[side] is None:
             header.points[side] = int(points)
     # a height alone may be that of the surface
     if header.size[0] is None:

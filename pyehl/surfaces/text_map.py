@@ -10,6 +10,7 @@ from pyehl.errors import InputError
 from pyehl.surfaces.axes import Axes, without_axes
 from pyehl.surfaces.found import Found, unit_of
 from pyehl.surfaces.point_list import are_pixel_numbers, grid_of, is_list, is_longer_list
+from pyehl.surfaces.text_cells import BLANKS, Cells
 from pyehl.surfaces.text_header import OWN_PERIODIC, OWN_SIZE, Header, header_of
 from pyehl.surfaces.text_table import Table, tables_of
 from pyehl.types import Array
@@ -33,6 +34,13 @@ def read_text_map(path: Path, encoding: str, channel: str = "") -> Found:
     if channel or len(tables) > 1:
         table, header = _picked(path, tables, headers, channel)
     found = _found(path, table, header)
+    for mark in header.marks:
+        there = found.heights == mark
+        if there.any():
+            found.notes.append(
+                f"{int(there.sum())} heights of {mark:.10g} are missing by the header"
+            )
+            found.heights[there] = np.nan
     found.channel = header.channel
     found.notes += header.notes
     if table.cells.words and np.isnan(found.heights).any():
@@ -99,6 +107,18 @@ def _found(path: Path, table: Table, header: Header) -> Found:
         found.notes.append("by the points that its header says, the file has one x per line")
         axes = axes and axes.turned()
     _size(found, header, axes)
+    return found
+
+
+def matrix_map(path: Path, rows: Array) -> Found:
+    """Heights of an array (nx, ny) without a header: without its axes, or of a list of points."""
+    table = Table([], rows, 1, Cells(BLANKS))
+    heights, axes = without_axes(rows, table.header, table.cells)
+    if is_list(heights) or is_longer_list(path, heights):
+        return _points(path, heights[:, :3], table, Header())
+    found = Found(heights, is_array=True)
+    if axes is not None:
+        _size(found, Header(), axes.turned())
     return found
 
 

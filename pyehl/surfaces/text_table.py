@@ -113,9 +113,11 @@ def _start(path: Path, first: list[str]) -> tuple[int, Cells]:
     if begins_with_numbers(first) and count_numbers(cells, first[begins]):
         counts = [count_numbers(cells, line) for line in first[begins : begins + 3]]
         # a line of x without a corner above a column of y
-        if len(counts) == 3 and counts[0] + 1 == counts[1] == counts[2]:
-            begins += 1
-        return begins, Cells(cells.separator, cells.closed)
+        corner = counts[0] + 1
+        # or the numbers of points alone
+        if len(counts) == 3 and counts[1] == counts[2] and (corner == counts[1] or corner == 3):
+            begins += counts[0] != counts[1]
+        return begins, cells.fresh()
     best: tuple[int, int, Cells] | None = None
     # the header may have other separators than the table: that of the last lines counts
     cells = cells_of([line for line in first[-SAMPLE_LINES:] if line.strip()])
@@ -145,7 +147,7 @@ def _start(path: Path, first: list[str]) -> tuple[int, Cells]:
         )
     start, size, separated = best
     # what stood in place of missing points is counted from here
-    cells = Cells(separated.separator, separated.closed)
+    cells = separated.fresh()
     # lines of missing points above the first number belong to the table
     while start > 0 and _is_row_of_none(cells, first[start - 1], size):
         start -= 1

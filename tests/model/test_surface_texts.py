@@ -9,7 +9,7 @@ import pytest
 import scipy.ndimage
 
 from pyehl.errors import InputError
-from pyehl.surfaces import read_scan
+from pyehl.surfaces import for_solver, read_scan
 
 NX, NY, STEP = 20, 14, 1.5
 SIZE = (NX * STEP * 1e-6, NY * STEP * 1e-6)
@@ -181,6 +181,63 @@ def test_units_and_sizes_of_a_header(tmp_path: Path, header: list[str]):
         check(write(tmp_path / "map.csv", ["My map", *header, *lines(separator)]))
         closed = [line + separator for line in lines(separator)]
         check(write(tmp_path / "map.csv", ["My map", *header, *closed]))
+
+
+@pytest.mark.parametrize(
+    "header",
+    [
+        ["Image Size X [um],30.000", "Image Size Y [um],21.000", "Height [um]"],
+        [
+            "Width: 20",
+            "Height: 14",
+            "PixelSizeXMeter: 1.5e-6",
+            "PixelSizeYMeter: 1.5e-6",
+            "z in um",
+        ],
+        ["NX\t20", "NY\t14", "DX\t1.5\tµm", "DY\t1.5\tµm", "Z\tµm"],
+        ["[Header]", "Pixel size X: 1.5 µm", "Pixel size Y: 1.5 µm", "Z units: µm", "[Data]"],
+        ["# x-length = 30", "# y-length = 21", "# x-unit = um", "# y-unit = um", "# z-unit = um"],
+    ],
+)
+def test_further_headers(tmp_path: Path, header: list[str]):
+    """Lines that begin with a separator, numbers of Fortran, a number that the header calls none."""
+    check(write(tmp_path / "map.dat", [*header, *("\t" + line for line in lines())]))
+    fortran = [line.replace("\t", "D+00\t") + "D+00" for line in lines()]
+    check(write(tmp_path / "map.dat", [*header, *fortran]))
+    marked = [*header, "NODATA_value: -7.5", *lines("\t", "-7.5")]
+    assert "4 heights of -7.5 are missing by the header" in check(
+        write(tmp_path / "map.dat", marked), MISSING
+    )
+
+
+def test_numbers_of_points_alone(tmp_path: Path):
+    """Above the table: they say which way the lines run, or that some are not there."""
+    size = {"length_x": SIZE[0], "length_y": SIZE[1], "height_unit": "um"}
+    check(write(tmp_path / "map.txt", ["20 14", *lines(" ")]), **size)
+    turned = [" ".join(f"{v:.5f}" for v in row) for row in Z]
+    note = check(write(tmp_path / "map.txt", ["20 14", *turned]), **size)
+    assert "one x per line" in note
+    with pytest.raises(InputError, match="20 heights in a line and 13 lines, but .* 20 x 14"):
+        read_scan(write(tmp_path / "map.txt", ["20 14", *lines(" ")[1:]]), **size)
+
+
+def test_axes_and_lists_of_arrays(tmp_path: Path):
+    """Of `.npy` files as of text; the solver does not read them by itself."""
+    x, y = STEP * np.arange(NX), STEP * np.arange(NY)
+    table = np.block([[np.zeros((1, 1)), y[None, :]], [x[:, None], Z]])
+    listed = np.array([(x[i], y[j], Z[i, j]) for i in range(NX) for j in range(NY)])
+    for array in (table, listed):
+        np.save(tmp_path / "map.npy", array)
+        check(tmp_path / "map.npy", height_unit="um")
+    # in metres and with its size, an array is the solver's own matter
+    np.save(tmp_path / "map.npy", 1e-6 * table)
+    group = {"kind": "map", "file": str(tmp_path / "map.npy"), "length_x": SIZE[0],
+             "length_y": SIZE[1]}  # fmt: skip
+    made = for_solver({"surface": group})
+    assert made.heights is not None
+    assert made.heights.shape == (NX, NY)
+    np.save(tmp_path / "map.npy", 1e-6 * Z)
+    assert for_solver({"surface": group}).heights is None
 
 
 def test_what_a_header_says_is_not_dropped(tmp_path: Path):
