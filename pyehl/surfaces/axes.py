@@ -12,6 +12,8 @@ from pyehl.types import Array
 LEAST_PLACES = 5
 # Of a step: how far places may be from equal steps, for they are rounded
 OFF = 0.02
+BEYOND = 10.0
+"""Ranges of all heights that a line which is an axis covers at the least."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,12 +44,24 @@ def _is_numbering(values: Array) -> bool:
     return values[0] in (0.0, 1.0) and bool((np.diff(values) == 1.0).all())
 
 
+def _grows(lines: Array) -> bool:
+    """Whether the first number of each line grows, or falls, far beyond the range of all others."""
+    if min(lines.shape) <= LEAST_PLACES:
+        return False
+    steps = np.diff(lines[1:, 0])
+    if not ((steps >= 0.0).all() or (steps <= 0.0).all()):
+        return False
+    others = lines[1:, 1:]
+    spread = float(np.fmax.reduce(others, None) - np.fmin.reduce(others, None))
+    return bool(abs(float(lines[-1, 0] - lines[1, 0])) > BEYOND * spread)
+
+
 def without_axes(rows: Array, header: Sequence[str], cells: Cells) -> tuple[Array, Axes | None]:
     """Heights of a table without its axes, and these; None where it has none.
 
     Heights never lie on a straight line while those beside them do not: such a first line is that
     of x, such a first column that of y. The line of x may have a word at its corner, and is then
-    the last line of the header.
+    the last line of the header. ValueError if such a line is there, and its steps are not equal.
     """
     across = along = None
     if min(rows.shape) > LEAST_PLACES:
@@ -67,9 +81,18 @@ def without_axes(rows: Array, header: Sequence[str], cells: Cells) -> tuple[Arra
         along = along[-(rows.shape[1] - (across is not None)) :]
     if across is not None:
         rows = rows[:, 1:]
-    if along is None and across is None:
+    if across is None and _grows(rows):
+        name = "column"
+    elif along is None and _grows(rows.T):
+        name = "line"
+    elif along is None and across is None:
         return rows, None
-    return _rising(rows, along, across)
+    else:
+        return _rising(rows, along, across)
+    raise ValueError(
+        f"the first {name} grows as an axis does, far beyond all other numbers, and not in equal "
+        "steps: a map needs equal steps, and heights alone"
+    )
 
 
 def _heading(line: str, cells: Cells, columns: int) -> Array | None:
@@ -79,9 +102,7 @@ def _heading(line: str, cells: Cells, columns: int) -> Array | None:
         return None
     words = words[len(words) - columns + 1 :]
     try:
-        values = Cells(cells.separator).numbers(
-            (cells.separator if cells.separator != " " else " ").join(words)
-        )
+        values = Cells(cells.separator).numbers(cells.separator.join(words))
     except BadCellError:
         return None
     return values if values is not None and is_axis(values) else None
@@ -95,7 +116,8 @@ def _rising(rows: Array, along: Array | None, across: Array | None) -> tuple[Arr
         if axis is None:
             steps.append(None)
             continue
-        step = float((axis[-1] - axis[0]) / (axis.size - 1))
+        # the corner may be empty
+        step = float((axis[-1] - axis[1]) / (axis.size - 2))
         if step < 0.0:
             rows = np.flip(rows, number)
         steps.append(abs(step))

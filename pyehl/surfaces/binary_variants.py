@@ -1,8 +1,8 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Binary files that are right, and not as SurfaceTopography 1.27 expects them.
 
 The module needs NumPy alone, so that it could be part of readers of SurfaceTopography as it is.
 """
-# SPDX-License-Identifier: BSD-3-Clause
 
 import struct
 from pathlib import Path

@@ -1,9 +1,9 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Gwyddion files whose data have no units: Gwyddion writes none where they are not known.
 
 SurfaceTopography 1.27 takes such data for no heights. The module needs NumPy alone, so that it
 could be part of its reader as it is.
 """
-# SPDX-License-Identifier: BSD-3-Clause
 
 import re
 import struct

@@ -16,6 +16,8 @@ from pyehl.surfaces.text_table import Table, tables_of
 from pyehl.types import Array
 
 LEAST_PIXELS = 4
+SQUARE = 0.01
+"""How far sides of a pixel may differ before it is said."""
 
 
 def read_text_map(path: Path, encoding: str, channel: str = "") -> Found:
@@ -87,7 +89,7 @@ def _found(path: Path, table: Table, header: Header) -> Found:
             "expected"
         )
     words = any(line.strip() and not line.strip().startswith("#") for line in table.header)
-    rows, axes = without_axes(table.rows, table.header, table.cells)
+    rows, axes = _without_axes(path, table)
     more = ""
     if is_longer_list(path, rows):
         more = (
@@ -110,10 +112,17 @@ def _found(path: Path, table: Table, header: Header) -> Found:
     return found
 
 
+def _without_axes(path: Path, table: Table) -> tuple[Array, Axes | None]:
+    try:
+        return without_axes(table.rows, table.header, table.cells)
+    except ValueError as error:
+        raise InputError(f"{path}: {error}") from None
+
+
 def matrix_map(path: Path, rows: Array) -> Found:
     """Heights of an array (nx, ny) without a header: without its axes, or of a list of points."""
     table = Table([], rows, 1, Cells(BLANKS))
-    heights, axes = without_axes(rows, table.header, table.cells)
+    heights, axes = _without_axes(path, table)
     if is_list(heights) or is_longer_list(path, heights):
         return _points(path, heights[:, :3], table, Header())
     found = Found(heights, is_array=True)
@@ -141,7 +150,8 @@ def _points(path: Path, rows: Array, table: Table, header: Header) -> Found:
     known = x is not None and y is not None
     heights, steps = grid_of(path, rows)
     found = Found(heights, z, size_in_metres=known)
-    found.notes.append(f"a list of {len(rows)} points")
+    whole = "" if len(rows) == heights.size else f" of the {heights.size} of its grid"
+    found.notes.append(f"a list of {len(rows)} points{whole}")
     if x is not None and y is not None:
         found.size = heights.shape[0] * steps[0] * x, heights.shape[1] * steps[1] * y
     elif all(header.pitch):
@@ -232,3 +242,10 @@ def _size(found: Found, header: Header, axes: Axes | None) -> None:
     elif axes is not None:
         found.notes.append(axes.note)
     found.size = x, y
+    if x and y and header.size[0] and not any(header.points) and not any(header.pitch):
+        pixel = x / shape[0], y / shape[1]
+        if abs(pixel[0] - pixel[1]) > SQUARE * min(pixel):
+            found.notes.append(
+                f"pixels of {pixel[0]:.6g} x {pixel[1]:.6g} m by the lengths of the header: if "
+                "they should be square, lines or columns are missing in the file"
+            )

@@ -1,10 +1,10 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """X3P files (ISO 25178-72) that are right, and not as SurfaceTopography 1.27 expects them.
 
 x3ptools (R) writes the revision with an en dash and folds all into a folder; the standard allows
 heights in the XML itself. The module needs NumPy alone, so that it could be part of a reader of
 SurfaceTopography as it is.
 """
-# SPDX-License-Identifier: BSD-3-Clause
 
 import io
 import re

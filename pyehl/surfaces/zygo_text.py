@@ -1,9 +1,9 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Text files of Zygo MetroPro and Mx: XYZ Data File Format 1, ASCII Data File Formats 1 and 2.
 
 MetroPro Reference Guide OMP-0347, appendix on data formats. The module needs NumPy alone: it could
 serve other packages that read surfaces, such as SurfaceTopography, as it is.
 """
-# SPDX-License-Identifier: BSD-3-Clause
 
 from collections.abc import Iterable
 from dataclasses import dataclass

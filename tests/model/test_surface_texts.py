@@ -200,7 +200,7 @@ def test_units_and_sizes_of_a_header(tmp_path: Path, header: list[str]):
     ],
 )
 def test_further_headers(tmp_path: Path, header: list[str]):
-    """Lines that begin with a separator, numbers of Fortran, a number that the header calls none."""
+    """Lines that begin with a separator, numbers of Fortran, marks that the header names."""
     check(write(tmp_path / "map.dat", [*header, *("\t" + line for line in lines())]))
     fortran = [line.replace("\t", "D+00\t") + "D+00" for line in lines()]
     check(write(tmp_path / "map.dat", [*header, *fortran]))
@@ -217,7 +217,7 @@ def test_numbers_of_points_alone(tmp_path: Path):
     turned = [" ".join(f"{v:.5f}" for v in row) for row in Z]
     note = check(write(tmp_path / "map.txt", ["20 14", *turned]), **size)
     assert "one x per line" in note
-    with pytest.raises(InputError, match="20 heights in a line and 13 lines, but .* 20 x 14"):
+    with pytest.raises(InputError, match=r"20 heights in a line and 13 lines, but .* 20 x 14"):
         read_scan(write(tmp_path / "map.txt", ["20 14", *lines(" ")[1:]]), **size)
 
 
@@ -454,3 +454,16 @@ def test_profiles_are_named_as_such(tmp_path: Path):
     }.items():
         with pytest.raises(InputError, match=r"a profile along (a|one) line"):
             read_scan(write(tmp_path / name, text, "latin-1", "\r\n"))
+
+
+def test_lines_that_are_gone_are_said(tmp_path: Path):
+    """Where a header has lengths alone, and in a list; an axis with a step too many is refused."""
+    scan = read_scan(write(tmp_path / "map.txt", [*GWYDDION, *lines()[:-2]]))
+    assert "pixels of 1.5e-06 x 1.75e-06 m by the lengths of the header" in scan.note
+    note = check(write(tmp_path / "list.csv", points()[:-3]),
+                 [(i, NY - 1) for i in (17, 18, 19)], height_unit="um")  # fmt: skip
+    assert "a list of 277 points of the 280 of its grid" in note
+    table = with_axes("")
+    for rows in ([*table[:5], *table[4:]], [*table[:5], *table[6:]]):
+        with pytest.raises(InputError, match=r"the first column grows .* not in equal steps"):
+            read_scan(write(tmp_path / "table.csv", rows), 3e-5, 2e-5, height_unit="um")
