@@ -12,6 +12,8 @@ from pyehl.types import Array
 LEAST_PLACES = 5
 # Of a step: how far places may be from equal steps, for they are rounded
 OFF = 0.02
+GROWING = 0.9
+"""Least correlation with the number of the line of what may be an axis."""
 BEYOND = 10.0
 """Ranges of all heights that a line which is an axis covers at the least."""
 
@@ -48,12 +50,15 @@ def _grows(lines: Array) -> bool:
     """Whether the first number of each line grows, or falls, far beyond the range of all others."""
     if min(lines.shape) <= LEAST_PLACES:
         return False
-    steps = np.diff(lines[1:, 0])
-    if not ((steps >= 0.0).all() or (steps <= 0.0).all()):
+    first = lines[1:, 0]
+    if not np.isfinite(first).all() or not np.ptp(first):
+        return False
+    # a line that is there twice, or in another place, is no doubt about the others
+    if abs(float(np.corrcoef(first, np.arange(first.size))[0, 1])) < GROWING:
         return False
     others = lines[1:, 1:]
     spread = float(np.fmax.reduce(others, None) - np.fmin.reduce(others, None))
-    return bool(abs(float(lines[-1, 0] - lines[1, 0])) > BEYOND * spread)
+    return bool(float(np.ptp(first)) > BEYOND * spread)
 
 
 def without_axes(rows: Array, header: Sequence[str], cells: Cells) -> tuple[Array, Axes | None]:
@@ -125,5 +130,5 @@ def _rising(rows: Array, along: Array | None, across: Array | None) -> tuple[Arr
         name for name, axis in (("line", along), ("column", across)) if axis is not None
     )
     if all(_is_numbering(axis) for axis in found):
-        return rows, Axes(None, f"the first {names} number the pixels and are no heights")
-    return rows, Axes((steps[0], steps[1]), f"the first {names} are places and no heights")
+        return rows, Axes(None, f"numbers of pixels and no heights: the first {names}")
+    return rows, Axes((steps[0], steps[1]), f"places and no heights: the first {names}")

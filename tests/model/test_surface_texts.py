@@ -322,7 +322,7 @@ def test_axes_are_no_heights(tmp_path: Path, corner: str | None):
     for down in (False, True):
         path = write(tmp_path / "table.csv", with_axes(corner, down))
         note = check(path, height_unit="um")
-        assert "the first line and column are places and no heights" in note
+        assert "places and no heights: the first line and column" in note
         with pytest.raises(InputError, match=r"steps of 1\.5, .* surface\.lateral_unit"):
             read_scan(path)
 
@@ -345,8 +345,8 @@ def test_tables_of_pandas(tmp_path: Path):
     names = ",".join(f"c{i}" for i in range(NX))
     for text in (["," + numbers, *index], index, [numbers, *lines(",")], ["," + names, *index]):
         path = write(tmp_path / "frame.csv", text)
-        assert "number the pixels" in check(path, height_unit="um", **size)
-        with pytest.raises(InputError, match=r"number the pixels .* give surface\.length_x"):
+        assert "numbers of pixels and no heights" in check(path, height_unit="um", **size)
+        with pytest.raises(InputError, match=r"numbers of pixels .* give surface\.length_x"):
             read_scan(path, height_unit="um")
 
 
@@ -464,6 +464,10 @@ def test_lines_that_are_gone_are_said(tmp_path: Path):
                  [(i, NY - 1) for i in (17, 18, 19)], height_unit="um")  # fmt: skip
     assert "a list of 277 points of the 280 of its grid" in note
     table = with_axes("")
-    for rows in ([*table[:5], *table[4:]], [*table[:5], *table[6:]]):
+    for rows in (
+        [*table[:5], *table[4:]],
+        [*table[:5], *table[6:]],
+        [*table[:5], table[6], table[5], *table[7:]],
+    ):
         with pytest.raises(InputError, match=r"the first column grows .* not in equal steps"):
             read_scan(write(tmp_path / "table.csv", rows), 3e-5, 2e-5, height_unit="um")
