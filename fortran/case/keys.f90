@@ -234,7 +234,9 @@ contains
       call self%reals("length_y", s%length_y, "m", "0 or [1e-9, 1]", &
                       "size of the map along Y; 0: that of the file; fractal: 8.29e-4")
       call self%words("height_unit", s%height_unit, "m|mm|um|nm", &
-                      "unit of the heights of a map that names none (.npy, text), and of the places in a list x y z")
+                      "unit of the heights of a map that names none (.npy, text)")
+      call self%words("lateral_unit", s%lateral_unit, "same|m|mm|um|nm", &
+                      "unit of x and y in a list x y z, or of axes, that names none; same: that of the heights")
       call self%reals("crop_x_min", s%crop_x_min, "m", "[0, 1]", "the map begins there along X")
       call self%reals("crop_x_max", s%crop_x_max, "m", "[0, 1]", "the map ends there; 0: at its end")
       call self%reals("crop_y_min", s%crop_y_min, "m", "[0, 1]", "the map begins there along Y")

@@ -164,6 +164,8 @@ contains
          why = group//".sign"
       else if (s%height_unit /= "m") then
          why = group//".height_unit"
+      else if (s%lateral_unit /= "same") then
+         why = group//".lateral_unit"
       else if (abs(s%track) > 0.0_dp) then
          why = group//".track"
       else if (index(s%file, ".npy", back=.true.) /= len_trim(s%file) - 3) then

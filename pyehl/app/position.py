@@ -187,7 +187,8 @@ class Position:
     def map_said(self) -> dict[str, Value]:
         """Give what the case says of its height map, as `Uploads.check` takes it."""
         kept = namelist.values(self.base).get("surface", {})
-        found = {key: kept[key] for key in ("channel", "height_unit") if key in kept}
+        keys = ("channel", "height_unit", "lateral_unit")
+        found = {key: kept[key] for key in keys if key in kept}
         return found | {f"length_{x}": self._si(f"map_{x}") for x in "xy"}
 
     @property

@@ -30,7 +30,7 @@ RADIUS_PIXELS = 64
 # Fractal tiles and maps up to so many pixels are kept, a few of them
 KEPT_PIXELS = 2**20
 # What a map is read by, and what a fractal tile follows from
-SCAN = ("file", "length_x", "length_y", "channel", "height_unit")
+SCAN = ("file", "length_x", "length_y", "channel", "height_unit", "lateral_unit")
 FRACTAL = "pixels length_x length_y rms_height hurst rolloff_wavenumber seed modulus".split()
 
 
@@ -159,6 +159,7 @@ def scan_of(surface: Mapping[str, Any]) -> Scan:
         float(surface.get("length_y", 0.0)) or None,
         str(surface.get("channel", "")),
         str(surface.get("height_unit", "m")),
+        str(surface.get("lateral_unit", "same")),
     )
 
 
