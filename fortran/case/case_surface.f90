@@ -24,6 +24,11 @@ contains
 
       call complete_pattern(schema, "surface", input%grid%x_inlet, input%surface)
       call complete_pattern(schema, "second_surface", input%grid%x_inlet, input%second_surface)
+      ! two fractal surfaces of one seed are the same surface, whose waves add up
+      if (input%surface%kind == "fractal" .and. input%second_surface%kind == "fractal" &
+          .and. .not. schema%given("second_surface", "seed")) then
+         input%second_surface%seed = input%surface%seed + merge(1, -1, input%surface%seed < huge(1))
+      end if
       if (.not. schema%given("surface", "x_start")) call late_start(input%surface, input%second_surface)
       if (.not. schema%given("second_surface", "x_start")) call late_start(input%second_surface, input%surface)
    end subroutine complete_surfaces

@@ -20,7 +20,7 @@ from pyehl.prediction.friction import TRACKS, RoughFriction, meaning, thins
 from pyehl.prediction.options import Options
 from pyehl.prediction.pair_breakdown import PairAdvice, PairBelowZero
 from pyehl.prediction.partial import Partial
-from pyehl.prediction.sides import SecondSurface, arrays, statistics
+from pyehl.prediction.sides import SecondSurface, arrays, composite_rms, statistics
 from pyehl.prediction.touching import NO_FRICTION, contact_numbers
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.friction import absolute_friction
@@ -220,7 +220,10 @@ class Prediction:
         """What ``summary.json`` holds; None for a number that does not exist."""
         f, o, s = self.friction, self.operating, self.surface
         layer = float(self.settings["lubricant"].get("boundary_film", 0.0)) / o.film_scale
-        sigma = math.hypot(s.rms_height, self.second.surface.rms_height if self.second else 0.0)
+        sigma = s.rms_height
+        if self.second:
+            together = self.second.together
+            sigma = composite_rms(s, self.second.surface, together.tile if together else None)
         lacking = self.partial is not None and self.partial.lacks_friction
         rough = max(f.pressure_max, self.pressure_maximum) if f.status == "predicted" else None
         values: dict[str, Any] = {
@@ -268,7 +271,12 @@ class Prediction:
             **statistics(s, f.response),
             **(self.second.summary(s) if self.second else {}),
             **deformed_surface(
-                f, self.film_minimum, self.options.film_limit, self._ratios, known=self._known
+                f,
+                self.film_minimum,
+                self.options.film_limit,
+                self._ratios,
+                known=self._known,
+                together=self.second.together if self.second else None,
             ),
             **contact_numbers(self.partial, layer, known=self._known),
             "cavitated_share": f.cavitated_share,
