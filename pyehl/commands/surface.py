@@ -9,6 +9,7 @@ import hashlib
 from collections.abc import Sequence
 from pathlib import Path
 
+from pyehl import lengths
 from pyehl.case import Case, exchanged, files_of
 from pyehl.commands.arguments import add_case_arguments
 from pyehl.destination import check_files, made_by, mark, new_file
@@ -106,8 +107,7 @@ def _lines(surface: Topography) -> list[str]:
         lines = surface.preparation.record.report()
     nx, ny = surface.shape
     lines.append(
-        f"tile       {nx} x {ny} pixels, {surface.length_x * 1e3:.5g} x "
-        f"{surface.length_y * 1e3:.5g} mm"
+        f"tile       {nx} x {ny} pixels, {lengths.size(*surface.size)}"
     )
     return lines
 

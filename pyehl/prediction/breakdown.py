@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from pyehl import lengths
 from pyehl.prediction.carrying import Carries, carrying_outliers, carrying_wavelength
 from pyehl.surfaces.cutting import cropped
 from pyehl.surfaces.holes import prominence
@@ -114,7 +115,7 @@ class Advice:
     def report(self) -> list[str]:
         """Return the lines that ``pyehl predict`` prints."""
         lines = [
-            f"film ends  at x = {self.x * 1e3:.4g} mm, y = {self.y * 1e3:.4g} mm of the surface: "
+            f"film ends  at x = {lengths.length(self.x, 4)}, y = {lengths.length(self.y, 4)} of the surface: "
             f"{-self.below.deepest * 1e9:.3g} nm higher than the film bears; "
             f"{self.below.pixels} pixels, "
             f"{100 * self.below.share:.3g} % of the contact in the mean over the passage"
@@ -127,7 +128,7 @@ class Advice:
         if self.wavelength is not None:
             lines.append(
                 f"full film  with surface.shortest_wavelength = {self.wavelength:.4g}: without "
-                f"waves shorter than {self.wavelength * 1e6:.3g} um"
+                f"waves shorter than {lengths.length(self.wavelength, most='um')}"
             )
         if self.outliers is None and self.wavelength is None:
             lines.append("full film  with no cut of spikes or short waves alone")

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from pyehl import lengths
 from pyehl.prediction.breakdown import STATIONS, Borne, place_of
 from pyehl.prediction.carrying import carrying_wavelength
 from pyehl.prediction.pair import RoughPair
@@ -119,7 +120,7 @@ class PairAdvice:
     def report(self) -> list[str]:
         """Return the lines that ``pyehl predict`` prints."""
         places = " meets ".join(
-            f"x = {x * 1e3:.4g} mm, y = {y * 1e3:.4g} mm of {group}"
+            f"x = {lengths.length(x, 4)}, y = {lengths.length(y, 4)} of {group}"
             for group, (x, y) in zip(GROUPS, self.places, strict=True)
         )
         lines = [
@@ -131,7 +132,7 @@ class PairAdvice:
                 key = f"{name}{' ' if name == 'both' else '.'}shortest_wavelength"
                 lines.append(
                     f"full film  with {key} = {length:.4g}: without waves shorter than "
-                    f"{length * 1e6:.3g} um"
+                    f"{lengths.length(length, most='um')}"
                 )
         if not any(self.wavelengths):
             lines.append("full film  with no cut of short waves alone")

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from pyehl import lengths
 from pyehl.errors import InputError
 from pyehl.surfaces import areal
 from pyehl.surfaces.options import Options
@@ -105,7 +106,7 @@ class Record:
         lines = [
             f"map        {name}",
             f"           {self.pixels[0]} x {self.pixels[1]} pixels, "
-            f"{self.size[0] * 1e3:.5g} x {self.size[1] * 1e3:.5g} mm by {self.size_from}",
+            f"{lengths.size(*self.size)} by {self.size_from}",
         ]
         if self.note:
             lines.append(f"           {self.note}")

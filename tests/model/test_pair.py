@@ -410,7 +410,7 @@ def test_waves_of_equal_surfaces_that_move_together_add_up(slide_to_roll, seed, 
         f"&contact mean_velocity = 2.0 slide_to_roll = {slide_to_roll} /\n&grid points = 33 /\n"
         f"&surface {fractal} /\n&second_surface {fractal} {second} /\n"
     )
-    tiles = [pyehl.surfaces.fractal(64, 8.29e-4, 8.29e-4, rms_height=2e-8, hurst=0.8, seed=s)
+    tiles = [fractal(64, 8.29e-4, 8.29e-4, rms_height=2e-8, hurst=0.8, seed=s)
              for s in (1, seed or 2)]  # fmt: skip
     product = float(np.mean(tiles[0].heights * tiles[1].heights)) / 4e-16
     expected = math.hypot(2e-8, 2e-8)
