@@ -36,4 +36,4 @@ def waves(longest: float, shortest: float) -> str:
 
 def _short(value: float) -> str:
     """To a whole number, and small ones to two digits."""
-    return f"{value:.0f}" if value >= 10.0 else f"{value:.2g}"  # noqa: PLR2004
+    return f"{value:.0f}" if value >= 10.0 else f"{value:.2g}"

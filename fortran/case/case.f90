@@ -138,6 +138,7 @@ module ehl_case
       character(len=word_length) :: height_unit = "m"
       integer :: sign = 1
       real(dp) :: outliers = 0.0_dp
+      character(len=word_length) :: align_lines = "none"
       character(len=word_length) :: fill = "harmonic"
       character(len=word_length) :: detrend = "auto"
       real(dp) :: rotate = 0.0_dp

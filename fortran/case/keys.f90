@@ -242,6 +242,8 @@ contains
       call self%integers("sign", s%sign, "[-1, 1]", "-1: valleys of the map are positive")
       call self%reals("outliers", s%outliers, "-", "0 or [3, 1e6]", &
                       "points so many standard deviations off are spikes and removed; 0: none")
+      call self%words("align_lines", s%align_lines, "none|x|y", &
+                      "lines of a scan along X or Y are put level with each other, by their medians")
       call self%words("fill", s%fill, "harmonic|none", "missing points: interpolated, or refused")
       call self%words("detrend", s%detrend, "auto|none|centre|tilt|curvature", &
                       "form taken off; auto: tilt for instrument files, none for arrays")

@@ -158,6 +158,8 @@ contains
          why = group//".crop_x_min, crop_x_max, crop_y_min or crop_y_max"
       else if (s%outliers > 0.0_dp) then
          why = group//".outliers"
+      else if (s%align_lines /= "none") then
+         why = group//".align_lines"
       else if (abs(s%rotate) > 0.0_dp) then
          why = group//".rotate"
       else if (s%sign /= 1) then

@@ -51,6 +51,8 @@ contains
          worth = with_care
          doubts = of_pressure(summary)//of_contact(summary)//of_yielding(summary)//of_waves(summary)
          rest = of_errors(summary)//of_heat(summary)//of_two_alike(summary)
+         if (summary%text("surface_findings") /= "") rest = rest//"the map is not roughness alone: "// &
+                                                         summary%text("surface_findings")//"; "
          if (status == "target missed") rest = "grid.target_error is missed; "//rest
          if (doubts /= "") then
             text = doubts(:len(doubts) - 2)

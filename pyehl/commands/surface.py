@@ -106,9 +106,7 @@ def _lines(surface: Topography) -> list[str]:
     else:
         lines = surface.preparation.record.report()
     nx, ny = surface.shape
-    lines.append(
-        f"tile       {nx} x {ny} pixels, {lengths.size(*surface.size)}"
-    )
+    lines.append(f"tile       {nx} x {ny} pixels, {lengths.size(*surface.size)}")
     return lines
 
 

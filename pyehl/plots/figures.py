@@ -172,7 +172,7 @@ def prediction_figures(
 def prediction_pictures(
     about: Mapping[str, Any], arrays: Mapping[str, Array], tables: Mapping[str, Mapping[str, Array]]
 ) -> dict[str, Callable[[], Figure]]:
-    """What draws each figure of a prediction, by the names of their files."""
+    """Give what draws each figure of a prediction, by the names of their files."""
     title = headline(about)
     found: dict[str, Callable[[], Figure]] = {}
     for prefix in ("", "second_") if "second_surface" in about else ("",):
@@ -187,7 +187,7 @@ def prediction_pictures(
 def _spectra(
     about: Mapping[str, Any], arrays: Mapping[str, Array], prefix: str, title: str
 ) -> Figure:
-    """Heights and spectra of the rough surface whose names begin with a prefix."""
+    """Draw heights and spectra of the rough surface whose names begin with a prefix."""
     size = about[f"{prefix}length_x_m"], about[f"{prefix}length_y_m"]
     tile = Topography(arrays[f"{prefix}surface"], size, about[f"{prefix}surface"])
     deformed = arrays[f"{prefix}deformed"]
@@ -205,7 +205,7 @@ def _spectra(
 def _roughness(
     about: Mapping[str, Any], arrays: Mapping[str, Array], prefix: str, title: str
 ) -> Figure:
-    """The rough surface whose names begin with a prefix inside the contact."""
+    """Draw the rough surface whose names begin with a prefix inside the contact."""
     size = about[f"{prefix}length_x_m"], about[f"{prefix}length_y_m"]
     tile = Topography(arrays[f"{prefix}surface"], size, about[f"{prefix}surface"])
     deformed = arrays[f"{prefix}deformed"]

@@ -12,10 +12,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
 
 from pyehl.plots import style
 from pyehl.plots.outline import Outline
 from pyehl.surfaces import Topography, interpolated, psd_2d, psd_isotropic
+from pyehl.surfaces.findings import Finding
 from pyehl.surfaces.holes import nearest
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.types import Array
@@ -265,6 +267,7 @@ def before_and_after(
         nx, ny = made.prepared.shape
         lengths = (nx * made.pixel[0], ny * made.pixel[1])
         _map(axes[1], made.prepared, lengths, "prepared")
+        _mark(axes[0], made.record.findings, style.length_unit(max(size))[0])
         curves.insert(0, ("as measured", style.GREY, raw))
     else:
         _map(axes[0], surface.heights, lengths, "surface")
@@ -290,6 +293,22 @@ def _map(ax: Axes, heights: Array, size: tuple[float, float], title: str) -> Non
     ax.set_title(head, fontsize="small", loc="left")
     style.few_ticks(ax)
     ax.set(xlabel=f"x [{length}]", ylabel=f"y [{length}]")
+
+
+def _mark(ax: Axes, findings: Sequence[Finding], scale: float) -> None:
+    """Outline steps and specks of dust on a map as measured; `scale`: its unit of length per m."""
+    (image,) = ax.get_images()
+    right = float(image.get_extent()[1])
+    for finding in findings:
+        for x_min, x_max, y_min, y_max in finding.places:
+            least = 0.012 * right
+            width, height = (x_max - x_min) * scale, (y_max - y_min) * scale
+            grow = 0.0 if min(width, height) == 0.0 else least
+            box = Rectangle(
+                (x_min * scale - grow, y_min * scale - grow), width + 2 * grow, height + 2 * grow,
+                fill=False, ec=style.GREEN, lw=1.4, ls="--" if grow == 0.0 else "-",
+            )  # fmt: skip
+            ax.add_patch(box)
 
 
 def _spectra(

@@ -77,8 +77,9 @@ def sheet(settings: Settings) -> dict[str, Any]:
             for surface in both
         ]
         sigma = tiles[0].rms_height
-        if len(tiles) == 2:  # noqa: PLR2004
-            sigma = composite_rms(*tiles, sum_of(both, tiles, operating.hertz_radius))
+        if len(tiles) == 2:
+            together = sum_of(both, tiles, operating.hertz_radius)
+            sigma = composite_rms(tiles[0], tiles[1], together)
         result["rms_height_m"] = sigma
         result["lambda_ratio_central"] = h_c / sigma if sigma > 0.0 else None
     if kinds == ["harmonic"] and operating.radius_ratio == 1.0:

@@ -81,7 +81,7 @@ def draw(prediction: Prediction, folder: str | os.PathLike[str]) -> None:
             path = folder / f"{name}.png"
             try:
                 drawn.append(save(picture(), path).name)
-            except Exception as error:  # noqa: BLE001 (the answer does not depend on a picture)
+            except Exception as error:
                 LOG.warning("%s: not drawn: %s", path, error or type(error).__name__)
     written = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
     write_json(folder / "summary.json", written | {"files": sorted([*written["files"], *drawn])})

@@ -16,6 +16,7 @@ from pyehl.errors import InputError
 from pyehl.prediction.bands import Band
 from pyehl.prediction.breakdown import Advice, BelowZero, Borne, advise, below_zero
 from pyehl.prediction.by_response import RoughPassage
+from pyehl.prediction.cost import tell_cost
 from pyehl.prediction.folder import read_contact
 from pyehl.prediction.friction import TRACKS, RoughFriction, SecondPassage, broken
 from pyehl.prediction.heated import heat_of
@@ -89,6 +90,8 @@ def predict(
             tile = surfaces.from_settings({**settings, "surface": values}, operating, known)
         else:
             tile = surfaces.finished(tile, values)
+        if not brief:
+            tell_cost(tile, operating, group)
         ratio, kind = float(values["velocity_ratio"]), str(values.get("filter", "sharp"))
         conditions = contact, operating, lubricant, options, ratio
         alone.append(RoughPassage(tile, *conditions, groups=(group,), filter_kind=kind))
@@ -113,9 +116,7 @@ def predict(
     second = None
     if len(alone) > 1 and friction.second is not None:
         other = alone[1]
-        second = SecondSurface(
-            other.topography, other.velocity_ratio, friction.second, together
-        )
+        second = SecondSurface(other.topography, other.velocity_ratio, friction.second, together)
     partial = _partial(settings, alone)
     if partial is not None:
         friction, over = touching(friction, partial, over)

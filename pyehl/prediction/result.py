@@ -20,7 +20,13 @@ from pyehl.prediction.friction import TRACKS, RoughFriction, meaning, thins
 from pyehl.prediction.options import Options
 from pyehl.prediction.pair_breakdown import PairAdvice, PairBelowZero
 from pyehl.prediction.partial import Partial
-from pyehl.prediction.sides import SecondSurface, arrays, composite_rms, statistics
+from pyehl.prediction.sides import (
+    SecondSurface,
+    arrays,
+    composite_rms,
+    findings_of,
+    statistics,
+)
 from pyehl.prediction.touching import NO_FRICTION, contact_numbers
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.friction import absolute_friction
@@ -269,6 +275,7 @@ class Prediction:
             "lambda_ratio": self.film_minimum / sigma if sigma > 0.0 else None,
             "lambda_ratio_central": self.film / sigma if sigma > 0.0 else None,
             **statistics(s, f.response),
+            "surface_findings": findings_of(s, self.second.surface if self.second else None),
             **(self.second.summary(s) if self.second else {}),
             **deformed_surface(
                 f,

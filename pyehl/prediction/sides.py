@@ -83,6 +83,17 @@ class SecondSurface:
         }
 
 
+def findings_of(*tiles: Topography | None) -> str | None:
+    """Name what the maps have that is no roughness; None if there is nothing."""
+    kinds = [
+        finding.kind
+        for tile in tiles
+        if tile is not None and tile.preparation is not None
+        for finding in tile.preparation.record.findings
+    ]
+    return ", ".join(dict.fromkeys(kinds)) or None
+
+
 def composite_rms(first: Topography, second: Topography, together: Topography | None) -> float:
     """Rms height [m] of two surfaces: of their sum where they move `together`.
 

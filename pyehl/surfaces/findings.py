@@ -1,0 +1,365 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a prepared scan has that is no roughness: form, offset lines, stitching steps, dust.
+
+Nothing is taken off here. A finding names what it is, how large, where, and the key of a case that
+takes it off, where there is one. Every limit lies far beyond what self-affine surfaces with or
+without a lay show.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import scipy
+
+from pyehl import lengths
+from pyehl.errors import InputError
+from pyehl.surfaces.levelling import DEGREES, level
+from pyehl.types import Array, Mask
+
+MOST_FORM = 0.5
+"""Share of the variance in a polynomial of degree 2 from which on it is named."""
+FOLD = 0.5
+"""Change of the slope from edge to edge, as a share of that of the form: less is a wave."""
+ALIKE = 2.0
+"""Most by which the form of half a map differs from that of all of it."""
+SAMPLES = 512
+"""Points of a line, at the most, that its offset is told by."""
+LINE_OFFSETS = 0.5
+"""Median step to the next line over the scatter of the steps along the lines, from which on lines
+are offset. Of isotropic surfaces of 128 points it is 0.1 to 0.2."""
+INDEPENDENT = -0.25
+"""Correlation of a step with the next one below which lines are offset each by itself: -0.5 for
+independent offsets, 0.5 for the lay of a ground surface (Hurst exponent 0.8), -0.24 for 0.3."""
+STEP, BROAD, ABOVE, FEW = 12.0, 6.0, 3.0, 4
+"""A stitching step is so many times as high as the median step between two lines, as their rms but
+for the largest few, and as the rms step between two points."""
+PARTS = 4
+"""Parts of a line that may have a stitching step each: stitched fields meet in corners."""
+DUST = 8.0
+"""Dust stands out so many standard deviations, by the median."""
+HIGH = 6.0
+"""And its top so many above what is around it, by all that is no dust."""
+LEAST_DUST, MOST_DUST = 5, 0.02
+"""Pixels of a speck of dust at the least; fewer are spikes. Share of the map at the most."""
+BLOCK = 32
+"""Pixels per side of the squares whose median dust is compared with."""
+MAD_TO_SIGMA = 1.482602218505602
+MOST_NAMED = 3
+"""Steps and specks that are named one by one."""
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """One thing that is no roughness."""
+
+    kind: str  # 'form', 'line offsets', 'stitching step', 'dust'
+    text: str  # what it is, how large and where
+    remedy: str  # option of a case that takes it off, 'surface.key=value'; '' if there is none
+    # Where it is on the map (x_min, x_max, y_min, y_max) [m]; empty: everywhere
+    places: tuple[tuple[float, float, float, float], ...] = ()
+
+    def report(self) -> str:
+        """Tell it in one line."""
+        return f"{self.kind}: {self.text}" + (f"; --set {self.remedy}" if self.remedy else "")
+
+    def summary(self) -> dict[str, object]:
+        """Return what ``summary.json`` holds of it."""
+        return {
+            "kind": self.kind,
+            "text": self.text,
+            "remedy": self.remedy or None,
+            "places_m": [list(place) for place in self.places],
+        }
+
+
+def find(
+    heights: Array,
+    pixel: tuple[float, float],
+    taken: str,
+    *,
+    periodic: bool,
+    corner: tuple[float, float] = (0.0, 0.0),
+) -> tuple[Finding, ...]:
+    """Find what a map (nx, ny) [m], none missing, has besides roughness.
+
+    Pixel size along x and y [m]; `taken`: the form that was taken off; `periodic`: the map counts
+    as a tile that can be repeated; `corner`: where it lies on the map as read [m].
+    """
+    found = [
+        _form(heights, pixel, taken, periodic=periodic),
+        *(_lines(heights, pixel, axis) for axis in (0, 1)),
+    ]
+    # a form, or offsets of all lines, would hide what is small
+    rest = heights
+    if found[0] is not None:
+        rest = heights.copy()
+        level(rest, "curvature")
+    if found[1] is None and found[2] is None:
+        found += [_steps(rest, pixel, axis, corner) for axis in (0, 1)]
+    found.append(_dust(rest, pixel, corner))
+    return tuple(finding for finding in found if finding is not None)
+
+
+def _form(z: Array, pixel: tuple[float, float], taken: str, *, periodic: bool) -> Finding | None:
+    """Tilt or curvature that hold most of the variance."""
+    if taken == "curvature":
+        return None
+    nx, ny = z.shape
+    coarse = _coarse(z)
+    variance = float(coarse.var())
+    if not variance > 0.0:
+        return None
+    for what in ("tilt", "curvature"):
+        if what == taken:
+            continue
+        rest = coarse.copy()
+        try:
+            level(rest, what)
+        except InputError:
+            return None
+        form = coarse - rest
+        share = float(form.var()) / variance
+        if share < MOST_FORM or not _even(coarse, form, what):
+            continue
+        if periodic and not _folds(coarse, form):
+            continue
+        rms = float(np.sqrt(form.var()))
+        words = f"{what} of {lengths.length(rms)} rms holds {_percent(share)} of the variance"
+        if what == "curvature":
+            words += _radii(form, (nx * pixel[0], ny * pixel[1]))
+        return Finding("form", words, f"surface.detrend={what}")
+    return None
+
+
+def _coarse(z: Array) -> Array:
+    """Means over blocks of a large map."""
+    a, b = (max(1, n // SAMPLES) for n in z.shape)
+    z = z[: z.shape[0] // a * a, : z.shape[1] // b * b]
+    return np.asarray(z.reshape(z.shape[0] // a, a, z.shape[1] // b, b).mean(axis=(1, 3)))
+
+
+def _even(z: Array, form: Array, what: str) -> bool:
+    """Whether both halves of a map have the form of the whole, as a long wave has not."""
+    degree = DEGREES[what]
+    for axis in (0, 1):
+        across, bare = z.mean(axis=1 - axis), form.mean(axis=1 - axis)
+        n = across.size
+        if n < 4 * degree + 4 or float(np.ptp(bare)) < 0.5 * float(np.ptp(form)) / 2.0:
+            continue
+        x = np.linspace(-1.0, 1.0, n)
+        whole = float(np.polyfit(x, bare, degree)[0])
+        halves = [np.polyfit(x[k], across[k], degree)[0] for k in (slice(n // 2), slice(n // 2, n))]
+        if not all(1.0 / ALIKE < float(half) / whole < ALIKE for half in halves):
+            return False
+    return True
+
+
+def _folds(z: Array, form: Array) -> bool:
+    """Whether a map that is repeated has an edge where its form ends, as a wave has not."""
+    for axis in (0, 1):
+        across, bare = z.mean(axis=1 - axis), form.mean(axis=1 - axis)
+        n = across.size
+        part = max(2, n // 8)
+        x = np.arange(part)
+        ends = [
+            (np.polyfit(x, line[:part], 1), np.polyfit(x + n - part, line[-part:], 1))
+            for line in (across, bare)
+        ]
+        slopes = [first[0] - last[0] for first, last in ends]
+        steps = [last[1] + last[0] * n - first[1] for first, last in ends]
+        size = float(np.ptp(bare))
+        if size > 0.0 and (
+            (abs(slopes[1]) * n > size and slopes[0] / slopes[1] > FOLD)
+            or (abs(steps[1]) > FOLD * size and steps[0] / steps[1] > FOLD)
+        ):
+            return True
+    return False
+
+
+def _radii(form: Array, size: tuple[float, float]) -> str:
+    """Radii of curvature of a form along x and y."""
+    words = []
+    for axis, name in ((0, "x"), (1, "y")):
+        line = form.mean(axis=1 - axis)
+        mid = line.size // 2
+        step = size[axis] / line.size
+        bend = float(line[mid + 1] - 2.0 * line[mid] + line[mid - 1]) / step**2
+        if abs(bend) > 1e-4:  # a radius of 10 km is none
+            words.append(f"{_radius(-1.0 / bend)} along {name}")
+    return f": radius {', '.join(words)}" if words else ""
+
+
+def _radius(value: float) -> str:
+    return f"{value * 1e3:.3g} mm" if abs(value) < 1.0 else f"{value:.3g} m"
+
+
+def _percent(share: float) -> str:
+    return f"{100.0 * share:.1f} %" if share < 0.9995 else "nearly all"
+
+
+def _line_steps(z: Array, axis: int, parts: int = 1) -> tuple[Array, float]:
+    """Median steps (parts, n - 1) from a line to the next along an axis, and their scatter.
+
+    The scatter of single steps about the median of their line, as a standard deviation.
+    """
+    lines = np.moveaxis(z, axis, 0)
+    steps, deviations = [], []
+    for k in range(parts):
+        a, b = k * lines.shape[1] // parts, (k + 1) * lines.shape[1] // parts
+        part = lines[:, a : b : max(1, (b - a) // SAMPLES)]
+        difference = np.diff(part, axis=0)
+        median = np.median(difference, axis=1)
+        steps.append(median)
+        deviations.append(np.median(np.abs(difference - median[:, np.newaxis])))
+    return np.array(steps), MAD_TO_SIGMA * float(np.median(deviations))
+
+
+def _lines(z: Array, pixel: tuple[float, float], axis: int) -> Finding | None:
+    """Lines that lie at heights of their own: of a scan along the other axis."""
+    (steps,), scatter = _line_steps(z, axis)
+    size = float(np.sqrt(np.mean(np.square(steps))))
+    if steps.size < 8 or not size > LINE_OFFSETS * scatter or not size > 0.0:
+        return None
+    # a few large steps are stitching
+    usual = MAD_TO_SIGMA * float(np.median(np.abs(steps)))
+    if not usual > LINE_OFFSETS * scatter:
+        return None
+    about = steps - steps.mean()
+    square = float(np.dot(about, about))
+    if not square > 0.0 or float(np.dot(about[:-1], about[1:])) / square > INDEPENDENT:
+        return None
+    along = "yx"[axis]
+    return Finding(
+        "line offsets",
+        f"lines along {along} lie {lengths.length(size / math.sqrt(2.0))} rms above or below "
+        f"each other, {size / scatter:.1f} times what the surface changes from one to the next"
+        if scatter > 0.0
+        else f"lines along {along} lie {lengths.length(size / math.sqrt(2.0))} rms above or below "
+        "each other",
+        f"surface.align_lines={along}",
+    )
+
+
+def _steps(
+    z: Array, pixel: tuple[float, float], axis: int, corner: tuple[float, float]
+) -> Finding | None:
+    """Find steps along a straight line across the map, or a quarter of it."""
+    n = z.shape[1 - axis]
+    parts = PARTS if n >= 16 * PARTS else 1
+    steps, _ = _line_steps(z, axis, parts)
+    centred = steps - np.median(steps, axis=1, keepdims=True)
+    usual = MAD_TO_SIGMA * float(np.median(np.abs(centred)))
+    # surfaces with plateaus have few large steps between lines, which are broad otherwise
+    few = np.sort(np.abs(centred), axis=1)[:, : -min(FEW, steps.shape[1] // 4) or None]
+    limit = max(STEP * usual, BROAD * float(np.sqrt(np.mean(few**2))), ABOVE * _rms_step(z, axis))
+    high = np.abs(centred) > limit
+    lines = np.nonzero(high.any(axis=0))[0]
+    if not limit > 0.0 or not lines.size or lines.size > max(4, steps.shape[1] // 32):
+        return None
+    name, size, width = "xy"[axis], pixel[axis], z.shape[1 - axis] * pixel[1 - axis] / parts
+    lines = np.array(sorted(lines, key=lambda j: -np.abs(centred[:, j]).max()))
+    words, places = [], []
+    for j in lines:
+        k = int(np.argmax(np.abs(centred[:, j])))
+        at = corner[axis] + (j + 1) * size
+        words.append(f"{lengths.length(abs(float(centred[k, j])))} at {name} = "
+                     f"{lengths.length(at, 4)}")  # fmt: skip
+        for part in np.nonzero(high[:, j])[0]:
+            ends = [corner[1 - axis] + (part + side) * width for side in (0, 1)]
+            places.append((at, at, *ends) if axis == 0 else (*ends, at, at))
+    more = f" and {lines.size - MOST_NAMED} more" if lines.size > MOST_NAMED else ""
+    text = f"{', '.join(words[:MOST_NAMED])}{more}"
+    cuts = sorted(corner[axis] + (int(j) + 1) * size for j in lines)
+    crop = _one_side((corner[axis], *cuts, corner[axis] + z.shape[axis] * size), name)
+    return Finding("stitching step", text, crop, tuple(places))
+
+
+def _rms_step(z: Array, axis: int) -> float:
+    """Rms step between points on neighbouring lines about the median of these steps."""
+    lines = np.moveaxis(z, axis, 0)
+    difference = np.diff(lines[:, :: max(1, lines.shape[1] // SAMPLES)], axis=0)
+    difference -= np.median(difference, axis=1)[:, np.newaxis]
+    return float(np.sqrt(np.mean(np.minimum(np.abs(difference), _top(difference)) ** 2)))
+
+
+def _top(values: Array) -> float:
+    """Value that one of a hundred exceeds by its modulus: dust and steps of a part do not count."""
+    return float(np.quantile(np.abs(values), 0.99))
+
+
+def _one_side(ends: Sequence[float], name: str) -> str:
+    """Option that leaves the longest part between the ends of a map and steps."""
+    first = max(range(len(ends) - 1), key=lambda k: ends[k + 1] - ends[k])
+    low, high = ends[first], ends[first + 1]
+    options = [f"surface.crop_{name}_min={low:.6g}"] if low > ends[0] else []
+    options += [f"surface.crop_{name}_max={high:.6g}"] if high < ends[-1] else []
+    return " --set ".join(options)
+
+
+def _dust(z: Array, pixel: tuple[float, float], corner: tuple[float, float]) -> Finding | None:
+    """Specks of several pixels that stand out."""
+    nx, ny = z.shape
+    raised = np.zeros(z.shape, dtype=bool)
+    spreads, tops = [], []
+    for i in range(0, nx, BLOCK):
+        for j in range(0, ny, BLOCK):
+            part = z[i : i + BLOCK, j : j + BLOCK]
+            median = float(np.median(part))
+            spreads.append(float(np.median(np.abs(part - median))))
+            tops.append((i, j, median))
+    spread = MAD_TO_SIGMA * float(np.median(spreads))
+    if not spread > 0.0:
+        return None
+    count, square = 0, 0.0
+    for i, j, median in tops:
+        block = slice(i, i + BLOCK), slice(j, j + BLOCK)
+        raised[block] = z[block] - median > DUST * spread
+        rest = z[block][~raised[block]] - median
+        count, square = count + rest.size, square + float(np.dot(rest, rest))
+    # plateaus with valleys are narrow in the median and broad otherwise
+    return _specks(z, raised, max(spread, math.sqrt(square / max(1, count))), pixel, corner)
+
+
+def _specks(
+    z: Array,
+    raised: Mask,
+    spread: float,
+    pixel: tuple[float, float],
+    corner: tuple[float, float],
+) -> Finding | None:
+    """Name the groups of raised pixels that are large enough and not long."""
+    if not raised.any() or raised.mean() > MOST_DUST:
+        return None
+    label, count = scipy.ndimage.label(raised, structure=np.ones((3, 3)))
+    sizes = np.bincount(label.ravel(), minlength=count + 1)
+    specks = []
+    for k, box in enumerate(scipy.ndimage.find_objects(label), 1):
+        sides = [s.stop - s.start for s in box]
+        if sizes[k] >= LEAST_DUST and max(sides) <= 5 * min(sides):
+            around = z[tuple(slice(max(0, s.start - 3), s.stop + 3) for s in box)]
+            height = float(z[box].max()) - float(np.median(around))
+            if height > HIGH * spread:
+                specks.append((height, int(sizes[k]), box))
+    if not specks:
+        return None
+    specks.sort(key=lambda speck: -speck[0])
+    height, size, (bx, by) = specks[0]
+    x, y = (
+        c + 0.5 * (b.start + b.stop) * p for c, b, p in zip(corner, (bx, by), pixel, strict=True)
+    )
+    number = "1 speck" if len(specks) == 1 else f"{len(specks)} specks"
+    text = (
+        f"{number} of {LEAST_DUST} pixels or more, the highest {lengths.length(height)} "
+        f"({height / spread:.0f} standard deviations) on {size} pixels at "
+        f"x = {lengths.length(x, 4)}, y = {lengths.length(y, 4)}"
+    )
+    places = tuple(
+        (
+            *(corner[0] + end * pixel[0] for end in (bx.start, bx.stop)),
+            *(corner[1] + end * pixel[1] for end in (by.start, by.stop)),
+        )
+        for _, _, (bx, by) in specks
+    )
+    return Finding("dust", text, "", places)
