@@ -136,6 +136,7 @@ module ehl_case
       real(dp) :: length_x = 0.0_dp, length_y = 0.0_dp
       real(dp) :: crop_x_min = 0.0_dp, crop_x_max = 0.0_dp, crop_y_min = 0.0_dp, crop_y_max = 0.0_dp
       character(len=word_length) :: height_unit = "m"
+      character(len=word_length) :: profile = "none"
       integer :: sign = 1
       real(dp) :: outliers = 0.0_dp
       character(len=word_length) :: align_lines = "none"

@@ -235,6 +235,8 @@ contains
                       "size of the map along Y; 0: that of the file; fractal: 8.29e-4")
       call self%words("height_unit", s%height_unit, "m|mm|um|nm", &
                       "unit of the heights of a map that names none (.npy, text), and of the places in a list x y z")
+      call self%words("profile", s%profile, "none|isotropic|ridges", &
+                      "the file is a profile: an isotropic surface of its spectrum, or it extended across")
       call self%reals("crop_x_min", s%crop_x_min, "m", "[0, 1]", "the map begins there along X")
       call self%reals("crop_x_max", s%crop_x_max, "m", "[0, 1]", "the map ends there; 0: at its end")
       call self%reals("crop_y_min", s%crop_y_min, "m", "[0, 1]", "the map begins there along Y")

@@ -160,6 +160,8 @@ contains
          why = group//".outliers"
       else if (s%align_lines /= "none") then
          why = group//".align_lines"
+      else if (s%profile /= "none") then
+         why = group//".profile"
       else if (abs(s%rotate) > 0.0_dp) then
          why = group//".rotate"
       else if (s%sign /= 1) then

@@ -31,6 +31,7 @@ READY: Mapping[str, Any] = {
     "surface.edges": "periodic",
     "surface.outliers": 0.0,
     "surface.align_lines": "none",
+    "surface.profile": "none",
     "surface.rotate": 0.0,
     "surface.sign": 1,
     "surface.height_unit": "m",
