@@ -149,7 +149,11 @@ module ehl_case
       logical :: tile_mirrored = .false.
       real(dp) :: shortest_wavelength = 0.0_dp, longest_wavelength = 0.0_dp
       character(len=word_length) :: filter = "sharp"
+      !> Set by the reader, as the keys below of a finish: by ra or rq
       real(dp) :: rms_height = 0.05e-6_dp
+      real(dp) :: ra = 0.0_dp, rq = 0.0_dp
+      character(len=word_length) :: finish = "none"
+      real(dp) :: lay_ratio = 1.0_dp
       real(dp) :: hurst = 0.8_dp
       real(dp) :: rolloff_wavenumber = 0.0_dp
       integer :: pixels = 256

@@ -266,6 +266,12 @@ contains
       call self%words("filter", s%filter, "sharp|gaussian", "how the spectrum is cut")
       call self%reals("rms_height", s%rms_height, "m", "[0, 1e-4]", &
                       "rms height of a fractal surface, before its spectrum is cut")
+      call self%reals("ra", s%ra, "m", "[0, 1e-4]", "Ra in place of rms_height, of normal heights; 0: not given")
+      call self%reals("rq", s%rq, "m", "[0, 1e-4]", "Rq in place of rms_height: the same; 0: not given")
+      call self%words("finish", s%finish, "none|ground|honed|superfinished|polished", &
+                      "a fractal surface with typical Ra, spectrum and lay, as far as not given")
+      call self%reals("lay_ratio", s%lay_ratio, "-", "[0.01, 100]", &
+                      "length of correlation along X over that along Y; below 1: lay across the motion")
       call self%reals("hurst", s%hurst, "-", "[0, 1]", "Hurst exponent")
       call self%reals("rolloff_wavenumber", s%rolloff_wavenumber, "rad/m", "[0, 1e11]", &
                       "the spectrum is flat below it; 0: no roll-off")

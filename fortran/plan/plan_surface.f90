@@ -218,7 +218,7 @@ contains
       call check_heights(group//".pixels = "//to_text(s%pixels), [s%pixels, s%pixels], status)
       if (status%failed()) return
       what = fractal_t(s%length_x, s%length_y, s%rms_height, s%hurst, s%rolloff_wavenumber, [int(s%seed, int32)], &
-                       s%modulus == "gaussian")
+                       s%modulus == "gaussian", s%lay_ratio)
       allocate (rows(s%pixels, s%pixels), stat=stat)
       if (stat /= 0) call status%fail(ehl_no_memory, "no memory for a fractal surface")
       if (.not. status%failed()) call make_fractal(what, rows, status)

@@ -10,7 +10,7 @@ from typing import Any
 from pyehl import lengths, library
 from pyehl.api import predict
 from pyehl.commands.arguments import add_case_arguments, add_force
-from pyehl.prediction import folder
+from pyehl.prediction import folder, spectrum_assumed
 from pyehl.prediction.deformed import error_name
 from pyehl.prediction.friction import TRACKS
 from pyehl.prediction.result import Prediction
@@ -46,6 +46,7 @@ def report(prediction: Prediction) -> str:
         )
         if parts:
             lines.append(f"rise       {parts}")
+    lines += spectrum_assumed.report(prediction.beside)
     if prediction.advice:
         lines += prediction.advice.report()
     if f.cavitated_share > 0.0:

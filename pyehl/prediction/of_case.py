@@ -13,6 +13,7 @@ import numpy as np
 
 from pyehl import surfaces
 from pyehl.errors import InputError
+from pyehl.prediction import spectrum_assumed
 from pyehl.prediction.bands import Band
 from pyehl.prediction.breakdown import Advice, BelowZero, Borne, advise, below_zero
 from pyehl.prediction.by_response import RoughPassage
@@ -148,6 +149,11 @@ def predict(
         heat=heat_of(settings, contact, lubricant),
         thinning=contact.thinning,
         partial=partial,
+        beside=[]
+        if brief or any(given.values())
+        else spectrum_assumed.beside(
+            settings, groups, lambda other: predict(other, smooth=smooth, brief=True)
+        ),
     )
 
 

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -119,6 +119,8 @@ class Prediction:
     heat: Heat | None = None
     film_errors: tuple[float, float] = (math.nan, math.nan)
     partial: Partial | None = None
+    # The same with other spectra, where Ra or a finish is given, see `spectrum_assumed`
+    beside: Sequence[Mapping[str, Any]] = ()
     thinning: float = 1.0  # viscosity over that of a Newtonian lubricant with as thick a film [-]
 
     def __repr__(self) -> str:
@@ -296,6 +298,7 @@ class Prediction:
             "hertz_pressure_Pa": o.hertz_pressure,
             "film_scale_m": o.film_scale,
             "bands": records(self.bands),
+            "spectrum_beside": list(self.beside) or None,
             "wall_seconds": self.seconds,
         }
         if o.radius_ratio != 1.0:

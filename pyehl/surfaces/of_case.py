@@ -33,7 +33,9 @@ RADIUS_PIXELS = 64
 KEPT_PIXELS = 2**20
 # What a map is read by, and what a fractal tile follows from
 SCAN = ("file", "length_x", "length_y", "channel", "height_unit", "profile", "pixels", "seed")
-FRACTAL = "pixels length_x length_y rms_height hurst rolloff_wavenumber seed modulus".split()
+FRACTAL = (
+    "pixels length_x length_y rms_height hurst rolloff_wavenumber lay_ratio seed modulus".split()
+)
 
 
 def rough_groups(settings: Settings) -> list[str]:

@@ -25,7 +25,7 @@ BAND = 1.959963984540054
 """Standard deviations of a band of 95 %."""
 SHORTEST = 6.0
 """Shortest wavelength that is fitted [points]: shorter ones are those of stylus and noise."""
-WORTH = 6.0
+WORTH = 2.0
 """Gain of log-likelihood by which a roll-off is one."""
 ROWS = 16
 """Rows of a map of ridges: they are all the same."""
