@@ -23,6 +23,9 @@ from pyehl.types import Array, Mask
 
 BAND = 1.959963984540054
 """Standard deviations of a band of 95 %."""
+KNEE = 1.4
+"""Factor of the band of the roll-off: at a sharp knee the curvature of the likelihood says too
+little; without it the band holds the truth in 77 to 92 of 100 made profiles."""
 SHORTEST = 6.0
 """Shortest wavelength that is fitted [points]: shorter ones are those of stylus and noise."""
 WORTH = 2.0
@@ -103,7 +106,7 @@ def fit(profile: Profile, detrend: str = "auto", *, ridges: bool = False) -> Spe
     half = BAND * float(errors[1])
     rolls = values.size == 3
     roll = float(math.exp(values[2])) if rolls else 0.0
-    spread = BAND * float(errors[2]) if rolls else 0.0
+    spread = KNEE * BAND * float(errors[2]) if rolls else 0.0
     # mean square of a Gaussian profile: a sum of independent ordinates
     every = power[1:]
     part = 0.5 * BAND * math.sqrt(1.5 * float(np.sum(every**2))) / float(np.sum(every))
