@@ -121,8 +121,8 @@ contains
       select type (other)
       class is (height_map_t)
          if (any(abs(self%waves%length - other%waves%length) > 1.0e-9_dp*self%waves%length)) return
-         if (self%waves%are_here() .and. other%waves%are_here()) &
-            both = self%waves%correlation(other%waves, other%x_start - self%x_start)
+         if (.not. (self%waves%are_here() .and. other%waves%are_here())) return
+         both = self%waves%correlation(other%waves, other%x_start - self%x_start)
       end select
    end function correlation
 

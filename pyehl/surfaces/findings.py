@@ -7,16 +7,15 @@ without a lay show.
 """
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
-import scipy
 
 from pyehl import lengths
 from pyehl.errors import InputError
+from pyehl.surfaces.finding import MAD_TO_SIGMA, SAMPLES, Finding, line_steps
 from pyehl.surfaces.levelling import DEGREES, level
-from pyehl.types import Array, Mask
+from pyehl.surfaces.local_findings import dust, stitching
+from pyehl.types import Array
 
 MOST_FORM = 0.5
 """Share of the variance in a polynomial of degree 2 from which on it is named."""
@@ -24,54 +23,12 @@ FOLD = 0.5
 """Change of the slope from edge to edge, as a share of that of the form: less is a wave."""
 ALIKE = 2.0
 """Most by which the form of half a map differs from that of all of it."""
-SAMPLES = 512
-"""Points of a line, at the most, that its offset is told by."""
 LINE_OFFSETS = 0.5
 """Median step to the next line over the scatter of the steps along the lines, from which on lines
 are offset. Of isotropic surfaces of 128 points it is 0.1 to 0.2."""
 INDEPENDENT = -0.25
 """Correlation of a step with the next one below which lines are offset each by itself: -0.5 for
 independent offsets, 0.5 for the lay of a ground surface (Hurst exponent 0.8), -0.24 for 0.3."""
-STEP, BROAD, ABOVE, FEW = 12.0, 6.0, 3.0, 4
-"""A stitching step is so many times as high as the median step between two lines, as their rms but
-for the largest few, and as the rms step between two points."""
-PARTS = 4
-"""Parts of a line that may have a stitching step each: stitched fields meet in corners."""
-DUST = 8.0
-"""Dust stands out so many standard deviations, by the median."""
-HIGH = 6.0
-"""And its top so many above what is around it, by all that is no dust."""
-LEAST_DUST, MOST_DUST = 5, 0.02
-"""Pixels of a speck of dust at the least; fewer are spikes. Share of the map at the most."""
-BLOCK = 32
-"""Pixels per side of the squares whose median dust is compared with."""
-MAD_TO_SIGMA = 1.482602218505602
-MOST_NAMED = 3
-"""Steps and specks that are named one by one."""
-
-
-@dataclass(frozen=True, slots=True)
-class Finding:
-    """One thing that is no roughness."""
-
-    kind: str  # 'form', 'line offsets', 'stitching step', 'dust'
-    text: str  # what it is, how large and where
-    remedy: str  # option of a case that takes it off, 'surface.key=value'; '' if there is none
-    # Where it is on the map (x_min, x_max, y_min, y_max) [m]; empty: everywhere
-    places: tuple[tuple[float, float, float, float], ...] = ()
-
-    def report(self) -> str:
-        """Tell it in one line."""
-        return f"{self.kind}: {self.text}" + (f"; --set {self.remedy}" if self.remedy else "")
-
-    def summary(self) -> dict[str, object]:
-        """Return what ``summary.json`` holds of it."""
-        return {
-            "kind": self.kind,
-            "text": self.text,
-            "remedy": self.remedy or None,
-            "places_m": [list(place) for place in self.places],
-        }
 
 
 def find(
@@ -97,8 +54,8 @@ def find(
         rest = heights.copy()
         level(rest, "curvature")
     if found[1] is None and found[2] is None:
-        found += [_steps(rest, pixel, axis, corner) for axis in (0, 1)]
-    found.append(_dust(rest, pixel, corner))
+        found += [stitching(rest, pixel, axis, corner) for axis in (0, 1)]
+    found.append(dust(rest, pixel, corner))
     return tuple(finding for finding in found if finding is not None)
 
 
@@ -199,26 +156,9 @@ def _percent(share: float) -> str:
     return f"{100.0 * share:.1f} %" if share < 0.9995 else "nearly all"
 
 
-def _line_steps(z: Array, axis: int, parts: int = 1) -> tuple[Array, float]:
-    """Median steps (parts, n - 1) from a line to the next along an axis, and their scatter.
-
-    The scatter of single steps about the median of their line, as a standard deviation.
-    """
-    lines = np.moveaxis(z, axis, 0)
-    steps, deviations = [], []
-    for k in range(parts):
-        a, b = k * lines.shape[1] // parts, (k + 1) * lines.shape[1] // parts
-        part = lines[:, a : b : max(1, (b - a) // SAMPLES)]
-        difference = np.diff(part, axis=0)
-        median = np.median(difference, axis=1)
-        steps.append(median)
-        deviations.append(np.median(np.abs(difference - median[:, np.newaxis])))
-    return np.array(steps), MAD_TO_SIGMA * float(np.median(deviations))
-
-
 def _lines(z: Array, pixel: tuple[float, float], axis: int) -> Finding | None:
     """Lines that lie at heights of their own: of a scan along the other axis."""
-    (steps,), scatter = _line_steps(z, axis)
+    (steps,), scatter = line_steps(z, axis)
     size = float(np.sqrt(np.mean(np.square(steps))))
     if steps.size < 8 or not size > LINE_OFFSETS * scatter or not size > 0.0:
         return None
@@ -240,126 +180,3 @@ def _lines(z: Array, pixel: tuple[float, float], axis: int) -> Finding | None:
         "each other",
         f"surface.align_lines={along}",
     )
-
-
-def _steps(
-    z: Array, pixel: tuple[float, float], axis: int, corner: tuple[float, float]
-) -> Finding | None:
-    """Find steps along a straight line across the map, or a quarter of it."""
-    n = z.shape[1 - axis]
-    parts = PARTS if n >= 16 * PARTS else 1
-    steps, _ = _line_steps(z, axis, parts)
-    centred = steps - np.median(steps, axis=1, keepdims=True)
-    usual = MAD_TO_SIGMA * float(np.median(np.abs(centred)))
-    # surfaces with plateaus have few large steps between lines, which are broad otherwise
-    few = np.sort(np.abs(centred), axis=1)[:, : -min(FEW, steps.shape[1] // 4) or None]
-    limit = max(STEP * usual, BROAD * float(np.sqrt(np.mean(few**2))), ABOVE * _rms_step(z, axis))
-    high = np.abs(centred) > limit
-    lines = np.nonzero(high.any(axis=0))[0]
-    if not limit > 0.0 or not lines.size or lines.size > max(4, steps.shape[1] // 32):
-        return None
-    name, size, width = "xy"[axis], pixel[axis], z.shape[1 - axis] * pixel[1 - axis] / parts
-    lines = np.array(sorted(lines, key=lambda j: -np.abs(centred[:, j]).max()))
-    words, places = [], []
-    for j in lines:
-        k = int(np.argmax(np.abs(centred[:, j])))
-        at = corner[axis] + (j + 1) * size
-        words.append(f"{lengths.length(abs(float(centred[k, j])))} at {name} = "
-                     f"{lengths.length(at, 4)}")  # fmt: skip
-        for part in np.nonzero(high[:, j])[0]:
-            ends = [corner[1 - axis] + (part + side) * width for side in (0, 1)]
-            places.append((at, at, *ends) if axis == 0 else (*ends, at, at))
-    more = f" and {lines.size - MOST_NAMED} more" if lines.size > MOST_NAMED else ""
-    text = f"{', '.join(words[:MOST_NAMED])}{more}"
-    cuts = sorted(corner[axis] + (int(j) + 1) * size for j in lines)
-    crop = _one_side((corner[axis], *cuts, corner[axis] + z.shape[axis] * size), name)
-    return Finding("stitching step", text, crop, tuple(places))
-
-
-def _rms_step(z: Array, axis: int) -> float:
-    """Rms step between points on neighbouring lines about the median of these steps."""
-    lines = np.moveaxis(z, axis, 0)
-    difference = np.diff(lines[:, :: max(1, lines.shape[1] // SAMPLES)], axis=0)
-    difference -= np.median(difference, axis=1)[:, np.newaxis]
-    return float(np.sqrt(np.mean(np.minimum(np.abs(difference), _top(difference)) ** 2)))
-
-
-def _top(values: Array) -> float:
-    """Value that one of a hundred exceeds by its modulus: dust and steps of a part do not count."""
-    return float(np.quantile(np.abs(values), 0.99))
-
-
-def _one_side(ends: Sequence[float], name: str) -> str:
-    """Option that leaves the longest part between the ends of a map and steps."""
-    first = max(range(len(ends) - 1), key=lambda k: ends[k + 1] - ends[k])
-    low, high = ends[first], ends[first + 1]
-    options = [f"surface.crop_{name}_min={low:.6g}"] if low > ends[0] else []
-    options += [f"surface.crop_{name}_max={high:.6g}"] if high < ends[-1] else []
-    return " --set ".join(options)
-
-
-def _dust(z: Array, pixel: tuple[float, float], corner: tuple[float, float]) -> Finding | None:
-    """Specks of several pixels that stand out."""
-    nx, ny = z.shape
-    raised = np.zeros(z.shape, dtype=bool)
-    spreads, tops = [], []
-    for i in range(0, nx, BLOCK):
-        for j in range(0, ny, BLOCK):
-            part = z[i : i + BLOCK, j : j + BLOCK]
-            median = float(np.median(part))
-            spreads.append(float(np.median(np.abs(part - median))))
-            tops.append((i, j, median))
-    spread = MAD_TO_SIGMA * float(np.median(spreads))
-    if not spread > 0.0:
-        return None
-    count, square = 0, 0.0
-    for i, j, median in tops:
-        block = slice(i, i + BLOCK), slice(j, j + BLOCK)
-        raised[block] = z[block] - median > DUST * spread
-        rest = z[block][~raised[block]] - median
-        count, square = count + rest.size, square + float(np.dot(rest, rest))
-    # plateaus with valleys are narrow in the median and broad otherwise
-    return _specks(z, raised, max(spread, math.sqrt(square / max(1, count))), pixel, corner)
-
-
-def _specks(
-    z: Array,
-    raised: Mask,
-    spread: float,
-    pixel: tuple[float, float],
-    corner: tuple[float, float],
-) -> Finding | None:
-    """Name the groups of raised pixels that are large enough and not long."""
-    if not raised.any() or raised.mean() > MOST_DUST:
-        return None
-    label, count = scipy.ndimage.label(raised, structure=np.ones((3, 3)))
-    sizes = np.bincount(label.ravel(), minlength=count + 1)
-    specks = []
-    for k, box in enumerate(scipy.ndimage.find_objects(label), 1):
-        sides = [s.stop - s.start for s in box]
-        if sizes[k] >= LEAST_DUST and max(sides) <= 5 * min(sides):
-            around = z[tuple(slice(max(0, s.start - 3), s.stop + 3) for s in box)]
-            height = float(z[box].max()) - float(np.median(around))
-            if height > HIGH * spread:
-                specks.append((height, int(sizes[k]), box))
-    if not specks:
-        return None
-    specks.sort(key=lambda speck: -speck[0])
-    height, size, (bx, by) = specks[0]
-    x, y = (
-        c + 0.5 * (b.start + b.stop) * p for c, b, p in zip(corner, (bx, by), pixel, strict=True)
-    )
-    number = "1 speck" if len(specks) == 1 else f"{len(specks)} specks"
-    text = (
-        f"{number} of {LEAST_DUST} pixels or more, the highest {lengths.length(height)} "
-        f"({height / spread:.0f} standard deviations) on {size} pixels at "
-        f"x = {lengths.length(x, 4)}, y = {lengths.length(y, 4)}"
-    )
-    places = tuple(
-        (
-            *(corner[0] + end * pixel[0] for end in (bx.start, bx.stop)),
-            *(corner[1] + end * pixel[1] for end in (by.start, by.stop)),
-        )
-        for _, _, (bx, by) in specks
-    )
-    return Finding("dust", text, "", places)
