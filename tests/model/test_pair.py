@@ -404,11 +404,11 @@ def test_model_of_the_paper_knows_one():
 )
 def test_waves_of_equal_surfaces_that_move_together_add_up(slide_to_roll, seed, alike):
     """Two of 20 nm are one of 40 nm in pure rolling; the second one has another seed by default."""
-    fractal = "kind = 'fractal' rms_height = 2e-8 pixels = 64"
+    keys = "kind = 'fractal' rms_height = 2e-8 pixels = 64"
     second = "" if seed is None else f"seed = {seed}"
     case = pyehl.Case.from_text(
         f"&contact mean_velocity = 2.0 slide_to_roll = {slide_to_roll} /\n&grid points = 33 /\n"
-        f"&surface {fractal} /\n&second_surface {fractal} {second} /\n"
+        f"&surface {keys} /\n&second_surface {keys} {second} /\n"
     )
     tiles = [fractal(64, 8.29e-4, 8.29e-4, rms_height=2e-8, hurst=0.8, seed=s)
              for s in (1, seed or 2)]  # fmt: skip
