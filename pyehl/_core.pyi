@@ -104,6 +104,7 @@ class _Surfaces:
         rms_height: float,
         hurst: float,
         rolloff_wavenumber: float,
+        lay_ratio: float,
         words: NDArray[np.int32],
         gaussian: int,
     ) -> tuple[int, bytes]: ...

@@ -195,7 +195,9 @@ def predict(
             second_surface=tiles["second_surface"],
         )
     if place is not None:
-        folder.write(found, place, plots=plots)
+        folder.write(found, place)
+        if plots:
+            folder.draw(found, place.folder)
     return found
 
 

@@ -237,6 +237,8 @@ contains
                       "unit of the heights of a map that names none (.npy, text)")
       call self%words("lateral_unit", s%lateral_unit, "same|m|mm|um|nm", &
                       "unit of x and y in a list x y z, or of axes, that names none; same: that of the heights")
+      call self%words("profile", s%profile, "none|isotropic|ridges", &
+                      "the file is a profile: an isotropic surface of its spectrum, or it extended across")
       call self%reals("crop_x_min", s%crop_x_min, "m", "[0, 1]", "the map begins there along X")
       call self%reals("crop_x_max", s%crop_x_max, "m", "[0, 1]", "the map ends there; 0: at its end")
       call self%reals("crop_y_min", s%crop_y_min, "m", "[0, 1]", "the map begins there along Y")
@@ -244,6 +246,8 @@ contains
       call self%integers("sign", s%sign, "[-1, 1]", "-1: valleys of the map are positive")
       call self%reals("outliers", s%outliers, "-", "0 or [3, 1e6]", &
                       "points so many standard deviations off are spikes and removed; 0: none")
+      call self%words("align_lines", s%align_lines, "none|x|y", &
+                      "lines of a scan along X or Y are put level with each other, by their medians")
       call self%words("fill", s%fill, "harmonic|none", "missing points: interpolated, or refused")
       call self%words("detrend", s%detrend, "auto|none|centre|tilt|curvature", &
                       "form taken off; auto: tilt for instrument files, none for arrays")
@@ -264,6 +268,12 @@ contains
       call self%words("filter", s%filter, "sharp|gaussian", "how the spectrum is cut")
       call self%reals("rms_height", s%rms_height, "m", "[0, 1e-4]", &
                       "rms height of a fractal surface, before its spectrum is cut")
+      call self%reals("ra", s%ra, "m", "[0, 1e-4]", "Ra in place of rms_height, of normal heights; 0: not given")
+      call self%reals("rq", s%rq, "m", "[0, 1e-4]", "Rq in place of rms_height: the same; 0: not given")
+      call self%words("finish", s%finish, "none|ground|honed|superfinished|polished", &
+                      "a fractal surface with typical Ra, spectrum and lay, as far as not given")
+      call self%reals("lay_ratio", s%lay_ratio, "-", "[0.01, 100]", &
+                      "length of correlation along X over that along Y; below 1: lay across the motion")
       call self%reals("hurst", s%hurst, "-", "[0, 1]", "Hurst exponent")
       call self%reals("rolloff_wavenumber", s%rolloff_wavenumber, "rad/m", "[0, 1e11]", &
                       "the spectrum is flat below it; 0: no roll-off")

@@ -158,6 +158,10 @@ contains
          why = group//".crop_x_min, crop_x_max, crop_y_min or crop_y_max"
       else if (s%outliers > 0.0_dp) then
          why = group//".outliers"
+      else if (s%align_lines /= "none") then
+         why = group//".align_lines"
+      else if (s%profile /= "none") then
+         why = group//".profile"
       else if (abs(s%rotate) > 0.0_dp) then
          why = group//".rotate"
       else if (s%sign /= 1) then
@@ -216,7 +220,7 @@ contains
       call check_heights(group//".pixels = "//to_text(s%pixels), [s%pixels, s%pixels], status)
       if (status%failed()) return
       what = fractal_t(s%length_x, s%length_y, s%rms_height, s%hurst, s%rolloff_wavenumber, [int(s%seed, int32)], &
-                       s%modulus == "gaussian")
+                       s%modulus == "gaussian", s%lay_ratio)
       allocate (rows(s%pixels, s%pixels), stat=stat)
       if (stat /= 0) call status%fail(ehl_no_memory, "no memory for a fractal surface")
       if (.not. status%failed()) call make_fractal(what, rows, status)

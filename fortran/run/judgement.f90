@@ -22,6 +22,8 @@ module ehl_judgement
    real(dp), parameter :: touching = 1.0_dp, apart = 3.0_dp
    !> A result whose error is a larger share of it is not well known
    real(dp), parameter :: well_known = 0.05_dp
+   !> Correlation of two surfaces above which they are no pair of independent ones
+   real(dp), parameter :: alike = 0.5_dp
    !> Flash temperature [K] above which an oil is thinner than computed, where its heat is left out
    real(dp), parameter :: hot = 10.0_dp
 
@@ -48,7 +50,9 @@ contains
       else
          worth = with_care
          doubts = of_pressure(summary)//of_contact(summary)//of_yielding(summary)//of_waves(summary)
-         rest = of_errors(summary)//of_heat(summary)
+         rest = of_errors(summary)//of_heat(summary)//of_two_alike(summary)
+         if (summary%text("surface_findings") /= "") rest = rest//"the map is not roughness alone: "// &
+                                                         summary%text("surface_findings")//"; "
          if (status == "target missed") rest = "grid.target_error is missed; "//rest
          if (doubts /= "") then
             text = doubts(:len(doubts) - 2)
@@ -183,6 +187,16 @@ contains
       if (.not. larger(rise, hot) .or. ieee_is_finite(summary%number("temperature_rise_max_K"))) return
       text = "the surfaces warm by "//short(rise)//" K, and the oil of the model does not; "
    end function of_heat
+
+   !> Two surfaces that move together and are much the same
+   function of_two_alike(summary) result(text)
+      type(record_t), intent(in) :: summary
+      character(len=:), allocatable :: text
+
+      text = ""
+      if (larger(abs(summary%number("surface_correlation")), alike)) text = "the two surfaces move together and are alike "// &
+         "(correlation "//fixed(summary%number("surface_correlation"), "f9.2")//"), so that their waves add up; "
+   end function of_two_alike
 
    !> The least film in words
    function least_film(summary) result(text)

@@ -39,6 +39,7 @@ module ehl_height_map
       procedure :: hand_over
       procedure :: height
       procedure :: unresolved
+      procedure :: correlation
       procedure :: bytes
       procedure :: bytes_on
       procedure, private :: carried
@@ -109,6 +110,21 @@ contains
       most = int(min(self%waves%length/self%meshes(grid)/nodes*(1.0_dp + merge(-slack, slack, more)), &
                      0.5_dp*self%waves%pixels))
    end function carried
+
+   !> Of two tiles of one size
+   pure function correlation(self, other) result(both)
+      class(height_map_t), intent(in) :: self
+      class(surface_t), intent(in) :: other
+      real(dp) :: both(2)
+
+      both = 0.0_dp
+      select type (other)
+      class is (height_map_t)
+         if (any(abs(self%waves%length - other%waves%length) > 1.0e-9_dp*self%waves%length)) return
+         if (.not. (self%waves%are_here() .and. other%waves%are_here())) return
+         both = self%waves%correlation(other%waves, other%x_start - self%x_start)
+      end select
+   end function correlation
 
    !> Share of the variance in waves that have fewer nodes than that along X or along Y
    pure real(dp) function unresolved(self, grid, nodes)

@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pyehl.prediction.bands import Band, joining
+from pyehl.prediction.breakdown import remedies_of
 from pyehl.prediction.carrying import confirmed, within_range
 from pyehl.prediction.contact import HertzContact, Response
 from pyehl.prediction.deformed import film_levels
@@ -227,7 +228,9 @@ class RoughPassage:
     ) -> RoughFriction:
         ratios = passage[1]
         status, message = outcome(contact, ratios, load_balance=self.options.load_balance)
-        if status == BEYOND and not brief:
+        if status == BEYOND and not brief and (first := remedies_of(self.topography)):
+            message += "; " + ", ".join(f"first --set {option}" for option in first)
+        elif status == BEYOND and not brief:
             message += self._carried(*parts)
         return passed(
             contact,

@@ -5,6 +5,8 @@ import math
 from typing import Any
 
 from pyehl import surfaces
+from pyehl.prediction.meeting import sum_of
+from pyehl.prediction.sides import composite_rms
 from pyehl.theory import film, stribeck
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -70,13 +72,14 @@ def sheet(settings: Settings) -> dict[str, Any]:
         return result
     h_c = films[0].h_c
     if both and not set(kinds) & set(surfaces.FEATURES):
-        # composite, as of surfaces that have nothing in common
-        sigma = math.hypot(
-            *(
-                surfaces.from_settings({**settings, "surface": surface}, operating, h_c).rms_height
-                for surface in both
-            )
-        )
+        tiles = [
+            surfaces.from_settings({**settings, "surface": surface}, operating, h_c)
+            for surface in both
+        ]
+        sigma = tiles[0].rms_height
+        if len(tiles) == 2:
+            together = sum_of(both, tiles, operating.hertz_radius)
+            sigma = composite_rms(tiles[0], tiles[1], together)
         result["rms_height_m"] = sigma
         result["lambda_ratio_central"] = h_c / sigma if sigma > 0.0 else None
     if kinds == ["harmonic"] and operating.radius_ratio == 1.0:

@@ -3,6 +3,7 @@
 
 import gc
 import json
+import logging
 import math
 import os
 from collections.abc import Iterable, Iterator
@@ -21,6 +22,8 @@ from pyehl.prediction.smooth import SmoothContact
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.shear import ShearLaw
 from pyehl.types import Settings
+
+LOG = logging.getLogger(__name__)
 
 TABLES = ("passage", "spectrum", "bands")
 ARRAYS = ("x", "y", "surface", "deformed", "delta_p")
@@ -42,14 +45,14 @@ def destination(
     return Destination(folder, "prediction", tuple(names), tuple(inputs), force=force)
 
 
-def write(prediction: Prediction, place: Destination, *, plots: bool = False) -> None:
+def write(prediction: Prediction, place: Destination) -> None:
     """Write the result folder, whole or not at all.
 
     Files: ``case.nml`` (resolved), ``summary.json``, ``passage.csv``, ``spectrum.csv``,
     ``bands.csv`` and, first index along x: ``x.npy`` (nx,), ``y.npy`` (ny,), ``surface.npy``,
     ``deformed.npy`` [m], ``delta_p.npy`` [Pa], (nx, ny), of a second rough surface the same as
-    ``second_x.npy`` and so on; with `plots` the pictures. InputError if
-    the folder holds something other than an earlier prediction; FileError if it cannot be written.
+    ``second_x.npy`` and so on. InputError if the folder holds something other than an earlier
+    prediction; FileError if it cannot be written.
     """
     with place.fresh() as folder:
         text = prediction.case_text.rstrip() + "\n"
@@ -59,16 +62,29 @@ def write(prediction: Prediction, place: Destination, *, plots: bool = False) ->
             write_csv(folder / f"{name}.csv", tuple(columns), rows)
         for name, values in prediction.arrays.items():
             np.save(folder / f"{name}.npy", values)
-        if plots:
-            with _uncollected():
-                # matplotlib takes longer to import than the prediction takes to compute
-                from pyehl.plots.figures import prediction_figures  # noqa: PLC0415
-                from pyehl.plots.folder import save_all  # noqa: PLC0415
-
-                parts = prediction.summary, prediction.arrays, prediction.tables
-                save_all(prediction_figures(*parts), folder)
         files = sorted(["summary.json", *(path.name for path in folder.iterdir())])
         write_json(folder / "summary.json", prediction.summary | {"files": files})
+
+
+def draw(prediction: Prediction, folder: str | os.PathLike[str]) -> None:
+    """Add the pictures to a result folder that is written; one that fails is a warning."""
+    folder = Path(folder)
+    summary = prediction.summary
+    drawn = []
+    with _uncollected():
+        # matplotlib takes longer to import than the prediction takes to compute
+        from pyehl.plots.figures import prediction_pictures  # noqa: PLC0415
+        from pyehl.plots.style import save  # noqa: PLC0415
+
+        pictures = prediction_pictures(summary, prediction.arrays, prediction.tables)
+        for name, picture in pictures.items():
+            path = folder / f"{name}.png"
+            try:
+                drawn.append(save(picture(), path).name)
+            except Exception as error:
+                LOG.warning("%s: not drawn: %s", path, error or type(error).__name__)
+    written = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+    write_json(folder / "summary.json", written | {"files": sorted([*written["files"], *drawn])})
 
 
 @contextmanager

@@ -34,6 +34,8 @@ READY: Mapping[str, Any] = {
     "surface.detrend": "none",
     "surface.edges": "periodic",
     "surface.outliers": 0.0,
+    "surface.align_lines": "none",
+    "surface.profile": "none",
     "surface.rotate": 0.0,
     "surface.sign": 1,
     "surface.height_unit": "m",

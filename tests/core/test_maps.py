@@ -99,6 +99,8 @@ def test_program_takes_what_pyehl_surface_writes(scan: Path, tmp_path: Path, dri
         ("edges = 'mirror'", "surface.edges"),
         ("crop_x_max = 5e-5", "surface.crop"),
         ("outliers = 10.0", "surface.outliers"),
+        ("align_lines = 'y'", "surface.align_lines"),
+        ("profile = 'ridges'", "surface.profile"),
         ("rotate = 90.0", "surface.rotate"),
         ("sign = -1", "surface.sign"),
         ("track = 1e-5", "surface.track"),

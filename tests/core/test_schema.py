@@ -70,6 +70,10 @@ SOLUTIONS = {
         f"{MOES}{WAVE.format('velocity_ratio = 1.6137')}{SECOND}"
         "&time max_periods = 6 start = 'prediction' /\n"
     ),
+    "pure rolling": (
+        f"{MOES}{WAVE.format('velocity_ratio = 1.0')}"
+        f"{SECOND.replace('0.1', '0.1 velocity_ratio = 1')}&time steps = 2 /\n"
+    ),
     "second surface at rest alone": f"{MOES}{SECOND.replace('0.1', '0.1 velocity_ratio = 0')}",
 }
 
@@ -96,7 +100,7 @@ def test_predictions(tmp_path: Path):
     held = {*pyehl.predict(pyehl.Case.from_text(layer + rough)).summary}
     assert alone | oval | both | held == names("prediction")
     of_two = {n for n in names("prediction") if n.startswith("second_")}
-    assert both - alone == of_two | {"surface_rms_m", "surface_slope"}
+    assert both - alone == of_two | {"surface_rms_m", "surface_slope", "surface_correlation"}
 
 
 def test_film_sheets():
