@@ -27,7 +27,7 @@ OWNED = {
         "pressure_viscosity", "shear_law", "eyring_stress", "carreau_stress", "carreau_exponent",
     },
     "surface": {"kind", "rms_height", "hurst", "seed", "file", "length_x", "length_y"},
-    "grid": {"points"},
+    "grid": {"points", "points_y", "target_error", "max_points"},
 }  # fmt: skip
 # Keys of the oil of an opened case that no other oil has
 OF_SHEET = ("density_15", "thermal_expansion")
@@ -171,7 +171,7 @@ class Position:
             lines = base.splitlines(keepends=True)
             base = "".join(line for line in lines if line.split(" =")[0].strip() not in OF_SHEET)
         case = Case.from_text(base, self.options(points), "the knobs")
-        return case.with_options("surface.kind=smooth") if smooth else case
+        return case.smooth() if smooth else case
 
     def text(self, points: int) -> str:
         """Give the case file: what was given, the map without its folder."""

@@ -136,7 +136,7 @@ def plan_curve(
             CurvePoint(
                 point,
                 settings,
-                smooth=add(_smooth(rough, settings), "solve"),
+                smooth=add(rough.smooth(), "solve"),
                 predictions=tuple(add(made, "predict") for made in varied),
                 full=add(rough, "solve") if point.number in chosen else None,
             )
@@ -189,9 +189,3 @@ def _with_seeds(case: Case, settings: Settings, ahead: int) -> Case:
     groups = _fractal(settings) if ahead else []
     seeds = {f"{group}.seed": int(settings[group]["seed"]) + ahead for group in groups}
     return case.with_options(seeds) if seeds else case
-
-
-def _smooth(case: Case, settings: Settings) -> Case:
-    """Give a case without its roughness."""
-    groups = {"surface", *surfaces.rough_groups(settings)}
-    return case.with_options({f"{group}.kind": "smooth" for group in sorted(groups, reverse=True)})

@@ -18,7 +18,8 @@ from pyehl import library, surfaces
 from pyehl.case import Case, files_of
 from pyehl.errors import InputError
 from pyehl.prediction.options import unpredictable
-from pyehl.prediction.smooth import POINTS, smooth_case
+from pyehl.prediction.smooth import POINTS
+from pyehl.prediction.smooth_case import smooth_case
 from pyehl.solver import Solver
 from pyehl.studies.study import Point, Study
 from pyehl.studies.tasks import Task

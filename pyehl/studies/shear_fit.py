@@ -17,6 +17,7 @@ from pyehl import library, namelist
 from pyehl.errors import EhlError, InputError
 from pyehl.handle import SolverHandle
 from pyehl.prediction.smooth import SmoothContact, solve_contact
+from pyehl.prediction.smooth_case import without_surface
 from pyehl.studies.measured_friction import Measured
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -202,13 +203,13 @@ class _Model:
 
 def _base(settings: Settings, points: int) -> dict[str, dict[str, Any]]:
     """Give what the contacts share: groups of a case without sliding and shear law."""
-    contact, oil, grid = (dict(settings[g]) for g in ("contact", "lubricant", "grid"))
+    groups = without_surface(settings)
     for key in ("slide_to_roll", "rough_surface"):
-        contact.pop(key, None)
+        groups["contact"].pop(key, None)
     for key in ("limiting_stress", "limiting_coefficient"):
-        oil.pop(key, None)
-    domain = {key: grid[key] for key in ("x_inlet", "x_outlet", "y_extent", "border")}
-    return {"contact": contact, "lubricant": oil, "grid": {"points": points, **domain}}
+        groups["lubricant"].pop(key, None)
+    groups["grid"]["points"] = points
+    return groups
 
 
 def _friction(
