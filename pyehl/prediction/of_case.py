@@ -14,6 +14,7 @@ from pyehl.errors import InputError
 from pyehl.prediction.bands import Band
 from pyehl.prediction.breakdown import Advice, BelowZero, Borne, advise, below_zero
 from pyehl.prediction.by_response import RoughPassage
+from pyehl.prediction.errors import outside_range
 from pyehl.prediction.folder import read_contact
 from pyehl.prediction.friction import TRACKS, RoughFriction, SecondPassage, broken
 from pyehl.prediction.heated import heat_of
@@ -35,6 +36,7 @@ MAX_TRACKS = 10_000
 
 # Why contact at a boundary film is not predicted
 OF_TWO = "contact at a boundary film is predicted of one rough surface"
+BETWEEN = "the film ends between the positions at which contact is looked for"
 # Why its errors are not known
 ELASTIC = "the prediction is of elastic solids: contact.hardness is left out"
 OTHER_MODEL = "psd.reduction and psd.smooth are not those that contact is predicted with"
@@ -114,6 +116,8 @@ def predict(
         second = SecondSurface(other.topography, other.velocity_ratio, friction.second)
     partial = _partial(settings, alone)
     if partial is not None:
+        if friction.status == "film breakdown" and partial.load_share == 0.0:
+            partial = without(BETWEEN)
         friction, over = touching(friction, partial, over)
         advice = None if friction.status == "predicted" else advice
     return Prediction(
@@ -161,6 +165,11 @@ def _partial(
     found = partial_film(
         passage, passage.parts(), layer, float(lubricant.get("boundary_friction", 0.0))
     )
+    beyond = outside_range(
+        passage.operating, passage.velocity_ratio, passage.options, passage.contact.thinning
+    )
+    if beyond:
+        found = found.unknown(f"outside the range of the response by {', '.join(beyond)}")
     if settings["contact"].get("hardness", 0.0) > 0.0:
         note = found.note or ELASTIC
         found = replace(found, load_share_error=math.nan, area_share_error=math.nan, note=note)

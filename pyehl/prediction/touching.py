@@ -5,7 +5,7 @@ import math
 from dataclasses import replace
 from typing import Any
 
-from pyehl.prediction.friction import RoughFriction
+from pyehl.prediction.friction import RoughFriction, broken
 from pyehl.prediction.partial import Partial
 from pyehl.surfaces import interpolated
 
@@ -22,6 +22,8 @@ def touching(
 
     A prediction without contact, or whose contact is not known, stays as it is.
     """
+    if partial.lost:
+        return _lost(friction, partial), (math.nan, math.nan)
     if not partial.touches:
         return friction, tracks
     fine = interpolated(partial.passage, 8)
@@ -44,6 +46,16 @@ def touching(
         film_min=partial.film_min,
         cavitated_friction=math.nan,
     ), (math.nan, math.nan)
+
+
+def _lost(friction: RoughFriction, partial: Partial) -> RoughFriction:
+    """No friction of a full film where bodies touch, and how much is not known."""
+    message = f"the bodies touch at the boundary film, and nothing of that is known: {partial.note}"
+    if friction.status != "predicted":
+        message = f"{friction.message}; {message}"
+    status = "film breakdown" if friction.status == "predicted" else friction.status
+    none = broken(friction, math.nan)
+    return replace(none, status=status, message=message, mu_smooth=partial.mu_smooth)
 
 
 def contact_numbers(partial: Partial | None, layer: float, *, known: bool) -> dict[str, Any]:

@@ -175,9 +175,7 @@ def test_smooth_contact_from_a_result_folder(tmp_path):
     barus = {"lubricant.viscosity_law": "barus"}
     with pytest.raises(pyehl.InputError, match=r"viscosity_law is 'roelands' there and 'barus' in"):
         pyehl.predict("cases/table1.nml", barus, smooth=folder)
-    with pytest.raises(
-        pyehl.InputError, match=r"grid\.border is 'zero' there and 'flooded' in"
-    ):
+    with pytest.raises(pyehl.InputError, match=r"grid\.border is 'zero' there and 'flooded' in"):
         pyehl.predict("cases/table1.nml", {"grid.border": "flooded"}, smooth=folder)
     with pytest.raises(pyehl.InputError, match="moes_m is"):
         pyehl.predict("cases/table1.nml", "contact.load=500.0", smooth=folder)
