@@ -98,7 +98,7 @@ def fit_law(settings: Settings, law: str, measured: Measured, points: int) -> Fi
             f"{srr.size} measured points for {len(keys)} parameters of '{law}'\nexpected: more "
             "points than parameters"
         )
-    weight = 1.0 / error if np.all(error > 0.0) else np.ones_like(mu)
+    weight = _weights(error)
     base = _base(settings, points)
     model = _Model(settings, law)
     limits = np.array([_limits(key) for key in keys])
@@ -139,6 +139,21 @@ def fit_law(settings: Settings, law: str, measured: Measured, points: int) -> Fi
         for key, value, end in zip(keys, values, ends, strict=True)
     )
     return Fit(law, parameters, srr, mu, error, settled.fun / weight + mu, points)
+
+
+def _weights(error: Array) -> Array:
+    """Weights of measured points by their errors (n,); InputError for errors of which one is none.
+
+    Zeros alone stand for errors that are not known.
+    """
+    if not error.any():
+        return np.ones_like(error)
+    if not (error > 0.0).all():
+        raise InputError(
+            f"an error of {error.min():g} of measured friction\nexpected: errors above 0, or 0 for "
+            "all where none is known"
+        )
+    return np.asarray(1.0 / error)
 
 
 def _limits(key: str) -> tuple[float, float]:
