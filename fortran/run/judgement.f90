@@ -22,6 +22,8 @@ module ehl_judgement
    real(dp), parameter :: touching = 1.0_dp, apart = 3.0_dp
    !> A result whose error is a larger share of it is not well known
    real(dp), parameter :: well_known = 0.05_dp
+   !> Status of a prediction whose film is known, and whose pressures are beyond the model
+   character(len=*), parameter :: beyond = "beyond linear response"
    !> Flash temperature [K] above which an oil is thinner than computed, where its heat is left out
    real(dp), parameter :: hot = 10.0_dp
 
@@ -42,7 +44,7 @@ contains
       breaks = status == "film breakdown" .or. (status == "negative film" .and. ieee_is_finite(summary%number("H_c")))
       if (breaks) then
          text = "film breakdown: "//summary%text("message")
-      else if (all(status /= [character(len=13) :: "converged", "predicted", "target missed"])) then
+      else if (all(status /= [character(len=len(beyond)) :: "converged", "predicted", "target missed", beyond])) then
          text = "no answer: the status is '"//status//"'"
          if (summary%text("message") /= "") text = text//": "//summary%text("message")
       else
@@ -50,6 +52,7 @@ contains
          doubts = of_pressure(summary)//of_contact(summary)//of_yielding(summary)//of_waves(summary)
          rest = of_errors(summary)//of_heat(summary)
          if (status == "target missed") rest = "grid.target_error is missed; "//rest
+         if (status == beyond) rest = "mu_r/mu_s is not known: "//summary%text("message")//"; "//rest
          if (doubts /= "") then
             text = doubts(:len(doubts) - 2)
          else

@@ -15,7 +15,7 @@ from pyehl import surfaces
 from pyehl.case import Case, files_of
 from pyehl.errors import InputError
 from pyehl.prediction.options import turned, unpredictable
-from pyehl.studies.plan import TaskList, check_memory, duration, formula_film
+from pyehl.studies.plan import START, TaskList, check_memory, duration, formula_film
 from pyehl.studies.study import MAX_CASES, Point, Study, make
 from pyehl.studies.tasks import Task
 from pyehl.studies.vary import Axis
@@ -79,7 +79,7 @@ class CurvePlan:
         if finished:
             lines.append(f"           {len(finished)} of {len(self.tasks)} tasks are done")
         if left:
-            seconds = max(sum(left) / min(jobs, len(left)), *left)
+            seconds = START + max(sum(left) / min(jobs, len(left)), *left)
             lines.append(f"time       about {duration(seconds)} by estimate")
         return "\n".join(lines)
 
