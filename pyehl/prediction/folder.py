@@ -112,7 +112,7 @@ def read_contact(
     there, here = float(summary.get("radius_ratio") or 1.0), operating.radius_ratio
     if not math.isclose(there, here, rel_tol=1e-4):
         raise InputError(f"{folder}: radius_ratio is {there:.6g} there and {here:.6g} in the case")
-    angle = float(of_folder["contact"].get("angle", 0.0))
+    angle = float(of_folder["contact"]["angle"])
     if here != 1.0 and angle != 0.0:
         raise InputError(f"{folder}: contact.angle is {angle:g} there and 0 in the case")
     flows = _flow(of_folder), _flow(settings)

@@ -89,7 +89,7 @@ def predict(
             tile = surfaces.from_settings({**settings, "surface": values}, operating, known)
         else:
             tile = surfaces.finished(tile, values)
-        ratio, kind = float(values["velocity_ratio"]), str(values.get("filter", "sharp"))
+        ratio, kind = float(values["velocity_ratio"]), str(values["filter"])
         conditions = contact, operating, lubricant, options, ratio
         alone.append(RoughPassage(tile, *conditions, groups=(group,), filter_kind=kind))
 
@@ -155,16 +155,14 @@ def _partial(
 ) -> Partial | None:
     """Find the contact of a case with a boundary film; None without one."""
     lubricant, passage = settings["lubricant"], alone[0]
-    layer = float(lubricant.get("boundary_film", 0.0))
+    layer = float(lubricant["boundary_film"])
     if not layer > 0.0:
         return None
     if len(alone) > 1:
         return without(OF_TWO)
     if not passage.options.measured:
         return without(OTHER_MODEL)
-    found = partial_film(
-        passage, passage.parts(), layer, float(lubricant.get("boundary_friction", 0.0))
-    )
+    found = partial_film(passage, passage.parts(), layer, float(lubricant["boundary_friction"]))
     beyond = outside_range(
         passage.operating, passage.velocity_ratio, passage.options, passage.contact.thinning
     )
@@ -202,7 +200,7 @@ def _of_pair(
 ) -> tuple[RoughFriction, tuple[float, float], list[Band], PairBelowZero, Callable[[], PairAdvice]]:
     """Predict two surfaces, as `_of_one` does one."""
     fronts = [float(group["x_start"]) for group in keys]
-    filters = [str(group.get("filter", "sharp")) for group in keys]
+    filters = [str(group["filter"]) for group in keys]
     pair = RoughPair((alone[0], alone[1]), (fronts[0], fronts[1]), (filters[0], filters[1]))
     friction, over, bands = pair.run(tracks, brief=brief)
     second = cast("SecondPassage", friction.second)
@@ -247,7 +245,7 @@ def _options(settings: Mapping[str, Mapping[str, Any]], tracks: int) -> Options:
 
 def _advice(passage: RoughPassage, group: Mapping[str, Any], borne: Borne) -> Advice:
     """Where the film ends, and what of the group ``surface`` would carry."""
-    surface, kind = passage.topography, str(group.get("filter", "sharp"))
+    surface, kind = passage.topography, str(group["filter"])
     return advise(
         surface,
         lambda tile: replace(passage, topography=tile).deformed(),

@@ -45,7 +45,8 @@ POSITIONS = 16
 # Error of the film at which bodies touch, of the rms height of the deformed surface
 # (docs/evidence/partial)
 FILM = 0.45
-# Of waves that the fluid flattens nearly whole, as much is taken to be left
+# Of waves that the fluid flattens nearly whole, as much is taken to be left: half and twice of it
+# change no digit of the contact in docs/howto/mixed.md
 LEAST_LEFT = 0.02
 # Error of the film that the layer gives, over the layer
 GIVEN_TO = 1e-4

@@ -219,7 +219,7 @@ class Prediction:
     def summary(self) -> dict[str, Any]:
         """What ``summary.json`` holds; None for a number that does not exist."""
         f, o, s = self.friction, self.operating, self.surface
-        layer = float(self.settings["lubricant"].get("boundary_film", 0.0)) / o.film_scale
+        layer = float(self.settings["lubricant"]["boundary_film"]) / o.film_scale
         sigma = math.hypot(s.rms_height, self.second.surface.rms_height if self.second else 0.0)
         lacking = self.partial is not None and self.partial.lacks_friction
         rough = max(f.pressure_max, self.pressure_maximum) if f.status == "predicted" else None

@@ -109,7 +109,7 @@ def with_layer(settings: Settings, contact: SmoothContact, lubricant: Lubricant)
     Its films are NaN, and the source says why, where it does not converge.
     """
     operating = OperatingPoint.from_settings(settings)
-    layer = float(settings["lubricant"].get("boundary_film", 0.0)) / operating.film_scale
+    layer = float(settings["lubricant"]["boundary_film"]) / operating.film_scale
     pressure = np.maximum(contact.pressure, 0.0) * operating.hertz_pressure
     held = lubricant.density_ratio(pressure) * contact.film
     if float(held.min()) > TOUCHES * layer:

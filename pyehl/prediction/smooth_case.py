@@ -48,7 +48,7 @@ def smooth_case(settings: Settings, *, layer: bool = False) -> str:
     have those that differ in their slip or their shear law.
     """
     thins = ShearLaw.from_settings(settings).in_flow
-    heated = bool(settings["lubricant"].get("thermal_reduction", False))
+    heated = bool(settings["lubricant"]["thermal_reduction"])
     of_contact = OF_SOLIDS + (() if thins or heated else OF_SLIP)
     of_lubricant = OF_CONTACT + (() if thins else OF_SHEAR) + (() if heated else OF_OIL)
     if layer:

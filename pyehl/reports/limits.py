@@ -25,7 +25,7 @@ NOTES = {
 def limits(settings: Settings, summary: Values) -> list[str]:
     """Say which limits of the model apply to a result, a sentence or two each."""
     point = OperatingPoint.from_settings(settings)
-    law, flow = settings["lubricant"]["shear_law"], settings["lubricant"].get("flow", "newtonian")
+    law, flow = settings["lubricant"]["shear_law"], settings["lubricant"]["flow"]
     rough = rough_groups(settings)
     predicted = summary.get("kind") == "prediction"
     found = [
@@ -50,7 +50,7 @@ def limits(settings: Settings, summary: Values) -> list[str]:
         found.append("The shear law thins the friction alone: film and waves are Newtonian.")
     elif law == "limiting":
         found.append("The limiting stress bounds the friction alone, not the flow.")
-    if point.moes_m >= 500.0 and settings.get("grid", {}).get("border") != "flooded":
+    if point.moes_m >= 500.0 and settings["grid"]["border"] != "flooded":
         found.append(
             "At the border of the domain P = 0, which takes a little of the film; what it takes is "
             "part of the stated error."

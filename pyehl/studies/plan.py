@@ -114,7 +114,11 @@ def _time_to_settle(surface: Mapping[str, Any], settings: Settings) -> float:
     """
     if surface["kind"] in FEATURES:
         # from where it matters until it has left
-        return (2.3 + 1.2 * float(surface.get("width", 0.5))) / float(surface["velocity_ratio"])
+        width = surface.get("width")
+        if width is None:
+            point = OperatingPoint.from_settings(settings)
+            width = float(surface["width_m"]) / point.hertz_radius
+        return (2.3 + 1.2 * float(width)) / float(surface["velocity_ratio"])
     if surface["kind"] == "harmonic":
         period = float(surface["wavelength_x"])
     elif settings["contact"].get("moes_l") == 0.0:
