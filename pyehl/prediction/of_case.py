@@ -26,7 +26,7 @@ from pyehl.prediction.result import Prediction
 from pyehl.prediction.second_order import FILM_ENDS
 from pyehl.prediction.sides import SecondSurface
 from pyehl.prediction.smooth import SmoothContact, hertz_contact, solve_contact, with_layer
-from pyehl.prediction.touching import touching
+from pyehl.prediction.touching import lost_with_the_film, touching
 from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -36,7 +36,6 @@ MAX_TRACKS = 10_000
 
 # Why contact at a boundary film is not predicted
 OF_TWO = "contact at a boundary film is predicted of one rough surface"
-BETWEEN = "the film ends between the positions at which contact is looked for"
 # Why its errors are not known
 ELASTIC = "the prediction is of elastic solids: contact.hardness is left out"
 OTHER_MODEL = "psd.reduction and psd.smooth are not those that contact is predicted with"
@@ -116,8 +115,7 @@ def predict(
         second = SecondSurface(other.topography, other.velocity_ratio, friction.second)
     partial = _partial(settings, alone)
     if partial is not None:
-        if friction.status == "film breakdown" and partial.load_share == 0.0:
-            partial = without(BETWEEN)
+        partial = lost_with_the_film(friction, partial)
         friction, over = touching(friction, partial, over)
         advice = None if friction.status == "predicted" else advice
     return Prediction(

@@ -89,7 +89,7 @@ class Partial:
         """Give the same where its numbers are not known, and why: none where bodies may touch."""
         if self.load_share == 0.0 == self.load_share_error:
             return self
-        return replace(without(note), mu_smooth=self.mu_smooth, lost=self.touches)
+        return replace(without(note), mu_smooth=self.mu_smooth, lost=self.lost or self.touches)
 
     @property
     def lacks_friction(self) -> bool:
