@@ -350,7 +350,7 @@ def test_limits_that_apply(root):
         assert "film and waves are Newtonian" not in told
         assert "film and waves are Newtonian" in " ".join(limits(plain, {"kind": kind}))
     # contact at a boundary film is never denied
-    layer = pyehl.Case.read("cases/table1.nml", "lubricant.boundary_film=4e-8").resolve()
+    layer = pyehl.Case.read(root / "cases/table1.nml", "lubricant.boundary_film=4e-8").resolve()
     touching = {"kind": "prediction", "status": "predicted", "contact_load_share": 0.1423}
     for groups, summary, words in (
         (
