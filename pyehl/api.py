@@ -268,4 +268,4 @@ def check(case: Case | str | os.PathLike[str], *options: Option) -> str:
     name = "" if isinstance(case, Case) else path_of(case, "case")
     case = Case.of(case, *options)
     with named(name), Solver(case) as solver:
-        return f"{case.text}\n{solver.describe(predict=False)}"
+        return f"{case.text}\n{solver.describe()}"

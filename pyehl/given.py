@@ -102,9 +102,14 @@ def plain(value: object) -> Value:
 
 
 def option(key: str, value: Value) -> str:
-    """Text ``group.key=value`` that the reader of cases takes."""
+    """Text ``group.key=value`` that the reader of cases takes.
+
+    Between quotes, where a word would lose its quotes or blanks, or is empty.
+    """
     if isinstance(value, bool):
         return f"{key}={'.true.' if value else '.false.'}"
+    if isinstance(value, str) and (value != value.strip() or value[:1] in ("", "'", '"')):
+        return f"{key}='{value.replace(chr(39), 2 * chr(39))}'"
     return f"{key}={value!r}" if isinstance(value, float) else f"{key}={value}"
 
 

@@ -27,6 +27,8 @@ module ehl_plan_need
    !> Seconds per cube of the unknowns of the coarsest grid, which is solved directly, ten times or so in a smooth contact; they
    !> are what a long grid takes (0.5 s of 1.1 at kappa = 10 on 257 nodes)
    real(dp), parameter :: direct_seconds = 1.0e-9_dp
+   !> Semi-axes over each other from which smooth contacts may be restarted with damped cycles (3 to 9 times as long)
+   real(dp), parameter :: long = 1.5_dp
    !> Cycles of a rough contact at rest
    real(dp), parameter :: rest_cycles = 20.0_dp
 
@@ -59,6 +61,9 @@ contains
       character(len=:), allocatable :: text
 
       text = "need       about "//amount(bytes(plan, 1))//" of memory and "//duration(seconds(plan))//" on one thread"
+      if (plan%contact%ellipticity > long .or. plan%contact%ellipticity < 1.0_dp/long) then
+         text = text//", up to ten times as long with damped cycles"
+      end if
       if (plan%target_error > 0.0_dp) text = text//", if it comes to the finest grid"
       if (plan%surfaces%move() .and. plan%steps == 0) text = text//", if it ends as early as it can"
       text = text//new_line("a")

@@ -24,6 +24,8 @@ module ehl_judgement
    real(dp), parameter :: well_known = 0.05_dp
    !> Correlation of two surfaces above which they are no pair of independent ones
    real(dp), parameter :: alike = 0.5_dp
+   !> Status of a prediction whose film is known, and whose pressures are beyond the model
+   character(len=*), parameter :: beyond = "beyond linear response"
    !> Flash temperature [K] above which an oil is thinner than computed, where its heat is left out
    real(dp), parameter :: hot = 10.0_dp
 
@@ -44,7 +46,7 @@ contains
       breaks = status == "film breakdown" .or. (status == "negative film" .and. ieee_is_finite(summary%number("H_c")))
       if (breaks) then
          text = "film breakdown: "//summary%text("message")
-      else if (all(status /= [character(len=13) :: "converged", "predicted", "target missed"])) then
+      else if (all(status /= [character(len=len(beyond)) :: "converged", "predicted", "target missed", beyond])) then
          text = "no answer: the status is '"//status//"'"
          if (summary%text("message") /= "") text = text//": "//summary%text("message")
       else
@@ -54,6 +56,7 @@ contains
          if (summary%text("surface_findings") /= "") rest = rest//"the map is not roughness alone: "// &
                                                          summary%text("surface_findings")//"; "
          if (status == "target missed") rest = "grid.target_error is missed; "//rest
+         if (status == beyond) rest = "mu_r/mu_s is not known: "//summary%text("message")//"; "//rest
          if (doubts /= "") then
             text = doubts(:len(doubts) - 2)
          else

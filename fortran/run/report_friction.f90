@@ -60,7 +60,7 @@ contains
          if (.not. s%mean_velocity > 0.0_dp) then
             note = "a ratio alone: moes_m and moes_l give no sliding speed in m/s"
          else if (.not. speed > 0.0_dp) then
-            note = "a ratio alone, that of vanishing sliding: there is no sliding, and rolling friction is not computed"
+            note = "a ratio alone, that of vanishing sliding: there is no sliding, and rolling_moment_N_m resists the rolling"
          else if (.not. known) then
             note = no_boundary_friction
          else if (.not. ieee_is_finite(friction)) then

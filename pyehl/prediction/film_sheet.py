@@ -21,7 +21,7 @@ def sheet(settings: Settings) -> dict[str, Any]:
     turned against the motion, and nothing of a film.
     """
     operating = OperatingPoint.from_settings(settings)
-    angle = float(settings["contact"].get("angle", 0.0))
+    angle = float(settings["contact"]["angle"])
     turned = angle != 0.0 and operating.radius_ratio != 1.0
     lubricant = Lubricant.from_settings(settings)
     films = [] if turned else film.estimates(operating, lubricant)

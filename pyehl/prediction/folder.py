@@ -18,7 +18,8 @@ from pyehl.destination import Destination, write_json
 from pyehl.errors import InputError
 from pyehl.prediction.result import Prediction
 from pyehl.prediction.sides import SECOND
-from pyehl.prediction.smooth import SmoothContact
+from pyehl.prediction.smooth import SmoothContact, contact_of
+from pyehl.prediction.smooth_case import smooth_case
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.shear import ShearLaw
 from pyehl.types import Settings
@@ -105,7 +106,8 @@ def read_contact(
     """Pressure and film from a result folder, of a smooth contact or under a transient run.
 
     InputError if it is not the folder of a converged solution of the same contact: M and L, ratio
-    of the radii along and across the motion, and the law that the flow obeys.
+    of the radii along and across the motion, the law that the flow obeys, lubricant and border of
+    the domain. The grid may be another.
     """
     folder = Path(folder)
     try:
@@ -126,16 +128,34 @@ def read_contact(
     there, here = float(summary.get("radius_ratio") or 1.0), operating.radius_ratio
     if not math.isclose(there, here, rel_tol=1e-4):
         raise InputError(f"{folder}: radius_ratio is {there:.6g} there and {here:.6g} in the case")
-    angle = float(of_folder["contact"].get("angle", 0.0))
+    angle = float(of_folder["contact"]["angle"])
     if here != 1.0 and angle != 0.0:
         raise InputError(f"{folder}: contact.angle is {angle:g} there and 0 in the case")
     flows = _flow(of_folder), _flow(settings)
     if flows[0] != flows[1]:
         raise InputError(f"{folder}: the flow is {flows[0]} there and {flows[1]} in the case")
-    middle = np.argmin(np.abs(x)), np.argmin(np.abs(y))
-    source = f"smooth contact in {folder}"
-    central, least = float(film[middle]), float(film.min())
-    return SmoothContact(x, y, pressure, film, central, math.nan, source, least)
+    _check_same(folder, of_folder, settings)
+    if (summary.get("contact_load_share") or 0.0) > 0.0:
+        raise InputError(
+            f"{folder}: its bodies touch at the boundary film\nexpected: the contact solved with "
+            "lubricant.boundary_film = 0"
+        )
+    return contact_of(summary, (x, y), pressure, film, f"smooth contact in {folder}")
+
+
+def _check_same(folder: Path, of_folder: Settings, settings: Settings) -> None:
+    """Refuse the contact of a folder whose lubricant or border is not that of a case."""
+    there, here = (namelist.values(smooth_case(groups)) for groups in (of_folder, settings))
+    names = [("grid", "border"), *(("lubricant", key) for key in here["lubricant"])]
+    for group, key in names:
+        both = there[group].get(key), here[group][key]
+        numbers = [v for v in both if isinstance(v, float)]
+        same = math.isclose(*numbers, rel_tol=1e-4) if len(numbers) == 2 else both[0] == both[1]
+        if not same:
+            told = ["not set" if v is None else namelist.word(v) for v in both]
+            raise InputError(
+                f"{folder}: {group}.{key} is {told[0]} there and {told[1]} in the case"
+            )
 
 
 def _flow(settings: Settings) -> str:

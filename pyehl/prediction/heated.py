@@ -26,7 +26,7 @@ def heat_of(settings: Settings, contact: SmoothContact, lubricant: Lubricant) ->
         "lubricant": {**settings["lubricant"], "viscosity_law": lubricant.viscosity_law},
     }
     # rows that mirror each other have the same temperature
-    even = float(settings["contact"].get("angle", 0.0)) == 0.0
+    even = float(settings["contact"]["angle"]) == 0.0
     first = int(np.argmin(np.abs(contact.y))) if even else 0
     x, y = contact.x, contact.y[first:]
     counts, ratio, rises, note, status, message = functions.heated(

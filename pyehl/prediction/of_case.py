@@ -18,6 +18,7 @@ from pyehl.prediction.bands import Band
 from pyehl.prediction.breakdown import Advice, BelowZero, Borne, advise, below_zero
 from pyehl.prediction.by_response import RoughPassage
 from pyehl.prediction.cost import tell_cost
+from pyehl.prediction.errors import outside_range
 from pyehl.prediction.folder import read_contact
 from pyehl.prediction.friction import TRACKS, RoughFriction, SecondPassage, broken
 from pyehl.prediction.heated import heat_of
@@ -29,7 +30,7 @@ from pyehl.prediction.result import Prediction
 from pyehl.prediction.second_order import FILM_ENDS
 from pyehl.prediction.sides import SecondSurface, Together
 from pyehl.prediction.smooth import SmoothContact, hertz_contact, solve_contact, with_layer
-from pyehl.prediction.touching import touching
+from pyehl.prediction.touching import lost_with_the_film, touching
 from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -93,7 +94,7 @@ def predict(
             tile = surfaces.finished(tile, values)
         if not brief:
             tell_cost(tile, operating, group)
-        ratio, kind = float(values["velocity_ratio"]), str(values.get("filter", "sharp"))
+        ratio, kind = float(values["velocity_ratio"]), str(values["filter"])
         conditions = contact, operating, lubricant, options, ratio
         alone.append(RoughPassage(tile, *conditions, groups=(group,), filter_kind=kind))
 
@@ -120,6 +121,7 @@ def predict(
         second = SecondSurface(other.topography, other.velocity_ratio, friction.second, together)
     partial = _partial(settings, alone)
     if partial is not None:
+        partial = lost_with_the_film(friction, partial)
         friction, over = touching(friction, partial, over)
         advice = None if friction.status == "predicted" else advice
     return Prediction(
@@ -162,16 +164,19 @@ def _partial(
 ) -> Partial | None:
     """Find the contact of a case with a boundary film; None without one."""
     lubricant, passage = settings["lubricant"], alone[0]
-    layer = float(lubricant.get("boundary_film", 0.0))
+    layer = float(lubricant["boundary_film"])
     if not layer > 0.0:
         return None
     if len(alone) > 1:
         return without(OF_TWO)
     if not passage.options.measured:
         return without(OTHER_MODEL)
-    found = partial_film(
-        passage, passage.parts(), layer, float(lubricant.get("boundary_friction", 0.0))
+    found = partial_film(passage, passage.parts(), layer, float(lubricant["boundary_friction"]))
+    beyond = outside_range(
+        passage.operating, passage.velocity_ratio, passage.options, passage.contact.thinning
     )
+    if beyond:
+        found = found.unknown(f"outside the range of the response by {', '.join(beyond)}")
     if settings["contact"].get("hardness", 0.0) > 0.0:
         note = found.note or ELASTIC
         found = replace(found, load_share_error=math.nan, area_share_error=math.nan, note=note)
@@ -211,7 +216,7 @@ def _of_pair(
 ]:
     """Predict two surfaces, as `_of_one` does one; last the sum of both if they move together."""
     fronts = [float(group["x_start"]) for group in keys]
-    filters = [str(group.get("filter", "sharp")) for group in keys]
+    filters = [str(group["filter"]) for group in keys]
     pair = RoughPair((alone[0], alone[1]), (fronts[0], fronts[1]), (filters[0], filters[1]))
     friction, over, bands = pair.run(tracks, brief=brief)
     second = cast("SecondPassage", friction.second)
@@ -259,7 +264,7 @@ def _options(settings: Mapping[str, Mapping[str, Any]], tracks: int) -> Options:
 
 def _advice(passage: RoughPassage, group: Mapping[str, Any], borne: Borne) -> Advice:
     """Where the film ends, and what of the group ``surface`` would carry."""
-    surface, kind = passage.topography, str(group.get("filter", "sharp"))
+    surface, kind = passage.topography, str(group["filter"])
     return advise(
         surface,
         lambda tile: replace(passage, topography=tile).deformed(),

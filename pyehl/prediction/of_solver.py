@@ -8,7 +8,7 @@ from typing import Any
 
 from pyehl import lengths, surfaces
 from pyehl.case import Case
-from pyehl.errors import EhlError, InputError
+from pyehl.errors import EhlError, InputError, InternalError
 from pyehl.handle import SolverHandle
 from pyehl.prediction.by_response import RoughPassage
 from pyehl.prediction.options import Options, unpredictable
@@ -169,6 +169,8 @@ class Predictions:
         if not self._resolved:
             try:
                 self._resolution = resolution(self._case, self._tiles)
+            except InternalError:
+                raise
             except (EhlError, MemoryError) as error:
                 why = str(error) or type(error).__name__
                 self._resolution = why.replace(chr(10), " ")

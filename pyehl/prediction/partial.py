@@ -19,8 +19,10 @@ one after the other, and all films are thicker by the mean s of that:
 Compared with the full simulation in docs/evidence/partial.
 """
 
+from __future__ import annotations
+
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy
@@ -43,7 +45,8 @@ POSITIONS = 16
 # Error of the film at which bodies touch, of the rms height of the deformed surface
 # (docs/evidence/partial)
 FILM = 0.45
-# Of waves that the fluid flattens nearly whole, as much is taken to be left
+# Of waves that the fluid flattens nearly whole, as much is taken to be left: half and twice of it
+# change no digit of the contact in docs/howto/mixed.md
 LEAST_LEFT = 0.02
 # Error of the film that the layer gives, over the layer
 GIVEN_TO = 1e-4
@@ -75,11 +78,18 @@ class Partial:
     shift: Array  # (n,) how far the tile has moved [m]
     passage: Array  # (n,) friction there
     note: str  # why an error or all numbers are not there; ''
+    lost: bool = False  # whether bodies touch, and no number of that is known
 
     @property
     def touches(self) -> bool:
         """Whether bodies touch."""
         return self.load_share > 0.0
+
+    def unknown(self, note: str) -> Partial:
+        """Give the same where its numbers are not known, and why: none where bodies may touch."""
+        if self.load_share == 0.0 == self.load_share_error:
+            return self
+        return replace(without(note), mu_smooth=self.mu_smooth, lost=self.lost or self.touches)
 
     @property
     def lacks_friction(self) -> bool:
@@ -117,23 +127,24 @@ def partial_film(passage: RoughPassage, parts: Parts, layer: float, friction: fl
         """Mean at the film itself, and its error by the others and by the positions."""
         mean, *others = (float(np.mean(part)) for part in values)
         error = max(abs(other - mean) for other in others) + abs(np.mean(values[0][::2]) - mean)
-        return mean, float(error) if known else math.nan
+        return mean, float(error)
 
     load, area = told([level.load for level in levels]), told([level.area for level in levels])
     ratio = told([[value / smooth for value in level.stress] for level in levels])
     least = [level.least * o.film_scale for level in levels]
-    return Partial(
+    found = Partial(
         *load,
         *area,
         least[0],
         # bodies touch to HOLD
-        max(HOLD * least[0], *(abs(film - least[0]) for film in least[1:])) if known else math.nan,
+        max(HOLD * least[0], *(abs(film - least[0]) for film in least[1:])),
         *ratio,
         contact.coefficient(smooth),
         np.asarray(steps * grid.pixel[0], dtype=float),
         np.array(levels[0].stress) / smooth,
-        "" if known else UNRESOLVED,
+        "",
     )
+    return found if known else found.unknown(UNRESOLVED)
 
 
 def _shortest(spectrum: Spectrum, power: Array) -> float:

@@ -227,7 +227,7 @@ class Prediction:
     def summary(self) -> dict[str, Any]:
         """What ``summary.json`` holds; None for a number that does not exist."""
         f, o, s = self.friction, self.operating, self.surface
-        layer = float(self.settings["lubricant"].get("boundary_film", 0.0)) / o.film_scale
+        layer = float(self.settings["lubricant"]["boundary_film"]) / o.film_scale
         sigma = s.rms_height
         if self.second:
             together = self.second.together

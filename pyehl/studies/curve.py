@@ -10,6 +10,7 @@ import numpy as np
 from pyehl import library
 from pyehl.prediction.deformed import deformed_surfaces
 from pyehl.prediction.errors import KNOWN_RATIO
+from pyehl.prediction.friction import BEYOND
 from pyehl.prediction.smooth import film_of
 from pyehl.prediction.touching import NO_FRICTION
 from pyehl.results import unit_of
@@ -123,6 +124,8 @@ def _at(
 def conclude(point: CurvePoint, row: Values) -> library.Conclusion:
     """Judge a point of a curve by its columns, and give its last lines."""
     status = "predicted" if row["status"] in (FULL_FILM, MIXED, OUTSIDE) else row["status"]
+    if row["status"] == OUTSIDE and BEYOND in str(row["message"]):
+        status = BEYOND
     message = str(row["message"]).removeprefix(f"{status}: ")
     note = "" if row["mu_ratio_model_error"] is not None else message
     law = point.settings["lubricant"]["shear_law"]
@@ -172,6 +175,9 @@ def _friction(found: Sequence[Values], smooth: Values) -> dict[str, Any]:
     if lost:
         broken = sum(row["status"] == BREAKDOWN for row in lost)
         status = BREAKDOWN if broken else UNSOLVED
+        if all(row["status"] == BEYOND for row in lost):
+            # of which the film is known
+            status = OUTSIDE
         share = f"{broken or len(lost)} of {len(found)} surfaces: " if len(found) > 1 else ""
         row = next(row for row in lost if not broken or row["status"] == BREAKDOWN)
         message = f"{share}{why_none(row)}"

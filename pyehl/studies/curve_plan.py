@@ -15,7 +15,7 @@ from pyehl import surfaces
 from pyehl.case import Case, files_of
 from pyehl.errors import InputError
 from pyehl.prediction.options import turned, unpredictable
-from pyehl.studies.plan import TaskList, check_memory, duration, formula_film
+from pyehl.studies.plan import START, TaskList, check_memory, duration, formula_film
 from pyehl.studies.study import MAX_CASES, Point, Study, make
 from pyehl.studies.tasks import Task
 from pyehl.studies.vary import Axis
@@ -79,7 +79,7 @@ class CurvePlan:
         if finished:
             lines.append(f"           {len(finished)} of {len(self.tasks)} tasks are done")
         if left:
-            seconds = max(sum(left) / min(jobs, len(left)), *left)
+            seconds = START + max(sum(left) / min(jobs, len(left)), *left)
             lines.append(f"time       about {duration(seconds)} by estimate")
         return "\n".join(lines)
 
@@ -136,7 +136,7 @@ def plan_curve(
             CurvePoint(
                 point,
                 settings,
-                smooth=add(_smooth(rough, settings), "solve"),
+                smooth=add(rough.smooth(), "solve"),
                 predictions=tuple(add(made, "predict") for made in varied),
                 full=add(rough, "solve") if point.number in chosen else None,
             )
@@ -189,9 +189,3 @@ def _with_seeds(case: Case, settings: Settings, ahead: int) -> Case:
     groups = _fractal(settings) if ahead else []
     seeds = {f"{group}.seed": int(settings[group]["seed"]) + ahead for group in groups}
     return case.with_options(seeds) if seeds else case
-
-
-def _smooth(case: Case, settings: Settings) -> Case:
-    """Give a case without its roughness."""
-    groups = {"surface", *surfaces.rough_groups(settings)}
-    return case.with_options({f"{group}.kind": "smooth" for group in sorted(groups, reverse=True)})

@@ -30,7 +30,7 @@ IN_MEMORY = {
 """What a surface in memory is called in place of a file, by the group of the case."""
 READY: Mapping[str, Any] = {
     "surface.kind": "map",
-    "surface.channel": "''",
+    "surface.channel": "",
     "surface.detrend": "none",
     "surface.edges": "periodic",
     "surface.outliers": 0.0,

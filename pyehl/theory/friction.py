@@ -37,8 +37,8 @@ def absolute_friction(
         note = "a ratio alone: moes_m and moes_l give no sliding speed in m/s"
     elif speed == 0.0:
         note = (
-            "a ratio alone, that of vanishing sliding: there is no sliding, and rolling friction "
-            "is not computed"
+            "a ratio alone, that of vanishing sliding: there is no sliding; 'pyehl run' has the "
+            "rolling moment"
         )
     else:
         rate = speed / film

@@ -148,7 +148,7 @@ class OperatingPoint:
         contact, lubricant = settings["contact"], settings["lubricant"]
         viscosity = float(lubricant["viscosity"])
         alpha = float(lubricant["pressure_viscosity"])
-        slide_to_roll = float(contact.get("slide_to_roll", 0.02))
+        slide_to_roll = float(contact["slide_to_roll"])
         if contact.get("moes_m") is not None and contact.get("load") is None:
             return cls.from_moes(
                 float(contact["moes_m"]),
@@ -156,7 +156,7 @@ class OperatingPoint:
                 viscosity=viscosity,
                 pressure_viscosity=alpha,
                 slide_to_roll=slide_to_roll,
-                radius_ratio=float(contact.get("radius_ratio", 1.0)),
+                radius_ratio=float(contact["radius_ratio"]),
             )
         radii = [float(contact.get(f"radius_{k}", contact.get("radius", 0.0))) for k in "xy"]
         point = cls(
@@ -167,13 +167,13 @@ class OperatingPoint:
             viscosity=viscosity,
             pressure_viscosity=alpha,
             slide_to_roll=slide_to_roll,
-            thermal_conductivity=float(contact.get("thermal_conductivity", 46.0)),
-            thermal_diffusivity=float(contact.get("thermal_diffusivity", 1.25e-5)),
+            thermal_conductivity=float(contact["thermal_conductivity"]),
+            thermal_diffusivity=float(contact["thermal_diffusivity"]),
             thermal_conductivity_2=float(contact.get("thermal_conductivity_2", 0.0)),
             thermal_diffusivity_2=float(contact.get("thermal_diffusivity_2", 0.0)),
             radius_ratio=radii[0] / radii[1],
         )
-        if not lubricant.get("thermal_reduction", False):
+        if not lubricant["thermal_reduction"]:
             return point
         loading = thermal_loading(
             float(lubricant["temperature_viscosity"]),

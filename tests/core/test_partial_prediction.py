@@ -167,6 +167,55 @@ def test_contact_where_a_full_film_breaks_down(tmp_path, capsys):
     assert (tmp_path / "out" / "passage.png").is_file()
 
 
+NOTHING = "full film; the bodies touch at the boundary film, and nothing of that is known: "
+TABLE1 = {
+    "lubricant.shear_law": "eyring",
+    "lubricant.boundary_friction": 0.12,
+    "lubricant.boundary_film": 4e-9,
+    "surface.rms_height": 2e-7,
+}
+
+
+@pytest.mark.parametrize(
+    ("velocity", "layer", "note", "message"),
+    [
+        pytest.param(
+            *(0.3, 2e-8, "waves are too short", "full film; the bodies touch at the boundary film"),
+            marks=pytest.mark.long,
+        ),
+        (0.6, 2.5e-8, "waves are too short", "the bodies touch at the boundary film"),
+        pytest.param(
+            *(0.12, 4e-9, "outside the range of the response by moes_m", NOTHING),
+            marks=pytest.mark.long,
+        ),
+        (0.413, 4e-9, "the film ends between the positions", NOTHING),
+    ],
+)
+def test_no_number_of_contact_outside_the_range(cases, velocity, layer, note, message):
+    """Bodies touch, and how much is not known: a missing value with the reason, and no friction."""
+    case = pyehl.Case.read(cases / "table1.nml", TABLE1)
+    options = {"contact.mean_velocity": velocity, "lubricant.boundary_film": layer}
+    summary = pyehl.predict(case.with_options(options), tracks=1).summary
+    assert summary["status"] == "film breakdown"
+    assert message in summary["message"]
+    assert note in summary["contact_load_share_error_note"]
+    assert summary["message"].endswith(summary["contact_load_share_error_note"])
+    names = [name for name in summary if name.startswith("contact_") and "note" not in name]
+    names += ["mu_ratio", "mu_ratio_min", "mu", "mu_isothermal", "h_min_rough_m"]
+    assert {name: summary[name] for name in names} == dict.fromkeys(names)
+    # which nothing is an error of
+    assert summary["h_min_rough_error_m"] is None
+
+
+def test_no_contact_stays_known_outside_the_range(cases):
+    """Where no body touches within the error of the film: 0."""
+    case = pyehl.Case.read(cases / "table1.nml", TABLE1 | {"surface.rms_height": 1e-8})
+    summary = pyehl.predict(case.with_options("contact.mean_velocity=0.15"), tracks=1).summary
+    assert summary["outside_range"] == ["moes_m"]
+    assert summary["contact_load_share"] == summary["contact_load_share_error"] == 0.0
+    assert summary["status"] == "predicted"
+
+
 def test_hardness_is_left_out():
     text = SCENE.format(0.3, 1.2e-7, 0.1)
     hard = text.replace("&contact ", "&contact hardness = 3e9 ", 1)
@@ -232,6 +281,13 @@ def test_lift_off_with_its_error():
     assert found.lambda_ratio == pytest.approx(10.0 * found.speed)
     assert "Lambda" in found.words
     assert "theta_2" not in found.words
+    # no speed where its error is not known: beyond the curve, or by a point without one
+    for error in (1.0, None):
+        unknown = [row | {"contact_load_share_error": error} for row in rows]
+        lost = lift_off("contact.mean_velocity", speeds, unknown)
+        assert lost is not None
+        assert np.isnan([lost.speed, lost.error, lost.lambda_ratio]).all()
+        assert lost.words.startswith("lift-off   not known: 1% of the load")
     assert lift_off("contact.load", speeds, rows) is None
     assert lift_off("contact.mean_velocity", speeds[:2], rows[:2]) is None
 

@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Film formulas and the page of ``pyehl film``."""
 
-import copy
-
 import pytest
 import reference
 
+import pyehl
 from pyehl.case import Case
 from pyehl.commands import film as film_command
 from pyehl.prediction import film_sheet
@@ -69,10 +68,8 @@ def test_sheet_names_what_is_outside(settings):
     assert any("equal wavelengths" in text for text in outside)
 
 
-def test_sheet_from_moes_numbers_and_smooth(settings):
-    case = copy.deepcopy(settings)
-    case["contact"] = {"moes_m": 20.0, "moes_l": 10.0}
-    case["surface"]["kind"] = "smooth"
+def test_sheet_from_moes_numbers_and_smooth():
+    case = pyehl.Case(contact={"moes_m": 20.0, "moes_l": 10.0}).resolve()
     values = film_sheet.sheet(case)
     assert values["moes_m"] == pytest.approx(20.0)
     assert "lambda_ratio_central" not in values
