@@ -7,6 +7,7 @@ from typing import Any
 from pyehl import surfaces
 from pyehl.theory import film, stribeck
 from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.moes_film import regime
 from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Settings
 
@@ -44,14 +45,20 @@ def sheet(settings: Settings) -> dict[str, Any]:
         "hertz_pressure_Pa": operating.hertz_pressure,
         "film_scale_m": operating.film_scale,
         "speed_parameter": operating.speed_parameter,
+        "g_v": operating.viscosity_parameter,
+        "g_e": operating.elasticity_parameter,
+        "regime": regime(operating.moes_m, operating.moes_l, operating.ellipse),
         "formulas": [
             {
                 "name": f.name,
                 "source": f.source,
+                "regime": f.regime,
+                "applies": f.applies,
                 "h_c_m": f.h_c,
                 "h_min_m": f.h_min if math.isfinite(f.h_min) else None,
                 "H_c": f.h_c / operating.film_scale,
                 "H_min": f.h_min / operating.film_scale if math.isfinite(f.h_min) else None,
+                "range": {name: list(bounds) for name, bounds in f.bounds.items()},
                 "outside": list(f.outside),
                 "note": f.note,
             }
@@ -68,7 +75,7 @@ def sheet(settings: Settings) -> dict[str, Any]:
     result["surface"] = " and ".join(kinds) or "smooth"
     if turned:
         return result
-    h_c = films[0].h_c
+    h_c = film.central_film(operating, lubricant)
     if both and not set(kinds) & set(surfaces.FEATURES):
         # composite, as of surfaces that have nothing in common
         sigma = math.hypot(
@@ -78,8 +85,8 @@ def sheet(settings: Settings) -> dict[str, Any]:
             )
         )
         result["rms_height_m"] = sigma
-        result["lambda_ratio_central"] = h_c / sigma if sigma > 0.0 else None
-    if kinds == ["harmonic"] and operating.radius_ratio == 1.0:
+        result["lambda_ratio_central"] = films[0].h_c / sigma if sigma > 0.0 else None
+    if kinds == ["harmonic"] and operating.radius_ratio == 1.0 and operating.moes_l > 0.0:
         surface, settings = both[0], surfaces.one_rough(settings)
         amplitude = surfaces.harmonic_amplitude(settings, operating, h_c)
         wavelength = min(float(surface["wavelength_x"]), float(surface["wavelength_y"]))

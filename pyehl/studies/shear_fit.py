@@ -97,6 +97,7 @@ def fit_law(settings: Settings, law: str, measured: Measured, points: int) -> Fi
             f"{srr.size} measured points for {len(keys)} parameters of '{law}'\nexpected: more "
             "points than parameters"
         )
+    # all are above 0, or none is given
     weight = 1.0 / error if np.all(error > 0.0) else np.ones_like(mu)
     base = _base(settings, points)
     model = _Model(settings, law)
