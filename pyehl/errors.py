@@ -70,7 +70,7 @@ class NotConverged(EhlError, RuntimeError):  # noqa: N818 (the name of a status)
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Give both arguments to a copy and to another process, not the message alone."""
-        return type(self), (str(self), self.results)
+        return type(self), (str(self), self.results), self.__dict__
 
 
 class FileError(EhlError, OSError):

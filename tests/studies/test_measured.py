@@ -46,6 +46,8 @@ def test_measured_data_over_other_abscissae(tmp_path: Path):
         ("u,hersey,mu\n1,1,2\n", "expected: one of u, hersey"),
         ("u,mu\n1,high\n", ":2: error: mu = 'high'"),
         ("u,mu\n1,0.1\n-1,0.1\n", ":3: error: u = '-1'"),
+        ("u,mu,error\n1,0.1,0.01\n2,0.1,0.0\n", ":3: error: error = '0.0'"),
+        ("u,mu,error\n1,0.1,-0.01\n", "or no column 'error' where the errors are not known"),
         ("u,mu\n1\n", ":2: error: 1 values for 2 columns"),
         ("u,mu\n", "there are no rows"),
     ],
