@@ -41,14 +41,16 @@ contains
       type(schema_t), intent(in) :: schema
       type(case_t), intent(in) :: input
       type(status_t), intent(inout) :: status
-      character(len=22), parameter :: sources(5) = [character(len=22) :: "roelands_z", "pressure_viscosity", "viscosity", &
-                                                    "kinematic_viscosity_40", "roelands_p0"]
+      character(len=22) :: sources(5)
       character(len=:), allocatable :: what, at
       integer :: k
 
       associate (l => input%lubricant)
          ! without alpha the law has nothing to say
          if (.not. l%pressure_viscosity > 0.0_dp .or. (l%roelands_z >= least_z .and. l%roelands_z <= largest_z)) return
+         ! a small one mostly has its reason in alpha, a large one in the viscosity
+         sources = [character(len=22) :: "roelands_z", "pressure_viscosity", "viscosity", "kinematic_viscosity_40", "roelands_p0"]
+         if (l%roelands_z > largest_z) sources(2:4) = sources([3, 4, 2])
          at = "roelands_z"
          do k = size(sources), 1, -1
             if (schema%given("lubricant", trim(sources(k)))) at = trim(sources(k))

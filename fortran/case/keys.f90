@@ -65,7 +65,7 @@ contains
          call self%words("name", l%name, oil_words(), &
                          "an oil whose constants are known ('pyehl lubricants'); keys given beside it rule")
          call self%texts("table", l%table, kind_path, "measured viscosities over pressure and temperature: CSV")
-         call self%reals("viscosity", l%viscosity, "Pa s", "[1e-4, 1000]", "viscosity at ambient pressure")
+         call self%reals("viscosity", l%viscosity, "Pa s", "[1e-4, 10]", "viscosity at ambient pressure")
          call self%reals("pressure_viscosity", l%pressure_viscosity, "1/Pa", "0 or [1e-10, 1e-7]", &
                          "pressure-viscosity coefficient; 0: the viscosity does not change with pressure")
          call self%words("viscosity_law", l%viscosity_law, "roelands|barus|dicke|yasutomi|doolittle|table", &

@@ -38,7 +38,7 @@ def test_rigid_bodies(moes_m):
 
 @pytest.mark.parametrize("moes_m", [20.0, 200.0, 1000.0])
 def test_soft_bodies(moes_m):
-    ds = solved(moes(moes_m, 0.0))
+    ds = solved(moes(moes_m, 0.0, 513))
     unit = OperatingPoint.from_moes(moes_m, 0.0)
     # U = 1e-8 as between rubber and glass; L = 0 leaves it free
     speed, load_number = 1e-8, moes_m * 2e-8**0.75
