@@ -79,7 +79,7 @@ def report(values: Mapping[str, Any]) -> str:
     lines.append(
         f"Film thickness {'h_c [um]':>23}{'h_min [um]':>12}{'H_c':>11}{'H_min':>11}   range"
     )
-    notes: list[str] = []
+    notes = [f"  left out: {text}" for text in v["left_out"]]
     for f in v["formulas"]:
         films = [None if f[name] is None else f[name] * 1e6 for name in ("h_c_m", "h_min_m")]
         cells = [_cell(film, width, 4) for film, width in zip(films, (10, 12), strict=True)]

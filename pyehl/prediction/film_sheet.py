@@ -11,6 +11,25 @@ from pyehl.theory.moes_film import regime
 from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Settings
 
+# Inlet, without the pressure of a flooded contact at it, from which the film is that of one [a]
+FLOODED = -2.0
+
+
+def left_out(settings: Settings, lubricant: Lubricant) -> list[str]:
+    """Say which keys of a resolved case the formulas do not know though the film hangs on them."""
+    found = []
+    grid, layer = settings.get("grid", {}), float(settings["lubricant"].get("boundary_film", 0.0))
+    if grid.get("border") == "zero" and float(grid["x_inlet"]) > FLOODED:
+        found.append(
+            f"grid.x_inlet = {float(grid['x_inlet']):g}: the formulas are of flooded inlets"
+        )
+    if lubricant.shear.in_flow:
+        law = lubricant.shear.law
+        found.append(f"lubricant.shear_law = '{law}': the formulas are of a Newtonian flow")
+    if layer > 0.0:
+        found.append(f"lubricant.boundary_film = {layer:g}: the formulas know no layer")
+    return found
+
 
 def sheet(settings: Settings) -> dict[str, Any]:
     """All that ``pyehl film`` says of a resolved case, as plain numbers in SI units.
@@ -47,6 +66,7 @@ def sheet(settings: Settings) -> dict[str, Any]:
         "speed_parameter": operating.speed_parameter,
         "g_v": operating.viscosity_parameter,
         "g_e": operating.elasticity_parameter,
+        "left_out": left_out(settings, lubricant),
         "regime": regime(operating.moes_m, operating.moes_l, operating.ellipse),
         "formulas": [
             {
