@@ -227,7 +227,7 @@ def film(case: Case | str | os.PathLike[str], *options: Option) -> dict[str, Any
     --------
     >>> import pyehl
     >>> sheet = pyehl.film("cases/table1.nml", {"contact.mean_velocity": 0.5})
-    >>> for formula in sheet["formulas"]:
+    >>> for formula in (f for f in sheet["formulas"] if f["applies"]):
     ...     print(f"{formula['name']}: {formula['h_c_m'] * 1e9:.0f} nm")
     Nijenbanning-Venner-Moes: 164 nm
     Hamrock-Dowson: 181 nm

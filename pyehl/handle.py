@@ -8,7 +8,7 @@ import json
 import os
 import threading
 from collections.abc import Callable
-from typing import Any, NamedTuple, Self
+from typing import Any, NamedTuple, NoReturn, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -113,6 +113,13 @@ class SolverHandle:
             self._call(ehl.close_case)
             self._handle = 0
             self._given = (None, None)
+
+    def __reduce_ex__(self, protocol: object) -> NoReturn:
+        """Refuse copies and other processes: the arrays are in the library, by a number."""
+        raise TypeError(
+            f"a {type(self).__name__} cannot be copied or pickled: make another of the same case, "
+            "or pass on its dataset()"
+        )
 
     def __del__(self) -> None:
         # The constructor may have failed, and at exit the extension may be gone

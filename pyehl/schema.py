@@ -56,6 +56,10 @@ f | viscosity_ambient_Pa_s | Pa s | viscosity at the inlet temperature, without 
 f | pressure_viscosity_per_Pa | 1/Pa | alpha
 f | U | - | eta0 u/(E' R)
 f | G | - | alpha E'
+f | g_v | - | viscosity parameter G W^3/U^2 of a regime
+f | g_e | - | elasticity parameter W^(8/3)/U^2 of a regime
+f | left_out |  | keys that the formulas do not know
+f | regime |  | nearest asymptote: rigid or elastic, isoviscous or piezoviscous
 f | W | - | w/(E' R^2)
 st | points | - | nodes along X, and per side in a round contact
 s | points_y | - | nodes along Y in an elliptical contact

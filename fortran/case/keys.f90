@@ -30,7 +30,7 @@ contains
          call self%reals("radius_x", c%radius_x, "m", "0 or [1e-5, 1000]", &
                          "reduced radius in the plane of the motion; 0: radius")
          call self%reals("radius_y", c%radius_y, "m", "0 or [1e-5, 1000]", "reduced radius across the motion; both or none")
-         call self%reals("reduced_modulus", c%reduced_modulus, "Pa", "[1e8, 2e12]", &
+         call self%reals("reduced_modulus", c%reduced_modulus, "Pa", "[1e4, 2e12]", &
                          "E' with 2/E' = sum of (1 - nu^2)/E over the bodies")
          call self%reals("hardness", c%hardness, "Pa", "0 or [1e5, 1e12]", &
                          "greatest pressure of the solids, with boundary_film; 0: no limit")
@@ -55,8 +55,8 @@ contains
          call self%reals("radius_y1", b%radius_y1, "m", "[-1e3, 1e3]", "radius of body 1 across the motion")
          call self%reals("radius_x2", b%radius_x2, "m", "[-1e3, 1e3]", "radius of body 2 in the plane of the motion")
          call self%reals("radius_y2", b%radius_y2, "m", "[-1e3, 1e3]", "radius of body 2 across the motion")
-         call self%reals("modulus_1", b%modulus_1, "Pa", "[1e5, 2e12]", "Young's modulus of body 1")
-         call self%reals("modulus_2", b%modulus_2, "Pa", "[1e5, 2e12]", "Young's modulus of body 2")
+         call self%reals("modulus_1", b%modulus_1, "Pa", "[1e3, 2e12]", "Young's modulus of body 1")
+         call self%reals("modulus_2", b%modulus_2, "Pa", "[1e3, 2e12]", "Young's modulus of body 2")
          call self%reals("poisson_1", b%poisson_1, "-", "[-0.5, 0.5]", "Poisson's ratio of body 1")
          call self%reals("poisson_2", b%poisson_2, "-", "[-0.5, 0.5]", "Poisson's ratio of body 2")
       end associate
@@ -66,12 +66,12 @@ contains
                          "an oil whose constants are known ('pyehl lubricants'); keys given beside it rule")
          call self%texts("table", l%table, kind_path, "measured viscosities over pressure and temperature: CSV")
          call self%reals("viscosity", l%viscosity, "Pa s", "[1e-4, 10]", "viscosity at ambient pressure")
-         call self%reals("pressure_viscosity", l%pressure_viscosity, "1/Pa", "[1e-10, 1e-7]", &
-                         "pressure-viscosity coefficient")
+         call self%reals("pressure_viscosity", l%pressure_viscosity, "1/Pa", "0 or [1e-10, 1e-7]", &
+                         "pressure-viscosity coefficient; 0: the viscosity does not change with pressure")
          call self%words("viscosity_law", l%viscosity_law, "roelands|barus|dicke|yasutomi|doolittle|table", &
                          "viscosity under pressure; default that of name or table")
-         call self%reals("roelands_z", l%roelands_z, "-", "[0.05, 2]", &
-                         "Roelands exponent; default alpha p0/(ln eta0 + 9.67)")
+         call self%reals("roelands_z", l%roelands_z, "-", "[0, 1e4]", &
+                         "Roelands exponent, there 1e-3 to 2; default alpha p0/(ln eta0 + 9.67)")
          call self%reals("roelands_p0", l%roelands_p0, "Pa", "[1e7, 1e10]", "Roelands reference pressure")
          call add_law_keys(self, l)
          call self%words("shear_law", l%shear_law, "newtonian|eyring|limiting|carreau", &

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> What a result is worth to an engineer: one line from its summary, of a solution or a prediction
 module ehl_judgement
-   use ehl_kinds, only: dp
+   use ehl_kinds, only: dp, pi
    use ehl_record, only: record_t
    use ehl_text, only: fixed, percent, short => rounded, to_text
    use ehl_touching, only: much_supplied
@@ -28,6 +28,9 @@ module ehl_judgement
    character(len=*), parameter :: beyond = "beyond linear response"
    !> Flash temperature [K] above which an oil is thinner than computed, where its heat is left out
    real(dp), parameter :: hot = 10.0_dp
+   !> Contact radius and film over the radius of curvature from which the theory of small ones is named, and mean strain over
+   !> the former (Tabor 1951)
+   real(dp), parameter :: slender_contact = 0.1_dp, slender_film = 0.01_dp, mean_strain = 0.2_dp
 
 contains
 
@@ -52,7 +55,7 @@ contains
       else
          worth = with_care
          doubts = of_pressure(summary)//of_contact(summary)//of_yielding(summary)//of_waves(summary)
-         rest = of_errors(summary)//of_heat(summary)//of_two_alike(summary)
+         rest = of_errors(summary)//of_heat(summary)//of_two_alike(summary)//of_slenderness(summary)
          if (summary%text("surface_findings") /= "") rest = rest//"the map is not roughness alone: "// &
                                                          summary%text("surface_findings")//"; "
          if (status == "target missed") rest = "grid.target_error is missed; "//rest
@@ -200,6 +203,26 @@ contains
       if (larger(abs(summary%number("surface_correlation")), alike)) text = "the two surfaces move together and are alike "// &
          "(correlation "//fixed(summary%number("surface_correlation"), "f9.2")//"), so that their waves add up; "
    end function of_two_alike
+
+   !> A contact that is wide, or a film that is thick, beside the radius: the half-space, the parabolas of its bodies and the
+   !> Reynolds equation are for small ones. The mean strain of a dry contact is about 0.2 a/R (Tabor 1951).
+   function of_slenderness(summary) result(text)
+      type(record_t), intent(in) :: summary
+      character(len=:), allocatable :: text
+      real(dp) :: wide, thick
+
+      text = ""
+      wide = summary%number("film_scale_m")/summary%number("hertz_radius_m")
+      thick = summary%number("h_c_m")/summary%number("hertz_radius_m")*wide
+      if (summary%has("ellipticity")) wide = max(wide, wide*summary%number("ellipticity")*summary%number("radius_ratio"))
+      if (larger(wide, slender_contact)) then
+         text = "the contact radius is "//short(wide, 2)//" of the radius of curvature"
+         if (.not. summary%has("ellipticity")) text = text//" (p_h/E' = "//short(wide/pi, 2)//")"
+         text = text//", a strain of about "//percent(mean_strain*wide)//", and the half-space is for small strains; "
+      end if
+      if (larger(thick, slender_film)) text = text//"the film is "//short(thick, 2)//" of the radius, and the Reynolds "// &
+         "equation is for slender gaps; "
+   end function of_slenderness
 
    !> The least film in words
    function least_film(summary) result(text)

@@ -60,8 +60,10 @@ class Page:
         document.title = "pyehl"
         document.template = get_env().from_string("{% extends base %}" + TEMPLATE)
         document.template_variables["pictures"] = PICTURES
-        for root in self.layout.roots.values():
-            document.add_root(root)
+        # at each root alone Bokeh would look at all models again
+        with document.models.freeze():
+            for root in self.layout.roots.values():
+                document.add_root(root)
         document.on_session_destroyed(self._ended)
         self.layout.note.text = escape(note)
         self._show_case()

@@ -46,6 +46,8 @@ def film_rows(found: Film) -> list[tuple[str, str]]:
     for small, big in (("h_c", "H_c"), ("h_min", "H_min")):
         rows.append((small, _film(s, small, big, point.film_scale, converged=found.converged)))
     for formula in found.sheet["formulas"]:
+        if not formula["applies"]:
+            continue
         h_min = formula["h_min_m"]
         text = f"h_c {formula['h_c_m'] * NM:.4g} nm"
         text += "" if h_min is None else f", h_min {h_min * NM:.4g} nm"

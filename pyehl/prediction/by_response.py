@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from pyehl.errors import InputError
 from pyehl.prediction.bands import Band, joining
 from pyehl.prediction.breakdown import remedies_of
 from pyehl.prediction.carrying import confirmed, within_range
@@ -74,8 +75,14 @@ class RoughPassage:
         return Spectrum.of(tile.heights / o.film_scale, *lengths)
 
     def transfer(self, spectrum: Spectrum) -> Transfer:
-        """Find what the contact makes of components."""
+        """Find what the contact makes of components. InputError where alpha is 0."""
         o = self.operating
+        if o.moes_l == 0.0:
+            raise InputError(
+                "a prediction needs a viscosity that rises with pressure: its response of the "
+                "contact to waves goes by M/L, and L = 0\nexpected: lubricant.pressure_viscosity "
+                "above 0, or a run without a prediction"
+            )
         if self.options.reduction == "response":
             zone = zone_of(self.contact, o, self.lubricant)
             moes = circle_of(self.contact, o, self.lubricant)

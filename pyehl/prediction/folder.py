@@ -1,13 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The result folder of a prediction, and one with the smooth contact under it."""
 
-import gc
 import json
 import logging
 import math
 import os
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
@@ -72,32 +70,19 @@ def draw(prediction: Prediction, folder: str | os.PathLike[str]) -> None:
     folder = Path(folder)
     summary = prediction.summary
     drawn = []
-    with _uncollected():
-        # matplotlib takes longer to import than the prediction takes to compute
-        from pyehl.plots.figures import prediction_pictures  # noqa: PLC0415
-        from pyehl.plots.style import save  # noqa: PLC0415
+    # matplotlib takes longer to import than the prediction takes to compute
+    from pyehl.plots.figures import prediction_pictures  # noqa: PLC0415
+    from pyehl.plots.style import save  # noqa: PLC0415
 
-        pictures = prediction_pictures(summary, prediction.arrays, prediction.tables)
-        for name, picture in pictures.items():
-            path = folder / f"{name}.png"
-            try:
-                drawn.append(save(picture(), path).name)
-            except Exception as error:
-                LOG.warning("%s: not drawn: %s", path, error or type(error).__name__)
+    pictures = prediction_pictures(summary, prediction.arrays, prediction.tables)
+    for name, picture in pictures.items():
+        path = folder / f"{name}.png"
+        try:
+            drawn.append(save(picture(), path).name)
+        except Exception as error:
+            LOG.warning("%s: not drawn: %s", path, error or type(error).__name__)
     written = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
     write_json(folder / "summary.json", written | {"files": sorted([*written["files"], *drawn])})
-
-
-@contextmanager
-def _uncollected() -> Iterator[None]:
-    """Collect no garbage meanwhile: matplotlib makes many objects, and nearly all are in use."""
-    running = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if running:
-            gc.enable()
 
 
 def read_contact(

@@ -115,10 +115,6 @@ def predict(
         friction = broken(friction, below.deepest)
         over, bands = (math.nan, math.nan), []
     advice = advise_on() if friction.status == "film breakdown" and not brief else None
-    second = None
-    if len(alone) > 1 and friction.second is not None:
-        other = alone[1]
-        second = SecondSurface(other.topography, other.velocity_ratio, friction.second, together)
     partial = _partial(settings, alone)
     if partial is not None:
         partial = lost_with_the_film(friction, partial)
@@ -147,7 +143,7 @@ def predict(
         track_count=tracks,
         below=below,
         advice=advice,
-        second=second,
+        second=_second(alone, friction, together),
         heat=heat_of(settings, contact, lubricant),
         thinning=contact.thinning,
         partial=partial,
@@ -157,6 +153,16 @@ def predict(
             settings, groups, lambda other: predict(other, smooth=smooth, brief=True)
         ),
     )
+
+
+def _second(
+    alone: Sequence[RoughPassage], friction: RoughFriction, together: Together | None
+) -> SecondSurface | None:
+    """Give the second rough surface where there is one, and its passage is known."""
+    if len(alone) < 2 or friction.second is None:
+        return None
+    other = alone[1]
+    return SecondSurface(other.topography, other.velocity_ratio, friction.second, together)
 
 
 def _partial(

@@ -120,11 +120,11 @@ def read_measured(path: str | os.PathLike[str], key: str) -> Measured:
             except ValueError:
                 value = np.nan
             if not np.isfinite(value) or value <= 0.0:
-                told = given.get(word, "nothing")
-                hint = "; a file without a column error, where it is not known"
+                told, other = given.get(word, "nothing"), ""
+                if word == "error":
+                    other = ", or no column 'error' where the errors are not known"
                 raise InputError(
-                    f"{name}:{number}: error: {word} = '{told}'\nexpected: a number above 0"
-                    f"{hint if word == 'error' else ''}"
+                    f"{name}:{number}: error: {word} = '{told}'\nexpected: a number above 0{other}"
                 )
         rows.append([float(given[word]) for word in wanted])
     if not rows:

@@ -107,7 +107,7 @@ def _film(task: Task) -> Row:
         row[central] = formula["h_c_m"]
         if formula["h_min_m"] is not None:
             row[least] = formula["h_min_m"]
-    outside = [f["name"] for f in values["formulas"] if f["outside"]]
+    outside = [f["name"] for f in values["formulas"] if f["applies"] and f["outside"]]
     row["status"] = OUTSIDE if outside else INSIDE
     row["message"] = ", ".join(outside)
     return row

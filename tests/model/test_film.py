@@ -93,6 +93,20 @@ def test_ellipses():
     assert page.endswith("the formulas need an axis along the motion")
 
 
+def test_says_what_the_formulas_do_not_know():
+    told = {
+        "grid.border": "zero",
+        "grid.x_inlet": -1.5,
+        "lubricant.shear_law": "eyring",
+        "lubricant.boundary_film": 1e-9,
+    }
+    values = film_sheet.sheet(Case.from_text("", told).resolve())
+    keys = [text.split(" = ")[0] for text in values["left_out"]]
+    assert keys == ["grid.x_inlet", "lubricant.shear_law", "lubricant.boundary_film"]
+    assert "left out: grid.x_inlet = -1.5" in film_command.report(values)
+    assert film_sheet.sheet(Case.from_text("").resolve())["left_out"] == []
+
+
 def test_refuses():
     with pytest.raises(ValueError, match="M > 0"):
         film.nijenbanning_venner_moes(0.0, 10.0)

@@ -132,5 +132,7 @@ def test_lubricant_refuses(arguments, word):
 
 def test_moes_numbers_must_be_positive():
     with pytest.raises(ValueError, match="moes_l"):
-        OperatingPoint.from_moes(100.0, 0.0)
+        OperatingPoint.from_moes(100.0, -1.0)
+    assert OperatingPoint.from_moes(100.0, 0.0).moes_l == 0.0
+    assert OperatingPoint.from_moes(100.0, 0.0).moes_m == pytest.approx(100.0)
     assert default_roelands_z(0.04, 0.0) == 0.0

@@ -51,6 +51,7 @@ def test_measured_data_over_other_abscissae(tmp_path: Path):
         ("u,mu,error\n1,0.1,0.01\n2,0.1,\n", ":3: error: error = ''"),
         ("u,mu,Sigma_mu\n1,0.1,0.01\n", ":1: error: the column 'Sigma_mu'"),
         ("u,mu,error,error\n1,0.1,0.01,0.01\n", ":1: error: two columns error"),
+        ("u,mu,error\n1,0.1,-0.01\n", "or no column 'error' where the errors are not known"),
         ("u,mu\n1\n", ":2: error: 1 values for 2 columns"),
         ("u,mu\n", "there are no rows"),
     ],
