@@ -12,31 +12,22 @@ from pyehl.library import returned
 from pyehl.prediction.smooth import SmoothContact
 from pyehl.theory.heat import Heat
 from pyehl.theory.lubricant import Lubricant
-from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Array, Mask, Settings
 
-HOLD = 0.01
-"""Bodies touch where the film exceeds the layer by less than this share, as in the solver."""
 NOT_SOLVED = "the temperature is not converged"
 
 
-def heat_of(
-    settings: Settings, contact: SmoothContact, lubricant: Lubricant, layer: float = 0.0
-) -> Heat:
+def heat_of(settings: Settings, contact: SmoothContact, lubricant: Lubricant) -> Heat:
     """Give what the heat of sliding makes of friction in the smooth contact of a resolved case.
 
-    On the pressure and the film of the prediction; `layer`: boundary film at which the bodies touch
-    [a^2/R], 0: they do not. InputError if the case is not acceptable.
+    On the pressure and the film of the prediction. InputError if the case is not acceptable.
     """
     # rows that mirror each other have the same temperature
     even = float(settings["contact"].get("angle", 0.0)) == 0.0
     first = int(np.argmin(np.abs(contact.y))) if even else 0
     pressure, film = contact.pressure[:, first:], contact.film[:, first:]
-    hertz_pressure = OperatingPoint.from_settings(settings).hertz_pressure
-    floor = layer / lubricant.density_ratio(np.maximum(pressure, 0.0) * hertz_pressure)
-    return HeatOf(settings, lubricant, contact.x, contact.y[first:], even=even)(
-        pressure, np.maximum(film, floor), (film <= (1.0 + HOLD) * floor) & (pressure > 0.0)
-    )
+    nodes = HeatOf(settings, lubricant, contact.x, contact.y[first:], even=even)
+    return nodes(pressure, film, np.zeros(film.shape, dtype=bool))
 
 
 @dataclass(frozen=True, slots=True)

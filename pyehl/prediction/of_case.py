@@ -140,7 +140,7 @@ def predict(
         below=below,
         advice=advice,
         second=second,
-        heat=heat_of(settings, contact, lubricant),
+        heat=(partial and partial.heat) or heat_of(settings, contact, lubricant),
         thinning=contact.thinning,
         partial=partial,
     )
@@ -158,9 +158,8 @@ def _partial(
         return without(OF_TWO)
     if not passage.options.measured:
         return without(OTHER_MODEL)
-    found = partial_film(
-        passage, passage.parts(), layer, float(lubricant.get("boundary_friction", 0.0))
-    )
+    mu = float(lubricant.get("boundary_friction", 0.0))
+    found = partial_film(passage, passage.parts(), layer, mu, settings)
     if settings["contact"].get("hardness", 0.0) > 0.0:
         note = found.note or ELASTIC
         found = replace(found, load_share_error=math.nan, area_share_error=math.nan, note=note)
