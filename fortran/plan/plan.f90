@@ -8,6 +8,7 @@ module ehl_plan
    use ehl_domain, only: domain_cost, domain_t
    use ehl_friction_mean, only: automatic_periods
    use ehl_grid, only: coarsest_most, find_levels, grid_t, new_grid
+   use ehl_inlet, only: inlet_t
    use ehl_kinds, only: dp
    use ehl_lubricant, only: lubricant_t
    use ehl_moes, only: operating_t
@@ -119,6 +120,7 @@ contains
       plan%heat = plan_heat(input, plan%contact, plan%scales, plan%sliding, plan%lubricant, film)
       film = plan%lubricant%shear%thinned_film(film, plan%point%speed_parameter)
       plan%touches = may_touch(plan%lubricant, film)
+      if (plan%lubricant%boundary_film > 0.0_dp) plan%inlet = inlet_t(film, plan%lubricant%boundary_film/rho(1))
       plan%film_expected = max(film, plan%lubricant%boundary_film)
       plan%engine = trim(input%solver%deflection)
       plan%accuracy = input%solver%accuracy

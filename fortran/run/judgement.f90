@@ -3,6 +3,7 @@
 module ehl_judgement
    use ehl_kinds, only: dp
    use ehl_record, only: record_t
+   use ehl_resolution, only: no_inlet
    use ehl_text, only: fixed, percent, short => rounded, to_text
    use ehl_touching, only: much_supplied
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
@@ -27,7 +28,8 @@ module ehl_judgement
 
 contains
 
-   !> A word and the reason for it: 'no answer', 'film breakdown', 'beyond the solids', 'mixed film', 'yielding solids',
+   !> A word and the reason for it: 'no answer', 'film breakdown', 'beyond the solids', 'unresolved inlet', 'mixed film',
+   !> 'yielding solids',
    !> 'thin film', 'unresolved waves' or 'full film', then what else there is to know
    subroutine judge(summary, text, worth)
       type(record_t), intent(in) :: summary
@@ -80,7 +82,10 @@ contains
       type(record_t), intent(in) :: summary
       character(len=:), allocatable :: text
 
-      if (.not. larger(summary%number("contact_load_share"), 0.0_dp)) then
+      if (index(summary%text("H_c_error_note"), no_inlet) == 1) then
+         text = "unresolved inlet: "//summary%text("H_c_error_note")//"; "
+         if (.not. larger(summary%number("contact_load_share"), 0.0_dp)) return
+      else if (.not. larger(summary%number("contact_load_share"), 0.0_dp)) then
          text = of_film(summary)
          return
       end if

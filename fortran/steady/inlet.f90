@@ -1,0 +1,95 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> What a grid resolves of the inlet of a contact that touches.
+!>
+!> Bodies that touch have the film of the boundary film on every grid that is too coarse for the inlet: two such grids agree
+!> and say nothing of their error. It is that of the film that the inlet would make. In the inlet of a Hertz contact the gap
+!> opens as xi^(3/2) (Greenwood 1972), so that pressure builds up over a length of H^(2/3), and the wedge term of second order
+!> misses a share of that film of
+!>
+!>    e = (h/H^(2/3))^2,   h the mesh size [a], H the central film by formula [a^2/R].
+!>
+!> The factor is 1 by the campaign in docs/evidence/inlet, from which the other numbers are, too.
+module ehl_inlet
+   use ehl_contact_results, only: contact_results_t
+   use ehl_kinds, only: dp
+   implicit none (type, external)
+   private
+   public :: inlet_t
+
+   !> Largest e of a grid that tells which part of the load is at the boundary film
+   real(dp), parameter :: resolved_share = 0.1_dp
+   !> What the formula may be off
+   real(dp), parameter :: formula_error = 0.15_dp
+   !> Relative change of the load share by a relative change of the film
+   real(dp), parameter :: share_by_film = 10.0_dp
+
+   type :: inlet_t
+      !> Central film by formula and boundary film, both under the Hertz pressure [a^2/R]; 0: there is no boundary film
+      real(dp) :: film = 0.0_dp, layer = 0.0_dp
+   contains
+      procedure :: missed
+      procedure :: is_dry
+      procedure :: resolves
+      procedure :: resolving_mesh
+      procedure :: film_errors
+      procedure :: share_error
+   end type inlet_t
+
+contains
+
+   !> Relative error e of the film that the inlet makes, on a grid of mesh size h
+   pure real(dp) function missed(self, h)
+      class(inlet_t), intent(in) :: self
+      real(dp), intent(in) :: h
+      missed = h**2/self%film**(4.0_dp/3.0_dp)
+   end function missed
+
+   !> Whether the boundary film is thicker than what the inlet makes, whatever the grid
+   pure logical function is_dry(self)
+      class(inlet_t), intent(in) :: self
+      is_dry = self%layer >= (1.0_dp + formula_error)*self%film
+   end function is_dry
+
+   !> Whether a solution on a grid of mesh size h tells which part of the load is at the boundary film
+   pure logical function resolves(self, m, h)
+      class(inlet_t), intent(in) :: self
+      type(contact_results_t), intent(in) :: m
+      real(dp), intent(in) :: h
+
+      resolves = .true.
+      if (.not. self%film > 0.0_dp .or. self%is_dry()) return
+      resolves = .not. (m%touching%load_share > 0.0_dp .and. self%missed(h) > resolved_share)
+   end function resolves
+
+   !> Mesh size that does
+   pure real(dp) function resolving_mesh(self)
+      class(inlet_t), intent(in) :: self
+      resolving_mesh = sqrt(resolved_share)*self%film**(2.0_dp/3.0_dp)
+   end function resolving_mesh
+
+   !> Errors of H_c and H_min of a contact that touches: what the grid misses of the film, but no more than up to the film by
+   !> formula. Else 0.
+   pure function film_errors(self, m, h) result(errors)
+      class(inlet_t), intent(in) :: self
+      type(contact_results_t), intent(in) :: m
+      real(dp), intent(in) :: h
+      real(dp) :: errors(2), e
+
+      errors = 0.0_dp
+      if (.not. self%film > 0.0_dp) return
+      errors = max(0.0_dp, (1.0_dp + formula_error)*self%film - m%films())
+      e = self%missed(h)
+      if (e < 1.0_dp) errors = min(errors, m%films()*e/(1.0_dp - e))
+   end function film_errors
+
+   !> Error of the load share by that of the film
+   pure real(dp) function share_error(self, m, h)
+      class(inlet_t), intent(in) :: self
+      type(contact_results_t), intent(in) :: m
+      real(dp), intent(in) :: h
+
+      share_error = 0.0_dp
+      if (.not. self%film > 0.0_dp .or. self%is_dry()) return
+      share_error = m%touching%load_share*min(1.0_dp, share_by_film*self%missed(h))
+   end function share_error
+end module ehl_inlet
