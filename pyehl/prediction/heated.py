@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The heat of sliding in the contacts of a prediction."""
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -69,3 +71,11 @@ class HeatOf:
         first, second, third = map(float, rises)
         words = returned(note) if np.isfinite(ratio) else NOT_SOLVED
         return Heat(float(ratio), (first, second, third), words)
+
+
+def mean_heat(parts: Sequence[Heat], weights: Sequence[float]) -> Heat:
+    """Heat of a rough contact in some positions: of friction a mean, of the rises the greatest."""
+    ratio = float(np.average([part.ratio for part in parts], weights=weights))
+    first, second, third = (float(v) for v in np.max([part.rises for part in parts], axis=0))
+    note = parts[0].note if math.isfinite(ratio) else NOT_SOLVED
+    return Heat(ratio, (first, second, third), note, rough=math.isfinite(first))

@@ -26,7 +26,7 @@ import numpy as np
 import scipy
 
 from pyehl.prediction.by_response import Parts, RoughPassage
-from pyehl.prediction.heated import NOT_SOLVED, HeatOf
+from pyehl.prediction.heated import HeatOf, mean_heat
 from pyehl.prediction.obstacle import Compliance, lifted
 from pyehl.prediction.second_order import film_left, loss_at
 from pyehl.prediction.smooth import circle_of, zone_of
@@ -300,20 +300,13 @@ class _Contact:
         if not math.isfinite(self.rubbing):
             return None
         heat_of = HeatOf(settings, self.passage.lubricant, self.rough.x, self.rough.y)
+        found = [self.found[int(step)] for step in steps]
         inside = self.rough.inside
-        parts, weights = [], []
-        for step in steps:
-            pressure, film, touching = self.found[int(step)]
-            # what is outside of the points of friction makes no heat
-            p, h = np.where(inside, pressure, 0.0), np.where(inside, film, OPEN)
-            parts.append(heat_of(p, h, touching))
-            weights.append(self._stress(pressure, film, touching))
-        rises = np.max([part.rises for part in parts], axis=0)
-        ratio = np.average([part.ratio for part in parts], weights=weights)
-        notes = {part.note for part in parts}
-        note = NOT_SOLVED if NOT_SOLVED in notes else notes.pop()
-        most = float(rises[0]), float(rises[1]), float(rises[2])
-        return Heat(float(ratio), most, note, rough=bool(np.isfinite(rises[0])))
+        # what is outside of the points of friction makes no heat
+        return mean_heat(
+            [heat_of(np.where(inside, p, 0.0), np.where(inside, h, OPEN), t) for p, h, t in found],
+            [self._stress(*state) for state in found],
+        )
 
     def smooth_friction(self) -> float:
         """Sum of the shear stress of the smooth contact."""

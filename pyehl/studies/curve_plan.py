@@ -15,6 +15,8 @@ from pyehl import surfaces
 from pyehl.case import Case, files_of
 from pyehl.errors import InputError
 from pyehl.prediction.options import turned, unpredictable
+from pyehl.prediction.resolved_inlet import touching_points
+from pyehl.prediction.smooth import CYCLES
 from pyehl.studies.plan import TaskList, check_memory, duration, formula_film
 from pyehl.studies.study import MAX_CASES, Point, Study, make
 from pyehl.studies.tasks import Task
@@ -192,6 +194,11 @@ def _with_seeds(case: Case, settings: Settings, ahead: int) -> Case:
 
 
 def _smooth(case: Case, settings: Settings) -> Case:
-    """Give a case without its roughness."""
+    """Give a case without its roughness, on a grid that resolves its inlet where it may touch."""
     groups = {"surface", *surfaces.rough_groups(settings)}
-    return case.with_options({f"{group}.kind": "smooth" for group in sorted(groups, reverse=True)})
+    options: dict[str, Any] = {f"{g}.kind": "smooth" for g in sorted(groups, reverse=True)}
+    points = touching_points(settings)
+    if points > int(settings["grid"]["points"]) and not settings["grid"]["target_error"]:
+        cycles = max(CYCLES, int(settings["solver"]["max_cycles"]))
+        options |= {"grid.points": points, "solver.max_cycles": cycles}
+    return case.with_options(options)

@@ -80,7 +80,7 @@ def test_smooth_films_are_those_of_a_run_with_the_layer(velocity, layer):
 
 def test_smooth_contact_with_the_layer_that_does_not_converge(monkeypatch):
     """No films of another contact in place of its own."""
-    monkeypatch.setattr(smooth, "_solved_with_layer", lambda text: None)
+    monkeypatch.setattr(smooth, "_solved_with_layer", lambda text: (None, "it does not converge"))
     settings = pyehl.Case.from_text(SCENE.format(0.3, 1.2e-7, 0.1)).resolve()
     prediction = of_case.predict(settings, tracks=1)
     summary = prediction.summary

@@ -113,7 +113,9 @@ def append(row: Row) -> None:
         if new:
             writer.writerow([*COLUMNS, *RESULTS])
         values = (row[name] for name in (*COLUMNS, *RESULTS))
-        writer.writerow([f"{v:.6g}" if isinstance(v, float) else "" if v is None else v for v in values])
+        writer.writerow(
+            [f"{v:.6g}" if isinstance(v, float) else "" if v is None else v for v in values]
+        )
 
 
 def read() -> list[dict[str, str]]:
@@ -130,7 +132,9 @@ def covered(rows: list[dict[str, str]], name: str) -> dict[int, tuple[int, int, 
     Against the finest grid, of the contacts that it solves and whose load share it tells.
     """
     best = {
-        row["contact"]: float(row[name]) for row in rows if int(row["points"]) == FINEST and row[name]
+        row["contact"]: float(row[name])
+        for row in rows
+        if int(row["points"]) == FINEST and row[name]
     }
     found = {}
     for points in GRIDS[:-1]:
@@ -155,7 +159,9 @@ def show() -> None:
         found = covered(rows, name)
         cells = [f"{good}/{told}, {none} none" for told, good, none in found.values()]
         told, good = (sum(part[k] for part in found.values()) for k in (0, 1))
-        print(f"| {said} | " + " | ".join(cells) + f" | {good}/{told} = {100.0 * good / told:.0f} % |")
+        print(
+            f"| {said} | " + " | ".join(cells) + f" | {good}/{told} = {100.0 * good / told:.0f} % |"
+        )
 
 
 if __name__ == "__main__":
