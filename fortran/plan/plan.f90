@@ -120,7 +120,8 @@ contains
       plan%heat = plan_heat(input, plan%contact, plan%scales, plan%sliding, plan%lubricant, film)
       film = plan%lubricant%shear%thinned_film(film, plan%point%speed_parameter)
       plan%touches = may_touch(plan%lubricant, film)
-      if (plan%lubricant%boundary_film > 0.0_dp) plan%inlet = inlet_t(film, plan%lubricant%boundary_film/rho(1))
+      if (plan%lubricant%boundary_film > 0.0_dp) plan%inlet = inlet_t(film, plan%lubricant%boundary_film/rho(1), &
+                                                                         plan%lubricant%boundary_stress)
       plan%film_expected = max(film, plan%lubricant%boundary_film)
       plan%engine = trim(input%solver%deflection)
       plan%accuracy = input%solver%accuracy

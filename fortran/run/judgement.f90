@@ -82,11 +82,9 @@ contains
       type(record_t), intent(in) :: summary
       character(len=:), allocatable :: text
 
-      if (index(summary%text("H_c_error_note"), no_inlet) == 1) then
-         text = "unresolved inlet: "//summary%text("H_c_error_note")//"; "
-         if (.not. larger(summary%number("contact_load_share"), 0.0_dp)) return
-      else if (.not. larger(summary%number("contact_load_share"), 0.0_dp)) then
+      if (.not. larger(summary%number("contact_load_share"), 0.0_dp)) then
          text = of_film(summary)
+         if (index(summary%text("H_c_error_note"), no_inlet) == 1) text = "unresolved inlet: "//summary%text("H_c_error_note")//"; "
          return
       end if
       text = "mixed film: "//percent(summary%number("contact_load_share"))//" of the load is carried at the boundary film, "

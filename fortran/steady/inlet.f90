@@ -19,6 +19,9 @@ module ehl_inlet
 
    !> c, and the largest e of a grid that tells which part of the load is at the boundary film
    real(dp), parameter :: factor = 1.3_dp, resolved_share = 0.12_dp
+   !> Load share, and its part of the friction, up to which it hardly matters whether the grid is the reason: films grow as
+   !> grids become finer, and no share is wrong by more than itself
+   real(dp), parameter :: small_share = 0.05_dp, small_friction = 0.1_dp
    !> What the formula may be off
    real(dp), parameter :: formula_error = 0.15_dp
    !> Relative change of the load share by a relative change of the film; error of what is left of the load, at the edge of a
@@ -28,6 +31,8 @@ module ehl_inlet
    type :: inlet_t
       !> Central film by formula and boundary film, both under the Hertz pressure [a^2/R]; 0: there is no boundary film
       real(dp) :: film = 0.0_dp, layer = 0.0_dp
+      !> Shear stress of the boundary film over its pressure, as lubricant_t has it
+      real(dp) :: stress = 0.0_dp
    contains
       procedure :: missed
       procedure :: is_dry
@@ -60,7 +65,10 @@ contains
 
       resolves = .true.
       if (.not. self%film > 0.0_dp .or. self%is_dry()) return
-      resolves = .not. (m%touching%load_share > 0.0_dp .and. self%missed(h) > resolved_share)
+      if (self%missed(h) <= resolved_share) return
+      associate (share => m%touching%load_share)
+         resolves = share <= small_share .and. share*self%stress*m%load <= small_friction*m%friction
+      end associate
    end function resolves
 
    !> Mesh size that does
