@@ -22,8 +22,8 @@ module ehl_inlet
    !> Load share, and its part of the friction, up to which it hardly matters whether the grid is the reason: films grow as
    !> grids become finer, and no share is wrong by more than itself
    real(dp), parameter :: small_share = 0.05_dp, small_friction = 0.1_dp
-   !> What the formula may be off
-   real(dp), parameter :: formula_error = 0.15_dp
+   !> What the formula may be off; least film of a smooth contact over the central one
+   real(dp), parameter :: formula_error = 0.15_dp, thinnest = 0.3_dp
    !> Relative change of the load share by a relative change of the film; error of what is left of the load, at the edge of a
    !> contact that touches nearly everywhere
    real(dp), parameter :: share_by_film = 8.0_dp, edge_error = 0.5_dp
@@ -36,6 +36,7 @@ module ehl_inlet
    contains
       procedure :: missed
       procedure :: is_dry
+      procedure :: in_doubt
       procedure :: resolves
       procedure :: resolving_mesh
       procedure :: film_errors
@@ -56,6 +57,18 @@ contains
       class(inlet_t), intent(in) :: self
       is_dry = self%layer >= (1.0_dp + formula_error)*self%film
    end function is_dry
+
+   !> Whether a contact may touch on a grid of mesh size h for that: there the film is thinner by more than is missed of H
+   pure logical function in_doubt(self, h)
+      class(inlet_t), intent(in) :: self
+      real(dp), intent(in) :: h
+
+      in_doubt = .false.
+      if (.not. self%film > 0.0_dp .or. self%is_dry()) return
+      associate (e => self%missed(h))
+         in_doubt = e > resolved_share .and. self%layer > thinnest*(1.0_dp - 2.0_dp*e)*self%film
+      end associate
+   end function in_doubt
 
    !> Whether a solution on a grid of mesh size h tells which part of the load is at the boundary film
    pure logical function resolves(self, m, h)

@@ -7,7 +7,7 @@ module ehl_steady
    use ehl_far_field, only: far_field_t
    use ehl_film, only: refresh
    use ehl_hierarchy, only: hierarchy_t
-   use ehl_iteration, only: iteration_t, most_reduction, reduction
+   use ehl_iteration, only: iteration_t, reduction
    use ehl_kinds, only: dp
    use ehl_level_result, only: film_errors, level_result_t
    use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_running, outcome_target_missed
@@ -22,6 +22,9 @@ module ehl_steady
    real(dp), parameter :: least_error = 2.0e-5_dp
    !> Algebraic error of the load share of a boundary film, which ends a level where the films have ended moving
    real(dp), parameter :: share_tolerance = 1.0e-3_dp
+   !> Largest reduction per cycle that is believed of it: where the film is close to the boundary film the edge of a touching
+   !> zone moves by a node in several cycles
+   real(dp), parameter :: most_share_reduction = 0.99_dp
    !> Largest residual (rms, as far as it concerns the film; the wedge term is of order 1 in the inlet) of a converged
    !> solution
    real(dp), parameter :: residual_tolerance = 2.0e-3_dp
@@ -187,8 +190,9 @@ contains
       real(dp), intent(in) :: change
       real(dp) :: q
 
-      q = most_reduction
-      if (self%cycles > 1) q = reduction([change], [self%share_change], self%cycles)
+      q = most_share_reduction
+      if (self%cycles > 1) q = max(reduction([change], [self%share_change], self%cycles), &
+                                   min(most_share_reduction, change/max(self%share_change, tiny(1.0_dp))))
       self%results(self%n)%share_algebraic = change*q/(1.0_dp - q)
       self%share_change = change
    end subroutine judge_share
@@ -254,8 +258,8 @@ contains
    !> Whether the load share of a boundary film is a result, and the contact with it well posed
    pure logical function counts_share(self)
       class(steady_t), intent(in) :: self
-      counts_share = rests_on_layer(self) .or. (is_end(self) .and. self%how%inlet%film > 0.0_dp .and. &
-                                                self%m%touching%load_share > 0.0_dp .and. self%m%touching%supply <= much_supplied)
+      counts_share = rests_on_layer(self) .or. (self%how%inlet%film > 0.0_dp .and. self%m%touching%load_share > 0.0_dp .and. &
+                                                self%m%touching%supply <= much_supplied)
    end function counts_share
 
    !> Algebraic error of that share which the present level deserves
