@@ -87,6 +87,7 @@ class _Functions:
         text: bytes,
         p: _Array,
         h: _Array,
+        touching: _Indices,
         x0: float,
         y0: float,
         hx: float,

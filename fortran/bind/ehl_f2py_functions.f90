@@ -183,11 +183,13 @@ contains
 
    !> Friction with heat over that without it (NaN: not known), and the greatest rises of temperature of film and walls [K],
    !> of the contact of a case with the pressure and the film p, h(nx, ny), the first node at (x0, y0); mirror: the rows are
-   !> those of Y >= 0. Whether the heat counts, and what a coefficient of friction is then.
-   subroutine heated(text, nx, ny, p, h, x0, y0, hx, hy, mirror, counts, ratio, rises, note, stat, message)
+   !> those of Y >= 0; touching: 1 where the bodies touch at the boundary film. Whether the heat counts, and what a coefficient of
+   !> friction is then.
+   subroutine heated(text, nx, ny, p, h, touching, x0, y0, hx, hy, mirror, counts, ratio, rises, note, stat, message)
       character(len=*), intent(in) :: text
       integer(c_int), intent(in) :: nx, ny
       real(c_double), intent(inout) :: p(nx, ny), h(nx, ny)
+      integer(c_int), intent(inout) :: touching(nx, ny)
       real(c_double), intent(in) :: x0, y0, hx, hy
       integer(c_int), intent(in) :: mirror
       integer(c_int), intent(out) :: counts, stat
@@ -211,7 +213,7 @@ contains
          if (plan%counts) then
             counts = 1
             call heat_film(plan%film, grid_t(nx=nx, ny=ny, x0=x0, y0=y0, hx=hx, hy=hy, mirror=mirror /= 0), lubricant, p, h, &
-                           .false., 1, found)
+                           .false., 1, found, touching=touching > 0)
             ratio = found%ratio()
             rises = found%greatest
          end if

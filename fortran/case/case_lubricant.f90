@@ -87,8 +87,8 @@ contains
       end associate
    end subroutine check_shear_law
 
-   !> A boundary film needs a contact in SI units; its friction and a hardness need it, and the heat of friction does not know it.
-   !> Smooth bodies must be able to carry the load below the hardness.
+   !> A boundary film needs a contact in SI units; its friction and a hardness need it. Smooth bodies must be able to carry the
+   !> load below the hardness.
    subroutine check_boundary_film(schema, input, status)
       type(schema_t), intent(in) :: schema
       type(case_t), intent(in) :: input
@@ -113,9 +113,6 @@ contains
             call schema%refuse("contact.hardness", "contact.hardness = " // short(hardness) // " Pa, and the Hertz pressure is " &
                                // short(pressure) // " Pa: smooth bodies would yield", &
                                "more than the Hertz pressure, a lower load, or 0.0 for elastic solids", status)
-         else if (l%boundary_film > 0.0_dp .and. l%thermal_friction == "always") then
-            call schema%contradict("lubricant.boundary_film", "lubricant.thermal_friction", &
-                                   "thermal_friction = 'auto' or 'never'", status, "the heat where bodies touch is not computed")
          else if (l%boundary_film > 0.0_dp .and. input%solver%coarsening == "alcouffe") then
             call schema%contradict("lubricant.boundary_film", "solver.coarsening", &
                                    "coarsening = 'auto' or 'classical'", status, &

@@ -3,13 +3,16 @@
 module ehl_resolution
    use ehl_contact, only: contact_t
    use ehl_grid, only: grid_t
+   use ehl_inlet, only: inlet_t
    use ehl_kinds, only: dp
    use ehl_moes, only: operating_t
    use ehl_text, only: to_text
    implicit none (type, external)
    private
-   public :: relative_errors, has_solution, too_coarse, better_grid
+   public :: relative_errors, has_solution, too_coarse, better_grid, unresolved_inlet, no_inlet
 
+   !> How a text begins that says why a contact touches
+   character(len=*), parameter :: no_inlet = "the grid does not resolve the inlet"
    !> Most that half of the a-priori error of H_min may be where the equations have a solution (docs/robustness.md)
    real(dp), parameter :: most_unresolved = 0.6_dp
    !> What grids miss in contacts that are narrow, over what they miss in round ones, by H_c and by H_min: 1 + a (1/kappa^2 - 1)
@@ -63,6 +66,20 @@ contains
       if (grid%nx > finest%nx) text = "the grid is too coarse for a solution at this load: grid.points = "// &
                                       to_text(grid%nx)//" or more"
    end function too_coarse
+
+   !> Why a contact touches on a grid of whose inlet not enough is resolved, with the nodes along X that will do
+   pure function unresolved_inlet(inlet, finest) result(text)
+      type(inlet_t), intent(in) :: inlet
+      type(grid_t), intent(in) :: finest
+      character(len=:), allocatable :: text
+      type(grid_t) :: grid
+
+      grid = finest
+      do while (grid%hx > inlet%resolving_mesh())
+         grid = grid%finer()
+      end do
+      text = no_inlet//", and the bodies may touch for that: grid.points = "//to_text(grid%nx)//" or more"
+   end function unresolved_inlet
 
    !> What may help where there is no solution: a grid that has one, or in a narrow contact on a grid that seems fine enough cells
    !> half as long across, in a domain a quarter as wide; empty where nothing is known (docs/evidence/errors_ellipses)

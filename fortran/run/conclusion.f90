@@ -138,7 +138,8 @@ contains
          friction = ""
          if (known("mu")) then
             friction = "mu         "//fixed(summary%number("mu"), "f9.5")
-            if (summary%has("mu_ratio")) friction = friction//", smooth contact "//fixed(summary%number("mu_smooth"), "f9.5")
+            if (summary%has("mu_ratio") .and. known("mu_smooth")) friction = friction//", smooth contact "// &
+               fixed(summary%number("mu_smooth"), "f9.5")
          else if (known("mu_smooth")) then
             friction = "mu         smooth contact "//fixed(summary%number("mu_smooth"), "f9.5")
          else if (summary%text("mu_note") /= "" .and. (known("H_c") .or. known("h_c_m"))) then

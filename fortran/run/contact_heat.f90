@@ -3,6 +3,7 @@
 submodule (ehl_contact_run) ehl_contact_heat
    use ehl_heated_friction, only: heat_film
    use ehl_kinds, only: not_known
+   use ehl_touching, only: touches
    implicit none (type, external)
 
    !> Steps in a period after which it is computed: what the heat takes from the friction changes slowly
@@ -11,9 +12,21 @@ submodule (ehl_contact_run) ehl_contact_heat
 contains
 
    module procedure add_heat
+      logical, allocatable :: touching(:, :)
+      integer :: j
+
       associate (level => self%hierarchy%levels(n))
-         call heat_film(self%plan%heat%film, level%grid, level%lubricant, level%p, level%h, keep, level%threads, found, &
-                        level%flow, level%rho)
+         if (allocated(level%boundary)) then
+            allocate (touching(level%grid%nx, level%grid%ny))
+            do j = 1, level%grid%ny
+               touching(:, j) = touches(level, j)
+            end do
+            call heat_film(self%plan%heat%film, level%grid, level%lubricant, level%p, level%boundary%film, keep, level%threads, &
+                           found, level%flow, level%rho, touching)
+         else
+            call heat_film(self%plan%heat%film, level%grid, level%lubricant, level%p, level%h, keep, level%threads, found, &
+                           level%flow, level%rho)
+         end if
       end associate
    end procedure add_heat
 

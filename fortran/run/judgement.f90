@@ -3,6 +3,7 @@
 module ehl_judgement
    use ehl_kinds, only: dp, pi
    use ehl_record, only: record_t
+   use ehl_resolution, only: no_inlet
    use ehl_text, only: fixed, percent, short => rounded, to_text
    use ehl_touching, only: much_supplied
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
@@ -34,7 +35,8 @@ module ehl_judgement
 
 contains
 
-   !> A word and the reason for it: 'no answer', 'film breakdown', 'beyond the solids', 'mixed film', 'yielding solids',
+   !> A word and the reason for it: 'no answer', 'film breakdown', 'beyond the solids', 'unresolved inlet', 'mixed film',
+   !> 'yielding solids',
    !> 'thin film', 'unresolved waves' or 'full film', then what else there is to know
    subroutine judge(summary, text, worth)
       type(record_t), intent(in) :: summary
@@ -92,6 +94,7 @@ contains
 
       if (.not. larger(summary%number("contact_load_share"), 0.0_dp)) then
          text = of_film(summary)
+         if (index(summary%text("H_c_error_note"), no_inlet) == 1) text = "unresolved inlet: "//summary%text("H_c_error_note")//"; "
          return
       end if
       text = "mixed film: "//percent(summary%number("contact_load_share"))//" of the load is carried at the boundary film, "

@@ -2,6 +2,7 @@
 !> How the smooth contact is solved, and when a level of it ends
 module ehl_steady_options
    use ehl_cycle, only: cycle_options_t
+   use ehl_inlet, only: inlet_t
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
@@ -23,6 +24,8 @@ module ehl_steady_options
       logical :: flooded = .false.
       !> Whether what fails on the finest level may begin again with care
       logical :: may_restart = .false.
+      !> What touching makes of the errors
+      type(inlet_t) :: inlet
       !> Whether the contact is a circle and its flow Newtonian
       logical :: newtonian_circle = .true.
    end type steady_options_t

@@ -88,7 +88,8 @@ def rough_rows(found: Rough, film: Film | None = None) -> list[tuple[str, str]]:
     else:
         rows.append(("no prediction", f"{p.friction.status}: {p.friction.message}"))
     if s["mu"] is not None:
-        rows.append(("friction μ", f"{s['mu']:.4f}; smooth {s['mu_smooth']:.4f}"))
+        smooth = "" if s["mu_smooth"] is None else f"; smooth {s['mu_smooth']:.4f}"
+        rows.append(("friction μ", f"{s['mu']:.4f}{smooth}"))
     if p.outside_range:
         rows.append(("outside of the range", ", ".join(p.outside_range)))
     # of the film that is shown above, whose grid is another than that of the prediction

@@ -144,7 +144,7 @@ def predict(
         below=below,
         advice=advice,
         second=_second(alone, friction, together),
-        heat=heat_of(settings, contact, lubricant),
+        heat=(partial and partial.heat) or heat_of(settings, contact, lubricant),
         thinning=contact.thinning,
         partial=partial,
         beside=[]
@@ -177,7 +177,8 @@ def _partial(
         return without(OF_TWO)
     if not passage.options.measured:
         return without(OTHER_MODEL)
-    found = partial_film(passage, passage.parts(), layer, float(lubricant["boundary_friction"]))
+    mu = float(lubricant["boundary_friction"])
+    found = partial_film(passage, passage.parts(), layer, mu, settings)
     beyond = outside_range(
         passage.operating, passage.velocity_ratio, passage.options, passage.contact.thinning
     )

@@ -28,6 +28,7 @@ import numpy as np
 import scipy
 
 from pyehl.prediction.by_response import Parts, RoughPassage
+from pyehl.prediction.heated import HeatOf, mean_heat
 from pyehl.prediction.obstacle import Compliance, lifted
 from pyehl.prediction.second_order import film_left, loss_at
 from pyehl.prediction.smooth import circle_of, zone_of
@@ -35,13 +36,18 @@ from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer
 from pyehl.prediction.wavy_contact import missing, slipped
 from pyehl.surfaces import Topography
+from pyehl.theory.heat import Heat
 from pyehl.theory.transport import stiffness
-from pyehl.types import Array, Indices, Mask
+from pyehl.types import Array, Indices, Mask, Settings
 
 HOLD = 0.01
 """Bodies touch where the film exceeds the layer by less than this share, as in the solver."""
 POSITIONS = 16
 """Positions of the tile over its passage."""
+HEATED = 4
+"""Of these, in which the temperature is computed."""
+# Film [a^2/R] outside of the contact, where nothing is to make heat
+OPEN = 1.0
 # Error of the film at which bodies touch, of the rms height of the deformed surface
 # (docs/evidence/partial)
 FILM = 0.45
@@ -79,6 +85,7 @@ class Partial:
     passage: Array  # (n,) friction there
     note: str  # why an error or all numbers are not there; ''
     lost: bool = False  # whether bodies touch, and no number of that is known
+    heat: Heat | None = None  # what the heat makes of friction where bodies touch
 
     @property
     def touches(self) -> bool:
@@ -103,8 +110,10 @@ def without(note: str) -> Partial:
     return Partial(n, n, n, n, n, n, n, n, n, nothing, nothing, note)
 
 
-def partial_film(passage: RoughPassage, parts: Parts, layer: float, friction: float) -> Partial:
-    """Find the partial film over a passage of a tile, with a layer [m].
+def partial_film(
+    passage: RoughPassage, parts: Parts, layer: float, friction: float, settings: Settings
+) -> Partial:
+    """Find the partial film over a passage of a tile, with a layer [m], of a resolved case.
 
     `friction`: coefficient of friction of the layer [-]; 0: not known.
     """
@@ -121,6 +130,7 @@ def partial_film(passage: RoughPassage, parts: Parts, layer: float, friction: fl
         if not all(contact.add(int(step), levels) for step in steps):
             return without(UNSOLVED)
         smooth = contact.smooth_friction()
+        heat = contact.heat(steps[:: POSITIONS // HEATED], settings)
     known = points <= 2.0 * POINTS[1]
 
     def told(values: list[list[float]]) -> tuple[float, float]:
@@ -143,6 +153,7 @@ def partial_film(passage: RoughPassage, parts: Parts, layer: float, friction: fl
         np.asarray(steps * grid.pixel[0], dtype=float),
         np.array(levels[0].stress) / smooth,
         "",
+        heat=heat,
     )
     return found if known else found.unknown(UNRESOLVED)
 
@@ -185,6 +196,8 @@ class _Contact:
         self.load = float(self.rough.pressure.sum(where=self.rough.inside))
         self.whole_load = o.load / (o.hertz_pressure * self.rough.area)
         self._bend(self._around(grid))
+        # pressure, film and where bodies touch at each position, of the film itself
+        self.found: dict[int, tuple[Array, Array, Mask]] = {}
 
     def _way(self) -> Indices:
         """Points by which peaks have slipped past a column since the inlet (m, n)."""
@@ -265,6 +278,7 @@ class _Contact:
             film = np.maximum(self.film * film_left((loss - held.lift) / self.film), floor)
             pressure = np.maximum(linear + self.raising(held.pressure), 0.0)
             touching = self._touching(pressure, film, floor)
+            self.found.setdefault(shift, (pressure, film, touching))
             carried = float(pressure.sum(where=rough.inside))
             level.load.append(float(pressure.sum(where=touching)) / carried)
             level.area.append(np.count_nonzero(touching) / rough.points)
@@ -286,6 +300,24 @@ class _Contact:
             return flowing
         share = float(pressure.sum(where=touching) / pressure.sum(where=inside))
         return flowing + self.rubbing * self.whole_load * share
+
+    def heat(self, steps: Indices, settings: Settings) -> Heat | None:
+        """Heat of sliding at some positions: of friction a mean, of the rises the greatest.
+
+        None where bodies do not touch, or the friction of the layer is not known.
+        """
+        if not any(touching.any() for _, _, touching in self.found.values()):
+            return None
+        if not math.isfinite(self.rubbing):
+            return None
+        heat_of = HeatOf(settings, self.passage.lubricant, self.rough.x, self.rough.y)
+        found = [self.found[int(step)] for step in steps]
+        inside = self.rough.inside
+        # what is outside of the points of friction makes no heat
+        return mean_heat(
+            [heat_of(np.where(inside, p, 0.0), np.where(inside, h, OPEN), t) for p, h, t in found],
+            [self._stress(*state) for state in found],
+        )
 
     def smooth_friction(self) -> float:
         """Sum of the shear stress of the smooth contact."""

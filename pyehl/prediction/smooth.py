@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
@@ -31,7 +31,9 @@ FINEST = 1025
 of a contact under a high load is steep (M above 2000 or so)."""
 
 COARSE = 129
-"""With a boundary film this is tried instead, which finer grids seldom help."""
+"""With a boundary film this is tried where no finer grid has a solution."""
+CYCLES = 100
+"""Least `max_cycles` with a boundary film: the edge of a touching zone moves slowly."""
 TOUCHES = 1.2
 """Films thicker than this many layers are taken not to touch on any grid."""
 
@@ -106,7 +108,8 @@ def solve_contact(settings: Settings) -> SmoothContact:
 def with_layer(settings: Settings, contact: SmoothContact, lubricant: Lubricant) -> SmoothContact:
     """Smooth contact with the boundary film of a case; `contact`, that without, if it is thinner.
 
-    Its films are NaN, and the source says why, where it does not converge.
+    On the first grid that resolves its inlet. Its films are NaN, and the source says why, where
+    none does or it does not converge.
     """
     operating = OperatingPoint.from_settings(settings)
     layer = float(settings["lubricant"]["boundary_film"]) / operating.film_scale
@@ -114,11 +117,12 @@ def with_layer(settings: Settings, contact: SmoothContact, lubricant: Lubricant)
     held = lubricant.density_ratio(pressure) * contact.film
     if float(held.min()) > TOUCHES * layer:
         return contact
-    found = _solved_with_layer(smooth_case(settings, layer=True))
+    cycles = max(CYCLES, int(settings["solver"]["max_cycles"]))
+    found, why = _solved_with_layer(smooth_case(settings, layer=True), cycles)
     if found is not None:
         return found
     n = math.nan
-    lost = "not known: with the boundary film it does not converge"
+    lost = f"not known: with the boundary film {why}"
     return SmoothContact(contact.x, contact.y, n * pressure, n * pressure, n, n, lost)
 
 
@@ -155,13 +159,28 @@ def _solved(text: str) -> SmoothContact:
 
 
 @lru_cache(maxsize=8)
-def _solved_with_layer(text: str) -> SmoothContact | None:
-    return _on_grid(text, POINTS)[0] or _on_grid(text, COARSE)[0]
+def _solved_with_layer(text: str, cycles: int) -> tuple[SmoothContact | None, str]:
+    """Solve with a boundary film; None, and why, where no grid has a solution that is its own."""
+    options = [f"solver.max_cycles={cycles}"]
+    why, points = "it does not converge", POINTS
+    while points <= FINEST:
+        found, status = _on_grid(text, points, options)
+        if found is not None and not status:
+            return found, ""
+        why = status if found is not None else why
+        points = 2 * points - 1
+    found, status = _on_grid(text, COARSE, options)
+    return (None, why) if status else (found, "")
 
 
-def _on_grid(text: str, points: int) -> tuple[SmoothContact | None, str]:
-    """Solve on a grid; None if there is no solution, and its status."""
-    case = Case.from_text(text, [f"grid.points={points}"], "smooth contact")
+def _on_grid(
+    text: str, points: int, options: Sequence[str] = ()
+) -> tuple[SmoothContact | None, str]:
+    """Solve on a grid; None if there is no solution, and its status.
+
+    With a boundary film that may touch because of the grid: why; else ''.
+    """
+    case = Case.from_text(text, [f"grid.points={points}", *options], "smooth contact")
     with SolverHandle(case.text) as solver:
         solver.run()
         summary = solver.summary()
@@ -169,7 +188,10 @@ def _on_grid(text: str, points: int) -> tuple[SmoothContact | None, str]:
             return None, str(summary["status"])
         (x, y), pressure, film = solver.axes(), solver.field("P"), solver.field("H")
     where = f"solved on {points} x {points} nodes"
-    return contact_of(summary, (x, y), pressure, film, where), "converged"
+    # bodies that touch on a grid that does not resolve the inlet have no load share
+    touches = summary.get("contact_load_share", 0.0) is None
+    why = str(summary["contact_load_share_error_note"]) if touches else ""
+    return contact_of(summary, (x, y), pressure, film, where), why
 
 
 def contact_of(

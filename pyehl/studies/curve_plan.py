@@ -15,6 +15,8 @@ from pyehl import surfaces
 from pyehl.case import Case, files_of
 from pyehl.errors import InputError
 from pyehl.prediction.options import turned, unpredictable
+from pyehl.prediction.resolved_inlet import touching_points
+from pyehl.prediction.smooth import CYCLES
 from pyehl.studies.plan import START, TaskList, check_memory, duration, formula_film
 from pyehl.studies.study import MAX_CASES, Point, Study, make
 from pyehl.studies.tasks import Task
@@ -136,7 +138,7 @@ def plan_curve(
             CurvePoint(
                 point,
                 settings,
-                smooth=add(rough.smooth(), "solve"),
+                smooth=add(_smooth(rough, settings), "solve"),
                 predictions=tuple(add(made, "predict") for made in varied),
                 full=add(rough, "solve") if point.number in chosen else None,
             )
@@ -189,3 +191,12 @@ def _with_seeds(case: Case, settings: Settings, ahead: int) -> Case:
     groups = _fractal(settings) if ahead else []
     seeds = {f"{group}.seed": int(settings[group]["seed"]) + ahead for group in groups}
     return case.with_options(seeds) if seeds else case
+
+
+def _smooth(case: Case, settings: Settings) -> Case:
+    """Give a case without its roughness, on a grid that resolves its inlet where it may touch."""
+    points = touching_points(settings)
+    if points > int(settings["grid"]["points"]) and not settings["grid"]["target_error"]:
+        cycles = max(CYCLES, int(settings["solver"]["max_cycles"]))
+        case = case.with_options({"grid.points": points, "solver.max_cycles": cycles})
+    return case.smooth()
