@@ -63,11 +63,13 @@ contains
       integer(c_int), intent(out) :: stat
       character(len=4096), intent(out) :: message
       type(case_t), target :: input
+      character(len=:), allocatable :: found
       type(status_t) :: status
 
-      note = ""
+      found = ""
       call read_case(text, "the case of a prediction", "", input, status)
-      if (.not. status%failed()) note = alpha_note(input)
+      if (.not. status%failed()) call alpha_note(input, found)
+      note = found
       call reply(status, stat, message)
    end subroutine alpha_origin
 

@@ -3,8 +3,8 @@
 !>
 !> The modules for Python are in the small part of Fortran that f2py reads. No arithmetic in them:
 !> every routine hands its arguments on, and ends in a status and a message. Only the long
-!> routines release Python's lock (threadsafe): gfortran keeps the lengths of text that functions
-!> return in static memory, so that routines that make text must not run side by side.
+!> routines release Python's lock (threadsafe): gfortran keeps the length of an allocatable text that
+!> a function returns in static memory, so that no such function may be reached from them.
 module ehl_f2py_solver
    use, intrinsic :: iso_c_binding, only: c_double, c_int
    use ehl_case, only: case_t

@@ -74,7 +74,7 @@ contains
       end if
       if (self%newest == transient%step) return
       do k = 1, frames%n
-         path = frame_path(prefix, k)
+         call name_frame(prefix, k, path)
          done = file_exists(path)
          if (done .and. k <= self%frames) cycle
          call open_sealed(path, "write", lun, status)
@@ -192,7 +192,7 @@ contains
       end associate
       call end_reading(lun, self%path, stat, reason, status)
       do k = 1, head%frames
-         path = frame_path(self%prefix, k)
+         call name_frame(self%prefix, k, path)
          if (.not. status%failed()) call frames%add(grid, status)
          if (.not. status%failed()) call open_sealed(path, "read", lun, status)
          if (status%failed()) return
@@ -208,6 +208,7 @@ contains
       integer :: lun, stat, k
       type(status_t) :: status
       character(len=len(magic)) :: version
+      character(len=:), allocatable :: path
 
       what_is = missing
       if (.not. file_exists(prefix//name)) return
@@ -225,7 +226,8 @@ contains
       call read_head(lun, head, stat)
       close (lun)
       do k = 1, head%frames
-         if (.not. is_sealed(frame_path(prefix, k))) return
+         call name_frame(prefix, k, path)
+         if (.not. is_sealed(path)) return
       end do
       if (stat == 0) what_is = head%step
    end function what_is
@@ -246,12 +248,12 @@ contains
    end subroutine read_head
 
    !> File of frame k
-   pure function frame_path(prefix, k) result(path)
+   pure subroutine name_frame(prefix, k, path)
       character(len=*), intent(in) :: prefix
       integer, intent(in) :: k
-      character(len=:), allocatable :: path
+      character(len=:), allocatable, intent(out) :: path
       path = prefix//frame_file//to_text(k)
-   end function frame_path
+   end subroutine name_frame
 
    !> Where two cases differ for the first time
    function first_difference(theirs, ours) result(text)
