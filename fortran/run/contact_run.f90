@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> A planned contact from its first cycle to its end: smooth, then with the rough surface, at rest or in time steps
 module ehl_contact_run
-   use ehl_checkpoint, only: checkpoint_t
+   use ehl_checkpoint, only: checkpoint_t, words_t
    use ehl_clock, only: clock_t, start_clock
    use ehl_frames, only: frames_t
    use ehl_grid, only: grid_t
@@ -50,9 +50,10 @@ module ehl_contact_run
       !> State on disk, and to go on from when the smooth contact is solved
       type(checkpoint_t) :: checkpoint
       !> Of the same run on the next coarser grid: its friction ratio and load share, if it converged, and how it ended;
-      !> outcome_running: it has not
+      !> outcome_running: it has not; the error that ended it
       real(dp) :: coarse_ratio = 0.0_dp, coarse_load_share = 0.0_dp
       integer :: coarse_outcome = outcome_running
+      character(len=:), allocatable :: coarse_message
    contains
       procedure :: begin
       procedure, private :: begin_history
@@ -245,8 +246,7 @@ contains
          if (status%failed()) return
          self%outcome = transient%state
          if (transient%state /= outcome_converged) then
-            if (transient%mean%transit > 0.0_dp .and. transient%mean%n < transient%mean%filled .and. &
-                .not. self%checkpoint%found()) call begin_again(self, status)
+            if (transient%mean%transit > 0.0_dp .and. transient%mean%n < transient%mean%filled) call begin_again(self, status)
             return
          end if
          row = [real(dp) :: transient%step, transient%time, m%friction/transient%friction_smooth, m%film_central, &
@@ -291,10 +291,13 @@ contains
       !> Folder with its '/', and what the names begin with; the case that the state belongs to
       character(len=*), intent(in) :: prefix, text
       type(status_t), intent(inout) :: status
+      type(words_t) :: words(2)
 
       if (.not. self%in_steps .or. self%transient%step == 0) return
+      if (allocated(self%coarse_message)) words(1)%text = self%coarse_message
+      if (allocated(self%why_front)) words(2)%text = self%why_front
       call self%checkpoint%write(prefix, text, self%transient, self%history, self%frames, &
                                  [self%seconds, self%coarse_ratio, real(self%coarse_outcome, dp), &
-                                  self%coarse_load_share], status)
+                                  self%coarse_load_share], words, status)
    end subroutine save
 end module ehl_contact_run
