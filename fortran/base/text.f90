@@ -81,7 +81,8 @@ contains
       if (x < 0.0_dp) text = "-"//trim(text)
    end function real_buffer
 
-   !> A number by an edit descriptor such as 'f8.4', without blanks around it; by 'es12.5' where it does not fit
+   !> A number by an edit descriptor such as 'f8.4', without blanks around it; by 'es12.5' where it does not fit, and to three
+   !> digits where rounding would take or add too much: 2.64E-06, not 0.0000
    pure function fixed(x, form) result(text)
       real(dp), intent(in) :: x
       character(len=*), intent(in) :: form
@@ -95,9 +96,23 @@ contains
       character(len=*), intent(in) :: form
       character(len=longest_number) :: text
 
+      real(dp) :: shown, most
+      integer :: stat
+
       write (text, "("//form//")") x
       if (text(1:1) == "*") write (text, "(es12.5)") x
       text = adjustl(text)
+      read (text, *, iostat=stat) shown
+      ! who asks for three decimals and more wants three digits
+      most = merge(0.005_dp, 0.05_dp, form(1:1) == "f" .and. scan(form, "3456789", back=.true.) == len(form))
+      if (stat == 0 .and. abs(shown - x) > most*abs(x)) then
+         if (abs(x) < 1.0e-3_dp) then
+            write (text, "(es10.2)") x
+            text = adjustl(text)
+         else
+            text = rounded_buffer(x, 3)
+         end if
+      end if
    end function fixed_buffer
 
    !> Four digits of a number, for messages
@@ -134,7 +149,8 @@ contains
       ! 9.996 is '10.0'
       if (abs(x) > 0.0_dp) decimals = max(0, n - 1 - floor(log10(abs(x)*(1.0_dp + 0.5_dp*10.0_dp**(-n)))))
       write (form, "(a, i0)") "f32.", decimals
-      text = fixed_buffer(x, trim(form))
+      write (text, "("//trim(form)//")") x
+      text = adjustl(text)
       last = len_trim(text)
       if (text(last:last) == ".") text(last:last) = " "
    end function rounded_buffer

@@ -275,6 +275,7 @@ contains
       if (stat /= 0 .or. length == 0) return
       allocate (character(len=length) :: words%text)
       read (lun, iostat=stat) words%text
+      if (stat /= 0) words%text = ""
    end subroutine read_words
 
    !> The run goes on from a state: what it saves from here on is its own
