@@ -77,7 +77,9 @@ contains
       type(run_t), pointer :: run
 
       call find(handle, .true., run, status)
-      if (associated(run)) deallocate (run)
+      if (.not. associated(run)) return
+      call run%checkpoints%release()
+      deallocate (run)
    end subroutine drop_handle
 
    !> The run of a handle, not associated when there is none; one caller alone can take it out of the table

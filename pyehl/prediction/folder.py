@@ -1,12 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The result folder of a prediction, and one with the smooth contact under it."""
 
-import gc
 import json
 import math
 import os
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
@@ -60,27 +58,14 @@ def write(prediction: Prediction, place: Destination, *, plots: bool = False) ->
         for name, values in prediction.arrays.items():
             np.save(folder / f"{name}.npy", values)
         if plots:
-            with _uncollected():
-                # matplotlib takes longer to import than the prediction takes to compute
-                from pyehl.plots.figures import prediction_figures  # noqa: PLC0415
-                from pyehl.plots.folder import save_all  # noqa: PLC0415
+            # matplotlib takes longer to import than the prediction takes to compute
+            from pyehl.plots.figures import prediction_figures  # noqa: PLC0415
+            from pyehl.plots.folder import save_all  # noqa: PLC0415
 
-                parts = prediction.summary, prediction.arrays, prediction.tables
-                save_all(prediction_figures(*parts), folder)
+            parts = prediction.summary, prediction.arrays, prediction.tables
+            save_all(prediction_figures(*parts), folder)
         files = sorted(["summary.json", *(path.name for path in folder.iterdir())])
         write_json(folder / "summary.json", prediction.summary | {"files": files})
-
-
-@contextmanager
-def _uncollected() -> Iterator[None]:
-    """Collect no garbage meanwhile: matplotlib makes many objects, and nearly all are in use."""
-    running = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if running:
-            gc.enable()
 
 
 def read_contact(
