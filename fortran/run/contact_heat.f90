@@ -3,6 +3,7 @@
 submodule (ehl_contact_run) ehl_contact_heat
    use ehl_heated_friction, only: heat_film
    use ehl_kinds, only: not_known
+   use ehl_status, only: ehl_no_memory
    implicit none (type, external)
 
    !> Steps in a period after which it is computed: what the heat takes from the friction changes slowly
@@ -15,14 +16,17 @@ contains
          call heat_film(self%plan%heat%film, level%grid, level%lubricant, level%p, level%h, keep, level%threads, found, &
                         level%flow, level%rho)
       end associate
+      if (.not. found%fits) call status%fail(ehl_no_memory, "no memory for the temperatures of film and walls")
    end procedure add_heat
 
    module procedure step_heat
       type(heated_t) :: found
+      type(status_t) :: status
 
       step_heat = not_known
       if (mod(self%transient%step, interval(self)) > 0) return
-      call add_heat(self, self%steady%n, .false., found)
+      ! of no field: nothing that could fail
+      call add_heat(self, self%steady%n, .false., found, status)
       step_heat = found%ratio()
    end procedure step_heat
 

@@ -14,7 +14,7 @@ module ehl_contact_run
    use ehl_plan_surface, only: check_carried
    use ehl_predicted_start, only: predicted_start_t
    use ehl_stationary_roughness, only: stationary_roughness_t
-   use ehl_status, only: status_t
+   use ehl_status, only: ehl_no_memory, status_t
    use ehl_steady, only: steady_t
    use ehl_stopping_criterion, only: transient_outcome
    use ehl_table, only: table_t
@@ -85,11 +85,12 @@ module ehl_contact_run
    ! in contact_heat.f90
    interface
       !> Friction and temperature of the present contact on a level; the temperature at every node if it is to be kept
-      module subroutine add_heat(self, n, keep, found)
+      module subroutine add_heat(self, n, keep, found, status)
          class(contact_run_t), intent(in) :: self
          integer, intent(in) :: n
          logical, intent(in) :: keep
          type(heated_t), intent(out) :: found
+         type(status_t), intent(inout) :: status
       end subroutine add_heat
 
       !> Friction with heat over that without it after a step; NaN where it is not computed
@@ -167,7 +168,7 @@ contains
       self%grid = self%hierarchy%levels(n)%grid
       if (.not. self%roughness_is_due()) self%outcome = self%steady%outcome
       if (self%plan%heat%counts .and. any(self%steady%outcome == [outcome_converged, outcome_target_missed])) then
-         call add_heat(self, n, .not. self%plan%surfaces%rough(), self%smooth_heat)
+         call add_heat(self, n, .not. self%plan%surfaces%rough(), self%smooth_heat, status)
       end if
       if (self%plan%surfaces%rough()) return
       associate (result => self%steady%results(n))
@@ -188,14 +189,21 @@ contains
    subroutine begin_rough(self, status)
       class(contact_run_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
+      integer :: stat
 
       call self%plan%see_waves(self%grid)
       call check_carried(self%plan%surfaces, self%grid, status)
       call self%plan%surfaces%prepare(self%grid, status)
       if (status%failed()) return
       associate (plan => self%plan, n => self%steady%n)
-         self%p_smooth = self%hierarchy%levels(n)%p
-         self%h_smooth = gap(self%hierarchy%levels(n))
+         if (allocated(self%p_smooth)) deallocate (self%p_smooth, self%h_smooth)
+         allocate (self%p_smooth(self%grid%nx, self%grid%ny), self%h_smooth(self%grid%nx, self%grid%ny), stat=stat)
+         if (stat /= 0) then
+            call status%fail(ehl_no_memory, "no memory for the fields of the smooth contact")
+            return
+         end if
+         self%p_smooth(:, :) = self%hierarchy%levels(n)%p
+         self%h_smooth(:, :) = gap(self%hierarchy%levels(n))
          self%h00_smooth = self%hierarchy%levels(n)%h00
          if (plan%surfaces%rest() .or. plan%surfaces%some_rest()) then
             call self%rest%start(self%hierarchy%levels(n), n, plan%contact, plan%surfaces, plan%steady_options_t, status)
@@ -224,7 +232,9 @@ contains
       end if
       self%seconds = self%seconds + clock%seconds()
       self%outcome = self%rest%outcome
-      if (self%plan%heat%counts .and. self%outcome == outcome_converged) call add_heat(self, self%steady%n, .true., self%rough_heat)
+      if (self%plan%heat%counts .and. self%outcome == outcome_converged) then
+         call add_heat(self, self%steady%n, .true., self%rough_heat, status)
+      end if
       associate (rest => self%rest, m => self%rest%m)
          call self%history%append([real(dp) :: rest%total_cycles, rest%share, rest%mu_ratio(), m%film_central, &
                                    m%film_minimum, m%pressure_maximum, m%load_error, rest%residual])
@@ -260,7 +270,7 @@ contains
          if (self%plan%surfaces%pass_once()) call transient%extremes%see(level, self%p_smooth, self%h_smooth, transient%time)
          self%outcome = transient_outcome(self%plan, transient)
          if (self%plan%heat%counts .and. self%outcome == outcome_converged) then
-            call add_heat(self, self%steady%n, .true., self%rough_heat)
+            call add_heat(self, self%steady%n, .true., self%rough_heat, status)
          end if
          call self%frames%keep(level, transient%time, transient%time_step, self%plan%frame_interval, status)
       end associate

@@ -42,7 +42,8 @@ contains
                           "expected: time.start = 'front', or 'pyehl run'")
          return
       end if
-      call self%transient%fill(self%hierarchy%levels(n), self%plan%surfaces, self%predicted, done)
+      call self%transient%fill(self%hierarchy%levels(n), self%plan%surfaces, self%predicted, done, status)
+      if (status%failed()) return
       if (.not. done) self%why_front = "the film would be negative"
    end subroutine begin_filled
 
