@@ -11,7 +11,7 @@ module ehl_handles
    use ehl_text, only: to_text
    implicit none (type, external)
    private
-   public :: run_t, new_handle, drop_handle, run_of, reply
+   public :: run_t, new_handle, drop_handle, run_of, reply, put_text, put_words
 
    !> A case on its way: the resolved input, the solver, its states on disk, the time since it was opened
    type :: run_t
@@ -110,6 +110,29 @@ contains
 
       stat = int(status%code, c_int)
       message = ""
-      if (status%failed()) message = status%message
+      if (status%failed()) call put_words(status%message, message)
    end subroutine reply
+
+   !> A text byte by byte in an array of the caller, and its length: the caller asks again with a larger one where it does not fit
+   subroutine put_text(text, bytes, length)
+      character(len=*), intent(in) :: text
+      integer(c_int), intent(inout) :: bytes(:)
+      integer(c_int), intent(out) :: length
+      integer :: k
+
+      length = int(len(text), c_int)
+      do k = 1, min(size(bytes), len(text))
+         bytes(k) = iachar(text(k:k))
+      end do
+   end subroutine put_text
+
+   !> Words for a person in so much room; what does not fit is said
+   subroutine put_words(text, room)
+      character(len=*), intent(in) :: text
+      character(len=*), intent(out) :: room
+      character(len=*), parameter :: cut = " ... (the rest does not fit)"
+
+      room = text
+      if (len_trim(text) > len(room)) room(len(room) - len(cut) + 1:) = cut
+   end subroutine put_words
 end module ehl_handles
