@@ -12,7 +12,7 @@ module ehl_f2py_functions
    use ehl_deflection_factory, only: new_deflection
    use ehl_destination, only: destination_t
    use ehl_grid, only: grid_t
-   use ehl_handles, only: put_text, put_words, reply
+   use ehl_handles, only: put_text, fitted, reply
    use ehl_heated_friction, only: heat_film, heated_t
    use ehl_judgement, only: judge
    use ehl_kinds, only: pi
@@ -212,7 +212,7 @@ contains
       call read_case(text, "the contact of a prediction", "", input, status)
       if (.not. status%failed()) call plan_given(input, plan, lubricant, status)
       if (.not. status%failed()) then
-         call put_words(plan%note, note)
+         note = fitted(plan%note, len(note))
          if (plan%counts) then
             counts = 1
             call heat_film(plan%film, grid_t(nx=nx, ny=ny, x0=x0, y0=y0, hx=hx, hy=hy, mirror=mirror /= 0), lubricant, p, h, &

@@ -9,7 +9,7 @@ module ehl_f2py_lubricant
    use ehl_case_reader, only: read_case
    use ehl_flow_factors, only: exact_factors, factors_t
    use ehl_group_reader, only: read_groups
-   use ehl_handles, only: put_text, put_words, reply
+   use ehl_handles, only: put_text, fitted, reply
    use ehl_keys, only: bind_keys
    use ehl_lubricant, only: lubricant_t
    use ehl_oils, only: oils_text
@@ -71,7 +71,7 @@ contains
       found = ""
       call read_case(text, "the case of a prediction", "", input, status)
       if (.not. status%failed()) call alpha_note(input, found)
-      call put_words(found, note)
+      note = fitted(found, len(note))
       call reply(status, stat, message)
    end subroutine alpha_origin
 

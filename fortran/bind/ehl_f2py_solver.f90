@@ -12,7 +12,7 @@ module ehl_f2py_solver
    use ehl_checkpoint_folder, only: checkpoint_path
    use ehl_conclusion, only: conclusion, resumption
    use ehl_grid, only: grid_t
-   use ehl_handles, only: drop_handle, new_handle, put_text, put_words, reply, run_of, run_t
+   use ehl_handles, only: drop_handle, new_handle, put_text, fitted, reply, run_of, run_t
    use ehl_plan_text, only: plan_text
    use ehl_result_folder, only: write_results
    use ehl_record, only: record_t
@@ -116,7 +116,7 @@ contains
             call status%fail(ehl_internal, "a run cannot '"//what//"'")
          end select
       end if
-      call put_words(text, note)
+      note = fitted(text, len(note))
       call reply(status, stat, message)
    end subroutine act
 
@@ -141,7 +141,7 @@ contains
          associate (n => merge(nx, 0, has_heights /= 0), m => merge(mx, 0, has_second /= 0))
             call run%checkpoints%open(results, run%input, run%solver, resumed, heights(:n, :), second(:m, :), text, status)
          end associate
-         if (.not. status%failed()) call put_words(text, note)
+         if (.not. status%failed()) note = fitted(text, len(note))
       end if
       call reply(status, stat, message)
    end subroutine keep

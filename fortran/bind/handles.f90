@@ -11,7 +11,7 @@ module ehl_handles
    use ehl_text, only: to_text
    implicit none (type, external)
    private
-   public :: run_t, new_handle, drop_handle, run_of, reply, put_text, put_words
+   public :: run_t, new_handle, drop_handle, run_of, reply, put_text, fitted
 
    !> A case on its way: the resolved input, the solver, its states on disk, the time since it was opened
    type :: run_t
@@ -110,7 +110,7 @@ contains
 
       stat = int(status%code, c_int)
       message = ""
-      if (status%failed()) call put_words(status%message, message)
+      if (status%failed()) message = fitted(status%message, len(message))
    end subroutine reply
 
    !> A text byte by byte in an array of the caller, and its length: the caller asks again with a larger one where it does not fit
@@ -127,12 +127,13 @@ contains
    end subroutine put_text
 
    !> Words for a person in so much room; what does not fit is said
-   subroutine put_words(text, room)
+   pure function fitted(text, room) result(words)
       character(len=*), intent(in) :: text
-      character(len=*), intent(out) :: room
+      integer, intent(in) :: room
+      character(len=room) :: words
       character(len=*), parameter :: cut = " ... (the rest does not fit)"
 
-      room = text
-      if (len_trim(text) > len(room)) room(len(room) - len(cut) + 1:) = cut
-   end subroutine put_words
+      words = text
+      if (len_trim(text) > room) words(room - len(cut) + 1:) = cut
+   end function fitted
 end module ehl_handles

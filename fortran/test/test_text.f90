@@ -25,7 +25,8 @@ contains
       call is_text(to_text(-12)//to_text(12345678901_int64)//".", "-1212345678901.", "integers")
       call is_text(to_text(.true.)//to_text(.false.), ".true..false.", "truth values")
       call is_text(fixed(-0.5_dp, "f8.3")//short(2.0_dp/3.0_dp), "-0.5006.667E-01", "by edit descriptors")
-      call is_text(fixed(2.6435e-6_dp, "f10.4")//" "//fixed(0.0123_dp, "f8.1")//" "//fixed(0.2_dp, "f4.1")//" "//fixed(3.157e-4_dp, "f10.4")//" "// &
+      call is_text(fixed(2.6435e-6_dp, "f10.4")//" "//fixed(0.0123_dp, "f8.1")//" "//fixed(0.2_dp, "f4.1")// &
+                   " "//fixed(3.157e-4_dp, "f10.4")//" "// &
                    fixed(0.0_dp, "f4.1"), "2.64E-06 0.0123 0.2 3.16E-04 0.0", "small numbers")
       call is_text(fixed(1.0e10_dp, "f4.1"), "1.00000E+10", "by one in which it does not fit")
       call is_text(rounded(9.996_dp)//" "//rounded(123456.0_dp)//" "//rounded(0.012346_dp, 4), "10.0 123456 0.01235", "rounded")
