@@ -17,7 +17,7 @@ from pyehl.errors import check
 from pyehl.extension import predicted
 from pyehl.extension import solvers as ehl
 from pyehl.given import path_of, text_of
-from pyehl.library import returned
+from pyehl.library import returned, whole
 from pyehl.types import Array
 
 NO_HEIGHTS = np.zeros((1, 1), order="F")
@@ -282,4 +282,5 @@ class SolverHandle:
         return returned(note), bool(has_state)
 
     def _text(self, what: str) -> str:
-        return returned(*self._call(ehl.describe, what.encode()))
+        found, *_ = whole(lambda room: self._call(ehl.describe, what.encode(), room), 0)
+        return returned(found)

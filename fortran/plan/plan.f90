@@ -114,7 +114,7 @@ contains
       call plan_lubricant(input, plan%point, plan%scales, plan%lubricant, status)
       if (status%failed()) return
       call law_note(input, plan%scales, plan%lubricant_note)
-      plan%alpha_note = alpha_note(input)
+      call alpha_note(input, plan%alpha_note)
       call plan%lubricant%density([1.0_dp], rho, slope)
       film = plan%contact%film_formula(plan%point%moes_m, plan%point%moes_l)/rho(1)
       plan%heat = plan_heat(input, plan%contact, plan%scales, plan%sliding, plan%lubricant, film)

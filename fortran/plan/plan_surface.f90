@@ -124,7 +124,7 @@ contains
       type(status_t), intent(inout) :: status
       character(len=:), allocatable :: why, what
 
-      why = map_needs(group, s)
+      call map_needs(group, s, why)
       what = trim(s%file)
       if (s%kind == "fractal") what = group//".kind = 'fractal'"
       if (why /= "") then
@@ -138,10 +138,10 @@ contains
    end subroutine check_map
 
    !> Why pyehl has to prepare a map, for a message; empty when the solver can read it
-   function map_needs(group, s) result(why)
+   subroutine map_needs(group, s, why)
       character(len=*), intent(in) :: group
       type(surface_case_t), intent(in) :: s
-      character(len=:), allocatable :: why
+      character(len=:), allocatable, intent(out) :: why
       real(dp) :: moved
 
       why = ""
@@ -175,7 +175,7 @@ contains
       else if (index(s%file, ".npy", back=.true.) /= len_trim(s%file) - 3) then
          why = "it is no .npy array"
       end if
-   end function map_needs
+   end subroutine map_needs
 
    !> A tile of heights [m]
    subroutine make_map(group, s, scales, heights, surface, status)

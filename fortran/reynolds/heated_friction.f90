@@ -42,6 +42,8 @@ module ehl_heated_friction
       real(dp) :: greatest(3) = 0.0_dp
       !> Whether every node was solved
       logical :: solved = .false.
+      !> Whether there was memory for the rises at the nodes
+      logical :: fits = .true.
       !> The rises at the nodes (nx, ny, 3), if they were asked for
       real(dp), allocatable :: rise(:, :, :)
    contains
@@ -77,10 +79,14 @@ contains
       real(dp), dimension(grid%ny) :: friction, isothermal
       real(dp) :: greatest(3, grid%ny), rise(grid%nx, 3), newtonian(grid%nx), stress(grid%nx)
       logical :: solved(grid%ny), solid(grid%nx)
-      integer :: j
+      integer :: j, stat
 
       call walls%start(grid%nx, grid%hx*heat%length, heat%strengths)
-      if (keep) allocate (found%rise(grid%nx, grid%ny, 3))
+      if (keep) then
+         allocate (found%rise(grid%nx, grid%ny, 3), stat=stat)
+         found%fits = stat == 0
+         if (.not. found%fits) return
+      end if
       !$omp parallel do default(none) shared(heat, grid, lubricant, p, h, keep, found, flow, rho, touching, walls, &
       !$omp friction, isothermal, greatest, solved) private(rise, newtonian, stress, solid) &
       !$omp num_threads(threads) if(threads > 1) schedule(dynamic)

@@ -37,6 +37,7 @@ module ehl_height_map
       procedure :: setup
       procedure :: prepare
       procedure :: hand_over
+      procedure :: take_back
       procedure :: height
       procedure :: unresolved
       procedure :: correlation
@@ -96,6 +97,17 @@ contains
          call waves%give_to(other%waves)
       end select
    end subroutine hand_over
+
+   !> Take the waves back
+   subroutine take_back(self, other)
+      class(height_map_t), intent(inout) :: self
+      class(surface_t), intent(inout) :: other
+
+      select type (other)
+      type is (height_map_t)
+         call other%waves%give_to(self%waves)
+      end select
+   end subroutine take_back
 
    !> Most periods in the tile, along X and Y, of waves that have at least so many nodes a period, or more than that
    pure function carried(self, grid, nodes, more) result(most)

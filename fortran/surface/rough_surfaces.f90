@@ -44,6 +44,7 @@ module ehl_rough_surfaces
       procedure :: most_unresolved
       procedure :: prepare
       procedure :: hand_over
+      procedure :: take_back
       procedure :: roughness
       procedure :: bytes
       procedure :: bytes_on
@@ -201,6 +202,16 @@ contains
          call other%add(self%of(k)%group, surface, 0.0_dp)
       end do
    end subroutine hand_over
+
+   !> Take back what was handed over to others that are no longer needed
+   subroutine take_back(self, other)
+      class(rough_surfaces_t), intent(inout) :: self, other
+      integer :: k
+
+      do k = 1, min(self%count(), other%count())
+         call self%of(k)%surface%take_back(other%of(k)%surface)
+      end do
+   end subroutine take_back
 
    !> rr(nx, ny): sum of the heights at the nodes, at time T [a^2/R]
    subroutine roughness(self, grid, time, rr, moving)

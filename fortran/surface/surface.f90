@@ -47,6 +47,7 @@ module ehl_surface
       procedure(unresolved_i), deferred :: unresolved
       procedure :: prepare
       procedure :: hand_over
+      procedure :: take_back
       procedure :: meshes
       procedure :: bytes
       procedure :: rms_height
@@ -105,6 +106,14 @@ contains
 
       allocate (other, source=self)
    end subroutine hand_over
+
+   !> Take back what was handed over to a surface that is no longer needed
+   subroutine take_back(self, other)
+      class(surface_t), intent(inout) :: self, other
+
+      associate (unused => self, unused_other => other)
+      end associate
+   end subroutine take_back
 
    !> Bytes of its arrays
    pure real(dp) function bytes(self)

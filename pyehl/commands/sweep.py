@@ -13,7 +13,7 @@ from pyehl.studies.gather import Outcome
 from pyehl.studies.plan import MOST, duration, plan
 from pyehl.studies.study import RUNS, make, read_study
 from pyehl.studies.sweep import CASES, CSV, NETCDF, perform
-from pyehl.studies.tasks import FINDINGS, why_none
+from pyehl.studies.tasks import FAILED, FINDINGS, why_none
 from pyehl.studies.vary import parse_axis
 
 
@@ -78,6 +78,9 @@ def report(outcome: Outcome, folder: Path, workers: int) -> str:
             f"           {outcome.ran} ran now in {duration(outcome.wall)}, "
             f"the workers {100.0 * min(share, 1.0):.0f} % busy"
         )
+    failed = outcome.statuses().get(FAILED, 0)
+    if failed:
+        lines.append(f"failed     {failed}: the same command with --retry runs them again")
     lines.append(f"results    {folder / CSV}, {folder / NETCDF}")
     return "\n".join(lines)
 

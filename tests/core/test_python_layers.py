@@ -22,7 +22,7 @@ LAYERS = [
     ["results"],
     ["plots"],
     ["prediction", "netcdf"],
-    ["solver", "progress"],
+    ["solver", "progress", "streams"],
     ["run"],
     ["api"],
     ["studies"],

@@ -14,7 +14,9 @@ import xarray as xr
 
 import pyehl
 from pyehl.cli import main
+from pyehl.commands.sweep import report
 from pyehl.studies import plan as plan_module
+from pyehl.studies.gather import Outcome
 from pyehl.studies.journal import NAME
 from pyehl.studies.plan import plan, seconds_of
 from pyehl.studies.study import make
@@ -312,3 +314,11 @@ def test_more_cases_than_fit_into_memory_are_refused(
     _, refused = sweep(tmp_path / "out", *words, expect=2)
     assert "3 cases take " in refused
     assert not (tmp_path / "out").exists()
+
+
+def test_failed_cases_are_told_how_to_retry(tmp_path: Path):
+    outcome = Outcome({0: {"status": "failed"}, 1: {"status": "converged"}})
+    assert "failed     1: the same command with --retry runs them again" in report(
+        outcome, tmp_path, 1
+    )
+    assert "--retry" not in report(Outcome({0: {"status": "converged"}}), tmp_path, 1)
