@@ -31,6 +31,10 @@ def test_rigid_bodies(moes_m):
     first = film.estimates(point, Lubricant())[0]
     assert (first.name, first.outside) == ("Brewe-Hamrock-Taylor", ())
     assert -0.03 < first.h_c / point.film_scale / float(ds.H_c) - 1.0 < -0.005
+    told = solved(moes(moes_m, 10.0, 129))
+    off = formulas(OperatingPoint.from_moes(moes_m, 10.0))["Brewe-Hamrock-Taylor"].h_c
+    off = off / OperatingPoint.from_moes(moes_m, 10.0).film_scale / float(told.H_c) - 1.0
+    assert off == pytest.approx({0.2: -0.01, 1.0: -0.018, 2.0: -0.076}[moes_m], abs=2e-3)
     # 140.1 (U/W)^2 R for a ball on a plane
     least = 140.1 * (point.speed / point.load_number) ** 2
     assert first.h_min / point.radius == pytest.approx(least, rel=1e-3)
@@ -49,6 +53,22 @@ def test_soft_bodies(moes_m):
     assert h_min / float(ds.H_min_extrapolated) == pytest.approx(1.0, abs=0.045)
     first = film.estimates(unit, Lubricant())[0]
     assert first.name == "de Vicente et al."
+
+
+@pytest.mark.parametrize(
+    ("radius_ratio", "moes_m", "off"),
+    [(0.8, 8.0, -0.091), (0.8, 200.0, -0.077), (0.7, 8.0, -0.152), (0.5, 200.0, -0.140)],
+)
+def test_soft_ellipses(radius_ratio, moes_m, off):
+    """Hamrock & Dowson's h_min of soft ellipses: its range ends where it is 10 % off."""
+    ds = solved({**moes(moes_m, 0.0), "contact.radius_ratio": radius_ratio})
+    unit = OperatingPoint.from_moes(moes_m, 0.0, radius_ratio=radius_ratio)
+    load_number = moes_m * 2e-8**0.75
+    scale = unit.radius / unit.film_scale * (unit.load_number / load_number) ** (2.0 / 3.0)
+    h_min = film.hamrock_dowson_soft(1e-8, load_number, unit.ellipse.ellipticity)[1] * scale
+    assert h_min / float(ds.H_min_extrapolated) - 1.0 == pytest.approx(off, abs=0.005)
+    outside = formulas(unit)["Hamrock-Dowson soft"].outside
+    assert any(said.startswith("R_x/R_y") for said in outside) == (off < -0.1)
 
 
 @pytest.mark.parametrize(
