@@ -195,7 +195,9 @@ def predict(
             second_surface=tiles["second_surface"],
         )
     if place is not None:
-        folder.write(found, place, plots=plots)
+        folder.write(found, place)
+        if plots:
+            folder.draw(found, place.folder)
     return found
 
 
@@ -225,7 +227,7 @@ def film(case: Case | str | os.PathLike[str], *options: Option) -> dict[str, Any
     --------
     >>> import pyehl
     >>> sheet = pyehl.film("cases/table1.nml", {"contact.mean_velocity": 0.5})
-    >>> for formula in sheet["formulas"]:
+    >>> for formula in (f for f in sheet["formulas"] if f["applies"]):
     ...     print(f"{formula['name']}: {formula['h_c_m'] * 1e9:.0f} nm")
     Nijenbanning-Venner-Moes: 164 nm
     Hamrock-Dowson: 181 nm
@@ -266,4 +268,4 @@ def check(case: Case | str | os.PathLike[str], *options: Option) -> str:
     name = "" if isinstance(case, Case) else path_of(case, "case")
     case = Case.of(case, *options)
     with named(name), Solver(case) as solver:
-        return f"{case.text}\n{solver.describe(predict=False)}"
+        return f"{case.text}\n{solver.describe()}"

@@ -117,6 +117,11 @@ class Case:
         """
         return type(self).from_text(self.text, options, "resolved case")
 
+    def smooth(self) -> Case:
+        """Give the case of the smooth contact: everything but its rough surfaces."""
+        rough = [name for name in ("second_surface", "surface") if name in self.resolve()]
+        return self.with_options({f"{name}.kind": "smooth" for name in rough})
+
     def __repr__(self) -> str:
         """Operating point, surface and grid in one line."""
         groups = self.resolve()

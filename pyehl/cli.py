@@ -3,7 +3,6 @@
 
 import argparse
 import logging
-import os
 import sys
 from collections.abc import Sequence
 from importlib import import_module
@@ -14,9 +13,11 @@ from pyehl.errors import (
     EXIT_OK,
     EXIT_USAGE,
     EhlError,
+    FileError,
     InputError,
     did_you_mean,
 )
+from pyehl.streams import mute
 
 # Subcommand, which is a module of `pyehl.commands`, and what it does
 SUBCOMMANDS = {
@@ -76,13 +77,23 @@ def _listen(*, quiet: bool) -> None:
 
 
 def _execute(args: argparse.Namespace) -> int:
+    if sys.stdout is None:
+        # the first file that is opened would take its place
+        raise FileError("standard output: it is closed")
     try:
         status = int(args.execute(args))
         sys.stdout.flush()
     except BrokenPipeError:
-        # nobody reads on, as behind `| head`; what is still in the buffer must not raise at the end
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        # nobody reads on, as behind `| head`
+        mute()
         return EXIT_FAILED
+    except OSError as error:
+        try:
+            print(flush=True)
+        except OSError:
+            mute()
+            raise FileError(f"standard output: cannot be written: {error.strerror}") from error
+        raise
     return status
 
 

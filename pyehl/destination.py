@@ -7,6 +7,7 @@ for ``ehl``. A single file is written where nothing is, or over a file of the sa
 says so in its metadata; never onto what the command reads. Links are kept, their targets used.
 """
 
+import itertools
 import json
 import math
 import os
@@ -23,6 +24,8 @@ from pyehl.extension import functions
 
 AnyPath = str | os.PathLike[str]
 
+# Files in the making of this process so far: threads may write one target
+_NUMBERS = itertools.count(1)
 # Bytes at both ends of a file that may say what made it
 NEAR = 64 * 1024
 
@@ -155,7 +158,7 @@ def new_file(path: AnyPath) -> Iterator[Path]:
     """
     place = Path(os.path.realpath(path))
     # with the suffix that the caller sees: it may say the format
-    fresh = place.with_name(f".partial-{os.getpid()}-{Path(path).name}")
+    fresh = place.with_name(f".partial-{os.getpid()}-{next(_NUMBERS)}-{Path(path).name}")
     try:
         with file_errors(path):
             yield fresh

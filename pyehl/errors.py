@@ -68,6 +68,10 @@ class NotConverged(EhlError, RuntimeError):  # noqa: N818 (the name of a status)
         super().__init__(message)
         self.results = results
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Give both arguments to a copy and to another process, not the message alone."""
+        return type(self), (str(self), self.results), self.__dict__
+
 
 class FileError(EhlError, OSError):
     """A file could not be read or written.

@@ -5,6 +5,7 @@ import math
 import os
 import reprlib
 from collections.abc import Iterable, Mapping
+from numbers import Real
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +20,17 @@ Option = str | Mapping[str, Any] | Iterable[str | Mapping[str, Any]]
 Value = float | int | bool | str
 
 EXPECTED = "texts group.key=value or a dict of values by group.key"
+# Kinds of numbers that can be heights: floats, and whole numbers with and without a sign
+REAL = "fiu"
+OTHER_KINDS = {
+    "c": "complex numbers",
+    "b": "truth values",
+    "M": "dates",
+    "m": "spans of time",
+    "U": "text",
+    "S": "text",
+    "V": "records",
+}
 
 
 def check_kind(value: object, kinds: type | tuple[type, ...], name: str, expected: str) -> None:
@@ -90,9 +102,14 @@ def plain(value: object) -> Value:
 
 
 def option(key: str, value: Value) -> str:
-    """Text ``group.key=value`` that the reader of cases takes."""
+    """Text ``group.key=value`` that the reader of cases takes.
+
+    Between quotes, where a word would lose its quotes or blanks, or is empty.
+    """
     if isinstance(value, bool):
         return f"{key}={'.true.' if value else '.false.'}"
+    if isinstance(value, str) and (value != value.strip() or value[:1] in ("", "'", '"')):
+        return f"{key}='{value.replace(chr(39), 2 * chr(39))}'"
     return f"{key}={value!r}" if isinstance(value, float) else f"{key}={value}"
 
 
@@ -123,12 +140,45 @@ def _option_of(key: Any, value: Any) -> str:  # noqa: ANN401
         ) from None
 
 
-def heights_of(heights: ArrayLike) -> Array:
-    """Heights of a surface in Fortran order; InputError if they are no matrix of finite numbers."""
+def real_numbers(values: Any, what: str) -> Any:  # noqa: ANN401
+    """Give an array of real numbers as it is, a mask as NaN (then in double precision).
+
+    `what` begins the message. InputError for complex numbers, truth values, dates and text, which
+    NumPy would turn into numbers or lose a part of.
+    """
     try:
-        values = np.asfortranarray(heights, dtype=np.float64)
+        array = values if isinstance(values, np.ndarray) else np.asanyarray(values)
+        if array.dtype.kind == "O":
+            # whatever its members are, they have to be real numbers, one by one
+            other = {type(item).__name__ for item in array.flat if not isinstance(item, Real)}
+            if other or any(isinstance(item, bool) for item in array.flat):
+                raise TypeError(f"not {', '.join(sorted(other)) or 'bool'}")
+            array = array.astype(float)
     except (TypeError, ValueError) as error:
-        raise InputError(f"heights: expected a matrix of numbers [m]: {error}") from None
+        raise InputError(f"{what}: heights: expected a matrix of numbers [m]: {error}") from None
+    if array.dtype.kind not in REAL:
+        found = OTHER_KINDS.get(array.dtype.kind, str(array.dtype))
+        raise InputError(
+            f"{what}: heights must be real numbers, not {found} ({array.dtype})\n"
+            "expected: a matrix of numbers [m]: expected floats, missing points as nan or masked"
+        )
+    if np.ma.isMA(array):
+        return np.ma.filled(array.astype(float), np.nan)
+    return array
+
+
+def heights_of(heights: ArrayLike) -> Array:
+    """Heights of a surface in Fortran order; InputError if they are no matrix of finite numbers.
+
+    A masked height is a missing point, as nan is.
+    """
+    values = np.asfortranarray(real_numbers(heights, "the surface"), dtype=np.float64)
+    if values.ndim == 2 and np.isnan(values).any():
+        i, j = np.argwhere(np.isnan(values))[0]
+        raise InputError(
+            f"{int(np.isnan(values).sum())} of {values.size} heights are missing (nan or masked), "
+            f"the first at row {i}, column {j}: expected a matrix (nx, ny) of finite numbers [m]"
+        )
     if values.ndim != 2 or not np.isfinite(values).all():
         raise InputError(
             f"heights of shape {values.shape}: expected a matrix (nx, ny) of finite numbers [m]"

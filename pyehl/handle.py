@@ -8,7 +8,7 @@ import json
 import os
 import threading
 from collections.abc import Callable
-from typing import Any, NamedTuple, Self
+from typing import Any, NamedTuple, NoReturn, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,7 +17,7 @@ from pyehl.errors import check
 from pyehl.extension import predicted
 from pyehl.extension import solvers as ehl
 from pyehl.given import path_of, text_of
-from pyehl.library import returned
+from pyehl.library import returned, whole
 from pyehl.types import Array
 
 NO_HEIGHTS = np.zeros((1, 1), order="F")
@@ -113,6 +113,13 @@ class SolverHandle:
             self._call(ehl.close_case)
             self._handle = 0
             self._given = (None, None)
+
+    def __reduce_ex__(self, protocol: object) -> NoReturn:
+        """Refuse copies and other processes: the arrays are in the library, by a number."""
+        raise TypeError(
+            f"a {type(self).__name__} cannot be copied or pickled: make another of the same case, "
+            "or pass on its dataset()"
+        )
 
     def __del__(self) -> None:
         # The constructor may have failed, and at exit the extension may be gone
@@ -275,4 +282,5 @@ class SolverHandle:
         return returned(note), bool(has_state)
 
     def _text(self, what: str) -> str:
-        return returned(*self._call(ehl.describe, what.encode()))
+        found, *_ = whole(lambda room: self._call(ehl.describe, what.encode(), room), 0)
+        return returned(found)

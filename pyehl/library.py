@@ -9,23 +9,41 @@ Hertz pressure p_h, lengths by the Hertz radius a, films and deflections by a^2/
 
 import json
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from pyehl.errors import check
 from pyehl.extension import functions, lubricants
 from pyehl.given import Option, options_of, path_of, text_of
 from pyehl.types import Array
 
+# Bytes for a text at first
+ROOM = 32768
+
 
 def returned(value: bytes) -> str:
     """Text that the extension returned, without the blanks at its end."""
     return value.decode(errors="replace").rstrip()
+
+
+def whole(call: Callable[[NDArray[np.int32]], tuple[Any, ...]], place: int) -> tuple[Any, ...]:
+    """Call a function that puts a text into an array; its results, the length become the text.
+
+    Where the text is longer the function is called again. `place` is that of the length.
+    """
+    room = ROOM
+    while True:
+        buffer = np.empty(room, np.int32)
+        found = list(call(buffer))
+        room = found[place]
+        if room <= len(buffer):
+            found[place] = buffer[:room].astype(np.uint8).tobytes()
+            return tuple(found)
 
 
 def resolve(
@@ -37,12 +55,13 @@ def resolve(
     file itself; `options` replace values. InputError with file, line and column, what was
     expected, and the nearest name.
     """
-    resolved, status, message = functions.resolve(
+    given = (
         text_of(text, "the text of a case"),
         os.fsencode(path_of(origin, "the name of a case")),
         text_of("".join(f"{option}\n" for option in options_of(options)), "options"),
         int(from_file),
     )
+    resolved, status, message = whole(lambda room: functions.resolve(*given, room), 0)
     check(status, message)
     return returned(resolved) + "\n"
 
@@ -118,7 +137,9 @@ def conclude(summary: Mapping[str, Any]) -> Conclusion:
         elif value is None or isinstance(value, bool | int | float | str):
             told[name] = " ".join(value.split()) if isinstance(value, str) else value
     text = json.dumps(told, indent=1, ensure_ascii=False)
-    block, judgement, worth = functions.conclude(text.encode(errors="replace"))
+    given = text.encode(errors="replace")
+    behind, found, worth = whole(lambda room: functions.conclude(given, room), 1)
+    block, judgement = found[:behind], found[behind:]
     lines = {line[:11].rstrip(): line[11:] for line in returned(block).splitlines()}
     return Conclusion(lines, returned(judgement), WORTH[worth])
 
@@ -136,7 +157,10 @@ class Key:
 
 def keys() -> list[Key]:
     """All keys of a case file, in order."""
-    return [Key(*line.split("\t")) for line in returned(functions.keys()).splitlines()]
+    return [
+        Key(*line.split("\t"))
+        for line in returned(whole(lambda room: (functions.keys(room),), 0)[0]).splitlines()
+    ]
 
 
 def version() -> str:

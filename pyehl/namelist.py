@@ -50,12 +50,13 @@ def text_of(groups: Mapping[str, Mapping[str, Any]]) -> str:
     """Give groups and their values as namelist text."""
     blocks = []
     for group, keys in groups.items():
-        lines = [f"   {key} = {_word(value)}" for key, value in keys.items()]
+        lines = [f"   {key} = {word(value)}" for key, value in keys.items()]
         blocks.append("\n".join([f"&{group}", *lines]) + END)
     return "".join(blocks)
 
 
-def _word(value: bool | int | float | str) -> str:
+def word(value: bool | int | float | str) -> str:
+    """Give a value as namelist text."""
     if isinstance(value, bool):
         return ".true." if value else ".false."
     return "'" + value.replace("'", "''") + "'" if isinstance(value, str) else repr(value)

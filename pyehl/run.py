@@ -179,7 +179,7 @@ def run(
     request = StopRequest()
     given = surface, second_surface
     with signals_to(request.take), _open_named(inputs, case, resumed, given) as solver:
-        say(solver.describe())
+        say(solver.describe(predict=True))
         if os.fspath(resumed):
             begins = "there is no state yet: the run begins at its beginning"
             say(f"resume: {solver.resume(resumed) or begins}")

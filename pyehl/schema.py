@@ -56,6 +56,10 @@ f | viscosity_ambient_Pa_s | Pa s | viscosity at the inlet temperature, without 
 f | pressure_viscosity_per_Pa | 1/Pa | alpha
 f | U | - | eta0 u/(E' R)
 f | G | - | alpha E'
+f | g_v | - | viscosity parameter G W^3/U^2 of a regime
+f | g_e | - | elasticity parameter W^(8/3)/U^2 of a regime
+f | left_out |  | keys that the formulas do not know
+f | regime |  | nearest asymptote: rigid or elastic, isoviscous or piezoviscous
 f | W | - | w/(E' R^2)
 st | points | - | nodes along X, and per side in a round contact
 s | points_y | - | nodes along Y in an elliptical contact
@@ -185,6 +189,9 @@ s | second_amplitude | a^2/R | that of the second surface
 s | amplitude_ratio | - | A_d/A_i at the centre
 sp | surface_rms_m | m | rms height sigma that is solved, undeformed; composite of two surfaces
 sp | surface_slope | - | rms slope of it
+p | spectrum_beside | | least film and mu_r/mu_s with other roll-offs, where Ra or a finish is given
+p | surface_findings | | what of the maps is no roughness: form, line offsets, stitching step, dust
+sp | surface_correlation | - | correlation of the heights of two surfaces that move together
 s | variance_cut | - | share of the height's variance that was cut on purpose
 s | variance_left_out | - | share of it in waves that the grid does not carry
 s | variance_unresolved | - | share of it in waves that the grid does not resolve

@@ -199,7 +199,7 @@ class Solver(SolverHandle):
             self.advance()
             yield Step(self._calls, self.progress(), self)
 
-    def describe(self, *, predict: bool = True) -> str:
+    def describe(self, *, predict: bool = False) -> str:
         """Tell the plan: what will be solved and how, with a table of the levels.
 
         Parameters

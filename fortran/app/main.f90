@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> ehl CASE.nml -o DIR: solve a case and write the result folder
 program ehl
-   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
+   use, intrinsic :: iso_fortran_env, only: error_unit
    use ehl_arguments, only: arguments_t, get_arguments, help_text
    use ehl_case, only: case_t, surface_case_t
    use ehl_case_reader, only: read_case_file
@@ -18,6 +18,7 @@ program ehl
    use ehl_signals, only: stop_wanted, watch_signals
    use ehl_solver, only: solver_t
    use ehl_status, only: ehl_bad_input, status_t
+   use ehl_streams, only: guard_streams, put_line
    use ehl_text, only: newline
    use ehl_version, only: build_text, version
    implicit none (type, external)
@@ -35,13 +36,19 @@ program ehl
    type(record_t) :: summary
    character(len=:), allocatable :: note, case_file, fresh, hint
    real(dp), allocatable :: heights(:, :), second_heights(:, :)
+   !> Whether standard output could not be written: a run goes on then, and ends with a failure
+   logical :: output_failed = .false.
 
+   call guard_streams(status)
+   call end_if_failed()
    call get_arguments(arguments, status)
    call end_if_failed()
    if (arguments%help .or. arguments%version .or. arguments%keys) then
-      if (arguments%help) write (output_unit, "(a)", advance="no") help_text()
-      if (arguments%version) write (output_unit, "(a)") "ehl " // version, build_text()
-      if (arguments%keys) write (output_unit, "(a)", advance="no") options_text()
+      arguments%quiet = .false.
+      if (arguments%help) call say(without_end(help_text()))
+      if (arguments%version) call say("ehl " // version // newline // build_text())
+      if (arguments%keys) call say(without_end(options_text()))
+      call end_if_mute()
       stop exit_ok, quiet=.true.
    end if
 
@@ -70,6 +77,7 @@ program ehl
    if (status%code == ehl_bad_input) status%message = arguments%case_file//": "//status%message
    call end_if_failed()
    call say(plan_text(solver%plan))
+   call end_if_mute()
    if (arguments%resume /= "") then
       call solver%resume(checkpoint_path(arguments%resume), note, status)
       call end_if_failed()
@@ -89,10 +97,9 @@ program ehl
    call destination%finish(fresh, status)
    call end_if_failed()
    call say("results: " // arguments%folder)
-   if (solver%converged()) then
-      call checkpoints%close()
-      stop exit_ok, quiet=.true.
-   end if
+   if (solver%converged()) call checkpoints%close()
+   call checkpoints%release()
+   if (solver%converged()) stop merge(exit_failed, exit_ok, output_failed), quiet=.true.
    summary = solver%summary()
    hint = resumption(summary%text("status"), "ehl")
    if (checkpoints%has_state() .and. hint /= "") call say("state: " // checkpoint_path(arguments%folder) // newline &
@@ -145,19 +152,32 @@ contains
       if (making_need(s%pixels) /= "") call say(making_need(s%pixels))
    end subroutine say_making
 
+   !> A text without the line end at its end
+   pure function without_end(text) result(answer)
+      character(len=*), intent(in) :: text
+      character(len=:), allocatable :: answer
+      answer = text(:len(text) - 1)
+   end function without_end
+
    !> A line to the terminal, unless it shall be quiet
    subroutine say(text)
       character(len=*), intent(in) :: text
 
-      if (arguments%quiet) return
-      write (output_unit, "(a)") text
-      flush (output_unit)
+      if (arguments%quiet .or. output_failed) return
+      output_failed = .not. put_line(text)
+      if (output_failed) write (error_unit, "(a)") "standard output: error: cannot be written"
    end subroutine say
+
+   !> End where the first lines have found no way out
+   subroutine end_if_mute()
+      if (output_failed) stop exit_failed, quiet=.true.
+   end subroutine end_if_mute
 
    !> Report a failure and end the program
    subroutine end_if_failed()
       if (.not. status%failed()) return
       write (error_unit, "(a)") status%message
+      call checkpoints%release()
       if (status%code == ehl_bad_input) stop exit_usage, quiet=.true.
       stop exit_failed, quiet=.true.
    end subroutine end_if_failed

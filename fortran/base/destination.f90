@@ -12,6 +12,8 @@ module ehl_destination
    use ehl_files, only: absolute_path, file_exists, make_folder, may_write, real_path, remove_file, remove_folder, rename_path
    use ehl_folders, only: change_places, folder_above, full_path, is_here, is_movable, is_there, link_text, list_folder, &
                           lock_folder, make_link, make_parents, move_new, spare_path, unlock_folder, name_t
+   use ehl_folder_trial, only: try_folder, try_path
+   use ehl_processes, only: remove_left_over
    use ehl_status, only: ehl_bad_input, ehl_file, status_t
    use ehl_text, only: newline
    implicit none (type, external)
@@ -35,7 +37,9 @@ module ehl_destination
 
    character(len=*), parameter :: any_other = "expected: another folder", &
       ! how names begin of what is being written, or was when the command was killed: it stays, and is in nobody's way
-      leftover = ".partial-"
+      partial = ".partial", leftover = partial//"-"
+   !> Names for a new folder that are tried
+   integer, parameter :: tries = 3
 
 contains
 
@@ -48,6 +52,7 @@ contains
       type(found_t) :: found
 
       call look(self, found, status)
+      if (.not. status%failed() .and. found%exists) call try_folder(self%folder, fresh_path(found), status)
       if (status%failed() .or. found%kind == "") return
       if (present(resumes)) then
          if (resumes) return
@@ -68,16 +73,38 @@ contains
       character(len=:), allocatable, intent(out) :: fresh
       type(status_t), intent(inout) :: status
       type(found_t) :: found
+      integer :: k
 
       fresh = ""
       call self%check(status)
       if (.not. status%failed()) call look(self, found, status)
       if (status%failed()) return
       call make_parents(found%path)
-      fresh = spare_path(found%path//".partial")
-      if (.not. found%movable) fresh = spare_path(found%path//"/"//leftover(:len(leftover) - 1))
-      if (.not. make_folder(fresh)) call status%fail(ehl_file, self%folder//": error: cannot be written")
+      call remove_left_over(found%path, partial, may_go)
+      do k = 1, tries
+         fresh = fresh_path(found)
+         ! on another machine a process of the same number may have taken the name
+         if (make_folder(fresh)) return
+      end do
+      call status%fail(ehl_file, self%folder//": error: cannot be written")
+
+   contains
+
+      !> Names of such a result, and no others
+      logical function may_go(name)
+         character(len=*), intent(in) :: name
+         may_go = listed(name, self%names) .or. name == summary
+      end function may_go
    end subroutine begin
+
+   !> A folder for the files of the result until they are in place
+   function fresh_path(found) result(path)
+      type(found_t), intent(in) :: found
+      character(len=:), allocatable :: path
+
+      path = spare_path(found%path//partial)
+      if (.not. found%movable) path = spare_path(found%path//"/"//leftover(:len(leftover) - 1))
+   end function fresh_path
 
    !> Check again, and put the files in a folder made by `begin` in place. After a failure they are still there.
    subroutine finish(self, fresh, status)
@@ -123,7 +150,7 @@ contains
                           "expected: the name of a folder for the results")
          return
       else if (.not. found%exists) then
-         call check_above(self, found%path, status)
+         call try_path(self%folder, found%path, partial, status)
          return
       else if (.not. file_exists(found%path)) then
          call refuse("a link to nothing", any_other)
@@ -179,31 +206,6 @@ contains
          call status%fail(ehl_bad_input, self%folder//": error: "//what//newline//way_out)
       end subroutine refuse
    end subroutine look
-
-   !> Refuse a folder that is not there and cannot be made
-   subroutine check_above(self, path, status)
-      class(destination_t), intent(in) :: self
-      character(len=*), intent(in) :: path
-      type(status_t), intent(inout) :: status
-      character(len=:), allocatable :: above, trial
-
-      above = path
-      do while (.not. is_there(above))
-         above = above(:index(above, "/", back=.true.) - 1)
-         if (above == "") exit
-      end do
-      trial = spare_path(above//"/.partial")
-      if (make_folder(trial)) then
-         if (remove_folder(trial)) return
-      end if
-      if (above == "") above = "/"
-      if (file_exists(above//"/.")) then
-         above = "no permission to write into "//above
-      else
-         above = above//" is not a folder"
-      end if
-      call status%fail(ehl_bad_input, self%folder//": error: cannot be made: "//above//newline//any_other)
-   end subroutine check_above
 
    !> The earlier result and the new one change places; other files are moved over. A link holds the place of each
    !> until it is there.

@@ -109,7 +109,7 @@ contains
       flush_file = descriptor >= 0
       if (.not. flush_file) return
       flush_file = posix_fsync(descriptor) == 0
-      flush_file = posix_close(descriptor) == 0 .and. flush_file
+      if (posix_close(descriptor) /= 0) flush_file = .false.
    end function flush_file
 
    !> Whether a file or folder is there

@@ -8,6 +8,7 @@ module ehl_folders
    use ehl_text, only: to_text
    implicit none (type, external)
    private
+   public :: error_number
    public :: name_t, list_folder, change_places, move_new, make_link, link_text, is_there, is_movable, spare_path
    public :: is_here, full_path, folder_above, lock_folder, make_parents, unlock_folder
 
@@ -93,6 +94,14 @@ module ehl_folders
 
 contains
 
+   !> Why the last call of the system failed
+   integer(c_int) function error_number()
+      integer(c_int), pointer :: reason
+
+      call c_f_pointer(posix_errno(), reason)
+      error_number = reason
+   end function error_number
+
    !> What is in a folder, sorted; false when it cannot be read
    logical function list_folder(path, names)
       character(len=*), intent(in) :: path
@@ -127,12 +136,18 @@ contains
    function lock_folder(path) result(lock)
       character(len=*), intent(in) :: path
       type(c_ptr) :: lock
-      integer(c_int), parameter :: alone = 2
+      integer(c_int), parameter :: alone = 2, interrupted = 4
       integer(c_int) :: stat
 
       lock = posix_opendir(c_text(path))
-      ! on a file system without locks nobody waits
-      if (c_associated(lock)) stat = posix_flock(posix_dirfd(lock), alone)
+      if (.not. c_associated(lock)) return
+      do
+         if (posix_flock(posix_dirfd(lock), alone) == 0) return
+         if (error_number() /= interrupted) exit
+      end do
+      ! on a file system without locks nobody waits: there is none to give back
+      stat = posix_closedir(lock)
+      lock = c_null_ptr
    end function lock_folder
 
    !> Let others change what is in a folder
@@ -216,13 +231,11 @@ contains
    logical function is_movable(path)
       character(len=*), intent(in) :: path
       integer(c_int), parameter :: other_device = 18
-      integer(c_int), pointer :: reason
 
       is_movable = may_write(folder_above(path))
       ! a folder has no second name; between file systems the reason is another one
       if (posix_link(c_text(path), c_text(spare_path(path//".partial"))) == 0) return
-      call c_f_pointer(posix_errno(), reason)
-      if (reason == other_device) is_movable = .false.
+      if (error_number() == other_device) is_movable = .false.
    end function is_movable
 
    !> A path that begins so, and that nobody has taken

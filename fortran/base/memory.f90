@@ -29,16 +29,23 @@ contains
    end subroutine check_memory
 
    !> Bytes in words
-   function amount(bytes) result(text)
+   pure function amount(bytes) result(text)
       real(dp), intent(in) :: bytes
-      character(len=:), allocatable :: text
+      character(len=len_trim(amount_buffer(bytes))) :: text
+      text = amount_buffer(bytes)
+   end function amount
+
+   !> The same with blanks behind it
+   pure function amount_buffer(bytes) result(text)
+      real(dp), intent(in) :: bytes
+      character(len=40) :: text
 
       if (bytes < 1.0e9_dp) then
          text = to_text(ceiling(bytes/1.0e6_dp))//" MB"
       else
          text = fixed(bytes/1.0e9_dp, "f16.1")//" GB"
       end if
-   end function amount
+   end function amount_buffer
 
    !> Bytes that the machine, the control groups of the process and its address space still have; huge where nobody tells
    real(dp) function free_bytes(root) result(free)

@@ -134,7 +134,7 @@ contains
          line = ""
          do k = 1, size(self%names)
             if (k > 1) line = line // ","
-            line = line // cell(self%values(k, i), whole(k))
+            call add_cell(line, self%values(k, i), whole(k))
          end do
          write (lun, "(a)", iostat=stat, iomsg=reason) line
          length = length + len(line) + 1
@@ -152,18 +152,16 @@ contains
       end if
    end function is_whole
 
-   !> One value as text
-   pure function cell(x, whole) result(text)
+   !> A line and one value as text
+   pure subroutine add_cell(line, x, whole)
+      character(len=:), allocatable, intent(inout) :: line
       real(dp), intent(in) :: x
       logical, intent(in) :: whole
-      character(len=:), allocatable :: text
 
       if (whole) then
-         text = to_text(nint(x))
+         line = line//to_text(nint(x))
       else if (ieee_is_finite(x)) then
-         text = to_text(x)
-      else
-         text = ""
+         line = line//to_text(x)
       end if
-   end function cell
+   end subroutine add_cell
 end module ehl_table

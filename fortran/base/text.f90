@@ -1,5 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Text: numbers as text, lower case, lines, and the nearest of several words
+!>
+!> Threads make texts side by side. The length of a function's result that is allocatable is in static memory (gfortran), so
+!> numbers as text have a length that their arguments tell. tests/core/test_threads.py refuses the others where they matter.
 module ehl_text
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use, intrinsic :: iso_fortran_env, only: int64
@@ -19,18 +22,38 @@ module ehl_text
       module procedure logical_to_text
    end interface to_text
 
+   !> A number to three digits, or so many
+   interface rounded
+      module procedure rounded_to_three
+      module procedure rounded_to
+   end interface rounded
+
+   !> Room for any number; how those of so many digits are written
+   integer, parameter :: longest_number = 32
+   character(len=*), parameter :: forms(17) = [character(len=11) :: &
+                                               "(es32.0e3)", "(es32.1e3)", "(es32.2e3)", "(es32.3e3)", "(es32.4e3)", &
+                                               "(es32.5e3)", "(es32.6e3)", "(es32.7e3)", "(es32.8e3)", "(es32.9e3)", &
+                                               "(es32.10e3)", "(es32.11e3)", "(es32.12e3)", "(es32.13e3)", "(es32.14e3)", &
+                                               "(es32.15e3)", "(es32.16e3)"]
+
 contains
 
    !> Shortest decimal text that reads back as exactly x: '0.4', '2.2e-8', '600.0';
    !> 'nan', 'inf' or '-inf' where x is not finite
    pure function real_to_text(x) result(text)
       real(dp), intent(in) :: x
-      character(len=:), allocatable :: text
-      character(len=32) :: buffer
-      character(len=16) :: form
-      character(len=:), allocatable :: digits
+      character(len=len_trim(real_buffer(x))) :: text
+      text = real_buffer(x)
+   end function real_to_text
+
+   !> The same with blanks behind it
+   pure function real_buffer(x) result(text)
+      real(dp), intent(in) :: x
+      character(len=longest_number) :: text
+      character(len=longest_number) :: buffer
+      character(len=17) :: digits
       real(dp) :: back
-      integer :: n, exponent, mark, stat
+      integer :: n, exponent, mark, last, stat
 
       if (.not. ieee_is_finite(x)) then
          text = "nan"
@@ -42,121 +65,151 @@ contains
          text = "0.0"
          return
       end if
-      do n = 1, 17
-         write (form, "(a, i0, a)") "(es32.", n - 1, "e3)"
-         write (buffer, form) x
+      ! 15 digits, their zeros dropped, are the shortest text that reads back, if any of them does; not so of a number that
+      ! has lost digits to be so small
+      do n = merge(15, 1, abs(x) >= tiny(x)), 17
+         write (buffer, forms(n)) abs(x)
          read (buffer, *, iostat=stat) back
-         if (stat == 0 .and. .not. abs(back - x) > 0.0_dp) exit
+         if (stat == 0 .and. .not. abs(back - abs(x)) > 0.0_dp) exit
       end do
       buffer = adjustl(buffer)
       mark = scan(buffer, "E")
       read (buffer(mark + 1:), *) exponent
-      digits = keep_digits(buffer(:mark - 1))
-      text = place_point(digits, exponent)
-      if (x < 0.0_dp) text = "-" // text
-   end function real_to_text
+      digits = buffer(1:1)//buffer(3:mark - 1)
+      last = max(1, verify(trim(digits), "0", back=.true.))
+      text = place_point(digits(:last), exponent)
+      if (x < 0.0_dp) text = "-"//trim(text)
+   end function real_buffer
 
-   !> A number by an edit descriptor such as 'f8.4', without blanks around it; by 'es12.5' where it does not fit
-   function fixed(x, form) result(text)
+   !> A number by an edit descriptor such as 'f8.4', without blanks around it; by 'es12.5' where it does not fit, and to three
+   !> digits where rounding would take or add too much: 2.64E-06, not 0.0000
+   pure function fixed(x, form) result(text)
       real(dp), intent(in) :: x
       character(len=*), intent(in) :: form
-      character(len=:), allocatable :: text
-      character(len=32) :: buffer
-
-      write (buffer, "("//form//")") x
-      if (buffer(1:1) == "*") write (buffer, "(es12.5)") x
-      text = trim(adjustl(buffer))
+      character(len=len_trim(fixed_buffer(x, form))) :: text
+      text = fixed_buffer(x, form)
    end function fixed
 
-   !> Four digits of a number, for messages
-   function short(x) result(text)
+   !> The same with blanks behind it
+   pure function fixed_buffer(x, form) result(text)
       real(dp), intent(in) :: x
-      character(len=:), allocatable :: text
-      text = fixed(x, "es10.3")
+      character(len=*), intent(in) :: form
+      character(len=longest_number) :: text
+
+      real(dp) :: shown, most
+      integer :: stat
+
+      write (text, "("//form//")") x
+      if (text(1:1) == "*") write (text, "(es12.5)") x
+      text = adjustl(text)
+      read (text, *, iostat=stat) shown
+      ! who asks for three decimals and more wants three digits
+      most = merge(0.005_dp, 0.05_dp, form(1:1) == "f" .and. scan(form, "3456789", back=.true.) == len(form))
+      if (stat == 0 .and. abs(shown - x) > most*abs(x)) then
+         if (abs(x) < 1.0e-3_dp) then
+            write (text, "(es10.2)") x
+            text = adjustl(text)
+         else
+            text = rounded_buffer(x, 3)
+         end if
+      end if
+   end function fixed_buffer
+
+   !> Four digits of a number, for messages
+   pure function short(x) result(text)
+      real(dp), intent(in) :: x
+      character(len=len_trim(fixed_buffer(x, "es10.3"))) :: text
+      text = fixed_buffer(x, "es10.3")
    end function short
 
-   !> A number to three digits, or so many
-   function rounded(x, digits) result(text)
+   !> A number to three digits
+   pure function rounded_to_three(x) result(text)
       real(dp), intent(in) :: x
-      integer, intent(in), optional :: digits
-      character(len=:), allocatable :: text
-      integer :: n, decimals
+      character(len=len_trim(rounded_buffer(x, 3))) :: text
+      text = rounded_buffer(x, 3)
+   end function rounded_to_three
 
-      n = 3
-      if (present(digits)) n = digits
+   !> A number to so many digits
+   pure function rounded_to(x, digits) result(text)
+      real(dp), intent(in) :: x
+      integer, intent(in) :: digits
+      character(len=len_trim(rounded_buffer(x, digits))) :: text
+      text = rounded_buffer(x, digits)
+   end function rounded_to
+
+   !> The same with blanks behind it
+   pure function rounded_buffer(x, n) result(text)
+      real(dp), intent(in) :: x
+      integer, intent(in) :: n
+      character(len=longest_number) :: text
+      character(len=8) :: form
+      integer :: decimals, last
+
       decimals = n
       ! 9.996 is '10.0'
       if (abs(x) > 0.0_dp) decimals = max(0, n - 1 - floor(log10(abs(x)*(1.0_dp + 0.5_dp*10.0_dp**(-n)))))
-      text = fixed(x, "f32."//to_text(decimals))
-      if (decimals == 0) text = text(:len(text) - 1)
-   end function rounded
+      write (form, "(a, i0)") "f32.", decimals
+      write (text, "("//trim(form)//")") x
+      text = adjustl(text)
+      last = len_trim(text)
+      if (text(last:last) == ".") text(last:last) = " "
+   end function rounded_buffer
 
    !> A share in per cent
-   function percent(share) result(text)
+   pure function percent(share) result(text)
       real(dp), intent(in) :: share
-      character(len=:), allocatable :: text
-
-      text = rounded(100.0_dp*share, 2)//" %"
+      character(len=len_trim(rounded_buffer(100.0_dp*share, 2)) + 2) :: text
+      text = trim(rounded_buffer(100.0_dp*share, 2))//" %"
    end function percent
-
-   !> The digits of a mantissa, without sign, point and trailing zeros
-   pure function keep_digits(mantissa) result(digits)
-      character(len=*), intent(in) :: mantissa
-      character(len=:), allocatable :: digits
-      integer :: i, last
-
-      digits = ""
-      do i = 1, len(mantissa)
-         if (is_digit(mantissa(i:i))) digits = digits // mantissa(i:i)
-      end do
-      last = verify(digits, "0", back=.true.)
-      digits = digits(:max(last, 1))
-   end function keep_digits
 
    !> d.ddd * 10**exponent written plainly where that is short, else with an exponent
    pure function place_point(digits, exponent) result(text)
       character(len=*), intent(in) :: digits
       integer, intent(in) :: exponent
-      character(len=:), allocatable :: text
+      character(len=longest_number) :: text
       integer :: n
 
       n = len(digits)
       if (exponent >= 0 .and. exponent < 7) then
          if (n <= exponent + 1) then
-            text = digits // repeat("0", exponent + 1 - n) // ".0"
+            text = digits//repeat("0", exponent + 1 - n)//".0"
          else
-            text = digits(:exponent + 1) // "." // digits(exponent + 2:)
+            text = digits(:exponent + 1)//"."//digits(exponent + 2:)
          end if
       else if (exponent < 0 .and. exponent >= -4) then
-         text = "0." // repeat("0", -exponent - 1) // digits
+         text = "0."//repeat("0", -exponent - 1)//digits
+      else if (n > 1) then
+         text = digits(1:1)//"."//digits(2:)//"e"//integer_to_text(exponent)
       else
-         text = digits(1:1)
-         if (n > 1) text = text // "." // digits(2:)
-         text = text // "e" // integer_to_text(exponent)
+         text = digits//"e"//integer_to_text(exponent)
       end if
    end function place_point
 
    !> Integer without blanks
    pure function integer_to_text(i) result(text)
       integer, intent(in) :: i
-      character(len=:), allocatable :: text
-      text = long_to_text(int(i, int64))
+      character(len=len_trim(integer_buffer(int(i, int64)))) :: text
+      text = integer_buffer(int(i, int64))
    end function integer_to_text
 
    !> The same for large ones
    pure function long_to_text(i) result(text)
       integer(int64), intent(in) :: i
-      character(len=:), allocatable :: text
-      character(len=24) :: buffer
-
-      write (buffer, "(i0)") i
-      text = trim(buffer)
+      character(len=len_trim(integer_buffer(i))) :: text
+      text = integer_buffer(i)
    end function long_to_text
+
+   !> The same with blanks behind it
+   pure function integer_buffer(i) result(text)
+      integer(int64), intent(in) :: i
+      character(len=longest_number) :: text
+      write (text, "(i0)") i
+   end function integer_buffer
 
    !> .true. or .false.
    pure function logical_to_text(flag) result(text)
       logical, intent(in) :: flag
-      character(len=:), allocatable :: text
+      character(len=merge(6, 7, flag)) :: text
 
       text = ".false."
       if (flag) text = ".true."

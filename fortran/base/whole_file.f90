@@ -9,9 +9,11 @@ module ehl_whole_file
    private
    public :: read_text, holds_text, write_text, open_to_write, end_writing
 
+   character(len=*), parameter :: byte_order_mark = achar(239)//achar(187)//achar(191)
+
 contains
 
-   !> The whole text of a file of at most `largest` bytes
+   !> The whole text of a file of at most `largest` bytes, without the mark that editors put before UTF-8
    subroutine read_text(path, largest, text, status)
       character(len=*), intent(in) :: path
       integer, intent(in) :: largest
@@ -46,6 +48,7 @@ contains
          if (length > 0) then
             read (lun, iostat=stat, iomsg=reason) text
             if (stat /= 0) call status%fail(ehl_file, path // ": error: cannot read: " // trim(reason))
+            if (index(text, byte_order_mark) == 1) text = text(len(byte_order_mark) + 1:)
          end if
       end if
       close (lun)

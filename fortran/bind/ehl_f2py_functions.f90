@@ -12,7 +12,7 @@ module ehl_f2py_functions
    use ehl_deflection_factory, only: new_deflection
    use ehl_destination, only: destination_t
    use ehl_grid, only: grid_t
-   use ehl_handles, only: reply
+   use ehl_handles, only: put_text, fitted, reply
    use ehl_heated_friction, only: heat_film, heated_t
    use ehl_judgement, only: judge
    use ehl_kinds, only: pi
@@ -30,22 +30,23 @@ module ehl_f2py_functions
 contains
 
    !> Resolved namelist text of a case: of the text, or of the file `origin`
-   subroutine resolve(text, origin, options, from_file, resolved, stat, message)
+   subroutine resolve(text, origin, options, from_file, n, bytes, length, stat, message)
       character(len=*), intent(in) :: text, origin, options
       integer(c_int), intent(in) :: from_file
-      character(len=32768), intent(out) :: resolved
-      integer(c_int), intent(out) :: stat
+      integer(c_int), intent(in) :: n
+      integer(c_int), intent(inout) :: bytes(n)
+      integer(c_int), intent(out) :: length, stat
       character(len=4096), intent(out) :: message
       type(case_t), target :: input
       type(status_t) :: status
 
-      resolved = ""
+      length = 0
       if (from_file /= 0) then
          call read_case_file(origin, options, input, status)
       else
          call read_case(text, origin, options, input, status)
       end if
-      if (.not. status%failed()) resolved = case_text(input)
+      if (.not. status%failed()) call put_text(case_text(input), bytes, length)
       call reply(status, stat, message)
    end subroutine resolve
 
@@ -117,10 +118,12 @@ contains
    end subroutine memory_left
 
    !> All keys of a case file, one a line: key, unit, default, allowed values, meaning
-   subroutine keys(text)
-      character(len=32768), intent(out) :: text
+   subroutine keys(n, bytes, length)
+      integer(c_int), intent(in) :: n
+      integer(c_int), intent(inout) :: bytes(n)
+      integer(c_int), intent(out) :: length
 
-      text = options_text()
+      call put_text(options_text(), bytes, length)
    end subroutine keys
 
    !> Version of the package; compiler and its options
@@ -132,19 +135,21 @@ contains
       compiler_text = build_text()
    end subroutine about
 
-   !> The last lines of a result from its summary (JSON, one value a line), and what it is worth: see ehl_judgement
-   subroutine conclude(summary, text, judgement, worth)
+   !> The last lines of a result from its summary (JSON, one value a line), the judgement, and what it is worth: see
+   !> ehl_judgement; the judgement begins behind so many bytes
+   subroutine conclude(summary, n, bytes, behind, length, worth)
       character(len=*), intent(in) :: summary
-      character(len=8192), intent(out) :: text
-      character(len=4096), intent(out) :: judgement
-      integer(c_int), intent(out) :: worth
+      integer(c_int), intent(in) :: n
+      integer(c_int), intent(inout) :: bytes(n)
+      integer(c_int), intent(out) :: behind, length, worth
       type(record_t) :: record
-      character(len=:), allocatable :: line
+      character(len=:), allocatable :: text, line
 
       call record%take_json(summary)
       text = conclusion(record)
+      behind = int(len(text), c_int)
       call judge(record, line, worth)
-      judgement = line
+      call put_text(text//line, bytes, length)
    end subroutine conclude
 
    !> Elastic deflection w of the pressure p by one engine, and the mean seconds of an application
@@ -183,11 +188,13 @@ contains
 
    !> Friction with heat over that without it (NaN: not known), and the greatest rises of temperature of film and walls [K],
    !> of the contact of a case with the pressure and the film p, h(nx, ny), the first node at (x0, y0); mirror: the rows are
-   !> those of Y >= 0. Whether the heat counts, and what a coefficient of friction is then.
-   subroutine heated(text, nx, ny, p, h, x0, y0, hx, hy, mirror, counts, ratio, rises, note, stat, message)
+   !> those of Y >= 0; touching: 1 where the bodies touch at the boundary film. Whether the heat counts, and what a coefficient of
+   !> friction is then.
+   subroutine heated(text, nx, ny, p, h, touching, x0, y0, hx, hy, mirror, counts, ratio, rises, note, stat, message)
       character(len=*), intent(in) :: text
       integer(c_int), intent(in) :: nx, ny
       real(c_double), intent(inout) :: p(nx, ny), h(nx, ny)
+      integer(c_int), intent(inout) :: touching(nx, ny)
       real(c_double), intent(in) :: x0, y0, hx, hy
       integer(c_int), intent(in) :: mirror
       integer(c_int), intent(out) :: counts, stat
@@ -207,11 +214,11 @@ contains
       call read_case(text, "the contact of a prediction", "", input, status)
       if (.not. status%failed()) call plan_given(input, plan, lubricant, status)
       if (.not. status%failed()) then
-         note = plan%note
+         note = fitted(plan%note, len(note))
          if (plan%counts) then
             counts = 1
             call heat_film(plan%film, grid_t(nx=nx, ny=ny, x0=x0, y0=y0, hx=hx, hy=hy, mirror=mirror /= 0), lubricant, p, h, &
-                           .false., 1, found)
+                           .false., 1, found, touching=touching > 0)
             ratio = found%ratio()
             rises = found%greatest
          end if

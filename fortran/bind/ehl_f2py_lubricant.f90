@@ -9,7 +9,7 @@ module ehl_f2py_lubricant
    use ehl_case_reader, only: read_case
    use ehl_flow_factors, only: exact_factors, factors_t
    use ehl_group_reader, only: read_groups
-   use ehl_handles, only: reply
+   use ehl_handles, only: put_text, fitted, reply
    use ehl_keys, only: bind_keys
    use ehl_lubricant, only: lubricant_t
    use ehl_oils, only: oils_text
@@ -25,10 +25,12 @@ module ehl_f2py_lubricant
 contains
 
    !> Oils by name, as ehl_oils has them
-   subroutine oils(text)
-      character(len=32768), intent(out) :: text
+   subroutine oils(n, bytes, length)
+      integer(c_int), intent(in) :: n
+      integer(c_int), intent(inout) :: bytes(n)
+      integer(c_int), intent(out) :: length
 
-      text = oils_text()
+      call put_text(oils_text(), bytes, length)
    end subroutine oils
 
    !> ln(eta/eta0) and rho/rho0 of a lubricant at pressures p [Pa] and rises of temperature over that of the inlet [K]; `group`
@@ -63,11 +65,13 @@ contains
       integer(c_int), intent(out) :: stat
       character(len=4096), intent(out) :: message
       type(case_t), target :: input
+      character(len=:), allocatable :: found
       type(status_t) :: status
 
-      note = ""
+      found = ""
       call read_case(text, "the case of a prediction", "", input, status)
-      if (.not. status%failed()) note = alpha_note(input)
+      if (.not. status%failed()) call alpha_note(input, found)
+      note = fitted(found, len(note))
       call reply(status, stat, message)
    end subroutine alpha_origin
 

@@ -3,8 +3,8 @@
 !>
 !> The modules for Python are in the small part of Fortran that f2py reads. No arithmetic in them:
 !> every routine hands its arguments on, and ends in a status and a message. Only the long
-!> routines release Python's lock (threadsafe): gfortran keeps the lengths of text that functions
-!> return in static memory, so that routines that make text must not run side by side.
+!> routines release Python's lock (threadsafe): gfortran keeps the length of an allocatable text that
+!> a function returns in static memory, so that no such function may be reached from them.
 module ehl_f2py_solver
    use, intrinsic :: iso_c_binding, only: c_double, c_int
    use ehl_case, only: case_t
@@ -12,7 +12,7 @@ module ehl_f2py_solver
    use ehl_checkpoint_folder, only: checkpoint_path
    use ehl_conclusion, only: conclusion, resumption
    use ehl_grid, only: grid_t
-   use ehl_handles, only: drop_handle, new_handle, reply, run_of, run_t
+   use ehl_handles, only: drop_handle, new_handle, put_text, fitted, reply, run_of, run_t
    use ehl_plan_text, only: plan_text
    use ehl_result_folder, only: write_results
    use ehl_record, only: record_t
@@ -116,7 +116,7 @@ contains
             call status%fail(ehl_internal, "a run cannot '"//what//"'")
          end select
       end if
-      note = text
+      note = fitted(text, len(note))
       call reply(status, stat, message)
    end subroutine act
 
@@ -141,22 +141,25 @@ contains
          associate (n => merge(nx, 0, has_heights /= 0), m => merge(mx, 0, has_second /= 0))
             call run%checkpoints%open(results, run%input, run%solver, resumed, heights(:n, :), second(:m, :), text, status)
          end associate
-         if (.not. status%failed()) note = text
+         if (.not. status%failed()) note = fitted(text, len(note))
       end if
       call reply(status, stat, message)
    end subroutine keep
 
    !> The "plan" in a few lines, one line of "progress", the "conclusion" of a run that has ended, its "resumption", or the
    !> "summary" as JSON
-   subroutine describe(handle, what, text, stat, message)
+   subroutine describe(handle, what, n, bytes, length, stat, message)
       integer(c_int), intent(in) :: handle
       character(len=*), intent(in) :: what
-      character(len=32768), intent(out) :: text
+      integer(c_int), intent(in) :: n
+      integer(c_int), intent(inout) :: bytes(n)
+      integer(c_int), intent(out) :: length
       integer(c_int), intent(out) :: stat
       character(len=4096), intent(out) :: message
       type(run_t), pointer :: run
       type(record_t) :: record
       type(status_t) :: status
+      character(len=:), allocatable :: text
 
       text = ""
       call run_of(handle, run, status)
@@ -176,6 +179,7 @@ contains
             text = record%to_json()
          end select
       end if
+      call put_text(text, bytes, length)
       call reply(status, stat, message)
    end subroutine describe
 

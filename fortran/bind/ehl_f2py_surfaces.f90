@@ -23,11 +23,11 @@ contains
    end subroutine making
 
    !> Heights [m] of a fractal surface, heights(ny, nx); words: the seed, 32 bits each, the lowest first
-   subroutine fractal(nx, ny, heights, length_x, length_y, rms_height, hurst, rolloff_wavenumber, n, words, gaussian, &
-                      stat, message)
+   subroutine fractal(nx, ny, heights, length_x, length_y, rms_height, hurst, rolloff_wavenumber, lay_ratio, n, words, &
+                      gaussian, stat, message)
       integer(c_int), intent(in) :: nx, ny
       real(c_double), intent(inout) :: heights(ny, nx)
-      real(c_double), intent(in) :: length_x, length_y, rms_height, hurst, rolloff_wavenumber
+      real(c_double), intent(in) :: length_x, length_y, rms_height, hurst, rolloff_wavenumber, lay_ratio
       integer(c_int), intent(in) :: n
       integer(c_int), intent(in) :: words(n)
       integer(c_int), intent(in) :: gaussian
@@ -36,8 +36,8 @@ contains
       !f2py threadsafe
       type(status_t) :: status
 
-      call make_fractal(fractal_t(length_x, length_y, rms_height, hurst, rolloff_wavenumber, words, gaussian /= 0), &
-                        heights, status)
+      call make_fractal(fractal_t(length_x, length_y, rms_height, hurst, rolloff_wavenumber, words, gaussian /= 0, &
+                                  lay_ratio), heights, status)
       call reply(status, stat, message)
    end subroutine fractal
 

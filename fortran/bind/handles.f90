@@ -11,7 +11,7 @@ module ehl_handles
    use ehl_text, only: to_text
    implicit none (type, external)
    private
-   public :: run_t, new_handle, drop_handle, run_of, reply
+   public :: run_t, new_handle, drop_handle, run_of, reply, put_text, fitted
 
    !> A case on its way: the resolved input, the solver, its states on disk, the time since it was opened
    type :: run_t
@@ -77,7 +77,9 @@ contains
       type(run_t), pointer :: run
 
       call find(handle, .true., run, status)
-      if (associated(run)) deallocate (run)
+      if (.not. associated(run)) return
+      call run%checkpoints%release()
+      deallocate (run)
    end subroutine drop_handle
 
    !> The run of a handle, not associated when there is none; one caller alone can take it out of the table
@@ -108,6 +110,30 @@ contains
 
       stat = int(status%code, c_int)
       message = ""
-      if (status%failed()) message = status%message
+      if (status%failed()) message = fitted(status%message, len(message))
    end subroutine reply
+
+   !> A text byte by byte in an array of the caller, and its length: the caller asks again with a larger one where it does not fit
+   subroutine put_text(text, bytes, length)
+      character(len=*), intent(in) :: text
+      integer(c_int), intent(inout) :: bytes(:)
+      integer(c_int), intent(out) :: length
+      integer :: k
+
+      length = int(len(text), c_int)
+      do k = 1, min(size(bytes), len(text))
+         bytes(k) = iachar(text(k:k))
+      end do
+   end subroutine put_text
+
+   !> Words for a person in so much room; what does not fit is said
+   pure function fitted(text, room) result(words)
+      character(len=*), intent(in) :: text
+      integer, intent(in) :: room
+      character(len=room) :: words
+      character(len=*), parameter :: cut = " ... (the rest does not fit)"
+
+      words = text
+      if (len_trim(text) > room) words(room - len(cut) + 1:) = cut
+   end function fitted
 end module ehl_handles

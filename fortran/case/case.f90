@@ -136,8 +136,11 @@ module ehl_case
       real(dp) :: length_x = 0.0_dp, length_y = 0.0_dp
       real(dp) :: crop_x_min = 0.0_dp, crop_x_max = 0.0_dp, crop_y_min = 0.0_dp, crop_y_max = 0.0_dp
       character(len=word_length) :: height_unit = "m"
+      character(len=word_length) :: lateral_unit = "same"
+      character(len=word_length) :: profile = "none"
       integer :: sign = 1
       real(dp) :: outliers = 0.0_dp
+      character(len=word_length) :: align_lines = "none"
       character(len=word_length) :: fill = "harmonic"
       character(len=word_length) :: detrend = "auto"
       real(dp) :: rotate = 0.0_dp
@@ -147,7 +150,11 @@ module ehl_case
       logical :: tile_mirrored = .false.
       real(dp) :: shortest_wavelength = 0.0_dp, longest_wavelength = 0.0_dp
       character(len=word_length) :: filter = "sharp"
+      !> Set by the reader, as the keys below of a finish: by ra or rq
       real(dp) :: rms_height = 0.05e-6_dp
+      real(dp) :: ra = 0.0_dp, rq = 0.0_dp
+      character(len=word_length) :: finish = "none"
+      real(dp) :: lay_ratio = 1.0_dp
       real(dp) :: hurst = 0.8_dp
       real(dp) :: rolloff_wavenumber = 0.0_dp
       integer :: pixels = 256

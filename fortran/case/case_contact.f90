@@ -27,6 +27,8 @@ module ehl_case_contact
    integer, parameter :: fewest_rows = 8, few_rows = 32
    !> Least and largest ratio of the sides of a cell
    real(dp), parameter :: least_ratio = 0.25_dp, largest_ratio = 1.41_dp
+   !> Least p_h/E' of a contact that can be meant: 0.1 MPa between steel bodies
+   real(dp), parameter :: least_strain = 4.0e-7_dp
    !> Difference of velocity ratios that is none
    real(dp), parameter :: rounding = 1.0e-9_dp
 
@@ -54,15 +56,22 @@ contains
       class(contact_t), allocatable :: contact
       type(scales_t) :: scales
       type(operating_t) :: point
+      real(dp) :: least
       character(len=:), allocatable :: what, expected
 
-      if (.not. input%contact%si) return
+      if (.not. input%contact%si) then
+         if (input%lubricant%pressure_viscosity > 0.0_dp .or. .not. input%contact%moes_l > 0.0_dp) return
+         call schema%contradict("lubricant.pressure_viscosity", "contact.moes_l", &
+                                "moes_l = 0.0, or a pressure_viscosity above 0", status)
+         return
+      end if
       call find_contact(input, contact, scales, point)
       what = ""
       expected = ""
-      if (scales%pressure < 1.0e5_dp .or. scales%pressure > 2.0e10_dp) then
+      least = least_strain*input%contact%reduced_modulus
+      if (scales%pressure < least .or. scales%pressure > 2.0e10_dp) then
          what = "the Hertz pressure is " // short(scales%pressure) // " Pa"
-         expected = "values in SI units with a Hertz pressure between 1e5 and 2e10 Pa"
+         expected = "values in SI units with a Hertz pressure between "//short(least)//" Pa (4e-7 of reduced_modulus) and 2e10 Pa"
       else if (scales%length > input%contact%radius_x) then
          what = "the Hertz radius " // short(scales%length) // " m exceeds that of the ball"
          expected = "values in SI units with a contact much smaller than the ball"
@@ -94,7 +103,7 @@ contains
             point = operating_point(input, contact, scales, l%viscosity)
          else
             point = operating_from_moes(c%moes_m, c%moes_l, contact%ellipticity, contact%kernel_factor)
-            scales%pressure = point%alpha_bar/l%pressure_viscosity
+            if (point%alpha_bar > 0.0_dp) scales%pressure = point%alpha_bar/l%pressure_viscosity
          end if
       end associate
    end subroutine find_contact

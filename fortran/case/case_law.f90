@@ -28,7 +28,7 @@ contains
    !> of the key; '' where these are given
    pure function own_law(l) result(law)
       type(lubricant_case_t), intent(in) :: l
-      character(len=:), allocatable :: law
+      character(len=len(l%viscosity_law)) :: law
       type(oil_t) :: oil
 
       law = ""
@@ -36,9 +36,9 @@ contains
          law = "table"
       else if (l%name /= "") then
          oil = oil_named(trim(l%name))
-         law = trim(oil%viscosity_law)
+         law = oil%viscosity_law
       else if (l%viscosity_law /= "roelands" .and. l%viscosity_law /= "barus") then
-         law = trim(l%viscosity_law)
+         law = l%viscosity_law
       end if
    end function own_law
 

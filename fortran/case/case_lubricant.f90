@@ -11,6 +11,9 @@ module ehl_case_lubricant
    private
    public :: check_boundary_film, check_shear_law, complete_lubricant
 
+   !> Roelands exponents of liquids: water has 0.04, mineral oils 0.6
+   real(dp), parameter :: least_z = 1.0e-3_dp, largest_z = 2.0_dp
+
 contains
 
    !> Roelands exponent from viscosity, alpha and p0 unless given; the PSD model's viscosity law
@@ -18,15 +21,10 @@ contains
       type(schema_t), intent(in) :: schema
       type(case_t), intent(inout) :: input
       type(status_t), intent(inout) :: status
-      character(len=:), allocatable :: at
 
       associate (l => input%lubricant)
          if (.not. schema%given("lubricant", "roelands_z")) then
             l%roelands_z = l%pressure_viscosity*l%roelands_p0/(log(l%viscosity) + 9.67_dp)
-            at = "viscosity"
-            if (l%kinematic_viscosity_40 > 0.0_dp .and. .not. schema%given("lubricant", at)) at = "kinematic_viscosity_40"
-            if (l%viscosity_law == "roelands") call schema%check_range("lubricant.roelands_z", l%roelands_z, "lubricant."//at, &
-               "viscosity, pressure_viscosity and roelands_p0", status)
          end if
          if (input%psd%viscosity_law == "") input%psd%viscosity_law = l%viscosity_law
          if (all(input%psd%viscosity_law /= [character(len=32) :: "roelands", "barus", l%viscosity_law])) then
@@ -34,8 +32,35 @@ contains
                                // "' with lubricant.viscosity_law = '" // trim(l%viscosity_law) // "'", &
                                "'roelands', 'barus' or that of the lubricant", status)
          end if
+         if (l%viscosity_law == "roelands" .or. input%psd%viscosity_law == "roelands") call check_roelands(schema, input, status)
       end associate
    end subroutine complete_lubricant
+
+   !> Refuse an exponent that no liquid has, at the key that it is from; a law without it is the way out
+   subroutine check_roelands(schema, input, status)
+      type(schema_t), intent(in) :: schema
+      type(case_t), intent(in) :: input
+      type(status_t), intent(inout) :: status
+      character(len=22) :: sources(5)
+      character(len=:), allocatable :: what, at
+      integer :: k
+
+      associate (l => input%lubricant)
+         ! without alpha the law has nothing to say
+         if (.not. l%pressure_viscosity > 0.0_dp .or. (l%roelands_z >= least_z .and. l%roelands_z <= largest_z)) return
+         ! a small one mostly has its reason in alpha, a large one in the viscosity
+         sources = [character(len=22) :: "roelands_z", "pressure_viscosity", "viscosity", "kinematic_viscosity_40", "roelands_p0"]
+         if (l%roelands_z > largest_z) sources(2:4) = sources([3, 4, 2])
+         at = "roelands_z"
+         do k = size(sources), 1, -1
+            if (schema%given("lubricant", trim(sources(k)))) at = trim(sources(k))
+         end do
+         what = "lubricant.roelands_z = "//short(l%roelands_z)
+         if (at /= "roelands_z") what = what//" follows from viscosity, pressure_viscosity and roelands_p0"
+         call schema%refuse("lubricant."//at, what, "a number in [0.001, 2] under Roelands' law; or viscosity_law = 'barus', "// &
+                            "which has no roelands_z", status)
+      end associate
+   end subroutine check_roelands
 
    !> Parameters of the shear law; a law with a stress needs a contact in SI units
    subroutine check_shear_law(schema, input, status)
@@ -62,8 +87,8 @@ contains
       end associate
    end subroutine check_shear_law
 
-   !> A boundary film needs a contact in SI units; its friction and a hardness need it, and the heat of friction does not know it.
-   !> Smooth bodies must be able to carry the load below the hardness.
+   !> A boundary film needs a contact in SI units; its friction and a hardness need it. Smooth bodies must be able to carry the
+   !> load below the hardness.
    subroutine check_boundary_film(schema, input, status)
       type(schema_t), intent(in) :: schema
       type(case_t), intent(in) :: input
@@ -88,9 +113,6 @@ contains
             call schema%refuse("contact.hardness", "contact.hardness = " // short(hardness) // " Pa, and the Hertz pressure is " &
                                // short(pressure) // " Pa: smooth bodies would yield", &
                                "more than the Hertz pressure, a lower load, or 0.0 for elastic solids", status)
-         else if (l%boundary_film > 0.0_dp .and. l%thermal_friction == "always") then
-            call schema%contradict("lubricant.boundary_film", "lubricant.thermal_friction", &
-                                   "thermal_friction = 'auto' or 'never'", status, "the heat where bodies touch is not computed")
          else if (l%boundary_film > 0.0_dp .and. input%solver%coarsening == "alcouffe") then
             call schema%contradict("lubricant.boundary_film", "solver.coarsening", &
                                    "coarsening = 'auto' or 'classical'", status, &

@@ -22,7 +22,7 @@ contains
       type(status_t), intent(inout) :: status
       character(len=8), parameter :: names(2) = ["radius_x", "radius_y"]
       character(len=9), parameter :: bodies(4) = ["radius_y1", "radius_y2", "radius_x1", "radius_x2"]
-      character(len=:), allocatable :: name
+      character(len=:), allocatable :: name, remedy
       integer :: one
 
       associate (c => input%contact)
@@ -52,8 +52,10 @@ contains
             do one = size(bodies), 1, -1
                if (schema%given("bodies", bodies(one))) name = "bodies."//bodies(one)
             end do
+            remedy = "radius_y of at most "//short(250.0_dp*c%radius_x)//" m, as of a crowned roller; a line contact is not solved"
+            if (c%radius_ratio > 1.0_dp) remedy = "radius_x of at most "//short(250.0_dp*c%radius_y)//" m"
             call schema%refuse(name, "radius_x/radius_y is "//short(c%radius_ratio), &
-                               "a ratio in "//trim(key%allowed)//", an ellipse of at most 30 to 1", status)
+                               "a ratio in "//trim(key%allowed)//", an ellipse of at most 30 to 1: "//remedy, status)
          end associate
       end associate
    end subroutine complete_radii

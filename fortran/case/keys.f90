@@ -30,7 +30,7 @@ contains
          call self%reals("radius_x", c%radius_x, "m", "0 or [1e-5, 1000]", &
                          "reduced radius in the plane of the motion; 0: radius")
          call self%reals("radius_y", c%radius_y, "m", "0 or [1e-5, 1000]", "reduced radius across the motion; both or none")
-         call self%reals("reduced_modulus", c%reduced_modulus, "Pa", "[1e8, 2e12]", &
+         call self%reals("reduced_modulus", c%reduced_modulus, "Pa", "[1e4, 2e12]", &
                          "E' with 2/E' = sum of (1 - nu^2)/E over the bodies")
          call self%reals("hardness", c%hardness, "Pa", "0 or [1e5, 1e12]", &
                          "greatest pressure of the solids, with boundary_film; 0: no limit")
@@ -55,8 +55,8 @@ contains
          call self%reals("radius_y1", b%radius_y1, "m", "[-1e3, 1e3]", "radius of body 1 across the motion")
          call self%reals("radius_x2", b%radius_x2, "m", "[-1e3, 1e3]", "radius of body 2 in the plane of the motion")
          call self%reals("radius_y2", b%radius_y2, "m", "[-1e3, 1e3]", "radius of body 2 across the motion")
-         call self%reals("modulus_1", b%modulus_1, "Pa", "[1e5, 2e12]", "Young's modulus of body 1")
-         call self%reals("modulus_2", b%modulus_2, "Pa", "[1e5, 2e12]", "Young's modulus of body 2")
+         call self%reals("modulus_1", b%modulus_1, "Pa", "[1e3, 2e12]", "Young's modulus of body 1")
+         call self%reals("modulus_2", b%modulus_2, "Pa", "[1e3, 2e12]", "Young's modulus of body 2")
          call self%reals("poisson_1", b%poisson_1, "-", "[-0.5, 0.5]", "Poisson's ratio of body 1")
          call self%reals("poisson_2", b%poisson_2, "-", "[-0.5, 0.5]", "Poisson's ratio of body 2")
       end associate
@@ -66,12 +66,12 @@ contains
                          "an oil whose constants are known ('pyehl lubricants'); keys given beside it rule")
          call self%texts("table", l%table, kind_path, "measured viscosities over pressure and temperature: CSV")
          call self%reals("viscosity", l%viscosity, "Pa s", "[1e-4, 10]", "viscosity at ambient pressure")
-         call self%reals("pressure_viscosity", l%pressure_viscosity, "1/Pa", "[1e-10, 1e-7]", &
-                         "pressure-viscosity coefficient")
+         call self%reals("pressure_viscosity", l%pressure_viscosity, "1/Pa", "0 or [1e-10, 1e-7]", &
+                         "pressure-viscosity coefficient; 0: the viscosity does not change with pressure")
          call self%words("viscosity_law", l%viscosity_law, "roelands|barus|dicke|yasutomi|doolittle|table", &
                          "viscosity under pressure; default that of name or table")
-         call self%reals("roelands_z", l%roelands_z, "-", "[0.05, 2]", &
-                         "Roelands exponent; default alpha p0/(ln eta0 + 9.67)")
+         call self%reals("roelands_z", l%roelands_z, "-", "[0, 1e4]", &
+                         "Roelands exponent, there 1e-3 to 2; default alpha p0/(ln eta0 + 9.67)")
          call self%reals("roelands_p0", l%roelands_p0, "Pa", "[1e7, 1e10]", "Roelands reference pressure")
          call add_law_keys(self, l)
          call self%words("shear_law", l%shear_law, "newtonian|eyring|limiting|carreau", &
@@ -234,7 +234,11 @@ contains
       call self%reals("length_y", s%length_y, "m", "0 or [1e-9, 1]", &
                       "size of the map along Y; 0: that of the file; fractal: 8.29e-4")
       call self%words("height_unit", s%height_unit, "m|mm|um|nm", &
-                      "unit of the heights of a map that names none (.npy, text), and of the places in a list x y z")
+                      "unit of the heights of a map that names none (.npy, text)")
+      call self%words("lateral_unit", s%lateral_unit, "same|m|mm|um|nm", &
+                      "unit of x and y in a list x y z, or of axes, that names none; same: that of the heights")
+      call self%words("profile", s%profile, "none|isotropic|ridges", &
+                      "the file is a profile: an isotropic surface of its spectrum, or it extended across")
       call self%reals("crop_x_min", s%crop_x_min, "m", "[0, 1]", "the map begins there along X")
       call self%reals("crop_x_max", s%crop_x_max, "m", "[0, 1]", "the map ends there; 0: at its end")
       call self%reals("crop_y_min", s%crop_y_min, "m", "[0, 1]", "the map begins there along Y")
@@ -242,6 +246,8 @@ contains
       call self%integers("sign", s%sign, "[-1, 1]", "-1: valleys of the map are positive")
       call self%reals("outliers", s%outliers, "-", "0 or [3, 1e6]", &
                       "points so many standard deviations off are spikes and removed; 0: none")
+      call self%words("align_lines", s%align_lines, "none|x|y", &
+                      "lines of a scan along X or Y are put level with each other, by their medians")
       call self%words("fill", s%fill, "harmonic|none", "missing points: interpolated, or refused")
       call self%words("detrend", s%detrend, "auto|none|centre|tilt|curvature", &
                       "form taken off; auto: tilt for instrument files, none for arrays")
@@ -262,6 +268,12 @@ contains
       call self%words("filter", s%filter, "sharp|gaussian", "how the spectrum is cut")
       call self%reals("rms_height", s%rms_height, "m", "[0, 1e-4]", &
                       "rms height of a fractal surface, before its spectrum is cut")
+      call self%reals("ra", s%ra, "m", "[0, 1e-4]", "Ra in place of rms_height, of normal heights; 0: not given")
+      call self%reals("rq", s%rq, "m", "[0, 1e-4]", "Rq in place of rms_height: the same; 0: not given")
+      call self%words("finish", s%finish, "none|ground|honed|superfinished|polished", &
+                      "a fractal surface with typical Ra, spectrum and lay, as far as not given")
+      call self%reals("lay_ratio", s%lay_ratio, "-", "[0.01, 100]", &
+                      "length of correlation along X over that along Y; below 1: lay across the motion")
       call self%reals("hurst", s%hurst, "-", "[0, 1]", "Hurst exponent")
       call self%reals("rolloff_wavenumber", s%rolloff_wavenumber, "rad/m", "[0, 1e11]", &
                       "the spectrum is flat below it; 0: no roll-off")

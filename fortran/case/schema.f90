@@ -7,7 +7,7 @@ module ehl_schema
    use ehl_files, only: absolute_path, folder_of
    use ehl_kinds, only: dp
    use ehl_source, only: source_t
-   use ehl_status, only: ehl_bad_input, status_t
+   use ehl_status, only: ehl_bad_input, ehl_internal, status_t
    use ehl_text, only: newline, short, to_text
    implicit none (type, external)
    private
@@ -108,8 +108,11 @@ contains
    pure logical function given(self, group, name)
       class(schema_t), intent(in) :: self
       character(len=*), intent(in) :: group, name
+      integer :: k
 
-      given = self%keys(self%find(group, name))%given
+      k = self%find(group, name)
+      given = .false.
+      if (k > 0) given = self%keys(k)%given
    end function given
 
    !> Names of all groups, in order
@@ -142,6 +145,10 @@ contains
       character(len=*), intent(in) :: what, expected
       type(status_t), intent(inout) :: status
 
+      if (position_of(self, name) == 0) then
+         call status%fail(ehl_internal, what//": there is no key "//name)
+         return
+      end if
       associate (key => self%keys(position_of(self, name)))
          if (key%given) then
             call self%sources(key%source)%refuse(key%first, key%last, what, expected, status)

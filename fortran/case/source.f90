@@ -86,12 +86,14 @@ contains
    !> Blanks as wide as the text; tabs stay tabs, so that the caret stands right
    pure function blanks_for(text) result(blanks)
       character(len=*), intent(in) :: text
-      character(len=:), allocatable :: blanks
-      integer :: i
+      character(len=characters(text)) :: blanks
+      integer :: i, n
 
-      blanks = ""
+      n = 0
       do i = 1, len(text)
-         if (.not. is_continuation(text(i:i))) blanks = blanks//merge(text(i:i), " ", text(i:i) == achar(9))
+         if (is_continuation(text(i:i))) cycle
+         n = n + 1
+         blanks(n:n) = merge(text(i:i), " ", text(i:i) == achar(9))
       end do
    end function blanks_for
 

@@ -68,6 +68,7 @@ contains
       type(hierarchy_t), intent(inout) :: hierarchy
       type(contact_results_t) :: before
       real(dp) :: residual
+      logical :: may_balance
 
       before = self%m
       associate (level => hierarchy%levels(self%n))
@@ -76,7 +77,9 @@ contains
          self%cycles = self%cycles + 1
          if (self%mixing%on) call self%mixing%mix(level, residual)
          call self%look(level, residual)
-         if (self%may_balance(before) .and. abs(self%m%load_error) > load_tolerance) then
+         ! asked after every cycle: it also takes note of the algebraic error
+         may_balance = self%may_balance(before)
+         if (may_balance .and. abs(self%m%load_error) > load_tolerance) then
             call balance_load(level)
             call update_residual(level, residual)
             call self%look(level, residual)

@@ -59,7 +59,7 @@ contains
       if (present(beta)) with_beta = beta
       if (present(expansion)) with_expansion = expansion
       if (present(temperature)) inlet = temperature
-      if (hertz_pressure > 0.0_dp .and. viscosity_law == viscosity_roelands) then
+      if (alpha_bar > 0.0_dp .and. hertz_pressure > 0.0_dp .and. viscosity_law == viscosity_roelands) then
          allocate (lubricant%viscosity, source=new_roelands(alpha_bar, roelands_p0/hertz_pressure, z, with_beta, inlet))
       else
          allocate (lubricant%viscosity, source=barus_t(alpha_bar=alpha_bar, beta=with_beta))

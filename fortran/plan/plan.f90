@@ -8,12 +8,13 @@ module ehl_plan
    use ehl_domain, only: domain_cost, domain_t
    use ehl_friction_mean, only: automatic_periods
    use ehl_grid, only: coarsest_most, find_levels, grid_t, new_grid
+   use ehl_inlet, only: inlet_t
    use ehl_kinds, only: dp
    use ehl_lubricant, only: lubricant_t
    use ehl_moes, only: operating_t
    use ehl_moving_surfaces, only: moving_surfaces_t
    use ehl_plan_friction, only: plan_sliding, sliding_t
-   use ehl_plan_heat, only: heat_plan_t, plan_heat
+   use ehl_plan_heat, only: heat_plan_t, may_touch, plan_heat
    use ehl_plan_lubricant, only: alpha_note, law_note, plan_lubricant
    use ehl_plan_surface, only: check_carried, make_surfaces
    use ehl_resolution, only: has_solution, relative_errors
@@ -40,8 +41,6 @@ module ehl_plan
    !> Extent of the dry contact across the motion over that along it from which on it does so on any grid: cycles go to and
    !> fro between two states there
    real(dp), parameter :: wide = 2.0_dp
-   !> Boundary film from which on a smooth contact may touch, over its central film by formula
-   real(dp), parameter :: contact_from = 0.5_dp
 
    !> What the smooth contact needs, and all else
    type, extends(steady_options_t) :: plan_t
@@ -115,12 +114,14 @@ contains
       call plan_lubricant(input, plan%point, plan%scales, plan%lubricant, status)
       if (status%failed()) return
       call law_note(input, plan%scales, plan%lubricant_note)
-      plan%alpha_note = alpha_note(input)
+      call alpha_note(input, plan%alpha_note)
       call plan%lubricant%density([1.0_dp], rho, slope)
       film = plan%contact%film_formula(plan%point%moes_m, plan%point%moes_l)/rho(1)
       plan%heat = plan_heat(input, plan%contact, plan%scales, plan%sliding, plan%lubricant, film)
       film = plan%lubricant%shear%thinned_film(film, plan%point%speed_parameter)
-      plan%touches = plan%lubricant%boundary_film > contact_from*film
+      plan%touches = may_touch(plan%lubricant, film)
+      if (plan%lubricant%boundary_film > 0.0_dp) plan%inlet = inlet_t(film, plan%lubricant%boundary_film/rho(1), &
+                                                                         plan%lubricant%boundary_stress)
       plan%film_expected = max(film, plan%lubricant%boundary_film)
       plan%engine = trim(input%solver%deflection)
       plan%accuracy = input%solver%accuracy

@@ -17,10 +17,13 @@ module ehl_plan_heat
    use ehl_wall_heat, only: heat_source, speed_of_rest, wall_strength
    implicit none (type, external)
    private
-   public :: heat_plan_t, plan_heat, plan_given
+   public :: heat_plan_t, may_touch, plan_heat, plan_given
 
    !> Relative change of the stress under the Hertz pressure below which heat is left out
    real(dp), parameter :: least_change = 1.0e-3_dp
+
+   !> Boundary film from which on a smooth contact may touch, over its central film by formula
+   real(dp), parameter :: contact_from = 0.5_dp
 
    !> The heat of friction of a contact
    type :: heat_plan_t
@@ -35,8 +38,8 @@ module ehl_plan_heat
 
 contains
 
-   !> Decide by the greatest heat of the contact, that at the Hertz pressure in the central film by formula: the flash
-   !> temperature of Tian & Kennedy for it, and the mean across the film over that
+   !> Decide by the greatest heat of the contact, that at the Hertz pressure in the central film by formula, or at a boundary
+   !> film that is thick beside it: the flash temperature of Tian & Kennedy for it, and the mean across the film over that
    function plan_heat(input, contact, scales, sliding, lubricant, film) result(plan)
       type(case_t), intent(in) :: input
       class(contact_t), intent(in) :: contact
@@ -46,14 +49,11 @@ contains
       !> Central film by formula [a^2/R]
       real(dp), intent(in) :: film
       type(heat_plan_t) :: plan
-      real(dp) :: stress, warm, rise, rest, source(2)
+      real(dp) :: stress, most, warm, rise, rest, source(2)
 
       associate (l => input%lubricant, heat => plan%film)
          heat%speed = abs(sliding%slide_to_roll)*sliding%mean_velocity
-         if (l%boundary_film > 0.0_dp) then
-            plan%note = "isothermal: the heat where bodies touch at the boundary film is not computed"
-            return
-         else if (l%thermal_friction == "never") then
+         if (l%thermal_friction == "never") then
             plan%note = "isothermal: lubricant.thermal_friction is 'never'"
             return
          else if (.not. knows_temperature(input)) then
@@ -76,9 +76,11 @@ contains
             plan%note = "isothermal: the Newtonian stress is above lubricant.eyring_stress, its heat is not computed"
             return
          end if
-         rise = flash_temperature(stress*heat%speed, source(1)*scales%length, source(2), sliding%speeds(), &
+         most = stress
+         if (may_touch(lubricant, film)) most = max(stress, lubricant%boundary_stress*lubricant%shear%scale)
+         rise = flash_temperature(most*heat%speed, source(1)*scales%length, source(2), sliding%speeds(), &
                                   sliding%conductivity, sliding%diffusivity) &
-                + stress*heat%speed*film*scales%film/(12.0_dp*heat%conductivity)
+                + most*heat%speed*film*scales%film/(12.0_dp*heat%conductivity)
          warm = stress_at(rise)
          plan%counts = l%thermal_friction == "always" .or. .not. stress - warm < least_change*stress
          if (plan%counts) then
@@ -110,7 +112,14 @@ contains
       end function stress_at
    end function plan_heat
 
-   !> The same, and the lubricant, of a case whose pressure and film are known already
+   !> Whether the smooth contact may touch at the boundary film, by its central film by formula [a^2/R]
+   pure logical function may_touch(lubricant, film)
+      type(lubricant_t), intent(in) :: lubricant
+      real(dp), intent(in) :: film
+      may_touch = lubricant%boundary_film > contact_from*film
+   end function may_touch
+
+   !> plan_heat, and the lubricant, of a case whose pressure and film are known already
    subroutine plan_given(input, plan, lubricant, status)
       type(case_t), intent(in) :: input
       type(heat_plan_t), intent(out) :: plan

@@ -70,9 +70,9 @@ contains
    end subroutine law_note
 
    !> Where a pressure-viscosity coefficient is from that nobody gave; empty where one was given
-   function alpha_note(input) result(note)
+   subroutine alpha_note(input, note)
       type(case_t), intent(in) :: input
-      character(len=:), allocatable :: note
+      character(len=:), allocatable, intent(out) :: note
       !> Least and largest z of the oils that are known by name, at 40 and 100 degC, see tests/model/test_lubricants.py
       character(len=*), parameter :: known = "0.42 to 0.74"
 
@@ -84,7 +84,7 @@ contains
          if (l%alpha_default) note = "alpha = "//fixed(l%pressure_viscosity, "es9.3")// &
             " 1/Pa is the default, that of another oil; give lubricant.pressure_viscosity"
       end associate
-   end function alpha_note
+   end subroutine alpha_note
 
    !> Shear law; a contact given by its Moes numbers has no sliding speed and stays Newtonian
    pure function shear_of(input, scales) result(shear)

@@ -1,6 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Memory and time that a plan needs, before it takes them
 module ehl_plan_need
+   use, intrinsic :: iso_fortran_env, only: int64
+   use ehl_friction_mean, only: automatic_periods, periods_compared
    use ehl_kinds, only: dp
    use ehl_memory, only: check_memory, amount
    use ehl_plan, only: plan_t
@@ -9,7 +11,7 @@ module ehl_plan_need
    use ehl_transient, only: steps_needed
    implicit none (type, external)
    private
-   public :: check_need, need_lines, making_need
+   public :: check_need, need_lines, making_need, most_periods
 
    !> Bytes per stored node of the finest grid, those of the coarser ones included, as measured on 513 x 513 nodes: the
    !> smooth contact; what the rough one takes besides; what Alcouffe coarsening takes
@@ -27,6 +29,8 @@ module ehl_plan_need
    !> Seconds per cube of the unknowns of the coarsest grid, which is solved directly, ten times or so in a smooth contact; they
    !> are what a long grid takes (0.5 s of 1.1 at kappa = 10 on 257 nodes)
    real(dp), parameter :: direct_seconds = 1.0e-9_dp
+   !> Semi-axes over each other from which smooth contacts may be restarted with damped cycles (3 to 9 times as long)
+   real(dp), parameter :: long = 1.5_dp
    !> Cycles of a rough contact at rest
    real(dp), parameter :: rest_cycles = 20.0_dp
 
@@ -46,7 +50,7 @@ contains
       what = "grid.points = "
       if (plan%target_error > 0.0_dp) what = "grid.max_points, with grid.target_error up to "
       what = what//to_text(plan%finest%nx)
-      if (frames(plan) > 0.0_dp) what = what//" with output.frame_interval = "//to_text(plan%frame_interval)
+      if (frames(plan, most_steps(plan)) > 0.0_dp) what = what//" with output.frame_interval = "//to_text(plan%frame_interval)
       needed = bytes(plan, plan%threads)
       ! what the surfaces hold now is free no more
       needed = needed - plan%surfaces%bytes()
@@ -57,19 +61,27 @@ contains
    function need_lines(plan) result(text)
       type(plan_t), intent(in) :: plan
       character(len=:), allocatable :: text
+      real(dp) :: least, most
 
       text = "need       about "//amount(bytes(plan, 1))//" of memory and "//duration(seconds(plan))//" on one thread"
+      if (plan%contact%ellipticity > long .or. plan%contact%ellipticity < 1.0_dp/long) then
+         text = text//", up to ten times as long with damped cycles"
+      end if
       if (plan%target_error > 0.0_dp) text = text//", if it comes to the finest grid"
       if (plan%surfaces%move() .and. plan%steps == 0) text = text//", if it ends as early as it can"
       text = text//new_line("a")
-      if (.not. frames(plan) > 0.0_dp) return
+      least = frames(plan, steps(plan))
+      most = frames(plan, most_steps(plan))
+      if (.not. most > 0.0_dp) return
       text = text//"frames     "
       if (plan%frame_interval > plan%finest%hx) then
          text = text//"one in "//to_text(plan%frame_interval)//" a/u"
       else
          text = text//"after every step: output.frame_interval is no longer than a step"
       end if
-      text = text//", about "//to_text(int(frames(plan)))//" of P and H"//new_line("a")
+      text = text//", about "//to_text(nint(least, int64))
+      if (most > least) text = text//", at most "//to_text(nint(most, int64))//","
+      text = text//" of P and H"//new_line("a")
    end function need_lines
 
    !> What it takes to make a fractal surface of so many pixels per side, in words; empty where it is done in no time
@@ -109,12 +121,36 @@ contains
       if (plan%steps == 0) steps = steps_needed(plan%surfaces, plan%finest%hx, plan%skip_start, plan%predicted_start)
    end function steps
 
-   !> Frames that are kept until then
-   real(dp) function frames(plan)
+   !> Time steps until it ends if its mean has not settled
+   real(dp) function most_steps(plan)
       type(plan_t), intent(in) :: plan
 
+      most_steps = 0.0_dp
+      if (.not. plan%surfaces%move()) return
+      most_steps = plan%steps
+      if (plan%steps == 0) most_steps = steps_needed(plan%surfaces, plan%finest%hx, plan%skip_start, plan%predicted_start, &
+                                                     most_periods(plan))
+   end function most_steps
+
+   !> Periods after which a transient run ends at the latest
+   pure real(dp) function most_periods(plan)
+      type(plan_t), intent(in) :: plan
+
+      associate (most => merge(plan%max_periods, automatic_periods, plan%max_periods > 0), repeats => plan%surfaces%repeats)
+         most_periods = most
+         ! of several surfaces one period of all may be as long as that
+         if (repeats > 1) most_periods = max(real(most, dp)/repeats, periods_compared(repeats))
+      end associate
+      if (plan%surfaces%pass_once()) most_periods = 1.0_dp
+   end function most_periods
+
+   !> Frames that are kept in so many steps
+   pure real(dp) function frames(plan, steps)
+      type(plan_t), intent(in) :: plan
+      real(dp), intent(in) :: steps
+
       frames = 0.0_dp
-      if (plan%frame_interval > 0.0_dp) frames = aint(steps(plan)*min(1.0_dp, plan%finest%hx/plan%frame_interval))
+      if (plan%frame_interval > 0.0_dp) frames = aint(steps*min(1.0_dp, plan%finest%hx/plan%frame_interval))
    end function frames
 
    !> Stored nodes of the finest grid
@@ -136,7 +172,7 @@ contains
       bytes = bytes*nodes(plan) + line_bytes*plan%finest%nx*threads
       bytes = bytes + plan%surfaces%bytes_on(plan%finest)
       if (plan%coarse_run) bytes = bytes*(1.0_dp + coarser_bytes)
-      bytes = bytes + 16.0_dp*frames(plan)*plan%finest%nx*plan%finest%full_ny()
+      bytes = bytes + 16.0_dp*frames(plan, most_steps(plan))*plan%finest%nx*plan%finest%full_ny()
    end function bytes
 
    !> Seconds on one thread until the run can end

@@ -124,7 +124,7 @@ contains
       type(status_t), intent(inout) :: status
       character(len=:), allocatable :: why, what
 
-      why = map_needs(group, s)
+      call map_needs(group, s, why)
       what = trim(s%file)
       if (s%kind == "fractal") what = group//".kind = 'fractal'"
       if (why /= "") then
@@ -138,10 +138,10 @@ contains
    end subroutine check_map
 
    !> Why pyehl has to prepare a map, for a message; empty when the solver can read it
-   function map_needs(group, s) result(why)
+   subroutine map_needs(group, s, why)
       character(len=*), intent(in) :: group
       type(surface_case_t), intent(in) :: s
-      character(len=:), allocatable :: why
+      character(len=:), allocatable, intent(out) :: why
       real(dp) :: moved
 
       why = ""
@@ -158,18 +158,24 @@ contains
          why = group//".crop_x_min, crop_x_max, crop_y_min or crop_y_max"
       else if (s%outliers > 0.0_dp) then
          why = group//".outliers"
+      else if (s%align_lines /= "none") then
+         why = group//".align_lines"
+      else if (s%profile /= "none") then
+         why = group//".profile"
       else if (abs(s%rotate) > 0.0_dp) then
          why = group//".rotate"
       else if (s%sign /= 1) then
          why = group//".sign"
       else if (s%height_unit /= "m") then
          why = group//".height_unit"
+      else if (s%lateral_unit /= "same") then
+         why = group//".lateral_unit"
       else if (abs(s%track) > 0.0_dp) then
          why = group//".track"
       else if (index(s%file, ".npy", back=.true.) /= len_trim(s%file) - 3) then
          why = "it is no .npy array"
       end if
-   end function map_needs
+   end subroutine map_needs
 
    !> A tile of heights [m]
    subroutine make_map(group, s, scales, heights, surface, status)
@@ -214,7 +220,7 @@ contains
       call check_heights(group//".pixels = "//to_text(s%pixels), [s%pixels, s%pixels], status)
       if (status%failed()) return
       what = fractal_t(s%length_x, s%length_y, s%rms_height, s%hurst, s%rolloff_wavenumber, [int(s%seed, int32)], &
-                       s%modulus == "gaussian")
+                       s%modulus == "gaussian", s%lay_ratio)
       allocate (rows(s%pixels, s%pixels), stat=stat)
       if (stat /= 0) call status%fail(ehl_no_memory, "no memory for a fractal surface")
       if (.not. status%failed()) call make_fractal(what, rows, status)

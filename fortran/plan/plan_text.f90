@@ -6,7 +6,7 @@ module ehl_plan_text
    use ehl_kinds, only: dp
    use ehl_plan, only: plan_t
    use ehl_plan_need, only: need_lines
-   use ehl_resolution, only: too_coarse
+   use ehl_resolution, only: too_coarse, unresolved_inlet
    use ehl_steady, only: largest_error
    use ehl_surface_text, only: scene_lines, wave_lines
    use ehl_text, only: fixed, newline, to_text
@@ -96,6 +96,7 @@ contains
             if (plan%lubricant%boundary_film > 0.0_dp) call add("boundary   bodies touch at a film of "// &
                fixed(plan%lubricant%boundary_film*plan%scales%film, "es10.3")//" m at ambient pressure; their friction "// &
                "there is "//boundary_friction())
+            if (plan%inlet%in_doubt(plan%finest%hx)) call add("           "//unresolved_inlet(plan%inlet, plan%finest))
             if (plan%lubricant%boundary_limit > 0.0_dp) call add("hardness   the solids yield at "// &
                fixed(plan%lubricant%boundary_limit*plan%scales%pressure, "es10.3")//" Pa, "// &
                fixed(plan%lubricant%boundary_limit, "f6.3")//" p_h")

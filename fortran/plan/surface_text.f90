@@ -138,7 +138,10 @@ contains
             end do
             if (known) then
                text = text//"surface    composite rms height "//fixed(surfaces%rms_height()*scales%film, "es9.2")// &
-                      " m, rms slope "//fixed(surfaces%rms_slope()*scales%film/scales%length, "f8.5")//newline
+                      " m, rms slope "//fixed(surfaces%rms_slope()*scales%film/scales%length, "f8.5")
+               if (surfaces%move_together()) text = text//"; both move together, correlation "// &
+                                                    fixed(surfaces%correlation(1), "f9.2")
+               text = text//newline
             end if
          end if
          text = text//"waves      with fewer than 8 nodes a period hold "//share_words(surfaces%unresolved)// &

@@ -4,7 +4,7 @@ module ehl_contact_results
    use ehl_force_balance, only: load_excess
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
-   use ehl_level, only: gap, gap_row, level_t, yields
+   use ehl_level, only: gap_row, level_t, yields
    use ehl_touching, only: measure_touching, touches, touching_t
    implicit none (type, external)
    private
@@ -73,7 +73,7 @@ contains
       m%friction_newtonian = sum(newtonian)
       m%load = level%load
       m%load_error = load_excess(level)
-      m%film_central = central_value(level%grid, gap(level))
+      m%film_central = central_of_row(level%grid, gap_row(level, central_row(level%grid)))
       ! a NaN fails every comparison
       m%finite = abs(m%load_error) < huge(1.0_dp) .and. abs(m%film_central) < huge(1.0_dp) &
                  .and. m%friction < huge(1.0_dp) .and. abs(m%film_minimum) < huge(1.0_dp)
@@ -110,21 +110,34 @@ contains
       type(grid_t), intent(in) :: grid
       !> Shape (nx, ny)
       real(dp), intent(in) :: values(:, :)
-      real(dp) :: t
-      integer :: i, j
 
-      j = 1 + nint((0.0_dp - grid%y0)/grid%hy)
+      central_value = central_of_row(grid, values(:, central_row(grid)))
+   end function central_value
+
+   !> Row at Y = 0
+   pure integer function central_row(grid)
+      type(grid_t), intent(in) :: grid
+      central_row = 1 + nint((0.0_dp - grid%y0)/grid%hy)
+   end function central_row
+
+   !> The same of the row at Y = 0 alone, values(nx)
+   pure real(dp) function central_of_row(grid, values)
+      type(grid_t), intent(in) :: grid
+      real(dp), intent(in) :: values(:)
+      real(dp) :: t
+      integer :: i
+
       t = (0.0_dp - grid%x0)/grid%hx
       i = nint(t)
       if (abs(t - i) < 1.0e-9_dp) then
-         central_value = values(i + 1, j)
+         central_of_row = values(i + 1)
          return
       end if
       i = int(t) + 1
       t = t - (i - 1)
-      associate (v => values(i - 1:i + 2, j))
-         central_value = -t*(t - 1.0_dp)*(t - 2.0_dp)/6.0_dp*v(1) + (t*t - 1.0_dp)*(t - 2.0_dp)/2.0_dp*v(2) &
+      associate (v => values(i - 1:i + 2))
+         central_of_row = -t*(t - 1.0_dp)*(t - 2.0_dp)/6.0_dp*v(1) + (t*t - 1.0_dp)*(t - 2.0_dp)/2.0_dp*v(2) &
                          - t*(t + 1.0_dp)*(t - 2.0_dp)/2.0_dp*v(3) + t*(t*t - 1.0_dp)/6.0_dp*v(4)
       end associate
-   end function central_value
+   end function central_of_row
 end module ehl_contact_results

@@ -5,7 +5,8 @@
 !> the shear stress tau of its law at eta(p, T). What is downstream does not heat what is upstream: a row is solved from
 !> node to node, each by one equation f(q) = q - |u1 - u2| tau(T(q)) = 0 that has one root, for tau falls with T and T
 !> rises with q. Pressure and film are those of the isothermal flow; a contact that changes in time is taken as if it
-!> stood still.
+!> stood still. Where the bodies touch at a boundary film the stress is mu_b P whatever the temperature: its heat warms the
+!> walls as that of the film does, through a boundary film that conducts as the lubricant.
 module ehl_heated_friction
    use ehl_flow, only: flow_t
    use ehl_grid, only: grid_t
@@ -41,6 +42,8 @@ module ehl_heated_friction
       real(dp) :: greatest(3) = 0.0_dp
       !> Whether every node was solved
       logical :: solved = .false.
+      !> Whether there was memory for the rises at the nodes
+      logical :: fits = .true.
       !> The rises at the nodes (nx, ny, 3), if they were asked for
       real(dp), allocatable :: rise(:, :, :)
    contains
@@ -57,7 +60,7 @@ contains
    end function ratio
 
    !> Friction and temperature of a contact
-   subroutine heat_film(heat, grid, lubricant, p, h, keep, threads, found, flow, rho)
+   subroutine heat_film(heat, grid, lubricant, p, h, keep, threads, found, flow, rho, touching)
       type(film_heat_t), intent(in) :: heat
       type(grid_t), intent(in) :: grid
       type(lubricant_t), intent(in) :: lubricant
@@ -70,16 +73,22 @@ contains
       !> The flow with its stress of the isothermal contact, and the density (nx, ny); not given: the law at the sliding
       class(flow_t), intent(in), optional :: flow
       real(dp), contiguous, intent(in), optional :: rho(:, :)
+      !> Where the bodies touch at the boundary film (nx, ny); not given: nowhere
+      logical, contiguous, intent(in), optional :: touching(:, :)
       type(wall_heat_t) :: walls
       real(dp), dimension(grid%ny) :: friction, isothermal
       real(dp) :: greatest(3, grid%ny), rise(grid%nx, 3), newtonian(grid%nx), stress(grid%nx)
-      logical :: solved(grid%ny)
-      integer :: j
+      logical :: solved(grid%ny), solid(grid%nx)
+      integer :: j, stat
 
       call walls%start(grid%nx, grid%hx*heat%length, heat%strengths)
-      if (keep) allocate (found%rise(grid%nx, grid%ny, 3))
-      !$omp parallel do default(none) shared(heat, grid, lubricant, p, h, keep, found, flow, rho, walls, friction, &
-      !$omp isothermal, greatest, solved) private(rise, newtonian, stress) &
+      if (keep) then
+         allocate (found%rise(grid%nx, grid%ny, 3), stat=stat)
+         found%fits = stat == 0
+         if (.not. found%fits) return
+      end if
+      !$omp parallel do default(none) shared(heat, grid, lubricant, p, h, keep, found, flow, rho, touching, walls, &
+      !$omp friction, isothermal, greatest, solved) private(rise, newtonian, stress, solid) &
       !$omp num_threads(threads) if(threads > 1) schedule(dynamic)
       do j = 1, grid%ny
          if (present(flow)) then
@@ -87,8 +96,11 @@ contains
          else
             stress = law_stress(lubricant, p(:, j), h(:, j), spread(0.0_dp, 1, grid%nx))
          end if
+         solid = .false.
+         if (present(touching)) solid = touching(:, j)
+         where (solid) stress = lubricant%boundary_stress*p(:, j)
          isothermal(j) = sum(stress)*grid%weight(j)
-         call heat_row(heat, walls, lubricant, p(:, j), h(:, j), stress, rise, solved(j))
+         call heat_row(heat, walls, lubricant, p(:, j), h(:, j), solid, stress, rise, solved(j))
          friction(j) = sum(stress)*grid%weight(j)
          greatest(:, j) = maxval(rise, dim=1)
          if (keep) found%rise(:, j, :) = rise
@@ -101,11 +113,13 @@ contains
    end subroutine heat_film
 
    !> One row: rises of film and walls [K]
-   pure subroutine heat_row(heat, walls, lubricant, p, h, stress, rise, solved)
+   pure subroutine heat_row(heat, walls, lubricant, p, h, solid, stress, rise, solved)
       type(film_heat_t), intent(in) :: heat
       type(wall_heat_t), intent(in) :: walls
       type(lubricant_t), intent(in) :: lubricant
       real(dp), intent(in) :: p(:), h(:)
+      !> Where the stress is that of the boundary film, whatever the temperature
+      logical, intent(in) :: solid(:)
       !> In: shear stress of the isothermal contact, over the scale of the law; out: with the heat
       real(dp), intent(inout) :: stress(:)
       !> Shape (nx, 3)
@@ -138,7 +152,9 @@ contains
          end do
          share = walls%share(before, heat%film*h(i), heat%conductivity)
          q = 0.0_dp
-         if (i <= last) then
+         if (solid(i)) then
+            q = flux*stress(i)
+         else if (i <= last) then
             call heat_node(lubricant, p(i), h(i), factor(i), share%film, left, q, good)
             solved = solved .and. good
             stress(i) = q/flux

@@ -15,6 +15,9 @@ module ehl_level
    private
    public :: film_of_flow, gap, gap_row, is_touching, level_t, touches_at, yields
 
+   !> ln(eta/eta0) at the Hertz pressure, and lambda_bar (M = 640), below which a contact is as those of soft bodies
+   real(dp), parameter :: isoviscous_below = 8.0_dp, thin_below = 2.0e-3_dp
+
    !> Fields of one level, arrays of shape (nx, ny). Dimensionless: P by p_h, lengths by a,
    !> films by a^2/R. The equations are in reynolds.f90, film.f90 and force_balance.f90.
    type :: level_t
@@ -41,6 +44,8 @@ module ehl_level
       real(dp), allocatable :: rho(:, :), h_drho_dp(:, :)
       !> Mass content rho H
       real(dp), allocatable :: mass_content(:, :)
+      !> Whether the film is thin though the viscosity in the contact is not far from that of the inlet
+      logical :: soft = .false.
       !> Threads that work on it, and whether they are several
       integer :: threads = 1
       logical :: parallel = .false.
@@ -55,9 +60,12 @@ contains
    subroutine setup(self, status)
       class(level_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
+      real(dp) :: log_viscosity(1), slope(1)
       integer :: stat
 
       if (status%failed()) return
+      call self%lubricant%log_viscosity([1.0_dp], log_viscosity, slope)
+      self%soft = log_viscosity(1) < isoviscous_below .and. self%flow%inverse_speed > 1.0_dp/thin_below
       associate (nx => self%grid%nx, ny => self%grid%ny)
          allocate (self%p(nx, ny), self%h(nx, ny), self%geometry(nx, ny), &
                    self%rhs(nx, ny), self%residual(nx, ny), self%rho(nx, ny), self%h_drho_dp(nx, ny), &

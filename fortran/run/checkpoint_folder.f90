@@ -7,8 +7,10 @@ module ehl_checkpoint_folder
    use ehl_checkpoint, only: coarser, frame_file, state_files
    use ehl_clock, only: clock_t, start_clock
    use ehl_files, only: file_exists, make_folder, remove_file, remove_folder, rename_path
+   use ehl_folder_lock, only: folder_lock_t
    use ehl_folders, only: full_path, is_there, list_folder, make_parents, move_new, name_t, spare_path
    use ehl_kinds, only: dp
+   use ehl_processes, only: remove_left_over
    use ehl_npy, only: read_npy, write_npy
    use ehl_solver, only: solver_t
    use ehl_status, only: ehl_bad_input, ehl_file, status_t
@@ -33,11 +35,14 @@ module ehl_checkpoint_folder
       character(len=:), allocatable :: folder
       real(dp) :: interval = 0.0_dp
       type(clock_t) :: since
+      !> That of the results
+      type(folder_lock_t) :: lock
    contains
       procedure :: open => open_folder
       procedure :: tick
       procedure :: save
       procedure :: close => close_folder
+      procedure :: release
       procedure :: has_state
    end type checkpoint_folder_t
 
@@ -73,7 +78,8 @@ contains
       if (file_exists(folder//second_file)) call read_npy(folder//second_file, second_heights, status)
    end subroutine find_checkpoint
 
-   !> Make the folder of a transient run, unless the case wants none; refuse one with anything else in it. States
+   !> Take the folder of the results until `release`; make that of a transient run, unless the case wants none; refuse one with
+   !> anything else in it. States
    !> of an earlier run give way to those of this one, unless it goes on with them: they are kept under the name that
    !> the note tells.
    subroutine open_folder(self, results, input, solver, resumed, heights, second_heights, note, status)
@@ -91,10 +97,13 @@ contains
       character(len=:), allocatable :: place
 
       note = ""
+      call self%lock%take(results, status)
+      if (status%failed()) return
       if (.not. solver%plan%surfaces%move() .or. input%output%checkpoint_interval <= 0.0_dp) return
       place = checkpoint_path(results)
       call check_ours(place, status)
       if (status%failed()) return
+      call remove_left_over(place(:len(place) - 1), ".partial", is_file_of_ours)
       same = .false.
       if (resumed /= "") same = place == checkpoint_path(resumed)
       if (.not. same) then
@@ -156,6 +165,12 @@ contains
       deallocate (self%folder)
    end subroutine close_folder
 
+   !> Give the folder of the results back
+   subroutine release(self)
+      class(checkpoint_folder_t), intent(inout) :: self
+      call self%lock%release()
+   end subroutine release
+
    !> Whether a folder holds a state
    logical function holds_state(folder)
       character(len=*), intent(in) :: folder
@@ -191,7 +206,7 @@ contains
    end subroutine check_ours
 
    !> Whether a file of the folder has such a name, whole or half written
-   pure logical function is_file_of_ours(name)
+   logical function is_file_of_ours(name)
       character(len=*), intent(in) :: name
       integer :: last
 

@@ -138,7 +138,8 @@ contains
          friction = ""
          if (known("mu")) then
             friction = "mu         "//fixed(summary%number("mu"), "f9.5")
-            if (summary%has("mu_ratio")) friction = friction//", smooth contact "//fixed(summary%number("mu_smooth"), "f9.5")
+            if (summary%has("mu_ratio") .and. known("mu_smooth")) friction = friction//", smooth contact "// &
+               fixed(summary%number("mu_smooth"), "f9.5")
          else if (known("mu_smooth")) then
             friction = "mu         smooth contact "//fixed(summary%number("mu_smooth"), "f9.5")
          else if (summary%text("mu_note") /= "" .and. (known("H_c") .or. known("h_c_m"))) then
@@ -181,21 +182,41 @@ contains
       end select
    end function resumption
 
-   !> A value with its error to two digits, and as many digits itself: '1.185 +- 0.048'
+   !> A value with its error to two digits, and as many digits itself: '1.185 +- 0.048', '2.6435E-06 +- 5.5E-09'
    function with_error(value, error, plain, unit) result(text)
       real(dp), intent(in) :: value, error
       !> Edit descriptor of a value whose error is not known
       character(len=*), intent(in) :: plain, unit
       character(len=:), allocatable :: text
       character(len=:), allocatable :: form
+      !> Values below that have an exponent
+      real(dp), parameter :: small = 1.0e-4_dp
+      integer :: decimals
 
       if (.not. ieee_is_finite(error)) then
          text = fixed(value, plain)//unit//", error not known"
          return
       end if
-      form = "f24."//to_text(min(9, max(0, 1 - floor(log10(max(abs(error), tiny(error)))))))
-      text = without_point(fixed(value, form))//" +- "//without_point(fixed(error, form))//unit
+      decimals = max(0, 1 - floor(log10(max(abs(error), 1.0e-9_dp*abs(value), tiny(error)))))
+      if (abs(value) < small .and. abs(value) > 0.0_dp) then
+         form = "es24."//to_text(min(15, max(1, decimals + floor(log10(abs(value))))))
+         text = in_form(value, form)//" +- "//in_form(error, "es8.1")//unit
+         return
+      end if
+      form = "f24."//to_text(min(9, decimals))
+      text = without_point(in_form(value, form))//" +- "//without_point(in_form(error, form))//unit
    end function with_error
+
+   !> A number by an edit descriptor, as it stands
+   pure function in_form(x, form) result(text)
+      real(dp), intent(in) :: x
+      character(len=*), intent(in) :: form
+      character(len=:), allocatable :: text
+      character(len=32) :: buffer
+
+      write (buffer, "("//form//")") x
+      text = trim(adjustl(buffer))
+   end function in_form
 
    !> A number without a point at its end
    pure function without_point(number) result(text)

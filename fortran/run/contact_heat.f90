@@ -3,6 +3,8 @@
 submodule (ehl_contact_run) ehl_contact_heat
    use ehl_heated_friction, only: heat_film
    use ehl_kinds, only: not_known
+   use ehl_status, only: ehl_no_memory
+   use ehl_touching, only: touches
    implicit none (type, external)
 
    !> Steps in a period after which it is computed: what the heat takes from the friction changes slowly
@@ -11,18 +13,37 @@ submodule (ehl_contact_run) ehl_contact_heat
 contains
 
    module procedure add_heat
+      logical, allocatable :: touching(:, :)
+      integer :: j, stat
+
       associate (level => self%hierarchy%levels(n))
-         call heat_film(self%plan%heat%film, level%grid, level%lubricant, level%p, level%h, keep, level%threads, found, &
-                        level%flow, level%rho)
+         if (allocated(level%boundary)) then
+            allocate (touching(level%grid%nx, level%grid%ny), stat=stat)
+            if (stat /= 0) then
+               call status%fail(ehl_no_memory, "no memory for the temperatures of film and walls")
+               return
+            end if
+            do j = 1, level%grid%ny
+               touching(:, j) = touches(level, j)
+            end do
+            call heat_film(self%plan%heat%film, level%grid, level%lubricant, level%p, level%boundary%film, keep, level%threads, &
+                           found, level%flow, level%rho, touching)
+         else
+            call heat_film(self%plan%heat%film, level%grid, level%lubricant, level%p, level%h, keep, level%threads, found, &
+                           level%flow, level%rho)
+         end if
       end associate
+      if (.not. found%fits) call status%fail(ehl_no_memory, "no memory for the temperatures of film and walls")
    end procedure add_heat
 
    module procedure step_heat
       type(heated_t) :: found
+      type(status_t) :: status
 
       step_heat = not_known
       if (mod(self%transient%step, interval(self)) > 0) return
-      call add_heat(self, self%steady%n, .false., found)
+      ! of no field: nothing that could fail
+      call add_heat(self, self%steady%n, .false., found, status)
       step_heat = found%ratio()
    end procedure step_heat
 

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> A planned contact from its first cycle to its end: smooth, then with the rough surface, at rest or in time steps
 module ehl_contact_run
-   use ehl_checkpoint, only: checkpoint_t
+   use ehl_checkpoint, only: checkpoint_t, words_t
    use ehl_clock, only: clock_t, start_clock
    use ehl_frames, only: frames_t
    use ehl_grid, only: grid_t
@@ -14,7 +14,7 @@ module ehl_contact_run
    use ehl_plan_surface, only: check_carried
    use ehl_predicted_start, only: predicted_start_t
    use ehl_stationary_roughness, only: stationary_roughness_t
-   use ehl_status, only: status_t
+   use ehl_status, only: ehl_no_memory, status_t
    use ehl_steady, only: steady_t
    use ehl_stopping_criterion, only: transient_outcome
    use ehl_table, only: table_t
@@ -50,9 +50,10 @@ module ehl_contact_run
       !> State on disk, and to go on from when the smooth contact is solved
       type(checkpoint_t) :: checkpoint
       !> Of the same run on the next coarser grid: its friction ratio and load share, if it converged, and how it ended;
-      !> outcome_running: it has not
+      !> outcome_running: it has not; the error that ended it
       real(dp) :: coarse_ratio = 0.0_dp, coarse_load_share = 0.0_dp
       integer :: coarse_outcome = outcome_running
+      character(len=:), allocatable :: coarse_message
    contains
       procedure :: begin
       procedure, private :: begin_history
@@ -84,11 +85,12 @@ module ehl_contact_run
    ! in contact_heat.f90
    interface
       !> Friction and temperature of the present contact on a level; the temperature at every node if it is to be kept
-      module subroutine add_heat(self, n, keep, found)
+      module subroutine add_heat(self, n, keep, found, status)
          class(contact_run_t), intent(in) :: self
          integer, intent(in) :: n
          logical, intent(in) :: keep
          type(heated_t), intent(out) :: found
+         type(status_t), intent(inout) :: status
       end subroutine add_heat
 
       !> Friction with heat over that without it after a step; NaN where it is not computed
@@ -166,7 +168,7 @@ contains
       self%grid = self%hierarchy%levels(n)%grid
       if (.not. self%roughness_is_due()) self%outcome = self%steady%outcome
       if (self%plan%heat%counts .and. any(self%steady%outcome == [outcome_converged, outcome_target_missed])) then
-         call add_heat(self, n, .not. self%plan%surfaces%rough(), self%smooth_heat)
+         call add_heat(self, n, .not. self%plan%surfaces%rough(), self%smooth_heat, status)
       end if
       if (self%plan%surfaces%rough()) return
       associate (result => self%steady%results(n))
@@ -187,14 +189,21 @@ contains
    subroutine begin_rough(self, status)
       class(contact_run_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
+      integer :: stat
 
       call self%plan%see_waves(self%grid)
       call check_carried(self%plan%surfaces, self%grid, status)
       call self%plan%surfaces%prepare(self%grid, status)
       if (status%failed()) return
       associate (plan => self%plan, n => self%steady%n)
-         self%p_smooth = self%hierarchy%levels(n)%p
-         self%h_smooth = gap(self%hierarchy%levels(n))
+         if (allocated(self%p_smooth)) deallocate (self%p_smooth, self%h_smooth)
+         allocate (self%p_smooth(self%grid%nx, self%grid%ny), self%h_smooth(self%grid%nx, self%grid%ny), stat=stat)
+         if (stat /= 0) then
+            call status%fail(ehl_no_memory, "no memory for the fields of the smooth contact")
+            return
+         end if
+         self%p_smooth(:, :) = self%hierarchy%levels(n)%p
+         self%h_smooth(:, :) = gap(self%hierarchy%levels(n))
          self%h00_smooth = self%hierarchy%levels(n)%h00
          if (plan%surfaces%rest() .or. plan%surfaces%some_rest()) then
             call self%rest%start(self%hierarchy%levels(n), n, plan%contact, plan%surfaces, plan%steady_options_t, status)
@@ -223,7 +232,9 @@ contains
       end if
       self%seconds = self%seconds + clock%seconds()
       self%outcome = self%rest%outcome
-      if (self%plan%heat%counts .and. self%outcome == outcome_converged) call add_heat(self, self%steady%n, .true., self%rough_heat)
+      if (self%plan%heat%counts .and. self%outcome == outcome_converged) then
+         call add_heat(self, self%steady%n, .true., self%rough_heat, status)
+      end if
       associate (rest => self%rest, m => self%rest%m)
          call self%history%append([real(dp) :: rest%total_cycles, rest%share, rest%mu_ratio(), m%film_central, &
                                    m%film_minimum, m%pressure_maximum, m%load_error, rest%residual])
@@ -245,8 +256,7 @@ contains
          if (status%failed()) return
          self%outcome = transient%state
          if (transient%state /= outcome_converged) then
-            if (transient%mean%transit > 0.0_dp .and. transient%mean%n < transient%mean%filled .and. &
-                .not. self%checkpoint%found()) call begin_again(self, status)
+            if (transient%mean%transit > 0.0_dp .and. transient%mean%n < transient%mean%filled) call begin_again(self, status)
             return
          end if
          row = [real(dp) :: transient%step, transient%time, m%friction/transient%friction_smooth, m%film_central, &
@@ -260,7 +270,7 @@ contains
          if (self%plan%surfaces%pass_once()) call transient%extremes%see(level, self%p_smooth, self%h_smooth, transient%time)
          self%outcome = transient_outcome(self%plan, transient)
          if (self%plan%heat%counts .and. self%outcome == outcome_converged) then
-            call add_heat(self, self%steady%n, .true., self%rough_heat)
+            call add_heat(self, self%steady%n, .true., self%rough_heat, status)
          end if
          call self%frames%keep(level, transient%time, transient%time_step, self%plan%frame_interval, status)
       end associate
@@ -291,10 +301,13 @@ contains
       !> Folder with its '/', and what the names begin with; the case that the state belongs to
       character(len=*), intent(in) :: prefix, text
       type(status_t), intent(inout) :: status
+      type(words_t) :: words(2)
 
       if (.not. self%in_steps .or. self%transient%step == 0) return
+      if (allocated(self%coarse_message)) words(1)%text = self%coarse_message
+      if (allocated(self%why_front)) words(2)%text = self%why_front
       call self%checkpoint%write(prefix, text, self%transient, self%history, self%frames, &
                                  [self%seconds, self%coarse_ratio, real(self%coarse_outcome, dp), &
-                                  self%coarse_load_share], status)
+                                  self%coarse_load_share], words, status)
    end subroutine save
 end module ehl_contact_run

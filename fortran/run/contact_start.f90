@@ -42,11 +42,13 @@ contains
                           "expected: time.start = 'front', or 'pyehl run'")
          return
       end if
-      call self%transient%fill(self%hierarchy%levels(n), self%plan%surfaces, self%predicted, done)
+      call self%transient%fill(self%hierarchy%levels(n), self%plan%surfaces, self%predicted, done, status)
+      if (status%failed()) return
       if (.not. done) self%why_front = "the film would be negative"
    end subroutine begin_filled
 
    module procedure begin_again
+      call self%checkpoint%forget()
       self%why_front = "the first steps from it ended with '"//trim(outcome_names(self%transient%state))//"'"
       associate (level => self%hierarchy%levels(self%steady%n))
          self%transient%rr = 0.0_dp
@@ -65,23 +67,24 @@ contains
       class(contact_run_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
       real(dp) :: numbers(4)
+      type(words_t) :: words(2)
       logical :: same
 
-      call self%checkpoint%read(self%transient, self%history, self%frames, self%grid, numbers, status)
+      call self%checkpoint%read(self%transient, self%history, self%frames, self%grid, numbers, words, status)
       if (status%failed()) return
       self%seconds = numbers(1)
       self%coarse_ratio = numbers(2)
       self%coarse_outcome = nint(numbers(3))
       self%coarse_load_share = numbers(4)
-      if (self%plan%predicted_start .and. .not. (self%transient%mean%transit > 0.0_dp .or. allocated(self%why_front))) then
-         self%why_front = "the first steps from it failed"
-      end if
+      if (allocated(words(1)%text)) self%coarse_message = words(1)%text
+      if (allocated(words(2)%text)) self%why_front = words(2)%text
       call self%transient%restore(self%hierarchy%levels(self%steady%n), self%plan%surfaces, same)
       if (.not. same) then
          call status%fail(ehl_bad_input, self%checkpoint%path//": error: the film of this state does not follow from "// &
                           "its pressure"//new_line("a")//"expected: the surface and the program that it was made with")
          return
       end if
+      call self%checkpoint%end_resuming()
       self%outcome = transient_outcome(self%plan, self%transient)
    end subroutine take_state
 end submodule ehl_contact_start

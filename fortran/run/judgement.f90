@@ -1,8 +1,9 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> What a result is worth to an engineer: one line from its summary, of a solution or a prediction
 module ehl_judgement
-   use ehl_kinds, only: dp
+   use ehl_kinds, only: dp, pi
    use ehl_record, only: record_t
+   use ehl_resolution, only: no_inlet
    use ehl_text, only: fixed, percent, short => rounded, to_text
    use ehl_touching, only: much_supplied
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
@@ -22,12 +23,20 @@ module ehl_judgement
    real(dp), parameter :: touching = 1.0_dp, apart = 3.0_dp
    !> A result whose error is a larger share of it is not well known
    real(dp), parameter :: well_known = 0.05_dp
+   !> Correlation of two surfaces above which they are no pair of independent ones
+   real(dp), parameter :: alike = 0.5_dp
+   !> Status of a prediction whose film is known, and whose pressures are beyond the model
+   character(len=*), parameter :: beyond = "beyond linear response"
    !> Flash temperature [K] above which an oil is thinner than computed, where its heat is left out
    real(dp), parameter :: hot = 10.0_dp
+   !> Contact radius and film over the radius of curvature from which the theory of small ones is named, and mean strain over
+   !> the former (Tabor 1951)
+   real(dp), parameter :: slender_contact = 0.1_dp, slender_film = 0.01_dp, mean_strain = 0.2_dp
 
 contains
 
-   !> A word and the reason for it: 'no answer', 'film breakdown', 'beyond the solids', 'mixed film', 'yielding solids',
+   !> A word and the reason for it: 'no answer', 'film breakdown', 'beyond the solids', 'unresolved inlet', 'mixed film',
+   !> 'yielding solids',
    !> 'thin film', 'unresolved waves' or 'full film', then what else there is to know
    subroutine judge(summary, text, worth)
       type(record_t), intent(in) :: summary
@@ -42,14 +51,17 @@ contains
       breaks = status == "film breakdown" .or. (status == "negative film" .and. ieee_is_finite(summary%number("H_c")))
       if (breaks) then
          text = "film breakdown: "//summary%text("message")
-      else if (all(status /= [character(len=13) :: "converged", "predicted", "target missed"])) then
+      else if (all(status /= [character(len=len(beyond)) :: "converged", "predicted", "target missed", beyond])) then
          text = "no answer: the status is '"//status//"'"
          if (summary%text("message") /= "") text = text//": "//summary%text("message")
       else
          worth = with_care
          doubts = of_pressure(summary)//of_contact(summary)//of_yielding(summary)//of_waves(summary)
-         rest = of_errors(summary)//of_heat(summary)
+         rest = of_errors(summary)//of_heat(summary)//of_two_alike(summary)//of_slenderness(summary)
+         if (summary%text("surface_findings") /= "") rest = rest//"the map is not roughness alone: "// &
+                                                         summary%text("surface_findings")//"; "
          if (status == "target missed") rest = "grid.target_error is missed; "//rest
+         if (status == beyond) rest = "mu_r/mu_s is not known: "//summary%text("message")//"; "//rest
          if (doubts /= "") then
             text = doubts(:len(doubts) - 2)
          else
@@ -82,6 +94,7 @@ contains
 
       if (.not. larger(summary%number("contact_load_share"), 0.0_dp)) then
          text = of_film(summary)
+         if (index(summary%text("H_c_error_note"), no_inlet) == 1) text = "unresolved inlet: "//summary%text("H_c_error_note")//"; "
          return
       end if
       text = "mixed film: "//percent(summary%number("contact_load_share"))//" of the load is carried at the boundary film, "
@@ -183,6 +196,36 @@ contains
       if (.not. larger(rise, hot) .or. ieee_is_finite(summary%number("temperature_rise_max_K"))) return
       text = "the surfaces warm by "//short(rise)//" K, and the oil of the model does not; "
    end function of_heat
+
+   !> Two surfaces that move together and are much the same
+   function of_two_alike(summary) result(text)
+      type(record_t), intent(in) :: summary
+      character(len=:), allocatable :: text
+
+      text = ""
+      if (larger(abs(summary%number("surface_correlation")), alike)) text = "the two surfaces move together and are alike "// &
+         "(correlation "//fixed(summary%number("surface_correlation"), "f9.2")//"), so that their waves add up; "
+   end function of_two_alike
+
+   !> A contact that is wide, or a film that is thick, beside the radius: the half-space, the parabolas of its bodies and the
+   !> Reynolds equation are for small ones. The mean strain of a dry contact is about 0.2 a/R (Tabor 1951).
+   function of_slenderness(summary) result(text)
+      type(record_t), intent(in) :: summary
+      character(len=:), allocatable :: text
+      real(dp) :: wide, thick
+
+      text = ""
+      wide = summary%number("film_scale_m")/summary%number("hertz_radius_m")
+      thick = summary%number("h_c_m")/summary%number("hertz_radius_m")*wide
+      if (summary%has("ellipticity")) wide = max(wide, wide*summary%number("ellipticity")*summary%number("radius_ratio"))
+      if (larger(wide, slender_contact)) then
+         text = "the contact radius is "//short(wide, 2)//" of the radius of curvature"
+         if (.not. summary%has("ellipticity")) text = text//" (p_h/E' = "//short(wide/pi, 2)//")"
+         text = text//", a strain of about "//percent(mean_strain*wide)//", and the half-space is for small strains; "
+      end if
+      if (larger(thick, slender_film)) text = text//"the film is "//short(thick, 2)//" of the radius, and the Reynolds "// &
+         "equation is for slender gaps; "
+   end function of_slenderness
 
    !> The least film in words
    function least_film(summary) result(text)

@@ -185,6 +185,7 @@ contains
             call record%set("lambda_ratio", smooth%film_minimum/sigma)
             call record%set("lambda_ratio_central", smooth%film_central/sigma)
          end if
+         if (surfaces%move_together()) call record%set("surface_correlation", surfaces%correlation(1))
          variance = 0.0_dp
          do k = 1, surfaces%count()
             variance = variance + [surfaces%of(k)%surface%variance, surfaces%of(k)%surface%variance_whole]

@@ -9,7 +9,6 @@ module ehl_report_friction
    use ehl_level, only: gap
    use ehl_plan, only: plan_t
    use ehl_record, only: record_t
-   use ehl_report_touching, only: no_boundary_friction
    use ehl_text, only: fixed, to_text
    use ehl_touching, only: same_film
    use ehl_wall_heat, only: heat_source
@@ -22,18 +21,21 @@ contains
 
    !> Coefficients, shear rate and stress of the smooth contact, flash temperature; null where they are not known or
    !> mean nothing
-   subroutine report_friction(record, run, good, converged, known)
+   subroutine report_friction(record, run, good, converged, why_none)
       type(record_t), intent(inout) :: record
       class(contact_run_t), intent(in) :: run
-      !> Whether the smooth contact is converged, and the run; whether friction is known where the bodies touch
-      logical, intent(in) :: good, converged, known
+      !> Whether the smooth contact is converged, and the run
+      logical, intent(in) :: good, converged
+      !> Why friction is not known where the bodies touch; empty where it is
+      character(len=*), intent(in) :: why_none
       !> Friction integral of the smooth contact, the friction over it, and that of the rough contact with heat over it without
       real(dp) :: friction, ratio, heat_ratio
       real(dp) :: mu_smooth, mu, rate, stress, moment, rise, rises(3), speed, isothermal(2), source(2)
-      logical :: rough
+      logical :: rough, known
       character(len=:), allocatable :: note
 
       rough = run%in_steps .or. run%resting
+      known = why_none == ""
       friction = merge(run%steady%results(run%level())%m%friction, not_known, good .and. known)
       ratio = merge(not_known, 1.0_dp, run%plan%surfaces%rough())
       heat_ratio = not_known
@@ -60,9 +62,9 @@ contains
          if (.not. s%mean_velocity > 0.0_dp) then
             note = "a ratio alone: moes_m and moes_l give no sliding speed in m/s"
          else if (.not. speed > 0.0_dp) then
-            note = "a ratio alone, that of vanishing sliding: there is no sliding, and rolling friction is not computed"
+            note = "a ratio alone, that of vanishing sliding: there is no sliding, and rolling_moment_N_m resists the rolling"
          else if (.not. known) then
-            note = no_boundary_friction
+            note = why_none
          else if (.not. ieee_is_finite(friction)) then
             note = "the smooth contact is not converged"
          else if (shear%thins() .or. stress <= s%newtonian_limit) then

@@ -4,14 +4,14 @@ module ehl_report_smooth
    use ehl_contact_results, only: contact_results_t
    use ehl_domain, only: too_small
    use ehl_kinds, only: dp, not_known, pi
-   use ehl_level_result, only: discretisation_error, extrapolated, limit_error
+   use ehl_level_result, only: extrapolated, film_errors, limit_error, share_error
    use ehl_plan, only: plan_t
    use ehl_record, only: record_t
-   use ehl_resolution, only: better_grid, relative_errors
+   use ehl_resolution, only: better_grid, relative_errors, unresolved_inlet
    use ehl_steady, only: steady_t
    implicit none (type, external)
    private
-   public :: report_smooth
+   public :: report_smooth, touches_for_grid
 
    !> What a domain of twice the size would add to F, int 2/r^2 dA = 4 pi ln 2 over a gap of r^2/2 and the viscosity of
    !> the inlet. It counts for lubricants whose viscosity hardly rises with pressure.
@@ -42,17 +42,18 @@ contains
          end do
          values = not_known
       end if
-      if (.not. knows_friction(plan, m)) values(4) = not_known
+      if (.not. knows_friction(plan, steady, n)) values(4) = not_known
       error = not_known
       limit = not_known
       coarser = .false.
       if (good .and. n > 1) coarser = steady%results(n - 1)%solved
       if (coarser) then
-         error = discretisation_error(m, steady%results(n - 1)%m) + steady%results(n)%algebraic
+         error = film_errors(m, steady%results(n - 1)%m, steady%results(n)%mesh, plan%inlet) + steady%results(n)%algebraic
          limit = extrapolated(steady%results, n)
       else if (good) then
          ! one grid alone: what such grids have been found to miss
          error = relative_errors(plan%contact, plan%point, plan%finest)*m%films()
+         if (m%touching%load_share > 0.0_dp) error = max(error, plan%inlet%film_errors(m, steady%results(n)%mesh))
       end if
       domain = not_known
       where (plan%domain_cost < 1.0_dp) domain = values(:2)*plan%domain_cost/(1.0_dp - plan%domain_cost)
@@ -66,6 +67,11 @@ contains
          call record%set(trim(of_contact(k))//"_error_domain", domain(k))
          if (good .and. .not. plan%domain_cost(k) < 1.0_dp) call record%set(trim(of_contact(k))//"_error_note", too_small)
       end do
+      if (good .and. touches_for_grid(plan, steady, n)) then
+         do k = 1, 2
+            call record%set(trim(of_contact(k))//"_error_note", unresolved_inlet(plan%inlet, plan%finest))
+         end do
+      end if
       why = better_grid(plan%contact, plan%point, plan%finest)
       if (.not. good .and. why /= "") call record%set("H_c_error_note", why)
       call record%set("error_estimate", trim(merge("two grids", "a priori ", coarser)))
@@ -95,7 +101,7 @@ contains
       type(steady_t), intent(in) :: steady
       integer, intent(in) :: n
       logical, intent(in) :: good
-      character(len=len(too_small)) :: note
+      character(len=:), allocatable :: note
       real(dp) :: error(2)
       logical :: known(2)
 
@@ -117,21 +123,35 @@ contains
          known = .false.
          if (good) note = too_small
       end if
-      known(2) = known(2) .and. knows_friction(plan, steady%results(n)%m)
+      known(2) = known(2) .and. knows_friction(plan, steady, n)
       associate (m => steady%results(n)%m)
          error = error + [m%pressure_maximum, m%friction]*plan%domain_cost(1) + [0.0_dp, friction_beyond]
+         ! the load that may or may not be at the boundary film
+         if (n > 1) error(2) = error(2) + plan%lubricant%boundary_stress*m%load*share_error(steady%results, n, plan%inlet)
       end associate
       where (.not. known) error = not_known
       call record%set("P_max_error", error(1))
-      if (.not. known(1)) call record%set("P_max_error_note", trim(note))
+      if (.not. known(1)) call record%set("P_max_error_note", note)
       call record%set("F_error", error(2))
-      if (.not. known(2)) call record%set("F_error_note", trim(note))
+      if (good .and. touches_for_grid(plan, steady, n)) note = unresolved_inlet(plan%inlet, plan%finest)
+      if (.not. known(2)) call record%set("F_error_note", note)
    end subroutine report_limits
 
-   !> Whether friction is known: of the boundary film, too, where the bodies touch
-   pure logical function knows_friction(plan, m)
+   !> Whether friction is known: of the boundary film, too, where the bodies touch, and that they do so on any grid
+   pure logical function knows_friction(plan, steady, n)
       type(plan_t), intent(in) :: plan
-      type(contact_results_t), intent(in) :: m
-      knows_friction = .not. m%touching%load_share > 0.0_dp .or. plan%lubricant%boundary_stress > 0.0_dp
+      type(steady_t), intent(in) :: steady
+      integer, intent(in) :: n
+
+      knows_friction = .not. steady%results(n)%m%touching%load_share > 0.0_dp .or. plan%lubricant%boundary_stress > 0.0_dp
+      if (touches_for_grid(plan, steady, n)) knows_friction = .false.
    end function knows_friction
+
+   !> Whether the bodies touch on a grid that does not resolve the inlet, and may do so for that
+   pure logical function touches_for_grid(plan, steady, n)
+      type(plan_t), intent(in) :: plan
+      type(steady_t), intent(in) :: steady
+      integer, intent(in) :: n
+      touches_for_grid = .not. plan%inlet%resolves(steady%results(n)%m, steady%results(n)%mesh)
+   end function touches_for_grid
 end module ehl_report_smooth

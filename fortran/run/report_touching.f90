@@ -4,18 +4,18 @@ module ehl_report_touching
    use ehl_contact_run, only: contact_run_t
    use ehl_friction_mean, only: friction_mean_t
    use ehl_kinds, only: dp, not_known, pi
+   use ehl_level_result, only: share_error
    use ehl_outcome, only: outcome_converged
    use ehl_plan, only: plan_t
    use ehl_record, only: record_t
-   use ehl_resolution, only: has_solution
+   use ehl_report_smooth, only: touches_for_grid
+   use ehl_resolution, only: has_solution, unresolved_inlet
    use ehl_touching, only: at_depth, known_names, mostly_touching, much_supplied, touching_names
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    implicit none (type, external)
    private
-   public :: report_touching, knows_friction, load_share_of, no_boundary_friction
+   public :: report_touching, why_no_friction, load_share_of
 
-   !> Layer over the central film by formula from which on that film hardly matters
-   real(dp), parameter :: dry_from = 2.0_dp
    !> Why there is no friction
    character(len=*), parameter :: no_boundary_friction = "the bodies touch, and the friction there is not known: "// &
                                                          "lubricant.boundary_friction and sliding are needed"
@@ -33,12 +33,16 @@ contains
       !> As touching.f90 has them; the load share on the next coarser grid; its errors by the grid and by the end of the run
       real(dp) :: numbers(size(touching_names)), coarser, error, stop_error
       character(len=:), allocatable :: note, why
+      logical :: dry
       integer :: n
 
       if (.not. run%plan%lubricant%boundary_film > 0.0_dp) return
       numbers = not_known
       coarser = not_known
       stop_error = not_known
+      error = not_known
+      n = run%level()
+      note = ""
       why = "there is no solution on the next coarser grid"
       if (run%plan%surfaces%rough()) then
          if (converged) then
@@ -46,27 +50,34 @@ contains
             stop_error = share_stop_error(run)
          end if
          if (run%coarse_outcome == outcome_converged) coarser = run%coarse_load_share
+         ! of order 1, as the edge of a touching zone lies between two nodes
+         error = abs(numbers(1) - coarser)
          why = why_no_grid_error
       else if (good) then
          numbers = touching_of(run)
-         stop_error = 0.0_dp
-         n = run%level()
-         if (n > 1) then
-            if (run%steady%results(n - 1)%solved) coarser = run%steady%results(n - 1)%m%touching%load_share
-         end if
+         associate (results => run%steady%results)
+            stop_error = results(n)%share_algebraic
+            if (n > 1) then
+               if (results(n - 1)%solved) coarser = results(n - 1)%m%touching%load_share
+               error = share_error(results, n, run%plan%inlet)
+            end if
+         end associate
       end if
-      ! of order 1, as the edge of a touching zone lies between two nodes
-      error = abs(numbers(1) - coarser)
-      note = ""
       associate (plan => run%plan)
+         dry = plan%inlet%is_dry()
          if (.not. ieee_is_finite(numbers(1))) then
             note = "there is no solution"
+         else if (.not. plan%surfaces%rough() .and. touches_for_grid(run%plan, run%steady, run%level())) then
+            note = unresolved_inlet(plan%inlet, run%grid)
+            numbers = not_known
+            error = not_known
          else if (.not. ieee_is_finite(coarser)) then
             note = why
-         else if (.not. (is_dry(plan) .or. has_solution(plan%contact, plan%point, run%grid%coarser()))) then
+            error = not_known
+         else if (plan%surfaces%rough() .and. .not. (dry .or. has_solution(plan%contact, plan%point, run%grid%coarser()))) then
             note = "the next coarser grid does not resolve the inlet, and bodies touch on it for that"
             error = not_known
-         else if (.not. is_dry(plan) .and. numbers(1) > mostly_touching .and. numbers(3) > much_supplied) then
+         else if (.not. dry .and. numbers(1) > mostly_touching .and. numbers(3) > much_supplied) then
             note = "most of the load is at a layer that would have to give much of the flow: the share may change on any grid"
             error = not_known
          end if
@@ -86,29 +97,22 @@ contains
       end associate
    end subroutine report_touching
 
-   !> Whether the film that the inlet makes is nothing beside the layer
-   logical function is_dry(plan)
-      type(plan_t), intent(in) :: plan
-
-      associate (point => plan%point)
-         is_dry = plan%lubricant%boundary_film > dry_from*plan%contact%film_formula(point%moes_m, point%moes_l)
-      end associate
-   end function is_dry
-
-   !> Whether friction is known: everywhere in the film, or of the boundary film, too
-   logical function knows_friction(run, converged)
+   !> Why there is no friction; empty where it is known: everywhere in the film, or of the boundary film, too
+   function why_no_friction(run, converged) result(why)
       class(contact_run_t), intent(in) :: run
       logical, intent(in) :: converged
+      character(len=:), allocatable :: why
       real(dp) :: share
 
-      knows_friction = .not. run%plan%lubricant%boundary_film > 0.0_dp .or. run%plan%lubricant%boundary_stress > 0.0_dp
-      if (knows_friction) return
+      why = ""
+      if (touches_for_grid(run%plan, run%steady, run%level())) why = unresolved_inlet(run%plan%inlet, run%grid)
+      if (.not. run%plan%lubricant%boundary_film > 0.0_dp .or. run%plan%lubricant%boundary_stress > 0.0_dp) return
       share = 0.0_dp
       if (run%resting) share = run%rest%m%touching%load_share
       if (run%in_steps) share = run%transient%m%touching%load_share
       if (run%in_steps .and. converged) share = load_share_of(run)
-      knows_friction = .not. (share > 0.0_dp .or. run%steady%results(run%level())%m%touching%load_share > 0.0_dp)
-   end function knows_friction
+      if (max(share, run%steady%results(run%level())%m%touching%load_share) > 0.0_dp) why = no_boundary_friction
+   end function why_no_friction
 
    !> What reynolds/touching.f90 reads off the contact of a run that has converged; in time steps means over the time of the mean
    !> friction ratio, and the greatest depth

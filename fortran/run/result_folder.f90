@@ -10,7 +10,7 @@ module ehl_result_folder
    use ehl_record, only: record_t
    use ehl_plan_text, only: plan_text
    use ehl_solver, only: field_length, solver_t
-   use ehl_status, only: status_t
+   use ehl_status, only: ehl_no_memory, status_t
    use ehl_text, only: newline
    use ehl_version, only: version
    use ehl_whole_file, only: write_text
@@ -82,11 +82,15 @@ contains
       type(status_t), intent(inout) :: status
       real(dp), allocatable :: x(:), y(:), values(:, :)
       character(len=field_length), allocatable :: names(:)
-      integer :: i, ny, k
+      integer :: i, ny, k, stat
 
       associate (grid => solver%finest())
          ny = grid%full_ny()
-         allocate (x(grid%nx), y(ny), values(grid%nx, ny))
+         allocate (x(grid%nx), y(ny), values(grid%nx, ny), stat=stat)
+         if (stat /= 0) then
+            call status%fail(ehl_no_memory, "no memory to write the fields")
+            return
+         end if
          x(:) = grid%x([(i, i=1, grid%nx)])
          y(:) = grid%y([(i, i=1, ny)] - (ny - grid%ny))
       end associate

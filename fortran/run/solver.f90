@@ -30,10 +30,9 @@ module ehl_solver
    !> The run of the case, and for the grid error of its friction ratio another one on the next coarser grid
    type, extends(contact_run_t) :: solver_t
       type(case_t), private :: input
-      !> Allocated while it runs; the state that it is to go on from, the error that ended it
+      !> Allocated while it runs; the state that it is to go on from
       type(contact_run_t), allocatable, private :: coarse
       type(checkpoint_t), private :: coarse_checkpoint
-      character(len=:), allocatable, private :: coarse_message
       !> What it has cost, in time steps of this run and in seconds
       real(dp), private :: coarse_work = 0.0_dp, coarse_seconds = 0.0_dp
       !> What is predicted of the waves that the grid does not resolve
@@ -173,6 +172,8 @@ contains
       ! the same roughness, not the same share of another film
       call self%plan%surfaces%hand_over(surfaces)
       call make_plan(input, surfaces, self%coarse%plan, status)
+      ! a plan that failed may not have taken them
+      call self%plan%surfaces%take_back(surfaces)
       self%coarse%plan%heat%counts = .false.
       call self%coarse%begin(status)
       self%coarse%checkpoint = self%coarse_checkpoint
@@ -207,6 +208,8 @@ contains
       end if
       self%coarse_work = coarse_step*self%coarse%transient%step
       self%coarse_seconds = self%coarse%seconds
+      ! why a film ends is read off the waves
+      call self%plan%surfaces%take_back(self%coarse%plan%surfaces)
       deallocate (self%coarse)
    end subroutine end_coarse
 

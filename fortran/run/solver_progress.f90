@@ -3,7 +3,8 @@
 submodule (ehl_solver) ehl_solver_progress
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_outcome, only: outcome_names
-   use ehl_stopping_criterion, only: least_periods, most_periods
+   use ehl_plan_need, only: most_periods
+   use ehl_stopping_criterion, only: least_periods
    use ehl_text, only: fixed, to_text
    implicit none (type, external)
 

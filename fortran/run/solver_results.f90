@@ -4,14 +4,14 @@ submodule (ehl_solver) ehl_solver_results
    use ehl_domain, only: ratio_cost, too_small
    use ehl_judgement, only: judge
    use ehl_kinds, only: not_known
-   use ehl_level_result, only: discretisation_error, spike_grows
+   use ehl_level_result, only: film_errors, spike_grows
    use ehl_no_answer, only: why_no_answer
    use ehl_outcome, only: outcome_names, outcome_target_missed
    use ehl_ratio_error, only: ratio_error_t
    use ehl_report, only: report_passage, report_rest, report_scene, report_transient, report_waves
    use ehl_report_friction, only: report_friction
    use ehl_report_smooth, only: report_smooth
-   use ehl_report_touching, only: knows_friction, no_boundary_friction, report_touching
+   use ehl_report_touching, only: report_touching, why_no_friction
    use ehl_surface_text, only: window_words
    use ehl_text, only: newline
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
@@ -28,11 +28,12 @@ contains
    module procedure summary
       logical :: good, converged, known, rough
       real(dp) :: ratio, stop_error
-      character(len=:), allocatable :: judgement, why
+      character(len=:), allocatable :: judgement, why, why_none
       integer :: worth
 
       converged = self%converged()
-      known = knows_friction(self, converged)
+      why_none = why_no_friction(self, converged)
+      known = why_none == ""
       rough = self%in_steps .or. self%resting
       call record%set("kind", "solution")
       call record%set("status", trim(outcome_names(self%stand())))
@@ -58,9 +59,9 @@ contains
       end if
       if (rough) call report_waves(record, self)
       if (self%resting) call report_rest(record, self, converged, known, ratio, stop_error)
-      if (self%plan%surfaces%rough()) call report_ratio(self, record, ratio, stop_error, known)
+      if (self%plan%surfaces%rough()) call report_ratio(self, record, ratio, stop_error, why_none)
       call report_touching(record, self, good, converged, why_no_grid_error(self))
-      call report_friction(record, self, good, converged, known)
+      call report_friction(record, self, good, converged, why_none)
       call record%set("bytes", real(self%hierarchy%bytes(), dp) + self%plan%surfaces%bytes())
       call judge(record, judgement, worth)
       call record%set("judgement", judgement)
@@ -80,13 +81,13 @@ contains
    end subroutine report_start
 
    !> The friction ratio, that in the limit of fine grids, and its error with the parts of it
-   subroutine report_ratio(self, record, ratio, stop_error, known)
+   subroutine report_ratio(self, record, ratio, stop_error, why_none)
       type(solver_t), intent(in) :: self
       type(record_t), intent(inout) :: record
       !> NaN where they are not known
       real(dp), intent(in) :: ratio, stop_error
-      !> Whether friction is known where the bodies touch
-      logical, intent(in) :: known
+      !> Why friction is not known where the bodies touch; empty where it is
+      character(len=*), intent(in) :: why_none
       type(ratio_error_t) :: error
       type(waves_t) :: waves
       real(dp) :: limit, grid, domain
@@ -104,7 +105,7 @@ contains
       if (why == "" .and. .not. ieee_is_finite(grid)) why = "pressures change so much from grid to grid that no limit is in sight"
       if (.not. ieee_is_finite(ratio)) then
          why = "there is no mu_ratio"
-         if (.not. known) why = no_boundary_friction
+         if (why_none /= "") why = why_none
          waves = waves_t(.true., not_known, not_known, why)
       end if
       call record%set("mu_ratio", ratio)
@@ -147,7 +148,7 @@ contains
       associate (results => self%steady%results, n => self%steady%n)
          if (n == 1) return
          if (.not. results(n - 1)%solved) return
-         error = discretisation_error(results(n)%m, results(n - 1)%m)/results(n)%m%films()
+         error = film_errors(results(n)%m, results(n - 1)%m, results(n)%mesh, self%plan%inlet)/results(n)%m%films()
       end associate
       grid_error = max(grid_error, ratio_cost(error(1), ratio))
    end function grid_error

@@ -2,17 +2,22 @@
 !> What the levels of a nested iteration know of the smooth contact, and what two of them tell of the error
 module ehl_level_result
    use ehl_contact_results, only: contact_results_t
+   use ehl_inlet, only: inlet_t
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
-   public :: level_result_t, discretisation_error, extrapolated, friction_error, limit_error, spike_grows
+   public :: level_result_t, discretisation_error, film_errors, share_error, extrapolated, friction_error, limit_error, spike_grows
 
    !> What is known of the solution on one level
    type :: level_result_t
       logical :: solved = .false.
       type(contact_results_t) :: m
+      !> Mesh size along X [a]
+      real(dp) :: mesh = 0.0_dp
       !> Algebraic errors of H_c and H_min, as estimated
       real(dp) :: algebraic(2) = 0.0_dp
+      !> That of the load share of a boundary film
+      real(dp) :: share_algebraic = 0.0_dp
       !> Cycles made, residual (rms) at the end
       integer :: cycles = 0
       real(dp) :: residual = 0.0_dp
@@ -27,6 +32,37 @@ contains
 
       error = abs(fine%films() - coarse%films())/3.0_dp
    end function discretisation_error
+
+   !> Discretisation errors of H_c and H_min by the results on two grids; where the bodies touch on either no less than what
+   !> the fine one misses of the inlet
+   pure function film_errors(fine, coarse, mesh, inlet) result(errors)
+      type(contact_results_t), intent(in) :: fine, coarse
+      !> Mesh size of the fine grid
+      real(dp), intent(in) :: mesh
+      type(inlet_t), intent(in) :: inlet
+      real(dp) :: errors(2)
+
+      errors = discretisation_error(fine, coarse)
+      if (max(fine%touching%load_share, coarse%touching%load_share) > 0.0_dp) then
+         errors = max(errors, inlet%film_errors(fine, mesh))
+      end if
+   end function film_errors
+
+   !> Discretisation error of the load share of a boundary film on level n > 1: the difference to the next coarser one, of
+   !> order 1 as the edge of a touching zone lies between two nodes, if that resolves the inlet; no less than what the film
+   !> makes of it
+   pure real(dp) function share_error(results, n, inlet)
+      type(level_result_t), intent(in) :: results(:)
+      integer, intent(in) :: n
+      type(inlet_t), intent(in) :: inlet
+
+      associate (fine => results(n), coarse => results(n - 1))
+         share_error = inlet%share_error(fine%m, fine%mesh)
+         if (inlet%resolves(coarse%m, coarse%mesh)) then
+            share_error = max(share_error, abs(fine%m%touching%load_share - coarse%m%touching%load_share))
+         end if
+      end associate
+   end function share_error
 
    !> Discretisation error of a quantity without a known order, by its values on three grids, coarsest first: what the
    !> series of differences has left, if they fall by a fifth at least; negative where they do not

@@ -7,9 +7,9 @@ module ehl_steady
    use ehl_far_field, only: far_field_t
    use ehl_film, only: refresh
    use ehl_hierarchy, only: hierarchy_t
-   use ehl_iteration, only: iteration_t, most_reduction, reduction
+   use ehl_iteration, only: iteration_t, reduction
    use ehl_kinds, only: dp
-   use ehl_level_result, only: discretisation_error, level_result_t
+   use ehl_level_result, only: film_errors, level_result_t
    use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_diverged, outcome_negative_film, outcome_running, &
                           outcome_target_missed
    use ehl_level, only: level_t
@@ -22,8 +22,11 @@ module ehl_steady
 
    !> Relative discretisation errors below this are not believed, as two levels may agree by chance
    real(dp), parameter :: least_error = 2.0e-5_dp
-   !> Algebraic error of that share, which then ends a level where the films have ended moving
+   !> Algebraic error of the load share of a boundary film, which ends a level where the films have ended moving
    real(dp), parameter :: share_tolerance = 1.0e-3_dp
+   !> Largest reduction per cycle that is believed of it: where the film is close to the boundary film the edge of a touching
+   !> zone moves by a node in several cycles
+   real(dp), parameter :: most_share_reduction = 0.99_dp
    !> Largest residual (rms, as far as it concerns the film; the wedge term is of order 1 in the inlet) of a converged
    !> solution
    real(dp), parameter :: residual_tolerance = 2.0e-3_dp
@@ -75,8 +78,8 @@ module ehl_steady
       real(dp), private :: change(2) = 0.0_dp, residual_before = 0.0_dp
       !> Residual over that before the last cycle
       real(dp), private :: stall = 0.0_dp
-      !> Change of the load share of a boundary film in the last cycle, and its algebraic error
-      real(dp), private :: share_change = 0.0_dp, share_error = 0.0_dp
+      !> Change of the load share of a boundary film in the last cycle
+      real(dp), private :: share_change = 0.0_dp
    contains
       procedure :: start
       procedure :: advance
@@ -241,6 +244,7 @@ contains
             self%m = measure(level)
          end if
       end associate
+      self%results(self%n)%mesh = hierarchy%levels(self%n)%grid%hx
       self%state = outcome_running
       self%cycles = 0
       self%residual = 0.0_dp
@@ -285,9 +289,10 @@ contains
       real(dp), intent(in) :: change
       real(dp) :: q
 
-      q = most_reduction
-      if (self%cycles > 1) q = reduction([change], [self%share_change], self%cycles)
-      self%share_error = change*q/(1.0_dp - q)
+      q = most_share_reduction
+      if (self%cycles > 1) q = max(reduction([change], [self%share_change], self%cycles), &
+                                   min(most_share_reduction, change/max(self%share_change, tiny(1.0_dp))))
+      self%results(self%n)%share_algebraic = change*q/(1.0_dp - q)
       self%share_change = change
    end subroutine judge_share
 
@@ -304,9 +309,18 @@ contains
 
       has_target = .false.
       if (.not. (self%how%target_error > 0.0_dp .and. has_coarser(self))) return
-      errors = discretisation_error(self%m, self%results(self%n - 1)%m) + self%results(self%n)%algebraic
-      has_target = errors(1) <= self%how%target_error*self%m%film_central
+      errors = grid_errors(self) + self%results(self%n)%algebraic
+      has_target = errors(1) <= self%how%target_error*self%m%film_central .and. &
+                   self%how%inlet%resolves(self%m, self%results(self%n)%mesh)
    end function has_target
+
+   !> Discretisation errors of H_c and H_min of the present state, by the next coarser level
+   pure function grid_errors(self) result(errors)
+      class(steady_t), intent(in) :: self
+      real(dp) :: errors(2)
+
+      errors = film_errors(self%m, self%results(self%n - 1)%m, self%results(self%n)%mesh, self%how%inlet)
+   end function grid_errors
 
    !> The cycle to make: on a level that began from a coarser one a light one is the second, if what it leaves is good
    !> enough; with one sweep less at first where the coarser level was solved in few cycles
@@ -338,8 +352,21 @@ contains
       class(steady_t), intent(in) :: self
       accurate = all(self%results(self%n)%algebraic <= wanted(self)) .and. &
                  (self%residual <= residual_tolerance .or. .not. is_end(self)) .and. &
-                 (self%share_error <= share_tolerance .or. .not. rests_on_layer(self))
+                 (self%results(self%n)%share_algebraic <= share_wanted(self) .or. .not. counts_share(self))
    end function accurate
+
+   !> Whether the load share of a boundary film is a result, and the contact with it well posed
+   pure logical function counts_share(self)
+      class(steady_t), intent(in) :: self
+      counts_share = rests_on_layer(self) .or. (self%how%inlet%film > 0.0_dp .and. self%m%touching%load_share > 0.0_dp .and. &
+                                                self%m%touching%supply <= much_supplied)
+   end function counts_share
+
+   !> Algebraic error of that share which the present level deserves
+   pure real(dp) function share_wanted(self)
+      class(steady_t), intent(in) :: self
+      share_wanted = max(share_tolerance, self%how%accuracy*self%how%inlet%share_error(self%m, self%results(self%n)%mesh))
+   end function share_wanted
 
    !> Whether a boundary film carries most of the load; where it would have to give much contact is not well posed
    pure logical function rests_on_layer(self)
@@ -355,7 +382,7 @@ contains
       least = merge(start_tolerance, least_error, rests_on_layer(self))
       values = self%m%films()
       if (has_coarser(self)) then
-         wanted = self%how%accuracy*max(discretisation_error(self%m, self%results(self%n - 1)%m), least*values)
+         wanted = self%how%accuracy*max(grid_errors(self), least*values)
       else
          wanted = start_tolerance*values
          if (self%n == self%how%levels) wanted = self%how%accuracy*wanted

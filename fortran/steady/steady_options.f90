@@ -2,6 +2,7 @@
 !> How the smooth contact is solved, and when a level of it ends
 module ehl_steady_options
    use ehl_cycle, only: cycle_options_t
+   use ehl_inlet, only: inlet_t
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
@@ -25,6 +26,8 @@ module ehl_steady_options
       logical :: may_restart = .false.
       !> Whether cycles that end in no state of the contact are taken back from the beginning on, and not only after all else
       logical :: guarded = .false.
+      !> What touching makes of the errors
+      type(inlet_t) :: inlet
       !> Whether the contact is a circle and its flow Newtonian
       logical :: newtonian_circle = .true.
    end type steady_options_t

@@ -26,6 +26,8 @@ module ehl_fractal
       integer(int32), allocatable :: seed(:)
       !> Modulus of the components: of a Gaussian random field, or exactly on the power law
       logical :: gaussian = .false.
+      !> Length of correlation along X over that along Y; the roll-off is that of the shorter one
+      real(dp) :: lay_ratio = 1.0_dp
    end type fractal_t
 
 contains
@@ -66,10 +68,10 @@ contains
       end if
       call make_hermitian(component, ny, what%gaussian)
       do i = 1, nx
-         qx = 2.0_dp*pi*merge(i - 1, i - 1 - nx, 2*(i - 1) < nx)/what%length_x
+         qx = 2.0_dp*pi*merge(i - 1, i - 1 - nx, 2*(i - 1) < nx)/what%length_x*max(1.0_dp, what%lay_ratio)
          do j = 1, ny/2 + 1
             if (i == 1 .and. j == 1) cycle
-            qy = 2.0_dp*pi*(j - 1)/what%length_y
+            qy = 2.0_dp*pi*(j - 1)/what%length_y/min(1.0_dp, what%lay_ratio)
             component(j, i) = component(j, i)*max(hypot(qx, qy), what%rolloff_wavenumber)**(-1.0_dp - what%hurst)
          end do
       end do

@@ -17,6 +17,7 @@ module ehl_harmonic
       procedure :: unresolved
       procedure :: rms_height
       procedure :: rms_slope
+      procedure :: correlation
    end type harmonic_t
 
 contains
@@ -52,6 +53,21 @@ contains
       class(harmonic_t), intent(in) :: self
       rms_height = 0.5_dp*self%amplitude
    end function rms_height
+
+   !> Of two equal waves by their distance along X; others have nothing in common
+   pure function correlation(self, other) result(both)
+      class(harmonic_t), intent(in) :: self
+      class(surface_t), intent(in) :: other
+      real(dp) :: both(2)
+
+      both = 0.0_dp
+      select type (other)
+      class is (harmonic_t)
+         if (abs(self%wavelength_x - other%wavelength_x) > 1.0e-9_dp*self%wavelength_x) return
+         if (abs(self%wavelength_y - other%wavelength_y) > 1.0e-9_dp*self%wavelength_y) return
+         both = cos(2.0_dp*pi*(other%x_start - self%x_start)/self%wavelength_x)
+      end select
+   end function correlation
 
    !> Of a product of two cosines
    pure real(dp) function rms_slope(self)

@@ -37,8 +37,10 @@ module ehl_height_map
       procedure :: setup
       procedure :: prepare
       procedure :: hand_over
+      procedure :: take_back
       procedure :: height
       procedure :: unresolved
+      procedure :: correlation
       procedure :: bytes
       procedure :: bytes_on
       procedure, private :: carried
@@ -96,6 +98,17 @@ contains
       end select
    end subroutine hand_over
 
+   !> Take the waves back
+   subroutine take_back(self, other)
+      class(height_map_t), intent(inout) :: self
+      class(surface_t), intent(inout) :: other
+
+      select type (other)
+      type is (height_map_t)
+         call other%waves%give_to(self%waves)
+      end select
+   end subroutine take_back
+
    !> Most periods in the tile, along X and Y, of waves that have at least so many nodes a period, or more than that
    pure function carried(self, grid, nodes, more) result(most)
       class(height_map_t), intent(in) :: self
@@ -109,6 +122,21 @@ contains
       most = int(min(self%waves%length/self%meshes(grid)/nodes*(1.0_dp + merge(-slack, slack, more)), &
                      0.5_dp*self%waves%pixels))
    end function carried
+
+   !> Of two tiles of one size
+   pure function correlation(self, other) result(both)
+      class(height_map_t), intent(in) :: self
+      class(surface_t), intent(in) :: other
+      real(dp) :: both(2)
+
+      both = 0.0_dp
+      select type (other)
+      class is (height_map_t)
+         if (any(abs(self%waves%length - other%waves%length) > 1.0e-9_dp*self%waves%length)) return
+         if (.not. (self%waves%are_here() .and. other%waves%are_here())) return
+         both = self%waves%correlation(other%waves, other%x_start - self%x_start)
+      end select
+   end function correlation
 
    !> Share of the variance in waves that have fewer nodes than that along X or along Y
    pure real(dp) function unresolved(self, grid, nodes)

@@ -9,6 +9,9 @@ module ehl_rough_surfaces
    private
    public :: rough_surfaces_t
 
+   !> Difference of velocity ratios that is none
+   real(dp), parameter :: same = 1.0e-9_dp
+
    !> One of them
    type :: member_t
       !> Group of the case that describes it
@@ -24,6 +27,8 @@ module ehl_rough_surfaces
       !> Shares of the variance: in waves that the grid would alias, which are left out; in waves with fewer than eight
       !> nodes a period, those included
       real(dp) :: left_out = 0.0_dp, unresolved = 0.0_dp
+      !> Correlation of the heights of the first two, and of their gradients, if they move together
+      real(dp) :: correlation(2) = 0.0_dp
       !> Heights of one of several, (nx, ny)
       real(dp), allocatable, private :: part(:, :)
    contains
@@ -31,6 +36,7 @@ module ehl_rough_surfaces
       procedure :: count => count_surfaces
       procedure :: rough
       procedure :: even_in_y
+      procedure :: move_together
       procedure :: has_spectrum
       procedure :: same_on_grids
       procedure :: use_threads
@@ -38,6 +44,7 @@ module ehl_rough_surfaces
       procedure :: most_unresolved
       procedure :: prepare
       procedure :: hand_over
+      procedure :: take_back
       procedure :: roughness
       procedure :: bytes
       procedure :: bytes_on
@@ -71,6 +78,7 @@ contains
       more(n + 1)%group = group
       more(n + 1)%amplitude_over_film = amplitude_over_film
       call move_alloc(more, self%of)
+      if (self%move_together()) self%correlation = self%of(1)%surface%correlation(self%of(2)%surface)
    end subroutine add
 
    !> Number of surfaces
@@ -92,6 +100,13 @@ contains
       integer :: k
       even_in_y = all([(self%of(k)%surface%even_in_y, k=1, self%count())])
    end function even_in_y
+
+   !> Whether there are two that are at one velocity, or at rest
+   pure logical function move_together(self)
+      class(rough_surfaces_t), intent(in) :: self
+      move_together = .false.
+      if (self%count() == 2) move_together = abs(self%of(1)%surface%velocity_ratio - self%of(2)%surface%velocity_ratio) <= same
+   end function move_together
 
    !> Whether one has waves that a grid can leave out
    pure logical function has_spectrum(self)
@@ -188,6 +203,16 @@ contains
       end do
    end subroutine hand_over
 
+   !> Take back what was handed over to others that are no longer needed
+   subroutine take_back(self, other)
+      class(rough_surfaces_t), intent(inout) :: self, other
+      integer :: k
+
+      do k = 1, min(self%count(), other%count())
+         call self%of(k)%surface%take_back(other%of(k)%surface)
+      end do
+   end subroutine take_back
+
    !> rr(nx, ny): sum of the heights at the nodes, at time T [a^2/R]
    subroutine roughness(self, grid, time, rr, moving)
       class(rough_surfaces_t), intent(inout) :: self
@@ -249,8 +274,8 @@ contains
       end do
    end subroutine take_film
 
-   !> Root mean square of the composite heights [a^2/R], as of surfaces that have nothing in common; 0 where it is not
-   !> known, or means nothing
+   !> Root mean square of the composite heights [a^2/R]; 0 where it is not known, or means nothing. Surfaces that do not
+   !> move together have nothing in common in the mean.
    pure real(dp) function rms_height(self)
       class(rough_surfaces_t), intent(in) :: self
       integer :: k
@@ -259,6 +284,8 @@ contains
       do k = 1, self%count()
          rms_height = hypot(rms_height, self%of(k)%surface%rms_height())
       end do
+      if (self%count() == 2) rms_height = sqrt(max(0.0_dp, rms_height**2 + 2.0_dp*self%correlation(1)* &
+                                      self%of(1)%surface%rms_height()*self%of(2)%surface%rms_height()))
    end function rms_height
 
    !> Root mean square slope of the composite heights [a/R], as rms_height
@@ -270,5 +297,7 @@ contains
       do k = 1, self%count()
          rms_slope = hypot(rms_slope, self%of(k)%surface%rms_slope())
       end do
+      if (self%count() == 2) rms_slope = sqrt(max(0.0_dp, rms_slope**2 + 2.0_dp*self%correlation(2)* &
+                                     self%of(1)%surface%rms_slope()*self%of(2)%surface%rms_slope()))
    end function rms_slope
 end module ehl_rough_surfaces

@@ -47,10 +47,12 @@ module ehl_surface
       procedure(unresolved_i), deferred :: unresolved
       procedure :: prepare
       procedure :: hand_over
+      procedure :: take_back
       procedure :: meshes
       procedure :: bytes
       procedure :: rms_height
       procedure :: rms_slope
+      procedure :: correlation
       procedure :: bytes_on
       !> Position of the front at time T
       procedure :: front_position
@@ -105,6 +107,14 @@ contains
       allocate (other, source=self)
    end subroutine hand_over
 
+   !> Take back what was handed over to a surface that is no longer needed
+   subroutine take_back(self, other)
+      class(surface_t), intent(inout) :: self, other
+
+      associate (unused => self, unused_other => other)
+      end associate
+   end subroutine take_back
+
    !> Bytes of its arrays
    pure real(dp) function bytes(self)
       class(surface_t), intent(in) :: self
@@ -124,6 +134,18 @@ contains
       class(surface_t), intent(in) :: self
       rms_slope = self%slope
    end function rms_slope
+
+   !> Correlation of its heights and of its gradients with those of another surface that moves with it; 0 where it is
+   !> not known, or where the two have nothing in common
+   pure function correlation(self, other) result(both)
+      class(surface_t), intent(in) :: self
+      class(surface_t), intent(in) :: other
+      real(dp) :: both(2)
+
+      associate (unused => self, unused_other => other)
+      end associate
+      both = 0.0_dp
+   end function correlation
 
    !> Bytes that it will take when it is prepared for a grid
    pure real(dp) function bytes_on(self, grid)

@@ -28,6 +28,7 @@ module ehl_tile_waves
       procedure :: cut
       procedure :: variance
       procedure :: mean_square_slope
+      procedure :: correlation
       procedure :: column
       procedure :: give_to
       procedure :: are_here
@@ -171,9 +172,38 @@ contains
       end function square
    end function mean_square_slope
 
+   !> Correlation of the heights of two tiles of one size, and of their gradients, in [-1, 1]: the other one lies ahead
+   !> by so much along X. Of the waves that both have.
+   pure function correlation(self, other, ahead) result(both)
+      class(tile_waves_t), intent(in) :: self
+      type(tile_waves_t), intent(in) :: other
+      real(dp), intent(in) :: ahead
+      real(dp) :: both(2)
+      complex(c_double_complex) :: a(-(min(self%pixels(2), other%pixels(2))/2):min(self%pixels(2), other%pixels(2))/2)
+      complex(c_double_complex) :: b(-(min(self%pixels(2), other%pixels(2))/2):min(self%pixels(2), other%pixels(2))/2)
+      real(dp) :: sums(3, 2), terms(3, size(a)), squares(size(a))
+      integer :: k, l, most
+
+      most = size(a)/2
+      sums = 0.0_dp
+      do k = 0, min(self%pixels(1), other%pixels(1))/2
+         call self%column(k, most, a)
+         call other%column(k, most, b)
+         b = b*turned(-2.0_dp*k*ahead/self%length(1))
+         squares = [((k/self%length(1))**2 + (l/self%length(2))**2, l=-most, most)]
+         terms(1, :) = a%re*b%re + a%im*b%im
+         terms(2, :) = a%re**2 + a%im**2
+         terms(3, :) = b%re**2 + b%im**2
+         sums(:, 1) = sums(:, 1) + merge(2.0_dp, 1.0_dp, k > 0)*sum(terms, dim=2)
+         sums(:, 2) = sums(:, 2) + merge(2.0_dp, 1.0_dp, k > 0)*matmul(terms, squares)
+      end do
+      both = 0.0_dp
+      where (sums(2, :)*sums(3, :) > 0.0_dp) both = sums(1, :)/(sqrt(sums(2, :))*sqrt(sums(3, :)))
+   end function correlation
+
    !> The waves with k periods along X and -most ... most along Y; of the shortest one, which travels half with q and
    !> half with -q, a half
-   subroutine column(self, k, most, values)
+   pure subroutine column(self, k, most, values)
       class(tile_waves_t), intent(in) :: self
       integer, intent(in) :: k, most
       complex(c_double_complex), intent(out) :: values(-most:most)

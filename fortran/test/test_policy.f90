@@ -55,6 +55,8 @@ contains
       call policy%after_cycle(3, .false., 1.0_dp, 0.5_dp, next)
       call is_equal(next, step_goes_on, "another slow cycle")
       call is_equal(policy%options%pre, options%pre + 1, "is followed by a sweep more")
+      call policy%set(options, .true., 30)
+      call is_equal(policy%changed_at, 0, "a run that begins anew has not changed it")
    end subroutine attempts_in_order
 
    !> A good prediction needs no sweep before the coarse grids; where that was too little, the cycles after it have them

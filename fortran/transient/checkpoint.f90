@@ -14,14 +14,14 @@ module ehl_checkpoint
    use ehl_transient, only: transient_t
    implicit none (type, external)
    private
-   public :: checkpoint_t, coarser, frame_file, state_files
+   public :: checkpoint_t, coarser, frame_file, state_files, words_t
 
    !> The newest state and the one before it; what names of frames begin with; behind a prefix the states of the run on
    !> the coarser grid
    character(len=*), parameter :: state_files(2) = ["checkpoint.a", "checkpoint.b"], frame_file = "checkpoint.frame-", &
       coarser = "coarser-"
    !> What a state begins with: behind `family` stands the number of the layout
-   character(len=*), parameter :: family = "ehl checkpoint v", magic = family//"13"
+   character(len=*), parameter :: family = "ehl checkpoint v", magic = family//"14"
    !> What a file can be; otherwise the step of its state
    integer, parameter :: missing = -1, damaged = -2, other_version = -3
 
@@ -31,6 +31,11 @@ module ehl_checkpoint
       !> The case
       character(len=:), allocatable :: text
    end type head_t
+
+   !> A text; not allocated: none
+   type :: words_t
+      character(len=:), allocatable :: text
+   end type words_t
 
    type :: checkpoint_t
       !> State to go on from
@@ -46,12 +51,14 @@ module ehl_checkpoint
       procedure :: find => find_state
       procedure :: found
       procedure :: read => read_state
+      procedure :: end_resuming
+      procedure :: forget
    end type checkpoint_t
 
 contains
 
    !> Write the state after a step; the newest so far becomes the one before it
-   subroutine write_state(self, prefix, text, transient, history, frames, numbers, status)
+   subroutine write_state(self, prefix, text, transient, history, frames, numbers, words, status)
       class(checkpoint_t), intent(inout) :: self
       !> Folder with its '/', and what the names begin with; the case that the state belongs to
       character(len=*), intent(in) :: prefix, text
@@ -60,8 +67,10 @@ contains
       type(frames_t), intent(in) :: frames
       !> Seconds spent on the steps, mean friction ratio of the coarser run, how that run ended, its load share
       real(dp), intent(in) :: numbers(4)
+      !> The error that ended the coarser run; why the steps did not begin from a prediction
+      type(words_t), intent(in) :: words(2)
       type(status_t), intent(inout) :: status
-      character(len=:), allocatable :: path
+      character(len=:), allocatable :: path, first, second
       character(len=256) :: reason
       logical :: done
       integer :: lun, stat, k
@@ -74,7 +83,7 @@ contains
       end if
       if (self%newest == transient%step) return
       do k = 1, frames%n
-         path = frame_path(prefix, k)
+         call name_frame(prefix, k, path)
          done = file_exists(path)
          if (done .and. k <= self%frames) cycle
          call open_sealed(path, "write", lun, status)
@@ -87,13 +96,17 @@ contains
       path = prefix//state_files(1)
       call open_sealed(path//".new", "write", lun, status)
       if (status%failed()) return
+      first = ""
+      second = ""
+      if (allocated(words(1)%text)) first = words(1)%text
+      if (allocated(words(2)%text)) second = words(2)%text
       ! as it is read in read_head and read_state
       associate (t => transient, mean => transient%mean)
          write (lun, iostat=stat, iomsg=reason) magic, t%step, frames%n, len(text), text, &
             t%skipped, t%time, t%time_step, t%residual, t%cycles, t%total_cycles, t%policy%coarsening, &
             t%policy%changed_at, t%h00_before, t%friction_smooth, t%mass_content, t%p_before, t%predictor%weights, &
             t%accuracy%rise, t%accuracy%sensitivity, t%accuracy%largest, t%film_mark, t%extremes%found, mean%filled, mean%lag, &
-            mean%transit, numbers, &
+            mean%transit, numbers, len(first), first, len(second), second, &
             (history%row(k), mean%values(k), mean%film(k), mean%roughness(k), k=1, t%step)
       end associate
       call end_sealed(lun, path//".new", stat, reason, status)
@@ -157,14 +170,15 @@ contains
    end function found
 
    !> Read the state that was found into a run that has started
-   subroutine read_state(self, transient, history, frames, grid, numbers, status)
+   subroutine read_state(self, transient, history, frames, grid, numbers, words, status)
       class(checkpoint_t), intent(in) :: self
       type(transient_t), intent(inout) :: transient
       type(table_t), intent(inout) :: history
       type(frames_t), intent(inout) :: frames
       type(grid_t), intent(in) :: grid
-      !> Seconds spent on the steps, mean friction ratio of the coarser run, how that run ended
+      !> As write_state has them
       real(dp), intent(out) :: numbers(4)
+      type(words_t), intent(out) :: words(2)
       type(status_t), intent(inout) :: status
       type(head_t) :: head
       real(dp) :: row(history%n_columns()), values(3)
@@ -183,6 +197,9 @@ contains
             t%policy%changed_at, t%h00_before, t%friction_smooth, t%mass_content, t%p_before, t%predictor%weights, &
             t%accuracy%rise, t%accuracy%sensitivity, t%accuracy%largest, t%film_mark, t%extremes%found, t%mean%filled, &
             t%mean%lag, t%mean%transit, numbers
+         do k = 1, size(words)
+            if (stat == 0) call read_words(lun, words(k), stat)
+         end do
          do k = 1, t%step
             if (stat == 0) read (lun, iostat=stat, iomsg=reason) row, values
             if (stat /= 0) exit
@@ -192,7 +209,7 @@ contains
       end associate
       call end_reading(lun, self%path, stat, reason, status)
       do k = 1, head%frames
-         path = frame_path(self%prefix, k)
+         call name_frame(self%prefix, k, path)
          if (.not. status%failed()) call frames%add(grid, status)
          if (.not. status%failed()) call open_sealed(path, "read", lun, status)
          if (status%failed()) return
@@ -208,6 +225,7 @@ contains
       integer :: lun, stat, k
       type(status_t) :: status
       character(len=len(magic)) :: version
+      character(len=:), allocatable :: path
 
       what_is = missing
       if (.not. file_exists(prefix//name)) return
@@ -225,7 +243,8 @@ contains
       call read_head(lun, head, stat)
       close (lun)
       do k = 1, head%frames
-         if (.not. is_sealed(frame_path(prefix, k))) return
+         call name_frame(prefix, k, path)
+         if (.not. is_sealed(path)) return
       end do
       if (stat == 0) what_is = head%step
    end function what_is
@@ -245,13 +264,47 @@ contains
       if (stat /= 0) head%text = ""
    end subroutine read_head
 
+   !> Read a text; of no length: none
+   subroutine read_words(lun, words, stat)
+      integer, intent(in) :: lun
+      type(words_t), intent(out) :: words
+      integer, intent(out) :: stat
+      integer :: length
+
+      read (lun, iostat=stat) length
+      if (stat /= 0 .or. length == 0) return
+      allocate (character(len=length) :: words%text)
+      read (lun, iostat=stat) words%text
+      if (stat /= 0) words%text = ""
+   end subroutine read_words
+
+   !> The run goes on from a state: what it saves from here on is its own
+   subroutine end_resuming(self)
+      class(checkpoint_t), intent(inout) :: self
+      if (allocated(self%path)) deallocate (self%path)
+   end subroutine end_resuming
+
+   !> The run begins anew: no state and no frame so far is of it
+   subroutine forget(self)
+      class(checkpoint_t), intent(inout) :: self
+      logical :: gone
+      integer :: k
+
+      if (.not. allocated(self%prefix)) return
+      do k = 1, size(state_files)
+         gone = remove_file(self%prefix//state_files(k))
+      end do
+      self%newest = missing
+      self%frames = 0
+   end subroutine forget
+
    !> File of frame k
-   pure function frame_path(prefix, k) result(path)
+   pure subroutine name_frame(prefix, k, path)
       character(len=*), intent(in) :: prefix
       integer, intent(in) :: k
-      character(len=:), allocatable :: path
+      character(len=:), allocatable, intent(out) :: path
       path = prefix//frame_file//to_text(k)
-   end function frame_path
+   end subroutine name_frame
 
    !> Where two cases differ for the first time
    function first_difference(theirs, ours) result(text)

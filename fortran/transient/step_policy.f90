@@ -67,6 +67,7 @@ contains
 
       self%cycle = cycle_options
       self%coarsening = cycle_options%coarsening
+      self%changed_at = 0
       self%may_change = may_change
       self%max_cycles = max_cycles
    end subroutine set

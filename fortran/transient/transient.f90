@@ -64,20 +64,25 @@ module ehl_transient
 contains
 
    !> Time steps until the mean friction over a period can be compared with an earlier one, or the passage ends
-   real(dp) function steps_needed(surfaces, time_step, skip, filled)
+   real(dp) function steps_needed(surfaces, time_step, skip, filled, periods)
       class(moving_surfaces_t), intent(in) :: surfaces
       real(dp), intent(in) :: time_step
       !> Whether the steps before the roughness comes near the contact are not made; whether it fills the contact at the start
       logical, intent(in) :: skip, filled
-      real(dp) :: from
+      !> Periods after which the run ends if its mean has not settled: the steps until then
+      real(dp), intent(in), optional :: periods
+      real(dp) :: from, time
 
       if (filled) then
-         steps_needed = (first_mean + start_lag + surfaces%period)/time_step
+         time = start_lag + surfaces%period
+         if (present(periods)) time = max(time, periods*surfaces%period)
+         steps_needed = (first_mean + time)/time_step
          return
       end if
       from = merge(surfaces%begin(), 0.0_dp, skip)
-      steps_needed = (max(0.0_dp, surfaces%time_to_mean(from)) &
-                      + merge(1.0_dp, periods_compared(surfaces%repeats), surfaces%pass_once())*surfaces%period)/time_step
+      time = merge(1.0_dp, periods_compared(surfaces%repeats), surfaces%pass_once())*surfaces%period
+      if (present(periods)) time = max(time, periods*surfaces%period)
+      steps_needed = (max(0.0_dp, surfaces%time_to_mean(from)) + time)/time_step
    end function steps_needed
 
    !> Begin from the solution of a level, smooth or with what is at rest, the roughness on the move riding on its film.
@@ -116,7 +121,9 @@ contains
          call surfaces%roughness(level%grid, self%time - (k - 1)*self%time_step, self%rr, moving=.true.)
          self%mass_content(:, :, k) = level%rho*(level%h - self%rr)
       end do
-      self%p_before = spread(level%p, 3, 3)
+      do k = 1, size(self%p_before, 3)
+         self%p_before(:, :, k) = level%p
+      end do
       self%h00_before = level%h00
       self%m = measure(level)
       call self%mean%start(surfaces%period, surfaces%repeats, surfaces%mismatch, self%time_step, &
@@ -126,20 +133,26 @@ contains
 
    !> Begin with the contact full of roughness instead, from the pressure that it is expected to add. Where the film would
    !> not be positive all is as it was.
-   subroutine fill(self, level, surfaces, from, done)
+   subroutine fill(self, level, surfaces, from, done, status)
       class(transient_t), intent(inout) :: self
       type(level_t), intent(inout) :: level
       class(moving_surfaces_t), intent(inout) :: surfaces
       type(predicted_start_t), intent(in) :: from
       logical, intent(out) :: done
+      type(status_t), intent(inout) :: status
       type(contact_results_t) :: smooth
       real(dp), allocatable :: mass_content(:, :, :)
       real(dp) :: h00_smooth
-      integer :: j, k
+      integer :: j, k, stat
 
+      done = .false.
       h00_smooth = level%h00
       smooth = self%m
-      allocate (mass_content, source=self%mass_content)
+      allocate (mass_content, source=self%mass_content, stat=stat)
+      if (stat /= 0) then
+         call status%fail(ehl_no_memory, "no memory for the time levels")
+         return
+      end if
       ! the latest pressure last: until then it is that of the smooth contact
       do k = size(self%p_before, 3), 1, -1
          call surfaces%roughness(level%grid, from%time - (k - 1)*self%time_step, self%rr)
@@ -165,7 +178,9 @@ contains
                               transit)
       else
          self%mass_content = mass_content
-         self%p_before = spread(self%p_before(:, :, 1), 3, 3)
+         do k = 2, size(self%p_before, 3)
+            self%p_before(:, :, k) = self%p_before(:, :, 1)
+         end do
          self%h00_before = h00_smooth
          self%m = smooth
       end if

@@ -46,7 +46,9 @@ class Page:
         self.layout = Layout(self, self.pictures, start)
         self._shown = 0
         # whether pictures of a rough contact are shown
-        self._rough = False
+        # what is shown of both contacts
+        self._rough: Rough | None = None
+        self._film: Film | None = None
         self._films: dict[int, Film] = {}
         self.worker = Worker(partial(self._later, self._answered), "pyehl-page")
         self.curves = Worker(partial(self._later, self._drawn), "pyehl-curve")
@@ -58,8 +60,10 @@ class Page:
         document.title = "pyehl"
         document.template = get_env().from_string("{% extends base %}" + TEMPLATE)
         document.template_variables["pictures"] = PICTURES
-        for root in self.layout.roots.values():
-            document.add_root(root)
+        # at each root alone Bokeh would look at all models again
+        with document.models.freeze():
+            for root in self.layout.roots.values():
+                document.add_root(root)
         document.on_session_destroyed(self._ended)
         self.layout.note.text = escape(note)
         self._show_case()
@@ -119,8 +123,8 @@ class Page:
         """Compute for the position, and keep the case file in step with it."""
         generation = self.worker.submit(answers.follow(self.position, self._films))
         self._show_case()
-        if self._rough and not self.position.rough:
-            self._rough = False
+        if self._rough is not None and not self.position.rough:
+            self._rough = None
             self.layout.show_rough([])
             self.pictures.show_rough(Rough(None))
         self.layout.stamp.data = {**self.layout.stamp.data, "asked": [generation]}
@@ -142,11 +146,12 @@ class Page:
             self.pictures.show_film(answer)
             rows, status = words.film_rows(answer), words.status_line(answer)
             self.layout.show_film(rows, status, converged=answer.converged)
+            self._film = answer
+            self._show_rough()
         elif isinstance(answer, Rough):
-            self._rough = True
+            self._rough = answer
             self.pictures.show_rough(answer)
-            rows = words.rough_rows(answer)
-            self.layout.show_rough([(a, self.uploads.nameless(b)) for a, b in rows])
+            self._show_rough()
         else:
             self.layout.failed(self.uploads.nameless(str(answer)))
         points = answer.points if isinstance(answer, Film) else 0
@@ -157,6 +162,12 @@ class Page:
             "points": [points or stamp["points"][0]],
         }
         self.document.unhold()
+
+    def _show_rough(self) -> None:
+        """Show the numbers of the rough contact beside those of the smooth one."""
+        if self._rough is not None:
+            rows = words.rough_rows(self._rough, self._film)
+            self.layout.show_rough([(a, self.uploads.nameless(b)) for a, b in rows])
 
     def open_case(self, name: str, data: bytes) -> None:
         """Put the knobs where an uploaded case file says."""

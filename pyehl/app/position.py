@@ -27,7 +27,7 @@ OWNED = {
         "pressure_viscosity", "shear_law", "eyring_stress", "carreau_stress", "carreau_exponent",
     },
     "surface": {"kind", "rms_height", "hurst", "seed", "file", "length_x", "length_y"},
-    "grid": {"points"},
+    "grid": {"points", "points_y", "target_error", "max_points"},
 }  # fmt: skip
 # Keys of the oil of an opened case that no other oil has
 OF_SHEET = ("density_15", "thermal_expansion")
@@ -171,7 +171,7 @@ class Position:
             lines = base.splitlines(keepends=True)
             base = "".join(line for line in lines if line.split(" =")[0].strip() not in OF_SHEET)
         case = Case.from_text(base, self.options(points), "the knobs")
-        return case.with_options("surface.kind=smooth") if smooth else case
+        return case.smooth() if smooth else case
 
     def text(self, points: int) -> str:
         """Give the case file: what was given, the map without its folder."""
@@ -187,7 +187,8 @@ class Position:
     def map_said(self) -> dict[str, Value]:
         """Give what the case says of its height map, as `Uploads.check` takes it."""
         kept = namelist.values(self.base).get("surface", {})
-        found = {key: kept[key] for key in ("channel", "height_unit") if key in kept}
+        keys = ("channel", "height_unit", "lateral_unit")
+        found = {key: kept[key] for key in keys if key in kept}
         return found | {f"length_{x}": self._si(f"map_{x}") for x in "xy"}
 
     @property
@@ -244,11 +245,11 @@ def from_case(case: Case, files: Mapping[str, str] | None = None) -> tuple[Posit
         "alpha": _tidy(point.pressure_viscosity * 1e9),
         "shear_law": str(lubricant["shear_law"]),
         "surface": kind,
-        "rms": _tidy(float(surface.get("rms_height", 5e-8)) * 1e9),
-        "hurst": float(surface.get("hurst", 0.8)),
-        "seed": int(surface.get("seed", 1)),
-        "map_x": _tidy(float(surface.get("length_x", 0.0)) * 1e3) if kind == "map" else 0.0,
-        "map_y": _tidy(float(surface.get("length_y", 0.0)) * 1e3) if kind == "map" else 0.0,
+        "rms": _tidy(float(surface["rms_height"]) * 1e9),
+        "hurst": float(surface["hurst"]),
+        "seed": int(surface["seed"]),
+        "map_x": _tidy(float(surface["length_x"]) * 1e3) if kind == "map" else 0.0,
+        "map_y": _tidy(float(surface["length_y"]) * 1e3) if kind == "map" else 0.0,
     }
     values |= _oil(lubricant)
     bodies = settings.get("bodies")
@@ -258,7 +259,7 @@ def from_case(case: Case, files: Mapping[str, str] | None = None) -> tuple[Posit
     elif not math.isclose(point.reduced_modulus, STEEL_MODULUS, rel_tol=2e-3):
         # steel has it to the digits that people write
         note += f" E' = {point.reduced_modulus * 1e-9:.6g} GPa until a modulus is turned."
-    file = str(surface.get("file", "")) if kind == "map" else ""
+    file = str(surface["file"]) if kind == "map" else ""
     if file and files is not None:
         name = Path(file).name
         if name not in files:

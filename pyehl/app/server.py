@@ -2,6 +2,7 @@
 """The server of the page: on this machine alone, for browsers that were given its address."""
 
 import logging
+import re
 import webbrowser
 from collections.abc import Callable
 
@@ -10,6 +11,8 @@ from bokeh.application.handlers.function import FunctionHandler
 from bokeh.document import Document
 from bokeh.server.server import Server
 from bokeh.server.util import bind_sockets
+from tornado.web import Application as Routes
+from tornado.web import HTTPError, RequestHandler
 
 from pyehl.app.page import Page
 from pyehl.app.position import Position
@@ -17,8 +20,23 @@ from pyehl.app.uploads import LARGEST
 from pyehl.errors import InputError
 
 ADDRESS = "127.0.0.1"
+HOSTS = (ADDRESS, "localhost")
+"""What a browser on this machine calls it: any other name was bound to the loopback by somebody."""
 # A tab that was closed is gone after so long [ms]
 UNUSED = 3000
+
+
+class _Elsewhere(RequestHandler):
+    """Refuses what was not meant for this machine."""
+
+    def prepare(self) -> None:
+        raise HTTPError(403, f"the page is at {' and '.join(HOSTS)} alone")
+
+
+def _only_for_hosts(routes: Routes) -> None:
+    """Refuse requests of every kind whose Host is not this machine."""
+    known = "|".join(map(re.escape, HOSTS))
+    routes.add_handlers(rf"(?!(?:{known})$).*", [(r".*", _Elsewhere)])
 
 
 def make_server(
@@ -42,11 +60,12 @@ def make_server(
         sockets, found = bind_sockets(ADDRESS, port)
         for socket in sockets:
             socket.close()
-        return Server(
+        server = Server(
             {"/": Application(FunctionHandler(page))},
             address=ADDRESS,
             port=found,
-            allow_websocket_origin=[f"{ADDRESS}:{found}", f"localhost:{found}"],
+            # Bokeh also takes the origin that the request names as its Host: that is checked first
+            allow_websocket_origin=[f"{host}:{found}" for host in HOSTS],
             check_unused_sessions_milliseconds=UNUSED,
             unused_session_lifetime_milliseconds=UNUSED,
             websocket_max_message_size=2 * LARGEST,
@@ -55,6 +74,8 @@ def make_server(
         raise InputError(
             f"--port {port}: {error.strerror or error}\nexpected: a free port, or none"
         ) from error
+    _only_for_hosts(server._tornado)
+    return server
 
 
 def serve(

@@ -53,7 +53,7 @@ class Uploads:
         """Read a map; InputError with the words of the reader.
 
         `said` has what a case says of it: ``length_x``, ``length_y`` [m] or 0, ``channel``,
-        ``height_unit``, each of them or none.
+        ``height_unit``, ``lateral_unit``, each of them or none.
         """
         known = {name: value for name, value in said.items() if value}
         try:

@@ -46,6 +46,8 @@ def film_rows(found: Film) -> list[tuple[str, str]]:
     for small, big in (("h_c", "H_c"), ("h_min", "H_min")):
         rows.append((small, _film(s, small, big, point.film_scale, converged=found.converged)))
     for formula in found.sheet["formulas"]:
+        if not formula["applies"]:
+            continue
         h_min = formula["h_min_m"]
         text = f"h_c {formula['h_c_m'] * NM:.4g} nm"
         text += "" if h_min is None else f", h_min {h_min * NM:.4g} nm"
@@ -66,8 +68,8 @@ def _film(s: Mapping[str, float], small: str, big: str, scale: float, *, converg
     return with_error(s[f"{small}_m"] * NM, None if error is None else error * scale * NM, "nm")
 
 
-def rough_rows(found: Rough) -> list[tuple[str, str]]:
-    """Give names and values of the rough contact."""
+def rough_rows(found: Rough, film: Film | None = None) -> list[tuple[str, str]]:
+    """Give names and values of the rough contact; `film` is the smooth contact that is shown."""
     p = found.prediction
     if p is None:
         return [("no prediction", found.why)]
@@ -86,12 +88,16 @@ def rough_rows(found: Rough) -> list[tuple[str, str]]:
     else:
         rows.append(("no prediction", f"{p.friction.status}: {p.friction.message}"))
     if s["mu"] is not None:
-        rows.append(("friction μ", f"{s['mu']:.4f}; smooth {s['mu_smooth']:.4f}"))
+        smooth = "" if s["mu_smooth"] is None else f"; smooth {s['mu_smooth']:.4f}"
+        rows.append(("friction μ", f"{s['mu']:.4f}{smooth}"))
     if p.outside_range:
         rows.append(("outside of the range", ", ".join(p.outside_range)))
-    if s["lambda_ratio"] is not None:
-        rows.append(("film ratio Λ = h_min/σ", f"{s['lambda_ratio']:.4g}: {_lambda(s)}"))
-    rows.append(("rms height σ", f"{s['rms_height_m'] * NM:.4g} nm"))
+    # of the film that is shown above, whose grid is another than that of the prediction
+    h_min = film.summary["h_min_m"] if film is not None and film.converged else s["h_min_m"]
+    sigma = s["rms_height_m"]
+    if h_min is not None and sigma > 0.0:
+        rows.append(("film ratio Λ = h_min/σ", f"{h_min / sigma:.4g}: {_lambda(h_min / sigma)}"))
+    rows.append(("rms height σ", f"{sigma * NM:.4g} nm"))
     rows.append(("rms in the contact", f"{s['rms_deformed_m'] * NM:.4g} nm"))
     if p.friction.status == "predicted" and s["h_min_rough_m"] is not None:
         rows.append(("least rough film", f"{s['h_min_rough_m'] * NM:.4g} nm"))
@@ -100,10 +106,10 @@ def rough_rows(found: Rough) -> list[tuple[str, str]]:
     return rows
 
 
-def _lambda(s: Mapping[str, float]) -> str:
-    if s["lambda_ratio"] < TOUCHING:
+def _lambda(ratio: float) -> str:
+    if ratio < TOUCHING:
         return "thinner than the roughness, which the contact flattens"
-    return "thick film" if s["lambda_ratio"] >= THICK else "film of the order of the roughness"
+    return "thick film" if ratio >= THICK else "film of the order of the roughness"
 
 
 def python_lines(position: Position, points: int) -> str:

@@ -20,10 +20,19 @@ def _heat(v: Mapping[str, Any]) -> list[str]:
     ]
 
 
+def _cell(value: float | None, width: int, digits: int) -> str:
+    """Write a film so wide, with the digits of its column unless these are noughts."""
+    if value is None:
+        return f"{'-':>{width}}"
+    return f"{value:{width}.{digits}f}" if value >= 1e-3 else f"{value:{width}.2e}"
+
+
 def report(values: Mapping[str, Any]) -> str:
     """Return the page that ``pyehl film`` prints, from a :func:`pyehl.film`."""
     v = values
     origin = "" if v["si"] else "  (made from M and L with the radius and modulus of a steel ball)"
+    if not v["si"] and v["moes_l"] == 0.0:
+        origin = "  (made from M with the radius, modulus and speed of a steel ball)"
     along, across = "R  ", []
     axes = [f"  contact radius       a      {v['hertz_radius_m'] * 1e3:12.5g} mm"]
     if "radius_ratio" in v:
@@ -55,7 +64,9 @@ def report(values: Mapping[str, Any]) -> str:
         f"  Moes load            M      {v['moes_m']:12.5g}      U = {v['U']:.4g}",
         f"  Moes material        L      {v['moes_l']:12.5g}      G = {v['G']:.4g}",
         f"  alpha p_h            a_bar  {v['alpha_bar']:12.5g}      W = {v['W']:.4g}",
-        f"  speed parameter             {v['speed_parameter']:12.5g}",
+        f"  speed parameter             {v['speed_parameter']:12.5g}"
+        f"      g_V = {v['g_v']:.4g}, g_E = {v['g_e']:.4g}",
+        f"  regime                      {v['regime']}",
         "",
         "Dry contact (Hertz)",
         f"  maximum pressure     p_h    {v['hertz_pressure_Pa'] * 1e-9:12.5g} GPa",
@@ -68,15 +79,19 @@ def report(values: Mapping[str, Any]) -> str:
     lines.append(
         f"Film thickness {'h_c [um]':>23}{'h_min [um]':>12}{'H_c':>11}{'H_min':>11}   range"
     )
-    notes: list[str] = []
+    notes = [f"  left out: {text}" for text in v["left_out"]]
     for f in v["formulas"]:
-        h_min = f"{f['h_min_m'] * 1e6:12.4f}" if f["h_min_m"] is not None else f"{'-':>12}"
-        big = f"{f['H_min']:11.5f}" if f["H_min"] is not None else f"{'-':>11}"
-        inside = "OUTSIDE" if f["outside"] else "inside"
-        lines.append(
-            f"  {f['name']:<26}{f['h_c_m'] * 1e6:10.4f}{h_min}{f['H_c']:11.5f}{big}   {inside}"
-        )
-        notes.extend(f"  {f['name']}: {text}" for text in (f["note"], *f["outside"]) if text)
+        films = [None if f[name] is None else f[name] * 1e6 for name in ("h_c_m", "h_min_m")]
+        cells = [_cell(film, width, 4) for film, width in zip(films, (10, 12), strict=True)]
+        cells += [_cell(f[name], 11, 5) for name in ("H_c", "H_min")]
+        place = "OUTSIDE" if f["outside"] else "inside"
+        if not f["applies"]:
+            place = f"for {f['regime']} contacts"
+        lines.append(f"{'>' if f['applies'] else ' '} {f['name']:<26}{''.join(cells)}   {place}")
+        if f["applies"]:
+            known = (f"{k} = {low:g} ... {high:g}" for k, (low, high) in f["range"].items())
+            texts = f["note"], *(f["outside"] or [f"inside {', '.join(known)}"])
+            notes.extend(f"  {f['name']}: {text}" for text in texts if text)
     if notes:
         lines += ["", *notes]
     if "rms_height_m" in v:

@@ -7,9 +7,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from pyehl import library
+from pyehl import lengths, library
 from pyehl.api import predict
 from pyehl.commands.arguments import add_case_arguments, add_force
+from pyehl.prediction import folder, spectrum_assumed
 from pyehl.prediction.deformed import error_name
 from pyehl.prediction.friction import TRACKS
 from pyehl.prediction.result import Prediction
@@ -41,11 +42,11 @@ def report(prediction: Prediction) -> str:
             lines.append(f"           mu: {values['mu_note']}")
         strongest = sorted(prediction.bands, key=lambda band: -abs(band.rise))[:3]
         parts = ", ".join(
-            f"{b.rise:+.4f} from {b.longest * 1e6:.0f} to {b.shortest * 1e6:.0f} um"
-            for b in strongest
+            f"{b.rise:+.4f} {lengths.waves(b.longest, b.shortest)}" for b in strongest
         )
         if parts:
             lines.append(f"rise       {parts}")
+    lines += spectrum_assumed.report(prediction.beside)
     if prediction.advice:
         lines += prediction.advice.report()
     if f.cavitated_share > 0.0:
@@ -66,15 +67,15 @@ def _told(values: Mapping[str, Any], name: str, factor: float) -> str:
 
 def _surface(name: str, tile: Topography) -> str:
     return (
-        f"{name:11}{tile.origin}: rms {tile.rms_height * 1e6:.4g} um, "
-        f"{tile.shape[0]} x {tile.shape[1]} pixels, "
-        f"{tile.length_x * 1e3:.4g} x {tile.length_y * 1e3:.4g} mm"
+        f"{name:11}{tile.origin}: rms {lengths.length(tile.rms_height, 4)}, "
+        f"{tile.shape[0]} x {tile.shape[1]} pixels, {lengths.size(*tile.size, 4)}"
     )
 
 
 def _deformed(values: Mapping[str, Any]) -> list[str]:
     """Say what becomes of the surface."""
-    surface = [f"rms {_told(values, 'rms_deformed_m', 1e6)} um"]
+    unit = lengths.unit_of(values["rms_deformed_m"])
+    surface = [f"rms {_told(values, 'rms_deformed_m', lengths.UNITS[unit])} {unit}"]
     for words, name in (("pressure rms", "p_rise_rms_Pa"), ("greatest rise", "p_rise_max_Pa")):
         if values[name] is not None:
             surface.append(f"{words} {_told(values, name, 1e-6)} MPa")
@@ -84,7 +85,7 @@ def _deformed(values: Mapping[str, Any]) -> list[str]:
     if values["film_below_limit_share"] is not None:
         film.append(
             f"{_told(values, 'film_below_limit_share', 100.0)} % of the contact below "
-            f"{values['film_limit_m'] * 1e6:.4g} um"
+            f"{lengths.length(values['film_limit_m'], 4)}"
         )
     return [
         f"deformed   {', '.join(surface)}",
@@ -142,8 +143,10 @@ def execute(args: argparse.Namespace) -> int:
         tracks=args.tracks,
         output=args.output,
         force=args.force,
-        plots=args.plots,
+        plots=False,
     )
-    print(report(prediction))
+    print(report(prediction), flush=True)
+    if args.plots:
+        folder.draw(prediction, args.output)
     print(f"results    {args.output}")
     return 0 if prediction.friction.status == "predicted" else 1

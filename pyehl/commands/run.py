@@ -2,10 +2,10 @@
 """``pyehl run``: solve a case and write a result folder."""
 
 import argparse
+import logging
 import sys
 import time
 from collections.abc import Callable
-from functools import partial
 from typing import Any
 
 from pyehl.case import Case
@@ -14,15 +14,39 @@ from pyehl.errors import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, InputError
 from pyehl.progress import ProgressBar
 from pyehl.run import Outcome, resume, run
 from pyehl.solver import Solver
+from pyehl.streams import mute
+
+LOG = logging.getLogger(__name__)
 
 # Seconds between progress lines where the output is not a terminal
 PROGRESS_INTERVAL = 2.0
 
 
-_say = partial(print, flush=True)
+class _Voice:
+    """Prints lines; when the terminal or file is lost on the way the run goes on without a word."""
+
+    def __init__(self) -> None:
+        self.lines = 0
+        self.lost = False
+
+    def __call__(self, text: str) -> None:
+        if self.lost:
+            return
+        try:
+            print(text, flush=True)
+        except BrokenPipeError:
+            raise
+        except OSError as error:
+            if not self.lines:
+                # nothing has been computed
+                raise
+            mute()
+            self.lost = True
+            LOG.warning("standard output: cannot be written: %s", error.strerror)
+        self.lines += 1
 
 
-def _display() -> Callable[[Solver], None]:
+def _display(say: Callable[[str], None]) -> Callable[[Solver], None]:
     """Give what shows the state: a bar on a terminal, else lines now and then, and the end."""
     bar = ProgressBar() if sys.stderr.isatty() else None
     interval = PROGRESS_INTERVAL if bar is None else 0.1
@@ -35,14 +59,14 @@ def _display() -> Callable[[Solver], None]:
             if bar is not None:
                 bar.show(solver)
             if bar is None or solver.done:
-                _say(solver.progress())
+                say(solver.progress())
 
     return show
 
 
-def _status(outcome: Outcome) -> int:
+def _status(outcome: Outcome, say: _Voice) -> int:
     if outcome.converged:
-        return EXIT_OK
+        return EXIT_FAILED if say.lost else EXIT_OK
     return EXIT_INTERRUPTED if outcome.interrupted else EXIT_FAILED
 
 
@@ -60,7 +84,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def execute(args: argparse.Namespace) -> int:
-    words: dict[str, Any] = {} if args.quiet else {"say": _say, "advanced": _display()}
+    say = _Voice()
+    words: dict[str, Any] = {} if args.quiet else {"say": say, "advanced": _display(say)}
     words["force"] = args.force
     if args.resume is not None:
         if args.resume == "":
@@ -74,7 +99,7 @@ def execute(args: argparse.Namespace) -> int:
             inputs=() if args.case is None else (args.case,),
             **words,
         )
-        return _status(done)
+        return _status(done, say)
     if args.case is None or args.output is None:
         missing = "case file" if args.case is None else "result folder: -o DIR is missing"
         raise InputError(
@@ -82,4 +107,4 @@ def execute(args: argparse.Namespace) -> int:
             "expected: pyehl run CASE.nml -o DIR, or pyehl run --resume DIR"
         )
     case = Case.read(args.case, args.overrides)
-    return _status(run(case, args.output, inputs=(args.case,), **words))
+    return _status(run(case, args.output, inputs=(args.case,), **words), say)

@@ -6,9 +6,11 @@ A file of an instrument or an array, or the surface of a case.
 
 import argparse
 import hashlib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
+from pyehl import lengths
 from pyehl.case import Case, exchanged, files_of
 from pyehl.commands.arguments import add_case_arguments
 from pyehl.destination import check_files, made_by, mark, new_file
@@ -16,6 +18,8 @@ from pyehl.errors import FileError, InputError
 from pyehl.surfaces import FEATURES, Topography, from_settings
 from pyehl.surfaces.areal import AREAL_NAMES, areal_numbers
 from pyehl.surfaces.in_memory import READY
+from pyehl.surfaces.profile import fit
+from pyehl.surfaces.profile_file import is_profile, read_profile
 from pyehl.surfaces.writing import SUFFIXES, write_map
 from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
@@ -65,6 +69,10 @@ def execute(args: argparse.Namespace) -> int:
         case = Case.from_text(text, args.overrides, args.case)
     settings = case.resolve()
     kind = settings["surface"]["kind"]
+    if kind == "map":
+        print_spectrum(settings["surface"], asked=not is_case)
+        if not is_case and is_bare_profile(settings["surface"]):
+            return 0
     if kind in ("smooth", *FEATURES):
         group = "second_surface" if args.second else "surface"
         raise InputError(
@@ -98,6 +106,24 @@ def execute(args: argparse.Namespace) -> int:
     return 0
 
 
+def is_bare_profile(surface: Mapping[str, Any]) -> bool:
+    """Whether the file is a profile, and no key says what surface is to be made of it."""
+    return surface["profile"] == "none" and is_profile(surface["file"])
+
+
+def print_spectrum(surface: Mapping[str, Any], *, asked: bool) -> None:
+    """Print what a profile says of the surface."""
+    how = str(surface["profile"])
+    if how == "none" and not (asked and is_profile(surface["file"])):
+        return
+    unit = str(surface["height_unit"])
+    profile = read_profile(
+        surface["file"], float(surface["length_x"]) or None, unit if unit != "m" else None
+    )
+    found = fit(profile, str(surface["detrend"]), ridges=how == "ridges")
+    print("\n".join(found.report()))
+
+
 def _lines(surface: Topography) -> list[str]:
     """Tell what the surface is, and how it was prepared."""
     if surface.preparation is None:
@@ -105,10 +131,7 @@ def _lines(surface: Topography) -> list[str]:
     else:
         lines = surface.preparation.record.report()
     nx, ny = surface.shape
-    lines.append(
-        f"tile       {nx} x {ny} pixels, {surface.length_x * 1e3:.5g} x "
-        f"{surface.length_y * 1e3:.5g} mm"
-    )
+    lines.append(f"tile       {nx} x {ny} pixels, {lengths.size(*surface.size)}")
     return lines
 
 

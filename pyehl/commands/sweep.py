@@ -13,15 +13,15 @@ from pyehl.studies.gather import Outcome
 from pyehl.studies.plan import MOST, duration, plan
 from pyehl.studies.study import RUNS, make, read_study
 from pyehl.studies.sweep import CASES, CSV, NETCDF, perform
-from pyehl.studies.tasks import why_none
+from pyehl.studies.tasks import FAILED, FINDINGS, why_none
 from pyehl.studies.vary import parse_axis
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.description = (
         "Run a case with many values, in worker processes; started again it runs what is missing. "
-        "Exit status: 0 all cases have a result, 1 at least one has none, 2 bad input (nothing "
-        "has run), 130 interrupted."
+        "Exit status: 0 all cases have an answer, of which film breakdown is one, 1 at least one "
+        "has none, 2 bad input (nothing has run), 130 interrupted."
     )
     parser.add_argument("case", metavar="CASE.nml|STUDY.toml", help="case file or study file")
     parser.add_argument(
@@ -78,6 +78,9 @@ def report(outcome: Outcome, folder: Path, workers: int) -> str:
             f"           {outcome.ran} ran now in {duration(outcome.wall)}, "
             f"the workers {100.0 * min(share, 1.0):.0f} % busy"
         )
+    failed = outcome.statuses().get(FAILED, 0)
+    if failed:
+        lines.append(f"failed     {failed}: the same command with --retry runs them again")
     lines.append(f"results    {folder / CSV}, {folder / NETCDF}")
     return "\n".join(lines)
 
@@ -115,7 +118,8 @@ def execute(args: argparse.Namespace) -> int:
     lost = [
         f"case {point.number + 1} of {size} ({point}): {why}"
         for point in todo.points
-        if (why := why_none(outcome.rows[point.number]))
+        if outcome.rows[point.number]["status"] not in FINDINGS
+        and (why := why_none(outcome.rows[point.number]))
     ]
     tell_lost(lost, folder / CSV)
     return EXIT_FAILED if lost else EXIT_OK

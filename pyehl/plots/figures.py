@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -165,19 +166,28 @@ def prediction_figures(
 
     `about` is its summary; of the `tables` ``passage`` and ``bands`` are shown.
     """
+    return {name: draw() for name, draw in prediction_pictures(about, arrays, tables).items()}
+
+
+def prediction_pictures(
+    about: Mapping[str, Any], arrays: Mapping[str, Array], tables: Mapping[str, Mapping[str, Array]]
+) -> dict[str, Callable[[], Figure]]:
+    """Give what draws each figure of a prediction, by the names of their files."""
     title = headline(about)
-    figures: dict[str, Figure] = {}
+    found: dict[str, Callable[[], Figure]] = {}
     for prefix in ("", "second_") if "second_surface" in about else ("",):
-        figures |= _side(about, arrays, prefix, title)
+        of = about, arrays, prefix, title
+        found[f"{prefix}surface_spectrum"] = partial(_spectra, *of)
+        found[f"{prefix}roughness"] = partial(_roughness, *of)
     if about["status"] == "predicted":
-        figures["passage"] = _passage(tables, about["length_x_m"], title)
-    return figures
+        found["passage"] = partial(_passage, tables, about["length_x_m"], title)
+    return found
 
 
-def _side(
+def _spectra(
     about: Mapping[str, Any], arrays: Mapping[str, Array], prefix: str, title: str
-) -> dict[str, Figure]:
-    """Figures of the rough surface whose names begin with a prefix."""
+) -> Figure:
+    """Draw heights and spectra of the rough surface whose names begin with a prefix."""
     size = about[f"{prefix}length_x_m"], about[f"{prefix}length_y_m"]
     tile = Topography(arrays[f"{prefix}surface"], size, about[f"{prefix}surface"])
     deformed = arrays[f"{prefix}deformed"]
@@ -189,7 +199,16 @@ def _side(
     flattened = _flattened(about, Topography(arrays[f"{prefix}delta_p"], size))
     surface.spectrum_line(tile, deformed, flattened, ax=third)
     figure.axes[-1].set_box_aspect(1.0)
-    figures = {f"{prefix}surface_spectrum": figure}
+    return figure
+
+
+def _roughness(
+    about: Mapping[str, Any], arrays: Mapping[str, Array], prefix: str, title: str
+) -> Figure:
+    """Draw the rough surface whose names begin with a prefix inside the contact."""
+    size = about[f"{prefix}length_x_m"], about[f"{prefix}length_y_m"]
+    tile = Topography(arrays[f"{prefix}surface"], size, about[f"{prefix}surface"])
+    deformed = arrays[f"{prefix}deformed"]
     figure = panels(2, (7.2, 3.4), title, sharey=True, room=(0.75, 0.35, 1.15))
     for ax, values, name in zip(
         list(figure.axes),
@@ -201,8 +220,7 @@ def _side(
         a, kappa = about["hertz_radius_m"], about.get("ellipticity", 1.0)
         surface.roughness(tile, values, a, name=name, bar=last, ellipticity=kappa, ax=ax)
     no_second_label(figure.axes[1])
-    figures[f"{prefix}roughness"] = figure
-    return figures
+    return figure
 
 
 def _flattened(about: Mapping[str, Any], tile: Topography) -> Array:

@@ -59,12 +59,9 @@ class Curve:
         """Give a column of ratios (n,), as coefficients where these are drawn."""
         if not self.absolute:
             return self.column(name)
-        smooth = self.column("mu_smooth")
-        if name.startswith("mu_ratio_ehl"):
-            return self.column(name) * smooth
-        # where bodies touch a prediction has a smooth contact of its own
-        own = self.column("mu") / self.column("mu_ratio")
-        return self.column(name) * np.where(np.isfinite(own), own, smooth)
+        # where bodies touch and the heat counts there is no mu_smooth
+        smooth, own = self.column("mu_smooth"), self.column("mu") / self.column("mu_ratio")
+        return self.column(name) * np.where(np.isfinite(smooth), smooth, own)
 
 
 def draw_stribeck(

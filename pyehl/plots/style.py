@@ -27,6 +27,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 from numpy.typing import NDArray
 
+from pyehl import lengths
 from pyehl.destination import mark, new_file
 from pyehl.plots.outline import CIRCLE, Outline
 from pyehl.types import Array
@@ -292,6 +293,12 @@ def band(ax: Axes, x: Array, y: Array, error: Array, **how: Any) -> None:  # noq
 def height_unit(largest: float) -> tuple[float, str]:
     """Factor from metres to the unit for heights up to `largest`, and its name."""
     return (1e9, "nm") if largest < 5e-7 else (1e6, "µm")
+
+
+def length_unit(largest: float) -> tuple[float, str]:
+    """Factor from metres to the unit for lengths up to `largest`, and its name."""
+    unit = lengths.unit_of(largest)
+    return lengths.UNITS[unit], unit.replace("u", "µ")
 
 
 def nearest(values: Array, target: float) -> int:

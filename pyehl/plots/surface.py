@@ -12,16 +12,20 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
 
 from pyehl.plots import style
 from pyehl.plots.outline import Outline
 from pyehl.surfaces import Topography, interpolated, psd_2d, psd_isotropic
+from pyehl.surfaces.finding import Finding
 from pyehl.surfaces.holes import nearest
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.types import Array
 
 # Least spectral density that is drawn, as a share of the largest
 FLOOR = 1e-10
+# Most places of a map along each side: more are not seen
+PLACES = 1201
 # Powers of ten beyond which they stand above an axis, so that its numbers are short
 SHORT = (-3, 4)
 SHOWN = 0.005
@@ -34,13 +38,14 @@ def heights(topography: Topography, *, ax: Axes | None = None) -> Axes:
     z = topography.heights
     unit, name = style.height_unit(float(np.abs(z).max()))
     top = float(np.abs(z).max()) * unit
-    extent = (0.0, topography.length_x * 1e3, 0.0, topography.length_y * 1e3)
+    scale, length = style.length_unit(max(topography.size))
+    extent = (0.0, topography.length_x * scale, 0.0, topography.length_y * scale)
     image = ax.imshow(
         z.T * unit, origin="lower", extent=extent, cmap=style.DIVERGING, vmin=-top, vmax=top
     )
     style.colour_bar(image, ax, f"height [{name}]")
     style.few_ticks(ax)
-    ax.set(xlabel="x [mm]", ylabel="y [mm]")
+    ax.set(xlabel=f"x [{length}]", ylabel=f"y [{length}]")
     return ax
 
 
@@ -129,8 +134,14 @@ def roughness(
     nx, ny = topography.shape
     px, py = topography.pixel
     a, b = hertz_radius, ellipticity * hertz_radius
-    half_x, half_y = int(a / px), int(b / py)
-    i, j = np.arange(-half_x, half_x + 1), np.arange(-half_y, half_y + 1)
+    # a tile of small pixels has more of them in the contact than a picture can show
+    strides = [_stride(s / p, n) for s, p, n in ((a, px, nx), (b, py, ny))]
+    i, j = (
+        stride * np.arange(-int(s / p / stride), int(s / p / stride) + 1)
+        for s, p, stride in zip((a, b), (px, py), strides, strict=True)
+    )
+    if max(strides) > 1:
+        name = f"{name} one of {strides[0] * strides[1]} pixels,".strip()
     inside = (i * px / a)[:, None] ** 2 + (j * py / b)[None, :] ** 2 <= 1.0
     at = np.ix_(i % nx, j % ny)
     top = float(np.abs(topography.heights[at][inside]).max())
@@ -144,6 +155,15 @@ def roughness(
     ax.set(xlabel="x/a", ylabel="y/a")
     style.hertz_ticks(ax, outline)
     return ax
+
+
+def _stride(half: float, pixels: int) -> int:
+    """Take every so many-th pixel of a tile in a contact, half as long as so many pixels."""
+    stride = max(1, math.ceil((2 * int(half) + 1) / PLACES))
+    # so that repeated tiles show all of their pixels
+    while stride > 1 and math.gcd(stride, pixels) > 1:
+        stride += 1
+    return stride
 
 
 def passage(
@@ -169,22 +189,24 @@ def passage(
     """
     ax = style.axes_or_new(ax, 3.8, 2.9)
     known = np.isfinite(ratio)
+    scale, unit = style.length_unit(length)
+    name = f"displacement of the surface [{unit}]"
     if second is None or bool(np.all(np.diff(second) >= 0.0)):
         length *= round(float(shift[-1]) * (1.0 + 1.0 / max(1, shift.size - 1)) / length) or 1
         if known.all():
             fine = interpolated(ratio, 16)
             at = np.arange(fine.size + 1) * length / fine.size
-            ax.plot(at * 1e3, np.append(fine, fine[0]), color=style.BLUE, lw=1.4)
-    ax.plot(shift * 1e3, ratio, "o", ms=3.0, color=style.BLUE)
+            ax.plot(at * scale, np.append(fine, fine[0]), color=style.BLUE, lw=1.4)
+    ax.plot(shift * scale, ratio, "o", ms=3.0, color=style.BLUE)
     if known.all():
         mean = float(ratio.mean())
         ax.axhline(mean, color=style.VERMILLION, lw=1.0, ls="--", label=f"mean {mean:.3f}")
     if not known.any():
         style.not_known(ax)
-        ax.set(xlabel="displacement of the surface [mm]", ylabel="relative friction")
+        ax.set(xlabel=name, ylabel="relative friction")
         return ax
     ax.axhline(1.0, color=style.GREY, lw=0.8, ls=":", label="smooth")
-    ax.set(xlim=(0.0, length * 1e3), xlabel="displacement of the surface [mm]")
+    ax.set(xlim=(0.0, length * scale), xlabel=name)
     ax.set(ylabel="relative friction")
     ax.ticklabel_format(axis="y", scilimits=SHORT)
     ax.legend(loc="best", fontsize="small")
@@ -245,6 +267,7 @@ def before_and_after(
         nx, ny = made.prepared.shape
         lengths = (nx * made.pixel[0], ny * made.pixel[1])
         _map(axes[1], made.prepared, lengths, "prepared")
+        _mark(axes[0], made.record.findings, style.length_unit(max(size))[0])
         curves.insert(0, ("as measured", style.GREY, raw))
     else:
         _map(axes[0], surface.heights, lengths, "surface")
@@ -257,8 +280,9 @@ def _map(ax: Axes, heights: Array, size: tuple[float, float], title: str) -> Non
     low, high = np.nanquantile(heights, [SHOWN, 1.0 - SHOWN])
     top = float(max(abs(low), abs(high))) or 1.0
     unit, name = style.height_unit(top)
+    scale, length = style.length_unit(max(size))
     image = ax.imshow(
-        heights.T * unit, origin="lower", extent=(0.0, size[0] * 1e3, 0.0, size[1] * 1e3),
+        heights.T * unit, origin="lower", extent=(0.0, size[0] * scale, 0.0, size[1] * scale),
         cmap=style.DIVERGING, vmin=-top * unit, vmax=top * unit, interpolation="nearest",
     )  # fmt: skip
     bar = ax.figure.colorbar(image, ax=ax, fraction=0.046, extend="both")
@@ -268,7 +292,23 @@ def _map(ax: Axes, heights: Array, size: tuple[float, float], title: str) -> Non
     head = f"{ax.get_title(loc='left')} {title}\nrms {rms:.3g}, peak {peak:.3g} {name}"
     ax.set_title(head, fontsize="small", loc="left")
     style.few_ticks(ax)
-    ax.set(xlabel="x [mm]", ylabel="y [mm]")
+    ax.set(xlabel=f"x [{length}]", ylabel=f"y [{length}]")
+
+
+def _mark(ax: Axes, findings: Sequence[Finding], scale: float) -> None:
+    """Outline steps and specks of dust on a map as measured; `scale`: its unit of length per m."""
+    (image,) = ax.get_images()
+    right = float(image.get_extent()[1])
+    for finding in findings:
+        for x_min, x_max, y_min, y_max in finding.places:
+            least = 0.012 * right
+            width, height = (x_max - x_min) * scale, (y_max - y_min) * scale
+            grow = 0.0 if min(width, height) == 0.0 else least
+            box = Rectangle(
+                (x_min * scale - grow, y_min * scale - grow), width + 2 * grow, height + 2 * grow,
+                fill=False, ec=style.GREEN, lw=1.4, ls="--" if grow == 0.0 else "-",
+            )  # fmt: skip
+            ax.add_patch(box)
 
 
 def _spectra(

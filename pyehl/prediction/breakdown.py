@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from pyehl import lengths
 from pyehl.prediction.carrying import Carries, carrying_outliers, carrying_wavelength
 from pyehl.surfaces.cutting import cropped
 from pyehl.surfaces.holes import prominence
@@ -97,6 +98,9 @@ class Advice:
     # is no map, or more than a few points would have to go
     outliers: float | None
     outlier_points: int | None
+    # Options that take off what is no roughness, see :mod:`pyehl.surfaces.findings`: they come
+    # first, and no wave or spike was looked for
+    first: tuple[str, ...] = ()
 
     def summary(self) -> dict[str, float | int | None]:
         """Return what ``summary.json`` holds of it."""
@@ -114,11 +118,14 @@ class Advice:
     def report(self) -> list[str]:
         """Return the lines that ``pyehl predict`` prints."""
         lines = [
-            f"film ends  at x = {self.x * 1e3:.4g} mm, y = {self.y * 1e3:.4g} mm of the surface: "
-            f"{-self.below.deepest * 1e9:.3g} nm higher than the film bears; "
+            f"film ends  at x = {lengths.length(self.x, 4)}, y = {lengths.length(self.y, 4)} "
+            f"of the surface: {-self.below.deepest * 1e9:.3g} nm higher than the film bears; "
             f"{self.below.pixels} pixels, "
             f"{100 * self.below.share:.3g} % of the contact in the mean over the passage"
         ]
+        if self.first:
+            lines += [first_of(option) for option in self.first]
+            return lines
         if self.outliers is not None:
             lines.append(
                 f"full film  with surface.outliers = {self.outliers:.4g}: "
@@ -127,7 +134,7 @@ class Advice:
         if self.wavelength is not None:
             lines.append(
                 f"full film  with surface.shortest_wavelength = {self.wavelength:.4g}: without "
-                f"waves shorter than {self.wavelength * 1e6:.3g} um"
+                f"waves shorter than {lengths.length(self.wavelength, most='um')}"
             )
         if self.outliers is None and self.wavelength is None:
             lines.append("full film  with no cut of spikes or short waves alone")
@@ -160,6 +167,8 @@ def advise(
     below = film(tile)
     made = tile.preparation
     x, y = place_of(tile, *below.pixel)
+    if first := remedies_of(tile):
+        return Advice(below, x, y, None, None, None, first)
     spikes: tuple[float, int] | None = None
     if made is not None and without_spikes is not None and not made.options.outliers > 0.0:
         spikes = _spikes(made, without_spikes, carries)
@@ -172,6 +181,19 @@ def advise(
         ),
         *(spikes or (None, None)),
     )  # fmt: skip
+
+
+def remedies_of(tile: Topography) -> tuple[str, ...]:
+    """Options that take form and line offsets off a map: cuts of waves would take them as well."""
+    if tile.preparation is None:
+        return ()
+    found = tile.preparation.record.findings
+    return tuple(f"{f.remedy} ({f.kind})" for f in found if f.kind in ("form", "line offsets"))
+
+
+def first_of(remedy: str) -> str:
+    """Line with an option that comes before all others."""
+    return f"first      --set {remedy}: it is no roughness"
 
 
 def place_of(tile: Topography, i: int, j: int) -> tuple[float, float]:

@@ -14,7 +14,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from pyehl.errors import InputError
 from pyehl.prediction.bands import Band, joining
+from pyehl.prediction.breakdown import remedies_of
 from pyehl.prediction.carrying import confirmed, within_range
 from pyehl.prediction.contact import HertzContact, Response
 from pyehl.prediction.deformed import film_levels
@@ -73,8 +75,14 @@ class RoughPassage:
         return Spectrum.of(tile.heights / o.film_scale, *lengths)
 
     def transfer(self, spectrum: Spectrum) -> Transfer:
-        """Find what the contact makes of components."""
+        """Find what the contact makes of components. InputError where alpha is 0."""
         o = self.operating
+        if o.moes_l == 0.0:
+            raise InputError(
+                "a prediction needs a viscosity that rises with pressure: its response of the "
+                "contact to waves goes by M/L, and L = 0\nexpected: lubricant.pressure_viscosity "
+                "above 0, or a run without a prediction"
+            )
         if self.options.reduction == "response":
             zone = zone_of(self.contact, o, self.lubricant)
             moes = circle_of(self.contact, o, self.lubricant)
@@ -227,7 +235,9 @@ class RoughPassage:
     ) -> RoughFriction:
         ratios = passage[1]
         status, message = outcome(contact, ratios, load_balance=self.options.load_balance)
-        if status == BEYOND and not brief:
+        if status == BEYOND and not brief and (first := remedies_of(self.topography)):
+            message += "; " + ", ".join(f"first --set {option}" for option in first)
+        elif status == BEYOND and not brief:
             message += self._carried(*parts)
         return passed(
             contact,

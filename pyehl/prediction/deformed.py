@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 if TYPE_CHECKING:
     from pyehl.prediction.friction import RoughFriction
+    from pyehl.prediction.sides import Together
 
 Array = NDArray[np.float64]
 
@@ -50,15 +51,19 @@ def deformed_surface(
     velocity_ratios: Sequence[float],
     *,
     known: bool,
+    together: Together | None = None,
 ) -> dict[str, Any]:
     """Give what a summary says of the deformed surface.
 
     Minimum film of the smooth contact and film limit in m; `known`: whether the errors are, because
-    the model is one that they were measured of and the case in its range. NaN for what is not.
+    the model is one that they were measured of and the case in its range; `together`: the sum of
+    two surfaces that move so. NaN for what is not known.
     """
     deformed = float(np.std(friction.response.deformed))
     both = [friction.response, *([friction.second.response] if friction.second else [])]
     of_all = math.hypot(*(float(np.std(response.deformed)) for response in both))
+    if together is not None:
+        of_all = together.deformed_rms
     ratio = film_minimum / of_all if of_all > 0.0 else math.nan
     rms, rise = friction.rise_rms, friction.rise_max
     share, share_error = friction.below_limit, friction.below_limit_error
@@ -74,7 +79,8 @@ def deformed_surface(
     }
     found: dict[str, Any] = {"film_limit_m": film_limit or None}
     for name, (value, error) in values.items():
-        found |= {name: value, error_name(name): error if known else math.nan}
+        told = known and math.isfinite(value)
+        found |= {name: value, error_name(name): error if told else math.nan}
     return found
 
 

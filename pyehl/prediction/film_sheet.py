@@ -5,10 +5,32 @@ import math
 from typing import Any
 
 from pyehl import surfaces
+from pyehl.prediction.meeting import sum_of
+from pyehl.prediction.sides import composite_rms
 from pyehl.theory import film, stribeck
 from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.moes_film import regime
 from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Settings
+
+# Inlet, without the pressure of a flooded contact at it, from which the film is that of one [a]
+FLOODED = -2.0
+
+
+def left_out(settings: Settings, lubricant: Lubricant) -> list[str]:
+    """Say which keys of a resolved case the formulas do not know though the film hangs on them."""
+    found = []
+    grid, layer = settings.get("grid", {}), float(settings["lubricant"].get("boundary_film", 0.0))
+    if grid.get("border") == "zero" and float(grid["x_inlet"]) > FLOODED:
+        found.append(
+            f"grid.x_inlet = {float(grid['x_inlet']):g}: the formulas are of flooded inlets"
+        )
+    if lubricant.shear.in_flow:
+        law = lubricant.shear.law
+        found.append(f"lubricant.shear_law = '{law}': the formulas are of a Newtonian flow")
+    if layer > 0.0:
+        found.append(f"lubricant.boundary_film = {layer:g}: the formulas know no layer")
+    return found
 
 
 def sheet(settings: Settings) -> dict[str, Any]:
@@ -19,7 +41,7 @@ def sheet(settings: Settings) -> dict[str, Any]:
     turned against the motion, and nothing of a film.
     """
     operating = OperatingPoint.from_settings(settings)
-    angle = float(settings["contact"].get("angle", 0.0))
+    angle = float(settings["contact"]["angle"])
     turned = angle != 0.0 and operating.radius_ratio != 1.0
     lubricant = Lubricant.from_settings(settings)
     films = [] if turned else film.estimates(operating, lubricant)
@@ -44,14 +66,21 @@ def sheet(settings: Settings) -> dict[str, Any]:
         "hertz_pressure_Pa": operating.hertz_pressure,
         "film_scale_m": operating.film_scale,
         "speed_parameter": operating.speed_parameter,
+        "g_v": operating.viscosity_parameter,
+        "g_e": operating.elasticity_parameter,
+        "left_out": left_out(settings, lubricant),
+        "regime": regime(operating.moes_m, operating.moes_l, operating.ellipse),
         "formulas": [
             {
                 "name": f.name,
                 "source": f.source,
+                "regime": f.regime,
+                "applies": f.applies,
                 "h_c_m": f.h_c,
                 "h_min_m": f.h_min if math.isfinite(f.h_min) else None,
                 "H_c": f.h_c / operating.film_scale,
                 "H_min": f.h_min / operating.film_scale if math.isfinite(f.h_min) else None,
+                "range": {name: list(bounds) for name, bounds in f.bounds.items()},
                 "outside": list(f.outside),
                 "note": f.note,
             }
@@ -68,18 +97,19 @@ def sheet(settings: Settings) -> dict[str, Any]:
     result["surface"] = " and ".join(kinds) or "smooth"
     if turned:
         return result
-    h_c = films[0].h_c
+    h_c = film.central_film(operating, lubricant)
     if both and not set(kinds) & set(surfaces.FEATURES):
-        # composite, as of surfaces that have nothing in common
-        sigma = math.hypot(
-            *(
-                surfaces.from_settings({**settings, "surface": surface}, operating, h_c).rms_height
-                for surface in both
-            )
-        )
+        tiles = [
+            surfaces.from_settings({**settings, "surface": surface}, operating, h_c)
+            for surface in both
+        ]
+        sigma = tiles[0].rms_height
+        if len(tiles) == 2:
+            together = sum_of(both, tiles, operating.hertz_radius)
+            sigma = composite_rms(tiles[0], tiles[1], together)
         result["rms_height_m"] = sigma
-        result["lambda_ratio_central"] = h_c / sigma if sigma > 0.0 else None
-    if kinds == ["harmonic"] and operating.radius_ratio == 1.0:
+        result["lambda_ratio_central"] = films[0].h_c / sigma if sigma > 0.0 else None
+    if kinds == ["harmonic"] and operating.radius_ratio == 1.0 and operating.moes_l > 0.0:
         surface, settings = both[0], surfaces.one_rough(settings)
         amplitude = surfaces.harmonic_amplitude(settings, operating, h_c)
         wavelength = min(float(surface["wavelength_x"]), float(surface["wavelength_y"]))

@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The result folder of a prediction, and one with the smooth contact under it."""
 
-import gc
 import json
+import logging
 import math
 import os
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
@@ -17,10 +16,13 @@ from pyehl.destination import Destination, write_json
 from pyehl.errors import InputError
 from pyehl.prediction.result import Prediction
 from pyehl.prediction.sides import SECOND
-from pyehl.prediction.smooth import SmoothContact
+from pyehl.prediction.smooth import SmoothContact, contact_of
+from pyehl.prediction.smooth_case import smooth_case
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.shear import ShearLaw
 from pyehl.types import Settings
+
+LOG = logging.getLogger(__name__)
 
 TABLES = ("passage", "spectrum", "bands")
 ARRAYS = ("x", "y", "surface", "deformed", "delta_p")
@@ -42,14 +44,14 @@ def destination(
     return Destination(folder, "prediction", tuple(names), tuple(inputs), force=force)
 
 
-def write(prediction: Prediction, place: Destination, *, plots: bool = False) -> None:
+def write(prediction: Prediction, place: Destination) -> None:
     """Write the result folder, whole or not at all.
 
     Files: ``case.nml`` (resolved), ``summary.json``, ``passage.csv``, ``spectrum.csv``,
     ``bands.csv`` and, first index along x: ``x.npy`` (nx,), ``y.npy`` (ny,), ``surface.npy``,
     ``deformed.npy`` [m], ``delta_p.npy`` [Pa], (nx, ny), of a second rough surface the same as
-    ``second_x.npy`` and so on; with `plots` the pictures. InputError if
-    the folder holds something other than an earlier prediction; FileError if it cannot be written.
+    ``second_x.npy`` and so on. InputError if the folder holds something other than an earlier
+    prediction; FileError if it cannot be written.
     """
     with place.fresh() as folder:
         text = prediction.case_text.rstrip() + "\n"
@@ -59,28 +61,28 @@ def write(prediction: Prediction, place: Destination, *, plots: bool = False) ->
             write_csv(folder / f"{name}.csv", tuple(columns), rows)
         for name, values in prediction.arrays.items():
             np.save(folder / f"{name}.npy", values)
-        if plots:
-            with _uncollected():
-                # matplotlib takes longer to import than the prediction takes to compute
-                from pyehl.plots.figures import prediction_figures  # noqa: PLC0415
-                from pyehl.plots.folder import save_all  # noqa: PLC0415
-
-                parts = prediction.summary, prediction.arrays, prediction.tables
-                save_all(prediction_figures(*parts), folder)
         files = sorted(["summary.json", *(path.name for path in folder.iterdir())])
         write_json(folder / "summary.json", prediction.summary | {"files": files})
 
 
-@contextmanager
-def _uncollected() -> Iterator[None]:
-    """Collect no garbage meanwhile: matplotlib makes many objects, and nearly all are in use."""
-    running = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if running:
-            gc.enable()
+def draw(prediction: Prediction, folder: str | os.PathLike[str]) -> None:
+    """Add the pictures to a result folder that is written; one that fails is a warning."""
+    folder = Path(folder)
+    summary = prediction.summary
+    drawn = []
+    # matplotlib takes longer to import than the prediction takes to compute
+    from pyehl.plots.figures import prediction_pictures  # noqa: PLC0415
+    from pyehl.plots.style import save  # noqa: PLC0415
+
+    pictures = prediction_pictures(summary, prediction.arrays, prediction.tables)
+    for name, picture in pictures.items():
+        path = folder / f"{name}.png"
+        try:
+            drawn.append(save(picture(), path).name)
+        except Exception as error:
+            LOG.warning("%s: not drawn: %s", path, error or type(error).__name__)
+    written = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+    write_json(folder / "summary.json", written | {"files": sorted([*written["files"], *drawn])})
 
 
 def read_contact(
@@ -89,7 +91,8 @@ def read_contact(
     """Pressure and film from a result folder, of a smooth contact or under a transient run.
 
     InputError if it is not the folder of a converged solution of the same contact: M and L, ratio
-    of the radii along and across the motion, and the law that the flow obeys.
+    of the radii along and across the motion, the law that the flow obeys, lubricant and border of
+    the domain. The grid may be another.
     """
     folder = Path(folder)
     try:
@@ -110,16 +113,34 @@ def read_contact(
     there, here = float(summary.get("radius_ratio") or 1.0), operating.radius_ratio
     if not math.isclose(there, here, rel_tol=1e-4):
         raise InputError(f"{folder}: radius_ratio is {there:.6g} there and {here:.6g} in the case")
-    angle = float(of_folder["contact"].get("angle", 0.0))
+    angle = float(of_folder["contact"]["angle"])
     if here != 1.0 and angle != 0.0:
         raise InputError(f"{folder}: contact.angle is {angle:g} there and 0 in the case")
     flows = _flow(of_folder), _flow(settings)
     if flows[0] != flows[1]:
         raise InputError(f"{folder}: the flow is {flows[0]} there and {flows[1]} in the case")
-    middle = np.argmin(np.abs(x)), np.argmin(np.abs(y))
-    source = f"smooth contact in {folder}"
-    central, least = float(film[middle]), float(film.min())
-    return SmoothContact(x, y, pressure, film, central, math.nan, source, least)
+    _check_same(folder, of_folder, settings)
+    if (summary.get("contact_load_share") or 0.0) > 0.0:
+        raise InputError(
+            f"{folder}: its bodies touch at the boundary film\nexpected: the contact solved with "
+            "lubricant.boundary_film = 0"
+        )
+    return contact_of(summary, (x, y), pressure, film, f"smooth contact in {folder}")
+
+
+def _check_same(folder: Path, of_folder: Settings, settings: Settings) -> None:
+    """Refuse the contact of a folder whose lubricant or border is not that of a case."""
+    there, here = (namelist.values(smooth_case(groups)) for groups in (of_folder, settings))
+    names = [("grid", "border"), *(("lubricant", key) for key in here["lubricant"])]
+    for group, key in names:
+        both = there[group].get(key), here[group][key]
+        numbers = [v for v in both if isinstance(v, float)]
+        same = math.isclose(*numbers, rel_tol=1e-4) if len(numbers) == 2 else both[0] == both[1]
+        if not same:
+            told = ["not set" if v is None else namelist.word(v) for v in both]
+            raise InputError(
+                f"{folder}: {group}.{key} is {told[0]} there and {told[1]} in the case"
+            )
 
 
 def _flow(settings: Settings) -> str:

@@ -8,10 +8,11 @@ k = 0 ... n - 1, with n = m^2 - 1. As m^2 is 1 modulo n, it is the same for eith
 """
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -138,6 +139,17 @@ def _undecided(ratios: Array) -> float:
         return math.nan
     halves = ratios[::2].mean(), ratios[1::2].mean()
     return float(0.5 * abs(halves[0] - halves[1]) / ratios.mean())
+
+
+def sum_of(
+    groups: Sequence[Mapping[str, Any]], tiles: Sequence[Topography], hertz_radius: float
+) -> Topography | None:
+    """Return the sum of the tiles of two groups of a case; None where they do not move together."""
+    one, two = groups
+    if float(one["velocity_ratio"]) != float(two["velocity_ratio"]):
+        return None
+    way = float(two["x_start"]) - float(one["x_start"])
+    return as_one(tiles[0], tiles[1], way * hertz_radius)
 
 
 def as_one(first: Topography, second: Topography, ahead: float) -> Topography | None:

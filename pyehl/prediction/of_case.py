@@ -9,11 +9,16 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, cast
 
+import numpy as np
+
 from pyehl import surfaces
 from pyehl.errors import InputError
+from pyehl.prediction import spectrum_assumed
 from pyehl.prediction.bands import Band
 from pyehl.prediction.breakdown import Advice, BelowZero, Borne, advise, below_zero
 from pyehl.prediction.by_response import RoughPassage
+from pyehl.prediction.cost import tell_cost
+from pyehl.prediction.errors import outside_range
 from pyehl.prediction.folder import read_contact
 from pyehl.prediction.friction import TRACKS, RoughFriction, SecondPassage, broken
 from pyehl.prediction.heated import heat_of
@@ -23,9 +28,9 @@ from pyehl.prediction.pair_breakdown import PairAdvice, PairBelowZero, advise_pa
 from pyehl.prediction.partial import Partial, partial_film, without
 from pyehl.prediction.result import Prediction
 from pyehl.prediction.second_order import FILM_ENDS
-from pyehl.prediction.sides import SecondSurface
+from pyehl.prediction.sides import SecondSurface, Together
 from pyehl.prediction.smooth import SmoothContact, hertz_contact, solve_contact, with_layer
-from pyehl.prediction.touching import touching
+from pyehl.prediction.touching import lost_with_the_film, touching
 from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -87,7 +92,9 @@ def predict(
             tile = surfaces.from_settings({**settings, "surface": values}, operating, known)
         else:
             tile = surfaces.finished(tile, values)
-        ratio, kind = float(values["velocity_ratio"]), str(values.get("filter", "sharp"))
+        if not brief:
+            tell_cost(tile, operating, group)
+        ratio, kind = float(values["velocity_ratio"]), str(values["filter"])
         conditions = contact, operating, lubricant, options, ratio
         alone.append(RoughPassage(tile, *conditions, groups=(group,), filter_kind=kind))
 
@@ -102,18 +109,15 @@ def predict(
     keys = [settings[group] for group in groups]
     tracks = 0 if brief else tracks
     predicted = (_of_pair if len(alone) > 1 else _of_one)(alone, keys, borne, tracks, brief=brief)
-    friction, over, bands, below, advise_on = predicted
+    friction, over, bands, below, advise_on, together = predicted
     if friction.status == "predicted" and below.deepest <= 0.0:
         # the positions of the passage have missed it
         friction = broken(friction, below.deepest)
         over, bands = (math.nan, math.nan), []
     advice = advise_on() if friction.status == "film breakdown" and not brief else None
-    second = None
-    if len(alone) > 1 and friction.second is not None:
-        other = alone[1]
-        second = SecondSurface(other.topography, other.velocity_ratio, friction.second)
     partial = _partial(settings, alone)
     if partial is not None:
+        partial = lost_with_the_film(friction, partial)
         friction, over = touching(friction, partial, over)
         advice = None if friction.status == "predicted" else advice
     return Prediction(
@@ -139,11 +143,26 @@ def predict(
         track_count=tracks,
         below=below,
         advice=advice,
-        second=second,
-        heat=heat_of(settings, contact, lubricant),
+        second=_second(alone, friction, together),
+        heat=(partial and partial.heat) or heat_of(settings, contact, lubricant),
         thinning=contact.thinning,
         partial=partial,
+        beside=[]
+        if brief or any(given.values())
+        else spectrum_assumed.beside(
+            settings, groups, lambda other: predict(other, smooth=smooth, brief=True)
+        ),
     )
+
+
+def _second(
+    alone: Sequence[RoughPassage], friction: RoughFriction, together: Together | None
+) -> SecondSurface | None:
+    """Give the second rough surface where there is one, and its passage is known."""
+    if len(alone) < 2 or friction.second is None:
+        return None
+    other = alone[1]
+    return SecondSurface(other.topography, other.velocity_ratio, friction.second, together)
 
 
 def _partial(
@@ -151,16 +170,20 @@ def _partial(
 ) -> Partial | None:
     """Find the contact of a case with a boundary film; None without one."""
     lubricant, passage = settings["lubricant"], alone[0]
-    layer = float(lubricant.get("boundary_film", 0.0))
+    layer = float(lubricant["boundary_film"])
     if not layer > 0.0:
         return None
     if len(alone) > 1:
         return without(OF_TWO)
     if not passage.options.measured:
         return without(OTHER_MODEL)
-    found = partial_film(
-        passage, passage.parts(), layer, float(lubricant.get("boundary_friction", 0.0))
+    mu = float(lubricant["boundary_friction"])
+    found = partial_film(passage, passage.parts(), layer, mu, settings)
+    beyond = outside_range(
+        passage.operating, passage.velocity_ratio, passage.options, passage.contact.thinning
     )
+    if beyond:
+        found = found.unknown(f"outside the range of the response by {', '.join(beyond)}")
     if settings["contact"].get("hardness", 0.0) > 0.0:
         note = found.note or ELASTIC
         found = replace(found, load_share_error=math.nan, area_share_error=math.nan, note=note)
@@ -174,13 +197,13 @@ def _of_one(
     tracks: int,
     *,
     brief: bool,
-) -> tuple[RoughFriction, tuple[float, float], list[Band], BelowZero, Callable[[], Advice]]:
+) -> tuple[RoughFriction, tuple[float, float], list[Band], BelowZero, Callable[[], Advice], None]:
     """Predict one surface: friction, over tracks, bands, where the film ends, what would carry."""
     passage = alone[0]
     friction, over, bands = passage.run(tracks, brief=brief)
     tile, semi_axes = passage.topography, passage.operating.semi_axes
     below = below_zero(friction.response.deformed, tile.pixel, semi_axes, borne)
-    return friction, over, bands, below, lambda: _advice(passage, keys[0], borne)
+    return friction, over, bands, below, lambda: _advice(passage, keys[0], borne), None
 
 
 def _of_pair(
@@ -190,20 +213,30 @@ def _of_pair(
     tracks: int,
     *,
     brief: bool,
-) -> tuple[RoughFriction, tuple[float, float], list[Band], PairBelowZero, Callable[[], PairAdvice]]:
-    """Predict two surfaces, as `_of_one` does one."""
+) -> tuple[
+    RoughFriction,
+    tuple[float, float],
+    list[Band],
+    PairBelowZero,
+    Callable[[], PairAdvice],
+    Together | None,
+]:
+    """Predict two surfaces, as `_of_one` does one; last the sum of both if they move together."""
     fronts = [float(group["x_start"]) for group in keys]
-    filters = [str(group.get("filter", "sharp")) for group in keys]
+    filters = [str(group["filter"]) for group in keys]
     pair = RoughPair((alone[0], alone[1]), (fronts[0], fronts[1]), (filters[0], filters[1]))
     friction, over, bands = pair.run(tracks, brief=brief)
     second = cast("SecondPassage", friction.second)
     deformed = [friction.response.deformed, second.response.deformed]
     share, together = second.touching, pair.as_one
+    sum_of_both = None
     if together is not None:
         tile, semi_axes = together.topography, together.operating.semi_axes
-        share = below_zero(together.deformed(), tile.pixel, semi_axes, borne).share
+        deformed_sum = together.deformed()
+        share = below_zero(deformed_sum, tile.pixel, semi_axes, borne).share
+        sum_of_both = Together(tile, float(np.std(deformed_sum)))
     below = replace(pair_below_zero(pair, deformed, borne), share=share)
-    return friction, over, bands, below, lambda: advise_pair(pair, below, borne)
+    return friction, over, bands, below, lambda: advise_pair(pair, below, borne), sum_of_both
 
 
 def _options(settings: Mapping[str, Mapping[str, Any]], tracks: int) -> Options:
@@ -238,7 +271,7 @@ def _options(settings: Mapping[str, Mapping[str, Any]], tracks: int) -> Options:
 
 def _advice(passage: RoughPassage, group: Mapping[str, Any], borne: Borne) -> Advice:
     """Where the film ends, and what of the group ``surface`` would carry."""
-    surface, kind = passage.topography, str(group.get("filter", "sharp"))
+    surface, kind = passage.topography, str(group["filter"])
     return advise(
         surface,
         lambda tile: replace(passage, topography=tile).deformed(),

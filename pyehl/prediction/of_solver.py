@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from pyehl import surfaces
+from pyehl import lengths, surfaces
 from pyehl.case import Case
-from pyehl.errors import EhlError, InputError
+from pyehl.errors import EhlError, InputError, InternalError
 from pyehl.handle import SolverHandle
 from pyehl.prediction.by_response import RoughPassage
 from pyehl.prediction.options import Options, unpredictable
@@ -50,8 +50,8 @@ class Resolution:
         rise, part = self.mu_ratio - 1.0, self.unresolved
         return (
             f"predicted   mu_r/mu_s {self.mu_ratio:.3f}; of the rise {rise:+.3f}, {part:+.3f} come "
-            f"from waves shorter than {self.shortest * 1e6:.3g} um, {NODES} nodes of this grid"
-            + (f" (predicted with {self.part})" if self.part else "")
+            f"from waves shorter than {lengths.length(self.shortest, most='um')}, "
+            f"{NODES} nodes of this grid" + (f" (predicted with {self.part})" if self.part else "")
         )
 
     def report(self) -> list[str]:
@@ -169,6 +169,8 @@ class Predictions:
         if not self._resolved:
             try:
                 self._resolution = resolution(self._case, self._tiles)
+            except InternalError:
+                raise
             except (EhlError, MemoryError) as error:
                 why = str(error) or type(error).__name__
                 self._resolution = why.replace(chr(10), " ")

@@ -34,7 +34,7 @@ def unpredictable(settings: Settings) -> str:
 def turned(settings: Settings) -> str:
     """Tell why an elliptical contact has no response; '' where an axis lies along the motion."""
     contact = settings["contact"]
-    angle = float(contact.get("angle", 0.0))
+    angle = float(contact["angle"])
     if angle == 0.0 or OperatingPoint.from_settings(settings).radius_ratio == 1.0:
         return ""
     return (

@@ -11,7 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pyehl.prediction.breakdown import STATIONS, Borne, place_of
+from pyehl import lengths
+from pyehl.prediction.breakdown import STATIONS, Borne, first_of, place_of, remedies_of
 from pyehl.prediction.carrying import carrying_wavelength
 from pyehl.prediction.pair import RoughPair
 from pyehl.surfaces import GROUPS
@@ -99,6 +100,7 @@ class PairAdvice:
     # `shortest_wavelength` [m] of the first, of the second, or of both with which the film is full;
     # None: there is none
     wavelengths: tuple[float | None, float | None, float | None]
+    first: tuple[str, ...] = ()  # as of Advice
 
     def summary(self) -> dict[str, float | int | None]:
         """Return what ``summary.json`` holds of it."""
@@ -119,19 +121,21 @@ class PairAdvice:
     def report(self) -> list[str]:
         """Return the lines that ``pyehl predict`` prints."""
         places = " meets ".join(
-            f"x = {x * 1e3:.4g} mm, y = {y * 1e3:.4g} mm of {group}"
+            f"x = {lengths.length(x, 4)}, y = {lengths.length(y, 4)} of {group}"
             for group, (x, y) in zip(GROUPS, self.places, strict=True)
         )
         lines = [
             f"film ends  where {places}: {-self.below.deepest * 1e9:.3g} nm higher than the film "
             f"bears; {100 * self.below.share:.3g} % of the contact in the mean over the passage"
         ]
+        if self.first:
+            return lines + [first_of(option) for option in self.first]
         for name, length in zip((*GROUPS, "both"), self.wavelengths, strict=True):
             if length is not None:
                 key = f"{name}{' ' if name == 'both' else '.'}shortest_wavelength"
                 lines.append(
                     f"full film  with {key} = {length:.4g}: without waves shorter than "
-                    f"{length * 1e6:.3g} um"
+                    f"{lengths.length(length, most='um')}"
                 )
         if not any(self.wavelengths):
             lines.append("full film  with no cut of short waves alone")
@@ -152,10 +156,17 @@ def advise_pair(pair: RoughPair, below: PairBelowZero, film: Borne) -> PairAdvic
 
         return good
 
+    places = [place_of(one.topography, *at) for one, at in zip(pair.of, below.pixels, strict=True)]
+    remedies = tuple(
+        option.replace("surface.", f"{group}.")
+        for group, one in zip(GROUPS, pair.of, strict=True)
+        for option in remedies_of(one.topography)
+    )
+    if remedies:
+        return PairAdvice(below, (places[0], places[1]), (None, None, None), remedies)
     first, second, both = (
         _carrying(pair, numbers, carries(numbers)) for numbers in ((0,), (1,), (0, 1))
     )
-    places = [place_of(one.topography, *at) for one, at in zip(pair.of, below.pixels, strict=True)]
     return PairAdvice(below, (places[0], places[1]), (first, second, both))
 
 

@@ -19,13 +19,16 @@ one after the other, and all films are thicker by the mean s of that:
 Compared with the full simulation in docs/evidence/partial.
 """
 
+from __future__ import annotations
+
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy
 
 from pyehl.prediction.by_response import Parts, RoughPassage
+from pyehl.prediction.heated import HeatOf, mean_heat
 from pyehl.prediction.obstacle import Compliance, lifted
 from pyehl.prediction.second_order import film_left, loss_at
 from pyehl.prediction.smooth import circle_of, zone_of
@@ -33,17 +36,23 @@ from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer
 from pyehl.prediction.wavy_contact import missing, slipped
 from pyehl.surfaces import Topography
+from pyehl.theory.heat import Heat
 from pyehl.theory.transport import stiffness
-from pyehl.types import Array, Indices, Mask
+from pyehl.types import Array, Indices, Mask, Settings
 
 HOLD = 0.01
 """Bodies touch where the film exceeds the layer by less than this share, as in the solver."""
 POSITIONS = 16
 """Positions of the tile over its passage."""
+HEATED = 4
+"""Of these, in which the temperature is computed."""
+# Film [a^2/R] outside of the contact, where nothing is to make heat
+OPEN = 1.0
 # Error of the film at which bodies touch, of the rms height of the deformed surface
 # (docs/evidence/partial)
 FILM = 0.45
-# Of waves that the fluid flattens nearly whole, as much is taken to be left
+# Of waves that the fluid flattens nearly whole, as much is taken to be left: half and twice of it
+# change no digit of the contact in docs/howto/mixed.md
 LEAST_LEFT = 0.02
 # Error of the film that the layer gives, over the layer
 GIVEN_TO = 1e-4
@@ -75,11 +84,19 @@ class Partial:
     shift: Array  # (n,) how far the tile has moved [m]
     passage: Array  # (n,) friction there
     note: str  # why an error or all numbers are not there; ''
+    lost: bool = False  # whether bodies touch, and no number of that is known
+    heat: Heat | None = None  # what the heat makes of friction where bodies touch
 
     @property
     def touches(self) -> bool:
         """Whether bodies touch."""
         return self.load_share > 0.0
+
+    def unknown(self, note: str) -> Partial:
+        """Give the same where its numbers are not known, and why: none where bodies may touch."""
+        if self.load_share == 0.0 == self.load_share_error:
+            return self
+        return replace(without(note), mu_smooth=self.mu_smooth, lost=self.lost or self.touches)
 
     @property
     def lacks_friction(self) -> bool:
@@ -93,8 +110,10 @@ def without(note: str) -> Partial:
     return Partial(n, n, n, n, n, n, n, n, n, nothing, nothing, note)
 
 
-def partial_film(passage: RoughPassage, parts: Parts, layer: float, friction: float) -> Partial:
-    """Find the partial film over a passage of a tile, with a layer [m].
+def partial_film(
+    passage: RoughPassage, parts: Parts, layer: float, friction: float, settings: Settings
+) -> Partial:
+    """Find the partial film over a passage of a tile, with a layer [m], of a resolved case.
 
     `friction`: coefficient of friction of the layer [-]; 0: not known.
     """
@@ -111,29 +130,32 @@ def partial_film(passage: RoughPassage, parts: Parts, layer: float, friction: fl
         if not all(contact.add(int(step), levels) for step in steps):
             return without(UNSOLVED)
         smooth = contact.smooth_friction()
+        heat = contact.heat(steps[:: POSITIONS // HEATED], settings)
     known = points <= 2.0 * POINTS[1]
 
     def told(values: list[list[float]]) -> tuple[float, float]:
         """Mean at the film itself, and its error by the others and by the positions."""
         mean, *others = (float(np.mean(part)) for part in values)
         error = max(abs(other - mean) for other in others) + abs(np.mean(values[0][::2]) - mean)
-        return mean, float(error) if known else math.nan
+        return mean, float(error)
 
     load, area = told([level.load for level in levels]), told([level.area for level in levels])
     ratio = told([[value / smooth for value in level.stress] for level in levels])
     least = [level.least * o.film_scale for level in levels]
-    return Partial(
+    found = Partial(
         *load,
         *area,
         least[0],
         # bodies touch to HOLD
-        max(HOLD * least[0], *(abs(film - least[0]) for film in least[1:])) if known else math.nan,
+        max(HOLD * least[0], *(abs(film - least[0]) for film in least[1:])),
         *ratio,
         contact.coefficient(smooth),
         np.asarray(steps * grid.pixel[0], dtype=float),
         np.array(levels[0].stress) / smooth,
-        "" if known else UNRESOLVED,
+        "",
+        heat=heat,
     )
+    return found if known else found.unknown(UNRESOLVED)
 
 
 def _shortest(spectrum: Spectrum, power: Array) -> float:
@@ -174,6 +196,8 @@ class _Contact:
         self.load = float(self.rough.pressure.sum(where=self.rough.inside))
         self.whole_load = o.load / (o.hertz_pressure * self.rough.area)
         self._bend(self._around(grid))
+        # pressure, film and where bodies touch at each position, of the film itself
+        self.found: dict[int, tuple[Array, Array, Mask]] = {}
 
     def _way(self) -> Indices:
         """Points by which peaks have slipped past a column since the inlet (m, n)."""
@@ -254,6 +278,7 @@ class _Contact:
             film = np.maximum(self.film * film_left((loss - held.lift) / self.film), floor)
             pressure = np.maximum(linear + self.raising(held.pressure), 0.0)
             touching = self._touching(pressure, film, floor)
+            self.found.setdefault(shift, (pressure, film, touching))
             carried = float(pressure.sum(where=rough.inside))
             level.load.append(float(pressure.sum(where=touching)) / carried)
             level.area.append(np.count_nonzero(touching) / rough.points)
@@ -275,6 +300,24 @@ class _Contact:
             return flowing
         share = float(pressure.sum(where=touching) / pressure.sum(where=inside))
         return flowing + self.rubbing * self.whole_load * share
+
+    def heat(self, steps: Indices, settings: Settings) -> Heat | None:
+        """Heat of sliding at some positions: of friction a mean, of the rises the greatest.
+
+        None where bodies do not touch, or the friction of the layer is not known.
+        """
+        if not any(touching.any() for _, _, touching in self.found.values()):
+            return None
+        if not math.isfinite(self.rubbing):
+            return None
+        heat_of = HeatOf(settings, self.passage.lubricant, self.rough.x, self.rough.y)
+        found = [self.found[int(step)] for step in steps]
+        inside = self.rough.inside
+        # what is outside of the points of friction makes no heat
+        return mean_heat(
+            [heat_of(np.where(inside, p, 0.0), np.where(inside, h, OPEN), t) for p, h, t in found],
+            [self._stress(*state) for state in found],
+        )
 
     def smooth_friction(self) -> float:
         """Sum of the shear stress of the smooth contact."""

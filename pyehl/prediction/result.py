@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -20,7 +20,13 @@ from pyehl.prediction.friction import TRACKS, RoughFriction, meaning, thins
 from pyehl.prediction.options import Options
 from pyehl.prediction.pair_breakdown import PairAdvice, PairBelowZero
 from pyehl.prediction.partial import Partial
-from pyehl.prediction.sides import SecondSurface, arrays, statistics
+from pyehl.prediction.sides import (
+    SecondSurface,
+    arrays,
+    composite_rms,
+    findings_of,
+    statistics,
+)
 from pyehl.prediction.touching import NO_FRICTION, contact_numbers
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.friction import absolute_friction
@@ -113,6 +119,8 @@ class Prediction:
     heat: Heat | None = None
     film_errors: tuple[float, float] = (math.nan, math.nan)
     partial: Partial | None = None
+    # The same with other spectra, where Ra or a finish is given, see `spectrum_assumed`
+    beside: Sequence[Mapping[str, Any]] = ()
     thinning: float = 1.0  # viscosity over that of a Newtonian lubricant with as thick a film [-]
 
     def __repr__(self) -> str:
@@ -219,8 +227,11 @@ class Prediction:
     def summary(self) -> dict[str, Any]:
         """What ``summary.json`` holds; None for a number that does not exist."""
         f, o, s = self.friction, self.operating, self.surface
-        layer = float(self.settings["lubricant"].get("boundary_film", 0.0)) / o.film_scale
-        sigma = math.hypot(s.rms_height, self.second.surface.rms_height if self.second else 0.0)
+        layer = float(self.settings["lubricant"]["boundary_film"]) / o.film_scale
+        sigma = s.rms_height
+        if self.second:
+            together = self.second.together
+            sigma = composite_rms(s, self.second.surface, together.tile if together else None)
         lacking = self.partial is not None and self.partial.lacks_friction
         rough = max(f.pressure_max, self.pressure_maximum) if f.status == "predicted" else None
         values: dict[str, Any] = {
@@ -266,9 +277,15 @@ class Prediction:
             "lambda_ratio": self.film_minimum / sigma if sigma > 0.0 else None,
             "lambda_ratio_central": self.film / sigma if sigma > 0.0 else None,
             **statistics(s, f.response),
+            "surface_findings": findings_of(s, self.second.surface if self.second else None),
             **(self.second.summary(s) if self.second else {}),
             **deformed_surface(
-                f, self.film_minimum, self.options.film_limit, self._ratios, known=self._known
+                f,
+                self.film_minimum,
+                self.options.film_limit,
+                self._ratios,
+                known=self._known,
+                together=self.second.together if self.second else None,
             ),
             **contact_numbers(self.partial, layer, known=self._known),
             "cavitated_share": f.cavitated_share,
@@ -281,6 +298,7 @@ class Prediction:
             "hertz_pressure_Pa": o.hertz_pressure,
             "film_scale_m": o.film_scale,
             "bands": records(self.bands),
+            "spectrum_beside": list(self.beside) or None,
             "wall_seconds": self.seconds,
         }
         if o.radius_ratio != 1.0:

@@ -48,12 +48,21 @@ def statistics(tile: Topography, response: Response, prefix: str = "") -> dict[s
 
 
 @dataclass(frozen=True, slots=True)
+class Together:
+    """The sum of two surfaces that move together."""
+
+    tile: Topography  # undeformed
+    deformed_rms: float  # [m]
+
+
+@dataclass(frozen=True, slots=True)
 class SecondSurface:
     """The second rough surface of a prediction."""
 
     surface: Topography  # the undeformed roughness
     velocity_ratio: float  # its velocity over the mean velocity [-]
     passage: SecondPassage  # delta p and deformed roughness, positions
+    together: Together | None = None  # the sum of both where they move together
 
     @property
     def arrays(self) -> dict[str, Array]:
@@ -63,12 +72,43 @@ class SecondSurface:
     def summary(self, first: Topography) -> dict[str, Any]:
         """Return what a summary holds of it, and of both beside the `first` one."""
         both = first, self.surface
+        together = self.together.tile if self.together else None
+        slopes = [_slope(tile) for tile in both]
         return {
             "second_velocity_ratio": self.velocity_ratio,
             **statistics(self.surface, self.passage.response, SECOND),
-            "surface_rms_m": math.hypot(*(tile.rms_height for tile in both)),
-            "surface_slope": math.hypot(*(_slope(tile) for tile in both)),
+            "surface_rms_m": composite_rms(first, self.surface, together),
+            "surface_slope": _slope(together) if together else math.hypot(*slopes),
+            "surface_correlation": correlation(first, self.surface, together),
         }
+
+
+def findings_of(*tiles: Topography | None) -> str | None:
+    """Name what the maps have that is no roughness; None if there is nothing."""
+    kinds = [
+        finding.kind
+        for tile in tiles
+        if tile is not None and tile.preparation is not None
+        for finding in tile.preparation.record.findings
+    ]
+    return ", ".join(dict.fromkeys(kinds)) or None
+
+
+def composite_rms(first: Topography, second: Topography, together: Topography | None) -> float:
+    """Rms height [m] of two surfaces: of their sum where they move `together`.
+
+    Else that of surfaces that have nothing in common, as in the mean over all positions.
+    """
+    return together.rms_height if together else math.hypot(first.rms_height, second.rms_height)
+
+
+def correlation(first: Topography, second: Topography, together: Topography | None) -> float:
+    """Correlation of the heights of two surfaces that move `together`; NaN where they do not."""
+    product = first.rms_height * second.rms_height
+    if together is None or product == 0.0:
+        return math.nan
+    squares = first.rms_height**2 + second.rms_height**2
+    return (together.rms_height**2 - squares) / (2.0 * product)
 
 
 def _slope(tile: Topography) -> float:

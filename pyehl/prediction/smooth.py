@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
@@ -12,10 +12,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pyehl import namelist
 from pyehl.case import Case
 from pyehl.errors import EhlError
 from pyehl.handle import SolverHandle
+from pyehl.prediction.smooth_case import smooth_case
 from pyehl.theory.film import circle_with_same_inlet
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -31,7 +31,9 @@ FINEST = 1025
 of a contact under a high load is steep (M above 2000 or so)."""
 
 COARSE = 129
-"""With a boundary film this is tried instead, which finer grids seldom help."""
+"""With a boundary film this is tried where no finer grid has a solution."""
+CYCLES = 100
+"""Least `max_cycles` with a boundary film: the edge of a touching zone moves slowly."""
 TOUCHES = 1.2
 """Films thicker than this many layers are taken not to touch on any grid."""
 
@@ -90,45 +92,6 @@ def _linear(places: Array, axis: Array) -> tuple[NDArray[np.intp], Array]:
     return before, np.clip(at - before, 0.0, 1.0)
 
 
-# Keys that pressure and film of a smooth contact do not depend on. Those of slip and oil they do
-# where the inlet is heated by shear, those of slip and law where the flow thins
-OF_SLIP = ("slide_to_roll", "rough_surface")
-OF_SOLIDS = (
-    "hardness",
-    *("thermal_conductivity", "thermal_diffusivity"),
-    *("thermal_conductivity_2", "thermal_diffusivity_2"),
-)
-# (a temperature is refused without something that it changes)
-OF_OIL = ("thermal_conductivity",)
-OF_SHEAR = (
-    *("shear_law", "flow", "eyring_stress", "limiting_stress", "limiting_coefficient"),
-    *("carreau_stress", "carreau_exponent"),
-)
-# The prediction is that of a full film
-OF_CONTACT = ("boundary_film", "boundary_friction")
-
-
-def smooth_case(settings: Settings, *, layer: bool = False) -> str:
-    """Text of the case whose solution is the smooth contact under a resolved case.
-
-    `layer`: with its boundary film. Cases that differ in their surface or the heat of friction
-    alone have the same; where the flow is Newtonian and the inlet not heated by shear, so have
-    those that differ in their slip or their shear law.
-    """
-    thins = ShearLaw.from_settings(settings).in_flow
-    heated = bool(settings["lubricant"].get("thermal_reduction", False))
-    of_contact = OF_SOLIDS + (() if thins or heated else OF_SLIP)
-    of_lubricant = OF_CONTACT + (() if thins else OF_SHEAR) + (() if heated else OF_OIL)
-    if layer:
-        of_contact = tuple(key for key in of_contact if key != "hardness")
-        of_lubricant = tuple(key for key in of_lubricant if key != "boundary_film")
-    contact = {k: v for k, v in settings["contact"].items() if k not in of_contact}
-    lubricant = {k: v for k, v in settings["lubricant"].items() if k not in of_lubricant}
-    lubricant["thermal_friction"] = "never"
-    domain = {key: settings["grid"][key] for key in ("x_inlet", "x_outlet", "y_extent")}
-    return namelist.text_of({"contact": contact, "lubricant": lubricant, "grid": domain})
-
-
 def solve_contact(settings: Settings) -> SmoothContact:
     """Solve the smooth contact of a resolved case on POINTS x POINTS nodes, or on a finer grid.
 
@@ -145,19 +108,21 @@ def solve_contact(settings: Settings) -> SmoothContact:
 def with_layer(settings: Settings, contact: SmoothContact, lubricant: Lubricant) -> SmoothContact:
     """Smooth contact with the boundary film of a case; `contact`, that without, if it is thinner.
 
-    Its films are NaN, and the source says why, where it does not converge.
+    On the first grid that resolves its inlet. Its films are NaN, and the source says why, where
+    none does or it does not converge.
     """
     operating = OperatingPoint.from_settings(settings)
-    layer = float(settings["lubricant"].get("boundary_film", 0.0)) / operating.film_scale
+    layer = float(settings["lubricant"]["boundary_film"]) / operating.film_scale
     pressure = np.maximum(contact.pressure, 0.0) * operating.hertz_pressure
     held = lubricant.density_ratio(pressure) * contact.film
     if float(held.min()) > TOUCHES * layer:
         return contact
-    found = _solved_with_layer(smooth_case(settings, layer=True))
+    cycles = max(CYCLES, int(settings["solver"]["max_cycles"]))
+    found, why = _solved_with_layer(smooth_case(settings, layer=True), cycles)
     if found is not None:
         return found
     n = math.nan
-    lost = "not known: with the boundary film it does not converge"
+    lost = f"not known: with the boundary film {why}"
     return SmoothContact(contact.x, contact.y, n * pressure, n * pressure, n, n, lost)
 
 
@@ -194,40 +159,66 @@ def _solved(text: str) -> SmoothContact:
 
 
 @lru_cache(maxsize=8)
-def _solved_with_layer(text: str) -> SmoothContact | None:
-    return _on_grid(text, POINTS)[0] or _on_grid(text, COARSE)[0]
+def _solved_with_layer(text: str, cycles: int) -> tuple[SmoothContact | None, str]:
+    """Solve with a boundary film; None, and why, where no grid has a solution that is its own."""
+    options = [f"solver.max_cycles={cycles}"]
+    why, points = "it does not converge", POINTS
+    while points <= FINEST:
+        found, status = _on_grid(text, points, options)
+        if found is not None and not status:
+            return found, ""
+        why = status if found is not None else why
+        points = 2 * points - 1
+    found, status = _on_grid(text, COARSE, options)
+    return (None, why) if status else (found, "")
 
 
-def _on_grid(text: str, points: int) -> tuple[SmoothContact | None, str]:
-    """Solve on a grid; None if there is no solution, and its status."""
-    case = Case.from_text(text, [f"grid.points={points}"], "smooth contact")
+def _on_grid(
+    text: str, points: int, options: Sequence[str] = ()
+) -> tuple[SmoothContact | None, str]:
+    """Solve on a grid; None if there is no solution, and its status.
+
+    With a boundary film that may touch because of the grid: why; else ''.
+    """
+    case = Case.from_text(text, [f"grid.points={points}", *options], "smooth contact")
     with SolverHandle(case.text) as solver:
         solver.run()
         summary = solver.summary()
         if summary["status"] != "converged":
             return None, str(summary["status"])
         (x, y), pressure, film = solver.axes(), solver.field("P"), solver.field("H")
-    # without a solution on the next coarser grid there is nothing to extrapolate from
+    where = f"solved on {points} x {points} nodes"
+    # bodies that touch on a grid that does not resolve the inlet have no load share
+    touches = summary.get("contact_load_share", 0.0) is None
+    why = str(summary["contact_load_share_error_note"]) if touches else ""
+    return contact_of(summary, (x, y), pressure, film, where), why
+
+
+def contact_of(
+    summary: Mapping[str, Any], axes: tuple[Array, Array], pressure: Array, film: Array, where: str
+) -> SmoothContact:
+    """Smooth contact of a run by its summary, its fields P and H (nx, ny), and where it is from.
+
+    The films are scaled to the extrapolated central film where there is one: without a solution on
+    the next coarser grid there is nothing to extrapolate from.
+    """
     limit = summary["H_c_extrapolated"]
     how = "extrapolated" if limit is not None else "not extrapolated"
     (central, error), (least, least_error) = (film_of(summary, name) for name in ("H_c", "H_min"))
-    scale = central / summary["H_c"]
-    for values in (x, y, pressure, film):
+    film = film * (central / summary["H_c"])
+    for values in (*axes, pressure, film):
         values.flags.writeable = False
-    source = f"solved on {points} x {points} nodes, {how}"
-    contact = SmoothContact(
-        x,
-        y,
+    return SmoothContact(
+        *axes,
         pressure,
-        film * scale,
+        film,
         central,
         math.nan if error is None else error,
-        source,
+        f"{where}, {how}",
         least,
         limit is not None,
         minimum_film_error=math.nan if least_error is None else least_error,
     )
-    return contact, "converged"
 
 
 def film_of(summary: Mapping[str, Any], name: str) -> tuple[float, float | None]:

@@ -16,7 +16,7 @@ import numpy as np
 import scipy
 
 from pyehl import surfaces
-from pyehl.errors import EhlError, InputError
+from pyehl.errors import EhlError, InputError, InternalError
 from pyehl.handle import SolverHandle
 from pyehl.prediction.by_response import RoughPassage
 from pyehl.prediction.edge import Edge
@@ -122,7 +122,9 @@ def hand_over(
             raise InputError("the map is too large to be predicted as a whole")
         x, y = solver.axes()
         found = starting_pressure(settings, tiles, x, y, solver.start_fronts())
-    except (EhlError, ValueError, ArithmeticError, OSError, MemoryError) as error:
+    except InternalError:
+        raise
+    except (EhlError, OSError, MemoryError) as error:
         why = (str(error) or type(error).__name__).replace("\n", " ")
         LOG.warning("time.start = 'prediction': the roughness enters behind a front: %s", why)
         solver.take_start(None, why)

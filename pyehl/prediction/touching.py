@@ -5,14 +5,16 @@ import math
 from dataclasses import replace
 from typing import Any
 
-from pyehl.prediction.friction import RoughFriction
-from pyehl.prediction.partial import Partial
+from pyehl.prediction.friction import RoughFriction, broken
+from pyehl.prediction.partial import Partial, without
 from pyehl.surfaces import interpolated
 
 NO_FRICTION = (
     "the bodies touch, and the friction there is not known: lubricant.boundary_friction and "
     "sliding are needed"
 )
+
+BETWEEN = "the film ends between the positions at which contact is looked for"
 
 
 def touching(
@@ -22,6 +24,8 @@ def touching(
 
     A prediction without contact, or whose contact is not known, stays as it is.
     """
+    if partial.lost:
+        return _lost(friction, partial), (math.nan, math.nan)
     if not partial.touches:
         return friction, tracks
     fine = interpolated(partial.passage, 8)
@@ -44,6 +48,25 @@ def touching(
         film_min=partial.film_min,
         cavitated_friction=math.nan,
     ), (math.nan, math.nan)
+
+
+def lost_with_the_film(friction: RoughFriction, partial: Partial) -> Partial:
+    """Give a contact that is not known where the film ends, and none was found there."""
+    if friction.status != "film breakdown" or partial.touches:
+        return partial
+    found = partial if partial.note else without(BETWEEN)
+    return replace(found, mu_smooth=partial.mu_smooth, lost=True)
+
+
+def _lost(friction: RoughFriction, partial: Partial) -> RoughFriction:
+    """No friction of a full film where bodies touch, and how much is not known."""
+    message = f"the bodies touch at the boundary film, and nothing of that is known: {partial.note}"
+    if friction.status != "predicted":
+        message = f"{friction.message}; {message}"
+    status = "film breakdown" if friction.status == "predicted" else friction.status
+    smooth = partial.mu_smooth if math.isfinite(partial.mu_smooth) else friction.mu_smooth
+    none = broken(friction, math.nan)
+    return replace(none, status=status, message=message, mu_smooth=smooth)
 
 
 def contact_numbers(partial: Partial | None, layer: float, *, known: bool) -> dict[str, Any]:

@@ -30,9 +30,11 @@ REACH = 1.0
 """Friction is taken within this distance from the centre [semi-axes]."""
 OUTER = 0.7
 """Distance from the centre beyond which the smooth film moves with the edge [semi-axes]; further
-inside it is level."""
+inside it is level. 0.6 and 0.8 change mu_r/mu_s by 0.06 % at the most at M = 1000 and L = 10, by
+0.2 % at M = 200."""
 RINGS = np.array([0.0, 0.4, OUTER])
-"""Inner radii of the rings in which the pressure carries what the waves leave [semi-axes]."""
+"""Inner radii of the rings in which the pressure carries what the waves leave [semi-axes]: two more
+or less change mu_r/mu_s by less than 1e-5 where no ring loses its load."""
 
 
 def station_weights(x: Array) -> Array:

@@ -14,6 +14,7 @@ NOTES = {
     "H_c_error_note": "The error of H_c is not known",
     "H_min_error_note": "The error of H_min is not known",
     "mu_ratio_error_note": "The error of μ_r/μ_s is not known",
+    "contact_load_share_error_note": "Contact at the boundary film",
     "start_note": "The time steps began behind the front",
     "mu_note": "Friction",
     "note": "μ_r/μ_s",
@@ -24,12 +25,11 @@ NOTES = {
 def limits(settings: Settings, summary: Values) -> list[str]:
     """Say which limits of the model apply to a result, a sentence or two each."""
     point = OperatingPoint.from_settings(settings)
-    law, flow = settings["lubricant"]["shear_law"], settings["lubricant"].get("flow", "newtonian")
+    law, flow = settings["lubricant"]["shear_law"], settings["lubricant"]["flow"]
     rough = rough_groups(settings)
     predicted = summary.get("kind") == "prediction"
     found = [
-        "The inlet is fully flooded and the film is full: there is no starvation and no mixed "
-        "lubrication.",
+        f"The inlet is fully flooded: there is no starvation. {_contact(settings, summary)}",
         "Film and pressure are isothermal."
         if point.thermal_reduction == 1.0
         else "Shear heating of the inlet is a factor on the film (Gupta et al. 1992); film and "
@@ -50,7 +50,7 @@ def limits(settings: Settings, summary: Values) -> list[str]:
         found.append("The shear law thins the friction alone: film and waves are Newtonian.")
     elif law == "limiting":
         found.append("The limiting stress bounds the friction alone, not the flow.")
-    if point.moes_m >= 500.0 and settings.get("grid", {}).get("border") != "flooded":
+    if point.moes_m >= 500.0 and settings["grid"]["border"] != "flooded":
         found.append(
             "At the border of the domain P = 0, which takes a little of the film; what it takes is "
             "part of the stated error."
@@ -72,6 +72,28 @@ def limits(settings: Settings, summary: Values) -> list[str]:
             "waves that the film carries."
         )
     return found
+
+
+def _contact(settings: Settings, summary: Values) -> str:
+    """Say what is known of solid contact: shares of a study are the largest of its cases."""
+    share = summary.get("contact_load_share")
+    layer = float(settings["lubricant"]["boundary_film"])
+    broken = summary.get("status") in ("film breakdown", "negative film")
+    if share:
+        return (
+            f"Mixed lubrication: {100.0 * share:.2g} % of the load is carried at the boundary film "
+            f"of {layer * 1e9:.3g} nm, whose thickness and friction are given, not computed."
+        )
+    if layer > 0.0 and share is None:
+        return "Whether the bodies touch at the boundary film is not known."
+    if layer > 0.0:
+        return "The bodies touch nowhere at the boundary film: the film is full."
+    if broken:
+        return (
+            "The film ends, and without lubricant.boundary_film contact of the bodies is not "
+            "computed."
+        )
+    return "The film is full: there is no mixed lubrication."
 
 
 def unheated(summary: Values) -> float | None:

@@ -84,10 +84,17 @@ def study_parts(folder: Path) -> tuple[str, Judgement, list[str]]:
         parts += [page.heading("Warnings"), page.bullets(told[:20])]
     parts.append(page.heading("Limits that apply"))
     kind = "prediction" if run in ("predict", "stribeck") else "solution"
-    parts.append(page.bullets(limits(settings, {"kind": kind})))
+    of_all = {"kind": kind, "contact_load_share": _most_contact(rows)}
+    parts.append(page.bullets(limits(settings, of_all)))
     parts.append(page.heading("The first case"))
     parts.append(page.preformatted(namelist.given(str(header["case"]))))
     return title, _judge(rows, size), parts
+
+
+def _most_contact(rows: pd.DataFrame) -> float | None:
+    """Give the largest share of the load at the boundary film; None where none is known."""
+    name = "contact_load_share"
+    return float(rows[name].max()) if name in rows and rows[name].notna().any() else None
 
 
 def _with_unit(key: str, units: Mapping[str, str]) -> str:

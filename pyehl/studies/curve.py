@@ -10,6 +10,7 @@ import numpy as np
 from pyehl import library
 from pyehl.prediction.deformed import deformed_surfaces
 from pyehl.prediction.errors import KNOWN_RATIO
+from pyehl.prediction.friction import BEYOND
 from pyehl.prediction.smooth import film_of
 from pyehl.prediction.touching import NO_FRICTION
 from pyehl.results import unit_of
@@ -19,7 +20,7 @@ from pyehl.studies.curve_plan import CurvePlan, CurvePoint
 from pyehl.studies.tasks import FAILED, why_none
 from pyehl.theory import stribeck
 from pyehl.theory.film import central_film
-from pyehl.theory.friction import absolute_friction
+from pyehl.theory.friction import OF_ROUGH, absolute_friction
 from pyehl.theory.load_share import LoadShare
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -28,12 +29,14 @@ from pyehl.types import Array, Settings, Values
 STATUSES = ("full film", "mixed film", "film breakdown", "outside the range", "not solved")
 """What a point of a curve can be."""
 FULL_FILM, MIXED, BREAKDOWN, OUTSIDE, UNSOLVED = STATUSES
+# How a run begins to say that bodies may touch because of their grid
+NO_INLET = "the grid does not resolve the inlet"
 _NUMBERS = """
 h_c_m h_c_error_m h_min_m h_min_error_m lambda_ratio lambda_ratio_central lambda_ratio_deformed
 lambda_ratio_deformed_error rms_deformed_m rms_deformed_error_m p_rise_rms_Pa p_rise_rms_error_Pa
 p_rise_max_Pa p_rise_max_error_Pa h_min_rough_m h_min_rough_error_m film_below_limit_share
-film_below_limit_error theta_2 theta_2_wavelength_m hersey mu_smooth mu mu_isothermal
-temperature_rise_max_K flash_temperature_K p_max_Pa p_max_rough_Pa mu_spread mu_ratio
+film_below_limit_error theta_2 theta_2_wavelength_m hersey mu_smooth mu_smooth_isothermal mu
+mu_isothermal temperature_rise_max_K flash_temperature_K p_max_Pa p_max_rough_Pa mu_spread mu_ratio
 mu_ratio_spread mu_ratio_model_error mu_ratio_ehl mu_ratio_ehl_error moes_m moes_l surfaces
 """
 UNITS = {name: unit_of(name) for name in _NUMBERS.split()}
@@ -101,7 +104,7 @@ def _at(
         values |= _empirical(values, smooth.get("mu_smooth"), law)
     full = nothing if point.full is None else rows.get(point.full, nothing)
     if point.settings["lubricant"]["boundary_film"]:
-        values |= contact_columns(found, full)
+        values |= contact_columns(found or [smooth], full)
     if point.full is not None:
         if full["status"] == "converged":
             values["mu_ratio_ehl"] = full["mu_ratio"]
@@ -112,6 +115,8 @@ def _at(
         n = int(point.settings["grid"]["points"])
         told = f"film of {n} x {n} nodes, not extrapolated: grid.points = {2 * n - 1} may do better"
         values["message"] = _joined(values, told)
+    if values["mu_smooth"] is None and smooth.get("F_error_note", "").startswith(NO_INLET):
+        values["message"] = _joined(values, f"smooth contact: {smooth['F_error_note']}")
     if smooth["status"] != "converged":
         values["message"] = _joined(values, f"smooth contact: {why_none(smooth)}")
         if values["status"] in (FULL_FILM, MIXED, OUTSIDE):
@@ -123,6 +128,8 @@ def _at(
 def conclude(point: CurvePoint, row: Values) -> library.Conclusion:
     """Judge a point of a curve by its columns, and give its last lines."""
     status = "predicted" if row["status"] in (FULL_FILM, MIXED, OUTSIDE) else row["status"]
+    if row["status"] == OUTSIDE and BEYOND in str(row["message"]):
+        status = BEYOND
     message = str(row["message"]).removeprefix(f"{status}: ")
     note = "" if row["mu_ratio_model_error"] is not None else message
     law = point.settings["lubricant"]["shear_law"]
@@ -150,14 +157,16 @@ def _smooth_friction(smooth: Values) -> dict[str, Any]:
     """Friction of smooth surfaces: their ratio is 1 by definition."""
     if smooth["status"] != "converged":
         return {"status": UNSOLVED, "message": ""}
-    coefficient = smooth.get("mu_smooth")
+    coefficient, isothermal = smooth.get("mu_smooth"), smooth.get("mu_smooth_isothermal")
+    unresolved = str(smooth.get("contact_load_share_error_note", "")).startswith(NO_INLET)
     return {
         "mu_smooth": coefficient,
+        "mu_smooth_isothermal": isothermal,
         "mu": coefficient,
-        "mu_isothermal": smooth.get("mu_smooth_isothermal"),
+        "mu_isothermal": isothermal,
         "mu_ratio": 1.0,
         "mu_ratio_model_error": 0.0,
-        "status": FULL_FILM,
+        "status": UNSOLVED if unresolved else MIXED if touches([smooth]) else FULL_FILM,
         "message": "",
     }
 
@@ -166,16 +175,20 @@ def _friction(found: Sequence[Values], smooth: Values) -> dict[str, Any]:
     """Mean and spread over the surfaces; no mean where one of them has no ratio.
 
     The coefficient of the smooth contact is that of its solution, which has the inlet too. Where
-    bodies touch that of the rough one is not made of it, but as predicted.
+    bodies touch both coefficients are as predicted, so that they belong together.
     """
     lost = [row for row in found if row["status"] != "predicted"]
     if lost:
         broken = sum(row["status"] == BREAKDOWN for row in lost)
         status = BREAKDOWN if broken else UNSOLVED
+        if all(row["status"] == BEYOND for row in lost):
+            # of which the film is known
+            status = OUTSIDE
         share = f"{broken or len(lost)} of {len(found)} surfaces: " if len(found) > 1 else ""
         row = next(row for row in lost if not broken or row["status"] == BREAKDOWN)
         message = f"{share}{why_none(row)}"
-        return {"mu_smooth": smooth.get("mu_smooth"), "status": status, "message": message}
+        known = {name: smooth.get(name) for name in ("mu_smooth", "mu_smooth_isothermal")}
+        return {**known, "status": status, "message": message}
     outside = sorted({row["outside_range"] for row in found if row.get("outside_range")})
     if any((row["mu_ratio"] or 0.0) > KNOWN_RATIO for row in found):
         outside.append(f"mu_ratio above {KNOWN_RATIO:g}")
@@ -192,12 +205,22 @@ def _friction(found: Sequence[Values], smooth: Values) -> dict[str, Any]:
         }
         for row in found
     ]
+    values = {**_mean(found, "mu_ratio"), **_mean(absolute, "mu")}
+    values["mu_isothermal"] = _mean(absolute, "mu_isothermal")["mu_isothermal"]
+    values |= {"mu_smooth": coefficient, "mu_smooth_isothermal": isothermal}
+    if touches(found):
+        own = all(row.get("mu_smooth") is not None for row in found)
+        for name, mean in (("mu_smooth", "mu"), ("mu_smooth_isothermal", "mu_isothermal")):
+            mu, ratio = values[mean], values["mu_ratio"]
+            told_of = own or name != "mu_smooth"
+            values[name] = mu / ratio if told_of and mu is not None and ratio is not None else None
+        if values["mu"] is not None and not own:
+            told.append(OF_ROUGH)
+        for name in ("temperature_rise_max_K", "flash_temperature_K"):
+            values[name] = _largest(found, name)
     return {
-        **_mean(found, "mu_ratio"),
-        **_mean(absolute, "mu"),
+        **values,
         **deformed_surfaces(found),
-        "mu_isothermal": _mean(absolute, "mu_isothermal")["mu_isothermal"],
-        "mu_smooth": coefficient,
         "p_max_rough_Pa": _largest(found, "p_max_rough_Pa"),
         "mu_ratio_model_error": _largest(found, "mu_ratio_model_error"),
         "status": MIXED if touches(found) else OUTSIDE if outside else FULL_FILM,

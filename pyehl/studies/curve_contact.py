@@ -55,7 +55,10 @@ def contact_columns(found: Sequence[Values], full: Values) -> dict[str, float | 
 
 @dataclass(frozen=True, slots=True)
 class LiftOff:
-    """Where contact ends along a curve over the speed; NaN for what is not known."""
+    """Where contact ends along a curve over the speed; NaN for what is not known.
+
+    Without an error there is no speed.
+    """
 
     speed: float  # transition speed [m/s]
     error: float  # by the error of the load share [m/s]
@@ -65,7 +68,11 @@ class LiftOff:
     @property
     def words(self) -> str:
         """The transition speed in a line."""
-        error = f"+- {self.error:.2g}" if math.isfinite(self.error) else "(error not known)"
+        if not math.isfinite(self.speed):
+            return (
+                f"lift-off   not known: {LIFT_OFF:.0%} of the load lies within the error of the "
+                "load share where the curve ends, or where a point has none"
+            )
         beside = [
             f"{name} = {value:.3g}"
             for name, value in (("Lambda", self.lambda_ratio), ("theta_2", self.theta_2))
@@ -73,7 +80,7 @@ class LiftOff:
         ]
         return (
             f"lift-off   {LIFT_OFF:.0%} of the load at the boundary film at "
-            f"{self.speed:.3g} {error} m/s{', ' if beside else ''}"
+            f"{self.speed:.3g} +- {self.error:.2g} m/s{', ' if beside else ''}"
             f"{', '.join(beside)}"
         )
 
@@ -95,11 +102,13 @@ def lift_off(key: str, places: Array, rows: Sequence[Values]) -> LiftOff | None:
     error = column("contact_load_share_error")
     ends = [_crossing(speeds, share + sign * error) for sign in (1.0, -1.0)]
     between = [math.inf if end is None else abs(end - found) for end in ends]
+    worst = max(between)
+    if not math.isfinite(worst):
+        return LiftOff(math.nan, math.nan, math.nan, math.nan)
     numbers = [
         float(np.interp(found, speeds, column(name))) for name in ("lambda_ratio", "theta_2")
     ]
-    worst = max(between)
-    return LiftOff(found, worst if math.isfinite(worst) else math.nan, numbers[0], numbers[1])
+    return LiftOff(found, worst, numbers[0], numbers[1])
 
 
 def _crossing(speeds: Array, share: Array) -> float | None:

@@ -15,7 +15,9 @@ from pyehl import surfaces
 from pyehl.case import Case, files_of
 from pyehl.errors import InputError
 from pyehl.prediction.options import turned, unpredictable
-from pyehl.studies.plan import TaskList, check_memory, duration, formula_film
+from pyehl.prediction.resolved_inlet import touching_points
+from pyehl.prediction.smooth import CYCLES
+from pyehl.studies.plan import START, TaskList, check_memory, duration, formula_film
 from pyehl.studies.study import MAX_CASES, Point, Study, make
 from pyehl.studies.tasks import Task
 from pyehl.studies.vary import Axis
@@ -79,7 +81,7 @@ class CurvePlan:
         if finished:
             lines.append(f"           {len(finished)} of {len(self.tasks)} tasks are done")
         if left:
-            seconds = max(sum(left) / min(jobs, len(left)), *left)
+            seconds = START + max(sum(left) / min(jobs, len(left)), *left)
             lines.append(f"time       about {duration(seconds)} by estimate")
         return "\n".join(lines)
 
@@ -192,6 +194,9 @@ def _with_seeds(case: Case, settings: Settings, ahead: int) -> Case:
 
 
 def _smooth(case: Case, settings: Settings) -> Case:
-    """Give a case without its roughness."""
-    groups = {"surface", *surfaces.rough_groups(settings)}
-    return case.with_options({f"{group}.kind": "smooth" for group in sorted(groups, reverse=True)})
+    """Give a case without its roughness, on a grid that resolves its inlet where it may touch."""
+    points = touching_points(settings)
+    if points > int(settings["grid"]["points"]) and not settings["grid"]["target_error"]:
+        cycles = max(CYCLES, int(settings["solver"]["max_cycles"]))
+        case = case.with_options({"grid.points": points, "solver.max_cycles": cycles})
+    return case.smooth()

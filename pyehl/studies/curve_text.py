@@ -35,6 +35,7 @@ def absolute_friction(plan: CurvePlan, rows: Sequence[Values]) -> bool:
         for point, row in zip(plan.points, rows, strict=True)
         if row["status"] in (FULL_FILM, MIXED, OUTSIDE)
         and point.settings["contact"]["slide_to_roll"]
+        and (row["status"] != OUTSIDE or row["mu_ratio"] is not None)
     ]
     return bool(answers) and all(row["mu"] is not None for row in answers)
 

@@ -4,6 +4,7 @@
 import csv
 import io
 import os
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -12,6 +13,9 @@ import numpy as np
 from pyehl.errors import InputError
 from pyehl.given import text_file
 from pyehl.types import Array, Values
+
+LIKE_ERRORS = re.compile(r"err|std|sigma|uncert|dev|\+-|±", re.IGNORECASE)
+"""Names of columns that hold errors."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,6 +95,14 @@ def read_measured(path: str | os.PathLike[str], key: str) -> Measured:
             f"{', '.join(known)}; one of mu, mu_ratio; and error, which may be missing{hint}"
         )
     abscissa, ordinate = abscissae[0], ordinates[0]
+    # errors by another name would be left out, and with them the weights of a fit
+    unused = [word for word in head if word not in (abscissa, ordinate, "error")]
+    like = [word for word in unused if LIKE_ERRORS.search(word)]
+    if like or head.count("error") > 1:
+        raise InputError(
+            f"{name}:1: error: {f'the column {like[0]!r}' if like else 'two columns error'}\n"
+            "expected: errors of the friction in one column 'error'"
+        )
     wanted = [abscissa, ordinate, *(["error"] if "error" in head else [])]
     rows = []
     for number, line in enumerate(lines[1:], start=2):
@@ -107,10 +119,12 @@ def read_measured(path: str | os.PathLike[str], key: str) -> Measured:
                 value = float(given.get(word, "nothing"))
             except ValueError:
                 value = np.nan
-            if not np.isfinite(value) or (word != "error" and value <= 0.0):
-                told = given.get(word, "nothing")
+            if not np.isfinite(value) or value <= 0.0:
+                told, other = given.get(word, "nothing"), ""
+                if word == "error":
+                    other = ", or no column 'error' where the errors are not known"
                 raise InputError(
-                    f"{name}:{number}: error: {word} = '{told}'\nexpected: a number above 0"
+                    f"{name}:{number}: error: {word} = '{told}'\nexpected: a number above 0{other}"
                 )
         rows.append([float(given[word]) for word in wanted])
     if not rows:

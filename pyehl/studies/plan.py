@@ -18,7 +18,8 @@ from pyehl import library, surfaces
 from pyehl.case import Case, files_of
 from pyehl.errors import InputError
 from pyehl.prediction.options import unpredictable
-from pyehl.prediction.smooth import POINTS, smooth_case
+from pyehl.prediction.smooth import POINTS
+from pyehl.prediction.smooth_case import smooth_case
 from pyehl.solver import Solver
 from pyehl.studies.study import Point, Study
 from pyehl.studies.tasks import Task
@@ -26,14 +27,23 @@ from pyehl.surfaces import FEATURES, rough_groups
 from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.shear import ShearLaw
 from pyehl.types import Settings
 
 PREDICTION, PREDICTION_PIXEL = 0.1, 1.4e-6
 """Seconds of a prediction, and per pixel of its tile, without the smooth contact under it."""
 FULL = 2.8
 """How many times as long one with tracks and bands takes."""
-PAIR = 8.0
-"""How many times as long that of two rough surfaces takes as those of both alone."""
+PAIR, THINS, WIDER = 3.5, 2.0, 1.2
+"""How many times as long two rough surfaces take as both alone, and a flow that thins; power of
+b/a, or of a/b, with which it grows."""
+CONTACT = 1.0
+"""Seconds of the contact at a boundary film."""
+HEAVY = (2500.0, 5000.0)
+"""M above which the smooth contact under a prediction has no limit on POINTS, and on twice as many
+nodes a side."""
+START = 0.7
+"""Seconds until a worker process has begun."""
 FILM = 2e-3
 SMOOTH_LINE, SMOOTH_NODE = 5e-4, 5e-7
 """Seconds of a smooth contact per line and per node of its finest grid."""
@@ -48,9 +58,9 @@ CASE_BYTES = 12_000
 GROUPS = ("grid", *surfaces.GROUPS, "time", "solver")
 
 
-def smooth_seconds(points: int) -> float:
-    """Seconds of a smooth contact on points x points nodes."""
-    return SMOOTH_LINE * points + SMOOTH_NODE * points**2
+def smooth_seconds(points: int, aspect: float = 1.0) -> float:
+    """Seconds of a smooth contact on points x points nodes, or so many times as many across."""
+    return aspect * (SMOOTH_LINE * points + SMOOTH_NODE * points**2)
 
 
 def seconds_of(settings: Settings, run: str, *, shared: bool = False, full: bool = False) -> float:
@@ -61,15 +71,12 @@ def seconds_of(settings: Settings, run: str, *, shared: bool = False, full: bool
     if run == "film":
         return FILM
     rough = [settings[group] for group in rough_groups(settings)]
-    if run == "predict":
-        sides = [int(s["pixels"]) if s["kind"] == "fractal" else 256 for s in rough]
-        alone = sum(PREDICTION + PREDICTION_PIXEL * side**2 for side in sides)
-        alone *= (FULL if full else 1.0) * (PAIR if len(rough) > 1 else 1.0)
-        solved = settings["psd"]["smooth"] == "solved" and not shared
-        return alone + (smooth_seconds(POINTS) if solved else 0.0)
     grid = settings["grid"]
     points = int(grid["points"])
-    smooth = smooth_seconds(points)
+    aspect = (int(grid["points_y"]) - 1) / (points - 1)
+    if run == "predict":
+        return _predict_seconds(settings, aspect, shared=shared, full=full)
+    smooth = smooth_seconds(points, aspect)
     moving = [surface for surface in rough if float(surface["velocity_ratio"]) > 0.0]
     if not moving:
         return smooth
@@ -79,7 +86,25 @@ def seconds_of(settings: Settings, run: str, *, shared: bool = False, full: bool
     steps = int(settings["time"]["steps"]) or longest / mesh
     hard = 1.0 if all(surface["kind"] == "harmonic" for surface in moving) else MANY_WAVES
     coarser = 9.0 / 8.0 if settings["time"]["estimate_error"] else 1.0
-    return smooth + hard * coarser * STEP_NODE * points**2 * steps
+    return smooth + hard * coarser * STEP_NODE * points**2 * aspect * steps
+
+
+def _predict_seconds(settings: Settings, aspect: float, *, shared: bool, full: bool) -> float:
+    rough = [settings[group] for group in rough_groups(settings)]
+    point = OperatingPoint.from_settings(settings)
+    thins = ShearLaw.from_settings(settings).in_flow
+    sides = [int(s["pixels"]) if s["kind"] == "fractal" else 256 for s in rough]
+    alone = sum(PREDICTION + PREDICTION_PIXEL * side**2 for side in sides)
+    alone *= (FULL if full else 1.0) * (PAIR if len(rough) > 1 else 1.0) * (THINS if thins else 1.0)
+    kappa = point.ellipse.ellipticity
+    alone *= max(kappa, 1.0 / kappa) ** WIDER
+    if settings["lubricant"]["boundary_film"] > 0.0:
+        alone += CONTACT
+    if settings["psd"]["smooth"] != "solved" or shared:
+        return alone
+    grids = 1 + sum(point.moes_m > limit for limit in HEAVY)
+    smooth = sum(smooth_seconds(2**k * (POINTS - 1) + 1, aspect) for k in range(grids))
+    return alone + smooth * (THINS if thins else 1.0)
 
 
 def _time_to_settle(surface: Mapping[str, Any], settings: Settings) -> float:
@@ -89,7 +114,11 @@ def _time_to_settle(surface: Mapping[str, Any], settings: Settings) -> float:
     """
     if surface["kind"] in FEATURES:
         # from where it matters until it has left
-        return (2.3 + 1.2 * float(surface.get("width", 0.5))) / float(surface["velocity_ratio"])
+        width = surface.get("width")
+        if width is None:
+            point = OperatingPoint.from_settings(settings)
+            width = float(surface["width_m"]) / point.hertz_radius
+        return (2.3 + 1.2 * float(width)) / float(surface["velocity_ratio"])
     if surface["kind"] == "harmonic":
         period = float(surface["wavelength_x"])
     elif settings["contact"].get("moes_l") == 0.0:
@@ -159,7 +188,7 @@ class Plan:
         workers = min(jobs, len(left))
         words = "1 worker process" if workers == 1 else f"{workers} worker processes"
         lines.append(
-            f"time       about {duration(max(total / workers, longest))} by estimate, "
+            f"time       about {duration(START + max(total / workers, longest))} by estimate, "
             f"{words} of one thread each; the longest case {duration(longest)}"
         )
         return "\n".join(lines)

@@ -17,6 +17,7 @@ from pyehl import library, namelist
 from pyehl.errors import EhlError, InputError
 from pyehl.handle import SolverHandle
 from pyehl.prediction.smooth import SmoothContact, solve_contact
+from pyehl.prediction.smooth_case import without_surface
 from pyehl.studies.measured_friction import Measured
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -97,7 +98,7 @@ def fit_law(settings: Settings, law: str, measured: Measured, points: int) -> Fi
             f"{srr.size} measured points for {len(keys)} parameters of '{law}'\nexpected: more "
             "points than parameters"
         )
-    weight = 1.0 / error if np.all(error > 0.0) else np.ones_like(mu)
+    weight = _weights(error)
     base = _base(settings, points)
     model = _Model(settings, law)
     limits = np.array([_limits(key) for key in keys])
@@ -138,6 +139,21 @@ def fit_law(settings: Settings, law: str, measured: Measured, points: int) -> Fi
         for key, value, end in zip(keys, values, ends, strict=True)
     )
     return Fit(law, parameters, srr, mu, error, settled.fun / weight + mu, points)
+
+
+def _weights(error: Array) -> Array:
+    """Weights of measured points by their errors (n,); InputError for errors of which one is none.
+
+    Zeros alone stand for errors that are not known.
+    """
+    if not error.any():
+        return np.ones_like(error)
+    if not (error > 0.0).all():
+        raise InputError(
+            f"an error of {error.min():g} of measured friction\nexpected: errors above 0, or 0 for "
+            "all where none is known"
+        )
+    return np.asarray(1.0 / error)
 
 
 def _limits(key: str) -> tuple[float, float]:
@@ -202,13 +218,13 @@ class _Model:
 
 def _base(settings: Settings, points: int) -> dict[str, dict[str, Any]]:
     """Give what the contacts share: groups of a case without sliding and shear law."""
-    contact, oil, grid = (dict(settings[g]) for g in ("contact", "lubricant", "grid"))
+    groups = without_surface(settings)
     for key in ("slide_to_roll", "rough_surface"):
-        contact.pop(key, None)
+        groups["contact"].pop(key, None)
     for key in ("limiting_stress", "limiting_coefficient"):
-        oil.pop(key, None)
-    domain = {key: grid[key] for key in ("x_inlet", "x_outlet", "y_extent", "border")}
-    return {"contact": contact, "lubricant": oil, "grid": {"points": points, **domain}}
+        groups["lubricant"].pop(key, None)
+    groups["grid"]["points"] = points
+    return groups
 
 
 def _friction(

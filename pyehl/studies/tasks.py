@@ -16,6 +16,7 @@ from typing import Any
 from pyehl.case import Case
 from pyehl.errors import EhlError
 from pyehl.prediction import film_sheet, folder, of_case
+from pyehl.prediction.friction import BEYOND
 from pyehl.run import run
 from pyehl.solver import Solver
 from pyehl.studies.outputs import NOT_IN_A_TABLE, TRACKS, film_columns
@@ -26,6 +27,8 @@ FAILED = "failed"
 INSIDE, OUTSIDE = "inside all ranges", "outside the range of a formula"
 RESULTS = frozenset({"converged", "predicted", INSIDE, OUTSIDE})
 """Statuses of cases that have a result."""
+FINDINGS = RESULTS | {"film breakdown", BEYOND}
+"""Statuses of cases that are answered: with a result, or with what keeps the case from one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +50,10 @@ class Task:
 
 
 def why_none(row: Mapping[str, Any]) -> str:
-    """Say in words why a case has no result; '' for one that has."""
+    """Say in words why a case has no result; '' for one that has.
+
+    A film breakdown is a finding, and yet no result: there is no ratio.
+    """
     if row["status"] in RESULTS:
         return ""
     return f"{row['status']}: {row['message']}" if row.get("message") else str(row["status"])
@@ -101,7 +107,7 @@ def _film(task: Task) -> Row:
         row[central] = formula["h_c_m"]
         if formula["h_min_m"] is not None:
             row[least] = formula["h_min_m"]
-    outside = [f["name"] for f in values["formulas"] if f["outside"]]
+    outside = [f["name"] for f in values["formulas"] if f["applies"] and f["outside"]]
     row["status"] = OUTSIDE if outside else INSIDE
     row["message"] = ", ".join(outside)
     return row

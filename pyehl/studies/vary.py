@@ -125,5 +125,5 @@ def _word(word: str) -> Value:
         except ValueError:
             continue
     if word[0] in "'\"" and word[-1] == word[0] and len(word) > 1:
-        word = word[1:-1]
+        word = word[1:-1].replace(2 * word[0], word[0])
     return word

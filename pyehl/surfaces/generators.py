@@ -30,6 +30,7 @@ def fractal(
     rolloff_wavenumber: float = 0.0,
     seed: int = 1,
     modulus: str = "deterministic",
+    lay_ratio: float = 1.0,
 ) -> Topography:
     """Self-affine surface with random phases.
 
@@ -40,7 +41,8 @@ def fractal(
     same surface; the seed is not negative, of any size, and the phases come from the raw words of
     PCG64, as NumPy seeds it. Modulus ``"deterministic"``: each component lies exactly on the power
     law, only phases are random (the usual generator); ``"gaussian"``: amplitudes of a Gaussian
-    random field. InputError for an argument out of range.
+    random field. `lay_ratio` r: length of correlation along x over that along y; q is then that
+    across the lay, max(1, r) q_x and q_y/min(1, r). InputError for an argument out of range.
     """
     nx, ny = (pixels, pixels) if isinstance(pixels, int) else pixels
     if nx < 4 or ny < 4 or nx * ny > MAX_PIXELS:
@@ -70,10 +72,12 @@ def fractal(
         rms_height,
         hurst,
         rolloff_wavenumber,
+        lay_ratio,
         words,
         int(modulus == "gaussian"),
     )
     check(status, message)
+    positive("lay_ratio", lay_ratio, "-")
     origin = f"fractal, hurst {hurst:g}, seed {seed}, {modulus} modulus"
     return Topography(z, (length_x, length_y), origin, seed)
 

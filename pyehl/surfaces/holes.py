@@ -8,15 +8,23 @@ off, at steep slopes and specks of dirt, and one of them ends a film.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import scipy
 
 from pyehl.errors import InputError
 from pyehl.surfaces.levelling import level
-from pyehl.types import Array
+from pyehl.types import Array, Mask
 
 MAX_MISSING = 0.1
 """Largest share of a map that may be filled: beyond it the friction is that of the filling."""
+
+GOOD_BLOCKS, GOOD_PART, LEAST_PART = 48, 0.02, 0.1
+"""Blocks per side by which a good part of a map is looked for, the share that may be missing in it,
+and the least share of the map that it is worth."""
+SHOWN_COLUMNS, SHOWN_ROWS = 48, 20
+"""Letters that show where points are missing."""
 
 DIRECT_POINTS = 50_000
 TOLERANCE = 1e-10
@@ -28,13 +36,15 @@ MAD_TO_SIGMA = 1.482602218505602
 """Standard deviation of a normal distribution over its median absolute deviation."""
 
 
-def filled(heights: Array, pixel: tuple[float, float]) -> Array:
+def filled(
+    heights: Array, pixel: tuple[float, float], corner: tuple[float, float] = (0.0, 0.0)
+) -> Array:
     """Map whose missing points are harmonic: Laplace z = 0, z given on the rim of each hole.
 
     Five-point differences; at the edge of the map the slope across it is zero. A plane is
     harmonic, so a hole in a plane is filled exactly (where it does not touch the edge). Heights
-    (nx, ny) [m], NaN where missing; pixel size along x and y [m]. InputError if more than a share
-    of `MAX_MISSING` is missing.
+    (nx, ny) [m], NaN where missing; pixel size along x and y, and `corner` of it on the map as read
+    [m]. InputError if more than a share of `MAX_MISSING` is missing: where, and which part is good.
     """
     missing = ~np.isfinite(heights)
     count = int(np.count_nonzero(missing))
@@ -46,6 +56,7 @@ def filled(heights: Array, pixel: tuple[float, float]) -> Array:
             f"{count} of {heights.size} heights are missing ({100 * share:.1f} %), more than "
             f"{100 * MAX_MISSING:.0f} %: what the friction would be is what the filling is; "
             "measure again, or take a part of the map by surface.crop_x_min and so on"
+            f"{_where(missing, pixel, corner)}"
         )
     i, j = np.nonzero(missing)
     places = np.ravel_multi_index((i, j), heights.shape)
@@ -73,6 +84,54 @@ def filled(heights: Array, pixel: tuple[float, float]) -> Array:
     else:
         result[missing] = _solve(matrix.tocsr(), right, nearest(heights)[missing])
     return result
+
+
+def _where(missing: Mask, pixel: tuple[float, float], corner: tuple[float, float]) -> str:
+    """Say which part of a map is nearly complete, if one is, and show where points are missing."""
+    blocks = [np.linspace(0, n, min(n, GOOD_BLOCKS) + 1).astype(int) for n in missing.shape]
+    count = np.add.reduceat(missing.astype(int), blocks[0][:-1], axis=0)
+    count = np.add.reduceat(count, blocks[1][:-1], axis=1)
+    area = np.outer(*(np.diff(b) for b in blocks))
+    good = _largest_part(count, area)
+    text = ""
+    if good is not None:
+        part = [
+            f"--set surface.crop_{name}_{end}={corner[k] + blocks[k][at] * pixel[k]:.6g}"
+            for k, name in enumerate("xy")
+            for end, at in (("min", good[2 * k]), ("max", good[2 * k + 1]))
+        ]
+        i, j, m, n = good[0], good[1], good[2], good[3]
+        lost = 100 * count[i:j, m:n].sum() / area[i:j, m:n].sum()
+        of_all = 100 * area[i:j, m:n].sum() / missing.size
+        text = (
+            f"\nexpected: such as {' '.join(part)}: {of_all:.0f} % of the map, {lost:.1f} % missing"
+        )
+    # X to the right, Y upwards; a letter is about twice as high as wide
+    rows = np.array_split(missing, min(missing.shape[1], SHOWN_ROWS), axis=1)
+    lines = [
+        "".join(
+            " .:#"[min(3, math.ceil(3 * cell.mean()))]
+            for cell in np.array_split(row, min(missing.shape[0], SHOWN_COLUMNS), axis=0)
+        )
+        for row in rows[::-1]
+    ]
+    return text + "\n" + "\n".join(f"  |{line}|" for line in lines) + "\n  '#': missing"
+
+
+def _largest_part(count: Array, area: Array) -> tuple[int, int, int, int] | None:
+    """Largest part of blocks with few missing points: first and last block along x and y."""
+    sums, areas = (np.pad(values.cumsum(0).cumsum(1), ((1, 0), (1, 0))) for values in (count, area))
+    best, found = 0.0, None
+    for i in range(count.shape[0]):
+        for j in range(i + 1, count.shape[0] + 1):
+            lost, whole = sums[j] - sums[i], areas[j] - areas[i]
+            size = whole[np.newaxis, :] - whole[:, np.newaxis]
+            few = lost[np.newaxis, :] - lost[:, np.newaxis] <= GOOD_PART * size
+            size = np.where(few, size, 0.0)
+            place = int(size.argmax())
+            if size.flat[place] > best:
+                best, found = float(size.flat[place]), (i, j, *divmod(place, size.shape[1]))
+    return found if best >= LEAST_PART * area.sum() else None
 
 
 def _solve(matrix: scipy.sparse.csr_matrix, right: Array, guess: Array) -> Array:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A surface in memory: that of a caller, and part of a large one where its statistics do."""
 
+import logging
 import re
 from collections.abc import Mapping
 from dataclasses import replace
@@ -11,10 +12,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from pyehl.errors import InputError
-from pyehl.given import heights_of
+from pyehl.given import heights_of, real_numbers
+from pyehl.surfaces.holes import filled
 from pyehl.surfaces.seams import mirrored
 from pyehl.surfaces.tile import Topography
 from pyehl.types import Array
+
+LOG = logging.getLogger(__name__)
 
 Surface = Topography | ArrayLike
 """A tile, or heights [m] of shape (nx, ny) that have the size that the case says."""
@@ -26,13 +30,16 @@ IN_MEMORY = {
 """What a surface in memory is called in place of a file, by the group of the case."""
 READY: Mapping[str, Any] = {
     "surface.kind": "map",
-    "surface.channel": "''",
+    "surface.channel": "",
     "surface.detrend": "none",
     "surface.edges": "periodic",
     "surface.outliers": 0.0,
+    "surface.align_lines": "none",
+    "surface.profile": "none",
     "surface.rotate": 0.0,
     "surface.sign": 1,
     "surface.height_unit": "m",
+    "surface.lateral_unit": "same",
     "surface.crop_x_min": 0.0,
     "surface.crop_x_max": 0.0,
     "surface.crop_y_min": 0.0,
@@ -49,20 +56,39 @@ LARGE_PIXELS, PART_PIXELS = 2**20, 2**18
 def in_memory(surface: Surface, group: Mapping[str, Any], name: str = "surface") -> Topography:
     """Give a surface about its mean, of an array with the size in the group of that name.
 
+    Missing points of an array, nan or masked, are interpolated as those of a file are.
     InputError if it is none of heights, or the case does not say its size.
     """
     if not isinstance(surface, Topography):
-        heights = heights_of(surface)
+        numbers = real_numbers(surface, name)
         size = tuple(float(group.get(f"tile_{k}") or group.get(f"length_{k}") or 0.0) for k in "xy")
+        if group.get("kind", "smooth") == "smooth" or group.get("fill") == "none":
+            heights_of(numbers)
         if group.get("kind") not in ("map", "fractal") or not all(size):
             raise InputError(
                 "heights are given, and the case does not say their size\n"
                 f"expected: {name}.kind = 'map' or 'fractal' with {name}.length_x and length_y, "
                 "or pyehl.Topography(heights, size)"
             )
-        surface = Topography(heights, (size[0], size[1]))
+        surface = _whole(numbers, (size[0], size[1]), group, name)
     heights = surface.heights - surface.heights.mean()
     return replace(surface, heights=heights, origin=surface.origin or IN_MEMORY[name])
+
+
+def _whole(
+    heights: Array, size: tuple[float, float], group: Mapping[str, Any], name: str
+) -> Topography:
+    """Tile of an array whose missing points are interpolated."""
+    missing = int(np.isnan(heights).sum()) if heights.ndim == 2 else 0
+    if not missing or str(group.get("fill", "harmonic")) == "none":
+        return Topography(heights_of(heights), size)
+    pixel = (size[0] / heights.shape[0], size[1] / heights.shape[1])
+    try:
+        full = filled(np.asarray(heights, dtype=np.float64), pixel)
+    except ValueError as error:
+        raise InputError(f"{IN_MEMORY[name]}: {error}") from None
+    LOG.info("%s: %d missing points were interpolated", IN_MEMORY[name], missing)
+    return Topography(full, size, f"{IN_MEMORY[name]}, {missing} missing points interpolated")
 
 
 def as_map(tile: Topography, group: str = "surface") -> dict[str, Any]:

@@ -2,93 +2,222 @@
 """Files of instruments, by the package SurfaceTopography (extra ``surfaces``)."""
 
 import io
-import warnings
-from collections.abc import Iterator
-from contextlib import contextmanager, redirect_stderr, redirect_stdout
+import logging
+import zipfile
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from pyehl.errors import EhlError, InputError
+from pyehl.errors import EhlError, InputError, NoMemoryError
+from pyehl.surfaces.binary_variants import nms_missing, plain_tmd
+from pyehl.surfaces.found import Found
+from pyehl.surfaces.gwy_bare import data_fields
 from pyehl.surfaces.memory import check_pixels
-from pyehl.types import Array
+from pyehl.surfaces.x3p_variants import plain_x3p
 
 INSTALL = "pip install 'pyehl[surfaces]', or pip install SurfaceTopography"
-
-Sizes = tuple[float | None, float | None]
-# Heights, size, whether it is periodic, name of the channel, note
-Foreign = tuple[Array, Sizes, bool, str, str]
+ELSE = "; save the heights in m as .npy or text, and give surface.length_x and surface.length_y"
+HEAD = 512
+"""Bytes that tell the format of a file."""
+# Formats without a mark at their beginning: they would take any file of the right length
+UNMARKED = {"nms": ".nms", "hgt": ".hgt"}
+# Formats of plain text, which is read here line by line, see pyehl.surfaces.text_map
+TEXT = {"asc", "xyz"}
+# Files that a package is known to take for damaged, by their suffix
+VARIANTS: dict[str, Callable[[bytes], bytes | None]] = {".x3p": plain_x3p, ".tmd": plain_tmd}
+# A library that tries formats logs each failure; without a handler that ends on the terminal
+for _name in ("tifffile", "SurfaceTopography"):
+    logging.getLogger(_name).addHandler(logging.NullHandler())
 
 
 class UnknownFormatError(InputError):
-    """A file is of no format that SurfaceTopography knows, or lacks the unit of its size."""
+    """A file is of no format that SurfaceTopography knows."""
 
 
-def read_instrument(path: Path, channel: str = "") -> Foreign:
-    """Heights (nx, ny) [m] of one channel of an instrument file, NaN where missing.
+def read_instrument(path: Path, channel: str = "", text: bytes | None = None) -> Found:
+    """Heights (nx, ny) of one channel of an instrument file, NaN where missing.
 
-    The channel is a name, or a number from 1; empty: the file's first height channel. Also the size
-    of the file [m] or (None, None), whether it says that the map is periodic, the name of the
-    channel, and a note that heights were taken in m, for a file that names neither a size nor a
-    unit.
+    The channel is a name, or a number from 1; empty: the file's first height channel. `text` is
+    the file as plain text in UTF-8, where its lines were read already.
 
-    InputError if the package is missing, the file is of no kind that it knows, has no such
-    channel, is a profile along a line, or has a size without a unit.
+    InputError with the reason of the reader if the package is missing, the file is of no kind that
+    it knows, or damaged, has no such channel, or is a profile along a line.
     """
     try:
-        from SurfaceTopography.IO import open_topography  # noqa: PLC0415 (heavy, and optional)
+        from SurfaceTopography.IO import (  # noqa: PLC0415 (heavy, and optional)
+            MagicMatch,
+            lookup_reader_by_format,
+            readers,
+        )
     except ImportError:
         raise InputError(
             f"{path}: files of instruments are read by the package SurfaceTopography, which is "
             f"not installed: {INSTALL}; or save the heights in m as .npy"
         ) from None
     try:
-        # every reader has errors of its own, for files that are damaged, too
-        with _unheard(), open_topography(str(path)) as reader:
-            picked = _pick(path, list(reader.channels), reader.default_channel, channel)
-            check_pixels(str(path), tuple(picked.nb_grid_pts))
-            name = str(picked.name)
-            sized = picked.physical_sizes is not None
-            scan = picked.topography(**({} if sized else {"physical_sizes": (1.0, 1.0)}))
-    except (EhlError, OSError):
+        # what NumPy says of damaged files goes into the reason, or nowhere
+        with np.errstate(all="ignore"):
+            if text is not None:
+                return _read(path, lookup_reader_by_format["asc"], io.BytesIO(text), channel)
+            return _first(path, _candidates(path, readers, MagicMatch), _source(path), channel)
+    except EhlError:
         raise
     except Exception as error:
-        reason = str(error).strip().partition("\n")[0] or type(error).__name__
-        kind = InputError
-        if isinstance(error, LookupError | TypeError | AttributeError):
-            reason = "it is damaged, or not of the format that it seems to be of"
-        if type(error).__name__ == "CannotDetectFileFormat":
-            kind, reason = UnknownFormatError, "it is of no format that SurfaceTopography knows"
-        raise kind(
-            f"{path}: cannot be read as a height map: {reason}; save the heights in m as .npy "
-            "or text, and give surface.length_x and surface.length_y"
+        if _is_of_the_system(error):
+            raise
+        raise InputError(
+            f"{path}: cannot be read as a height map: {_reason(error)}{ELSE}"
         ) from None
-    note = ""
-    if scan.unit is not None:
-        scan = scan.to_unit("m")
-    elif sized:
-        raise UnknownFormatError(
-            f"{path}: the file names no unit of its size and heights; save its heights in m as "
-            ".npy or text, and give surface.length_x and surface.length_y"
+
+
+def _is_of_the_system(error: Exception) -> bool:
+    """Whether a file could not be opened or read; readers raise OSError for its contents, too."""
+    return isinstance(error, OSError) and error.errno is not None
+
+
+def _source(path: Path) -> str | io.BytesIO:
+    """Place of a file, or what it says in the form that the package reads."""
+    plain = VARIANTS.get(path.suffix.lower())
+    data = None if plain is None else plain(path.read_bytes())
+    return str(path) if data is None else io.BytesIO(data)
+
+
+def _candidates(path: Path, readers: list[Any], match: Any) -> tuple[list[Any], bool]:  # noqa: ANN401
+    """Readers that may know a file, the likely ones first, and whether its format is known.
+
+    A file that begins with the mark of a format is of it; else one whose name ends as those of a
+    format is, unless another reader can read it.
+    """
+    with path.open("rb") as stream:
+        head = stream.read(HEAD)
+    suffix = path.suffix.lower()
+    verdicts = {
+        reader: reader.can_read(head)
+        for reader in readers
+        if reader.format() not in TEXT and UNMARKED.get(reader.format(), suffix) == suffix
+    }
+    sure = [reader for reader, verdict in verdicts.items() if verdict == match.YES]
+    if sure:
+        return sure, True
+    maybe = [reader for reader, verdict in verdicts.items() if verdict != match.NO]
+    named = [reader for reader in maybe if suffix.lstrip(".") in reader.file_extensions()]
+    return named + [reader for reader in maybe if reader not in named], bool(named)
+
+
+def _first(
+    path: Path, candidates: tuple[list[Any], bool], source: str | io.BytesIO, channel: str
+) -> Found:
+    """Read by the first reader that can; else the reason of the most likely one."""
+    readers, known = candidates
+    reasons: list[str] = []
+    for reader in readers:
+        if isinstance(source, io.BytesIO):
+            source.seek(0)
+        try:
+            return _read(path, reader, source, channel)
+        except EhlError:
+            raise
+        except Exception as error:
+            if _is_of_the_system(error):
+                raise
+            reasons.append(f"as {reader.name()}: {_reason(error)}")
+    if known:
+        raise InputError(f"{path}: cannot be read as a height map: {reasons[0]}{ELSE}")
+    raise UnknownFormatError(
+        f"{path}: cannot be read as a height map: it is of no format that SurfaceTopography knows"
+        f"{ELSE}"
+    )
+
+
+def _reason(error: Exception) -> str:
+    """Give what a reader says, in one line."""
+    said = " ".join(str(error).split()).rstrip(".")
+    if isinstance(error, KeyError):
+        return f"there is no {said} in it" if said else "a part of it is missing"
+    if isinstance(error, IndexError):
+        return "it ends too early, or a part of it is missing"
+    if isinstance(error, TypeError | AttributeError | AssertionError):
+        return f"its reader fails ({type(error).__name__}: {said})"
+    return said or type(error).__name__
+
+
+def _read(path: Path, reader_class: Any, source: str | io.BytesIO, channel: str) -> Found:  # noqa: ANN401
+    """Read a channel by one reader."""
+    with reader_class(source) as reader:
+        channels = list(reader.channels)
+        if not channels and reader_class.format() == "gwy":
+            return _bare(path, channel)
+        if not channels:
+            raise ValueError("it has no channel of heights")
+        picked = _pick(path, channels, reader.default_channel, channel)
+        shape = tuple(int(n) for n in picked.nb_grid_pts)
+        _check_size(path, shape)
+        name = str(picked.name)
+        sizes = picked.physical_sizes
+        scan = picked.topography(**({"physical_sizes": (1.0, 1.0)} if sizes is None else {}))
+        named = scan.unit is not None
+        if named:
+            scan = scan.to_unit("m")
+        masked: Any = np.ma.asarray(scan.heights(), dtype=float)
+        found = Found(
+            np.ascontiguousarray(masked.filled(np.nan), dtype=np.float64),
+            height_unit=1.0 if named else None,
+            is_periodic=bool(scan.is_periodic),
+            channel=name,
         )
-    else:
-        note = "the file names no unit: its heights are taken in m"
-    masked: Any = np.ma.asarray(scan.heights(), dtype=float)
-    heights = np.ascontiguousarray(masked.filled(np.nan), dtype=np.float64)
-    size: Sizes = (None, None)
-    if sized:
-        size = (float(scan.physical_sizes[0]), float(scan.physical_sizes[1]))
-    return heights, size, bool(scan.is_periodic), name, note
+        if sizes is not None:
+            x, y = (float(size) for size in scan.physical_sizes)
+            found.size, found.size_in_metres, found.ask_lateral_unit = (x, y), named, not named
+            found.no_size = "" if named else "the file names no unit of its size and heights"
+    if reader_class.format() == "nms" and (missing := nms_missing(path)) is not None:
+        found.heights[missing] = np.nan
+    return found
 
 
-@contextmanager
-def _unheard() -> Iterator[None]:
-    """Keep what readers warn of, log and print off the terminal: they try one format by another."""
-    nowhere = io.StringIO()
-    with warnings.catch_warnings(), redirect_stdout(nowhere), redirect_stderr(nowhere):
-        warnings.simplefilter("ignore")
-        yield
+def _bare(path: Path, wanted: str) -> Found:
+    """Heights of a Gwyddion file without units, of which one has to be given for x and y."""
+    fields = data_fields(path.read_bytes())
+    other = {name: field.get("si_unit_z") for name, field in fields.items()}
+    names = [name for name, unit in other.items() if not unit or not unit[1].get("unitstr")]
+    if wanted.isdigit() and wanted not in names and 1 <= int(wanted) <= len(names):
+        wanted = names[int(wanted) - 1]
+    if not names or (wanted and wanted not in names):
+        listing = ", ".join(f"{n} '{name}'" for n, name in enumerate(names, 1)) or "none"
+        raise InputError(
+            f"{path}: there is no such map of heights\nexpected: one of the channels {listing}"
+        )
+    name = wanted or names[0]
+    field = fields[name]
+    shape = int(field["yres"]), int(field["xres"])
+    _check_size(path, shape[::-1])
+    heights = np.ascontiguousarray(field["data"].reshape(shape).T, dtype=np.float64)
+    return Found(
+        heights,
+        size=(abs(float(field["xreal"])), abs(float(field["yreal"]))),
+        size_in_metres=False,
+        ask_lateral_unit=True,
+        channel=name,
+        no_size="the file names no unit of its size and heights",
+    )
+
+
+def _check_size(path: Path, shape: tuple[int, ...]) -> None:
+    """Refuse a map that is larger than the memory, or a header that lies about its size."""
+    try:
+        check_pixels(str(path), (shape[0], shape[1]))
+    except NoMemoryError:
+        stored = path.stat().st_size
+        if zipfile.is_zipfile(path):
+            with zipfile.ZipFile(path) as archive:
+                stored = sum(member.file_size for member in archive.infolist())
+        if shape[0] * shape[1] > stored:
+            raise InputError(
+                f"{path}: its header says {shape[0]} x {shape[1]} points, but there are {stored} "
+                "bytes in it: it is damaged"
+            ) from None
+        raise
 
 
 def _pick(path: Path, channels: list[Any], default: Any, wanted: str) -> Any:  # noqa: ANN401

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Form taken off a map: its mean, its plane, its curvature, by least squares."""
 
+import warnings
+
 import numpy as np
 
 from pyehl.errors import InputError
@@ -43,6 +45,23 @@ def _factors(heights: Array, degree: int, valid: Mask | None) -> tuple[Array, Ar
     for (a, b), value in zip(powers, values, strict=True):
         coefficient[a, b] = value
     return x[:, : degree + 1], coefficient, y[:, : degree + 1]
+
+
+def align_lines(heights: Array, along: str) -> None:
+    """Put the lines of a scan along x or y level with each other, in place.
+
+    The median of what each line is above the plane of the map becomes 0. Points that are NaN stay
+    so. What the surface itself has in its line medians goes with the offsets: waves across the
+    lines that are as long as a line.
+    """
+    axis = "xy".index(along)
+    flat = heights.copy()
+    level(flat, "tilt")
+    with warnings.catch_warnings():
+        # a line without a point stays as it is
+        warnings.simplefilter("ignore", RuntimeWarning)
+        offsets = np.nan_to_num(np.nanmedian(flat, axis=axis))
+    heights -= np.expand_dims(offsets, axis)
 
 
 def level(heights: Array, what: str, valid: Mask | None = None) -> None:

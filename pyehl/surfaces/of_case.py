@@ -15,6 +15,8 @@ from pyehl.surfaces.interpolation import shift_across
 from pyehl.surfaces.memory import PREDICTION_COPIES, check_pixels
 from pyehl.surfaces.options import NEUTRAL, Options
 from pyehl.surfaces.prepare import prepare
+from pyehl.surfaces.profile import scan_of_profile
+from pyehl.surfaces.profile_file import is_profile
 from pyehl.surfaces.reading import Scan, read_scan
 from pyehl.surfaces.tile import Topography
 from pyehl.theory.operating import OperatingPoint
@@ -30,8 +32,10 @@ RADIUS_PIXELS = 64
 # Fractal tiles and maps up to so many pixels are kept, a few of them
 KEPT_PIXELS = 2**20
 # What a map is read by, and what a fractal tile follows from
-SCAN = ("file", "length_x", "length_y", "channel", "height_unit")
-FRACTAL = "pixels length_x length_y rms_height hurst rolloff_wavenumber seed modulus".split()
+SCAN = "file length_x length_y channel height_unit lateral_unit profile pixels seed".split()
+FRACTAL = (
+    "pixels length_x length_y rms_height hurst rolloff_wavenumber lay_ratio seed modulus".split()
+)
 
 
 def rough_groups(settings: Settings) -> list[str]:
@@ -85,6 +89,7 @@ def whole(settings: Settings, operating: OperatingPoint, film: float) -> Topogra
     surface = settings["surface"]
     kind = str(surface["kind"])
     if kind == "fractal":
+        surface = {"lay_ratio": 1.0, **surface}
         if int(surface["pixels"]) ** 2 > KEPT_PIXELS:
             return _fractal(surface)
         return _kept_fractal(*(surface[key] for key in FRACTAL))
@@ -118,6 +123,7 @@ def _map(surface: Mapping[str, Any]) -> Topography:
     if state.st_size > 8 * KEPT_PIXELS:
         return tile_of(scan_of(surface), options)
     place = tuple((key, surface[key]) for key in SCAN if key in surface)
+    place += (("detrend", options.detrend),)
     return _kept_map(place, state.st_mtime_ns, state.st_size, options)
 
 
@@ -152,14 +158,39 @@ def _fractal(surface: Mapping[str, Any]) -> Topography:
 
 
 def scan_of(surface: Mapping[str, Any]) -> Scan:
-    """Read the map of the group ``surface``; a length of 0 is that of the file."""
-    return read_scan(
-        str(surface["file"]),
-        float(surface.get("length_x", 0.0)) or None,
-        float(surface.get("length_y", 0.0)) or None,
-        str(surface.get("channel", "")),
-        str(surface.get("height_unit", "m")),
-    )
+    """Read the map of the group ``surface``, or its profile; a length of 0 is that of the file."""
+    path, how = str(surface["file"]), str(surface.get("profile", "none"))
+    length_x = float(surface.get("length_x", 0.0)) or None
+    unit = str(surface.get("height_unit", "m"))
+    if how != "none":
+        return scan_of_profile(
+            path,
+            how,
+            length=length_x,
+            # nobody types m for a profile of micrometres
+            height_unit=unit if unit != "m" else None,
+            detrend=str(surface.get("detrend", "auto")),
+            pixels=int(surface.get("pixels", 256)),
+            seed=int(surface.get("seed", 1)),
+        )
+    length_y = float(surface.get("length_y", 0.0)) or None
+    try:
+        return read_scan(
+            path,
+            length_x,
+            length_y,
+            str(surface.get("channel", "")),
+            unit,
+            str(surface.get("lateral_unit", "same")),
+        )
+    except InputError as error:
+        if not is_profile(path):
+            raise
+        raise InputError(
+            f"{error}\nexpected: a map; this is a profile along a line, so "
+            "surface.profile = 'isotropic' (a surface of its spectrum) or 'ridges' (it extended "
+            f"across, as by a lay); 'pyehl surface {path}' tells its spectrum"
+        ) from error
 
 
 def tile_of(scan: Scan, options: Options = NEUTRAL) -> Topography:

@@ -16,6 +16,8 @@ class Options:
     fill: str = "harmonic"  # ``"harmonic"`` or ``"none"``, which refuses maps with missing points
     # Threshold, see :func:`pyehl.surfaces.holes.prominence`; 0: none are removed
     outliers: float = 0.0
+    # ``"x"`` or ``"y"``: lines along it are put level with each other; ``"none"``
+    align_lines: str = "none"
     edges: str = "auto"  # ``"mirror"``, ``"window"``, ``"periodic"`` or ``"auto"``
     # (x_min, x_max, y_min, y_max) [m], a maximum of 0 being the far edge
     crop: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
@@ -30,6 +32,7 @@ class Options:
             detrend=str(surface.get("detrend", "auto")),
             fill=str(surface.get("fill", "harmonic")),
             outliers=float(surface.get("outliers", 0.0)),
+            align_lines=str(surface.get("align_lines", "none")),
             edges=str(surface.get("edges", "auto")),
             crop=tuple(float(surface.get(key, 0.0)) for key in bounds),  # type: ignore[arg-type]
             rotate=float(surface.get("rotate", 0.0)),

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """From a map as measured to a tile that can pass through a contact, one recorded step at a time.
 
-The order is fixed: crop, sign, outliers, fill, detrend, rotate, edges. Spikes go before the plane
-is fitted, which they would tilt, and holes before the map is turned; the edges are joined last.
+The order is fixed: crop, sign, outliers, align_lines, fill, detrend, rotate, edges. Spikes go
+before the plane is fitted, which they would tilt, and holes before the map is turned; the edges are
+joined last. What the levelled map has besides roughness is in the record, see
+:mod:`pyehl.surfaces.findings`.
 What 'auto' means depends on what the file is, see :func:`pyehl.surfaces.options.defaults`.
 """
 
@@ -12,7 +14,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from pyehl.errors import InputError
-from pyehl.surfaces import cutting, holes, levelling, seams
+from pyehl.surfaces import cutting, findings, holes, levelling, seams
 from pyehl.surfaces.memory import check_pixels
 from pyehl.surfaces.options import NEUTRAL, Options, defaults
 from pyehl.surfaces.reading import Scan
@@ -117,6 +119,11 @@ def _prepared(
         work.begin()
         work.own()[spiky] = np.nan
         work.do("outliers", f"{options.outliers:g}", work.z, changed=int(spiky.sum()))
+    if options.align_lines != "none":
+        _tell(scan, "align_lines")
+        work.begin()
+        levelling.align_lines(work.own(), options.align_lines)
+        work.do("align_lines", options.align_lines, work.z)
     if valid is not None:
         _tell(scan, "fill")
         _fill(work, options, valid)
@@ -125,6 +132,12 @@ def _prepared(
         work.begin()
         levelling.level(work.own(), options.detrend, valid)
         work.do("detrend", options.detrend, work.z, why["detrend"])
+    _tell(scan, "findings")
+    periodic = options.edges == "periodic"
+    corner = (options.crop[0], options.crop[2])
+    work.findings = findings.find(
+        work.z, work.pixel, options.detrend, periodic=periodic, corner=corner
+    )
     if options.rotate % 360.0 != 0.0:
         _tell(scan, "rotate")
         turned, pixel = cutting.rotated(work.z, work.pixel, options.rotate)
@@ -164,7 +177,7 @@ def _fill(work: WorkingMap, options: Options, valid: Mask) -> None:
             f"column {j}, and surface.fill = 'none'; with 'harmonic' they are interpolated"
         )
     try:
-        full = holes.filled(work.z, work.pixel)
+        full = holes.filled(work.z, work.pixel, (options.crop[0], options.crop[2]))
     except ValueError as error:
         raise InputError(f"{work.origin}: {error}") from None
     why = "given" if options.outliers > 0.0 else "nothing is known but the rims of the holes"

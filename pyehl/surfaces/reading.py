@@ -6,37 +6,33 @@ An instrument file is taken as SurfaceTopography gives it: x along the lines of 
 width), y across them. A map whose lay or motion is another way is turned by `surface.rotate`.
 """
 
-import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
 
 from pyehl.errors import EhlError, FileError, InputError
 from pyehl.library import check_memory
-from pyehl.surfaces.instruments import Foreign, UnknownFormatError, read_instrument
-from pyehl.surfaces.memory import check_pixels
-from pyehl.surfaces.text_map import UNITS, grid_of, is_list, read_headed, read_text
+from pyehl.surfaces import sense
+from pyehl.surfaces.arrays import read_npy
+from pyehl.surfaces.found import UNITS, Found, Sizes
+from pyehl.surfaces.instruments import UnknownFormatError, read_instrument
+from pyehl.surfaces.text_file import encoding_of, lines_of
+from pyehl.surfaces.text_header import header_of
+from pyehl.surfaces.text_map import LEAST_PIXELS, matrix_map, read_text_map
+from pyehl.surfaces.text_table import HEADER_LINES, begins_with_numbers
+from pyehl.surfaces.texts import FLAVOUR, read_known_text
 from pyehl.types import Array
 
 PIXEL_BAND = (1e-10, 1e-3)
 """Pixels outside of it [m] are mistakes of units."""
+SMALL_PIXEL = 2e-8
+"""Pixels below it [m] are asked for, where x and y are in the unit of the heights by default."""
+SAME = "same"
+"""The unit of places is that of the heights."""
 
-TEXT_SUFFIXES = (".txt", ".csv", ".dat", ".asc", "")
-# Headers of text exports that name sizes or units: Gwyddion, in each of its languages, SPIP and the
-# like, and Wyko
-EXPORT = re.compile(
-    r"(width|šířka|breite|anchura|largeur|larghezza|幅|폭|largura|ширина|"
-    r"value units|jednotky hodnot|einheiten|unités|unità valore|値の単位|값 단위|"
-    r"unidades de valor|единицы измерения|"
-    r"lateral units|[xyz]-unit|x-length|x-pixels|pixel size|file format|unit x|scale x)\s*[:：=]"
-    r"|^Wyko ASCII",
-    re.IGNORECASE,
-)
-# First characters of numbers, nan and inf among them
-NUMBER_BEGINS = "0123456789+-.nNiI,;"
-HEADER_LINES = 100
-LEAST_PIXELS = 4
+TEXT_SUFFIXES = (".txt", ".csv", ".dat", ".asc", ".xyz", ".tsv", ".tab", ".prn", "")
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,28 +59,19 @@ class Scan:
 def is_array_file(path: str | Path) -> bool:
     """Whether a file is a `.npy` array or plain text, which need no other package.
 
-    Text counts as an array unless it begins with words, or its header is that of an instrument's
-    program and names a size or a unit; such exports have their lines along x, as images have.
-    OSError if the file cannot be opened.
+    Text counts as an array unless it begins with words, or its header names a size or a unit; such
+    exports have their lines along x, as images have. OSError if the file cannot be opened.
     """
     path = Path(path)
     if path.suffix.lower() == ".npy":
         return True
-    if not _is_text(path):
+    encoding = encoding_of(path) if path.suffix.lower() in TEXT_SUFFIXES else None
+    if encoding is None:
         return False
-    with path.open(encoding="utf-8", errors="replace") as lines:
-        first = [line for _, line in zip(range(HEADER_LINES), lines, strict=False)]
-    data = next((text for line in first if (text := line.partition("#")[0].strip())), "")
-    words = bool(data) and data[0] not in NUMBER_BEGINS
-    return not words and not any(EXPORT.search(line) for line in first)
-
-
-def _is_text(path: Path) -> bool:
-    """Whether a file has the name of a text and no byte that a text has not."""
-    if path.suffix.lower() not in TEXT_SUFFIXES:
-        return False
-    with path.open("rb") as stream:
-        return all(byte >= 9 for byte in stream.read(4096))
+    first = [line for _, line in islice(lines_of(path, encoding), HEADER_LINES)]
+    comments = [line for line in first if line.strip().startswith("#")]
+    exported = header_of(comments).says or any(FLAVOUR.search(line) for line in first)
+    return begins_with_numbers(first) and not exported
 
 
 def read_scan(
@@ -93,15 +80,17 @@ def read_scan(
     length_y: float | None = None,
     channel: str = "",
     height_unit: str = "m",
+    lateral_unit: str = SAME,
 ) -> Scan:
     """Read a height map with its size [m]: needed where the file has none, else in place of it.
 
     ``.npy`` (never pickled) or text (``.txt``, ``.csv``, ``.dat``, ``.asc``: one x per line, y
-    along the line, separated by blanks, commas or semicolons; or a list of the x, y and z of all
-    points of a grid), heights in `height_unit` ('m', 'mm', 'um' or 'nm'), as are the places of a
-    list, NaN where they are missing; any other file must be one that SurfaceTopography reads, or a
-    text with its table under lines of words (:mod:`pyehl.surfaces.text_map`). Where such a file
-    names neither size nor unit (MATLAB, HDF5), its heights are in that unit, too.
+    along the line, separated by blanks, commas, semicolons or tabs; a table under lines of words,
+    or with axes; or a list of the x, y and z of all points of a grid, see
+    :mod:`pyehl.surfaces.text_map`), NaN where heights are missing; any other file must be one that
+    SurfaceTopography reads. Heights are in `height_unit` ('m', 'mm', 'um' or 'nm') where the file
+    names no unit of theirs, the places of a list or of axes in `lateral_unit` (or 'same': that of
+    the heights).
     `channel` is the name of a channel of an instrument file, or its number, counted from 1; empty:
     the one that the file calls its first height channel.
 
@@ -113,85 +102,146 @@ def read_scan(
     if not path.is_file():
         raise FileError(f"{path}: no such height map")
     try:
-        return _read(path, length_x, length_y, channel, height_unit)
+        return _read(path, (length_x, length_y), channel, height_unit, lateral_unit)
     except EhlError:
         raise
     except OSError as error:
         raise FileError(f"{path}: cannot read: {error.strerror or error}") from error
 
 
-def _read(
-    path: Path, length_x: float | None, length_y: float | None, channel: str, height_unit: str
-) -> Scan:
+def _read(path: Path, given: Sizes, channel: str, height_unit: str, lateral_unit: str) -> Scan:
     length = path.stat().st_size
     if length == 0:
         raise InputError(f"{path}: the file is empty")
     if path.suffix.lower() != ".npy":
         # a line of text may be as long as the file; the header of an array tells more
         check_memory(f"{path}: a file of this length", length)
-    name, note = "", ""
-    array = is_array_file(path)
-    if array:
-        heights, own, periodic = _read_array(path, channel)
-    else:
-        heights, own, periodic, name, note = _read_foreign(path, channel)
-    if height_unit != "m":
-        if not array and not note:
-            raise InputError(
-                f"{path}: surface.height_unit = '{height_unit}', but the file names its unit itself"
-            )
-        heights *= UNITS[height_unit]
-        note = f"heights in {height_unit} by surface.height_unit"
-    if is_list(heights):
-        heights, own = grid_of(path, heights)
-    _check_shape(path, heights.shape)
-    x, y = length_x or own[0], length_y or own[1]
+    found = _found(path, channel)
+    notes = [*found.notes, *_measured(path, found, height_unit)]
+    _check_shape(path, found.heights.shape)
+    own, why = _own_size(path, found, lateral_unit, height_unit)
+    x, y = given[0] or own[0], given[1] or own[1]
     if x is None or y is None:
         missing = (f"surface.length_{k}" for k, size in (("x", x), ("y", y)) if size is None)
+        unit = "" if not found.no_size or found.size_in_metres else ", or surface.lateral_unit"
         raise InputError(
-            f"{path}: the size of the map is not known: the file has none; "
-            f"give {' and '.join(missing)} [m]"
+            f"{path}: the size of the map is not known: {found.no_size or 'the file has none'}; "
+            f"give {' and '.join(missing)} [m]{unit}"
         )
-    given_names = [f"surface.{k}" for k, v in (("length_x", length_x), ("length_y", length_y)) if v]
+    given_names = [
+        f"surface.{k}" for k, v in zip(("length_x", "length_y"), given, strict=True) if v
+    ]
     size_from = ", ".join(given_names) or "the file"
     if len(given_names) == 1:
         size_from += " and the file"
     if given_names and own != (None, None):
-        size_from += f" (in place of {own[0]:.6g} x {own[1]:.6g} m of the file)"
-    scan = Scan(heights, float(x), float(y), str(path), array, periodic, name, size_from, note)
+        said = " x ".join("?" if size is None else f"{size:.6g}" for size in own)
+        size_from += f" (in place of {said} m of the file)"
+    if not all(given):
+        notes += why
+    scan = Scan(
+        found.heights,
+        float(x),
+        float(y),
+        str(path),
+        found.is_array,
+        found.is_periodic,
+        found.channel,
+        size_from,
+        "; ".join(notes),
+    )
     _check_pixel(scan)
-    return scan
+    return _sensible(scan)
 
 
-def _read_foreign(path: Path, channel: str) -> Foreign:
-    """Read a file of an instrument, or a table under lines of words."""
-    found = None
-    may_be_table = not channel and _is_text(path)
-    try:
-        found = read_instrument(path, channel)
-    except UnknownFormatError:
-        if not may_be_table:
-            raise
-    # a text whose unit SurfaceTopography does not see may name it in words
-    if found is not None and not (found[-1] and may_be_table):
-        return found
-    try:
-        return read_headed(path)
-    except InputError:
-        if found is None:
-            raise
-        return found
-
-
-def _read_array(path: Path, channel: str) -> tuple[Array, tuple[float | None, float | None], bool]:
-    """Heights, the size if the file has it, and whether it says 'periodic'."""
-    if channel:
-        raise InputError(
-            f"{path}: surface.channel = '{channel}', but .npy and text hold one map alone"
-        )
+def _found(path: Path, channel: str) -> Found:
+    """Read a file by the reader that knows it."""
     if path.suffix.lower() == ".npy":
-        return _read_npy(path), (None, None), False
-    return read_text(path)
+        if channel:
+            raise InputError(
+                f"{path}: surface.channel = '{channel}', but .npy and text hold one map alone"
+            )
+        return matrix_map(path, read_npy(path))
+    encoding = encoding_of(path)
+    if encoding is None:
+        return read_instrument(path, channel)
+    known = read_known_text(path, encoding, channel)
+    if known is not None:
+        return known
+    if path.suffix.lower() in TEXT_SUFFIXES:
+        return read_text_map(path, encoding, channel)
+    try:
+        return read_instrument(path, channel)
+    except UnknownFormatError:
+        return read_text_map(path, encoding, channel)
+
+
+def _measured(path: Path, found: Found, height_unit: str) -> list[str]:
+    """Heights in metres, without marks of missing points; notes on both."""
+    if found.height_unit is not None and height_unit != "m":
+        raise InputError(
+            f"{path}: surface.height_unit = '{height_unit}', but the file names its unit itself"
+        )
+    notes = sense.unmarked(found.heights, found.height_unit) + sense.doubts(found.heights)
+    if found.height_unit is None:
+        found.heights *= UNITS[height_unit]
+        if height_unit != "m":
+            notes.append(f"heights in {height_unit} by surface.height_unit")
+        elif not found.is_array:
+            notes.append("the file names no unit: its heights are taken in m")
+    elif found.height_unit != 1.0:
+        found.heights *= found.height_unit
+    return notes
+
+
+def _own_size(
+    path: Path, found: Found, lateral_unit: str, height_unit: str
+) -> tuple[Sizes, list[str]]:
+    """Size that the file has [m], and notes on its unit."""
+    x, y = found.size
+    for name, size in (("length_x", x), ("length_y", y)):
+        if size is not None and not size > 0.0:
+            raise InputError(f"{path}: its header gives {name} = {size:g}: it is damaged")
+    if found.size_in_metres or (x is None and y is None):
+        if lateral_unit != SAME:
+            raise InputError(
+                f"{path}: surface.lateral_unit = '{lateral_unit}', but the file "
+                f"{'has no size' if x is None else 'names its unit itself'}"
+            )
+        return (x, y), []
+    if lateral_unit == SAME and found.ask_lateral_unit:
+        return (None, None), []
+    named = height_unit if lateral_unit == SAME else lateral_unit
+    own = x and x * UNITS[named], y and y * UNITS[named]
+    pixel = min(s / n for s, n in zip(own, found.heights.shape, strict=True) if s)
+    clear = found.height_unit is None and SMALL_PIXEL <= pixel <= PIXEL_BAND[1]
+    if lateral_unit == SAME and not clear:
+        found.no_size = (
+            f"it has steps of {pixel / UNITS[named]:.6g}, and the file does not name their unit"
+        )
+        return (None, None), []
+    key = "height_unit" if lateral_unit == SAME else "lateral_unit"
+    return own, [f"x and y in {named} by surface.{key}: steps of {pixel:.6g} m"]
+
+
+def _sensible(scan: Scan) -> Scan:
+    """Refuse heights that are steeper than any surface, and note where some are."""
+    nx, ny = scan.heights.shape
+    usual, share = sense.slopes(scan.heights, (scan.length_x / nx, scan.length_y / ny))
+    if usual > sense.STEEP:
+        raise InputError(
+            f"{scan.origin}: the heights have a slope of {usual:.3g} nearly everywhere: a unit is "
+            "wrong, of the heights (surface.height_unit; are they in m?), of x and y "
+            f"(surface.lateral_unit) or of the size, {scan.length_x:.4g} x {scan.length_y:.4g} m"
+            + (f"\nknown: {scan.note}" if scan.note else "")
+        )
+    if share > 0.0:
+        steep = (
+            f"{100.0 * share:.2g} % of the steps from point to point are steeper than 45 degrees: "
+            "spikes, or marks of missing points"
+        )
+        scan = replace(scan, note="; ".join(filter(None, (scan.note, steep))))
+    return scan
 
 
 def _check_shape(path: Path, shape: tuple[int, ...]) -> None:
@@ -214,29 +264,17 @@ def _check_pixel(scan: Scan) -> None:
             raise InputError(
                 f"{scan.origin}: length_{axis} = {length:.4g} m gives a pixel of {pixel:.3g} m, "
                 f"outside {PIXEL_BAND[0]:g} ... {PIXEL_BAND[1]:g} m; is the length in m? "
-                "surface.height_unit is the unit of heights, and of a list of x, y and z"
+                "surface.height_unit is the unit of heights, surface.lateral_unit that of a list "
+                "of x, y and z"
             )
 
 
-def plain_array(path: str) -> bool:
-    """Whether a file is one that the solver reads itself: ``.npy`` of little-endian floats."""
+def plain_array(path: str, shape: tuple[int, ...]) -> bool:
+    """Whether a file is one that the solver reads itself: ``.npy`` of little-endian floats.
+
+    All of it are heights, without axes.
+    """
     if not path.endswith(".npy"):
         return False
-    return bool(np.load(path, mmap_mode="r", allow_pickle=False).dtype.str in {"<f8", "<f4"})
-
-
-def _read_npy(path: Path) -> Array:
-    try:
-        # mapped, so that the header is checked before the data are read
-        raw = np.load(path, mmap_mode="r", allow_pickle=False)
-    except (OSError, MemoryError):
-        raise
-    except Exception as error:
-        # a damaged header makes numpy raise whatever the parser of Python does
-        raise InputError(f"{path}: not a readable .npy file of numbers: {error}") from None
-    if raw.ndim != 2:
-        raise InputError(f"{path}: heights must be a matrix (nx, ny), not of shape {raw.shape}")
-    if raw.dtype.kind not in "fiu":
-        raise InputError(f"{path}: heights must be real numbers, not {raw.dtype}")
-    check_pixels(str(path), raw.shape)
-    return np.array(raw, dtype=float, order="C")
+    array = np.load(path, mmap_mode="r", allow_pickle=False)
+    return array.dtype.str in {"<f8", "<f4"} and array.shape == shape

@@ -91,7 +91,8 @@ def for_solver(settings: Settings, group: str = "surface") -> SolverSurface:
     sized = surface.get("length_x") and surface.get("length_y")
     changed = surface.get("track") or not scan.is_array or not sized
     changed = changed or surface.get("height_unit", "m") != "m"
-    changed = changed or not plain_array(str(surface["file"]))
+    changed = changed or surface.get("profile", "none") != "none"
+    changed = changed or not plain_array(str(surface["file"]), scan.heights.shape)
     # a large map is in memory once
     heights, record = consume(scan, options)
     del scan

@@ -1,219 +1,251 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Height maps as text: one x per line, lists of points, tables under lines of words."""
+"""Height maps as text: one x per line, tables under lines of words, lists of points."""
 
 import re
-from itertools import islice, pairwise
 from pathlib import Path
 
 import numpy as np
 
 from pyehl.errors import InputError
-from pyehl.surfaces.instruments import Foreign, Sizes
-from pyehl.surfaces.memory import check_pixels
+from pyehl.surfaces.axes import Axes, without_axes
+from pyehl.surfaces.found import Found, unit_of
+from pyehl.surfaces.point_list import are_pixel_numbers, grid_of, is_list, is_longer_list
+from pyehl.surfaces.text_cells import BLANKS, Cells
+from pyehl.surfaces.text_header import OWN_PERIODIC, OWN_SIZE, Header, header_of
+from pyehl.surfaces.text_table import Table, tables_of
 from pyehl.types import Array
 
-# What stands between separators
-WORD = re.compile(r"[^\s,;]+")
-DECIMAL = re.compile(r"[^\s;]+")
-OWN_SIZE = re.compile(r"^#\s*(length_[xy])\s*=\s*(\S+)\s*m\s*$")
-OWN_PERIODIC = re.compile(r"^#\s*periodic\s*$")
-# Of a mesh size: how far points may be from the grid
-OFF = 0.02
-UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
-"""Metres in the units of `surface.height_unit`."""
-HEADER_LINES = 100
-# A micro sign is two characters of Unicode, and in a file of another encoding it is none
-UNIT = "(m|mm|[uµμ\ufffd]m|nm)"
-SIZE = re.compile(
-    rf"(?P<name>[a-z _-]+?)\s*(?:[(\[]{UNIT}[)\]])?\s*[:;=,\t]\s*(?P<value>[\d.,]+)\s*{UNIT}?",
-    re.IGNORECASE,
-)
-OF_HEIGHTS = re.compile(
-    rf"(?:(?:z|height|value)[ -])?units?\s*[:;=,\t]\s*[(\[]?{UNIT}[)\]]?", re.IGNORECASE
-)
-SIDES = (("width", "x size", "x length", "x range"), ("height", "y size", "y length", "y range"))
+LEAST_PIXELS = 4
+SQUARE = 0.01
+"""How far sides of a pixel may differ before it is said."""
 
 
-def read_text(path: Path, first: int = 1) -> tuple[Array, tuple[float | None, float | None], bool]:
-    """Heights from a line on, the size if the header has it, and whether it says 'periodic'."""
-    size: dict[str, float | None] = {"length_x": None, "length_y": None}
-    periodic = False
-    rows: list[Array] = []
-    with path.open(encoding="utf-8", errors="replace") as lines:
-        for number, line in enumerate(lines, 1):
-            if match := OWN_SIZE.match(line):
-                size[match[1]] = float(match[2])
-            periodic = periodic or bool(OWN_PERIODIC.match(line))
-            row = _row(path, number, line) if number >= first else None
-            if row is None:
-                continue
-            if rows and row.size != rows[0].size:
-                raise InputError(
-                    f"{path}:{number}:{_column(line, rows[0].size)}: {row.size} heights, but "
-                    f"{rows[0].size} in the lines above"
-                )
-            rows.append(row)
-            if len(rows) % 1024 == 0:
-                check_pixels(str(path), (len(rows), row.size))
-    if not rows:
-        raise InputError(f"{path}: no heights in the file")
-    return np.array(rows), (size["length_x"], size["length_y"]), periodic
+def read_text_map(path: Path, encoding: str, channel: str = "") -> Found:
+    """Heights of a text, and what its header says of their unit and of the size.
+
+    One x per line, as arrays have it, where nothing but comments stands above the numbers; under
+    a header lines run along x, as those of images do. A first line and a first column of places
+    are the axes of the table, whose lines run along x, too.
+
+    InputError names the line and column of what cannot be read, and a header that says another
+    number of lines or points than there are.
+    """
+    tables = tables_of(path, encoding)
+    headers = [header_of(table.header) for table in tables]
+    table, header = tables[0], headers[0]
+    if channel or len(tables) > 1:
+        table, header = _picked(path, tables, headers, channel)
+    found = _found(path, table, header)
+    for mark in header.marks:
+        there = found.heights == mark
+        if there.any():
+            found.notes.append(
+                f"{int(there.sum())} heights of {mark:.10g} are missing by the header"
+            )
+            found.heights[there] = np.nan
+    found.channel = header.channel
+    found.notes += header.notes
+    if table.cells.words and np.isnan(found.heights).any():
+        words = ", ".join(f"{word!r} {times} x" if word else f"{times} empty cells"
+                          for word, times in table.cells.words.most_common(3))  # fmt: skip
+        found.notes.append(f"missing points in the file: {words}")
+    if table.footer:
+        found.notes.append(
+            f"{len(table.footer)} lines behind the heights are no numbers and were not read: "
+            f"{table.footer[0].strip()[:40]!r}"
+        )
+    return found
 
 
-def _row(path: Path, number: int, line: str) -> Array | None:
-    """Heights of one line; None for an empty one."""
-    text = line.partition("#")[0].rstrip()
-    # where something else separates the numbers a comma is a decimal comma
-    if ";" in text or "\t" in text.strip():
-        text = text.replace(",", ".").replace(";", " ")
-    if "," in text:
-        # "1,2 3,4" would otherwise be read as four heights
-        commas = text.count(",")
-        text = text.replace(",", " ")
-        words = text.split()
-        if commas not in (len(words) - 1, len(words)):
+def _picked(
+    path: Path, tables: list[Table], headers: list[Header], wanted: str
+) -> tuple[Table, Header]:
+    """Table of a channel by name or number; the first one of heights where none is wanted."""
+    names = [header.channel or f"table {n}" for n, header in enumerate(headers, 1)]
+    if not any(header.says for header in headers):
+        raise InputError(
+            f"{path}: surface.channel = '{wanted}', but .npy and text hold one map alone"
+        )
+    if wanted:
+        at = next((n for n, name in enumerate(names) if name == wanted), None)
+        if at is None and wanted.isdigit() and 1 <= int(wanted) <= len(tables):
+            at = int(wanted) - 1
+        if at is None:
+            listing = ", ".join(f"{n} '{name}'" for n, name in enumerate(names, 1))
             raise InputError(
-                f"{path}:{number}:{line.index(',') + 1}: commas and blanks both separate the "
-                "numbers; if the comma is a decimal comma, write a point, or a semicolon between "
-                "the numbers"
+                f"{path}: surface.channel = '{wanted}': there is no such channel\n"
+                f"expected: one of the channels {listing}, by name or number"
             )
     else:
-        words = text.split()
-    if not words:
-        return None
-    try:
-        return np.array(words, dtype=float)
-    except ValueError:
-        bad = next(n for n, word in enumerate(words) if not _is_number(word))
+        at = next((n for n, header in enumerate(headers) if not header.is_other), 0)
+    return tables[at], headers[at]
+
+
+def _found(path: Path, table: Table, header: Header) -> Found:
+    """Make heights of the numbers of a table."""
+    if header.is_other:
         raise InputError(
-            f"{path}:{number}:{_column(line, bad)}: {words[bad]!r} is no number; expected: heights"
-        ) from None
+            f"{path}: the values are not in a unit of length by the header; a map of heights was "
+            "expected"
+        )
+    words = any(line.strip() and not line.strip().startswith("#") for line in table.header)
+    rows, axes = _without_axes(path, table)
+    more = ""
+    if is_longer_list(path, rows):
+        more = (
+            f"the first three of {rows.shape[1]} columns are x, y and z, the others were not read"
+        )
+        rows = rows[:, :3]
+    image = words or header.says or axes is not None
+    if is_list(rows):
+        found = _points(path, rows, table, header)
+        found.notes += [note for note in (axes.note if axes else "", more) if note]
+        return found
+    if not image:
+        return _array(rows, table, header)
+    turned = _check_points(path, table, rows, header)
+    found = Found(np.ascontiguousarray(rows if turned else rows.T), header.height_unit)
+    if turned:
+        found.notes.append("by the points that its header says, the file has one x per line")
+        axes = axes and axes.turned()
+    _size(found, header, axes)
+    return found
 
 
-def count_numbers(line: str) -> int:
-    """Count the numbers of a line of heights; 0 for a line of anything else."""
+def _without_axes(path: Path, table: Table) -> tuple[Array, Axes | None]:
     try:
-        row = _row(Path(), 0, line)
-    except InputError:
-        return 0
-    return 0 if row is None else row.size
+        return without_axes(table.rows, table.header, table.cells)
+    except ValueError as error:
+        raise InputError(f"{path}: {error}") from None
 
 
-def _is_number(word: str) -> bool:
-    try:
-        float(word)
-    except ValueError:
-        return False
-    return True
+def matrix_map(path: Path, rows: Array) -> Found:
+    """Heights of an array (nx, ny) without a header: without its axes, or of a list of points."""
+    table = Table([], rows, 1, Cells(BLANKS))
+    heights, axes = _without_axes(path, table)
+    if is_list(heights) or is_longer_list(path, heights):
+        return _points(path, heights[:, :3], table, Header())
+    found = Found(heights, is_array=True)
+    if axes is not None:
+        _size(found, Header(), axes.turned())
+    return found
 
 
-def _column(line: str, index: int) -> int:
-    """Column of a word of a line, from 1; behind its last one where it has fewer."""
-    text = line.partition("#")[0]
-    words = list((DECIMAL if ";" in text or "\t" in text.strip() else WORD).finditer(text))
-    return words[index].start() + 1 if index < len(words) else words[-1].end() + 1
+def _array(rows: Array, table: Table, header: Header) -> Found:
+    """Heights one x per line, as they are."""
+    size: dict[str, float | None] = {"length_x": None, "length_y": None}
+    found = Found(rows, header.height_unit, is_array=True)
+    for line in table.header:
+        if match := OWN_SIZE.match(line):
+            size[match[1]] = float(match[2])
+        found.is_periodic = found.is_periodic or bool(OWN_PERIODIC.match(line))
+    found.size = size["length_x"], size["length_y"]
+    return found
 
 
-def is_list(rows: Array) -> bool:
-    """Whether rows of three numbers (n, 3) are points and no map: n is then far larger."""
-    return rows.ndim == 2 and rows.shape[1] == 3 and rows.shape[0] > 3
+def _points(path: Path, rows: Array, table: Table, header: Header) -> Found:
+    """Heights of a list of the x, y and z of points."""
+    columns = header.columns or _units_of_columns(table)
+    x, y, z = columns or (header.lateral_unit, header.lateral_unit, header.height_unit)
+    known = x is not None and y is not None
+    heights, steps = grid_of(path, rows)
+    found = Found(heights, z, size_in_metres=known)
+    whole = "" if len(rows) == heights.size else f" of the {heights.size} of its grid"
+    found.notes.append(f"a list of {len(rows)} points{whole}")
+    if x is not None and y is not None:
+        found.size = heights.shape[0] * steps[0] * x, heights.shape[1] * steps[1] * y
+    elif all(header.pitch):
+        found.size = _pitched(heights.shape, header)
+        found.size_in_metres = True
+    elif are_pixel_numbers(rows):
+        found.size_in_metres, found.ask_lateral_unit = False, True
+        found.size = heights.shape[0] * steps[0], heights.shape[1] * steps[1]
+        found.no_size = "x and y of its list are whole numbers, as those of pixels"
+    else:
+        found.size = heights.shape[0] * steps[0], heights.shape[1] * steps[1]
+    return found
 
 
-def grid_of(path: Path, points: Array) -> tuple[Array, tuple[float, float]]:
-    """Heights (nx, ny) on the grid of points x, y, z (n, 3) in any order, and its size.
+def _units_of_columns(table: Table) -> tuple[float, ...]:
+    """Metres in the units of three columns, from a line above them; empty where it has none."""
+    for line in reversed(table.header[-3:]):
+        cells = [cell.strip() for cell in table.cells.split(line.lstrip("#"))]
+        units = [_unit_at_end(cell) for cell in cells[:3]]
+        if len(cells) == 3 and all(units):
+            return tuple(unit for unit in units if unit)
+    return ()
 
-    Lengths are in the unit of the points. A point that is not there is NaN. InputError if the
-    places are no grid of equal steps, or a place is there twice.
+
+def _unit_at_end(cell: str) -> float | None:
+    """Metres in the unit of the heading of a column: 'X [mm]', 'x/mm', 'Z_um', 'mm'."""
+    word = re.split(r"[\s/_(\[{,]+", cell.strip().rstrip(")]}"))[-1]
+    # 'm' alone may be a name
+    return unit_of(word)
+
+
+def _check_points(path: Path, table: Table, rows: Array, header: Header) -> bool:
+    """Refuse a table that has not the lines and points that its header says.
+
+    True if it has, with one x per line: x along the lines is what files of images have.
     """
-    indices, shape, steps = [], [], []
-    for axis, name in enumerate("xy"):
-        places = points[:, axis]
-        if not np.isfinite(places).all():
-            row = int(np.argmin(np.isfinite(places)))
-            raise InputError(f"{path}: point {row + 1} of the list has no {name}")
-        gaps = np.diff(np.unique(places))
-        # places of one line differ by rounding
-        gaps = gaps[gaps > OFF * gaps.max(initial=0.0)]
-        if not gaps.size:
-            raise InputError(f"{path}: all points of the list of x, y and z have the same {name}")
-        # the span knows it better than the places, which are rounded
-        span = float(np.ptp(places))
-        step = span / round(span / float(np.median(gaps)))
-        at = (places - places.min()) / step
-        index = np.rint(at).astype(np.int64)
-        worst = int(np.argmax(np.abs(at - index)))
-        if abs(at[worst] - index[worst]) > OFF:
-            raise InputError(
-                f"{path}: point {worst + 1} of the list of x, y and z, {name} = {places[worst]:.6g}"
-                f", is off the grid of steps of {step:.6g}; a map needs equal steps"
-            )
-        indices.append(index)
-        shape.append(int(index.max()) + 1)
-        steps.append(step)
-    check_pixels(str(path), (shape[0], shape[1]))
-    heights = np.full(shape, np.nan)
-    flat = np.ravel_multi_index(indices, shape)
-    first, count = np.unique(flat, return_counts=True)
-    if first.size < flat.size:
-        i, j = np.unravel_index(first[np.argmax(count)], shape)
-        raise InputError(
-            f"{path}: the place number {i + 1} along x, {j + 1} along y is in the list of x, y and "
-            f"z {count.max()} times"
-        )
-    heights.ravel()[flat] = points[:, 2]
-    return heights, (shape[0] * steps[0], shape[1] * steps[1])
-
-
-def read_headed(path: Path) -> Foreign:
-    """Heights (nx, ny) of a table whose lines run along x, as those of images do.
-
-    The same as :func:`pyehl.surfaces.instruments.read_instrument`: heights in m where a header line
-    names their unit, and a note where none does; the size [m] where header lines give it with a
-    unit. A list of the x, y and z of points is as it stands, (n, 3).
-
-    InputError if there is no table.
-    """
-    with path.open(encoding="utf-8", errors="replace") as lines:
-        first = [line.strip().rstrip(";,\t ") for line in islice(lines, HEADER_LINES)]
-    counts = [count_numbers(line) for line in first]
-    # two lines of as many numbers, three at the least: a header may have numbers, too
-    both = enumerate(pairwise(counts))
-    start = next((n for n, (one, other) in both if one == other > 2), None)
-    if start is None:
-        at = next(
-            n
-            for n, (line, count) in enumerate(zip(first, counts, strict=True))
-            if line and not count
-        )
-        raise InputError(
-            f"{path}:{at + 1}: {first[at][:40]!r} is not numbers, and no table of heights follows\n"
-            "expected: numbers, with surface.height_unit, surface.length_x and surface.length_y"
-        )
-    rows, _, _ = read_text(path, start + 1)
-    header = first[:start]
-    units = {_unit(match[1]) for line in header if (match := OF_HEIGHTS.fullmatch(line))}
-    note = "the file names no unit: its heights are taken in m"
-    if len(units) == 1:
-        rows *= UNITS[units.pop()]
-        note = ""
-    heights = rows if rows.shape[1] == 3 else np.ascontiguousarray(rows.T)
-    return heights, _size(header), False, "", note
-
-
-def _unit(text: str) -> str:
-    return text.lower() if text.lower() in UNITS else "um"
-
-
-def _size(header: list[str]) -> Sizes:
-    """Size along and across the lines [m]; None where the header does not give it, or twice."""
-    found: list[set[float]] = [set(), set()]
-    for match in filter(None, map(SIZE.fullmatch, header)):
-        units = {_unit(unit) for unit in (match[2], match[4]) if unit}
-        value = match["value"].replace(",", ".")
-        for side, names in zip(found, SIDES, strict=True):
-            if match["name"].lower() in names and len(units) == 1 and value.count(".") < 2:
-                side.add(float(value) * UNITS[units.pop()])
+    lines, columns = rows.shape
+    for side, count in enumerate((columns, lines)):
+        bare = header.bare[side]
+        if bare is None or header.size[side] is not None:
+            continue
+        # a width without a unit may be a number of pixels
+        if bare == count:
+            header.points[side] = count
+        elif header.lateral_unit is not None:
+            header.size[side] = bare * header.lateral_unit
     # a height alone may be that of the surface
-    if len(found[0]) != 1:
-        return None, None
-    return found[0].pop(), found[1].pop() if len(found[1]) == 1 else None
+    if header.size[0] is None:
+        header.size[1] = None
+    x, y = header.points
+    if (x is None or x == columns) and (y is None or y == lines):
+        return False
+    if (x, y) == (lines, columns):
+        return True
+    raise InputError(
+        f"{path}:{table.line}: the table has {columns} heights in a line and {lines} lines, but "
+        f"the header says {columns if x is None else x} x {lines if y is None else y}"
+    )
+
+
+def _pitched(shape: tuple[int, ...], header: Header) -> tuple[float | None, float | None]:
+    x, y = (n * p if p else None for n, p in zip(shape, header.pitch, strict=True))
+    return x, y
+
+
+def _size(found: Found, header: Header, axes: Axes | None) -> None:
+    """Size by the header: its lengths, its pixels, else the axes of the table."""
+    shape = found.heights.shape
+    pitched = _pitched(shape, header)
+    x, y = (a or b for a, b in zip(header.size, pitched, strict=True))
+    for side, (whole, part) in enumerate(zip(header.size, pitched, strict=True)):
+        # a length may be from the first to the last point
+        if whole and part and abs(whole - part) > 1.5 * part / shape[side]:
+            found.notes.append(
+                f"the header says a length of {whole:.6g} m along {'xy'[side]} and pixels of "
+                f"{part / shape[side]:.6g} m, {part:.6g} m in all: the length was taken"
+            )
+    if x is None and y is None and axes is not None:
+        found.notes.append(axes.note)
+        if axes.steps is None:
+            found.no_size = axes.note
+            return
+        x, y = (n * s if s else None for n, s in zip(shape, axes.steps, strict=True))
+        if header.lateral_unit is None:
+            found.size_in_metres = False
+        else:
+            x, y = (v and v * header.lateral_unit for v in (x, y))
+    elif axes is not None:
+        found.notes.append(axes.note)
+    found.size = x, y
+    if x and y and header.size[0] and not any(header.points) and not any(header.pitch):
+        pixel = x / shape[0], y / shape[1]
+        if abs(pixel[0] - pixel[1]) > SQUARE * min(pixel):
+            found.notes.append(
+                f"pixels of {pixel[0]:.6g} x {pixel[1]:.6g} m by the lengths of the header: if "
+                "they should be square, lines or columns are missing in the file"
+            )

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pyehl.errors import InputError
+from pyehl.given import real_numbers
 from pyehl.surfaces.prepare import Preparation
 from pyehl.types import Array
 
@@ -56,13 +57,8 @@ class Topography:
     def __post_init__(self) -> None:
         """Check shape, numbers and size."""
         what = self.origin or "surface"
-        try:
-            # a hole of a masked array is no height
-            z = np.asarray(np.ma.filled(self.heights, np.nan), dtype=np.float64)
-        except (TypeError, ValueError) as error:
-            raise InputError(
-                f"{what}: heights: expected a matrix of numbers [m]: {error}"
-            ) from None
+        # a hole of a masked array is no height
+        z = np.asarray(real_numbers(self.heights, what), dtype=np.float64)
         object.__setattr__(self, "heights", z)
         if z.ndim != 2 or min(z.shape) < 2:
             raise InputError(

@@ -7,8 +7,10 @@ from typing import Any
 
 import numpy as np
 
+from pyehl import lengths
 from pyehl.errors import InputError
 from pyehl.surfaces import areal
+from pyehl.surfaces.finding import Finding
 from pyehl.surfaces.options import Options
 from pyehl.surfaces.reading import Scan
 from pyehl.types import Array
@@ -80,6 +82,7 @@ class Record:
     tile_pixels: tuple[int, int]
     tile_size: tuple[float, float]
     steps: tuple[Step, ...]  # the steps that did something, in order
+    findings: tuple[Finding, ...] = ()  # what the levelled map has besides roughness
 
     def summary(self) -> dict[str, Any]:
         """Return what ``summary.json`` holds of it: SI units."""
@@ -97,6 +100,7 @@ class Record:
             "tile_pixels": list(self.tile_pixels),
             "tile_size_m": list(self.tile_size),
             "steps": [step.summary() for step in self.steps],
+            "findings": [finding.summary() for finding in self.findings],
         }
 
     def report(self) -> list[str]:
@@ -105,7 +109,7 @@ class Record:
         lines = [
             f"map        {name}",
             f"           {self.pixels[0]} x {self.pixels[1]} pixels, "
-            f"{self.size[0] * 1e3:.5g} x {self.size[1] * 1e3:.5g} mm by {self.size_from}",
+            f"{lengths.size(*self.size)} by {self.size_from}",
         ]
         if self.note:
             lines.append(f"           {self.note}")
@@ -122,7 +126,7 @@ class Record:
             )
             if step.note:
                 lines.append(f"           {step.note}")
-        return lines
+        return lines + [f"  found    {finding.report()}" for finding in self.findings]
 
 
 def _largest(z: Array) -> float:
@@ -155,6 +159,7 @@ class WorkingMap:
         nx, ny = scan.heights.shape
         self.pixel = (scan.length_x / nx, scan.length_y / ny)
         self.steps: list[Step] = []
+        self.findings: tuple[Finding, ...] = ()
         self._last: areal.Extent | None = None
         self._kept = scan.heights if keep else None
 
@@ -207,4 +212,5 @@ class WorkingMap:
             tile_pixels=(nx, ny),
             tile_size=(nx * self.pixel[0], ny * self.pixel[1]),
             steps=tuple(self.steps),
+            findings=self.findings,
         )

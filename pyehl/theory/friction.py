@@ -9,6 +9,12 @@ from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.shear import shear_stress
 
+OF_ROUGH = (
+    "mu has the heat of the rough contact, and mu_smooth with its own is not computed: "
+    "mu_isothermal = mu_ratio mu_smooth_isothermal"
+)
+"""Why there is no mu_smooth where bodies touch and the heat counts."""
+
 
 def absolute_friction(
     operating: OperatingPoint,
@@ -23,7 +29,8 @@ def absolute_friction(
     `film` is the central film h_c [m], taken to be the film everywhere in the contact; `mu_smooth`
     the coefficient of the smooth contact at the slide-to-roll ratio, `mu_ratio` friction over that
     [-], both isothermal; `heat` what the heat makes of the friction of the smooth contact, and is
-    taken to make of that of the rough one. ``mu``, ``mu_smooth``, the same isothermal, rises of
+    taken to make of that of the rough one, or what it makes of the latter alone: then ``mu_smooth``
+    is not known. ``mu``, ``mu_smooth``, the same isothermal, rises of
     temperature, ``shear_rate_mean_per_s``, ``shear_stress_max_Pa`` (of the smooth contact),
     ``flash_temperature_K``, NaN where there is none, and ``mu_note``: why, or the caveat. A
     Newtonian coefficient is given where the stress stays below the Eyring stress.
@@ -37,8 +44,8 @@ def absolute_friction(
         note = "a ratio alone: moes_m and moes_l give no sliding speed in m/s"
     elif speed == 0.0:
         note = (
-            "a ratio alone, that of vanishing sliding: there is no sliding, and rolling friction "
-            "is not computed"
+            "a ratio alone, that of vanishing sliding: there is no sliding; 'pyehl run' has the "
+            "rolling moment"
         )
     else:
         rate = speed / film
@@ -56,6 +63,8 @@ def absolute_friction(
                 "lubricant.shear_law"
             )
     mu = mu_ratio * smooth * heat.ratio
+    if heat.rough and math.isfinite(smooth):
+        note = f"{note}; {OF_ROUGH}"
     rises = heat.rises if math.isfinite(mu) else Heat().rises
     if math.isfinite(mu):
         u, srr, a = operating.mean_velocity, operating.slide_to_roll, operating.hertz_radius
@@ -69,7 +78,7 @@ def absolute_friction(
         )
     return {
         "mu": mu,
-        "mu_smooth": smooth * heat.ratio,
+        "mu_smooth": nothing if heat.rough else smooth * heat.ratio,
         "mu_isothermal": mu_ratio * smooth,
         "mu_smooth_isothermal": smooth,
         "temperature_rise_max_K": rises[0],

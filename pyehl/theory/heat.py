@@ -20,6 +20,7 @@ class Heat:
     # Greatest rises of temperature [K]: mean across the film, surfaces of body 1 and of body 2
     rises: tuple[float, float, float] = (math.nan, math.nan, math.nan)
     note: str = "isothermal"  # what a coefficient of friction is then, in words
+    rough: bool = False  # whether of the rough contact, and not of the smooth one
 
 
 def thermal_loading(

@@ -55,7 +55,7 @@ class Lubricant:
     viscosity
         At ambient pressure, eta0 [Pa s].
     pressure_viscosity
-        alpha [1/Pa].
+        alpha [1/Pa]; 0: the viscosity does not change with pressure.
     viscosity_law
         ``"roelands"`` or ``"barus"``; from a case also ``"dicke"``, ``"yasutomi"``,
         ``"doolittle"`` or ``"table"``.
@@ -114,7 +114,8 @@ class Lubricant:
     def __post_init__(self) -> None:
         """Check the words and the numbers."""
         positive("viscosity", self.viscosity, "Pa s")
-        positive("pressure_viscosity", self.pressure_viscosity, "1/Pa")
+        if self.pressure_viscosity != 0.0:
+            positive("pressure_viscosity", self.pressure_viscosity, "1/Pa")
         positive("roelands_p0", self.roelands_p0, "Pa")
         if self.viscosity_law not in SIMPLE_VISCOSITY and not self.constants:
             raise InputError(
@@ -130,7 +131,7 @@ class Lubricant:
         if self.roelands_z == 0.0 and self.viscosity_law == "roelands":
             z = default_roelands_z(self.viscosity, self.pressure_viscosity, self.roelands_p0)
             object.__setattr__(self, "roelands_z", z)
-        if self.viscosity_law == "roelands":
+        if self.viscosity_law == "roelands" and self.pressure_viscosity > 0.0:
             positive("roelands_z", self.roelands_z, "-")
 
     @classmethod
@@ -166,7 +167,7 @@ class Lubricant:
         p, warmer = np.asarray(pressure, dtype=float), np.asarray(rise, dtype=float)
         if self.viscosity_law not in SIMPLE_VISCOSITY:
             return self._compiled(p, warmer)[0]
-        if self.viscosity_law == "barus":
+        if self.viscosity_law == "barus" or self.pressure_viscosity == 0.0:
             return np.asarray(self.pressure_viscosity * p - self.temperature_viscosity * warmer)
         factor = self.pressure_viscosity * self.roelands_p0 / self.roelands_z
         above = self.temperature + FREEZING - ROELANDS_TEMPERATURE

@@ -9,7 +9,7 @@ import numpy as np
 
 from pyehl.errors import InputError, did_you_mean
 from pyehl.extension import lubricants as compiled
-from pyehl.library import returned
+from pyehl.library import returned, whole
 from pyehl.theory.lubricant import Lubricant
 
 __all__ = ["Constant", "Oil", "film_forming", "known_oils", "oil", "reciprocal_isoviscous"]
@@ -61,7 +61,7 @@ def known_oils() -> dict[str, Oil]:
     """Give all oils by name."""
     heads: dict[str, list[str]] = {}
     constants: dict[str, list[Constant]] = {}
-    for line in returned(compiled.oils()).splitlines():
+    for line in returned(whole(lambda room: (compiled.oils(room),), 0)[0]).splitlines():
         name, *cells = line.split("\t")
         if name not in heads:
             heads[name] = cells

@@ -20,6 +20,8 @@ from pyehl.types import Settings
 # alone has no length; these two fix one when a quantity in SI units is asked for.
 REFERENCE_RADIUS = 0.018
 REFERENCE_MODULUS = 2.26e11
+# and where L = 0, which has no speed either
+REFERENCE_L = 10.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,17 +118,20 @@ class OperatingPoint:
 
         Two numbers leave two lengths and a stress free: the radius, eta0 and alpha are given, E'
         is the reference modulus. The Hertz pressure p_h = alpha_bar/alpha follows from M, L and
-        alpha alone.
+        alpha alone. L = 0 fixes no speed: alpha is 0 then, and the speed that of L = 10.
 
         Raises
         ------
         InputError
-            For M or L that is not positive (L = 0 fixes no speed in SI units).
+            For M that is not positive or L that is negative.
         """
         m = positive("moes_m", moes_m, "-")
-        ell = positive("moes_l", moes_l, "-")
+        if not 0.0 <= moes_l < math.inf:
+            raise InputError(f"moes_l must not be negative [-], not {moes_l!r}")
         modulus = REFERENCE_MODULUS
-        two_u = (ell / (pressure_viscosity * modulus)) ** 4
+        two_u = ((moes_l or REFERENCE_L) / (pressure_viscosity * modulus)) ** 4
+        if moes_l == 0.0:
+            pressure_viscosity = 0.0
         return cls(
             load=m * two_u**0.75 * modulus * radius**2,
             mean_velocity=0.5 * two_u * modulus * radius / viscosity,
@@ -148,7 +153,7 @@ class OperatingPoint:
         contact, lubricant = settings["contact"], settings["lubricant"]
         viscosity = float(lubricant["viscosity"])
         alpha = float(lubricant["pressure_viscosity"])
-        slide_to_roll = float(contact.get("slide_to_roll", 0.02))
+        slide_to_roll = float(contact["slide_to_roll"])
         if contact.get("moes_m") is not None and contact.get("load") is None:
             return cls.from_moes(
                 float(contact["moes_m"]),
@@ -156,7 +161,7 @@ class OperatingPoint:
                 viscosity=viscosity,
                 pressure_viscosity=alpha,
                 slide_to_roll=slide_to_roll,
-                radius_ratio=float(contact.get("radius_ratio", 1.0)),
+                radius_ratio=float(contact["radius_ratio"]),
             )
         radii = [float(contact.get(f"radius_{k}", contact.get("radius", 0.0))) for k in "xy"]
         point = cls(
@@ -167,13 +172,13 @@ class OperatingPoint:
             viscosity=viscosity,
             pressure_viscosity=alpha,
             slide_to_roll=slide_to_roll,
-            thermal_conductivity=float(contact.get("thermal_conductivity", 46.0)),
-            thermal_diffusivity=float(contact.get("thermal_diffusivity", 1.25e-5)),
+            thermal_conductivity=float(contact["thermal_conductivity"]),
+            thermal_diffusivity=float(contact["thermal_diffusivity"]),
             thermal_conductivity_2=float(contact.get("thermal_conductivity_2", 0.0)),
             thermal_diffusivity_2=float(contact.get("thermal_diffusivity_2", 0.0)),
             radius_ratio=radii[0] / radii[1],
         )
-        if not lubricant.get("thermal_reduction", False):
+        if not lubricant["thermal_reduction"]:
             return point
         loading = thermal_loading(
             float(lubricant["temperature_viscosity"]),
@@ -251,6 +256,16 @@ class OperatingPoint:
     def moes_l(self) -> float:
         """Moes material number L = G (2U)^(1/4) [-]."""
         return float(self.material * (2.0 * self.speed) ** 0.25)
+
+    @property
+    def viscosity_parameter(self) -> float:
+        """g_V = G W2^3/U^2 [-], as regimes are drawn over (Esfahanian & Hamrock 1991)."""
+        return self.material * self.load_number**3 / self.speed**2
+
+    @property
+    def elasticity_parameter(self) -> float:
+        """g_E = W2^(8/3)/U^2 [-], the other one."""
+        return float(self.load_number ** (8.0 / 3.0) / self.speed**2)
 
     @property
     def equivalent_moes(self) -> tuple[float, float]:

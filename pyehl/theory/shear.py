@@ -120,7 +120,7 @@ class ShearLaw:
         group = settings["lubricant"]
         names = cls.__dataclass_fields__.keys() - {"law", "in_flow"}
         given = {name: float(group[name]) for name in names if name in group}
-        law = str(group.get("shear_law", "newtonian"))
+        law = str(group["shear_law"])
         return cls(law, in_flow=law in CODES and group.get("flow") == "consistent", **given)
 
     @property

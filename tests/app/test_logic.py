@@ -241,6 +241,12 @@ def test_rough_contact_is_that_of_a_prediction(start):
     prediction = pyehl.predict(position.case(257))
     rows = dict(words.rough_rows(found))
     assert rows["μ_r/μ_s"] == words.with_error(prediction.mu_ratio, prediction.model_error)
+    # the film ratio is that of the numbers beside it, whatever grid they are of
+    film = answers.film(position, 129, lambda: True)
+    h_min, sigma = float(film.summary["h_min_m"]), prediction.summary["rms_height_m"]
+    shown = dict(words.rough_rows(found, film))["film ratio Λ = h_min/σ"]
+    assert shown.startswith(f"{h_min / sigma:.4g}: ")
+    assert h_min != pytest.approx(prediction.summary["h_min_m"], rel=1e-3)
     before, after, width, _, most = drawing.tiles(found.prediction)
     assert before.shape == after.shape == (256, 256)
     assert np.abs(before).max() == pytest.approx(most)

@@ -56,7 +56,7 @@ def test_numbers_are_those_of_pyehl_run(tab, tmp_path, capsys):
     assert f"h_c {rows['h_c']}" in told
     assert f"h_min {rows['h_min']}" in told
     sheet = pyehl.film(case)
-    for formula in sheet["formulas"]:
+    for formula in (f for f in sheet["formulas"] if f["applies"]):
         assert f"{formula['h_c_m'] * 1e9:.4g} nm" in rows[formula["name"]]
     assert rows["Moes load M"] == f"{sheet['moes_m']:.4g}"
     assert "Converged on 513 × 513 nodes" in tab.words("status")
@@ -301,6 +301,22 @@ def test_only_this_machine_and_this_page(served):
         connection.close()
         # this page's own origin gets past the check, and fails for its token alone
         assert (status == 403) == (expected == 403), (origin, status)
+
+
+@pytest.mark.parametrize("host", ["evil.example", "127.0.0.1.evil.example", "localhost.", ""])
+def test_only_by_the_names_of_this_machine(served, host):
+    """A name that somebody has bound to the loopback gets nothing, not even by its own origin."""
+    head = {"Upgrade": "websocket", "Connection": "Upgrade", "Sec-WebSocket-Version": "13"}
+    head["Sec-WebSocket-Key"] = "dGhlIHNhbXBsZSBub25jZQ=="
+    for name, expected in ((host, 403), ("localhost", 200)):
+        for path in ("/", "/ws", "/metadata", "/static/js/bokeh.min.js"):
+            given = {**(head if path == "/ws" else {}), "Host": f"{name}:{served.port}"}
+            given["Origin"] = f"http://{name}:{served.port}"
+            connection = http.client.HTTPConnection("127.0.0.1", served.port, timeout=60)
+            connection.request("GET", path, headers=given)
+            status = connection.getresponse().status
+            connection.close()
+            assert (status == 403) == (expected == 403), (name, path, status)
 
 
 @pytest.mark.parametrize(

@@ -90,6 +90,125 @@ def theory(root: Path, name: str) -> str:
     return (root / "docs" / "theory" / f"{name}.md").read_text(encoding="utf-8")
 
 
+# A ball on a disc in a traction machine: at 0.01 m/s the film is 3.67 nm on ever finer
+# grids, above the layer of 2.47 nm under pressure
+TRACTION = {
+    "contact.load": 36.0,
+    "contact.mean_velocity": 0.01,
+    "contact.slide_to_roll": 0.5,
+    "bodies.radius_x1": 9.525e-3,
+    "bodies.radius_y1": 9.525e-3,
+    "bodies.modulus_1": 2.07e11,
+    "bodies.modulus_2": 2.07e11,
+    "lubricant.kinematic_viscosity_40": 17.5,
+    "lubricant.kinematic_viscosity_100": 3.9,
+    "lubricant.density_15": 820.0,
+    "lubricant.pressure_viscosity": 1.3e-8,
+    "lubricant.shear_law": "'eyring'",
+    "lubricant.eyring_stress": 4e6,
+    "lubricant.boundary_film": 3e-9,
+    "lubricant.boundary_friction": 0.1,
+}
+
+
+@pytest.mark.parametrize(
+    "points",
+    [129, 257, *(pytest.param(n, marks=pytest.mark.long) for n in (513, 1025))],
+)
+def test_inlet_that_a_grid_does_not_resolve(solve, points):
+    """No load share and no friction there; the error of the film is that of the inlet."""
+    done = solve(None, points, TRACTION)
+    assert done.converged
+    for name in ("h_c_m", "h_c_error_m"):
+        assert done[name] > 0.0
+    assert abs(done["h_c_m"] - 3.67e-9) <= done["h_c_error_m"]
+    if points == 1025:
+        assert done["contact_load_share"] == pytest.approx(0.05, abs=0.01)
+        assert done["contact_load_share_error"] < 0.05
+        assert done["mu"] < 0.02
+        assert done["H_c_error"] < 0.1 * done["H_c"]
+        return
+    for name in ("contact_load_share", "contact_load_share_error", "mu", "mu_smooth", "F"):
+        assert done[name] is None, name
+    for name in ("contact_load_share_error", "mu", "H_c_error", "H_min_error", "F_error"):
+        assert "grid.points = 1025 or more" in done[f"{name}_note"], name
+    assert done["judgement"].startswith("unresolved inlet: ")
+
+
+def test_target_error_refines_until_the_inlet_is_resolved(solve):
+    """All grids up to 129 x 129 nodes have the film of the layer, and agree."""
+    touching = STEEL | {
+        "contact.load": 100.0,
+        "contact.mean_velocity": 0.1,
+        "lubricant.boundary_film": 6.5e-8,
+        "lubricant.boundary_friction": 0.1,
+        "lubricant.shear_law": "'eyring'",
+    }
+    coarse = solve(None, 65, touching)
+    assert coarse["contact_load_share"] is None
+    done = solve(None, 65, touching | {"grid.target_error": 0.1, "grid.max_points": 513})
+    assert done["points"] > 129
+    assert done["contact_load_share"] < 0.9
+    assert done["H_c_error"] < 0.1 * done["H_c"]
+    assert abs(coarse["H_c"] - done["H_c_extrapolated"]) <= coarse["H_c_error"]
+
+
+HOT = STEEL | {
+    "contact.load": 100.0,
+    "contact.mean_velocity": 2.0,
+    "contact.slide_to_roll": 0.3,
+    "lubricant.shear_law": "'eyring'",
+    "lubricant.temperature_viscosity": 0.04,
+}
+TEMPERATURES = tuple(f"temperature_rise{part}_max_K" for part in ("", "_wall_1", "_wall_2"))
+
+
+@pytest.mark.parametrize("scene", [{}, WAVE | {"time.steps": 20}], ids=["smooth", "wave"])
+def test_layer_that_touches_nothing_changes_no_bit_of_friction_with_heat(solve, scene):
+    """Heat is not switched off with it."""
+    light = HOT | scene | {"contact.load": 20.0}
+    without = solve(None, 65, light)
+    layer = {"lubricant.boundary_film": 1e-8, "lubricant.boundary_friction": 0.1}
+    with_film = solve(None, 65, light | layer)
+    assert with_film["contact_load_share"] in (0.0, None)
+    for name in ("mu", "mu_isothermal", "mu_smooth", "mu_smooth_isothermal", *TEMPERATURES):
+        assert with_film[name] == without[name], name
+    assert with_film["mu_note"] == without["mu_note"]
+    assert without["mu_smooth"] < 0.9 * without["mu_smooth_isothermal"]
+    if scene:
+        ratio = with_film.history["heat_ratio"]
+        assert np.array_equal(ratio, without.history["heat_ratio"], equal_nan=True)
+
+
+def test_friction_of_the_layer_is_heat(solve):
+    """Of a contact that is dry nearly everywhere: as under that friction by Tian & Kennedy."""
+    layer = {"lubricant.boundary_film": 1.5e-6, "lubricant.boundary_friction": 0.1}
+    done = solve(None, 129, HOT | layer)
+    assert done["contact_load_share"] > 0.9
+    # the layer does not mind the temperature
+    assert done["mu"] == pytest.approx(done["mu_isothermal"], rel=0.01)
+    assert done["mu"] == pytest.approx(0.1 * done["contact_load_share"], rel=0.05)
+    walls = [done[name] for name in TEMPERATURES[1:]]
+    assert np.mean(walls) == pytest.approx(done["flash_temperature_K"], rel=0.05)
+    # half of the friction, half of the heat
+    half = solve(None, 129, HOT | layer | {"lubricant.boundary_friction": 0.05})
+    for name in TEMPERATURES[1:]:
+        assert half[name] == pytest.approx(0.5 * done[name], rel=0.03)
+
+
+def test_film_beside_contact_is_warmed_by_it(solve):
+    """Friction of the film falls as the layer rubs more."""
+    mixed = HOT | {"lubricant.boundary_film": 5e-7}
+    found = [
+        solve(None, 129, mixed | {"lubricant.boundary_friction": mu}) for mu in (0.05, 0.1, 0.2)
+    ]
+    share = found[0]["contact_load_share"]
+    assert 0.02 < share < 0.95
+    assert {done["contact_load_share"] for done in found} == {share}
+    film = [done["mu"] - mu * share for done, mu in zip(found, (0.05, 0.1, 0.2), strict=True)]
+    assert film[0] > film[1] > film[2] > 0.0
+
+
 def test_rough_dry_limit_full_contact(solve, root, dry):
     """Pressure and area of a dry solver where the waves are pressed flat."""
     rest = REST | {"contact.mean_velocity": 0.005, "lubricant.boundary_film": 2e-8}

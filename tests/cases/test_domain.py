@@ -5,9 +5,10 @@ import csv
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 
-from pyehl import Case, Solver
+from pyehl import Case, Solver, library
 
 PAPER = {"x_inlet": -2.5, "x_outlet": 1.5, "y_extent": 2.0}
 
@@ -162,3 +163,18 @@ def test_accuracy_has_the_shares_of_the_records(root: Path, capsys, evidence):
     assert f"in {cases} cases, {good} are within twice that error" in text
     assert int(good) >= 0.9 * int(known)
     assert int(cases) >= 40
+
+
+@pytest.mark.parametrize("moes_m", [0.3, 20.0, 200.0])
+def test_film_follows_from_the_pressure_to_its_border(moes_m: float):
+    """The border of a flooded contact follows the film, and the film that border."""
+    case = case_of(moes_m, 10.0, 65, border="flooded").with_options("solver.deflection=fft")
+    with Solver(case) as solver:
+        assert solver.run()
+        pressure, film = solver.field("P"), solver.field("H")
+        x, y = solver.axes()
+    assert pressure[0].min() > 0.0
+    deflection = library.deflection(pressure, x[1] - x[0], y[1] - y[0], "fft").values
+    parabola = 0.5 * (x[:, None] ** 2 + y[None, :] ** 2)
+    separation = film - parabola - deflection
+    assert np.ptp(separation) < 1e-12 * abs(separation).max()

@@ -12,6 +12,7 @@ import pytest
 import xarray
 
 import pyehl
+from pyehl import errors
 from pyehl.cli import main
 from pyehl.prediction import start
 from pyehl.prediction.start import starting_pressure
@@ -170,6 +171,19 @@ def test_steps_that_fail_begin_again_behind_a_front(tile: dict[str, Any]):
     assert "negative film" in other.attrs["start_note"]
     assert float(other.mu_ratio) == float(front.mu_ratio)
     assert np.array_equal(other.history_mu_ratio, front.history_mu_ratio)
+
+
+@pytest.mark.parametrize("fault", [ValueError, ZeroDivisionError, errors.InternalError])
+def test_a_fault_of_the_package_is_no_warning(monkeypatch, fault: type[Exception]):
+    """What a case cannot help ends the run; what it can begins behind a front."""
+
+    def fails(*_: object) -> None:
+        raise fault("wrong")
+
+    monkeypatch.setattr(start, "starting_pressure", fails)
+    case = ALONE | WAVE | {"grid.points": 33, "time.start": "prediction"}
+    with pytest.raises(fault, match="wrong"):
+        pyehl.solve(pyehl.Case.from_text("", case))
 
 
 def test_the_program_refuses_it(ehl: str, tmp_path: Path):

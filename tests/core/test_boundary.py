@@ -183,3 +183,26 @@ def test_deflection_of_the_hertz_pressure():
         assert np.abs(half.values - result.values[:, 32:]).max() < folded
     with pytest.raises(errors.InputError, match="fem"):
         library.deflection(pressure, h, h, "fem")
+
+
+def test_texts_of_any_length_arrive_whole(monkeypatch: pytest.MonkeyPatch):
+    """The library says how long a text is, and is asked again with that much room."""
+    whole = library.keys(), library.resolve("", "a text"), library.conclude({"mu_ratio": 1.5})
+    monkeypatch.setattr(library, "ROOM", 7)
+    assert (
+        library.keys(),
+        library.resolve("", "a text"),
+        library.conclude({"mu_ratio": 1.5}),
+    ) == whole
+    with Solver(Case("&grid points = 33 /\n")) as solver:
+        solver.run()
+        short = solver.summary()
+        monkeypatch.undo()
+        assert solver.summary() == short
+
+
+def test_message_that_does_not_fit_says_so():
+    option = "grid.points=" + "9" * 9000
+    with pytest.raises(errors.InputError) as caught:
+        library.resolve("", "a text", [option])
+    assert str(caught.value).endswith("... (the rest does not fit)")

@@ -126,12 +126,6 @@ FAULTS: list[tuple[str, str, list[str], list[str]]] = [
     ),
     ("negative hardness", "&contact hardness = §-1.0 /", [], ["0 or [1e5, 1e12]"]),
     (
-        "boundary film and heat",
-        "&lubricant boundary_film = 1e-9 §thermal_friction = 'always' /",
-        [],
-        ["the heat where bodies touch", "'auto' or 'never'"],
-    ),
-    (
         "boundary film and Alcouffe",
         "&lubricant boundary_film = 1e-9 / &solver §coarsening = 'alcouffe' /",
         [],

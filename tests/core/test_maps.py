@@ -99,6 +99,8 @@ def test_program_takes_what_pyehl_surface_writes(scan: Path, tmp_path: Path, dri
         ("edges = 'mirror'", "surface.edges"),
         ("crop_x_max = 5e-5", "surface.crop"),
         ("outliers = 10.0", "surface.outliers"),
+        ("align_lines = 'y'", "surface.align_lines"),
+        ("profile = 'ridges'", "surface.profile"),
         ("rotate = 90.0", "surface.rotate"),
         ("sign = -1", "surface.sign"),
         ("track = 1e-5", "surface.track"),
@@ -238,7 +240,7 @@ def test_part_of_a_large_map(tmp_path: Path, monkeypatch):
     monkeypatch.setattr(module, "PART_PIXELS", 1024)
     part = surfaces.for_solver(case.resolve()).part
     with Solver(case) as solver:
-        plan = solver.describe()
+        plan = solver.describe(predict=True)
     assert part is not None
     assert part.shape == (32, 32)
     assert part.pixel == pytest.approx((LENGTH / 32, LENGTH / 32))

@@ -148,7 +148,9 @@ def test_a_prediction_that_fails_makes_no_error_smaller(monkeypatch, tmp_path: P
 
     monkeypatch.setattr("pyehl.prediction.of_solver.resolution", fails)
     with Solver(Case.from_text(LEFT_OUT)) as solver:
-        assert "predicted   no mu_r/mu_s: film breakdown: no full film" in solver.describe()
+        assert "predicted   no mu_r/mu_s: film breakdown: no full film" in solver.describe(
+            predict=True
+        )
         solver.run()
         solver.write(tmp_path / "out")
         for values in (solver.summary(), summary_of(tmp_path / "out")):
@@ -175,10 +177,10 @@ def test_nothing_is_predicted_where_nothing_is_left_out(monkeypatch):
             pass
         assert solver.summary()["mu_ratio"] is None
         assert "Solver(" in repr(solver)
-        assert "predicted" not in solver.describe(predict=False)
+        assert "predicted" not in solver.describe()
     for text in (WAVE.format(33, 0.1), ROUGH.format("shortest_wavelength = 1.3e-4")):
         with Solver(Case.from_text(text)) as solver:
-            assert "predicted" not in solver.describe()
+            assert "predicted" not in solver.describe(predict=True)
             solver.run()
             assert solver.summary()["mu_ratio"] > 1.0
 

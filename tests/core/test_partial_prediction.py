@@ -13,7 +13,9 @@ from pyehl.plots import surface
 from pyehl.plots.stribeck import Curve, draw_stribeck
 from pyehl.prediction import of_case, smooth
 from pyehl.prediction.obstacle import Compliance, lifted
+from pyehl.prediction.resolved_inlet import touching_points
 from pyehl.studies.curve_contact import lift_off
+from pyehl.theory.friction import OF_ROUGH
 
 SCENE = """
 &contact load = 20.0 mean_velocity = {} radius = 0.0127 slide_to_roll = 0.1 /
@@ -80,7 +82,7 @@ def test_smooth_films_are_those_of_a_run_with_the_layer(velocity, layer):
 
 def test_smooth_contact_with_the_layer_that_does_not_converge(monkeypatch):
     """No films of another contact in place of its own."""
-    monkeypatch.setattr(smooth, "_solved_with_layer", lambda text: None)
+    monkeypatch.setattr(smooth, "_solved_with_layer", lambda text: (None, "it does not converge"))
     settings = pyehl.Case.from_text(SCENE.format(0.3, 1.2e-7, 0.1)).resolve()
     prediction = of_case.predict(settings, tracks=1)
     summary = prediction.summary
@@ -137,18 +139,70 @@ def test_curve_says_why_it_has_no_friction(tmp_path, capsys):
     assert (tmp_path / "out" / "stribeck.png").is_file()
 
 
-@pytest.mark.parametrize("layer", [5e-9, 1.2e-7])
-def test_friction_is_isothermal_as_in_a_run(layer):
-    """With a layer, whether bodies touch or not; its heat is not computed."""
-    text = SCENE.format(3.0, layer, 0.1).replace(
-        "&lubricant", "&lubricant temperature_viscosity = 0.04"
-    )
-    summary = summary_of(text)
-    case = pyehl.Case.from_text(text, ["grid.points=33", "time.steps=1"])
-    run = pyehl.solve(case, check=False).attrs
-    assert summary["mu"] == summary["mu_isothermal"]
-    assert summary["mu_note"] == run["mu_note"]
-    assert summary["mu_note"].startswith("isothermal: the heat where bodies touch")
+HOT = SCENE.format(3.0, "{}", 0.1).replace("&lubricant", "&lubricant temperature_viscosity = 0.04")
+
+
+def test_layer_that_touches_nothing_changes_no_bit_of_friction_with_heat():
+    without = summary_of(HOT.format(0.0).replace("boundary_friction = 0.1", ""))
+    with_layer = summary_of(HOT.format(5e-9))
+    for name in without:
+        if name.startswith(("mu", "temperature_rise")):
+            assert with_layer[name] == without[name], name
+    assert without["mu"] < 0.95 * without["mu_isothermal"]
+
+
+def test_heat_where_bodies_touch():
+    """Friction with heat is that of a full film where contact begins, and that of the layer."""
+    text = HOT.replace("rms_height = 3e-8", "rms_height = 1e-7")
+    assert text != HOT
+    touching = [summary_of(text.format(layer)) for layer in (3e-7, 3.6e-7)]
+    full = summary_of(text.format(1e-9))
+    reduction = [s["mu"] / s["mu_isothermal"] for s in (full, *touching)]
+    assert touching[0]["contact_load_share"] < 0.01 < touching[1]["contact_load_share"]
+    assert reduction[1] == pytest.approx(reduction[0], rel=0.02)
+    # the layer does not mind the temperature
+    assert reduction[1] < reduction[2]
+    for summary in touching:
+        assert summary["mu_smooth"] is None
+        assert "mu_smooth" in summary["mu_note"]
+        product = summary["mu_ratio"] * summary["mu_smooth_isothermal"]
+        assert summary["mu_isothermal"] == pytest.approx(product, rel=1e-12)
+        assert summary["temperature_rise_max_K"] > full["temperature_rise_max_K"]
+
+
+@pytest.mark.parametrize("heat", ["auto", "never"])
+def test_friction_of_a_curve_is_its_ratio_times_that_of_the_smooth_contact(heat):
+    """In every row, or mu_smooth is missing and the row says why."""
+    case = pyehl.Case.from_text(HOT.format(1.2e-7) + "&grid points = 65 /\n")
+    case = case.with_options({"lubricant.thermal_friction": heat})
+    curve = pyehl.stribeck(case, speed=[0.1, 0.3, 3.0], surfaces=2, jobs=1)
+    isothermal = curve.mu_ratio.values * curve.mu_smooth_isothermal.values
+    assert curve.mu_isothermal.values == pytest.approx(isothermal, rel=1e-12)
+    assert "mixed film" in curve.status.values
+    product = curve.mu_ratio.values * curve.mu_smooth.values
+    known = np.isfinite(product)
+    assert curve.mu.values[known] == pytest.approx(product[known], rel=1e-12)
+    assert known[-1]
+    if heat == "never":
+        assert known.all()
+    assert all(OF_ROUGH in message for message in curve.message.values[~known])
+
+
+def test_smooth_contact_of_a_curve_resolves_its_inlet():
+    """On more nodes than the case has where it may touch, and on those of the case elsewhere."""
+    case = pyehl.Case.from_text(SCENE.format(0.02, 1e-8, 0.1) + "&grid points = 65 /\n")
+    points = touching_points(case.resolve())
+    assert points > 65
+    alone = case.with_options({"surface.kind": "smooth"})
+    run = pyehl.solve(alone).attrs
+    assert "contact_load_share" not in run
+    assert f"grid.points = {points} or more" in run["mu_note"]
+    curve = pyehl.stribeck(alone, speed=[0.02], jobs=1)
+    assert curve.status.values == ["mixed film"]
+    assert curve.mu.values < 0.09
+    assert abs(run["h_c_m"] - float(curve.h_c_m[0])) <= run["h_c_error_m"]
+    fast = case.with_options({"contact.mean_velocity": 1.0})
+    assert touching_points(fast.resolve()) == 65
 
 
 def test_contact_where_a_full_film_breaks_down(tmp_path, capsys):
@@ -165,6 +219,55 @@ def test_contact_where_a_full_film_breaks_down(tmp_path, capsys):
     assert "deformed   rms" in said
     assert "greatest rise" not in said
     assert (tmp_path / "out" / "passage.png").is_file()
+
+
+NOTHING = "full film; the bodies touch at the boundary film, and nothing of that is known: "
+TABLE1 = {
+    "lubricant.shear_law": "eyring",
+    "lubricant.boundary_friction": 0.12,
+    "lubricant.boundary_film": 4e-9,
+    "surface.rms_height": 2e-7,
+}
+
+
+@pytest.mark.parametrize(
+    ("velocity", "layer", "note", "message"),
+    [
+        pytest.param(
+            *(0.3, 2e-8, "waves are too short", "full film; the bodies touch at the boundary film"),
+            marks=pytest.mark.long,
+        ),
+        (0.6, 2.5e-8, "waves are too short", "the bodies touch at the boundary film"),
+        pytest.param(
+            *(0.12, 4e-9, "outside the range of the response by moes_m", NOTHING),
+            marks=pytest.mark.long,
+        ),
+        (0.413, 4e-9, "the film ends between the positions", NOTHING),
+    ],
+)
+def test_no_number_of_contact_outside_the_range(cases, velocity, layer, note, message):
+    """Bodies touch, and how much is not known: a missing value with the reason, and no friction."""
+    case = pyehl.Case.read(cases / "table1.nml", TABLE1)
+    options = {"contact.mean_velocity": velocity, "lubricant.boundary_film": layer}
+    summary = pyehl.predict(case.with_options(options), tracks=1).summary
+    assert summary["status"] == "film breakdown"
+    assert message in summary["message"]
+    assert note in summary["contact_load_share_error_note"]
+    assert summary["message"].endswith(summary["contact_load_share_error_note"])
+    names = [name for name in summary if name.startswith("contact_") and "note" not in name]
+    names += ["mu_ratio", "mu_ratio_min", "mu", "mu_isothermal", "h_min_rough_m"]
+    assert {name: summary[name] for name in names} == dict.fromkeys(names)
+    # which nothing is an error of
+    assert summary["h_min_rough_error_m"] is None
+
+
+def test_no_contact_stays_known_outside_the_range(cases):
+    """Where no body touches within the error of the film: 0."""
+    case = pyehl.Case.read(cases / "table1.nml", TABLE1 | {"surface.rms_height": 1e-8})
+    summary = pyehl.predict(case.with_options("contact.mean_velocity=0.15"), tracks=1).summary
+    assert summary["outside_range"] == ["moes_m"]
+    assert summary["contact_load_share"] == summary["contact_load_share_error"] == 0.0
+    assert summary["status"] == "predicted"
 
 
 def test_hardness_is_left_out():
@@ -232,6 +335,13 @@ def test_lift_off_with_its_error():
     assert found.lambda_ratio == pytest.approx(10.0 * found.speed)
     assert "Lambda" in found.words
     assert "theta_2" not in found.words
+    # no speed where its error is not known: beyond the curve, or by a point without one
+    for error in (1.0, None):
+        unknown = [row | {"contact_load_share_error": error} for row in rows]
+        lost = lift_off("contact.mean_velocity", speeds, unknown)
+        assert lost is not None
+        assert np.isnan([lost.speed, lost.error, lost.lambda_ratio]).all()
+        assert lost.words.startswith("lift-off   not known: 1% of the load")
     assert lift_off("contact.load", speeds, rows) is None
     assert lift_off("contact.mean_velocity", speeds[:2], rows[:2]) is None
 

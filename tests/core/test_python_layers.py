@@ -11,7 +11,7 @@ import pytest
 # A module imports only from its own layer or from a layer to the left. Imports inside functions
 # and those for typing alone count too.
 LAYERS = [
-    ["errors", "display", "schema", "types"],
+    ["errors", "display", "schema", "types", "lengths"],
     ["processor", "namelist", "given"],
     ["extension"],
     ["library", "destination"],
@@ -22,7 +22,7 @@ LAYERS = [
     ["results"],
     ["plots"],
     ["prediction", "netcdf"],
-    ["solver", "progress"],
+    ["solver", "progress", "streams"],
     ["run"],
     ["api"],
     ["studies"],

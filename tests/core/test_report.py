@@ -349,6 +349,21 @@ def test_limits_that_apply(root):
         told = " ".join(limits(thinning, {"kind": kind}))
         assert "film and waves are Newtonian" not in told
         assert "film and waves are Newtonian" in " ".join(limits(plain, {"kind": kind}))
+    # contact at a boundary film is never denied
+    layer = pyehl.Case.read(root / "cases/table1.nml", "lubricant.boundary_film=4e-8").resolve()
+    touching = {"kind": "prediction", "status": "predicted", "contact_load_share": 0.1423}
+    for groups, summary, words in (
+        (
+            layer,
+            touching,
+            "Mixed lubrication: 14 % of the load is carried at the boundary film of 40",
+        ),
+        (layer, touching | {"contact_load_share": 0.0}, "The bodies touch nowhere"),
+        (layer, touching | {"contact_load_share": None}, "Whether the bodies touch"),
+        (thinning, {"kind": "prediction", "status": "film breakdown"}, "The film ends"),
+        (thinning, {"kind": "solution", "status": "converged"}, "there is no mixed lubrication"),
+    ):
+        assert words in limits(groups, summary)[0]
     # a measured response has no friction of which something could be said
     assert len(limits(thinning, {"kind": "response"})) == 2
     assert warnings({"status": "converged"}) == []

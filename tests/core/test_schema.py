@@ -2,12 +2,13 @@
 """The table of quantities and what writes summaries say the same."""
 
 import json
+import re
 from pathlib import Path
 
 import numpy as np
 
 import pyehl
-from pyehl import schema
+from pyehl import library, schema
 from pyehl.prediction.film_sheet import sheet
 
 UNITS = {"_N_m": "N m", "_Pa_s": "Pa s", "_per_Pa": "1/Pa", "_m_per_s": "m/s", "_per_s": "1/s",
@@ -70,6 +71,10 @@ SOLUTIONS = {
         f"{MOES}{WAVE.format('velocity_ratio = 1.6137')}{SECOND}"
         "&time max_periods = 6 start = 'prediction' /\n"
     ),
+    "pure rolling": (
+        f"{MOES}{WAVE.format('velocity_ratio = 1.0')}"
+        f"{SECOND.replace('0.1', '0.1 velocity_ratio = 1')}&time steps = 2 /\n"
+    ),
     "second surface at rest alone": f"{MOES}{SECOND.replace('0.1', '0.1 velocity_ratio = 0')}",
 }
 
@@ -96,7 +101,7 @@ def test_predictions(tmp_path: Path):
     held = {*pyehl.predict(pyehl.Case.from_text(layer + rough)).summary}
     assert alone | oval | both | held == names("prediction")
     of_two = {n for n in names("prediction") if n.startswith("second_")}
-    assert both - alone == of_two | {"surface_rms_m", "surface_slope"}
+    assert both - alone == of_two | {"surface_rms_m", "surface_slope", "surface_correlation"}
 
 
 def test_film_sheets():
@@ -112,3 +117,17 @@ def test_reference_has_the_table(root: Path):
     listed = text.partition("## All names\n\n")[2].rstrip("\n")
     assert listed == schema.markdown(), "put what schema.markdown() gives below 'All names'"
     assert len(listed.splitlines()) == 2 + len(schema.QUANTITIES)
+
+
+def test_sources_name_keys_that_exist(root: Path):
+    """A misspelt name in `given` or `refuse` would be that of no key."""
+    known = {key.name for key in library.keys()}
+    named = set()
+    for path in (root / "fortran" / "case").glob("*.f90"):
+        text = path.read_text()
+        named |= {
+            f"{group}.{name}" for group, name in re.findall(r'%given\("(\w+)", "(\w+)"\)', text)
+        }
+        named |= set(re.findall(r'schema%\w+\("(\w+\.\w+)"', text))
+    assert len(named) > 30
+    assert named - known == set()

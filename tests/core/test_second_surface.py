@@ -303,7 +303,7 @@ def test_waves_that_are_left_out_are_predicted(heights, tmp_path: Path):
     text = CONTACT.replace("65", "33") + FRACTAL.format("surface")
     text += FRACTAL.format("second_surface").replace("1e-4", "5e-5")
     with Solver(Case.from_text(text + "&time max_periods = 3 tolerance = 0.3 /\n")) as solver:
-        plan = solver.describe()
+        plan = solver.describe(predict=True)
         solver.run()
         summary = solver.summary()
     assert summary["status"] == "converged"

@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Film formulas and the page of ``pyehl film``."""
 
-import copy
-
 import pytest
 import reference
 
+import pyehl
 from pyehl.case import Case
 from pyehl.commands import film as film_command
 from pyehl.prediction import film_sheet
@@ -69,10 +68,8 @@ def test_sheet_names_what_is_outside(settings):
     assert any("equal wavelengths" in text for text in outside)
 
 
-def test_sheet_from_moes_numbers_and_smooth(settings):
-    case = copy.deepcopy(settings)
-    case["contact"] = {"moes_m": 20.0, "moes_l": 10.0}
-    case["surface"]["kind"] = "smooth"
+def test_sheet_from_moes_numbers_and_smooth():
+    case = pyehl.Case(contact={"moes_m": 20.0, "moes_l": 10.0}).resolve()
     values = film_sheet.sheet(case)
     assert values["moes_m"] == pytest.approx(20.0)
     assert "lambda_ratio_central" not in values
@@ -94,6 +91,20 @@ def test_ellipses():
     page = film_command.report(turned)
     assert "both turned by                        30 deg" in page
     assert page.endswith("the formulas need an axis along the motion")
+
+
+def test_says_what_the_formulas_do_not_know():
+    told = {
+        "grid.border": "zero",
+        "grid.x_inlet": -1.5,
+        "lubricant.shear_law": "eyring",
+        "lubricant.boundary_film": 1e-9,
+    }
+    values = film_sheet.sheet(Case.from_text("", told).resolve())
+    keys = [text.split(" = ")[0] for text in values["left_out"]]
+    assert keys == ["grid.x_inlet", "lubricant.shear_law", "lubricant.boundary_film"]
+    assert "left out: grid.x_inlet = -1.5" in film_command.report(values)
+    assert film_sheet.sheet(Case.from_text("").resolve())["left_out"] == []
 
 
 def test_refuses():

@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from reference import TABLE_1
 
+import pyehl
 from pyehl.theory.lubricant import Lubricant, default_roelands_z
 from pyehl.theory.operating import OperatingPoint
 
@@ -47,15 +48,13 @@ def test_from_moes_is_the_inverse(m, ell, r):
 
 
 def test_from_settings_takes_either_kind():
-    lubricant = {"viscosity": 0.04, "pressure_viscosity": 2.2e-8}
-    moes = {"contact": {"moes_m": 200.0, "moes_l": 5.0}, "lubricant": lubricant}
+    moes = pyehl.Case(contact={"moes_m": 200.0, "moes_l": 5.0}).resolve()
     assert OperatingPoint.from_settings(moes).moes_m == pytest.approx(200.0)
     contact = {"load": 10.0, "mean_velocity": 1.0, "radius": 0.01, "reduced_modulus": 2e11}
-    point = OperatingPoint.from_settings({"contact": contact, "lubricant": lubricant})
+    point = OperatingPoint.from_settings(pyehl.Case(contact=contact).resolve())
     assert (point.load, point.si) == (10.0, True)
-    point = OperatingPoint.from_settings(
-        {"contact": contact | {"slide_to_roll": -0.5}, "lubricant": lubricant}
-    )
+    sliding = pyehl.Case(contact=contact | {"slide_to_roll": -0.5}).resolve()
+    point = OperatingPoint.from_settings(sliding)
     assert point.sliding_speed == 0.5
 
 
@@ -133,5 +132,7 @@ def test_lubricant_refuses(arguments, word):
 
 def test_moes_numbers_must_be_positive():
     with pytest.raises(ValueError, match="moes_l"):
-        OperatingPoint.from_moes(100.0, 0.0)
+        OperatingPoint.from_moes(100.0, -1.0)
+    assert OperatingPoint.from_moes(100.0, 0.0).moes_l == 0.0
+    assert OperatingPoint.from_moes(100.0, 0.0).moes_m == pytest.approx(100.0)
     assert default_roelands_z(0.04, 0.0) == 0.0

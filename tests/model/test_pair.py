@@ -2,6 +2,7 @@
 """The prediction for two rough surfaces: exact special cases, sums of waves, positions, films."""
 
 import json
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -396,3 +397,36 @@ def test_model_of_the_paper_knows_one():
     keys = {"psd.reduction": "amplitude", "psd.smooth": "hertz"}
     with pytest.raises(pyehl.InputError, match="two rough surfaces: the model of the paper"):
         pyehl.predict(pyehl.Case.from_text(text, keys))
+
+
+@pytest.mark.parametrize(
+    ("slide_to_roll", "seed", "alike"), [(0.0, 1, 1.0), (0.0, None, 0.0), (0.1, 1, math.nan)]
+)
+def test_waves_of_equal_surfaces_that_move_together_add_up(slide_to_roll, seed, alike):
+    """Two of 20 nm are one of 40 nm in pure rolling; the second one has another seed by default."""
+    keys = "kind = 'fractal' rms_height = 2e-8 pixels = 64"
+    second = "" if seed is None else f"seed = {seed}"
+    case = pyehl.Case.from_text(
+        f"&contact mean_velocity = 2.0 slide_to_roll = {slide_to_roll} /\n&grid points = 33 /\n"
+        f"&surface {keys} /\n&second_surface {keys} {second} /\n"
+    )
+    tiles = [fractal(64, 8.29e-4, 8.29e-4, rms_height=2e-8, hurst=0.8, seed=s)
+             for s in (1, seed or 2)]  # fmt: skip
+    product = float(np.mean(tiles[0].heights * tiles[1].heights)) / 4e-16
+    expected = math.hypot(2e-8, 2e-8)
+    if slide_to_roll == 0.0:
+        assert product == pytest.approx(alike, abs=0.2)
+        expected = float(np.std(tiles[0].heights + tiles[1].heights))
+    about = pyehl.predict(case, tracks=1).summary
+    assert about["surface_rms_m"] == pytest.approx(expected, rel=1e-9)
+    assert about["lambda_ratio"] == pytest.approx(about["h_min_m"] / expected, rel=1e-9)
+    assert pyehl.film(case)["rms_height_m"] == pytest.approx(expected, rel=1e-9)
+    plan = pyehl.check(case)
+    assert f"composite rms height  {expected:.2E} m".replace("  ", " ") in plan.replace("  ", " ")
+    if slide_to_roll:
+        assert about["surface_correlation"] is None
+        assert "both move together" not in plan
+    else:
+        assert about["surface_correlation"] == pytest.approx(product, abs=1e-9)
+        assert f"correlation {product:.2f}" in plan
+    assert ("are alike (correlation 1.00)" in about["judgement"]) == (alike == 1.0)

@@ -15,7 +15,7 @@ from matplotlib.transforms import Bbox
 
 from pyehl import Case, cli, namelist
 from pyehl.plots import contact, figures, folder, panels, style, surface, transient
-from pyehl.prediction.folder import destination, write
+from pyehl.prediction.folder import destination, draw, write
 from pyehl.prediction.of_case import predict
 from pyehl.surfaces import Topography
 from pyehl.theory.operating import OperatingPoint
@@ -62,6 +62,24 @@ def test_pressure_and_film_in_si(fields, scales):
     (twin,) = (other for other in ax.figure.axes if other is not ax)
     film_line = curves(twin)["film"]
     assert np.interp(0.0, *film_line.T) == pytest.approx(0.0243 * scales.film * 1e6, rel=1e-3)
+
+
+def test_a_tile_of_nanometres_is_drawn_as_far_as_it_can_be_seen():
+    """Of 20 000 x 20 000 pixels in the contact a picture shows a part, and says so."""
+    tile = Topography(np.random.default_rng(1).normal(0.0, 1e-9, (64, 48)), (6.4e-7, 4.8e-7))
+    ax = surface.roughness(tile, tile.heights, 1e-4, name="(a) undeformed,")
+    (image,) = ax.get_images()
+    assert max(image.get_array().shape) <= surface.PLACES
+    assert min(image.get_array().shape) > surface.PLACES / 2
+    left, right, _, _ = image.get_extent()
+    assert right == pytest.approx(1.0, abs=2e-3)
+    assert left == pytest.approx(-1.0, abs=2e-3)
+    assert "one of 289 pixels" in ax.get_title(loc="left")
+    shown = float(np.nanstd(image.get_array().filled(np.nan)))
+    assert shown == pytest.approx(1e9 * tile.rms_height, rel=1e-3)
+    few = surface.roughness(tile, tile.heights, 1e-6, name="(a)")
+    assert "one of" not in few.get_title(loc="left")
+    assert surface.heights(tile).get_xlabel() == "x [nm]"
 
 
 @pytest.mark.parametrize("si", [True, False])
@@ -315,7 +333,9 @@ def test_subcommand_at_other_resolutions_and_formats(settings, tmp_path, capsys)
 
 def test_subcommand_on_a_prediction_that_failed(settings, tmp_path):
     settings["psd"]["film_thickness"] = 1e-8
-    write(predict(settings), destination(tmp_path / "out"), plots=True)
+    result = predict(settings)
+    write(result, destination(tmp_path / "out"))
+    draw(result, tmp_path / "out")
     assert run_subcommand(tmp_path / "out") == 0
     assert not (tmp_path / "out" / "passage.png").exists()
 
@@ -329,7 +349,7 @@ SUMMARY = {
 def test_subcommand_on_a_prediction_of_two_surfaces(tmp_path):
     tiles = ({"kind": "fractal", "pixels": 32, "seed": seed} for seed in (1, 2))
     case = Case(**dict(zip(("surface", "second_surface"), tiles, strict=True)))
-    write(predict(case.resolve(), tracks=1), destination(tmp_path / "out"), plots=False)
+    write(predict(case.resolve(), tracks=1), destination(tmp_path / "out"))
     assert run_subcommand(tmp_path / "out") == 0
     drawn = {p.name for p in (tmp_path / "out").glob("*.png")}
     assert drawn >= {"roughness.png", "second_roughness.png", "second_surface_spectrum.png"}

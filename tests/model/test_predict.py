@@ -12,7 +12,7 @@ import xarray as xr
 from pyehl import FileError, InputError, namelist
 from pyehl.commands import film as film_command
 from pyehl.commands import predict as predict_command
-from pyehl.prediction.folder import destination, write
+from pyehl.prediction.folder import destination, draw, write
 from pyehl.prediction.of_case import predict
 from pyehl.results import load
 from pyehl.theory import film
@@ -72,7 +72,9 @@ def test_harmonic_amplitude_is_a_share_of_the_film(settings):
 @pytest.fixture
 def folder(settings, tmp_path):
     target = tmp_path / "deep" / "out"
-    write(predict(settings), destination(target), plots=True)
+    result = predict(settings)
+    write(result, destination(target))
+    draw(result, target)
     return target
 
 
@@ -133,11 +135,32 @@ def test_failed_write_leaves_the_old_result(folder, settings, monkeypatch):
     def fail(*_):
         raise OSError("disk full")
 
-    monkeypatch.setattr("pyehl.plots.folder.save_all", fail)
+    monkeypatch.setattr("pyehl.prediction.folder.write_csv", fail)
     with pytest.raises(OSError, match="disk full"):
-        write(predict(settings), destination(folder), plots=True)
+        write(predict(settings), destination(folder))
     assert (folder / "summary.json").read_text() == before
     assert [p.name for p in folder.parent.iterdir()] == ["out"]
+
+
+def test_a_picture_that_fails_is_a_warning(settings, tmp_path, monkeypatch, caplog):
+    """The answer is written before there are pictures."""
+    place = destination(tmp_path / "out")
+    result = predict(settings)
+    write(result, place)
+
+    def fail(*_, **__):
+        raise MemoryError("Unable to allocate 5.27 TiB")
+
+    monkeypatch.setattr("pyehl.plots.surface.roughness", fail)
+    draw(result, place.folder)
+    assert "roughness.png: not drawn: Unable to allocate 5.27 TiB" in caplog.text
+    files = json.loads((tmp_path / "out" / "summary.json").read_text())["files"]
+    assert "passage.png" in files
+    assert "surface_spectrum.png" in files
+    assert sorted(files) == sorted(p.name for p in (tmp_path / "out").iterdir())
+    # made again the pictures give way with it
+    write(result, place)
+    assert not (tmp_path / "out" / "passage.png").exists()
 
 
 @pytest.fixture

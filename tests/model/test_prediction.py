@@ -167,7 +167,16 @@ def test_smooth_contact_from_a_result_folder(tmp_path):
     folder = tmp_path / "smooth"
     pyehl.solve(case, output=folder)
     given = pyehl.predict("cases/table1.nml", smooth=folder)
-    assert given.mu_ratio == pytest.approx(pyehl.predict("cases/table1.nml").mu_ratio, rel=0.01)
+    on_the_spot = pyehl.predict("cases/table1.nml")
+    # films extrapolated, with their errors, and mu_r/mu_s: the same numbers
+    names = "h_c_m", "h_c_error_m", "h_min_m", "h_min_error_m", "mu_ratio", "mu_ratio_model_error"
+    assert [given.summary[n] for n in names] == [on_the_spot.summary[n] for n in names]
+    assert given.film_source == f"smooth contact in {folder}, extrapolated"
+    barus = {"lubricant.viscosity_law": "barus"}
+    with pytest.raises(pyehl.InputError, match=r"viscosity_law is 'roelands' there and 'barus' in"):
+        pyehl.predict("cases/table1.nml", barus, smooth=folder)
+    with pytest.raises(pyehl.InputError, match=r"grid\.border is 'zero' there and 'flooded' in"):
+        pyehl.predict("cases/table1.nml", {"grid.border": "flooded"}, smooth=folder)
     with pytest.raises(pyehl.InputError, match="moes_m is"):
         pyehl.predict("cases/table1.nml", "contact.load=500.0", smooth=folder)
     with pytest.raises(pyehl.InputError, match="not a result folder"):

@@ -265,7 +265,7 @@ def test_lengths_in_other_units_are_noticed(tmp_path):
         read_scan(tmp_path / "map.npy", 0.829, 0.829)
     places = np.indices((5, 4)).reshape(2, -1).T
     np.savetxt(tmp_path / "list.txt", np.column_stack([2.0 * places, places[:, 0]]))
-    with pytest.raises(ValueError, match=r"in m\? surface\.height_unit is the unit .* of a list"):
+    with pytest.raises(ValueError, match=r"steps of 2, .* give .*, or surface\.lateral_unit"):
         read_scan(tmp_path / "list.txt")
     assert read_scan(tmp_path / "list.txt", height_unit="um").length_x == pytest.approx(1e-5)
 
@@ -278,11 +278,11 @@ TABLE = "0,5;1,5;2,5;3,5;4,5\n1,0;2,0;3,0;4,0;5,0\n-1;0;1;2;3\n0;0;0;0;7,25\n"
     [
         ("Height map;;\nWidth (um);10\nHeight (um);8,5\nUnit;nm\n\n", (1e-5, 8.5e-6), 1e-9),
         (
-            "Profile 3\nX size: 0.01 mm\nY size: 8.5 µm\nZ units: mm\n128;128\n",
+            "Profile 3\nX size: 0.01 mm\nY size: 8.5 µm\nZ units: Å\n128;128\n",
             (1e-5, 8.5e-6),
-            1e-3,
+            1e-10,
         ),
-        ("Height;0,5\nunit;um\n", (None, None), 1e-6),
+        ("Height;0,5\nunit;nm\n", (None, None), 1e-9),
         ("Width;10\nHeight (um);8,5\nmade by hand\n", (None, None), 1.0),
         ("Width (um);10\nWidth (um);12\nUnit;um\nUnit;nm\n", (None, None), 1.0),
     ],
@@ -292,21 +292,24 @@ def test_table_under_header_lines(tmp_path, header, size, unit):
     path = tmp_path / "table.csv"
     path.write_text(header + TABLE, encoding="utf-8")
     given = (2e-5, 3e-5) if size == (None, None) else (None, None)
-    scan = read_scan(path, *given)
+    if unit == 1.0:
+        with pytest.raises(ValueError, match=r"slope of (.|\n)*names no unit: .* taken in m"):
+            read_scan(path, *given)
+        unit, named = 1e-9, {"height_unit": "nm"}
+    else:
+        named = {}
+        with pytest.raises(ValueError, match="names its unit itself"):
+            read_scan(path, *given, height_unit="nm")
+    scan = read_scan(path, *given, **named)
     assert scan.heights.shape == (5, 4)
     assert scan.heights[:, 0] == pytest.approx(unit * np.array([0.5, 1.5, 2.5, 3.5, 4.5]))
     assert scan.heights[4, 3] == pytest.approx(unit * 7.25)
     assert (scan.length_x, scan.length_y) == pytest.approx(given if size == (None, None) else size)
     assert not scan.is_array
-    assert ("names no unit" in scan.note) == (unit == 1.0)
+    assert ("by surface.height_unit" in scan.note) == bool(named)
     if size == (None, None):
         with pytest.raises(ValueError, match=r"surface\.length_x and surface\.length_y"):
             read_scan(path)
-    if unit == 1.0:
-        assert read_scan(path, *given, height_unit="nm").heights[0, 0] == pytest.approx(5e-10)
-    else:
-        with pytest.raises(ValueError, match="names its unit itself"):
-            read_scan(path, *given, height_unit="nm")
 
 
 @pytest.mark.parametrize("separator", ["\t", ",", ";", " "])

@@ -344,6 +344,22 @@ def test_nothing_solved_is_no_full_film(cases: Path, tmp_path: Path):
     assert "stribeck.png" not in told
 
 
+def test_a_ratio_beyond_linear_response_leaves_the_film(cases: Path, tmp_path: Path):
+    """Film and Lambda are known: the point is judged by them, and the ratio alone is missing."""
+    words = ("--set", "surface.pixels=128", "--set", "surface.rms_height=5e-8", "--set")
+    words += ("surface.hurst=0.3", "--set", "grid.points=257", "--speed", "0.84,4")
+    told, complaint = run(str(cases / "table1.nml"), *words, "-o", str(tmp_path))
+    first, second = table(tmp_path)
+    assert first["status"] == OUTSIDE
+    assert (first["mu_ratio"], first["mu"]) == ("", "")
+    assert first["message"].startswith("beyond linear response: pressures that raise mu_r/mu_s to")
+    assert "but mu_r/mu_s is not known: pressures that raise" in first["judgement"]
+    assert "no answer" not in first["judgement"] + told
+    assert float(first["lambda_ratio"]) > 0.5
+    assert second["mu_ratio"] != ""
+    assert complaint == ""
+
+
 def test_a_curve_of_breakdown_alone_has_no_picture(cases: Path, tmp_path: Path):
     words = ("--set", "surface.pixels=64", "--set", "surface.rms_height=8e-7", "--set")
     words += ("grid.points=129", "--speed", "0.8,1.6", "-o", str(tmp_path))

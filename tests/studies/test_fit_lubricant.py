@@ -9,6 +9,7 @@ import pytest
 
 import pyehl
 from pyehl import InputError, cli, schema
+from pyehl.studies.shear_fit import _weights
 
 RATIOS = (0.01, 0.02, 0.05, 0.1, 0.2)
 CASE = (
@@ -104,6 +105,7 @@ def test_the_folder(case: Path, tmp_path: Path, capsys: pytest.CaptureFixture[st
         ("contact.slide_to_roll,mu\n0.1,0.05\n", ["1 measured points", "more points"]),
         ("contact.slide_to_roll,mu\n0.1,0.05\n3.0,0.05\n", ["at most 2"]),
         ("contact.slide_to_roll,mu\n0.1,0.05\n0.2,-0.05\n", ["above 0"]),
+        ("contact.slide_to_roll,mu,error\n0.1,0.05,1e-3\n0.2,0.06,0\n", [":3:", "error = '0'"]),
         ("", ["data.csv:1:", "none"]),
     ],
 )
@@ -114,6 +116,15 @@ def test_bad_data(case: Path, tmp_path: Path, text: str, words: list[str]):
         pyehl.fit_lubricant(data, case, output=tmp_path / "out")
     assert all(word in str(raised.value) for word in words), raised.value
     assert not (tmp_path / "out").exists()
+
+
+def test_weights_are_not_dropped():
+    """One error of none refuses a fit; zeros alone stand for errors that are not known."""
+    assert (_weights(np.zeros(3)) == 1.0).all()
+    assert _weights(np.array([0.1, 0.2])) == pytest.approx([10.0, 5.0])
+    for wrong in (0.0, -0.1):
+        with pytest.raises(InputError, match="expected: errors above 0"):
+            _weights(np.array([0.1, wrong]))
 
 
 def test_bad_arguments(case: Path, tmp_path: Path):

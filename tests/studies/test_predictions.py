@@ -50,6 +50,16 @@ def test_a_row_is_the_summary_of_a_prediction(cases: Path, name: str):
     assert summary["message"].startswith(row["message"])
 
 
+def test_judgement_of_a_ratio_beyond_linear_response(cases: Path):
+    """Of the film that is known; the ratio alone is missing."""
+    summary = pyehl.predict(cases / "table1.nml", *CASES["beyond"], tracks=1).summary
+    assert summary["mu_ratio"] is None
+    assert summary["lambda_ratio"] > 0.0
+    word, _, reason = summary["judgement"].partition(": ")
+    assert word in ("full film", "thin film")
+    assert f"but mu_r/mu_s is not known: {summary['message']}" in reason
+
+
 def test_tracks_are_there_where_they_are_asked_for(cases: Path):
     vary = {"surface.seed": [1, 2]}
     asked = ("mu_ratio", "mu_ratio_tracks", "mu_ratio_tracks_spread")

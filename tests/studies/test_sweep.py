@@ -14,7 +14,9 @@ import xarray as xr
 
 import pyehl
 from pyehl.cli import main
+from pyehl.commands.sweep import report
 from pyehl.studies import plan as plan_module
+from pyehl.studies.gather import Outcome
 from pyehl.studies.journal import NAME
 from pyehl.studies.plan import plan, seconds_of
 from pyehl.studies.study import make
@@ -248,6 +250,35 @@ def test_a_case_that_fails_says_so_in_words(cases: Path, tmp_path: Path):
     assert "failed: the smooth contact under the prediction did not converge" in complaint
 
 
+def test_a_film_that_breaks_down_is_an_answer(cases: Path, tmp_path: Path):
+    """As on a curve: the study is finished, and the table says of which case there is no ratio."""
+    words = ("--run", "predict", "--set", "surface.pixels=64", "--vary")
+    words += ("surface.rms_height=5e-8,8e-7", "--jobs", "1")
+    told, complaint = sweep(tmp_path / "out", str(cases / "table1.nml"), *words)
+    assert "1 film breakdown, 1 predicted" in told
+    assert complaint == ""
+
+
+def test_estimates_of_predictions(cases: Path):
+    """Beside processor seconds measured on an x86 of 2020, within a factor of 2.5 of each."""
+    thins = {"lubricant.shear_law": "eyring"}
+    layer = thins | {"lubricant.boundary_film": 4e-8, "lubricant.boundary_friction": 0.1}
+    rough = {"surface.kind": "fractal"}
+    for case, options, measured in (
+        ("table1.nml", {}, 0.26),
+        ("table1.nml", {"contact.mean_velocity": 0.2}, 0.48),
+        ("table1.nml", {"contact.mean_velocity": 0.05}, 1.34),
+        ("table1.nml", {"surface.pixels": 512}, 0.48),
+        ("table1.nml", thins, 0.64),
+        ("table1.nml", layer, 0.90),
+        ("table1.nml", {"second_surface.kind": "fractal", "second_surface.seed": 2}, 1.27),
+        ("ball_bearing.nml", rough, 7.8),
+    ):
+        settings = pyehl.Case.read(cases / case, options).resolve()
+        ratio = seconds_of(settings, "predict") / measured
+        assert 0.4 < ratio < 2.5, (case, options, ratio)
+
+
 @pytest.mark.long
 def test_a_plan_of_a_million_cases(cases: Path, tmp_path: Path):
     """It checks some, among them both ends of what is varied, and says so."""
@@ -283,3 +314,11 @@ def test_more_cases_than_fit_into_memory_are_refused(
     _, refused = sweep(tmp_path / "out", *words, expect=2)
     assert "3 cases take " in refused
     assert not (tmp_path / "out").exists()
+
+
+def test_failed_cases_are_told_how_to_retry(tmp_path: Path):
+    outcome = Outcome({0: {"status": "failed"}, 1: {"status": "converged"}})
+    assert "failed     1: the same command with --retry runs them again" in report(
+        outcome, tmp_path, 1
+    )
+    assert "--retry" not in report(Outcome({0: {"status": "converged"}}), tmp_path, 1)

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import pyehl
 from pyehl import InputError
 from pyehl.given import option
 from pyehl.studies.study import Study, make, read_study
@@ -75,6 +76,25 @@ def test_options_are_as_a_case_file_has_them():
     assert option("a.b", True) == "a.b=.true."
     assert option("a.b", 1e-5) == "a.b=1e-05"
     assert option("a.b", 0.1 + 0.2) == "a.b=0.30000000000000004"
+    assert option("a.b", "word") == "a.b=word"
+    assert axis("a.b", """'', 'it''s', " x" """).values == ("", "it's", " x")
+
+
+@pytest.mark.parametrize("text", ["", " x", "'q'", '"', "it's", "a,b!/", "\t", "'"])
+def test_options_keep_quotes_blanks_and_emptiness(text: str):
+    case = pyehl.Case(surface={"channel": text})
+    for made in (
+        case,
+        case.with_options({"grid.points": 65}),
+        pyehl.Case.from_text("", {"surface.channel": text}),
+    ):
+        assert made.resolve()["surface"]["channel"] == text
+
+
+def test_a_blank_at_the_end_of_a_text_is_refused():
+    """It is not kept, so it is not taken."""
+    with pytest.raises(InputError, match="a blank at its end"):
+        pyehl.Case(surface={"channel": "Height "})
 
 
 def study(*texts: str, zipped: bool | list[list[str]] = False) -> Study:

@@ -1,0 +1,199 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Smooth contacts that touch, at random, on ever finer grids: what their stated errors cover.
+
+    python docs/evidence/inlet/make.py run [CONTACTS]    adds what is missing to table.csv
+    python docs/evidence/inlet/make.py show              prints the tables of README.md
+
+Half a minute a contact of one core, most of it on the finest grid.
+"""
+
+from __future__ import annotations
+
+import csv
+import sys
+from collections.abc import Iterator
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import pyehl
+from pyehl.theory.film import central_film
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
+
+HERE = Path(__file__).parent
+TABLE = HERE / "table.csv"
+SEED, CONTACTS = 47, 29
+GRIDS = (65, 129, 257, 513, 1025)
+FINEST = GRIDS[-1]
+# That of the program (fortran/steady/inlet.f90)
+FACTOR = 1.3
+# The finest grid is to resolve the inlet: (h/H^(2/3))^2 of it, with the mesh size of 4 a over 1024
+RESOLVED = 0.02
+QUANTITIES = {"h_c_m": "h_c_error_m", "h_min_m": "h_min_error_m"} | {
+    "contact_load_share": "contact_load_share_error"
+}
+COLUMNS = ("contact", "moes_m", "moes_l", "ellipticity", "layer_over_film", "missed", "points")
+RESULTS = ("status", *(name for pair in QUANTITIES.items() for name in pair), "mu", "layer_supply")
+Row = dict[str, Any]
+
+
+def contacts() -> Iterator[tuple[Row, Row]]:
+    """Keys of contacts that may touch, and what they are, without end."""
+    rng = np.random.default_rng(SEED)
+    while True:
+        keys: Row = {
+            "contact.load": 10.0 ** rng.uniform(0.7, 2.8),
+            "contact.mean_velocity": 10.0 ** rng.uniform(-2.5, 0.3),
+            "contact.slide_to_roll": rng.uniform(0.05, 1.0),
+            "lubricant.viscosity": 10.0 ** rng.uniform(-2.2, -1.0),
+            "lubricant.pressure_viscosity": rng.uniform(1e-8, 2.4e-8),
+            "lubricant.shear_law": "eyring",
+            "lubricant.boundary_friction": 0.1,
+            "lubricant.boundary_film": 1e-9,
+        }
+        radius, circle = rng.uniform(5e-3, 20e-3), rng.random() < 0.6
+        wide, layer = 10.0 ** rng.uniform(-0.3, 0.5), 10.0 ** rng.uniform(-0.4, 0.3)
+        shape = {"radius": radius} if circle else {"radius_x": radius, "radius_y": radius * wide}
+        keys |= {f"contact.{name}": value for name, value in shape.items()}
+        try:
+            settings = pyehl.Case.from_text("", keys).resolve()
+        except pyehl.InputError:
+            continue
+        operating = OperatingPoint.from_settings(settings)
+        lubricant = Lubricant.from_settings(settings)
+        film = central_film(operating, lubricant)
+        missed = (4.0 / (FINEST - 1)) ** 2 * (film / operating.film_scale) ** (-4.0 / 3.0)
+        # the film of a layer is that at ambient pressure
+        thickness = layer * film * float(lubricant.density_ratio(operating.hertz_pressure))
+        if not (RESOLVED / 30.0 < missed < RESOLVED and 1e-9 < thickness < 1e-6):
+            continue
+        keys["lubricant.boundary_film"] = thickness
+        what = {
+            "moes_m": operating.moes_m,
+            "moes_l": operating.moes_l,
+            "ellipticity": operating.ellipse.ellipticity,
+            "layer_over_film": layer,
+        }
+        yield keys, what
+
+
+def run(count: int) -> None:
+    """Add what is missing of so many contacts."""
+    there = {(int(row["contact"]), int(row["points"])) for row in read()}
+    for number, (keys, what) in zip(range(count), contacts(), strict=False):
+        for points in GRIDS:
+            if (number, points) in there:
+                continue
+            # where the film is close to the layer the edge of the touching zone moves slowly
+            more = {"grid.points": points, "solver.max_cycles": 100}
+            case = pyehl.Case.from_text("", keys | more)
+            found = pyehl.solve(case, check=False).attrs
+            film = what["layer_over_film"], found["boundary_film"]
+            mesh = found["x_mesh"]
+            missed = FACTOR * mesh**2 * (film[1] / film[0] / density(case)) ** (-4.0 / 3.0)
+            row = {"contact": number, **what, "missed": missed, "points": points}
+            row |= {name: found.get(name) for name in RESULTS}
+            append(row)
+
+
+def density(case: pyehl.Case) -> float:
+    """Density under the Hertz pressure over that at ambient pressure."""
+    settings = case.resolve()
+    pressure = OperatingPoint.from_settings(settings).hertz_pressure
+    return float(Lubricant.from_settings(settings).density_ratio(pressure))
+
+
+def append(row: Row) -> None:
+    """Add a line to the table."""
+    new = not TABLE.is_file()
+    with TABLE.open("a", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        if new:
+            writer.writerow([*COLUMNS, *RESULTS])
+        values = (row[name] for name in (*COLUMNS, *RESULTS))
+        writer.writerow(
+            [f"{v:.6g}" if isinstance(v, float) else "" if v is None else v for v in values]
+        )
+
+
+def read() -> list[dict[str, str]]:
+    """Rows of the table."""
+    if not TABLE.is_file():
+        return []
+    with TABLE.open(newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def covered(rows: list[dict[str, str]], name: str) -> dict[int, tuple[int, int, int]]:
+    """Of each grid the contacts with a stated error, those it covers, and those without a number.
+
+    Against the finest grid, of the contacts that it solves and whose load share it tells.
+    """
+    best = {
+        row["contact"]: float(row[name])
+        for row in rows
+        if int(row["points"]) == FINEST and row[name]
+    }
+    found = {}
+    for points in GRIDS[:-1]:
+        those = [r for r in rows if int(r["points"]) == points and r["contact"] in best]
+        told = [r for r in those if r[name] and r[QUANTITIES[name]]]
+        good = [
+            r
+            for r in told
+            if abs(float(r[name]) - best[r["contact"]]) <= float(r[QUANTITIES[name]])
+        ]
+        found[points] = len(told), len(good), len(those) - len(told)
+    return found
+
+
+def by_two_grids(rows: list[dict[str, str]]) -> tuple[int, int]:
+    """How many of all central films a third of the change from the coarser grid covers."""
+    films = {(r["contact"], int(r["points"])): float(r["h_c_m"] or "nan") for r in rows}
+    told = good = 0
+    for coarse, points in pairwise(GRIDS[:-1]):
+        for name in {contact for contact, _ in films}:
+            before, film, best = (films.get((name, n), np.nan) for n in (coarse, points, FINEST))
+            if np.isfinite(before + film + best):
+                told += 1
+                good += abs(film - best) <= abs(film - before) / 3.0
+    return good, told
+
+
+def lines() -> list[str]:
+    """Give the table of README.md."""
+    rows = read()
+    names = {"h_c_m": "h_c", "h_min_m": "h_min", "contact_load_share": "load share"}
+    found_lines = [
+        "| error of | " + " | ".join(f"{n}" for n in GRIDS[:-1]) + " | all |",
+        "|---" * (len(GRIDS) + 1) + "|",
+    ]
+    for name, said in names.items():
+        found = covered(rows, name)
+        cells = [
+            f"{good} of {told}" + (f", {none} none" if none else "")
+            for told, good, none in found.values()
+        ]
+        told, good = (sum(part[k] for part in found.values()) for k in (0, 1))
+        cells.append(f"{good} of {told} = {100.0 * good / told:.0f} %")
+        found_lines.append(f"| {said} | " + " | ".join(cells) + " |")
+    return found_lines
+
+
+def show() -> None:
+    """Print the table of README.md, and what two grids alone would cover."""
+    print("\n".join(lines()))
+    good, told = by_two_grids(read())
+    print(f"by two grids alone: {good} of {told}")
+
+
+if __name__ == "__main__":
+    if sys.argv[1:2] == ["run"]:
+        run(int(sys.argv[2]) if len(sys.argv) > 2 else CONTACTS)
+    elif sys.argv[1:] == ["show"]:
+        show()
+    else:
+        sys.exit(__doc__)

@@ -1,0 +1,158 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Who writes into a folder: a file DIR.lock beside it, with process and machine, for as long as a run has the folder. The lock of
+!> a process that has ended is taken over.
+module ehl_folder_lock
+   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char, c_size_t
+   use ehl_files, only: file_exists, fortran_text, may_write, process_mark, remove_file, rename_path
+   use ehl_folders, only: folder_above, full_path, is_there, make_parents, move_new, spare_path
+   use ehl_processes, only: process_is_there
+   use ehl_status, only: ehl_bad_input, ehl_file, status_t
+   use ehl_text, only: newline
+   use ehl_whole_file, only: read_text, write_text
+   implicit none (type, external)
+   private
+   public :: folder_lock_t
+
+   type :: folder_lock_t
+      !> The file; not allocated: nothing is locked
+      character(len=:), allocatable, private :: path
+   contains
+      procedure :: take
+      procedure :: release
+   end type folder_lock_t
+
+   character(len=*), parameter :: suffix = ".lock", mark = "! A run writes into the folder beside this file; removed with its end"
+   !> Bytes of the longest file of ours
+   integer, parameter :: longest = 4096
+
+   interface
+      integer(c_int) function posix_gethostname(buffer, length) bind(c, name="gethostname")
+         import :: c_char, c_int, c_size_t
+         implicit none (type, external)
+         character(kind=c_char), intent(out) :: buffer(*)
+         integer(c_size_t), value :: length
+      end function posix_gethostname
+   end interface
+
+contains
+
+   !> Take a folder; refuse one that another run has, or another solver of this process. Nothing happens where no file can be
+   !> written beside the folder.
+   subroutine take(self, folder, status)
+      class(folder_lock_t), intent(inout) :: self
+      character(len=*), intent(in) :: folder
+      type(status_t), intent(inout) :: status
+      character(len=:), allocatable :: path, fresh, text
+      type(status_t) :: reading
+      logical :: done
+      integer :: k
+
+      if (status%failed()) return
+      path = full_path(folder)//suffix
+      if (allocated(self%path)) then
+         if (self%path == path) return
+      end if
+      call self%release()
+      call make_parents(path)
+      if (.not. may_write(folder_above(path))) return
+      fresh = spare_path(path)
+      ! whole before it has its name
+      call write_text(fresh, mark//newline//process_mark()//" "//start_of(process_mark())//" "//machine()//newline, status)
+      do k = 1, 3
+         if (status%failed()) exit
+         if (move_new(fresh, path)) then
+            self%path = path
+            return
+         end if
+         reading = status_t()
+         call read_text(path, longest, text, reading)
+         ! its run may have ended meanwhile
+         if (.not. is_there(path)) cycle
+         call refuse_if_held(folder, path, text, status)
+         if (.not. status%failed()) call take_away(path, text)
+      end do
+      done = remove_file(fresh)
+      if (.not. status%failed()) call status%fail(ehl_file, path//": error: cannot be written")
+   end subroutine take
+
+   !> Give the folder back
+   subroutine release(self)
+      class(folder_lock_t), intent(inout) :: self
+      logical :: gone
+
+      if (.not. allocated(self%path)) return
+      gone = remove_file(self%path)
+      deallocate (self%path)
+   end subroutine release
+
+   !> Refuse the lock of a process that is alive, or may be
+   subroutine refuse_if_held(folder, path, text, status)
+      !> As the user wrote it; the lock and what it says
+      character(len=*), intent(in) :: folder, path, text
+      type(status_t), intent(inout) :: status
+      character(len=256) :: process, start, host
+      integer :: stat
+
+      if (index(text, mark//newline) /= 1) then
+         call status%fail(ehl_bad_input, path//": error: pyehl run did not write this file"//newline// &
+                          "expected: another folder for the results, or this file under another name")
+         return
+      end if
+      read (text(len(mark) + 2:), *, iostat=stat) process, start, host
+      if (stat /= 0) return
+      if (host == machine()) then
+         if (.not. process_is_there(trim(process))) return
+         ! the number may have gone to another process
+         if (start_of(trim(process)) /= start) return
+      end if
+      call status%fail(ehl_bad_input, folder//": error: process "//trim(process)//" on "//trim(host)// &
+                       " is writing a result into this folder"//newline// &
+                       "expected: another folder, or wait until it has ended; if it no longer runs, remove "//path)
+   end subroutine refuse_if_held
+
+   !> Remove a lock that says so, and no other one that may have come in its place
+   subroutine take_away(path, text)
+      character(len=*), intent(in) :: path, text
+      character(len=:), allocatable :: aside, found
+      type(status_t) :: reading
+      logical :: done
+
+      aside = spare_path(path//".old")
+      if (.not. rename_path(path, aside)) return
+      call read_text(aside, longest, found, reading)
+      done = .false.
+      if (found /= text) done = move_new(aside, path)
+      if (.not. done) done = remove_file(aside)
+   end subroutine take_away
+
+   !> Name of this machine, one word
+   function machine() result(name)
+      character(len=:), allocatable :: name
+      character(kind=c_char) :: buffer(257)
+
+      buffer = c_null_char
+      name = "?"
+      if (posix_gethostname(buffer, size(buffer, kind=c_size_t) - 1) /= 0) return
+      if (buffer(1) /= c_null_char) name = fortran_text(buffer)
+   end function machine
+
+   !> When a process was started, as Linux counts it; '0' where it is not known
+   function start_of(process) result(start)
+      character(len=*), intent(in) :: process
+      character(len=:), allocatable :: start
+      character(len=1024) :: line
+      character(len=64) :: words(20)
+      integer :: lun, stat
+
+      start = "0"
+      if (.not. file_exists("/proc/"//process//"/stat")) return
+      open (newunit=lun, file="/proc/"//process//"/stat", status="old", action="read", iostat=stat)
+      if (stat /= 0) return
+      read (lun, "(a)", iostat=stat) line
+      close (lun)
+      if (stat /= 0) return
+      ! behind the name of the program in parentheses the start is the 20th word
+      read (line(index(line, ")", back=.true.) + 1:), *, iostat=stat) words
+      if (stat == 0) start = trim(words(20))
+   end function start_of
+end module ehl_folder_lock

@@ -1,0 +1,321 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Profiles along a line from the files of stylus instruments.
+
+ISO 5436-2 (Mahr .prf and others: records that end in EOR), and text with one column of heights, or
+columns of places and heights, under lines of words that may name units, spacing or the number of
+points: Mountains, Dektak, Mitutoyo, spreadsheets.
+"""
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from pyehl.errors import FileError, InputError
+from pyehl.types import Array
+
+METRES = {
+    "m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "μm": 1e-6, "micron": 1e-6,
+    "microns": 1e-6, "nm": 1e-9, "å": 1e-10, "ang": 1e-10, "angstrom": 1e-10, "angstroms": 1e-10,
+    "kå": 1e-7, "in": 0.0254, "inch": 0.0254, "uin": 2.54e-8, "µin": 2.54e-8,
+}  # fmt: skip
+UNIT = re.compile(
+    r"(?<![A-Za-z])("
+    + "|".join(sorted(map(re.escape, METRES), key=len, reverse=True))
+    + r")(?![a-z])",
+    re.IGNORECASE,
+)
+SPACING = re.compile(
+    r"(pitch|spacing|increment|interval|step|sampling|auflösung|abstand|pas\b|dx\b|delta ?x)"
+    r"\D*?(\d+(?:[.,]\d+)?(?:[eE][-+]?\d+)?)\s*[,;\t ]?\s*\(?\[?([A-Za-zµμÅå]*)",
+    re.IGNORECASE,
+)
+LEAST_POINTS = 32
+STEEP = 1.0
+"""Rms slope above which the unit of places or heights must be another."""
+EVEN = 1e-3
+"""Largest deviation of a step between places from their mean that is rounding."""
+
+
+@dataclass(frozen=True, slots=True)
+class Profile:
+    """A profile along a line."""
+
+    heights: Array  # (n,) [m], equally spaced
+    spacing: float  # [m]
+    origin: str  # name of the file
+    note: str = ""  # what a person should know of the units
+
+    @property
+    def length(self) -> float:
+        """Length of the line [m]."""
+        return self.spacing * self.heights.size
+
+
+def read_profile(
+    path: str | Path, length: float | None = None, height_unit: str | None = None
+) -> Profile:
+    """Read a profile; `length` [m] and `height_unit` are needed where the file has none.
+
+    FileError if it cannot be opened; InputError if it is no profile, a unit is missing or cannot
+    be meant.
+    """
+    path = Path(path)
+    try:
+        raw = path.read_bytes()
+    except OSError as error:
+        raise FileError(f"{path}: cannot read: {error.strerror or error}") from error
+    if path.suffix.lower() == ".npy":
+        z = np.load(path, allow_pickle=False)
+        if z.ndim != 1:
+            raise InputError(f"{path}: no profile: an array of shape {z.shape}")
+        return _finished(path, np.asarray(z, dtype=float), None, (None, None), length, height_unit)
+    text = _text(raw)
+    lines = text.splitlines()
+    if sum(line.strip().upper() == "EOR" for line in lines) >= 2:
+        return _finished(path, *_iso(path, lines), length, height_unit)
+    return _finished(path, *_columns(path, lines), length, height_unit)
+
+
+def is_profile(path: str | Path) -> bool:
+    """Whether a file that is no map can be read as a profile, units apart."""
+    try:
+        # any unit and length: they are asked for later
+        read_profile(path, 1.0, "nm")
+    except (InputError, FileError, ValueError):
+        return False
+    return True
+
+
+def _text(raw: bytes) -> str:
+    """Text of a file, whatever its encoding."""
+    if raw[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        return raw.decode("utf-16", errors="replace")
+    try:
+        return raw.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return raw.decode("latin-1")
+
+
+Read = tuple[Array, Array | float | None, tuple[float | None, float | None]]
+"""Heights, their places or their spacing, and the units of places and of heights [m]."""
+
+
+def _iso(path: Path, lines: Sequence[str]) -> Read:
+    """Read records of ISO 5436-2: axes, spacing, data."""
+    ends = [k for k, line in enumerate(lines) if line.strip().upper() == "EOR"]
+    axes: dict[str, tuple[str, int, float]] = {}
+    spacing = None
+    for line in lines[: ends[-1]]:
+        words = line.split()
+        if len(words) >= 5 and words[0].upper() in ("CX", "CZ"):
+            unit = METRES.get(words[3].lower())
+            if unit is None:
+                raise InputError(f"{path}: unit '{words[3]}' of {words[0]}: expected MM, UM or NM")
+            axes[words[0].upper()] = (
+                words[1].upper(),
+                int(_float(words[2])),
+                unit * _float(words[4]),
+            )
+        if len(words) >= 3 and words[0].upper() == "SPACING":
+            spacing = _float(words[2])
+    if "CZ" not in axes:
+        raise InputError(f"{path}: a file of ISO 5436-2 without an axis CZ: no profile")
+    # data stand behind the records of the head, whose end is the second EOR; a third ends the file
+    data = [word for line in lines[ends[1] + 1 :] for word in line.split()]
+    numbers = np.array([_number_or_nan(word) for word in data if word.upper() != "EOR"])
+    count = axes["CZ"][1]
+    kind, _, x_factor = axes.get("CX", ("I", 0, 1e-3))
+    places: Array | float | None = None
+    if kind == "A" and numbers.size >= 2 * count:
+        places, numbers = numbers[:count] * x_factor, numbers[count:]
+    elif spacing is not None:
+        places = spacing * x_factor
+    if numbers.size < count:
+        raise InputError(f"{path}: {numbers.size} heights where the head has {count}")
+    return numbers[:count] * axes["CZ"][2], places, (1.0, 1.0)
+
+
+def _float(word: str) -> float:
+    return float(word.replace("D", "E").replace("d", "e"))
+
+
+def _number_or_nan(word: str) -> float:
+    try:
+        return _float(word)
+    except ValueError:
+        return float("nan")
+
+
+def _columns(path: Path, lines: Sequence[str]) -> Read:
+    """Columns of numbers under lines of words."""
+    comma = _decimal_comma(lines)
+    rows = [_row(line, comma=comma) for line in lines]
+    sizes = [len(row) if row else 0 for row in rows]
+    # the longest run of lines with as many numbers
+    best, start = (0, 0), 0
+    for k in range(1, len(rows) + 1):
+        if k == len(rows) or sizes[k] != sizes[start]:
+            if sizes[start] and k - start > best[1] - best[0]:
+                best = start, k
+            start = k
+    first, last = best
+    if last - first < LEAST_POINTS:
+        raise InputError(f"{path}: no profile: no column of {LEAST_POINTS} heights or more")
+    left = [k for k in range(last, len(lines)) if lines[k].strip()]
+    if any(sizes[k] for k in left):
+        raise InputError(
+            f"{path}: line {left[0] + 1} has {sizes[left[0]]} numbers, those above have "
+            f"{sizes[first]}: a profile has as many on each line, and a height on each"
+        )
+    table = np.array(rows[first:last], dtype=float)
+    head = [line for line in lines[:first] if line.strip()]
+    return _places(table, head, comma=comma)
+
+
+def _decimal_comma(lines: Sequence[str]) -> bool:
+    """Whether commas are decimal points: numbers with a comma, and another sign between them."""
+    number = re.compile(r"[-+]?\d+,\d+(?:[eE][-+]?\d+)?")
+    with_comma = [line for line in lines if number.search(line)]
+    others = sum(
+        1 for line in with_comma if re.search(r"[;\t ]", line.strip()) or line.count(",") == 1
+    )
+    points = sum(1 for line in lines if re.search(r"\d\.\d", line))
+    return len(with_comma) > points and others == len(with_comma)
+
+
+def _row(line: str, *, comma: bool) -> list[float] | None:
+    """Numbers of a line; None if it has words."""
+    parts = re.split(r"[;\t ]+" if comma else r"[;,\t ]+", line.strip().strip(";,").strip())
+    try:
+        return [float((p.replace(",", ".") if comma else p).strip('"')) for p in parts]
+    except ValueError:
+        return None
+
+
+def _places(table: Array, head: Sequence[str], *, comma: bool) -> Read:
+    """Tell places from heights, with the units that the head names."""
+    columns, units = table.shape[1], _units(head, table.shape[1])
+    if columns == 1:
+        spacing, unit = _spacing(head, comma=comma)
+        z_unit = next((u for u in reversed(units) if u), None)
+        return (
+            table[:, 0],
+            None if spacing is None or unit is None else spacing * unit,
+            (1.0, z_unit),
+        )
+    even = [_is_even(table[:, k]) for k in range(columns - 1)]
+    # an index may stand before the places
+    at = 1 if columns > 2 and even[0] and even[1] else 0
+    if not even[at] and not np.all(np.diff(table[:, at]) > 0.0):
+        at = -1
+    z = table[:, at + 1]
+    if at < 0:
+        return z, None, (None, units[0])
+    return z, table[:, at], (units[at], units[at + 1])
+
+
+def _is_even(x: Array) -> bool:
+    steps = np.diff(x)
+    mean = float(steps.mean())
+    return mean > 0.0 and bool(np.all(steps > 0.0)) and float(np.ptp(steps)) < 0.5 * mean
+
+
+def _units(head: Sequence[str], columns: int) -> list[float | None]:
+    """Give the unit of each column by the lines above them, the nearest line first."""
+    for line in reversed(head):
+        for between in (r"[;\t]|,(?!\d)|\s{2,}", r"\s+"):
+            parts = [p for p in re.split(between, line.strip()) if p.strip()]
+            found = [_unit(part) for part in parts]
+            if len(parts) == columns and any(found):
+                last = next(u for u in reversed(found) if u)
+                return [u or last for u in found]
+        words = [u for u in (_unit(word) for word in line.split()) if u]
+        if len(words) == columns:
+            return list(words)
+        if len(words) == 1 and not SPACING.search(line):
+            return [words[0]] * columns
+    return [None] * columns
+
+
+def _unit(text: str) -> float | None:
+    """Find the unit in a text, in brackets rather than not."""
+    inside = re.search(r"[\[(]\s*([^\])]+?)\s*[\])]", text)
+    match = (inside and UNIT.fullmatch(inside[1])) or UNIT.search(text)
+    return METRES[match[1].lower()] if match else None
+
+
+def _spacing(head: Sequence[str], *, comma: bool) -> tuple[float | None, float | None]:
+    """Spacing of the points by the head, and its unit [m]."""
+    for line in head:
+        if match := SPACING.search(line):
+            number = match[2].replace(",", ".") if comma or "." not in match[2] else match[2]
+            return float(number), METRES.get(match[3].lower()) or _unit(line)
+    return None, None
+
+
+def _finished(
+    path: Path,
+    z: Array,
+    places: Array | float | None,
+    units: tuple[float | None, float | None],
+    length: float | None,
+    height_unit: str | None,
+) -> Profile:
+    """Heights in metres, equally spaced; refuse what cannot be meant."""
+    if z.size < LEAST_POINTS:
+        raise InputError(f"{path}: {z.size} points: a profile has {LEAST_POINTS} or more")
+    if not np.isfinite(z).all():
+        k = int(np.argmin(np.isfinite(z)))
+        raise InputError(f"{path}: height {k + 1} of the profile is missing")
+    note = []
+    z_unit = units[1]
+    if z_unit is None:
+        if height_unit is None:
+            raise InputError(
+                f"{path}: the unit of the heights of the profile is not known\n"
+                "expected: surface.height_unit = 'um', or another unit"
+            )
+        z_unit = METRES[height_unit]
+        note.append(f"heights in {height_unit} by surface.height_unit")
+    z = z * z_unit
+    if length is not None:
+        spacing = length / z.size
+        note.append("its length by surface.length_x")
+    elif places is None:
+        raise InputError(
+            f"{path}: the length of the profile is not known: it has one column\n"
+            "expected: surface.length_x [m]"
+        )
+    elif isinstance(places, float):
+        spacing = places
+    else:
+        x_unit = units[0] or z_unit
+        z, spacing, moved = _spaced(path, places * x_unit, z)
+        note += [moved] if moved else []
+    if not spacing > 0.0:
+        raise InputError(f"{path}: the spacing of the profile is {spacing:g} m")
+    slope = float(np.sqrt(np.mean(np.square(np.diff(z))))) / spacing
+    if slope > STEEP:
+        raise InputError(
+            f"{path}: an rms slope of {slope:.3g} is no surface: are places and heights in one "
+            f"unit? Points are {spacing:.3g} m apart\nexpected: surface.length_x [m], and "
+            "surface.height_unit where the file names no unit"
+        )
+    return Profile(z, float(spacing), str(path), ", ".join(note))
+
+
+def _spaced(path: Path, x: Array, z: Array) -> tuple[Array, float, str]:
+    """Heights at equal distances, the distance, and a note if they were interpolated."""
+    steps = np.diff(x)
+    if not np.all(steps > 0.0):
+        k = int(np.argmin(steps > 0.0))
+        raise InputError(f"{path}: the places of the profile do not ascend behind point {k + 1}")
+    spacing = float((x[-1] - x[0]) / (x.size - 1))
+    even = x[0] + spacing * np.arange(x.size)
+    # places have few digits
+    if float(np.abs(x - even).max()) <= max(EVEN, 0.5) * spacing and np.ptp(steps) < spacing:
+        return z, spacing, ""
+    return np.interp(even, x, z), spacing, "interpolated at equal distances"

@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Very thick films: the stated error is that of the grid and the border."""
+
+import pytest
+
+import pyehl
+from pyehl import library
+
+
+# H_c in the limit of fine grids, from 257 and 513 nodes
+@pytest.mark.parametrize(("moes_m", "limit"), [(0.05, 79793.0), (0.3, 671.25), (1.0, 27.093)])
+@pytest.mark.parametrize("points", [33, 65, 129])
+def test_error_covers_and_says_something(moes_m: float, limit: float, points: int):
+    settings = {"contact.moes_m": moes_m, "contact.moes_l": 0.0, "grid.points": points}
+    with pyehl.Solver(pyehl.Case.from_text("", settings)) as solver:
+        assert solver.run()
+        found = solver.summary()
+        lines = library.conclude(found).lines
+    miss = abs(found["H_c"] - limit)
+    # the domain has an error of its own, for the film of an endless one
+    assert miss <= found["H_c_error_grid"] * 1.05
+    assert found["H_c_error_grid"] <= 3.0 * miss
+    assert found["H_c_error"] <= 0.1 * limit
+    # three grids and a value of digits
+    assert (found["P_max_error"] is not None) == (points == 129)
+    shown = lines["p_max"].split()[0]
+    assert float(shown) == pytest.approx(found["P_max"], rel=0.005)

@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Surfaces by Ra, Rq or a finish: the height, the lay, and how much the spectrum matters."""
+
+import math
+
+import numpy as np
+import pytest
+
+import pyehl
+from pyehl import cli
+from pyehl.errors import InputError
+from pyehl.surfaces import fractal
+
+SMALL = "&contact mean_velocity = 4.0 /\n&grid points = 33 /\n&lubricant shear_law = 'eyring' /\n"
+
+
+def resolved(keys, group="surface"):
+    return pyehl.Case.from_text(f"&{group} {keys} /\n").resolve()[group]
+
+
+@pytest.mark.parametrize("group", ["surface", "second_surface"])
+def test_ra_and_rq_give_the_rms_height(group):
+    normal = math.sqrt(math.pi / 2.0)
+    assert resolved("kind='fractal' ra=3e-7", group)["rms_height"] == pytest.approx(3e-7 * normal)
+    assert resolved("kind='fractal' rq=3e-7", group)["rms_height"] == 3e-7
+    tile = fractal(256, 1e-3, 1e-3, rms_height=3e-7 * normal, hurst=0.8, rolloff_wavenumber=6e4)
+    assert np.abs(tile.heights).mean() == pytest.approx(3e-7, rel=0.02)
+
+
+@pytest.mark.parametrize(
+    ("keys", "message"),
+    [
+        ("kind='fractal' ra=1e-7 rq=1e-7", r"surface\.rq contradicts surface\.ra"),
+        ("kind='fractal' rms_height=1e-7 ra=1e-7", r"surface\.ra contradicts surface\.rms_height"),
+        ("kind='harmonic' ra=1e-7", r"surface\.ra beside surface\.kind = 'harmonic'"),
+        ("rq=1e-7", r"surface\.rq beside surface\.kind = 'smooth'"),
+        ("kind='smooth' finish='ground'", r"surface\.finish beside surface\.kind = 'smooth'"),
+        ("finish='grinded'", "'ground'"),
+    ],
+)
+def test_what_does_not_go_together_is_refused(keys, message):
+    with pytest.raises(InputError, match=message):
+        resolved(keys)
+
+
+def test_a_finish_gives_what_is_not_given():
+    ground = resolved("finish='ground'")
+    assert ground["kind"] == "fractal"
+    assert ground["rms_height"] == pytest.approx(0.4e-6 * math.sqrt(math.pi / 2.0))
+    assert ground["rolloff_wavenumber"] == pytest.approx(2.0 * math.pi / 100e-6)
+    assert (ground["hurst"], ground["lay_ratio"]) == (0.5, 0.1)
+    own = resolved("finish='ground' ra=1e-7 hurst=0.7 lay_ratio=1.0 rolloff_wavenumber=0.0")
+    assert own["rms_height"] == pytest.approx(1e-7 * math.sqrt(math.pi / 2.0))
+    assert (own["hurst"], own["lay_ratio"], own["rolloff_wavenumber"]) == (0.7, 1.0, 0.0)
+    heights = [resolved(f"finish='{f}'")["rms_height"]
+               for f in ("ground", "honed", "superfinished", "polished")]  # fmt: skip
+    assert heights == sorted(heights, reverse=True)
+    # a written case is the same case, and another finish changes what follows
+    case = pyehl.Case.from_text("&surface finish='ground' /")
+    assert pyehl.Case.from_text(case.text).resolve() == case.resolve()
+    assert case.with_options({"surface.finish": "polished"}).resolve()["surface"]["hurst"] == 0.8
+
+
+@pytest.mark.parametrize("ratio", [0.1, 1.0, 5.0])
+def test_the_lay_is_that_of_the_ratio(ratio):
+    """Rms slopes along and across have the ratio of the correlation lengths."""
+    tile = fractal(512, 1e-3, 1e-3, rms_height=1e-7, hurst=1.0, rolloff_wavenumber=1e5,
+                   lay_ratio=ratio, modulus="gaussian", seed=3)  # fmt: skip
+    along, across = (float(np.std(np.diff(tile.heights, axis=axis))) for axis in (0, 1))
+    assert across / along == pytest.approx(ratio, rel=0.25)
+    assert tile.rms_height == pytest.approx(1e-7, rel=1e-9)
+
+
+def test_a_surface_without_lay_keeps_its_bits():
+    kept = fractal(32, 1e-4, 1e-4, rms_height=1e-8, hurst=0.8)
+    assert np.array_equal(
+        kept.heights, fractal(32, 1e-4, 1e-4, rms_height=1e-8, hurst=0.8, lay_ratio=1.0).heights
+    )
+
+
+def test_program_and_package_make_the_same_lay():
+    case = pyehl.Case.from_text(SMALL + "&surface finish='honed' ra=1e-8 pixels=64 /")
+    with pyehl.Solver(case) as solver:
+        plan = solver.describe(predict=False)
+    assert f"rms height {1e-8 * math.sqrt(math.pi / 2.0):.2E} m" in plan
+
+
+def test_a_prediction_by_ra_shows_what_the_spectrum_does(tmp_path, capsys):
+    text = SMALL + "&surface kind='fractal' ra=2e-8 pixels=128 /"
+    (tmp_path / "case.nml").write_text(text)
+    command = ["predict", str(tmp_path / "case.nml"), "-o", str(tmp_path / "out"), "--no-plots"]
+    assert cli.main([*command, "--tracks", "1"]) == 0
+    out = capsys.readouterr().out
+    assert "spectrum   Ra and finish do not tell it" in out
+    about = pyehl.load(tmp_path / "out").attrs
+    assert about["status"] == "predicted"
+    result = pyehl.predict(pyehl.Case.from_text(text), tracks=1)
+    rows = result.summary["spectrum_beside"]
+    assert [row["rolloff_wavelength_m"] for row in rows] == [30e-6, 100e-6, None]
+    for row in rows:
+        roll = 2.0 * math.pi / row["rolloff_wavelength_m"] if row["rolloff_wavelength_m"] else 0.0
+        one = pyehl.predict(
+            pyehl.Case.from_text(text), {"surface.rolloff_wavenumber": roll}, tracks=1
+        )
+        assert row["mu_ratio"] == one.mu_ratio
+        assert row["h_min_rough_m"] == one.summary["h_min_rough_m"]
+    # without a roll-off the long waves are flattened, and the film is thickest
+    assert rows[2]["h_min_rough_m"] > rows[0]["h_min_rough_m"]
+    measured = pyehl.Case.from_text(text.replace("ra=2e-8", "rms_height=2e-8"))
+    assert pyehl.predict(measured, tracks=1).summary["spectrum_beside"] is None
