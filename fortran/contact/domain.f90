@@ -98,7 +98,7 @@ contains
       side = huge(side)
       if (.not. wide > 1.0_dp) return
       length = sqrt(2.0_dp*contact%film_formula(point%moes_m, point%moes_l))
-      side = contact%reach(2)*(beyond_ends + (2.0_dp - beyond_ends)/wide**2)*max(1.0_dp, (length/thick_at_ends)**2)
+      side = contact%reach(2)*(beyond_ends + (2.0_dp - beyond_ends)/wide**2)*max(1.0_dp, length/thick_at_ends)
    end function side_of_wide
 
    !> How much further out the sides are than those around a round contact: as the ends of a wide contact, and around a narrow

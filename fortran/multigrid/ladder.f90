@@ -14,7 +14,7 @@ module ehl_ladder
    public :: find_ladder
 
    !> Cells that are longer than that along one axis are long
-   real(dp), parameter :: long = 1.42_dp
+   real(dp), parameter :: long = 1.6_dp
    !> Most unknowns of a grid that is solved directly, and fewest intervals along Y
    integer, parameter :: most_unknowns = 250, fewest_rows = 8
 
