@@ -16,6 +16,15 @@ def read_npy(path: Path) -> Array:
 
     InputError if it is no matrix of real numbers, or its header lies.
     """
+    raw = mapped(path)
+    if raw.ndim != 2:
+        raise InputError(f"{path}: heights must be a matrix (nx, ny), not of shape {raw.shape}")
+    check_pixels(str(path), raw.shape)
+    return np.array(raw, dtype=float, order="C")
+
+
+def mapped(path: Path) -> Array:
+    """Real numbers of a `.npy` file, of any shape and mapped from it; InputError for others."""
     with path.open("rb") as stream:
         first = stream.read(4)
     if first == b"PK\x03\x04":
@@ -32,8 +41,5 @@ def read_npy(path: Path) -> Array:
     except Exception as error:
         # a damaged header makes numpy raise whatever the parser of Python does
         raise InputError(f"{path}: not a readable .npy file of numbers: {error}") from None
-    if raw.ndim != 2:
-        raise InputError(f"{path}: heights must be a matrix (nx, ny), not of shape {raw.shape}")
     real_numbers(raw, str(path))
-    check_pixels(str(path), raw.shape)
-    return np.array(raw, dtype=float, order="C")
+    return raw

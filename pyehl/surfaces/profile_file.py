@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from pyehl.errors import FileError, InputError
+from pyehl.surfaces.arrays import mapped
 from pyehl.types import Array
 
 METRES = {
@@ -33,6 +34,8 @@ SPACING = re.compile(
     re.IGNORECASE,
 )
 LEAST_POINTS = 32
+MOST_COLUMNS = 3
+"""An index, a place and a height."""
 STEEP = 1.0
 """Rms slope above which the unit of places or heights must be another."""
 EVEN = 1e-3
@@ -68,7 +71,7 @@ def read_profile(
     except OSError as error:
         raise FileError(f"{path}: cannot read: {error.strerror or error}") from error
     if path.suffix.lower() == ".npy":
-        z = np.load(path, allow_pickle=False)
+        z = mapped(path)
         if z.ndim != 1:
             raise InputError(f"{path}: no profile: an array of shape {z.shape}")
         return _finished(path, np.asarray(z, dtype=float), None, (None, None), length, height_unit)
@@ -170,7 +173,11 @@ def _columns(path: Path, lines: Sequence[str]) -> Read:
             f"{path}: line {left[0] + 1} has {sizes[left[0]]} numbers, those above have "
             f"{sizes[first]}: a profile has as many on each line, and a height on each"
         )
+    if sizes[first] > MOST_COLUMNS:
+        raise InputError(f"{path}: no profile: {sizes[first]} columns of numbers")
     table = np.array(rows[first:last], dtype=float)
+    if sizes[first] == MOST_COLUMNS and not np.all(np.diff(table[:, 0]) > 0.0):
+        raise InputError(f"{path}: no profile: of three columns the first does not ascend")
     head = [line for line in lines[:first] if line.strip()]
     return _places(table, head, comma=comma)
 

@@ -382,7 +382,7 @@ def test_from_a_tenth_to_ten(solve, kappa: float):
             "contact.radius_x = 5.000E-06 follows from the bodies",
         ),
         (
-            ["bodies.radius_x1=0.01", "bodies.radius_y1=0.01", "bodies.modulus_1=1e7"],
+            ["bodies.radius_x1=0.01", "bodies.radius_y1=0.01", "bodies.modulus_1=1e3"],
             "contact.reduced_modulus = .* follows from the bodies",
         ),
         (

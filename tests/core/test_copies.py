@@ -18,6 +18,7 @@ import pytest
 import pyehl
 from pyehl.destination import write_json
 from pyehl.netcdf import export
+from pyehl.surfaces.text_cells import BadCellError
 
 SMALL = {"contact.moes_m": 100.0, "contact.moes_l": 5.0, "grid.points": 33}
 ROUGH = {"grid.points": 65, "surface.kind": "fractal", "surface.pixels": 32}
@@ -44,11 +45,13 @@ def exceptions() -> list[type[BaseException]]:
 @pytest.mark.parametrize("through", COPIES, ids=["pickle", "copy", "deepcopy"])
 def test_exceptions(kind, through):
     results = pyehl.solve(pyehl.Case.from_text(""), SMALL) if kind is pyehl.NotConverged else None
-    error = kind("why", results) if results is not None else kind("why")
+    given = {pyehl.NotConverged: ("why", results), BadCellError: (3, "x1")}.get(kind, ("why",))
+    error = kind(*given)
     error.add_note("and a note")
     again = through(error)
     assert type(again) is kind
-    assert (str(again), again.__notes__) == ("why", ["and a note"])
+    assert (str(again), again.__notes__) == (str(error), ["and a note"])
+    assert again.args == error.args or results is not None
     if results is not None:
         assert again.results.identical(results)
 

@@ -82,7 +82,7 @@ def test_smooth_films_are_those_of_a_run_with_the_layer(velocity, layer):
 
 def test_smooth_contact_with_the_layer_that_does_not_converge(monkeypatch):
     """No films of another contact in place of its own."""
-    monkeypatch.setattr(smooth, "_solved_with_layer", lambda text: (None, "it does not converge"))
+    monkeypatch.setattr(smooth, "_solved_with_layer", lambda *_: (None, "it does not converge"))
     settings = pyehl.Case.from_text(SCENE.format(0.3, 1.2e-7, 0.1)).resolve()
     prediction = of_case.predict(settings, tracks=1)
     summary = prediction.summary
@@ -153,9 +153,9 @@ def test_layer_that_touches_nothing_changes_no_bit_of_friction_with_heat():
 
 def test_heat_where_bodies_touch():
     """Friction with heat is that of a full film where contact begins, and that of the layer."""
-    text = HOT.replace("rms_height = 3e-8", "rms_height = 1e-7")
-    assert text != HOT
-    touching = [summary_of(text.format(layer)) for layer in (3e-7, 3.6e-7)]
+    # a load with which M is in the range of the prediction
+    text = HOT.replace("load = 20.0", "load = 120.0").replace("= 3e-8", "= 1e-7")
+    touching = [summary_of(text.format(layer)) for layer in (2.6e-7, 3.6e-7)]
     full = summary_of(text.format(1e-9))
     reduction = [s["mu"] / s["mu_isothermal"] for s in (full, *touching)]
     assert touching[0]["contact_load_share"] < 0.01 < touching[1]["contact_load_share"]

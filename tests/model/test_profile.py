@@ -191,6 +191,16 @@ def test_a_profile_as_an_isotropic_surface(tmp_path, z):
     assert f"{tile.rms_height:.2E} m" in pyehl.check(case)
 
 
+@pytest.mark.parametrize("points", [False, True])
+def test_a_text_map_is_no_profile(tmp_path, points):
+    """Neither many columns, nor a list of x, y and z."""
+    heights = 1e-8 * np.random.default_rng(1).normal(size=(40, 40))
+    x, y = (1e-6 * axis.ravel() for axis in np.mgrid[:40, :40])
+    table = np.column_stack([x, y, heights.ravel()]) if points else heights
+    np.savetxt(tmp_path / "map.txt", table)
+    assert not is_profile(tmp_path / "map.txt")
+
+
 def test_a_profile_in_place_of_a_map_says_how(tmp_path, z, capsys):
     path = tmp_path / "p.prf"
     path.write_text(mahr(z))

@@ -56,7 +56,7 @@ def test_lost_load_is_said():
 
 
 def test_refuses(table_1):
-    with pytest.raises(ValueError, match="positive Moes"):
+    with pytest.raises(ValueError, match="goes by M/L, and L = 0"):
         predict_friction(table_1(pixels=16), OperatingPoint(pressure_viscosity=0.0), BARUS, FILM)
 
 
