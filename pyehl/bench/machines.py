@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from pyehl.case import Case
+from pyehl.errors import InputError
 from pyehl.solver import Solver
 from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Row
@@ -29,6 +30,8 @@ LAWS = ("newtonian", "eyring", "carreau")
 SETTINGS: dict[str, Any] = {"solver.threads": 1}
 """Everything else is as by default."""
 QUANTITIES = ("H_c", "H_min")
+REFUSED = "refused"
+"""Status of a contact whose case is no input."""
 KEPT = (
     *("status", "message", "moes_m", "moes_l", "points", "points_y", "cycles", "total_cycles"),
     *("restarts", "H_c", "H_c_error", "H_c_error_grid", "H_min", "H_min_error"),
@@ -185,7 +188,7 @@ def campaign(
                 row |= {f"{name}_fine": finer[f"{name}_extrapolated"] for name in QUANTITIES}
         tell(
             f"{number + 1} of {count}: {contact.kind}, kappa {contact.ellipticity:.1f}, "
-            f"{row['status']}, {row['seconds']:.2f} s"
+            f"{row['status']}" + (f", {row['seconds']:.2f} s" if row["seconds"] else "")
         )
         rows.append(row)
     return rows
@@ -200,7 +203,11 @@ def _finer(row: Row) -> dict[str, int]:
 
 
 def _solved(contact: Contact, more: Mapping[str, Any]) -> Row:
-    found = timed(dict(contact.values) | SETTINGS | dict(more))
+    try:
+        found = timed(dict(contact.values) | SETTINGS | dict(more))
+    except InputError as error:
+        # M beyond what a case may have
+        found = {"status": REFUSED, "message": str(error), "seconds": None}
     names = ("seconds", *KEPT, *(f"{name}_extrapolated" for name in QUANTITIES))
     return {name: found.get(name) for name in names}
 
@@ -225,7 +232,7 @@ def covered(row: Row, name: str, error: str) -> bool | None:
 
 def summary(rows: Sequence[Row]) -> list[Row]:
     """Count and time by kind, of the wide ones, and of all."""
-    discs = [row["seconds"] for row in rows if row["kind"] == DISC]
+    discs = [row["seconds"] for row in rows if row["kind"] == DISC and row["seconds"]]
     unit = statistics.median(discs) if discs else None
     groups = {kind: [row for row in rows if row["kind"] == kind] for kind in KINDS}
     groups[f"kappa > {WIDE:g}"] = [row for row in rows if row["ellipticity"] > WIDE]
@@ -234,8 +241,8 @@ def summary(rows: Sequence[Row]) -> list[Row]:
 
 
 def _counted(name: str, rows: Sequence[Row], unit: float | None) -> Row:
-    seconds = [row["seconds"] for row in rows]
-    middle, largest = statistics.median(seconds), max(seconds)
+    seconds = [row["seconds"] for row in rows if row["seconds"]]
+    middle, largest = (statistics.median(seconds), max(seconds)) if seconds else (None, None)
     holds = {what: [covered(row, what, "error") for row in rows] for what in QUANTITIES}
     checked = any(row["fine_status"] for row in rows)
     return {
@@ -244,8 +251,8 @@ def _counted(name: str, rows: Sequence[Row], unit: float | None) -> Row:
         "converged": sum(row["status"] == "converged" for row in rows),
         "median_seconds": middle,
         "largest_seconds": largest,
-        "median_ratio": middle / unit if unit else None,
-        "largest_ratio": largest / unit if unit else None,
+        "median_ratio": middle / unit if unit and middle else None,
+        "largest_ratio": largest / unit if unit and largest else None,
         "restarts": sum(row["restarts"] or 0 for row in rows),
         "checked": sum(each is not None for each in holds["H_c"]) if checked else None,
         "h_c_covered": holds["H_c"].count(True) if checked else None,
