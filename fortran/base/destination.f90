@@ -80,22 +80,20 @@ contains
       if (.not. status%failed()) call look(self, found, status)
       if (status%failed()) return
       call make_parents(found%path)
-      call remove_left_over(found%path, partial, may_go)
+      call remove_left_over(found%path, partial, self%names, is_of_result)
       do k = 1, tries
          fresh = fresh_path(found)
          ! on another machine a process of the same number may have taken the name
          if (make_folder(fresh)) return
       end do
       call status%fail(ehl_file, self%folder//": error: cannot be written")
-
-   contains
-
-      !> Names of such a result, and no others
-      logical function may_go(name)
-         character(len=*), intent(in) :: name
-         may_go = listed(name, self%names) .or. name == summary
-      end function may_go
    end subroutine begin
+
+   !> Names of such a result, and no others. No internal procedure: passed on, one would ask for an executable stack.
+   logical function is_of_result(name, list)
+      character(len=*), intent(in) :: name, list
+      is_of_result = listed(name, list) .or. name == summary
+   end function is_of_result
 
    !> A folder for the files of the result until they are in place
    function fresh_path(found) result(path)

@@ -38,14 +38,16 @@ contains
 
    !> Remove what killed processes have left beside a path, in folders `path//between//number`: files of these names, and the
    !> folder if it holds nothing else
-   subroutine remove_left_over(path, between, may_go)
+   subroutine remove_left_over(path, between, list, may_go)
       !> From the root, without a '/' at its end
       character(len=*), intent(in) :: path, between
+      !> Names that may_go is asked with
+      character(len=*), intent(in) :: list
       interface
          !> Whether a file of that name may go
-         logical function may_go(name)
+         logical function may_go(name, list)
             implicit none (type, external)
-            character(len=*), intent(in) :: name
+            character(len=*), intent(in) :: name, list
          end function may_go
       end interface
       type(name_t), allocatable :: beside(:), names(:)
@@ -66,7 +68,7 @@ contains
             if (link_text(folder//"/"//name) /= "") cycle
             if (.not. list_folder(folder//"/"//name, names)) cycle
             do n = 1, size(names)
-               if (may_go(names(n)%text)) gone = remove_file(folder//"/"//name//"/"//names(n)%text)
+               if (may_go(names(n)%text, list)) gone = remove_file(folder//"/"//name//"/"//names(n)%text)
             end do
             gone = remove_folder(folder//"/"//name)
          end associate

@@ -103,7 +103,7 @@ contains
       place = checkpoint_path(results)
       call check_ours(place, status)
       if (status%failed()) return
-      call remove_left_over(place(:len(place) - 1), ".partial", is_file_of_ours)
+      call remove_left_over(place(:len(place) - 1), ".partial", "", is_left_over)
       same = .false.
       if (resumed /= "") same = place == checkpoint_path(resumed)
       if (.not. same) then
@@ -214,6 +214,15 @@ contains
       if (last < 1) last = len(name)
       is_file_of_ours = any(files == name(:last)) .or. index(name, frame_file) == 1
    end function is_file_of_ours
+
+   !> The same of what a killed process has left
+   logical function is_left_over(name, list)
+      character(len=*), intent(in) :: name, list
+
+      associate (unused => list)
+      end associate
+      is_left_over = is_file_of_ours(name)
+   end function is_left_over
 
    !> Keep the folder of an earlier run under another name
    subroutine set_aside(folder, note, status)
