@@ -134,9 +134,34 @@ class _Surfaces:
         columns: _Indices,
         between: _Single,
         weight: _Single,
+        shift: int,
+        total: _Pairs,
+    ) -> None: ...
+    def waves_beside(
+        self,
+        tile: _Pairs,
+        low: _Indices,
+        columns: _Indices,
+        between: _Single,
+        line: _Indices,
         part: _Single,
         shift: int,
         total: _Pairs,
+    ) -> None: ...
+    def polynomials(
+        self, values: _Single, coefficients: _Single, place: _Indices, total: _Pairs
+    ) -> None: ...
+    def film_moved(
+        self,
+        smooth: _Array,
+        centre: _Array,
+        x: _Array,
+        y: _Array,
+        rim: _Indices,
+        share: _Array,
+        moved: _Array,
+        place: _Indices,
+        film: _Array,
     ) -> None: ...
 
 class _Lubricants:

@@ -7,10 +7,10 @@ module ehl_f2py_surfaces
    use ehl_plan_need, only: making_need
    use ehl_status, only: status_t
    use ehl_tile_filter, only: filter_heights, filter_t
-   use ehl_wave_sum, only: add_driven, add_free
+   use ehl_wave_sum, only: add_beside, add_driven, add_free, add_polynomials, moved_film
    implicit none (type, external)
    private
-   public :: making, fractal, filter_tile, driven_waves, free_waves
+   public :: making, fractal, filter_tile, driven_waves, free_waves, waves_beside, polynomials, film_moved
 
 contains
 
@@ -70,15 +70,49 @@ contains
    end subroutine driven_waves
 
    !> Free waves: see add_free
-   subroutine free_waves(columns_all, points, stations, m, n, lines, tile, low, columns, between, weight, part, shift, total)
+   subroutine free_waves(columns_all, points, stations, m, n, lines, tile, low, columns, between, weight, shift, total)
       integer(c_int), intent(in) :: columns_all, points, stations, m, n, lines
       complex(c_float_complex), intent(inout) :: tile(columns_all, points, stations), total(n, m)
       real(c_float), intent(inout) :: weight(stations, m)
       integer(c_int), intent(inout) :: low(lines, m), columns(n)
-      real(c_float), intent(inout) :: between(lines, m), part(n)
+      real(c_float), intent(inout) :: between(lines, m)
       integer(c_int), intent(in) :: shift
       !f2py threadsafe
 
-      call add_free(tile, low, columns, between, weight, part, shift, total)
+      call add_free(tile, low, columns, between, weight, shift, total)
    end subroutine free_waves
+
+   !> Free waves beside the centre line: see add_beside
+   subroutine waves_beside(columns_all, points, tiles, m, n, lines, tile, low, columns, between, line, part, shift, total)
+      integer(c_int), intent(in) :: columns_all, points, tiles, m, n, lines
+      complex(c_float_complex), intent(inout) :: tile(columns_all, points, tiles), total(n, m)
+      integer(c_int), intent(inout) :: low(lines, m), columns(n), line(n)
+      real(c_float), intent(inout) :: between(lines, m), part(2, n)
+      integer(c_int), intent(in) :: shift
+      !f2py threadsafe
+
+      call add_beside(tile, low, columns, between, line, part, shift, total)
+   end subroutine waves_beside
+
+   !> Polynomials of the edge: see add_polynomials
+   subroutine polynomials(points, count, all, values, coefficients, place, total)
+      integer(c_int), intent(in) :: points, count, all
+      real(c_float), intent(inout) :: values(points, count), coefficients(count)
+      integer(c_int), intent(inout) :: place(points)
+      complex(c_float_complex), intent(inout) :: total(all)
+      !f2py threadsafe
+
+      call add_polynomials(values, coefficients, place, total)
+   end subroutine polynomials
+
+   !> Film with its edge moved: see moved_film
+   subroutine film_moved(nx, ny, points, count, all, smooth, centre, x, y, rim, share, moved, place, film)
+      integer(c_int), intent(in) :: nx, ny, points, count, all
+      real(c_double), intent(inout) :: smooth(ny, nx), centre(2), x(points), y(points), share(2, points), moved(count)
+      integer(c_int), intent(inout) :: rim(points), place(points)
+      real(c_double), intent(inout) :: film(all)
+      !f2py threadsafe
+
+      call moved_film(smooth, centre, x, y, rim, share, moved, place, film)
+   end subroutine film_moved
 end module ehl_f2py_surfaces

@@ -119,6 +119,7 @@ class PairContact(WavyContact):
         for tile, shift in zip(self.tiles, shifts, strict=True):
             tile.add(self, shift, total)
         self.add_second(total)
-        ended = total[..., 0] >= self.ends * self.smooth_film()
+        smooth = self.smooth_film()
+        ended = total[..., 0] >= self.ends * smooth
         self.touching += int(np.count_nonzero(ended & self.inside))
-        return self.sheared(total)
+        return self.sheared(total, smooth)
