@@ -127,24 +127,26 @@ class _Surfaces:
         shift: int,
         total: _Pairs,
     ) -> None: ...
-    def free_waves(
+    def waves_between(
         self,
         tile: _Pairs,
         low: _Indices,
         columns: _Indices,
         between: _Single,
         weight: _Single,
-        shift: int,
         total: _Pairs,
     ) -> None: ...
-    def waves_beside(
+    def free_waves(
         self,
         tile: _Pairs,
+        beside: _Pairs,
         low: _Indices,
         columns: _Indices,
         between: _Single,
+        weight: _Single,
         line: _Indices,
         part: _Single,
+        expansion: _Single,
         shift: int,
         total: _Pairs,
     ) -> None: ...

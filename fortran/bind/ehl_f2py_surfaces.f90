@@ -7,10 +7,10 @@ module ehl_f2py_surfaces
    use ehl_plan_need, only: making_need
    use ehl_status, only: status_t
    use ehl_tile_filter, only: filter_heights, filter_t
-   use ehl_wave_sum, only: add_beside, add_driven, add_free, add_polynomials, moved_film
+   use ehl_wave_sum, only: add_between, add_driven, add_free, add_polynomials, moved_film
    implicit none (type, external)
    private
-   public :: making, fractal, filter_tile, driven_waves, free_waves, waves_beside, polynomials, film_moved
+   public :: making, fractal, filter_tile, driven_waves, waves_between, free_waves, polynomials, film_moved
 
 contains
 
@@ -58,9 +58,9 @@ contains
    end subroutine filter_tile
 
    !> Driven waves: see add_driven
-   subroutine driven_waves(columns_all, points, stations, m, n, tile, rows, columns, weight, shift, total)
-      integer(c_int), intent(in) :: columns_all, points, stations, m, n
-      complex(c_float_complex), intent(inout) :: tile(columns_all, points, stations), total(n, m)
+   subroutine driven_waves(points, columns_all, stations, m, n, tile, rows, columns, weight, shift, total)
+      integer(c_int), intent(in) :: points, columns_all, stations, m, n
+      complex(c_float_complex), intent(inout) :: tile(points, columns_all, stations), total(n, m)
       real(c_float), intent(inout) :: weight(stations, m)
       integer(c_int), intent(inout) :: rows(m), columns(n)
       integer(c_int), intent(in) :: shift
@@ -69,30 +69,30 @@ contains
       call add_driven(tile, rows, columns, weight, shift, total)
    end subroutine driven_waves
 
+   !> Driven waves between rows: see add_between
+   subroutine waves_between(points, columns_all, stations, m, n, tile, low, columns, between, weight, total)
+      integer(c_int), intent(in) :: points, columns_all, stations, m, n
+      complex(c_float_complex), intent(inout) :: tile(points, columns_all, stations), total(n, m)
+      real(c_float), intent(inout) :: between(m), weight(stations, m)
+      integer(c_int), intent(inout) :: low(m), columns(n)
+      !f2py threadsafe
+
+      call add_between(tile, low, columns, between, weight, total)
+   end subroutine waves_between
+
    !> Free waves: see add_free
-   subroutine free_waves(columns_all, points, stations, m, n, lines, tile, low, columns, between, weight, shift, total)
-      integer(c_int), intent(in) :: columns_all, points, stations, m, n, lines
-      complex(c_float_complex), intent(inout) :: tile(columns_all, points, stations), total(n, m)
-      real(c_float), intent(inout) :: weight(stations, m)
-      integer(c_int), intent(inout) :: low(lines, m), columns(n)
-      real(c_float), intent(inout) :: between(lines, m)
-      integer(c_int), intent(in) :: shift
-      !f2py threadsafe
-
-      call add_free(tile, low, columns, between, weight, shift, total)
-   end subroutine free_waves
-
-   !> Free waves beside the centre line: see add_beside
-   subroutine waves_beside(columns_all, points, tiles, m, n, lines, tile, low, columns, between, line, part, shift, total)
-      integer(c_int), intent(in) :: columns_all, points, tiles, m, n, lines
-      complex(c_float_complex), intent(inout) :: tile(columns_all, points, tiles), total(n, m)
+   subroutine free_waves(points, columns_all, stations, tiles, m, n, lines, tile, beside, low, columns, between, weight, &
+                         line, part, expansion, shift, total)
+      integer(c_int), intent(in) :: points, columns_all, stations, tiles, m, n, lines
+      complex(c_float_complex), intent(inout) :: tile(points, columns_all, stations), total(n, m)
+      complex(c_float_complex), intent(inout) :: beside(points, columns_all, tiles)
       integer(c_int), intent(inout) :: low(lines, m), columns(n), line(n)
-      real(c_float), intent(inout) :: between(lines, m), part(2, n)
+      real(c_float), intent(inout) :: between(lines, m), weight(stations, m), part(2, n), expansion(n, m)
       integer(c_int), intent(in) :: shift
       !f2py threadsafe
 
-      call add_beside(tile, low, columns, between, line, part, shift, total)
-   end subroutine waves_beside
+      call add_free(tile, beside, low, columns, between, weight, line, part, expansion, shift, total)
+   end subroutine free_waves
 
    !> Polynomials of the edge: see add_polynomials
    subroutine polynomials(points, count, all, values, coefficients, place, total)

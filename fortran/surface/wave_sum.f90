@@ -7,89 +7,99 @@ module ehl_wave_sum
    use, intrinsic :: iso_fortran_env, only: int32, real32, real64
    implicit none (type, external)
    private
-   public :: add_driven, add_free, add_beside, add_polynomials, moved_film
+   public :: add_driven, add_between, add_free, add_polynomials, moved_film
 
 contains
 
-   !> Add weight(s, i) tile(col(j), row(i) - shift, s) to total(j, i); rows wrap, columns are from 0
+   !> Add weight(s, i) tile(row(i) - shift, col(j), s) to total(j, i); rows wrap, rows and columns are from 0
    subroutine add_driven(tile, rows, columns, weight, shift, total)
       complex(real32), intent(in), contiguous :: tile(0:, 0:, :)
-      real(real32), intent(in) :: weight(:, :)
+      real(real32), intent(in), contiguous :: weight(:, :)
       integer(int32), intent(in), contiguous :: rows(:), columns(:)
       integer(int32), intent(in) :: shift
       complex(real32), intent(inout), contiguous :: total(:, :)
-      integer :: i, j, s, r
+      integer :: i, j, s, start
 
-      do i = 1, size(rows)
-         r = modulo(rows(i) - shift, size(tile, 2))
-         do s = 1, size(weight, 1)
-            if (.not. abs(weight(s, i)) > 0.0) cycle
-            do j = 1, size(columns)
-               total(j, i) = total(j, i) + weight(s, i)*tile(columns(j), r, s)
+      start = modulo(shift, size(tile, 1))
+      do s = 1, size(weight, 1)
+         do j = 1, size(columns)
+            do i = 1, size(rows)
+               if (.not. abs(weight(s, i)) > 0.0) cycle
+               total(j, i) = total(j, i) + weight(s, i)*tile(wrapped(rows(i) - start, size(tile, 1)), columns(j), s)
             end do
          end do
       end do
    end subroutine add_driven
 
-   !> The same between the rows low(j, i) - shift and the next, `between` of the way; a first dimension of 1
-   !> of low and between: the same for all lines
-   subroutine add_free(tile, low, columns, between, weight, shift, total)
+   !> The same between the rows low(i) and the next, `between` of the way
+   subroutine add_between(tile, low, columns, between, weight, total)
       complex(real32), intent(in), contiguous :: tile(0:, 0:, :)
-      real(real32), intent(in), contiguous :: between(:, :), weight(:, :)
-      integer(int32), intent(in), contiguous :: low(:, :), columns(:)
+      real(real32), intent(in), contiguous :: between(:), weight(:, :)
+      integer(int32), intent(in), contiguous :: low(:), columns(:)
+      complex(real32), intent(inout), contiguous :: total(:, :)
+      integer :: i, j, s, row, next
+
+      do s = 1, size(weight, 1)
+         do j = 1, size(columns)
+            do i = 1, size(low)
+               if (.not. abs(weight(s, i)) > 0.0) cycle
+               row = wrapped(low(i), size(tile, 1))
+               next = merge(0, row + 1, row + 1 == size(tile, 1))
+               total(j, i) = total(j, i) + weight(s, i)*blend(tile(row, columns(j), s), tile(next, columns(j), s), between(i))
+            end do
+         end do
+      end do
+   end subroutine add_between
+
+   !> The same between the rows low(j, i) - shift and the next; a first dimension of 1 of low and between: the same for
+   !> all lines. To the weights of the stations come part(:, j) of the tiles beside(:, :, l), l = line(j), line(j) + 1
+   !> from 0, and the sum is taken `expansion` times
+   subroutine add_free(tile, beside, low, columns, between, weight, line, part, expansion, shift, total)
+      complex(real32), intent(in), contiguous :: tile(0:, 0:, :), beside(0:, 0:, 0:)
+      real(real32), intent(in), contiguous :: between(:, :), weight(:, :), part(:, :), expansion(:, :)
+      integer(int32), intent(in), contiguous :: low(:, :), columns(:), line(:)
       integer(int32), intent(in) :: shift
       complex(real32), intent(inout), contiguous :: total(:, :)
-      integer :: i, j, s, r, above, lines
-      complex(real32) :: below
+      integer :: i, j, k, c, at, row, next, start
+      complex(real32) :: wave
 
-      lines = size(low, 1)
-      do i = 1, size(low, 2)
-         do s = 1, size(weight, 1)
-            if (.not. abs(weight(s, i)) > 0.0) cycle
-            r = modulo(low(1, i) - shift, size(tile, 2))
-            above = modulo(r + 1, size(tile, 2))
-            do j = 1, size(columns)
-               if (lines > 1) then
-                  r = modulo(low(j, i) - shift, size(tile, 2))
-                  above = modulo(r + 1, size(tile, 2))
-               end if
-               below = tile(columns(j), r, s)
-               total(j, i) = total(j, i) + weight(s, i)* &
-                             (below + between(merge(j, 1, lines > 1), i)*(tile(columns(j), above, s) - below))
+      start = modulo(shift, size(tile, 1))
+      do j = 1, size(columns)
+         c = columns(j)
+         at = merge(j, 1, size(low, 1) > 1)
+         do i = 1, size(low, 2)
+            row = wrapped(low(at, i) - start, size(tile, 1))
+            next = merge(0, row + 1, row + 1 == size(tile, 1))
+            wave = (0.0, 0.0)
+            do k = 1, size(weight, 1)
+               if (.not. abs(weight(k, i)) > 0.0) cycle
+               wave = wave + weight(k, i)*blend(tile(row, c, k), tile(next, c, k), between(at, i))
             end do
+            do k = 1, 2
+               if (.not. abs(part(k, j)) > 0.0) cycle
+               wave = wave + part(k, j)*blend(beside(row, c, line(j) + k - 1), beside(next, c, line(j) + k - 1), between(at, i))
+            end do
+            total(j, i) = total(j, i) + expansion(j, i)*wave
          end do
       end do
    end subroutine add_free
 
-   !> The same for tiles on lines beside the centre line, tile(:, :, l): column j takes part(:, j) of the tiles
-   !> line(j) and line(j) + 1, from 0
-   subroutine add_beside(tile, low, columns, between, line, part, shift, total)
-      complex(real32), intent(in), contiguous :: tile(0:, 0:, 0:)
-      real(real32), intent(in), contiguous :: between(:, :), part(:, :)
-      integer(int32), intent(in), contiguous :: low(:, :), columns(:), line(:)
-      integer(int32), intent(in) :: shift
-      complex(real32), intent(inout), contiguous :: total(:, :)
-      integer :: i, j, l, at, r, above, lines
-      complex(real32) :: below
+   !> A value a share of the way to the next one
+   pure complex(real32) function blend(value, next, share)
+      complex(real32), intent(in) :: value, next
+      real(real32), intent(in) :: share
 
-      lines = size(low, 1)
-      do i = 1, size(low, 2)
-         r = modulo(low(1, i) - shift, size(tile, 2))
-         above = modulo(r + 1, size(tile, 2))
-         do j = 1, size(columns)
-            at = merge(j, 1, lines > 1)
-            if (lines > 1) then
-               r = modulo(low(at, i) - shift, size(tile, 2))
-               above = modulo(r + 1, size(tile, 2))
-            end if
-            do l = 1, 2
-               if (.not. abs(part(l, j)) > 0.0) cycle
-               below = tile(columns(j), r, line(j) + l - 1)
-               total(j, i) = total(j, i) + part(l, j)*(below + between(at, i)*(tile(columns(j), above, line(j) + l - 1) - below))
-            end do
-         end do
-      end do
-   end subroutine add_beside
+      blend = value + share*(next - value)
+   end function blend
+
+   !> Row modulo the number of rows; without a division where it is the next one below 0
+   pure integer function wrapped(row, count)
+      integer, intent(in) :: row, count
+
+      wrapped = row
+      if (wrapped < 0) wrapped = wrapped + count
+      if (wrapped < 0 .or. wrapped >= count) wrapped = modulo(wrapped, count)
+   end function wrapped
 
    !> Sums over k of coefficients(k) polynomials(i, k) are added to the second one of the pair total(place(i)), from 0
    subroutine add_polynomials(polynomials, coefficients, place, total)

@@ -13,12 +13,13 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from pyehl import extension
 from pyehl.prediction.edge import Edge
 from pyehl.prediction.smooth import SmoothContact
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer
 from pyehl.prediction.waves import REFINEMENT, Waves
-from pyehl.prediction.wavy_contact import REACH, WavyContact, add_waves, slipped
+from pyehl.prediction.wavy_contact import REACH, WavyContact, pairs, slipped
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Array, Single
@@ -65,9 +66,11 @@ class TileOnPoints:
         """Add loss of film and gain of pressure (m, n, 2) where the tile has moved by a shift."""
         columns = np.arange(contact.y.size, dtype=np.int32)
         driven, free = (self._rows(places - shift) for places in (self.places, self.free_places))
-        add_waves(self.waves.driven, driven, columns, contact.weights, 0, total)
+        rows, between = (values[:, 0] for values in driven)
+        extension.surface_functions.waves_between(
+            pairs(self.waves.driven), rows, columns, between, contact.weights.T, pairs(total)
+        )
         contact.add_free(self.waves, free, columns, 0, total)
-        contact.add_edge(total, self.edge.at(shift, self.track))
 
 
 class PairContact(WavyContact):
@@ -114,10 +117,11 @@ class PairContact(WavyContact):
 
         NaN where the film is not positive.
         """
-        self.moved[:] = 0.0
         total = np.zeros((*self.film.shape, 2), dtype=np.float32)
         for tile, shift in zip(self.tiles, shifts, strict=True):
             tile.add(self, shift, total)
+        shifted = zip(self.tiles, shifts, strict=True)
+        self.add_edge(total, *(tile.edge.at(shift, tile.track) for tile, shift in shifted))
         self.add_second(total)
         smooth = self.smooth_film()
         ended = total[..., 0] >= self.ends * smooth

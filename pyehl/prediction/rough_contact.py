@@ -61,9 +61,8 @@ class RoughContact(WavyContact):
         multiple of the stride of the waves.
         """
         waves = self.waves
-        columns = (self.columns - track) // waves.stride % waves.driven.shape[2]
+        columns = (self.columns - track) // waves.stride % waves.driven.shape[1]
         columns = columns.astype(np.int32)
-        self.moved[:] = 0.0
         total = np.zeros((*self.film.shape, 2), dtype=np.float32)
         extension.surface_functions.driven_waves(
             pairs(waves.driven), self.rows, columns, self.weights.T, shift, pairs(total)

@@ -80,13 +80,15 @@ class Spectrum:
             part[-1] = self.values[-1] * np.real(factor[-1])
             part[-1] *= 0.5 if refinement > 1 else 1.0
         if lines is not None:
-            tile = np.fft.irfft(part @ lines, n=nx * refinement, axis=0)
-            return np.asarray(tile * (refinement / self.shape[1]))
+            tile = np.fft.irfft(lines.T @ part.T, n=nx * refinement)
+            return np.asarray(tile.T * (refinement / self.shape[1]))
         if stride > 1:
             # on every so many-th column waves that differ by its wavenumber are one
             part = part.reshape(part.shape[0], stride, -1).sum(axis=1)
-        tile = np.fft.irfft(np.fft.ifft(part, axis=1), n=nx * refinement, axis=0)
-        return np.asarray(tile * (refinement / stride))
+        # lines along the motion in order: waves are read along them
+        across = np.ascontiguousarray(np.fft.ifft(part, axis=1).T)
+        tile = np.fft.irfft(across, n=nx * refinement)
+        return np.asarray(tile.T * (refinement / stride))
 
     def on_lines(self, y: Array) -> NDArray[np.complexfloating[Any, Any]]:
         """Waves across the motion (ny, n) at places Y (n,) [a], in the precision of the values."""

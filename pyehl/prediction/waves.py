@@ -35,8 +35,9 @@ class Waves:
     free ones.
     """
 
-    driven: Single  # over station (n, nx, ny/stride, 2): film, pressure
-    free: Single | None  # the same (n, REFINEMENT nx, ny/stride, 2); None without free waves
+    # Rows along the motion are read in order
+    driven: Single  # over station (n, ny/stride, nx, 2): film, pressure
+    free: Single | None  # the same (n, ny/stride, REFINEMENT nx, 2); None without free waves
     # What is added to the free waves beside the centre line, over line, as `free`
     off_centre: Single | None
     stride: int  # every so many-th column of the tile is there
@@ -68,11 +69,11 @@ class Waves:
 
         def tiles(waves: list[tuple[Narrow, Narrow]], refinement: int) -> Single:
             columns = spectrum.shape[1] // stride if lines is None else lines.size
-            shape = spectrum.shape[0] * refinement, columns, 2
+            shape = columns, spectrum.shape[0] * refinement, 2
             found = np.empty((len(waves), *shape), dtype=np.float32)
             for place, pair in zip(found, waves, strict=True):
                 for i, factor in enumerate(pair):
-                    place[..., i] = narrow.tile(factor, refinement, stride, across)
+                    place[..., i] = narrow.tile(factor, refinement, stride, across).T
             return found
 
         def lit(waves: list[Complex]) -> list[Narrow]:

@@ -100,7 +100,7 @@ class WavyContact(ShearedContact):
         self.least = math.inf
         self.weights = station_weights(self.x).astype(np.float32)
         self.beside = _two_lines(line_weights(self.across))
-        self.expansion = self._expansion(contact)[..., np.newaxis]
+        self.expansion = self._expansion(contact)
         # (n, points): what is summed over them is read in order
         edge = max(edges, key=lambda edge: edge.coefficients.shape)
         i, j = np.nonzero(self.inside)
@@ -119,7 +119,7 @@ class WavyContact(ShearedContact):
         axis, _ = contact.at(STATIONS, np.zeros(1))
         made = self.weights @ self.lubricant.density_ratio(axis[:, 0] * p_h)
         here = self.lubricant.density_ratio(np.maximum(self.pressure, 0.0) * p_h)
-        return (made[:, np.newaxis] / here).astype(np.float32)
+        return np.ascontiguousarray(made[:, np.newaxis] / here, dtype=np.float32)
 
     def add_free(
         self,
@@ -136,19 +136,29 @@ class WavyContact(ShearedContact):
         """
         if waves.free is None or waves.off_centre is None:
             return
-        free = np.zeros_like(total)
-        add_waves(waves.free, places, columns, self.weights, shift, free)
         rows, between = places
-        extension.surface_functions.waves_beside(
-            pairs(waves.off_centre), rows.T, columns, between.T, *self.beside, shift, pairs(free)
+        extension.surface_functions.free_waves(
+            pairs(waves.free),
+            pairs(waves.off_centre),
+            rows.T,
+            columns,
+            between.T,
+            self.weights.T,
+            *self.beside,
+            self.expansion.T,
+            shift,
+            pairs(total),
         )
-        total += free * self.expansion
 
-    def add_edge(self, total: Single, edge: tuple[Array, Array]) -> None:
+    def add_edge(self, total: Single, *edges: tuple[Array, Array]) -> None:
         """Add what the edge does to the pressure (:meth:`Edge.at`), keep how far it is moved."""
-        coefficients, moved = edge
-        self.moved += moved
-        if not coefficients.size:
+        coefficients = np.zeros(self.polynomials.shape[0])
+        self.moved[:] = 0.0
+        for found, moved in edges:
+            self.moved += moved
+            if found.size:
+                coefficients += found
+        if not coefficients.any():
             return
         extension.surface_functions.polynomials(
             self.polynomials.T,
@@ -244,25 +254,6 @@ def missing(contact: SmoothContact, film: Array) -> Array | float:
         return 0.0
     share = np.clip((central - film) / (central - least), 0.0, 1.0)
     return np.asarray((contact.minimum_film - least) * share)
-
-
-def add_waves(
-    tiles: Single,
-    places: tuple[NDArray[np.int32], Single],
-    columns: NDArray[np.int32],
-    weights: Single,
-    shift: int,
-    total: Single,
-) -> None:
-    """Add tiles (k, rows, columns, 2), moved by some rows, to film and pressure (m, n, 2).
-
-    `places` are the row before each point (m, 1 or n) and the share of the next one, `columns` (n,)
-    those of the tile; weights of the tiles (m, k).
-    """
-    rows, between = places
-    extension.surface_functions.free_waves(
-        pairs(tiles), rows.T, columns, between.T, weights.T, shift, pairs(total)
-    )
 
 
 def pairs(values: Single) -> NDArray[np.complex64]:
