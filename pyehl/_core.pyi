@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 _Array = NDArray[np.float64]
 _Single = NDArray[np.float32]
-_Pairs = NDArray[np.complex64]
 _Indices = NDArray[np.int32]
 
 class _Solver:
@@ -120,26 +119,26 @@ class _Surfaces:
     ) -> tuple[int, bytes]: ...
     def driven_waves(
         self,
-        tile: _Pairs,
+        tile: _Single,
         rows: _Indices,
         columns: _Indices,
         weight: _Single,
         shift: int,
-        total: _Pairs,
+        total: _Single,
     ) -> None: ...
     def waves_between(
         self,
-        tile: _Pairs,
+        tile: _Single,
         low: _Indices,
         columns: _Indices,
         between: _Single,
         weight: _Single,
-        total: _Pairs,
+        total: _Single,
     ) -> None: ...
     def free_waves(
         self,
-        tile: _Pairs,
-        beside: _Pairs,
+        tile: _Single,
+        beside: _Single,
         low: _Indices,
         columns: _Indices,
         between: _Single,
@@ -148,10 +147,10 @@ class _Surfaces:
         part: _Single,
         expansion: _Single,
         shift: int,
-        total: _Pairs,
+        total: _Single,
     ) -> None: ...
     def polynomials(
-        self, values: _Single, coefficients: _Single, place: _Indices, total: _Pairs
+        self, values: _Single, coefficients: _Single, place: _Indices, total: _Single
     ) -> None: ...
     def film_moved(
         self,

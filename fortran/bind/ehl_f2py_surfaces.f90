@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Surfaces and the waves of the prediction for Python; for the rules see ehl_f2py_solver. Single precision is enough for the waves.
 module ehl_f2py_surfaces
-   use, intrinsic :: iso_c_binding, only: c_double, c_float, c_float_complex, c_int
+   use, intrinsic :: iso_c_binding, only: c_double, c_float, c_int
    use ehl_fractal, only: fractal_t, make_fractal
    use ehl_handles, only: reply
    use ehl_plan_need, only: making_need
@@ -60,7 +60,7 @@ contains
    !> Driven waves: see add_driven
    subroutine driven_waves(points, columns_all, stations, m, n, tile, rows, columns, weight, shift, total)
       integer(c_int), intent(in) :: points, columns_all, stations, m, n
-      complex(c_float_complex), intent(inout) :: tile(points, columns_all, stations), total(n, m)
+      real(c_float), intent(inout) :: tile(2, points, columns_all, stations), total(2, n, m)
       real(c_float), intent(inout) :: weight(stations, m)
       integer(c_int), intent(inout) :: rows(m), columns(n)
       integer(c_int), intent(in) :: shift
@@ -72,7 +72,7 @@ contains
    !> Driven waves between rows: see add_between
    subroutine waves_between(points, columns_all, stations, m, n, tile, low, columns, between, weight, total)
       integer(c_int), intent(in) :: points, columns_all, stations, m, n
-      complex(c_float_complex), intent(inout) :: tile(points, columns_all, stations), total(n, m)
+      real(c_float), intent(inout) :: tile(2, points, columns_all, stations), total(2, n, m)
       real(c_float), intent(inout) :: between(m), weight(stations, m)
       integer(c_int), intent(inout) :: low(m), columns(n)
       !f2py threadsafe
@@ -84,8 +84,8 @@ contains
    subroutine free_waves(points, columns_all, stations, tiles, m, n, lines, tile, beside, low, columns, between, weight, &
                          line, part, expansion, shift, total)
       integer(c_int), intent(in) :: points, columns_all, stations, tiles, m, n, lines
-      complex(c_float_complex), intent(inout) :: tile(points, columns_all, stations), total(n, m)
-      complex(c_float_complex), intent(inout) :: beside(points, columns_all, tiles)
+      real(c_float), intent(inout) :: tile(2, points, columns_all, stations), total(2, n, m)
+      real(c_float), intent(inout) :: beside(2, points, columns_all, tiles)
       integer(c_int), intent(inout) :: low(lines, m), columns(n), line(n)
       real(c_float), intent(inout) :: between(lines, m), weight(stations, m), part(2, n), expansion(n, m)
       integer(c_int), intent(in) :: shift
@@ -99,7 +99,7 @@ contains
       integer(c_int), intent(in) :: points, count, all
       real(c_float), intent(inout) :: values(points, count), coefficients(count)
       integer(c_int), intent(inout) :: place(points)
-      complex(c_float_complex), intent(inout) :: total(all)
+      real(c_float), intent(inout) :: total(2, all)
       !f2py threadsafe
 
       call add_polynomials(values, coefficients, place, total)

@@ -2,7 +2,7 @@
 !> Film and pressure waves of a rough tile at the points of a contact: the inner loop of the prediction.
 !>
 !> Driven waves move with the tile; free waves are read between the points of a finer table, at places that
-!> slip gives, along lines or line by line. A complex value is a pair: loss of film and gain of pressure.
+!> slip gives, along lines or line by line. The first dimension of a tile and of a sum: loss of film and gain of pressure.
 module ehl_wave_sum
    use, intrinsic :: iso_fortran_env, only: int32, real32, real64
    implicit none (type, external)
@@ -11,21 +11,21 @@ module ehl_wave_sum
 
 contains
 
-   !> Add weight(s, i) tile(row(i) - shift, col(j), s) to total(j, i); rows wrap, rows and columns are from 0
+   !> Add weight(s, i) tile(:, row(i) - shift, col(j), s) to total(:, j, i); rows wrap, rows and columns are from 0
    subroutine add_driven(tile, rows, columns, weight, shift, total)
-      complex(real32), intent(in), contiguous :: tile(0:, 0:, :)
-      real(real32), intent(in), contiguous :: weight(:, :)
+      real(real32), intent(in), contiguous :: tile(:, 0:, 0:, :), weight(:, :)
       integer(int32), intent(in), contiguous :: rows(:), columns(:)
       integer(int32), intent(in) :: shift
-      complex(real32), intent(inout), contiguous :: total(:, :)
-      integer :: i, j, s, start
+      real(real32), intent(inout), contiguous :: total(:, :, :)
+      integer :: i, j, s, row, start
 
-      start = modulo(shift, size(tile, 1))
+      start = modulo(shift, size(tile, 2))
       do s = 1, size(weight, 1)
          do j = 1, size(columns)
             do i = 1, size(rows)
                if (.not. abs(weight(s, i)) > 0.0) cycle
-               total(j, i) = total(j, i) + weight(s, i)*tile(wrapped(rows(i) - start, size(tile, 1)), columns(j), s)
+               row = wrapped(rows(i) - start, size(tile, 2))
+               total(1:2, j, i) = total(1:2, j, i) + weight(s, i)*tile(1:2, row, columns(j), s)
             end do
          end do
       end do
@@ -33,64 +33,60 @@ contains
 
    !> The same between the rows low(i) and the next, `between` of the way
    subroutine add_between(tile, low, columns, between, weight, total)
-      complex(real32), intent(in), contiguous :: tile(0:, 0:, :)
-      real(real32), intent(in), contiguous :: between(:), weight(:, :)
+      real(real32), intent(in), contiguous :: tile(:, 0:, 0:, :), between(:), weight(:, :)
       integer(int32), intent(in), contiguous :: low(:), columns(:)
-      complex(real32), intent(inout), contiguous :: total(:, :)
+      real(real32), intent(inout), contiguous :: total(:, :, :)
       integer :: i, j, s, row, next
 
       do s = 1, size(weight, 1)
          do j = 1, size(columns)
             do i = 1, size(low)
                if (.not. abs(weight(s, i)) > 0.0) cycle
-               row = wrapped(low(i), size(tile, 1))
-               next = merge(0, row + 1, row + 1 == size(tile, 1))
-               total(j, i) = total(j, i) + weight(s, i)*blend(tile(row, columns(j), s), tile(next, columns(j), s), between(i))
+               row = wrapped(low(i), size(tile, 2))
+               next = merge(0, row + 1, row + 1 == size(tile, 2))
+               total(1:2, j, i) = total(1:2, j, i) + (weight(s, i)*(1.0 - between(i)))*tile(1:2, row, columns(j), s) &
+                                  + (weight(s, i)*between(i))*tile(1:2, next, columns(j), s)
             end do
          end do
       end do
    end subroutine add_between
 
    !> The same between the rows low(j, i) - shift and the next; a first dimension of 1 of low and between: the same for
-   !> all lines. To the weights of the stations come part(:, j) of the tiles beside(:, :, l), l = line(j), line(j) + 1
+   !> all lines. To the weights of the stations come part(:, j) of the tiles beside(:, :, :, l), l = line(j), line(j) + 1
    !> from 0, and the sum is taken `expansion` times
    subroutine add_free(tile, beside, low, columns, between, weight, line, part, expansion, shift, total)
-      complex(real32), intent(in), contiguous :: tile(0:, 0:, :), beside(0:, 0:, 0:)
+      real(real32), intent(in), contiguous :: tile(:, 0:, 0:, :), beside(:, 0:, 0:, 0:)
       real(real32), intent(in), contiguous :: between(:, :), weight(:, :), part(:, :), expansion(:, :)
       integer(int32), intent(in), contiguous :: low(:, :), columns(:), line(:)
       integer(int32), intent(in) :: shift
-      complex(real32), intent(inout), contiguous :: total(:, :)
-      integer :: i, j, k, c, at, row, next, start
-      complex(real32) :: wave
+      real(real32), intent(inout), contiguous :: total(:, :, :)
+      integer :: i, j, k, c, l, at, row, next, start
+      real(real32) :: here(2), there(2)
 
-      start = modulo(shift, size(tile, 1))
+      start = modulo(shift, size(tile, 2))
       do j = 1, size(columns)
          c = columns(j)
+         l = line(j) - 1
          at = merge(j, 1, size(low, 1) > 1)
          do i = 1, size(low, 2)
-            row = wrapped(low(at, i) - start, size(tile, 1))
-            next = merge(0, row + 1, row + 1 == size(tile, 1))
-            wave = (0.0, 0.0)
+            row = wrapped(low(at, i) - start, size(tile, 2))
+            next = merge(0, row + 1, row + 1 == size(tile, 2))
+            here = 0.0
+            there = 0.0
             do k = 1, size(weight, 1)
                if (.not. abs(weight(k, i)) > 0.0) cycle
-               wave = wave + weight(k, i)*blend(tile(row, c, k), tile(next, c, k), between(at, i))
+               here = here + weight(k, i)*tile(1:2, row, c, k)
+               there = there + weight(k, i)*tile(1:2, next, c, k)
             end do
             do k = 1, 2
                if (.not. abs(part(k, j)) > 0.0) cycle
-               wave = wave + part(k, j)*blend(beside(row, c, line(j) + k - 1), beside(next, c, line(j) + k - 1), between(at, i))
+               here = here + part(k, j)*beside(1:2, row, c, l + k)
+               there = there + part(k, j)*beside(1:2, next, c, l + k)
             end do
-            total(j, i) = total(j, i) + expansion(j, i)*wave
+            total(1:2, j, i) = total(1:2, j, i) + expansion(j, i)*(here + between(at, i)*(there - here))
          end do
       end do
    end subroutine add_free
-
-   !> A value a share of the way to the next one
-   pure complex(real32) function blend(value, next, share)
-      complex(real32), intent(in) :: value, next
-      real(real32), intent(in) :: share
-
-      blend = value + share*(next - value)
-   end function blend
 
    !> Row modulo the number of rows; without a division where it is the next one below 0
    pure integer function wrapped(row, count)
@@ -101,11 +97,11 @@ contains
       if (wrapped < 0 .or. wrapped >= count) wrapped = modulo(wrapped, count)
    end function wrapped
 
-   !> Sums over k of coefficients(k) polynomials(i, k) are added to the second one of the pair total(place(i)), from 0
+   !> Sums over k of coefficients(k) polynomials(i, k) are added to total(2, place(i)), places from 0
    subroutine add_polynomials(polynomials, coefficients, place, total)
       real(real32), intent(in), contiguous :: polynomials(:, :), coefficients(:)
       integer(int32), intent(in), contiguous :: place(:)
-      complex(real32), intent(inout), contiguous :: total(0:)
+      real(real32), intent(inout), contiguous :: total(:, 0:)
       ! points at a time: their sum stays in the cache
       integer, parameter :: block = 1024
       real(real32) :: found(block)
@@ -118,7 +114,7 @@ contains
             found(:n) = found(:n) + coefficients(k)*polynomials(first + 1:first + n, k)
          end do
          do i = 1, n
-            total(place(first + i)) = total(place(first + i)) + cmplx(0.0, found(i), real32)
+            total(2, place(first + i)) = total(2, place(first + i)) + found(i)
          end do
       end do
    end subroutine add_polynomials

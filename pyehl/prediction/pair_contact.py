@@ -19,7 +19,7 @@ from pyehl.prediction.smooth import SmoothContact
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer
 from pyehl.prediction.waves import REFINEMENT, Waves
-from pyehl.prediction.wavy_contact import REACH, WavyContact, pairs, slipped
+from pyehl.prediction.wavy_contact import REACH, WavyContact, slipped
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Array, Single
@@ -68,7 +68,7 @@ class TileOnPoints:
         driven, free = (self._rows(places - shift) for places in (self.places, self.free_places))
         rows, between = (values[:, 0] for values in driven)
         extension.surface_functions.waves_between(
-            pairs(self.waves.driven), rows, columns, between, contact.weights.T, pairs(total)
+            self.waves.driven.T, rows, columns, between, contact.weights.T, total.T
         )
         contact.add_free(self.waves, free, columns, 0, total)
 

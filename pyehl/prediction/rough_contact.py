@@ -10,7 +10,7 @@ from pyehl import extension
 from pyehl.prediction.edge import Edge
 from pyehl.prediction.smooth import SmoothContact
 from pyehl.prediction.waves import REFINEMENT, Waves
-from pyehl.prediction.wavy_contact import REACH, WavyContact, pairs, slipped
+from pyehl.prediction.wavy_contact import REACH, WavyContact, slipped
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Array, Single
@@ -65,7 +65,7 @@ class RoughContact(WavyContact):
         columns = columns.astype(np.int32)
         total = np.zeros((*self.film.shape, 2), dtype=np.float32)
         extension.surface_functions.driven_waves(
-            pairs(waves.driven), self.rows, columns, self.weights.T, shift, pairs(total)
+            waves.driven.T, self.rows, columns, self.weights.T, shift, total.T
         )
         self.add_free(waves, (self.free_rows, self.between), columns, shift * REFINEMENT, total)
         self.add_edge(total, self.edge.at(shift * self.pixel[0], track * self.pixel[1]))

@@ -138,8 +138,8 @@ class WavyContact(ShearedContact):
             return
         rows, between = places
         extension.surface_functions.free_waves(
-            pairs(waves.free),
-            pairs(waves.off_centre),
+            waves.free.T,
+            waves.off_centre.T,
             rows.T,
             columns,
             between.T,
@@ -147,7 +147,7 @@ class WavyContact(ShearedContact):
             *self.beside,
             self.expansion.T,
             shift,
-            pairs(total),
+            total.T,
         )
 
     def add_edge(self, total: Single, *edges: tuple[Array, Array]) -> None:
@@ -164,7 +164,7 @@ class WavyContact(ShearedContact):
             self.polynomials.T,
             coefficients.astype(np.float32),
             self.places,
-            total.reshape(-1).view(np.complex64),
+            total.reshape(-1, 2).T,
         )
 
     def _outer(self, contact: SmoothContact) -> tuple[NDArray[Any], ...]:
@@ -254,8 +254,3 @@ def missing(contact: SmoothContact, film: Array) -> Array | float:
         return 0.0
     share = np.clip((central - film) / (central - least), 0.0, 1.0)
     return np.asarray((contact.minimum_film - least) * share)
-
-
-def pairs(values: Single) -> NDArray[np.complex64]:
-    """Film and pressure of the last dimension as one number, the dimensions reversed."""
-    return values.view(np.complex64)[..., 0].T
