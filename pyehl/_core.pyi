@@ -143,8 +143,6 @@ class _Surfaces:
         columns: _Indices,
         between: _Single,
         weight: _Single,
-        line: _Indices,
-        part: _Single,
         expansion: _Single,
         shift: int,
         total: _Single,

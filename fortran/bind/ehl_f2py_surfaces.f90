@@ -81,17 +81,17 @@ contains
    end subroutine waves_between
 
    !> Free waves: see add_free
-   subroutine free_waves(points, columns_all, stations, tiles, m, n, lines, tile, beside, low, columns, between, weight, &
-                         line, part, expansion, shift, total)
-      integer(c_int), intent(in) :: points, columns_all, stations, tiles, m, n, lines
+   subroutine free_waves(points, columns_all, stations, m, n, lines, tile, beside, low, columns, between, weight, expansion, &
+                         shift, total)
+      integer(c_int), intent(in) :: points, columns_all, stations, m, n, lines
       real(c_float), intent(inout) :: tile(2, points, columns_all, stations), total(2, n, m)
-      real(c_float), intent(inout) :: beside(2, points, columns_all, tiles)
-      integer(c_int), intent(inout) :: low(lines, m), columns(n), line(n)
-      real(c_float), intent(inout) :: between(lines, m), weight(stations, m), part(2, n), expansion(n, m)
+      real(c_float), intent(inout) :: beside(2, points, n)
+      integer(c_int), intent(inout) :: low(lines, m), columns(n)
+      real(c_float), intent(inout) :: between(lines, m), weight(stations, m), expansion(n, m)
       integer(c_int), intent(in) :: shift
       !f2py threadsafe
 
-      call add_free(tile, beside, low, columns, between, weight, line, part, expansion, shift, total)
+      call add_free(tile, beside, low, columns, between, weight, expansion, shift, total)
    end subroutine free_waves
 
    !> Polynomials of the edge: see add_polynomials

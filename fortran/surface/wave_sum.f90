@@ -52,36 +52,28 @@ contains
    end subroutine add_between
 
    !> The same between the rows low(j, i) - shift and the next; a first dimension of 1 of low and between: the same for
-   !> all lines. To the weights of the stations come part(:, j) of the tiles beside(:, :, :, l), l = line(j), line(j) + 1
-   !> from 0, and the sum is taken `expansion` times
-   subroutine add_free(tile, beside, low, columns, between, weight, line, part, expansion, shift, total)
-      real(real32), intent(in), contiguous :: tile(:, 0:, 0:, :), beside(:, 0:, 0:, 0:)
-      real(real32), intent(in), contiguous :: between(:, :), weight(:, :), part(:, :), expansion(:, :)
-      integer(int32), intent(in), contiguous :: low(:, :), columns(:), line(:)
+   !> all lines. beside(:, :, j) is added to the stations, and the sum is taken `expansion` times
+   subroutine add_free(tile, beside, low, columns, between, weight, expansion, shift, total)
+      real(real32), intent(in), contiguous :: tile(:, 0:, 0:, :), beside(:, 0:, :)
+      real(real32), intent(in), contiguous :: between(:, :), weight(:, :), expansion(:, :)
+      integer(int32), intent(in), contiguous :: low(:, :), columns(:)
       integer(int32), intent(in) :: shift
       real(real32), intent(inout), contiguous :: total(:, :, :)
-      integer :: i, j, k, c, l, at, row, next, start
+      integer :: i, j, k, at, row, next, start
       real(real32) :: here(2), there(2)
 
       start = modulo(shift, size(tile, 2))
       do j = 1, size(columns)
-         c = columns(j)
-         l = line(j) - 1
          at = merge(j, 1, size(low, 1) > 1)
          do i = 1, size(low, 2)
             row = wrapped(low(at, i) - start, size(tile, 2))
             next = merge(0, row + 1, row + 1 == size(tile, 2))
-            here = 0.0
-            there = 0.0
+            here = beside(1:2, row, j)
+            there = beside(1:2, next, j)
             do k = 1, size(weight, 1)
                if (.not. abs(weight(k, i)) > 0.0) cycle
-               here = here + weight(k, i)*tile(1:2, row, c, k)
-               there = there + weight(k, i)*tile(1:2, next, c, k)
-            end do
-            do k = 1, 2
-               if (.not. abs(part(k, j)) > 0.0) cycle
-               here = here + part(k, j)*beside(1:2, row, c, l + k)
-               there = there + part(k, j)*beside(1:2, next, c, l + k)
+               here = here + weight(k, i)*tile(1:2, row, columns(j), k)
+               there = there + weight(k, i)*tile(1:2, next, columns(j), k)
             end do
             total(1:2, j, i) = total(1:2, j, i) + expansion(j, i)*(here + between(at, i)*(there - here))
          end do

@@ -19,7 +19,7 @@ from pyehl.prediction.smooth import SmoothContact
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer
 from pyehl.prediction.waves import REFINEMENT, Waves
-from pyehl.prediction.wavy_contact import REACH, WavyContact, slipped
+from pyehl.prediction.wavy_contact import REACH, WavyContact, slipped, two_lines
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Array, Single
@@ -50,6 +50,8 @@ class TileOnPoints:
         x, y, across = points
         self.edge, self.track = edge, track
         self.waves = Waves.of(spectrum, transfer, central_film, velocity_ratio, lines=y - track)
+        every = np.arange(y.size, dtype=np.int32)
+        self.beside = self.waves.beside(every, *two_lines(across))
         self.scale = REFINEMENT / spectrum.pixel[0]
         self.places = x[:, np.newaxis]
         lines = across if transfer.bent else np.zeros(1)
@@ -70,7 +72,7 @@ class TileOnPoints:
         extension.surface_functions.waves_between(
             self.waves.driven.T, rows, columns, between, contact.weights.T, total.T
         )
-        contact.add_free(self.waves, free, columns, 0, total)
+        contact.add_free(self.waves, self.beside, free, columns, 0, total)
 
 
 class PairContact(WavyContact):

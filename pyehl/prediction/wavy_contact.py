@@ -49,11 +49,12 @@ def line_weights(y: Array) -> Array:
     return np.stack([np.interp(y, LINES, unit) for unit in lines], axis=-1)
 
 
-def _two_lines(weights: Array) -> tuple[NDArray[np.int32], Single]:
-    """First of two lines beside each other (n,), and weights (2, n) of both: `line_weights`."""
+def two_lines(y: Array) -> tuple[NDArray[np.int32], Single]:
+    """`line_weights` at places Y (n,): the first of two lines after each other, weights (2, n)."""
+    weights = line_weights(y)
     first = np.minimum(np.argmax(weights > 0.0, axis=1), weights.shape[1] - 2)
     both = np.stack([np.take_along_axis(weights, (first + k)[:, np.newaxis], 1) for k in (0, 1)])
-    return first.astype(np.int32), np.asfortranarray(both[..., 0], dtype=np.float32)
+    return first.astype(np.int32), both[..., 0].astype(np.float32)
 
 
 def slipped(x: Array, y: Array, velocity_ratio: float, *, bent: bool) -> Array:
@@ -99,7 +100,6 @@ class WavyContact(ShearedContact):
         self.outer = self._outer(contact)
         self.least = math.inf
         self.weights = station_weights(self.x).astype(np.float32)
-        self.beside = _two_lines(line_weights(self.across))
         self.expansion = self._expansion(contact)
         # (n, points): what is summed over them is read in order
         edge = max(edges, key=lambda edge: edge.coefficients.shape)
@@ -124,6 +124,7 @@ class WavyContact(ShearedContact):
     def add_free(
         self,
         waves: Waves,
+        beside: Single | None,
         places: tuple[NDArray[np.int32], Single],
         columns: NDArray[np.int32],
         shift: int,
@@ -132,19 +133,18 @@ class WavyContact(ShearedContact):
         """Add free waves to loss of film and gain of pressure (m, n, 2), moved by some rows.
 
         `places` are the row before each point (m, 1 or n) and the share of the next one; columns
-        (n,).
+        (n,); `beside`: :meth:`Waves.beside`.
         """
-        if waves.free is None or waves.off_centre is None:
+        if waves.free is None or beside is None:
             return
         rows, between = places
         extension.surface_functions.free_waves(
             waves.free.T,
-            waves.off_centre.T,
+            beside.T,
             rows.T,
             columns,
             between.T,
             self.weights.T,
-            *self.beside,
             self.expansion.T,
             shift,
             total.T,
