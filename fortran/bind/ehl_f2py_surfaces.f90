@@ -58,9 +58,9 @@ contains
    end subroutine filter_tile
 
    !> Driven waves: see add_driven
-   subroutine driven_waves(points, columns_all, stations, m, n, tile, rows, columns, weight, shift, total)
+   subroutine driven_waves(columns_all, points, stations, m, n, tile, rows, columns, weight, shift, total)
       integer(c_int), intent(in) :: points, columns_all, stations, m, n
-      real(c_float), intent(inout) :: tile(2, points, columns_all, stations), total(2, n, m)
+      real(c_float), intent(inout) :: tile(2, columns_all, points, stations), total(2, n, m)
       real(c_float), intent(inout) :: weight(stations, m)
       integer(c_int), intent(inout) :: rows(m), columns(n)
       integer(c_int), intent(in) :: shift
@@ -70,9 +70,9 @@ contains
    end subroutine driven_waves
 
    !> Driven waves between rows: see add_between
-   subroutine waves_between(points, columns_all, stations, m, n, tile, low, columns, between, weight, total)
+   subroutine waves_between(columns_all, points, stations, m, n, tile, low, columns, between, weight, total)
       integer(c_int), intent(in) :: points, columns_all, stations, m, n
-      real(c_float), intent(inout) :: tile(2, points, columns_all, stations), total(2, n, m)
+      real(c_float), intent(inout) :: tile(2, columns_all, points, stations), total(2, n, m)
       real(c_float), intent(inout) :: between(m), weight(stations, m)
       integer(c_int), intent(inout) :: low(m), columns(n)
       !f2py threadsafe
@@ -81,11 +81,11 @@ contains
    end subroutine waves_between
 
    !> Free waves: see add_free
-   subroutine free_waves(points, columns_all, stations, m, n, lines, tile, beside, low, columns, between, weight, expansion, &
+   subroutine free_waves(columns_all, points, stations, m, n, lines, tile, beside, low, columns, between, weight, expansion, &
                          shift, total)
       integer(c_int), intent(in) :: points, columns_all, stations, m, n, lines
-      real(c_float), intent(inout) :: tile(2, points, columns_all, stations), total(2, n, m)
-      real(c_float), intent(inout) :: beside(2, points, n)
+      real(c_float), intent(inout) :: tile(2, columns_all, points, stations), total(2, n, m)
+      real(c_float), intent(inout) :: beside(2, n, points)
       integer(c_int), intent(inout) :: low(lines, m), columns(n)
       real(c_float), intent(inout) :: between(lines, m), weight(stations, m), expansion(n, m)
       integer(c_int), intent(in) :: shift

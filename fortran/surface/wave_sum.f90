@@ -11,21 +11,20 @@ module ehl_wave_sum
 
 contains
 
-   !> Add weight(s, i) tile(:, row(i) - shift, col(j), s) to total(:, j, i); rows wrap, rows and columns are from 0
+   !> Add weight(s, i) tile(:, col(j), row(i) - shift, s) to total(:, j, i); rows wrap, rows and columns are from 0
    subroutine add_driven(tile, rows, columns, weight, shift, total)
       real(real32), intent(in), contiguous :: tile(:, 0:, 0:, :), weight(:, :)
       integer(int32), intent(in), contiguous :: rows(:), columns(:)
       integer(int32), intent(in) :: shift
       real(real32), intent(inout), contiguous :: total(:, :, :)
-      integer :: i, j, s, row, start
+      integer :: i, j, s, row
 
-      start = modulo(shift, size(tile, 2))
-      do s = 1, size(weight, 1)
-         do j = 1, size(columns)
-            do i = 1, size(rows)
-               if (.not. abs(weight(s, i)) > 0.0) cycle
-               row = wrapped(rows(i) - start, size(tile, 2))
-               total(1:2, j, i) = total(1:2, j, i) + weight(s, i)*tile(1:2, row, columns(j), s)
+      do i = 1, size(rows)
+         row = modulo(rows(i) - shift, size(tile, 3))
+         do s = 1, size(weight, 1)
+            if (.not. abs(weight(s, i)) > 0.0) cycle
+            do j = 1, size(columns)
+               total(1:2, j, i) = total(1:2, j, i) + weight(s, i)*tile(1:2, columns(j), row, s)
             end do
          end do
       end do
@@ -36,25 +35,27 @@ contains
       real(real32), intent(in), contiguous :: tile(:, 0:, 0:, :), between(:), weight(:, :)
       integer(int32), intent(in), contiguous :: low(:), columns(:)
       real(real32), intent(inout), contiguous :: total(:, :, :)
+      real(real32) :: here, there
       integer :: i, j, s, row, next
 
-      do s = 1, size(weight, 1)
-         do j = 1, size(columns)
-            do i = 1, size(low)
-               if (.not. abs(weight(s, i)) > 0.0) cycle
-               row = wrapped(low(i), size(tile, 2))
-               next = merge(0, row + 1, row + 1 == size(tile, 2))
-               total(1:2, j, i) = total(1:2, j, i) + (weight(s, i)*(1.0 - between(i)))*tile(1:2, row, columns(j), s) &
-                                  + (weight(s, i)*between(i))*tile(1:2, next, columns(j), s)
+      do i = 1, size(low)
+         row = modulo(low(i), size(tile, 3))
+         next = modulo(row + 1, size(tile, 3))
+         do s = 1, size(weight, 1)
+            if (.not. abs(weight(s, i)) > 0.0) cycle
+            there = weight(s, i)*between(i)
+            here = weight(s, i) - there
+            do j = 1, size(columns)
+               total(1:2, j, i) = total(1:2, j, i) + here*tile(1:2, columns(j), row, s) + there*tile(1:2, columns(j), next, s)
             end do
          end do
       end do
    end subroutine add_between
 
    !> The same between the rows low(j, i) - shift and the next; a first dimension of 1 of low and between: the same for
-   !> all lines. beside(:, :, j) is added to the stations, and the sum is taken `expansion` times
+   !> all lines. beside(:, j, :) is added to the stations, and the sum is taken `expansion` times
    subroutine add_free(tile, beside, low, columns, between, weight, expansion, shift, total)
-      real(real32), intent(in), contiguous :: tile(:, 0:, 0:, :), beside(:, 0:, :)
+      real(real32), intent(in), contiguous :: tile(:, 0:, 0:, :), beside(:, :, 0:)
       real(real32), intent(in), contiguous :: between(:, :), weight(:, :), expansion(:, :)
       integer(int32), intent(in), contiguous :: low(:, :), columns(:)
       integer(int32), intent(in) :: shift
@@ -62,18 +63,18 @@ contains
       integer :: i, j, k, at, row, next, start
       real(real32) :: here(2), there(2)
 
-      start = modulo(shift, size(tile, 2))
-      do j = 1, size(columns)
-         at = merge(j, 1, size(low, 1) > 1)
-         do i = 1, size(low, 2)
-            row = wrapped(low(at, i) - start, size(tile, 2))
-            next = merge(0, row + 1, row + 1 == size(tile, 2))
-            here = beside(1:2, row, j)
-            there = beside(1:2, next, j)
+      start = modulo(shift, size(tile, 3))
+      do i = 1, size(low, 2)
+         do j = 1, size(columns)
+            at = merge(j, 1, size(low, 1) > 1)
+            row = wrapped(low(at, i) - start, size(tile, 3))
+            next = merge(0, row + 1, row + 1 == size(tile, 3))
+            here = beside(1:2, j, row)
+            there = beside(1:2, j, next)
             do k = 1, size(weight, 1)
                if (.not. abs(weight(k, i)) > 0.0) cycle
-               here = here + weight(k, i)*tile(1:2, row, columns(j), k)
-               there = there + weight(k, i)*tile(1:2, next, columns(j), k)
+               here = here + weight(k, i)*tile(1:2, columns(j), row, k)
+               there = there + weight(k, i)*tile(1:2, columns(j), next, k)
             end do
             total(1:2, j, i) = total(1:2, j, i) + expansion(j, i)*(here + between(at, i)*(there - here))
          end do

@@ -63,7 +63,7 @@ class RoughContact(WavyContact):
         multiple of the stride of the waves.
         """
         waves = self.waves
-        columns = (self.columns - track) // waves.stride % waves.driven.shape[1]
+        columns = (self.columns - track) // waves.stride % waves.driven.shape[2]
         columns = columns.astype(np.int32)
         if track not in self.beside:
             self.beside = {track: waves.beside(columns, *two_lines(self.across))}

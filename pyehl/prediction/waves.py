@@ -35,9 +35,8 @@ class Waves:
     free ones.
     """
 
-    # Rows along the motion are read in order
-    driven: Single  # over station (n, ny/stride, nx, 2): film, pressure
-    free: Single | None  # the same (n, ny/stride, REFINEMENT nx, 2); None without free waves
+    driven: Single  # over station (n, nx, ny/stride, 2): film, pressure
+    free: Single | None  # the same (n, REFINEMENT nx, ny/stride, 2); None without free waves
     # What is added to the free waves beside the centre line, over line, as waves along the motion
     # (n, 2, ny/stride, nx//2 + 1); None without free waves
     off_centre: Narrow | None
@@ -70,11 +69,11 @@ class Waves:
 
         def tiles(waves: list[tuple[Narrow, Narrow]], refinement: int) -> Single:
             columns = spectrum.shape[1] // stride if lines is None else lines.size
-            shape = columns, spectrum.shape[0] * refinement, 2
+            shape = spectrum.shape[0] * refinement, columns, 2
             found = np.empty((len(waves), *shape), dtype=np.float32)
             for place, pair in zip(found, waves, strict=True):
                 for i, factor in enumerate(pair):
-                    place[..., i] = narrow.tile(factor, refinement, stride, across).T
+                    place[..., i] = narrow.tile(factor, refinement, stride, across)
             return found
 
         def lit(waves: list[Complex]) -> list[Narrow]:
@@ -113,7 +112,7 @@ class Waves:
     def beside(
         self, columns: NDArray[np.int32], line: NDArray[np.int32], part: Single
     ) -> Single | None:
-        """Free waves that are added on columns beside the centre line (n, REFINEMENT nx, 2).
+        """Free waves that are added on columns beside the centre line (REFINEMENT nx, n, 2).
 
         Parts (2, n) of lines off the centre and of those after them. None without free waves.
         """
@@ -122,5 +121,5 @@ class Waves:
         weights = part[..., np.newaxis, np.newaxis]
         waves = weights[0] * self.off_centre[line, :, columns]
         waves += weights[1] * self.off_centre[line + 1, :, columns]
-        found = np.fft.irfft(waves, n=self.free.shape[2])
-        return np.ascontiguousarray(np.moveaxis(found, 1, -1))
+        found = np.fft.irfft(waves, n=self.free.shape[1])
+        return np.ascontiguousarray(found.T.swapaxes(1, 2))
