@@ -150,18 +150,7 @@ class _Surfaces:
     def polynomials(
         self, values: _Single, coefficients: _Single, place: _Indices, total: _Single
     ) -> None: ...
-    def film_moved(
-        self,
-        smooth: _Array,
-        centre: _Array,
-        x: _Array,
-        y: _Array,
-        rim: _Indices,
-        share: _Array,
-        moved: _Array,
-        place: _Indices,
-        film: _Array,
-    ) -> None: ...
+    def film_moved(self, *given: _Array | _Indices) -> None: ...
 
 class _Lubricants:
     def oils(self, room: _Indices) -> int: ...

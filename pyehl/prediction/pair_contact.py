@@ -68,9 +68,9 @@ class TileOnPoints:
         """Add loss of film and gain of pressure (m, n, 2) where the tile has moved by a shift."""
         columns = np.arange(contact.y.size, dtype=np.int32)
         driven, free = (self._rows(places - shift) for places in (self.places, self.free_places))
-        rows, between = (values[:, 0] for values in driven)
+        rows, between = driven
         extension.surface_functions.waves_between(
-            self.waves.driven.T, rows, columns, between, contact.weights.T, total.T
+            self.waves.driven.T, rows[:, 0], columns, between[:, 0], contact.weights.T, total.T
         )
         contact.add_free(self.waves, self.beside, free, columns, 0, total)
 

@@ -72,7 +72,9 @@ class RoughContact(WavyContact):
         extension.surface_functions.driven_waves(
             waves.driven.T, self.rows, columns, self.weights.T, shift, total.T
         )
-        self.add_free(waves, beside, (self.free_rows, self.between), columns, shift * REFINEMENT, total)
+        self.add_free(
+            waves, beside, (self.free_rows, self.between), columns, shift * REFINEMENT, total
+        )
         self.add_edge(total, self.edge.at(shift * self.pixel[0], track * self.pixel[1]))
         self.add_second(total)
         return total

@@ -97,7 +97,7 @@ class WavyContact(ShearedContact):
         self.inner, self.near = (radius < r for r in (INNER, NEAR))
         self.rings = np.searchsorted(RINGS, radius, side="right") - 1
         self.contact, self.moved = contact, np.zeros(RIM_ANGLES.size)
-        self.outer = self._outer(contact)
+        self.outer, self.lowest = self._outer(contact), float(contact.film.min())
         self.least = math.inf
         self.weights = station_weights(self.x).astype(np.float32)
         self.expansion = self._expansion(contact)
@@ -170,8 +170,9 @@ class WavyContact(ShearedContact):
     def _outer(self, contact: SmoothContact) -> tuple[NDArray[Any], ...]:
         """Points whose film moves with the edge, as `smooth_film` asks for them.
 
-        Film (ny, nx), centre and points in nodes of the smooth contact, the place on the rim before each and the
-        shares of this and the next one by the distance from the centre, and the place of the point.
+        Film (ny, nx), centre and points in nodes of the smooth contact, the place on the rim before
+        each and the shares of this and the next one over the distance from the centre, and the
+        place of the point.
         """
         i, j = np.nonzero(self.inside & (self.radius > OUTER))
         steps = [axis[1] - axis[0] for axis in (contact.x, contact.y)]
@@ -226,30 +227,33 @@ class WavyContact(ShearedContact):
             self.thinnest = min(self.thinnest, borne)
             return math.nan
         self.thinnest = min(self.thinnest, float(film.min(initial=math.inf)))
-        self.cavitated += int(np.count_nonzero(pressure <= 0.0))
-        whole = film + missing(self.contact, smooth)
+        pulling = np.flatnonzero(pressure <= 0.0)
+        self.cavitated += pulling.size
+        whole = film + missing(self.contact, smooth, self.lowest)
         self.least = min(self.least, float(whole.min(initial=math.inf)))
         self.meet(gain, pressure, whole, self.inner, self.near)
-        carried = np.bincount(self.rings, pressure, len(RINGS))
-        np.maximum(pressure, 0.0, out=pressure)
-        pushes = np.bincount(self.rings, pressure, len(RINGS))
-        if (carried < 0.0).any():
-            self.lost = True
-            return math.nan
-        # what cannot pull leaves less to carry for what is around
-        share = np.divide(carried, pushes, out=np.ones_like(carried), where=pushes > 0.0)
-        pressure *= share[self.rings]
+        if pulling.size:
+            carried = np.bincount(self.rings, pressure, len(RINGS))
+            pulls = np.bincount(self.rings[pulling], pressure[pulling], len(RINGS))
+            if (carried < 0.0).any():
+                self.lost = True
+                return math.nan
+            pressure[pulling] = 0.0
+            # what cannot pull leaves less to carry for what is around
+            pushes = carried - pulls
+            share = np.divide(carried, pushes, out=np.ones_like(carried), where=pushes > 0.0)
+            pressure *= share[self.rings]
         with np.errstate(over="ignore"):
             return float(self.stress(pressure, film).sum()) / self.smooth
 
 
-def missing(contact: SmoothContact, film: Array) -> Array | float:
+def missing(contact: SmoothContact, film: Array, least: float) -> Array | float:
     """Give what films H_s [a^2/R] of a smooth contact lack beside those extrapolated.
 
     They are scaled to the extrapolated central film; the minimum film lacks more than that, on the
-    grid of the smooth contact. In between it is linear in the film.
+    grid of the smooth contact, whose `least` film it is. In between it is linear in the film.
     """
-    least, central = float(contact.film.min()), contact.central_film
+    central = contact.central_film
     if not contact.extrapolated or least >= central:
         return 0.0
     share = np.clip((central - film) / (central - least), 0.0, 1.0)
