@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 _Array = NDArray[np.float64]
 _Single = NDArray[np.float32]
-_Pairs = NDArray[np.complex64]
 _Indices = NDArray[np.int32]
 
 class _Solver:
@@ -120,24 +119,38 @@ class _Surfaces:
     ) -> tuple[int, bytes]: ...
     def driven_waves(
         self,
-        tile: _Pairs,
+        tile: _Single,
         rows: _Indices,
         columns: _Indices,
         weight: _Single,
         shift: int,
-        total: _Pairs,
+        total: _Single,
     ) -> None: ...
-    def free_waves(
+    def waves_between(
         self,
-        tile: _Pairs,
+        tile: _Single,
         low: _Indices,
         columns: _Indices,
         between: _Single,
         weight: _Single,
-        part: _Single,
-        shift: int,
-        total: _Pairs,
+        total: _Single,
     ) -> None: ...
+    def free_waves(
+        self,
+        tile: _Single,
+        beside: _Single,
+        low: _Indices,
+        columns: _Indices,
+        between: _Single,
+        weight: _Single,
+        expansion: _Single,
+        shift: int,
+        total: _Single,
+    ) -> None: ...
+    def polynomials(
+        self, values: _Single, coefficients: _Single, place: _Indices, total: _Single
+    ) -> None: ...
+    def film_moved(self, *given: _Array | _Indices) -> None: ...
 
 class _Lubricants:
     def oils(self, room: _Indices) -> int: ...

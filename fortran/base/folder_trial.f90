@@ -43,7 +43,9 @@ contains
       if (.not. tried(spare_path(above//"/"//more))) then
          why = "no permission to write into "//above
          if (above == "") why = "no permission to write into /"
-         if (above /= "" .and. .not. file_exists(above//"/.")) why = above//" is not a folder"
+         if (above /= "") then
+            if (.not. file_exists(above//"/.")) why = above//" is not a folder"
+         end if
       end if
       first = len(above) + 2
       do while (why == "" .and. first <= len(path))

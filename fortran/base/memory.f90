@@ -3,8 +3,8 @@
 module ehl_memory
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_kinds, only: dp
+   use ehl_number_text, only: amount_buffer
    use ehl_status, only: ehl_no_memory, status_t
-   use ehl_text, only: fixed, to_text
    implicit none (type, external)
    private
    public :: check_memory, free_bytes, amount
@@ -34,18 +34,6 @@ contains
       character(len=len_trim(amount_buffer(bytes))) :: text
       text = amount_buffer(bytes)
    end function amount
-
-   !> The same with blanks behind it
-   pure function amount_buffer(bytes) result(text)
-      real(dp), intent(in) :: bytes
-      character(len=40) :: text
-
-      if (bytes < 1.0e9_dp) then
-         text = to_text(ceiling(bytes/1.0e6_dp))//" MB"
-      else
-         text = fixed(bytes/1.0e9_dp, "f16.1")//" GB"
-      end if
-   end function amount_buffer
 
    !> Bytes that the machine, the control groups of the process and its address space still have; huge where nobody tells
    real(dp) function free_bytes(root) result(free)

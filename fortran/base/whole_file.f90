@@ -9,7 +9,7 @@ module ehl_whole_file
    private
    public :: read_text, holds_text, write_text, open_to_write, end_writing
 
-   character(len=*), parameter :: byte_order_mark = achar(239)//achar(187)//achar(191)
+   character(len=*), parameter :: byte_order_mark = char(239)//char(187)//char(191)
 
 contains
 

@@ -1,16 +1,16 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Surfaces and the waves of the prediction for Python; for the rules see ehl_f2py_solver. Single precision is enough for the waves.
 module ehl_f2py_surfaces
-   use, intrinsic :: iso_c_binding, only: c_double, c_float, c_float_complex, c_int
+   use, intrinsic :: iso_c_binding, only: c_double, c_float, c_int
    use ehl_fractal, only: fractal_t, make_fractal
    use ehl_handles, only: reply
    use ehl_plan_need, only: making_need
    use ehl_status, only: status_t
    use ehl_tile_filter, only: filter_heights, filter_t
-   use ehl_wave_sum, only: add_driven, add_free
+   use ehl_wave_sum, only: add_between, add_driven, add_free, add_polynomials, moved_film
    implicit none (type, external)
    private
-   public :: making, fractal, filter_tile, driven_waves, free_waves
+   public :: making, fractal, filter_tile, driven_waves, waves_between, free_waves, polynomials, film_moved
 
 contains
 
@@ -59,8 +59,8 @@ contains
 
    !> Driven waves: see add_driven
    subroutine driven_waves(columns_all, points, stations, m, n, tile, rows, columns, weight, shift, total)
-      integer(c_int), intent(in) :: columns_all, points, stations, m, n
-      complex(c_float_complex), intent(inout) :: tile(columns_all, points, stations), total(n, m)
+      integer(c_int), intent(in) :: points, columns_all, stations, m, n
+      real(c_float), intent(inout) :: tile(2, columns_all, points, stations), total(2, n, m)
       real(c_float), intent(inout) :: weight(stations, m)
       integer(c_int), intent(inout) :: rows(m), columns(n)
       integer(c_int), intent(in) :: shift
@@ -69,16 +69,50 @@ contains
       call add_driven(tile, rows, columns, weight, shift, total)
    end subroutine driven_waves
 
+   !> Driven waves between rows: see add_between
+   subroutine waves_between(columns_all, points, stations, m, n, tile, low, columns, between, weight, total)
+      integer(c_int), intent(in) :: points, columns_all, stations, m, n
+      real(c_float), intent(inout) :: tile(2, columns_all, points, stations), total(2, n, m)
+      real(c_float), intent(inout) :: between(m), weight(stations, m)
+      integer(c_int), intent(inout) :: low(m), columns(n)
+      !f2py threadsafe
+
+      call add_between(tile, low, columns, between, weight, total)
+   end subroutine waves_between
+
    !> Free waves: see add_free
-   subroutine free_waves(columns_all, points, stations, m, n, lines, tile, low, columns, between, weight, part, shift, total)
-      integer(c_int), intent(in) :: columns_all, points, stations, m, n, lines
-      complex(c_float_complex), intent(inout) :: tile(columns_all, points, stations), total(n, m)
-      real(c_float), intent(inout) :: weight(stations, m)
+   subroutine free_waves(columns_all, points, stations, m, n, lines, tile, beside, low, columns, between, weight, expansion, &
+                         shift, total)
+      integer(c_int), intent(in) :: points, columns_all, stations, m, n, lines
+      real(c_float), intent(inout) :: tile(2, columns_all, points, stations), total(2, n, m)
+      real(c_float), intent(inout) :: beside(2, n, points)
       integer(c_int), intent(inout) :: low(lines, m), columns(n)
-      real(c_float), intent(inout) :: between(lines, m), part(n)
+      real(c_float), intent(inout) :: between(lines, m), weight(stations, m), expansion(n, m)
       integer(c_int), intent(in) :: shift
       !f2py threadsafe
 
-      call add_free(tile, low, columns, between, weight, part, shift, total)
+      call add_free(tile, beside, low, columns, between, weight, expansion, shift, total)
    end subroutine free_waves
+
+   !> Polynomials of the edge: see add_polynomials
+   subroutine polynomials(points, count, all, values, coefficients, place, total)
+      integer(c_int), intent(in) :: points, count, all
+      real(c_float), intent(inout) :: values(points, count), coefficients(count)
+      integer(c_int), intent(inout) :: place(points)
+      real(c_float), intent(inout) :: total(2, all)
+      !f2py threadsafe
+
+      call add_polynomials(values, coefficients, place, total)
+   end subroutine polynomials
+
+   !> Film with its edge moved: see moved_film
+   subroutine film_moved(nx, ny, points, count, all, smooth, centre, x, y, rim, share, moved, place, film)
+      integer(c_int), intent(in) :: nx, ny, points, count, all
+      real(c_double), intent(inout) :: smooth(ny, nx), centre(2), x(points), y(points), share(2, points), moved(count)
+      integer(c_int), intent(inout) :: rim(points), place(points)
+      real(c_double), intent(inout) :: film(all)
+      !f2py threadsafe
+
+      call moved_film(smooth, centre, x, y, rim, share, moved, place, film)
+   end subroutine film_moved
 end module ehl_f2py_surfaces

@@ -13,12 +13,13 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from pyehl import extension
 from pyehl.prediction.edge import Edge
 from pyehl.prediction.smooth import SmoothContact
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer
 from pyehl.prediction.waves import REFINEMENT, Waves
-from pyehl.prediction.wavy_contact import REACH, WavyContact, add_waves, slipped
+from pyehl.prediction.wavy_contact import REACH, WavyContact, slipped, two_lines
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Array, Single
@@ -49,6 +50,8 @@ class TileOnPoints:
         x, y, across = points
         self.edge, self.track = edge, track
         self.waves = Waves.of(spectrum, transfer, central_film, velocity_ratio, lines=y - track)
+        every = np.arange(y.size, dtype=np.int32)
+        self.beside = self.waves.beside(every, *two_lines(across))
         self.scale = REFINEMENT / spectrum.pixel[0]
         self.places = x[:, np.newaxis]
         lines = across if transfer.bent else np.zeros(1)
@@ -65,9 +68,11 @@ class TileOnPoints:
         """Add loss of film and gain of pressure (m, n, 2) where the tile has moved by a shift."""
         columns = np.arange(contact.y.size, dtype=np.int32)
         driven, free = (self._rows(places - shift) for places in (self.places, self.free_places))
-        add_waves(self.waves.driven, driven, columns, contact.weights, 0, total)
-        contact.add_free(self.waves, free, columns, 0, total)
-        contact.add_edge(total, self.edge.at(shift, self.track))
+        rows, between = driven
+        extension.surface_functions.waves_between(
+            self.waves.driven.T, rows[:, 0], columns, between[:, 0], contact.weights.T, total.T
+        )
+        contact.add_free(self.waves, self.beside, free, columns, 0, total)
 
 
 class PairContact(WavyContact):
@@ -114,11 +119,13 @@ class PairContact(WavyContact):
 
         NaN where the film is not positive.
         """
-        self.moved[:] = 0.0
         total = np.zeros((*self.film.shape, 2), dtype=np.float32)
         for tile, shift in zip(self.tiles, shifts, strict=True):
             tile.add(self, shift, total)
+        shifted = zip(self.tiles, shifts, strict=True)
+        self.add_edge(total, *(tile.edge.at(shift, tile.track) for tile, shift in shifted))
         self.add_second(total)
-        ended = total[..., 0] >= self.ends * self.smooth_film()
+        smooth = self.smooth_film()
+        ended = total[..., 0] >= self.ends * smooth
         self.touching += int(np.count_nonzero(ended & self.inside))
-        return self.sheared(total)
+        return self.sheared(total, smooth)

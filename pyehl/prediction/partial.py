@@ -191,7 +191,7 @@ class _Contact:
         known = friction > 0.0 and o.sliding_speed > 0.0
         self.rubbing = friction * o.hertz_pressure / unit if known else math.nan
         # films that were scaled to the extrapolated central film lack something at the sides
-        self.film = self.rough.film + missing(passage.contact, self.rough.film)
+        self.film = self.rough.film + missing(passage.contact, self.rough.film, self.rough.lowest)
         self.way = self._way()
         self.load = float(self.rough.pressure.sum(where=self.rough.inside))
         self.whole_load = o.load / (o.hertz_pressure * self.rough.area)

@@ -10,7 +10,7 @@ from pyehl import extension
 from pyehl.prediction.edge import Edge
 from pyehl.prediction.smooth import SmoothContact
 from pyehl.prediction.waves import REFINEMENT, Waves
-from pyehl.prediction.wavy_contact import REACH, WavyContact, pairs, slipped
+from pyehl.prediction.wavy_contact import REACH, WavyContact, slipped, two_lines
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Array, Single
@@ -53,6 +53,8 @@ class RoughContact(WavyContact):
         place = (self.x[:, np.newaxis] + way) / pixel[0] * REFINEMENT
         self.free_rows = np.floor(place).astype(np.int32)
         self.between = (place - self.free_rows).astype(np.float32)
+        # of the track that was met last
+        self.beside: dict[int, Single | None] = {}
 
     def change(self, shift: int, track: int = 0) -> Single:
         """Loss of film [a^2/R] and gain of pressure [p_h] at the points, (m, n, 2).
@@ -63,12 +65,16 @@ class RoughContact(WavyContact):
         waves = self.waves
         columns = (self.columns - track) // waves.stride % waves.driven.shape[2]
         columns = columns.astype(np.int32)
-        self.moved[:] = 0.0
+        if track not in self.beside:
+            self.beside = {track: waves.beside(columns, *two_lines(self.across))}
+        beside = self.beside[track]
         total = np.zeros((*self.film.shape, 2), dtype=np.float32)
         extension.surface_functions.driven_waves(
-            pairs(waves.driven), self.rows, columns, self.weights.T, shift, pairs(total)
+            waves.driven.T, self.rows, columns, self.weights.T, shift, total.T
         )
-        self.add_free(waves, (self.free_rows, self.between), columns, shift * REFINEMENT, total)
+        self.add_free(
+            waves, beside, (self.free_rows, self.between), columns, shift * REFINEMENT, total
+        )
         self.add_edge(total, self.edge.at(shift * self.pixel[0], track * self.pixel[1]))
         self.add_second(total)
         return total

@@ -73,20 +73,34 @@ class Spectrum:
         In the precision of both. With `lines`, (ny, n), what :meth:`on_lines` gives, on
         these, (refinement nx, n).
         """
-        nx, _ = self.shape
+        found = self.along(factor, refinement, stride, lines)
+        return np.asarray(np.fft.irfft(found, n=self.shape[0] * refinement).T)
+
+    def along(
+        self,
+        factor: NDArray[np.complexfloating[Any, Any]] | Array,
+        refinement: int = 1,
+        stride: int = 1,
+        lines: NDArray[np.complexfloating[Any, Any]] | None = None,
+    ) -> NDArray[np.complexfloating[Any, Any]]:
+        """Waves along the motion (n, nx//2 + 1) on each column or line of :meth:`tile`.
+
+        In order, as for a transform of refinement nx heights.
+        """
+        nx, ny = self.shape
         part = self.values * factor
         if nx % 2 == 0:
             # the shortest wave of an even number of pixels has no phase of its own
             part[-1] = self.values[-1] * np.real(factor[-1])
             part[-1] *= 0.5 if refinement > 1 else 1.0
         if lines is not None:
-            tile = np.fft.irfft(part @ lines, n=nx * refinement, axis=0)
-            return np.asarray(tile * (refinement / self.shape[1]))
+            return np.asarray((lines.T @ part.T) * (refinement / ny))
         if stride > 1:
             # on every so many-th column waves that differ by its wavenumber are one
             part = part.reshape(part.shape[0], stride, -1).sum(axis=1)
-        tile = np.fft.irfft(np.fft.ifft(part, axis=1), n=nx * refinement, axis=0)
-        return np.asarray(tile * (refinement / stride))
+        across = np.ascontiguousarray(np.fft.ifft(part, axis=1).T)
+        across *= refinement / stride
+        return across
 
     def on_lines(self, y: Array) -> NDArray[np.complexfloating[Any, Any]]:
         """Waves across the motion (ny, n) at places Y (n,) [a], in the precision of the values."""

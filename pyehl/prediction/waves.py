@@ -37,8 +37,9 @@ class Waves:
 
     driven: Single  # over station (n, nx, ny/stride, 2): film, pressure
     free: Single | None  # the same (n, REFINEMENT nx, ny/stride, 2); None without free waves
-    # What is added to the free waves beside the centre line, over line, as `free`
-    off_centre: Single | None
+    # What is added to the free waves beside the centre line, over line, as waves along the motion
+    # (n, 2, ny/stride, nx//2 + 1); None without free waves
+    off_centre: Narrow | None
     stride: int  # every so many-th column of the tile is there
     bent: bool  # as in :class:`Transfer`
 
@@ -78,11 +79,19 @@ class Waves:
         def lit(waves: list[Complex]) -> list[Narrow]:
             return [t.astype(np.complex64) * bright for t in waves]
 
-        def free(waves: list[Complex], pressures: list[Complex]) -> Single:
+        def free(waves: list[Complex], pressures: list[Complex]) -> list[tuple[Narrow, Narrow]]:
             if not pressures:
-                return tiles([(t, -k_free * t) for t in lit(waves)], REFINEMENT)
+                return [(t, -k_free * t) for t in lit(waves)]
             given = [-one for one in lit([gain * p for p in pressures])]
-            return tiles(list(zip(lit(waves), given, strict=True)), REFINEMENT)
+            return list(zip(lit(waves), given, strict=True))
+
+        def off_centre() -> Narrow:
+            return np.array(
+                [
+                    [narrow.along(factor, REFINEMENT, stride, across) for factor in pair]
+                    for pair in free(transfer.off_centre, on_lines)
+                ]
+            )
 
         on_stations: list[Complex] = []
         on_lines: list[Complex] = []
@@ -94,8 +103,23 @@ class Waves:
             driven = [(t * bright, pressure * bright) for t, pressure in driven]
         return cls(
             tiles(driven, 1 if lines is None else REFINEMENT),
-            free(transfer.free, on_stations) if transfer.free else None,
-            free(transfer.off_centre, on_lines) if transfer.off_centre else None,
+            tiles(free(transfer.free, on_stations), REFINEMENT) if transfer.free else None,
+            off_centre() if transfer.off_centre else None,
             stride,
             transfer.bent,
         )
+
+    def beside(
+        self, columns: NDArray[np.int32], line: NDArray[np.int32], part: Single
+    ) -> Single | None:
+        """Free waves that are added on columns beside the centre line (REFINEMENT nx, n, 2).
+
+        Parts (2, n) of lines off the centre and of those after them. None without free waves.
+        """
+        if self.free is None or self.off_centre is None:
+            return None
+        weights = part[..., np.newaxis, np.newaxis]
+        waves = weights[0] * self.off_centre[line, :, columns]
+        waves += weights[1] * self.off_centre[line + 1, :, columns]
+        found = np.fft.irfft(waves, n=self.free.shape[1])
+        return np.ascontiguousarray(found.T.swapaxes(1, 2))

@@ -10,6 +10,7 @@ of the contact, which it moves (:mod:`pyehl.prediction.edge`).
 
 import math
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -48,6 +49,14 @@ def line_weights(y: Array) -> Array:
     return np.stack([np.interp(y, LINES, unit) for unit in lines], axis=-1)
 
 
+def two_lines(y: Array) -> tuple[NDArray[np.int32], Single]:
+    """`line_weights` at places Y (n,): the first of two lines after each other, weights (2, n)."""
+    weights = line_weights(y)
+    first = np.minimum(np.argmax(weights > 0.0, axis=1), weights.shape[1] - 2)
+    both = np.stack([np.take_along_axis(weights, (first + k)[:, np.newaxis], 1) for k in (0, 1)])
+    return first.astype(np.int32), both[..., 0].astype(np.float32)
+
+
 def slipped(x: Array, y: Array, velocity_ratio: float, *, bent: bool) -> Array:
     """Way of the roughness past the free wave since the inlet made that [a].
 
@@ -83,19 +92,20 @@ class WavyContact(ShearedContact):
         self.radius = np.hypot(self.x[:, np.newaxis], self.across[np.newaxis, :])
         self.inside = (self.radius < REACH) & (self.pressure > 0.0)
         self.points = int(np.count_nonzero(self.inside))
-        self.inner, self.near = (self.inside & (self.radius < r) for r in (INNER, NEAR))
-        self.rings = np.searchsorted(RINGS, self.radius[self.inside], side="right") - 1
+        # of the points of the contact alone, in the order of `places`
+        radius = self.radius[self.inside]
+        self.inner, self.near = (radius < r for r in (INNER, NEAR))
+        self.rings = np.searchsorted(RINGS, radius, side="right") - 1
         self.contact, self.moved = contact, np.zeros(RIM_ANGLES.size)
-        self.outer = np.nonzero(self.inside & (self.radius > OUTER))
+        self.outer, self.lowest = self._outer(contact), float(contact.film.min())
         self.least = math.inf
         self.weights = station_weights(self.x).astype(np.float32)
-        self.off = line_weights(self.across).astype(np.float32)
         self.expansion = self._expansion(contact)
-        grid = np.meshgrid(self.x, self.across, indexing="ij")
         # (n, points): what is summed over them is read in order
         edge = max(edges, key=lambda edge: edge.coefficients.shape)
-        shape = edge.coefficients.shape[0], self.film.size
-        self.polynomials = edge.polynomials(*grid).reshape(shape).astype(np.float32)
+        i, j = np.nonzero(self.inside)
+        self.places = np.ravel_multi_index((i, j), self.film.shape).astype(np.int32)
+        self.polynomials = edge.polynomials(self.x[i], self.across[j]).astype(np.float32)
         # Loss of first order over the film at which the film ends
         self.ends = FILM_ENDS if second else 1.0
         # of the pressure of second order
@@ -109,11 +119,12 @@ class WavyContact(ShearedContact):
         axis, _ = contact.at(STATIONS, np.zeros(1))
         made = self.weights @ self.lubricant.density_ratio(axis[:, 0] * p_h)
         here = self.lubricant.density_ratio(np.maximum(self.pressure, 0.0) * p_h)
-        return (made[:, np.newaxis] / here).astype(np.float32)
+        return np.ascontiguousarray(made[:, np.newaxis] / here, dtype=np.float32)
 
     def add_free(
         self,
         waves: Waves,
+        beside: Single | None,
         places: tuple[NDArray[np.int32], Single],
         columns: NDArray[np.int32],
         shift: int,
@@ -122,48 +133,69 @@ class WavyContact(ShearedContact):
         """Add free waves to loss of film and gain of pressure (m, n, 2), moved by some rows.
 
         `places` are the row before each point (m, 1 or n) and the share of the next one; columns
-        (n,).
+        (n,); `beside`: :meth:`Waves.beside`.
         """
-        if waves.free is None or waves.off_centre is None:
+        if waves.free is None or beside is None:
             return
-        free = np.zeros_like(total)
-        add_waves(waves.free, places, columns, self.weights, shift, free)
-        everywhere = np.ones_like(self.weights[:, :1])
-        for tile, part in zip(waves.off_centre, self.off.T, strict=True):
-            # a line counts up to the next ones only
-            counts = np.flatnonzero(part)
-            if not counts.size:
-                continue
-            there = slice(counts[0], counts[-1] + 1)
-            beside = np.zeros((free.shape[0], counts.size, 2), dtype=np.float32)
-            rows, between = places
-            if rows.shape[1] > 1:
-                rows, between = rows[:, there].copy(), between[:, there].copy()
-            here, one = (rows, between), tile[np.newaxis]
-            add_waves(one, here, columns[there], everywhere, shift, beside, part[there].copy())
-            free[:, there] += beside
-        total += free * self.expansion[..., np.newaxis]
+        rows, between = places
+        extension.surface_functions.free_waves(
+            waves.free.T,
+            beside.T,
+            rows.T,
+            columns,
+            between.T,
+            self.weights.T,
+            self.expansion.T,
+            shift,
+            total.T,
+        )
 
-    def add_edge(self, total: Single, edge: tuple[Array, Array]) -> None:
+    def add_edge(self, total: Single, *edges: tuple[Array, Array]) -> None:
         """Add what the edge does to the pressure (:meth:`Edge.at`), keep how far it is moved."""
-        coefficients, moved = edge
-        self.moved += moved
-        if not coefficients.size:
+        coefficients = np.zeros(self.polynomials.shape[0])
+        self.moved[:] = 0.0
+        for found, moved in edges:
+            self.moved += moved
+            if found.size:
+                coefficients += found
+        if not coefficients.any():
             return
-        # threads of a product of matrices cost more than they bring
-        wide = np.einsum("k,kn->n", coefficients.astype(np.float32), self.polynomials)
-        total[..., 1] += wide.reshape(self.film.shape)
+        extension.surface_functions.polynomials(
+            self.polynomials.T,
+            coefficients.astype(np.float32),
+            self.places,
+            total.reshape(-1, 2).T,
+        )
+
+    def _outer(self, contact: SmoothContact) -> tuple[NDArray[Any], ...]:
+        """Points whose film moves with the edge, as `smooth_film` asks for them.
+
+        Film (ny, nx), centre and points in nodes of the smooth contact, the place on the rim before
+        each and the shares of this and the next one over the distance from the centre, and the
+        place of the point.
+        """
+        i, j = np.nonzero(self.inside & (self.radius > OUTER))
+        steps = [axis[1] - axis[0] for axis in (contact.x, contact.y)]
+        centre = np.array([-contact.x[0] / steps[0], -contact.y[0] / steps[1]])
+        count = RIM_ANGLES.size
+        angle = np.arctan2(self.across[j], self.x[i]) * (0.5 * count / math.pi)
+        rim = np.floor(angle)
+        share = np.stack([1.0 - (angle - rim), angle - rim], axis=-1)
+        share /= self.radius[i, j][:, np.newaxis]
+        return (
+            np.asfortranarray(contact.film.T),
+            centre,
+            centre[0] + self.x[i] / steps[0],
+            centre[1] + self.y[j] / steps[1],
+            (rim.astype(np.int32) % count).astype(np.int32),
+            share.T,
+            np.ravel_multi_index((i, j), self.film.shape).astype(np.int32),
+        )
 
     def smooth_film(self) -> Array:
         """Film of the smooth contact with its edge where it was moved to (m, n) [a^2/R]."""
-        film = self.film.copy()
-        i, j = self.outer
-        x, y, radius = self.x[i], self.across[j], self.radius[i, j]
-        count = RIM_ANGLES.size
-        place = np.arctan2(y, x) * (0.5 * count / math.pi)
-        outwards = np.interp(place, np.arange(count), self.moved, period=count)
-        share = 1.0 - outwards / radius
-        film[i, j] = self.contact.film_at(x * share, self.y[j] * share)
+        film, (*points, place) = self.film.copy(), self.outer
+        extension.surface_functions.film_moved(*points, self.moved, place, film.reshape(-1))
         return film
 
     def add_second(self, total: Single) -> None:
@@ -176,78 +208,53 @@ class WavyContact(ShearedContact):
         """Least film over the positions, as it is told [a^2/R]."""
         return self.least if self.thinnest > 0.0 else self.thinnest
 
-    def sheared(self, change: Single) -> float:
+    def sheared(self, change: Single, smooth: Array | None = None) -> float:
         """Friction over that of the smooth contact, film and pressure changed by (m, n, 2).
 
-        NaN where the film is not positive, or a ring of the contact would have to pull.
+        `smooth`: what `smooth_film` gives, if it was asked for. NaN where the film is not positive,
+        or a ring of the contact would have to pull.
         """
-        smooth = self.smooth_film()
-        loss = change[..., 0]
+        # of the points of the contact alone
+        smooth = (self.smooth_film() if smooth is None else smooth).take(self.places)
+        loss, gain = change.reshape(-1, 2).take(self.places, axis=0).T
         film = smooth * film_left(loss / smooth) if self.second else smooth - loss
-        pressure = self.pressure + change[..., 1]
+        pressure = self.pressure.take(self.places) + gain
         self.count += 1
-        imbalance = 1.5 * float(change[..., 1].sum(where=self.inside)) / self.points
+        imbalance = 1.5 * float(gain.sum()) / self.points
         self.imbalance = max(self.imbalance, abs(imbalance))
-        borne = float((self.ends * smooth - loss).min(where=self.inside, initial=math.inf))
+        borne = float((self.ends * smooth - loss).min(initial=math.inf))
         if borne <= 0.0:
             self.thinnest = min(self.thinnest, borne)
             return math.nan
-        self.thinnest = min(self.thinnest, float(film.min(where=self.inside, initial=math.inf)))
-        self.cavitated += int(np.count_nonzero((pressure <= 0.0) & self.inside))
-        # outside nothing is counted: any film and pressure will do
-        film[~self.inside] = math.inf
-        whole = film + missing(self.contact, smooth)
-        self.least = min(self.least, float(whole.min()))
-        self.meet(change[..., 1], pressure, whole, self.inner, self.near)
-        film[~self.inside] = 1.0
-        carried = np.bincount(self.rings, pressure[self.inside], len(RINGS))
-        np.maximum(pressure, 0.0, out=pressure)
-        pushes = np.bincount(self.rings, pressure[self.inside], len(RINGS))
-        if (carried < 0.0).any():
-            self.lost = True
-            return math.nan
-        # what cannot pull leaves less to carry for what is around
-        share = np.divide(carried, pushes, out=np.ones_like(carried), where=pushes > 0.0)
-        pressure[self.inside] *= share[self.rings]
+        self.thinnest = min(self.thinnest, float(film.min(initial=math.inf)))
+        pulling = np.flatnonzero(pressure <= 0.0)
+        self.cavitated += pulling.size
+        whole = film + missing(self.contact, smooth, self.lowest)
+        self.least = min(self.least, float(whole.min(initial=math.inf)))
+        self.meet(gain, pressure, whole, self.inner, self.near)
+        if pulling.size:
+            carried = np.bincount(self.rings, pressure, len(RINGS))
+            pulls = np.bincount(self.rings[pulling], pressure[pulling], len(RINGS))
+            if (carried < 0.0).any():
+                self.lost = True
+                return math.nan
+            pressure[pulling] = 0.0
+            # what cannot pull leaves less to carry for what is around
+            pushes = carried - pulls
+            share = np.divide(carried, pushes, out=np.ones_like(carried), where=pushes > 0.0)
+            pressure *= share[self.rings]
         with np.errstate(over="ignore"):
-            return float(self.stress(pressure, film).sum(where=self.inside)) / self.smooth
+            return float(self.stress(pressure, film).sum()) / self.smooth
 
 
-def missing(contact: SmoothContact, film: Array) -> Array | float:
+def missing(contact: SmoothContact, film: Array, least: float) -> Array | float:
     """Give what films H_s [a^2/R] of a smooth contact lack beside those extrapolated.
 
     They are scaled to the extrapolated central film; the minimum film lacks more than that, on the
-    grid of the smooth contact. In between it is linear in the film.
+    grid of the smooth contact, whose `least` film it is. In between it is linear in the film.
     """
-    least, central = float(contact.film.min()), contact.central_film
+    central = contact.central_film
     if not contact.extrapolated or least >= central:
         return 0.0
     share = np.clip((central - film) / (central - least), 0.0, 1.0)
     return np.asarray((contact.minimum_film - least) * share)
-
-
-def add_waves(
-    tiles: Single,
-    places: tuple[NDArray[np.int32], Single],
-    columns: NDArray[np.int32],
-    weights: Single,
-    shift: int,
-    total: Single,
-    parts: Single | None = None,
-) -> None:
-    """Add tiles (k, rows, columns, 2), moved by some rows, to film and pressure (m, n, 2).
-
-    `places` are the row before each point (m, 1 or n) and the share of the next one, `columns` (n,)
-    those of the tile; weights of the tiles (m, k), parts of each column that are added (n,).
-    """
-    rows, between = places
-    if parts is None:
-        parts = np.ones(columns.size, dtype=np.float32)
-    extension.surface_functions.free_waves(
-        pairs(tiles), rows.T, columns, between.T, weights.T, parts, shift, pairs(total)
-    )
-
-
-def pairs(values: Single) -> NDArray[np.complex64]:
-    """Film and pressure of the last dimension as one number, the dimensions reversed."""
-    return values.view(np.complex64)[..., 0].T

@@ -9,7 +9,7 @@ import pytest
 import scipy.ndimage
 
 import pyehl
-from pyehl.prediction import of_case, second_order
+from pyehl.prediction import of_case, second_order, wavy_contact
 from pyehl.prediction.by_response import RoughPassage
 from pyehl.prediction.errors import KNOWN_RATIO
 from pyehl.prediction.folder import read_contact
@@ -374,7 +374,7 @@ def test_what_cannot_pull_carries_nothing(contact, table_1, monkeypatch):
     found = []
 
     def stress(pressure, film):
-        found.append(pressure[points.inside])
+        found.append(pressure.copy())
         return np.ones_like(film)
 
     monkeypatch.setattr(points, "stress", stress)
@@ -390,6 +390,38 @@ def test_what_cannot_pull_carries_nothing(contact, table_1, monkeypatch):
         assert left[here].sum() == pytest.approx(whole[here].sum(), rel=1e-6)
     outside = points.rings > 0
     assert left[outside] == pytest.approx(whole[outside], rel=1e-6)
+
+
+def test_the_smooth_film_moves_with_the_edge(contact, table_1):
+    """Beyond OUTER a point has the film of a place that is nearer to the centre, or further."""
+    one = passage(contact, table_1(seed=21), 1.01)
+    _, spectrum, transfer, edge = one.parts()
+    points = one._contact(spectrum, transfer, edge)
+    assert points.smooth_film() == pytest.approx(points.film, rel=1e-12)
+    angles = np.linspace(0.0, 2.0 * np.pi, points.moved.size, endpoint=False)
+    points.moved[:] = 0.02 * np.cos(angles) - 0.01 * np.sin(2.0 * angles)
+    x, y = np.meshgrid(points.x, points.y, indexing="ij")
+    outer = points.inside & (points.radius > wavy_contact.OUTER)
+    angle = np.arctan2(y, x)[outer]
+    share = 1.0 - np.interp(angle, angles, points.moved, period=2.0 * np.pi) / points.radius[outer]
+    expected = points.film.copy()
+    expected[outer] = contact.film_at(x[outer] * share, y[outer] * share)
+    assert points.smooth_film() == pytest.approx(expected, rel=1e-9)
+    assert np.abs(expected / points.film - 1.0).max() > 0.05
+
+
+def test_free_waves_beside_the_centre_line(contact, table_1):
+    """Each column has those of the two lines that it is between."""
+    one = passage(contact, table_1(seed=21), 1.3)
+    _, spectrum, transfer, edge = one.parts()
+    points = one._contact(spectrum, transfer, edge)
+    waves = points.waves
+    columns = (points.columns // waves.stride % waves.driven.shape[2]).astype(np.int32)
+    found = waves.beside(columns, *wavy_contact.two_lines(points.across))
+    tiles = np.fft.irfft(waves.off_centre, n=found.shape[0])
+    weights = wavy_contact.line_weights(points.across)
+    expected = np.einsum("jl,lpjr->rjp", weights, tiles[:, :, columns])
+    assert found == pytest.approx(expected, abs=1e-6 * np.abs(expected).max())
 
 
 def test_free_waves_swell_where_the_pressure_is_lower(contact, table_1):
