@@ -114,11 +114,11 @@ contains
          call self%integers("points", g%points, "[17, 4097]", &
                             "nodes along X: odd, points - 1 halved must end even at 32 or less")
          call self%integers("points_y", g%points_y, "0 or [9, 40961]", &
-                            "nodes along Y, halved as often; default points in a round contact, else by the domain")
+                            "nodes along Y, halved as often; default points in a round contact, else by the shape of the cells")
          call self%reals("x_inlet", g%x_inlet, "a", "[-1e4, -1.05]", "inlet boundary X; default by M and L")
          call self%reals("x_outlet", g%x_outlet, "a", "[1.05, 1e4]", "outlet boundary X; default by M and L")
          call self%reals("y_extent", g%y_extent, "a", "[0.03, 1e4]", &
-                         "side boundaries Y = -y_extent and y_extent; default by M and L")
+                         "side boundaries Y = -y_extent and y_extent; default by M, L and the ellipse")
          call self%words("border", g%border, "flooded|zero", &
                          "pressure of a flooded contact, or P = 0; default by M: the former below 500")
          call self%reals("target_error", g%target_error, "-", "0 or [1e-5, 0.1]", &

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from pyehl.bench import deflection, faults, skips, smooth, step, stress, sweep, workprec
+from pyehl.bench import deflection, faults, machines, skips, smooth, step, stress, sweep, workprec
 from pyehl.bench.unit import machine
 from pyehl.commands.arguments import add_force
 from pyehl.commands.bench_arguments import DECLARE
@@ -76,6 +76,16 @@ def _sweep(args: argparse.Namespace, answer: Answer) -> Rows:
 def _skips(args: argparse.Namespace, answer: Answer) -> Rows:
     rows = skips.skip_rows(args.scenes, max(args.points))
     return _print(rows, skips.COLUMNS, skips.MEANING)
+
+
+def _machines(args: argparse.Namespace, answer: Answer) -> Rows:
+    if args.count < 1 or args.seed < 0:
+        raise InputError("pyehl bench machines: count must be 1 or more, seed 0 or more")
+    rows = machines.campaign(args.count, args.seed, fine=args.fine, tell=_tell)
+    found = machines.summary(rows)
+    answer |= {"seed": args.seed, "count": args.count, "fine": args.fine, "summary": found}
+    _print(found, machines.COLUMNS, machines.MEANING)
+    return rows
 
 
 def _stress(args: argparse.Namespace, answer: Answer) -> Rows:
@@ -155,6 +165,7 @@ FILES: dict[str, tuple[str, Callable[..., Rows]]] = {
     "step": ("time of a step of a transient run", _step),
     "sweep": ("cases per core-hour of studies", _sweep),
     "skips": ("what a scene does not need, and what that saves", _skips),
+    "machines": ("smooth contacts of machines: convergence, time, stated errors", _machines),
     "workprec": ("error against processor seconds of all settings", _workprec),
 }
 FOLDERS: dict[str, tuple[str, Callable[..., Rows]]] = {

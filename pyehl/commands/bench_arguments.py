@@ -95,6 +95,14 @@ def _add_skips(parser: argparse.ArgumentParser) -> None:
     _add_scenes(parser, list(skips.SCENES))
 
 
+def _add_machines(parser: argparse.ArgumentParser) -> None:
+    _add_number(parser, "seed", 1)
+    _add_number(parser, "count", 60, "how many contacts, of four kinds in turn")
+    parser.add_argument(
+        "--fine", action="store_true", help="on twice the nodes too, to check the stated errors"
+    )
+
+
 def _add_stress(parser: argparse.ArgumentParser) -> None:
     _add_points(parser, stress_cases.GRIDS)
     _add_number(parser, "cases", 500, "how many")
@@ -132,6 +140,7 @@ DECLARE: dict[str, Callable[[argparse.ArgumentParser], None]] = {
     "step": _add_step,
     "sweep": _add_sweep,
     "skips": _add_skips,
+    "machines": _add_machines,
     "stress": _add_stress,
     "faults": _add_faults,
     "workprec": _add_workprec,

@@ -49,7 +49,7 @@ def test_ball_bearing(root: Path, ehl: str, tmp_path: Path):
     same(texts(page), f"{report(sheet)}\n{run.stdout}")
     found = pyehl.load(tmp_path / "out").attrs
     text = page.read_text(encoding="utf-8")
-    assert f"| solved on 257 × 1633 nodes | {row_of(text)} |" in text
+    assert f"| solved on 257 × 961 nodes | {row_of(text)} |" in text
     unit = found["film_scale_m"] * 1e9
     films = [found[f"{name}_extrapolated"] * unit for name in ("H_c", "H_min")]
     assert f"| {films[0]:.1f} nm | {films[1]:.1f} nm |" in text

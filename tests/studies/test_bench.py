@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""``pyehl bench``: what is skipped, stress, faults, work and precision, on tiny campaigns."""
+"""``pyehl bench`` on tiny campaigns: skips, stress, machines, faults, work and precision."""
 
 import csv
 import json
@@ -14,7 +14,17 @@ import pytest
 from matplotlib.image import imread
 
 import pyehl
-from pyehl.bench import faults_inputs, skips, smooth, step, stress, stress_cases, sweep, workprec
+from pyehl.bench import (
+    faults_inputs,
+    machines,
+    skips,
+    smooth,
+    step,
+    stress,
+    stress_cases,
+    sweep,
+    workprec,
+)
 from pyehl.bench.faults import CASE, damage
 from pyehl.bench.stress import broken, judge_share
 from pyehl.cli import main
@@ -220,6 +230,72 @@ def test_fields_that_break_a_condition_are_seen(tmp_path: Path):
     film = np.load(tmp_path / "c" / "H.npy")
     np.save(tmp_path / "c" / "H.npy", 0.9 * film)
     assert broken(tmp_path / "c").startswith("film of the layer")
+
+
+def test_contacts_of_machines(tmp_path: Path, capsys, monkeypatch):
+    """A handful on a coarse grid: the table, the rows, the ratio to the ball on disc."""
+    monkeypatch.setattr(machines, "SETTINGS", {"solver.threads": 1, "grid.points": 129})
+    words = ["bench", "machines", "--seed", "2", "--count", "4"]
+    assert main([*words, "--fine", "-o", str(tmp_path / "m.json")]) == 0
+    printed = capsys.readouterr()
+    assert "kappa > 4" in printed.out
+    assert "4 of 4: crowned roller" in printed.err
+    answer = json.loads((tmp_path / "m.json").read_text())
+    rows = answer["rows"]
+    assert [row["kind"] for row in rows] == list(machines.KINDS)
+    assert [row["points"] for row in rows] == [129] * 4
+    counts = {row["contacts"]: row for row in answer["summary"]}
+    disc = counts["ball on disc"]
+    assert disc["median_ratio"] == 1.0
+    assert disc["converged"] == disc["checked"] == 1
+    assert counts["all"]["drawn"] == 4
+    assert counts["all"]["largest_seconds"] == max(row["seconds"] for row in rows)
+    (ball,) = (row for row in rows if row["kind"] == "ball on disc")
+    assert ball["points_y"] is None
+    # twice the nodes move the film by about three times the error of the grid
+    assert abs(ball["H_c"] - ball["H_c_fine"]) < 2.0 * ball["H_c_error_grid"]
+    assert main(["bench", "machines", "--count", "0"]) == 2
+    assert "count must be 1 or more" in capsys.readouterr().err
+
+
+def test_contacts_of_machines_have_the_pressure_that_was_drawn():
+    assert machines.draw(4, 1) == machines.draw(8, 1)[:4]
+    for contact in machines.draw(12, 1):
+        case = pyehl.Case.from_text("", dict(contact.values))
+        point = machines.OperatingPoint.from_settings(case.resolve())
+        assert point.hertz_pressure == pytest.approx(contact.pressure, rel=1e-12)
+        assert point.ellipse.ellipticity == pytest.approx(contact.ellipticity, rel=1e-12)
+        assert 0.4e9 < contact.pressure < 3.0e9
+        assert 1.0 <= contact.ellipticity < 31.0
+
+
+def test_contacts_that_are_no_case_are_counted():
+    """The load of number 21 of seed 3 is beyond the largest M."""
+    contact = machines.draw(22, 3)[21]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(machines, "draw", lambda count, seed: [contact] * count)
+        rows = machines.campaign(1, 3, fine=True)
+    assert rows[0]["status"] == machines.REFUSED
+    assert "M between" in rows[0]["message"]
+    whole = machines.summary(rows)[-1]
+    assert (whole["drawn"], whole["converged"]) == (1, 0)
+    assert whole["largest_seconds"] is None
+
+
+def test_stated_errors_that_miss_are_counted():
+    row = {"kind": "gear", "ellipticity": 9.0, "seconds": 2.0, "status": "converged"}
+    row |= {"restarts": 1, "fine_status": "converged"}
+    row |= {"H_c": 1.0, "H_c_error": 0.02, "H_min": 0.5, "H_min_error": 0.02}
+    good = row | {"H_c_fine": 1.01, "H_min_fine": 0.51}
+    bad = row | {"H_c_fine": 1.03, "H_min_fine": 0.51}
+    unknown = row | {"H_c_fine": None, "H_min_fine": None, "fine_status": "diverged"}
+    failed = row | {"H_c": None, "H_min": None, "H_c_fine": None, "H_min_fine": None}
+    failed |= {"status": "diverged", "fine_status": None}
+    wide = machines.summary([good, bad, unknown, failed])[-2]
+    assert wide["contacts"] == "kappa > 4"
+    assert (wide["drawn"], wide["converged"], wide["restarts"]) == (4, 3, 4)
+    assert (wide["checked"], wide["h_c_covered"], wide["h_min_covered"]) == (2, 1, 2)
+    assert wide["median_ratio"] is None
 
 
 def test_mutated_inputs(tmp_path: Path):

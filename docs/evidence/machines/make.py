@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Make the tables of this folder, or print those of the documents.
+
+pyehl bench machines --seed 1 --fine -o seed1.json
+pyehl bench machines --seed 2 -o seed2.json
+pyehl bench machines --seed 3 -o seed3.json
+python docs/evidence/machines/make.py read seed1.json seed2.json seed3.json
+python docs/evidence/machines/make.py sides    sides.csv
+python docs/evidence/machines/make.py show     prints the tables as the documents have them
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+import sys
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from scipy.special import elliprd
+
+import pyehl
+from pyehl.bench.machines import SETTINGS, summary, timed
+
+HERE = Path(__file__).resolve().parent
+COLUMNS = (
+    *("seed", "number", "kind", "law", "ellipticity", "hertz_pressure_Pa", "moes_m", "moes_l"),
+    *("points", "points_y", "status", "restarts", "cycles", "total_cycles", "seconds"),
+    *("H_c", "H_c_error", "H_c_error_grid", "H_min", "H_min_error", "H_min_error_grid"),
+    *("film_scale_m", "fine_status", "H_c_fine", "H_min_fine", "message"),
+)
+WORDS = frozenset(
+    {"kind", "law", "border", "processor", "build", "status", "fine_status", "message"}
+)
+RUNS = ("seed", "count", "fine", "processor", "build")
+# kappa, and M and L by R_x
+POINTS = (
+    (2.2, 1000.0, 10.0),
+    (4.0, 300.0, 12.0),
+    (7.0, 5000.0, 15.0),
+    (12.0, 100.0, 8.0),
+    (18.0, 2000.0, 10.0),
+)
+# Algebraic over discretisation error: what the grids differ by is not that of the cycles
+ACCURACY = 0.005
+SIDES = (
+    *("ellipticity", "moes_m", "moes_l", "points", "points_y", "x_mesh", "y_mesh", "y_extent"),
+    "border",
+    *("H_c", "H_min", "H_c_further", "H_min_further", "H_c_square", "H_min_square"),
+    *("H_c_error_domain", "H_min_error_domain", "seconds", "seconds_further", "seconds_square"),
+)
+
+Row = dict[str, Any]
+
+
+def write(name: str, columns: tuple[str, ...], rows: Iterable[Row]) -> None:
+    """Write a table."""
+    with (HERE / name).open("w", newline="", encoding="utf-8") as stream:
+        writer = csv.DictWriter(stream, columns, extrasaction="ignore", lineterminator="\n")
+        writer.writeheader()
+        for row in rows:
+            writer.writerow({name: _rounded(row.get(name)) for name in columns})
+
+
+def _rounded(value: object) -> object:
+    return f"{value:.6g}" if isinstance(value, float) else value
+
+
+def read(name: str = "contacts.csv") -> list[Row]:
+    """Read a table; None where there is nothing."""
+    with (HERE / name).open(encoding="utf-8", newline="") as stream:
+        return [{k: _value(k, v) for k, v in row.items()} for row in csv.DictReader(stream)]
+
+
+def _value(name: str, text: str) -> float | int | str | None:
+    if name in WORDS or not text:
+        return text or None
+    number = float(text)
+    return int(number) if number.is_integer() and "." not in text else number
+
+
+def collect(files: list[str]) -> None:
+    """Write the contacts and the runs they are from."""
+    answers = [json.loads(Path(file).read_text(encoding="utf-8")) for file in files]
+    rows = [row for answer in answers for row in answer["rows"]]
+    for row in rows:
+        row["law"] = row["values"]["lubricant.shear_law"]
+    write("contacts.csv", COLUMNS, rows)
+    write("runs.csv", RUNS, [answer | answer["machine"] for answer in answers])
+
+
+def measure_sides() -> None:
+    """Solve contacts as by default, with sides half as far again, and with cells half as long."""
+    rows = []
+    for kappa, moes_m, moes_l in POINTS:
+        ratio = float(elliprd(0.0, 1.0, kappa**2) / elliprd(0.0, kappa**2, 1.0))
+        keys = {"contact.radius_ratio": ratio, "contact.moes_m": moes_m, "contact.moes_l": moes_l}
+        keys |= SETTINGS | {"solver.accuracy": ACCURACY}
+        grid = pyehl.Case.from_text("", keys).resolve()["grid"]
+        extent = grid["y_extent"]
+        row = timed(keys)
+        across = row["points_y"] - 1
+        # the same cells, and rows that can be halved
+        rows_further = 64 * math.ceil(1.5 * across / 64)
+        wider = {"grid.y_extent": extent * rows_further / across, "grid.points_y": rows_further + 1}
+        further = timed(keys | wider)
+        square = timed(keys | {"grid.points_y": 2 * across + 1})
+        row |= {"y_extent": extent, "border": grid["border"]}
+        for name in ("H_c", "H_min", "seconds"):
+            row |= {f"{name}_further": further[name], f"{name}_square": square[name]}
+        rows.append(row)
+        print(kappa, row["H_c"], further["H_c"], square["H_c"])
+    write("sides.csv", SIDES, rows)
+
+
+def robustness() -> list[str]:
+    """Table of docs/robustness.md."""
+    lines = [
+        "| contacts | drawn | converged | began again | checked | h_c covered | h_min covered |",
+        "|---|---|---|---|---|---|---|",
+    ]
+    names = ("drawn", "converged", "restarts", "checked", "h_c_covered", "h_min_covered")
+    return lines + [_line(row, [f"{row[name]}" for name in names]) for row in summary(read())]
+
+
+def speed() -> list[str]:
+    """Table of docs/speed.md."""
+    lines = [
+        "| contacts | median | largest | median over that of the ball on disc | largest over it |",
+        "|---|---|---|---|---|",
+    ]
+    for row in summary(read()):
+        times = [f"{row[name]:.2g} s" for name in ("median_seconds", "largest_seconds")]
+        ratios = [f"{row[name]:.1f}" for name in ("median_ratio", "largest_ratio")]
+        lines.append(_line(row, times + ratios))
+    return lines
+
+
+def _line(row: Row, cells: list[str]) -> str:
+    name = row["contacts"].replace("kappa", "κ")
+    return f"| {name} | {' | '.join(cells)} |"
+
+
+def sides() -> list[str]:
+    """Table of docs/theory/coarse-grids.md."""
+    lines = [
+        "| κ | M, L | sides \\|Y\\| ≤ | cells | sides 1.5 times as far: h_c, h_min "
+        "| cells half as long across: h_c, h_min |",
+        "|---|---|---|---|---|---|",
+    ]
+    for row in read("sides.csv"):
+        changes = [
+            ", ".join(f"{_percent(row[name], row[name + end])}" for name in ("H_c", "H_min"))
+            for end in ("_further", "_square")
+        ]
+        kappa = row["ellipticity"]
+        lines.append(
+            f"| {kappa:.3g} | {row['moes_m']:g}, {row['moes_l']:g} "
+            f"| {row['y_extent'] / kappa:.2f} κ | 1 : {row['y_mesh'] / row['x_mesh']:.2f} "
+            f"| {changes[0]} | {changes[1]} |"
+        )
+    return lines
+
+
+def _percent(value: float, other: float) -> str:
+    return f"{100.0 * (other / value - 1.0):+.3f} %"
+
+
+def main(words: list[str]) -> None:
+    """Do what is asked for."""
+    if words[0] == "read":
+        collect(words[1:])
+    elif words[0] == "sides":
+        measure_sides()
+    else:
+        print("\n".join([*robustness(), "", *speed(), "", *sides()]))
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

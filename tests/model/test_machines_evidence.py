@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What documents say of contacts of machines is in docs/evidence/machines."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from pyehl.bench.machines import KINDS, covered, draw, summary
+
+
+@pytest.fixture(scope="module")
+def evidence(script):
+    return script("docs/evidence/machines/make.py")
+
+
+def text_of(root: Path, name: str) -> str:
+    return (root / "docs" / name).read_text(encoding="utf-8")
+
+
+def test_pages_show_the_tables(root: Path, evidence, script):
+    assert "\n".join(evidence.robustness()) in text_of(root, "robustness.md")
+    assert "\n".join(evidence.speed()) in text_of(root, "speed.md")
+    assert "\n".join(evidence.sides()) in text_of(root, "theory/coarse-grids.md")
+    modes = script("docs/evidence/machines/modes.py")
+    assert "\n".join(modes.lines()) in text_of(root, "theory/relaxation.md")
+
+
+def test_the_record_is_of_the_contacts_that_the_command_draws(evidence):
+    rows, runs = evidence.read(), evidence.read("runs.csv")
+    assert len(rows) == sum(run["count"] for run in runs)
+    assert len({run["seed"] for run in runs}) == len(runs) >= 3
+    for run in runs:
+        mine = [row for row in rows if row["seed"] == run["seed"]]
+        drawn = draw(run["count"], run["seed"])
+        assert [row["number"] for row in mine] == list(range(run["count"]))
+        assert [row["kind"] for row in mine] == [contact.kind for contact in drawn]
+        for row, contact in zip(mine, drawn, strict=True):
+            assert row["law"] == contact.values["lubricant.shear_law"]
+            assert row["ellipticity"] == pytest.approx(contact.ellipticity, rel=1e-5)
+            assert row["hertz_pressure_Pa"] == pytest.approx(contact.pressure, rel=1e-5)
+            if row["status"] != "converged":
+                assert row["message"]
+            # only what converged is checked, and all of it
+            is_checked = run["fine"] and row["status"] == "converged"
+            assert (row["fine_status"] is not None) == is_checked
+
+
+def test_what_the_pages_say_of_the_campaign(root: Path, evidence):
+    rows = evidence.read()
+    page = text_of(root, "robustness.md")
+    failed = [row for row in rows if row["status"] != "converged"]
+    assert f"{len(failed)} of {len(rows)} contacts end without a result" in page
+    grid = [covered(row, name, "error_grid") for row in rows for name in ("H_c", "H_min")]
+    checked = [each for each in grid if each is not None]
+    assert f"the part of the grid alone covers {sum(checked)} of {len(checked)} films" in page
+    (disc,) = (row for row in summary(rows) if row["contacts"] == "ball on disc")
+    assert f"ball on disc, {disc['median_seconds']:.2g} s" in text_of(root, "speed.md")
+
+
+def test_sides_and_cells_cost_what_the_page_says(root: Path, evidence):
+    rows = evidence.read("sides.csv")
+    for row in rows:
+        for end in ("_further", "_square"):
+            assert abs(row[f"H_c{end}"] / row["H_c"] - 1.0) < 1e-4 + 1e-9
+            assert abs(row[f"H_min{end}"] / row["H_min"] - 1.0) < 1.4e-3
+    page = text_of(root, "theory/coarse-grids.md")
+    (zero,) = (row for row in rows if row["border"] == "zero")
+    changed = abs(zero["H_c_further"] / zero["H_c"] - 1.0)
+    stated = zero["H_c_error_domain"] / zero["H_c"]
+    words = f"it is {100.0 * stated:.1f} % of h_c, while the sides change it by"
+    assert f"{words} {100.0 * changed:.3f} %" in page
+
+
+def test_pages_have_the_constants_of_the_sources(root: Path):
+    def constant(file: str, name: str) -> float:
+        source = (root / "fortran" / file).read_text(encoding="utf-8")
+        found = re.search(rf"\b{name} = ([\d.]+)", source)
+        assert found, name
+        return float(found[1])
+
+    grids = text_of(root, "theory/coarse-grids.md")
+    assert f"more than {constant('multigrid/ladder.f90', 'long'):g} times as long" in grids
+    assert f"more than {constant('multigrid/ladder.f90', 'most_unknowns'):g} unknowns" in grids
+    assert f"until {constant('case/case_contact.f90', 'few_rows'):g} intervals or fewer" in grids
+    largest = constant("case/case_contact.f90", "largest_ratio")
+    assert f"from 1/4 to {largest:g}:" in text_of(root, "theory/discretisation.md")
+    assert f"up to {largest:g} times as long" in text_of(root, "theory/relaxation.md")
+    cycles = text_of(root, "theory/full-multigrid.md")
+    steady = "steady/steady.f90"
+    assert f"more than {constant(steady, 'stalled'):g} of the residual" in cycles
+    assert f"a residual above {constant(steady, 'most_residual'):g} that has doubled" in cycles
+    assert constant(steady, "undamped_after") == 3.0
+    assert constant(steady, "patience") == 8.0
+    assert constant(steady, "stalls_after") == 5.0
+    assert constant("multigrid/anderson.f90", "depth") == 4.0
+
+
+def test_damping_is_that_of_the_sources(root: Path):
+    source = (root / "fortran/multigrid/cycle.f90").read_text(encoding="utf-8")
+    page = text_of(root, "theory/full-multigrid.md")
+    columns = []
+    for name in ("trust", "sweep", "correction"):
+        found = re.search(rf"damped_{name}\(most_damping\) = (?:full_trust/)?\[([^]]*)\]", source)
+        assert found, name
+        columns.append([float(word.removesuffix("_dp")) for word in found[1].split(", ")])
+    for degree, (trust, sweep, correction) in enumerate(zip(*columns, strict=True), 1):
+        change = "1" if trust == 1.0 else f"1/{trust:g}"
+        assert f"| {degree} | {change} | {sweep:g} | {correction:g} |" in page
+
+
+def test_kinds_come_in_turn():
+    assert [contact.kind for contact in draw(8, 4)] == list(KINDS) * 2
