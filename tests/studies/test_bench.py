@@ -87,7 +87,8 @@ def test_smooth_cases_beside_the_circle(capsys):
     assert films[2] > 1.05 * films[0]
     assert rows[0]["ratio"] == 1.0
     assert rows[1]["ratio"] == pytest.approx(rows[1]["seconds"] / rows[0]["seconds"], rel=1e-12)
-    assert rows[2]["ratio"] < rows[2]["seconds"] / rows[0]["seconds"]
+    # it has no fewer nodes
+    assert rows[2]["ratio"] <= rows[2]["seconds"] / rows[0]["seconds"] * (1.0 + 1e-12)
     assert main(["bench", "smooth", "--cases", "square"]) == 2
     assert "circle, law, ellipse" in capsys.readouterr().err
 
