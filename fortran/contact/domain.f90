@@ -97,7 +97,8 @@ contains
       wide = contact%reach(2)/contact%reach(1)
       side = huge(side)
       if (.not. wide > 1.0_dp) return
-      length = sqrt(2.0_dp*contact%film_formula(point%moes_m, point%moes_l))
+      ! in terms of the half length along the motion, where the bodies have the radius of this curvature
+      length = sqrt(2.0_dp*contact%film_formula(point%moes_m, point%moes_l)*contact%radius)/contact%reach(1)
       side = contact%reach(2)*(beyond_ends + (2.0_dp - beyond_ends)/wide**2)*max(1.0_dp, length/thick_at_ends)
    end function side_of_wide
 

@@ -170,6 +170,8 @@ def test_bodies_make_reduced_radii_and_modulus(ehl: str, tmp_path: Path):
 def test_turned_by_a_right_angle_radii_change_places(solve):
     """The same contact in other words; in between, angles of both signs are mirror images."""
     keys = ROUND | {"grid.points": 129, "grid.border": "zero", "solver.deflection": "fft"}
+    # the whole domain has other coarse grids, and so other algebraic errors
+    keys |= {"solver.accuracy": 0.01}
     radii = {"contact.radius_x": 0.01, "contact.radius_y": 0.03}
     swapped = {"contact.radius_x": 0.03, "contact.radius_y": 0.01}
     straight = solve(None, 129, keys | radii)
