@@ -329,14 +329,14 @@ def test_too_coarse_a_grid_names_one_that_will_do(ehl: str, tmp_path: Path):
 
 @pytest.mark.long
 @pytest.mark.parametrize("moes_l", [5.0, 10.0, 15.0])
-def test_wide_thin_films_begin_again_with_care(solve, moes_l: float):
-    """The first attempt diverges, or goes to and fro; H_c is that of a formula and a finer grid."""
+def test_wide_thin_films_take_cycles_back(solve, moes_l: float):
+    """Full cycles diverge, damped ones do not; nothing begins again. H_c is that of a finer grid."""
     shape = ellipse(RATIO_OF_TEN)
     scale = shape.ellipticity * shape.kernel_ratio**0.25
     point = 1000.0 * scale, moes_l / shape.kernel_ratio**0.75
     done = solve(point, 129, {"contact.radius_ratio": RATIO_OF_TEN})
     assert done.converged
-    assert done["restarts"] == 1
+    assert done["restarts"] == 0
     assert done["cycles"] < 20
     finer = solve(point, 257, {"contact.radius_ratio": RATIO_OF_TEN})
     assert finer.converged
