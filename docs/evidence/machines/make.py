@@ -89,6 +89,7 @@ def collect(files: list[str]) -> None:
     rows = [row for answer in answers for row in answer["rows"]]
     for row in rows:
         row["law"] = row["values"]["lubricant.shear_law"]
+        row["message"] = (row["message"] or "").partition("\n")[0]
     write("contacts.csv", COLUMNS, rows)
     write("runs.csv", RUNS, [answer | answer["machine"] for answer in answers])
 
