@@ -2,11 +2,7 @@
 r"""Make the tables of this folder, or print those of the documents.
 
 pyehl bench machines --seed 1 -o seed1.json
-pyehl bench machines --seed 2 -o seed2.json
-pyehl bench machines --seed 3 -o seed3.json
-pyehl bench machines --seed 4 --count 16 --fine -o seed4.json
-python docs/evidence/machines/make.py read seed1.json seed2.json seed3.json \
-    seed4.json
+python docs/evidence/machines/make.py read seed1.json
 python docs/evidence/machines/make.py sides    sides.csv
 python docs/evidence/machines/make.py show     prints the tables as the documents have them
 """
