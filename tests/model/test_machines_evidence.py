@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from pyehl.bench.machines import KINDS, draw
+from pyehl.bench.machines import KINDS, covered, draw, summary
 
 
 @pytest.fixture(scope="module")
@@ -19,9 +19,63 @@ def text_of(root: Path, name: str) -> str:
 
 
 def test_pages_show_the_tables(root: Path, evidence, script):
+    assert "\n".join(evidence.robustness()) in text_of(root, "robustness.md")
+    assert "\n".join(evidence.speed()) in text_of(root, "speed.md")
     assert "\n".join(evidence.sides()) in text_of(root, "theory/coarse-grids.md")
     modes = script("docs/evidence/machines/modes.py")
     assert "\n".join(modes.lines()) in text_of(root, "theory/relaxation.md")
+
+
+def test_the_record_is_of_the_contacts_that_the_command_draws(evidence):
+    rows, runs = evidence.read(), evidence.read("runs.csv")
+    assert len(rows) == sum(run["count"] for run in runs)
+    assert len({run["seed"] for run in runs}) == len(runs) >= 3
+    for run in runs:
+        mine = [row for row in rows if row["seed"] == run["seed"]]
+        drawn = draw(run["count"], run["seed"])
+        assert [row["number"] for row in mine] == list(range(run["count"]))
+        assert [row["kind"] for row in mine] == [contact.kind for contact in drawn]
+        for row, contact in zip(mine, drawn, strict=True):
+            assert row["law"] == contact.values["lubricant.shear_law"]
+            assert row["ellipticity"] == pytest.approx(contact.ellipticity, rel=1e-5)
+            assert row["hertz_pressure_Pa"] == pytest.approx(contact.pressure, rel=1e-5)
+            if row["status"] != "converged":
+                assert row["message"]
+            # only what converged is checked, and all of it
+            is_checked = run["fine"] and row["status"] == "converged"
+            assert (row["fine_status"] is not None) == is_checked
+
+
+def test_what_the_pages_say_of_the_campaign(root: Path, evidence):
+    rows = evidence.read()
+    page = text_of(root, "robustness.md")
+    failed = [row for row in rows if row["status"] != "converged"]
+    assert f"{len(failed)} of {len(rows)} contacts end without a result" in page
+    grid = [covered(row, name, "error_grid") for row in rows for name in ("H_c", "H_min")]
+    checked = [each for each in grid if each is not None]
+    assert f"the part of the grid alone covers {sum(checked)} of {len(checked)}:" in page
+    for status in ("refused", "cycle limit"):
+        number = sum(row["status"] == status for row in failed)
+        assert f"**{status.capitalize()}**, {number} contacts" in page
+    assert {row["status"] for row in failed} == {"refused", "cycle limit"}
+    (missed,) = (row for row in rows if covered(row, "H_c", "error") is False)
+    assert f"M = {missed['moes_m']:.0f}, L = {missed['moes_l']:.1f}: on {missed['points']}" in page
+    films = {
+        name: (
+            100.0 * abs(missed[f"{name}_fine"] / missed[name] - 1.0),
+            100.0 * missed[f"{name}_error"] / missed[name],
+        )
+        for name in ("H_c", "H_min")
+    }
+    words = "h_c is wrong by {:.1f} % with {:.1f} % stated".format(*films["H_c"])
+    assert f"{words}, h_min by {films['H_min'][0]:.0f} % with {films['H_min'][1]:.0f} %" in page
+    (disc,) = (row for row in summary(rows) if row["contacts"] == "ball on disc")
+    speed = text_of(root, "speed.md")
+    assert f"ball on disc, {disc['median_seconds']:.2g} s" in speed
+    slow = [row for row in rows if (row["seconds"] or 0.0) > 10.0]
+    none = sum(row["status"] != "converged" for row in slow)
+    words = f"{len(slow)} of {len(rows)} contacts take more than 10 s, {none} of them without a"
+    assert words in speed
 
 
 def test_sides_and_cells_cost_what_the_page_says(root: Path, evidence):

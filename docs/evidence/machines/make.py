@@ -2,7 +2,11 @@
 r"""Make the tables of this folder, or print those of the documents.
 
 pyehl bench machines --seed 1 -o seed1.json
-python docs/evidence/machines/make.py read seed1.json
+pyehl bench machines --seed 2 -o seed2.json
+pyehl bench machines --seed 3 -o seed3.json
+pyehl bench machines --seed 4 --count 16 --fine -o seed4.json
+python docs/evidence/machines/make.py read seed1.json seed2.json seed3.json \
+    seed4.json
 python docs/evidence/machines/make.py sides    sides.csv
 python docs/evidence/machines/make.py show     prints the tables as the documents have them
 """
@@ -85,8 +89,10 @@ def collect(files: list[str]) -> None:
     rows = [row for answer in answers for row in answer["rows"]]
     for row in rows:
         row["law"] = row["values"]["lubricant.shear_law"]
+        row["message"] = (row["message"] or "").partition("\n")[0]
     write("contacts.csv", COLUMNS, rows)
-    write("runs.csv", RUNS, [answer | answer["machine"] for answer in answers])
+    runs = [answer | answer["machine"] | {"fine": int(answer["fine"])} for answer in answers]
+    write("runs.csv", RUNS, runs)
 
 
 def measure_sides() -> None:
