@@ -40,15 +40,23 @@ module ehl_steady
    real(dp), parameter :: start_tolerance = 1.0e-3_dp, guess_tolerance = 3.0e-2_dp
    !> Relative algebraic error that a light cycle can be trusted with: where less is wanted it costs a cycle
    real(dp), parameter :: light_error = 3.0e-4_dp
-   !> Cycles after which the changes of a cycle are made larger again, and those in which the residual must halve
-   integer, parameter :: undamped_after = 3, patience = 8
-   !> Cycles of a level that leave more than this share of the residual stall, after so many
-   real(dp), parameter :: stalled = 0.6_dp
-   integer, parameter :: stalls_after = 5
    !> A residual that no state on the way to a solution has, unless the one before it was nearly as large
    real(dp), parameter :: most_residual = 2.0_dp
    !> Cycles that are few: on a level that began from a coarser one, and from the Hertz pressure
    integer, parameter :: few = 2, few_from_guess = 3
+
+   !> What is known of the cycles of a level, to take back what leaves no state of the contact
+   type :: guard_t
+      !> Degree of damping of the next cycle, 0: none; the degree of the last cycle that was taken back, and that which stays
+      integer :: damping = 0, was_damped = 0, lasting = 0
+      !> Cycles made since the degree was changed
+      integer :: since = 0
+      !> State before the last cycle
+      real(dp), allocatable :: p_before(:, :)
+      real(dp) :: h00_before = 0.0_dp
+      !> Residual after the last cycle that was not taken back, and some cycles ago
+      real(dp) :: residual_kept = 0.0_dp, residual_then = huge(1.0_dp)
+   end type guard_t
 
    !> Full multigrid on its way: the state of the iteration is that of level n
    type, extends(iteration_t) :: steady_t
@@ -60,17 +68,9 @@ module ehl_steady
       integer :: outcome = outcome_running
       !> Whether level n has a first approximation, whether cycles are made with care
       logical, private :: entered = .false., careful = .false.
-      !> Whether a cycle that ends in no state of the contact is taken back, and cycles that stall are accelerated; how much
-      !> smaller the changes of the next cycle are, 0: not at all; cycles made since that was changed
+      !> Whether a cycle that ends in no state of the contact is taken back, and cycles that stall are accelerated
       logical, private :: guarded = .false.
-      integer, private :: damping = 0, since = 0, was_damped = 0, lasting = 0
-      !> State before the last cycle
-      real(dp), allocatable, private :: p_before(:, :)
-      real(dp), private :: h00_before = 0.0_dp
-      !> Residual after the last cycle that was not taken back
-      real(dp), private :: residual_kept = 0.0_dp
-      !> Residual some cycles ago
-      real(dp), private :: residual_then = huge(1.0_dp)
+      type(guard_t), private :: guard
       !> Restarts: on a finer grid after a failure on a coarse one, with care after one on the finest
       integer :: restarts = 0
       type(level_result_t), allocatable :: results(:)
@@ -86,6 +86,28 @@ module ehl_steady
       procedure :: may_balance
       procedure :: meets
    end type steady_t
+
+   ! in steady_guard.f90
+   interface
+      !> Begin with the cycles of a level
+      module subroutine begin_guard(self)
+         class(steady_t), intent(inout) :: self
+      end subroutine begin_guard
+
+      !> The state before a cycle
+      module subroutine keep_state(self, level, status)
+         class(steady_t), intent(inout) :: self
+         type(level_t), intent(in) :: level
+         type(status_t), intent(inout) :: status
+      end subroutine keep_state
+
+      !> Take a cycle back that has left no state of the contact, and make smaller changes; accelerate cycles that stall
+      module subroutine guard_cycle(self, hierarchy, status)
+         class(steady_t), intent(inout) :: self
+         type(hierarchy_t), intent(inout) :: hierarchy
+         type(status_t), intent(inout) :: status
+      end subroutine guard_cycle
+   end interface
 
 contains
 
@@ -129,7 +151,7 @@ contains
       self%options = next_cycle(self)
       if (self%guarded) call keep_state(self, hierarchy%levels(self%n), status)
       call self%improve(hierarchy)
-      if (self%guarded) call guard(self, hierarchy, status)
+      if (self%guarded) call guard_cycle(self, hierarchy, status)
       if (status%failed()) return
       finest = self%n == self%how%levels
       associate (result => self%results(self%n))
@@ -151,70 +173,6 @@ contains
          end if
       end associate
    end subroutine advance
-
-   !> The state before a cycle
-   subroutine keep_state(self, level, status)
-      class(steady_t), intent(inout) :: self
-      type(level_t), intent(in) :: level
-      type(status_t), intent(inout) :: status
-      integer :: stat
-
-      if (.not. allocated(self%p_before)) then
-         allocate (self%p_before(level%grid%nx, level%grid%ny), stat=stat)
-         if (stat /= 0) then
-            call status%fail(ehl_no_memory, "no memory for the state before a cycle")
-            return
-         end if
-      end if
-      self%p_before = level%p
-      self%h00_before = level%h00
-   end subroutine keep_state
-
-   !> Take a cycle back that has left no state of the contact, and make smaller changes; accelerate cycles that stall
-   subroutine guard(self, hierarchy, status)
-      class(steady_t), intent(inout) :: self
-      type(hierarchy_t), intent(inout) :: hierarchy
-      type(status_t), intent(inout) :: status
-      logical :: lost
-
-      if (status%failed()) return
-      self%since = self%since + 1
-      lost = any(self%state == [outcome_diverged, outcome_negative_film])
-      if (self%state == outcome_running .and. self%residual > most_residual) lost = self%residual > &
-         most_residual*self%residual_kept
-      if (.not. lost) self%residual_kept = self%residual
-      if (lost) then
-         if (self%damping == most_damping .or. self%cycles >= self%max_cycles) return
-         ! the same amount again would be tried again and again
-         if (self%since == 1 .and. self%was_damped > 0) self%lasting = self%was_damped
-         self%damping = max(self%damping + 1, self%lasting)
-         self%was_damped = self%damping
-         self%since = 0
-         call hierarchy%forget()
-         associate (level => hierarchy%levels(self%n))
-            level%p = self%p_before
-            level%h00 = self%h00_before
-            call refresh(level)
-            self%m = measure(level)
-         end associate
-         self%residual = self%residual_kept
-         self%state = outcome_running
-         call self%mixing%finish()
-      else if (self%damping > self%lasting .and. self%since >= undamped_after) then
-         self%damping = self%damping - 1
-         self%since = 0
-      else if (self%state == outcome_running .and. mod(self%cycles, patience) == 0) then
-         if (self%residual > 0.5_dp*self%residual_then .and. self%damping < most_damping) then
-            self%damping = self%damping + 1
-            self%lasting = self%damping
-            self%since = 0
-            call self%mixing%finish()
-         end if
-         self%residual_then = self%residual
-      end if
-      if (self%state /= outcome_running .or. self%cycles < stalls_after) return
-      if (self%stall > stalled) call self%mixing%begin(hierarchy%levels(self%n), status)
-   end subroutine guard
 
    !> Begin on level n: from the solution on the next coarser one, or from the Hertz pressure
    subroutine enter_level(self, hierarchy, status)
@@ -249,13 +207,7 @@ contains
       self%cycles = 0
       self%residual = 0.0_dp
       self%entered = .true.
-      self%damping = self%lasting
-      self%since = 0
-      self%was_damped = 0
-      self%residual_then = huge(1.0_dp)
-      self%residual_kept = 0.0_dp
-      call self%mixing%finish()
-      if (allocated(self%p_before)) deallocate (self%p_before)
+      call begin_guard(self)
    end subroutine enter_level
 
    !> Algebraic errors by the change of the films
@@ -331,8 +283,8 @@ contains
 
       options = self%how%cycle
       if (self%careful) options = careful_cycle(options)
-      if (self%damping > 0) options = damped_cycle(self%how%cycle, self%damping)
-      if (self%careful .or. self%damping > 0 .or. self%how%second_cycle%full .eqv. self%how%cycle%full) return
+      if (self%guard%damping > 0) options = damped_cycle(self%how%cycle, self%guard%damping)
+      if (self%careful .or. self%guard%damping > 0 .or. self%how%second_cycle%full .eqv. self%how%cycle%full) return
       if (.not. has_coarser(self) .or. self%cycles /= 1) return
       if (any(wanted(self) < light_error*self%m%films())) return
       options = self%how%second_cycle

@@ -1,0 +1,77 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Cycles that are taken back, damped and accelerated (docs/theory/full-multigrid.md)
+submodule (ehl_steady) ehl_steady_guard
+   implicit none (type, external)
+
+   !> Cycles after which the changes of a cycle are made larger again, and those in which the residual must halve
+   integer, parameter :: undamped_after = 3, patience = 8
+   !> Cycles of a level that leave more than this share of the residual stall, after so many
+   real(dp), parameter :: stalled = 0.6_dp
+   integer, parameter :: stalls_after = 5
+
+contains
+
+   module procedure begin_guard
+      associate (lasting => self%guard%lasting)
+         self%guard = guard_t(damping=lasting, lasting=lasting)
+      end associate
+      call self%mixing%finish()
+   end procedure begin_guard
+
+   module procedure keep_state
+      integer :: stat
+
+      if (.not. allocated(self%guard%p_before)) then
+         allocate (self%guard%p_before(level%grid%nx, level%grid%ny), stat=stat)
+         if (stat /= 0) then
+            call status%fail(ehl_no_memory, "no memory for the state before a cycle")
+            return
+         end if
+      end if
+      self%guard%p_before = level%p
+      self%guard%h00_before = level%h00
+   end procedure keep_state
+
+   module procedure guard_cycle
+      logical :: lost
+
+      if (status%failed()) return
+      associate (guard => self%guard)
+         guard%since = guard%since + 1
+         lost = any(self%state == [outcome_diverged, outcome_negative_film])
+         if (self%state == outcome_running) lost = self%residual > most_residual*max(1.0_dp, guard%residual_kept)
+         if (.not. lost) guard%residual_kept = self%residual
+         if (lost) then
+            if (guard%damping == most_damping .or. self%cycles >= self%max_cycles) return
+            ! the same amount again would be tried again and again
+            if (guard%since == 1 .and. guard%was_damped > 0) guard%lasting = guard%was_damped
+            guard%damping = max(guard%damping + 1, guard%lasting)
+            guard%was_damped = guard%damping
+            guard%since = 0
+            call hierarchy%forget()
+            associate (level => hierarchy%levels(self%n))
+               level%p = guard%p_before
+               level%h00 = guard%h00_before
+               call refresh(level)
+               self%m = measure(level)
+            end associate
+            self%residual = guard%residual_kept
+            self%state = outcome_running
+            call self%mixing%finish()
+         else if (guard%damping > guard%lasting .and. guard%since >= undamped_after) then
+            guard%damping = guard%damping - 1
+            guard%since = 0
+         else if (self%state == outcome_running .and. mod(self%cycles, patience) == 0) then
+            if (self%residual > 0.5_dp*guard%residual_then .and. guard%damping < most_damping) then
+               guard%damping = guard%damping + 1
+               guard%lasting = guard%damping
+               guard%since = 0
+               call self%mixing%finish()
+            end if
+            guard%residual_then = self%residual
+         end if
+      end associate
+      if (self%state /= outcome_running .or. self%cycles < stalls_after) return
+      if (self%stall > stalled) call self%mixing%begin(hierarchy%levels(self%n), status)
+   end procedure guard_cycle
+end submodule ehl_steady_guard
