@@ -284,7 +284,8 @@ contains
       options = self%how%cycle
       if (self%careful) options = careful_cycle(options)
       if (self%guard%damping > 0) options = damped_cycle(self%how%cycle, self%guard%damping)
-      if (self%careful .or. self%guard%damping > 0 .or. self%how%second_cycle%full .eqv. self%how%cycle%full) return
+      if (self%careful .or. self%guard%damping > 0) return
+      if (self%how%second_cycle%full .eqv. self%how%cycle%full) return
       if (.not. has_coarser(self) .or. self%cycles /= 1) return
       if (any(wanted(self) < light_error*self%m%films())) return
       options = self%how%second_cycle
