@@ -103,7 +103,7 @@ contains
       class(grid_t), intent(in) :: self
       type(grid_t) :: grid
 
-      grid = grid_t((self%nx + 1)/2, (self%ny + 1)/2, self%x0, self%y0, 2.0_dp*self%hx, 2.0_dp*self%hy, self%mirror)
+      grid = self%coarsened([2, 2])
    end function coarser
 
    !> The grid of every step-th node along X and along Y, steps of 1 or 2

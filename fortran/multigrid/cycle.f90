@@ -76,7 +76,7 @@ contains
 
    !> One cycle with level n as the finest. Film and coefficients are up to date before and after.
    subroutine finest_cycle(levels, spaces, coarsenings, below, n, coarsest, options, residual)
-      !> Coarsest level first
+      !> As hierarchy_t has them
       type(level_t), intent(inout) :: levels(:)
       type(workspace_t), intent(inout) :: spaces(:)
       !> Operator-dependent transfer between each level and the next coarser one
@@ -146,7 +146,7 @@ contains
       type(cycle_options_t), intent(in) :: options
       type(cycle_options_t) :: coarser, v
       real(dp) :: rms
-      integer :: k, m, visits
+      integer :: k, m
 
       m = below(n)
       coarser = options
@@ -157,11 +157,10 @@ contains
       call sweep(levels(n), spaces(n), options%pre, options%trust, options%sweep_share)
       call update_residual(levels(n), rms)
       call restrict_problem(levels(n), levels(m), spaces(m), coarsenings(n), options%coarsening)
-      ! what is solved directly, or has half as many nodes rather than a quarter, is visited once
-      visits = options%gamma
-      if (below(m) == 0) visits = 1
-      do k = 1, visits
+      do k = 1, options%gamma
          call fas_cycle(levels, spaces, coarsenings, below, m, coarsest, coarser)
+         ! solved directly
+         if (below(m) == 0) exit
       end do
       if (options%full .and. below(m) > 0) then
          v = coarser
@@ -171,12 +170,6 @@ contains
       call correct(levels(n), levels(m), spaces(m), coarsenings(n)%transfer, options%coarsening, options%correction_share)
       call update_coefficients(levels(n))
    end subroutine visit_coarser
-
-   !> Whether a coarser level has half as many nodes, rather than a quarter
-   pure logical function is_halved(fine, coarse)
-      type(level_t), intent(in) :: fine, coarse
-      is_halved = any(fine%grid%intervals() == coarse%grid%intervals())
-   end function is_halved
 
    !> First approximation on a finer level: cubic interpolation of the coarse pressure and its deflection
    subroutine prolong_solution(coarse, fine)

@@ -124,18 +124,14 @@ contains
    end subroutine set_up
 
    !> Allocate what time steps need, and discretise wedge and squeeze terms for them
-   subroutine prepare_steps(self, n, scheme, time_step, status)
+   subroutine prepare_steps(self, scheme, time_step, status)
       class(hierarchy_t), intent(inout) :: self
-      !> Finest level
-      integer, intent(in) :: n
       !> wedge_narrow or wedge_separate, of ehl_wedge
       integer, intent(in) :: scheme
       real(dp), intent(in) :: time_step
       type(status_t), intent(inout) :: status
       integer :: k
 
-      associate (unused => n)
-      end associate
       do k = 1, size(self%levels)
          if (.not. allocated(self%levels(k)%p)) cycle
          call self%spaces(k)%prepare_steps(status)

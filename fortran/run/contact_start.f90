@@ -20,7 +20,7 @@ contains
          if (status%failed()) return
          if (plan%predicted_start) call begin_filled(self, n, status)
          if (status%failed()) return
-         call self%hierarchy%prepare_steps(n, plan%scheme, transient%time_step, status)
+         call self%hierarchy%prepare_steps(plan%scheme, transient%time_step, status)
       end associate
       if (status%failed()) return
       self%in_steps = .true.
