@@ -7,6 +7,7 @@
 !>
 !> where j runs over the last few cycles. A mixed state that has the larger residual is dropped, and the history with it.
 module ehl_anderson
+   use ehl_dense_lu, only: back_substitute, factor
    use ehl_film, only: refresh
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
@@ -19,8 +20,6 @@ module ehl_anderson
 
    !> Differences that are kept
    integer, parameter :: depth = 4
-   !> Residual of a mixed state over that of the cycle alone, at the most
-   real(dp), parameter :: most_growth = 1.0_dp
    !> Share of the diagonal of the normal equations that keeps them regular
    real(dp), parameter :: regular = 1.0e-12_dp
 
@@ -115,7 +114,7 @@ contains
       level%h00 = h00
       call refresh(level)
       call update_residual(level, mixed)
-      if (mixed <= most_growth*residual) then
+      if (mixed <= residual) then
          residual = mixed
          return
       end if
@@ -130,8 +129,8 @@ contains
    pure function least_squares(self, columns) result(weights)
       type(anderson_t), intent(in) :: self
       integer, intent(in) :: columns
-      real(dp) :: weights(columns), a(columns, columns), factor
-      integer :: j, k
+      real(dp) :: weights(columns), a(columns, columns)
+      integer :: j, k, pivot(columns)
 
       do k = 1, columns
          do j = 1, k
@@ -143,16 +142,7 @@ contains
       do k = 1, columns
          a(k, k) = a(k, k)*(1.0_dp + regular) + tiny(1.0_dp)
       end do
-      ! elimination of a symmetric positive matrix
-      do k = 1, columns - 1
-         do j = k + 1, columns
-            factor = a(j, k)/a(k, k)
-            a(j, k:) = a(j, k:) - factor*a(k, k:)
-            weights(j) = weights(j) - factor*weights(k)
-         end do
-      end do
-      do k = columns, 1, -1
-         weights(k) = (weights(k) - dot_product(a(k, k + 1:), weights(k + 1:)))/a(k, k)
-      end do
+      call factor(a, pivot)
+      call back_substitute(a, pivot, weights)
    end function least_squares
 end module ehl_anderson
