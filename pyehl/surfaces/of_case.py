@@ -89,7 +89,6 @@ def whole(settings: Settings, operating: OperatingPoint, film: float) -> Topogra
     surface = settings["surface"]
     kind = str(surface["kind"])
     if kind == "fractal":
-        surface = {"lay_ratio": 1.0, **surface}
         if int(surface["pixels"]) ** 2 > KEPT_PIXELS:
             return _fractal(surface)
         return _kept_fractal(*(surface[key] for key in FRACTAL))
