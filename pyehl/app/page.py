@@ -45,7 +45,6 @@ class Page:
         self.pictures = Pictures()
         self.layout = Layout(self, self.pictures, start)
         self._shown = 0
-        # whether pictures of a rough contact are shown
         # what is shown of both contacts
         self._rough: Rough | None = None
         self._film: Film | None = None

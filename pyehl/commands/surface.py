@@ -18,8 +18,9 @@ from pyehl.errors import FileError, InputError
 from pyehl.surfaces import FEATURES, Topography, from_settings
 from pyehl.surfaces.areal import AREAL_NAMES, areal_numbers
 from pyehl.surfaces.in_memory import READY
+from pyehl.surfaces.of_case import profile_of
 from pyehl.surfaces.profile import fit
-from pyehl.surfaces.profile_file import is_profile, read_profile
+from pyehl.surfaces.profile_file import is_profile
 from pyehl.surfaces.writing import SUFFIXES, write_map
 from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
@@ -70,8 +71,12 @@ def execute(args: argparse.Namespace) -> int:
     settings = case.resolve()
     kind = settings["surface"]["kind"]
     if kind == "map":
-        print_spectrum(settings["surface"], asked=not is_case)
-        if not is_case and is_bare_profile(settings["surface"]):
+        how = str(settings["surface"]["profile"])
+        # a profile, and no key says what surface is to be made of it
+        bare = how == "none" and not is_case and is_profile(settings["surface"]["file"])
+        if bare or how != "none":
+            print_spectrum(settings["surface"])
+        if bare:
             return 0
     if kind in ("smooth", *FEATURES):
         group = "second_surface" if args.second else "surface"
@@ -106,21 +111,10 @@ def execute(args: argparse.Namespace) -> int:
     return 0
 
 
-def is_bare_profile(surface: Mapping[str, Any]) -> bool:
-    """Whether the file is a profile, and no key says what surface is to be made of it."""
-    return surface["profile"] == "none" and is_profile(surface["file"])
-
-
-def print_spectrum(surface: Mapping[str, Any], *, asked: bool) -> None:
-    """Print what a profile says of the surface."""
-    how = str(surface["profile"])
-    if how == "none" and not (asked and is_profile(surface["file"])):
-        return
-    unit = str(surface["height_unit"])
-    profile = read_profile(
-        surface["file"], float(surface["length_x"]) or None, unit if unit != "m" else None
-    )
-    found = fit(profile, str(surface["detrend"]), ridges=how == "ridges")
+def print_spectrum(surface: Mapping[str, Any]) -> None:
+    """Print what the profile of the group ``surface`` says of the surface."""
+    ridges = surface["profile"] == "ridges"
+    found = fit(profile_of(surface), str(surface["detrend"]), ridges=ridges)
     print("\n".join(found.report()))
 
 

@@ -188,15 +188,13 @@ def _spectra(
     about: Mapping[str, Any], arrays: Mapping[str, Array], prefix: str, title: str
 ) -> Figure:
     """Draw heights and spectra of the rough surface whose names begin with a prefix."""
-    size = about[f"{prefix}length_x_m"], about[f"{prefix}length_y_m"]
-    tile = Topography(arrays[f"{prefix}surface"], size, about[f"{prefix}surface"])
-    deformed = arrays[f"{prefix}deformed"]
+    tile, deformed = _tile(about, arrays, prefix), arrays[f"{prefix}deformed"]
     figure = panels(3, (11.6, 3.2), title, room=(0.8, 1.9, 0.8))
     first, second, third = figure.axes
     third.set_box_aspect(1.0)
     surface.heights(tile, ax=first)
     surface.spectrum_map(tile, ax=second)
-    flattened = _flattened(about, Topography(arrays[f"{prefix}delta_p"], size))
+    flattened = _flattened(about, Topography(arrays[f"{prefix}delta_p"], tile.size))
     surface.spectrum_line(tile, deformed, flattened, ax=third)
     figure.axes[-1].set_box_aspect(1.0)
     return figure
@@ -206,9 +204,7 @@ def _roughness(
     about: Mapping[str, Any], arrays: Mapping[str, Array], prefix: str, title: str
 ) -> Figure:
     """Draw the rough surface whose names begin with a prefix inside the contact."""
-    size = about[f"{prefix}length_x_m"], about[f"{prefix}length_y_m"]
-    tile = Topography(arrays[f"{prefix}surface"], size, about[f"{prefix}surface"])
-    deformed = arrays[f"{prefix}deformed"]
+    tile, deformed = _tile(about, arrays, prefix), arrays[f"{prefix}deformed"]
     figure = panels(2, (7.2, 3.4), title, sharey=True, room=(0.75, 0.35, 1.15))
     for ax, values, name in zip(
         list(figure.axes),
@@ -221,6 +217,12 @@ def _roughness(
         surface.roughness(tile, values, a, name=name, bar=last, ellipticity=kappa, ax=ax)
     no_second_label(figure.axes[1])
     return figure
+
+
+def _tile(about: Mapping[str, Any], arrays: Mapping[str, Array], prefix: str) -> Topography:
+    """Return the undeformed surface whose names begin with a prefix."""
+    size = about[f"{prefix}length_x_m"], about[f"{prefix}length_y_m"]
+    return Topography(arrays[f"{prefix}surface"], size, about[f"{prefix}surface"])
 
 
 def _flattened(about: Mapping[str, Any], tile: Topography) -> Array:

@@ -66,12 +66,6 @@ class SmoothContact:
             return 1.0
         return float((self.central_film / self.newtonian.central_film) ** THINNING_POWER)
 
-    def film_at(self, x: Array, y: Array) -> Array:
-        """H at places (n,)."""
-        (i, u), (j, v) = _linear(x, self.x), _linear(y, self.y)
-        near, far = (self.film[i, k] * (1.0 - u) + self.film[i + 1, k] * u for k in (j, j + 1))
-        return np.asarray(near * (1.0 - v) + far * v)
-
     def at(self, x: Array, y: Array) -> tuple[Array, Array]:
         """P and H on the grid of places x (m,) and y (n,), both (m, n); outside P is zero."""
         rows, columns = _linear(x, self.x), _linear(y, self.y)

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from pyehl.surfaces.holes import MAD_TO_SIGMA
 from pyehl.types import Array
 
-MAD_TO_SIGMA = 1.482602218505602
 SAMPLES = 512
 """Points of a line, at the most, that its offset is told by."""
 

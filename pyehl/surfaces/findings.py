@@ -12,7 +12,8 @@ import numpy as np
 
 from pyehl import lengths
 from pyehl.errors import InputError
-from pyehl.surfaces.finding import MAD_TO_SIGMA, SAMPLES, Finding, line_steps
+from pyehl.surfaces.finding import SAMPLES, Finding, line_steps
+from pyehl.surfaces.holes import MAD_TO_SIGMA
 from pyehl.surfaces.levelling import DEGREES, level
 from pyehl.surfaces.local_findings import dust, stitching
 from pyehl.types import Array
@@ -46,7 +47,7 @@ def find(
     """
     found = [
         _form(heights, pixel, taken, periodic=periodic),
-        *(_lines(heights, pixel, axis) for axis in (0, 1)),
+        *(_lines(heights, axis) for axis in (0, 1)),
     ]
     # a form, or offsets of all lines, would hide what is small
     rest = heights
@@ -103,7 +104,7 @@ def _even(z: Array, form: Array, what: str) -> bool:
     for axis in (0, 1):
         across, bare = z.mean(axis=1 - axis), form.mean(axis=1 - axis)
         n = across.size
-        if n < 4 * degree + 4 or float(np.ptp(bare)) < 0.5 * float(np.ptp(form)) / 2.0:
+        if n < 4 * degree + 4 or float(np.ptp(bare)) < 0.25 * float(np.ptp(form)):
             continue
         x = np.linspace(-1.0, 1.0, n)
         whole = float(np.polyfit(x, bare, degree)[0])
@@ -156,7 +157,7 @@ def _percent(share: float) -> str:
     return f"{100.0 * share:.1f} %" if share < 0.9995 else "nearly all"
 
 
-def _lines(z: Array, pixel: tuple[float, float], axis: int) -> Finding | None:
+def _lines(z: Array, axis: int) -> Finding | None:
     """Lines that lie at heights of their own: of a scan along the other axis."""
     (steps,), scatter = line_steps(z, axis)
     size = float(np.sqrt(np.mean(np.square(steps))))
@@ -171,12 +172,8 @@ def _lines(z: Array, pixel: tuple[float, float], axis: int) -> Finding | None:
     if not square > 0.0 or float(np.dot(about[:-1], about[1:])) / square > INDEPENDENT:
         return None
     along = "yx"[axis]
-    return Finding(
-        "line offsets",
-        f"lines along {along} lie {lengths.length(size / math.sqrt(2.0))} rms above or below "
-        f"each other, {size / scatter:.1f} times what the surface changes from one to the next"
-        if scatter > 0.0
-        else f"lines along {along} lie {lengths.length(size / math.sqrt(2.0))} rms above or below "
-        "each other",
-        f"surface.align_lines={along}",
-    )
+    words = f"lines along {along} lie {lengths.length(size / math.sqrt(2.0))} rms above or below "
+    words += "each other"
+    if scatter > 0.0:
+        words += f", {size / scatter:.1f} times what the surface changes from one to the next"
+    return Finding("line offsets", words, f"surface.align_lines={along}")

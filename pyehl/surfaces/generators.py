@@ -56,6 +56,7 @@ def fractal(
     lengths = {"rms_height": rms_height, "length_x": length_x, "length_y": length_y}
     for name, value in lengths.items():
         positive(name, value, "m")
+    positive("lay_ratio", lay_ratio, "-")
     if seed < 0:
         raise InputError(f"seed must not be negative, not {seed!r}")
     if modulus not in ("deterministic", "gaussian"):
@@ -77,7 +78,6 @@ def fractal(
         int(modulus == "gaussian"),
     )
     check(status, message)
-    positive("lay_ratio", lay_ratio, "-")
     origin = f"fractal, hurst {hurst:g}, seed {seed}, {modulus} modulus"
     return Topography(z, (length_x, length_y), origin, seed)
 

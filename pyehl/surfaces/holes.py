@@ -100,7 +100,7 @@ def _where(missing: Mask, pixel: tuple[float, float], corner: tuple[float, float
             for k, name in enumerate("xy")
             for end, at in (("min", good[2 * k]), ("max", good[2 * k + 1]))
         ]
-        i, j, m, n = good[0], good[1], good[2], good[3]
+        i, j, m, n = good
         lost = 100 * count[i:j, m:n].sum() / area[i:j, m:n].sum()
         of_all = 100 * area[i:j, m:n].sum() / missing.size
         text = (

@@ -8,7 +8,8 @@ import numpy as np
 import scipy
 
 from pyehl import lengths
-from pyehl.surfaces.finding import MAD_TO_SIGMA, SAMPLES, Finding, line_steps
+from pyehl.surfaces.finding import SAMPLES, Finding, line_steps
+from pyehl.surfaces.holes import MAD_TO_SIGMA
 from pyehl.types import Array, Mask
 
 STEP, BROAD, ABOVE, FEW = 12.0, 6.0, 3.0, 4

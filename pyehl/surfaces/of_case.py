@@ -16,7 +16,7 @@ from pyehl.surfaces.memory import PREDICTION_COPIES, check_pixels
 from pyehl.surfaces.options import NEUTRAL, Options
 from pyehl.surfaces.prepare import prepare
 from pyehl.surfaces.profile import scan_of_profile
-from pyehl.surfaces.profile_file import is_profile
+from pyehl.surfaces.profile_file import Profile, is_profile, read_profile
 from pyehl.surfaces.reading import Scan, read_scan
 from pyehl.surfaces.tile import Topography
 from pyehl.theory.operating import OperatingPoint
@@ -89,7 +89,6 @@ def whole(settings: Settings, operating: OperatingPoint, film: float) -> Topogra
     surface = settings["surface"]
     kind = str(surface["kind"])
     if kind == "fractal":
-        surface = {"lay_ratio": 1.0, **surface}
         if int(surface["pixels"]) ** 2 > KEPT_PIXELS:
             return _fractal(surface)
         return _kept_fractal(*(surface[key] for key in FRACTAL))
@@ -160,27 +159,21 @@ def _fractal(surface: Mapping[str, Any]) -> Topography:
 def scan_of(surface: Mapping[str, Any]) -> Scan:
     """Read the map of the group ``surface``, or its profile; a length of 0 is that of the file."""
     path, how = str(surface["file"]), str(surface.get("profile", "none"))
-    length_x = float(surface.get("length_x", 0.0)) or None
-    unit = str(surface.get("height_unit", "m"))
     if how != "none":
         return scan_of_profile(
-            path,
+            profile_of(surface),
             how,
-            length=length_x,
-            # nobody types m for a profile of micrometres
-            height_unit=unit if unit != "m" else None,
             detrend=str(surface.get("detrend", "auto")),
             pixels=int(surface.get("pixels", 256)),
             seed=int(surface.get("seed", 1)),
         )
-    length_y = float(surface.get("length_y", 0.0)) or None
     try:
         return read_scan(
             path,
-            length_x,
-            length_y,
+            float(surface.get("length_x", 0.0)) or None,
+            float(surface.get("length_y", 0.0)) or None,
             str(surface.get("channel", "")),
-            unit,
+            str(surface.get("height_unit", "m")),
             str(surface.get("lateral_unit", "same")),
         )
     except InputError as error:
@@ -191,6 +184,17 @@ def scan_of(surface: Mapping[str, Any]) -> Scan:
             "surface.profile = 'isotropic' (a surface of its spectrum) or 'ridges' (it extended "
             f"across, as by a lay); 'pyehl surface {path}' tells its spectrum"
         ) from error
+
+
+def profile_of(surface: Mapping[str, Any]) -> Profile:
+    """Read the profile of the group ``surface``; a length of 0 is that of the file."""
+    unit = str(surface.get("height_unit", "m"))
+    return read_profile(
+        str(surface["file"]),
+        float(surface.get("length_x", 0.0)) or None,
+        # nobody types m for a profile of micrometres
+        unit if unit != "m" else None,
+    )
 
 
 def tile_of(scan: Scan, options: Options = NEUTRAL) -> Topography:

@@ -17,7 +17,7 @@ import scipy
 from pyehl import lengths
 from pyehl.errors import InputError
 from pyehl.surfaces.generators import fractal
-from pyehl.surfaces.profile_file import Profile, read_profile
+from pyehl.surfaces.profile_file import Profile
 from pyehl.surfaces.reading import Scan
 from pyehl.types import Array, Mask
 
@@ -185,28 +185,20 @@ def _errors(negative: Callable[[Array], float], at: Array) -> Array:
 
 
 def scan_of_profile(
-    path: str,
-    how: str,
-    *,
-    length: float | None = None,
-    height_unit: str | None = None,
-    detrend: str = "auto",
-    pixels: int = 256,
-    seed: int = 1,
+    profile: Profile, how: str, *, detrend: str = "auto", pixels: int = 256, seed: int = 1
 ) -> Scan:
     """Make a map of a profile: 'isotropic', of its spectrum, or 'ridges', itself extended across.
 
     The isotropic one is a periodic square as long as the profile, with so many pixels per side; the
-    rms height is that of the waves that they carry. InputError as :func:`read_profile`.
+    rms height is that of the waves that they carry. InputError as :func:`fit`.
     """
-    profile = read_profile(path, length, height_unit)
     words = f"; {profile.note}" if profile.note else ""
     if how == "ridges":
         heights = np.repeat(profile.heights[:, np.newaxis], ROWS, axis=1)
         note = f"a profile of {profile.heights.size} points, extended across it{words}"
         return Scan(
-            heights, profile.length, profile.length, path, is_array=False, size_from="the profile",
-            note=note,
+            heights, profile.length, profile.length, profile.origin, is_array=False,
+            size_from="the profile", note=note,
         )  # fmt: skip
     found = fit(profile, detrend)
     q = np.geomspace(math.pi / profile.length, math.pi / profile.spacing, 4000)
@@ -229,7 +221,7 @@ def scan_of_profile(
         f"Hurst exponent {found.hurst:.2f} ({band}), seed {seed}{words}"
     )
     return Scan(
-        np.array(tile.heights), profile.length, profile.length, path, is_array=True,
+        np.array(tile.heights), profile.length, profile.length, profile.origin, is_array=True,
         is_periodic=True, size_from="the profile", note=note,
     )  # fmt: skip
 

@@ -13,8 +13,9 @@ from pathlib import Path
 
 import numpy as np
 
-from pyehl.errors import FileError, InputError
+from pyehl.errors import EhlError, FileError, InputError
 from pyehl.surfaces.arrays import mapped
+from pyehl.surfaces.text_file import encoding_of, lines_of
 from pyehl.types import Array
 
 METRES = {
@@ -36,10 +37,12 @@ SPACING = re.compile(
 LEAST_POINTS = 32
 MOST_COLUMNS = 3
 """An index, a place and a height."""
+MOST_LETTERS = 256
+"""Length of a line above which it has more numbers than that."""
 STEEP = 1.0
 """Rms slope above which the unit of places or heights must be another."""
-EVEN = 1e-3
-"""Largest deviation of a step between places from their mean that is rounding."""
+ROUNDING = 0.5
+"""Largest distance of places from equally spaced ones, over the spacing, that is rounding."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,39 +70,51 @@ def read_profile(
     """
     path = Path(path)
     try:
-        raw = path.read_bytes()
+        if path.suffix.lower() == ".npy":
+            z = mapped(path)
+            if z.ndim != 1:
+                raise InputError(f"{path}: no profile: an array of shape {z.shape}")
+            found: Read = np.asarray(z, dtype=float), None, (None, None)
+        else:
+            lines = [line for _, line in lines_of(path, encoding_of(path) or "latin-1")]
+            found = (_iso if sum(map(_ends, lines)) >= 2 else _columns)(path, lines)
+    except EhlError:
+        raise
     except OSError as error:
         raise FileError(f"{path}: cannot read: {error.strerror or error}") from error
-    if path.suffix.lower() == ".npy":
-        z = mapped(path)
-        if z.ndim != 1:
-            raise InputError(f"{path}: no profile: an array of shape {z.shape}")
-        return _finished(path, np.asarray(z, dtype=float), None, (None, None), length, height_unit)
-    text = _text(raw)
-    lines = text.splitlines()
-    if sum(line.strip().upper() == "EOR" for line in lines) >= 2:
-        return _finished(path, *_iso(path, lines), length, height_unit)
-    return _finished(path, *_columns(path, lines), length, height_unit)
+    return _finished(path, *found, length, height_unit)
 
 
 def is_profile(path: str | Path) -> bool:
     """Whether a file that is no map can be read as a profile, units apart."""
+    path = Path(path)
     try:
+        if path.suffix.lower() != ".npy" and not _may_be(path):
+            return False
         # any unit and length: they are asked for later
         read_profile(path, 1.0, "nm")
-    except (InputError, FileError, ValueError):
+    except (InputError, OSError, ValueError):
         return False
     return True
 
 
-def _text(raw: bytes) -> str:
-    """Text of a file, whatever its encoding."""
-    if raw[:2] in (b"\xff\xfe", b"\xfe\xff"):
-        return raw.decode("utf-16", errors="replace")
-    try:
-        return raw.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        return raw.decode("latin-1")
+def _may_be(path: Path) -> bool:
+    """Whether a text has a line of a profile; maps are large, and read as a profile slowly."""
+    encoding = encoding_of(path)
+    if encoding is None:
+        return False
+    short = (line for _, line in lines_of(path, encoding) if len(line) <= MOST_LETTERS)
+    return any(_ends(line) or _has_few_numbers(line) for line in short)
+
+
+def _ends(line: str) -> bool:
+    """Whether a line ends a record of ISO 5436-2."""
+    return line.strip().upper() == "EOR"
+
+
+def _has_few_numbers(line: str) -> bool:
+    rows = (_row(line, comma=comma) for comma in (False, True))
+    return any(row is not None and len(row) <= MOST_COLUMNS for row in rows)
 
 
 Read = tuple[Array, Array | float | None, tuple[float | None, float | None]]
@@ -108,7 +123,7 @@ Read = tuple[Array, Array | float | None, tuple[float | None, float | None]]
 
 def _iso(path: Path, lines: Sequence[str]) -> Read:
     """Read records of ISO 5436-2: axes, spacing, data."""
-    ends = [k for k, line in enumerate(lines) if line.strip().upper() == "EOR"]
+    ends = [k for k, line in enumerate(lines) if _ends(line)]
     axes: dict[str, tuple[str, int, float]] = {}
     spacing = None
     for line in lines[: ends[-1]]:
@@ -323,6 +338,6 @@ def _spaced(path: Path, x: Array, z: Array) -> tuple[Array, float, str]:
     spacing = float((x[-1] - x[0]) / (x.size - 1))
     even = x[0] + spacing * np.arange(x.size)
     # places have few digits
-    if float(np.abs(x - even).max()) <= max(EVEN, 0.5) * spacing and np.ptp(steps) < spacing:
+    if float(np.abs(x - even).max()) <= ROUNDING * spacing and np.ptp(steps) < spacing:
         return z, spacing, ""
     return np.interp(even, x, z), spacing, "interpolated at equal distances"

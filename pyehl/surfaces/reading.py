@@ -7,7 +7,6 @@ width), y across them. A map whose lay or motion is another way is turned by `su
 """
 
 from dataclasses import dataclass, replace
-from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -18,11 +17,9 @@ from pyehl.surfaces import sense
 from pyehl.surfaces.arrays import read_npy
 from pyehl.surfaces.found import UNITS, Found, Sizes
 from pyehl.surfaces.instruments import UnknownFormatError, read_instrument
-from pyehl.surfaces.text_file import encoding_of, lines_of
-from pyehl.surfaces.text_header import header_of
+from pyehl.surfaces.text_file import encoding_of
 from pyehl.surfaces.text_map import LEAST_PIXELS, matrix_map, read_text_map
-from pyehl.surfaces.text_table import HEADER_LINES, begins_with_numbers
-from pyehl.surfaces.texts import FLAVOUR, read_known_text
+from pyehl.surfaces.texts import read_known_text
 from pyehl.types import Array
 
 PIXEL_BAND = (1e-10, 1e-3)
@@ -54,24 +51,6 @@ class Scan:
     # Where the size is from: 'the file' or 'surface.length_x, surface.length_y'
     size_from: str = "surface.length_x, surface.length_y"
     note: str = ""  # what a person should know besides; mostly empty
-
-
-def is_array_file(path: str | Path) -> bool:
-    """Whether a file is a `.npy` array or plain text, which need no other package.
-
-    Text counts as an array unless it begins with words, or its header names a size or a unit; such
-    exports have their lines along x, as images have. OSError if the file cannot be opened.
-    """
-    path = Path(path)
-    if path.suffix.lower() == ".npy":
-        return True
-    encoding = encoding_of(path) if path.suffix.lower() in TEXT_SUFFIXES else None
-    if encoding is None:
-        return False
-    first = [line for _, line in islice(lines_of(path, encoding), HEADER_LINES)]
-    comments = [line for line in first if line.strip().startswith("#")]
-    exported = header_of(comments).says or any(FLAVOUR.search(line) for line in first)
-    return begins_with_numbers(first) and not exported
 
 
 def read_scan(

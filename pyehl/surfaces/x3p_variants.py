@@ -16,7 +16,6 @@ import numpy as np
 REVISION = "ISO5436 - 2000"
 _DASHES = re.compile(r"[\s‐-―−_-]+")
 BINARY = "bindata/data.bin"
-_TYPES = {"I": "<i2", "L": "<i4", "F": "<f4", "D": "<f8"}
 MAX_XML = 2**28
 """Bytes of the largest XML that is looked at."""
 
@@ -120,7 +119,7 @@ def _listed(root: ElementTree.Element) -> bytes | None:
     link = ElementTree.SubElement(record, _like(listed, "DataLink"))
     ElementTree.SubElement(link, _like(listed, "PointDataLink")).text = BINARY
     ElementTree.SubElement(link, _like(listed, "MD5ChecksumPointData")).text = ""
-    return np.array(values, dtype=_TYPES["D"]).tobytes()
+    return np.array(values, dtype="<f8").tobytes()
 
 
 def _like(element: ElementTree.Element, name: str) -> str:

@@ -17,7 +17,7 @@ INVALID = 2147483640
 """Whole numbers from it on are no phases."""
 RESOLUTION = {0: 4096, 1: 32768, 2: 131072}
 """Counts of phase in a wave, by PhaseRes."""
-HEADER_LINES = 14
+HEADER_LINES = 13
 
 
 @dataclass(frozen=True)
@@ -33,9 +33,9 @@ class ZygoMap:
 def read_zygo(lines: Iterable[str]) -> ZygoMap:
     """Read a Zygo text file; ValueError says which line is not what it should be."""
     rest = iter(lines)
-    header = [line.strip() for line in islice(rest, 13)]
-    if len(header) < 13 or not header[0].startswith(MAGIC):
-        raise ValueError("the header of a Zygo text file has 13 lines at the least")
+    header = [line.strip() for line in islice(rest, HEADER_LINES)]
+    if len(header) < HEADER_LINES or not header[0].startswith(MAGIC):
+        raise ValueError(f"the header of a Zygo text file has {HEADER_LINES} lines at the least")
     is_list = header[0].startswith(MAGIC[0])
     left, top, width, height = (int(v) for v in _numbers(header, 4, 4))
     # heights are counts of phase times scale factor, wavelength and obliquity factor

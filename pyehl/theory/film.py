@@ -201,7 +201,6 @@ def estimates(operating: OperatingPoint, lubricant: Lubricant) -> list[FilmEstim
         h_c, h_min = films
         beyond = outside(values, bounds)
         found.append(
-            # what is known of the formulas is of circles
             FilmEstimate(
                 name=name,
                 source=source,
@@ -211,6 +210,7 @@ def estimates(operating: OperatingPoint, lubricant: Lubricant) -> list[FilmEstim
                 applies=_applies(of, here),
                 bounds=bounds,
                 outside=beyond,
+                # what is known of the formulas is of circles
                 note=note if circle else "",
             )
         )

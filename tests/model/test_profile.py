@@ -9,7 +9,7 @@ import pytest
 import pyehl
 from pyehl import cli
 from pyehl.errors import InputError
-from pyehl.surfaces import fractal
+from pyehl.surfaces import fractal, profile_file
 from pyehl.surfaces.profile import fit, levelled
 from pyehl.surfaces.profile_file import Profile, is_profile, read_profile
 
@@ -199,6 +199,18 @@ def test_a_text_map_is_no_profile(tmp_path, points):
     table = np.column_stack([x, y, heights.ravel()]) if points else heights
     np.savetxt(tmp_path / "map.txt", table)
     assert not is_profile(tmp_path / "map.txt")
+
+
+@pytest.mark.parametrize("name", ["map.txt", "map.sur"])
+def test_a_map_is_not_read_whole_as_a_profile(tmp_path, monkeypatch, name):
+    """Maps are large: neither lines of many numbers nor binary data are parsed."""
+    random = np.random.default_rng(1)
+    if name == "map.txt":
+        np.savetxt(tmp_path / name, random.normal(size=(40, 40)))
+    else:
+        (tmp_path / name).write_bytes(random.bytes(4096))
+    monkeypatch.setattr(profile_file, "read_profile", pytest.fail)
+    assert not is_profile(tmp_path / name)
 
 
 def test_a_profile_in_place_of_a_map_says_how(tmp_path, z, capsys):

@@ -348,36 +348,25 @@ def test_words_without_a_table(tmp_path, text):
 
 
 @pytest.mark.parametrize(
-    ("name", "text", "array"),
+    ("name", "head", "array"),
     [
-        ("plain.txt", "# heights in m\n1 2\n", True),
-        ("plain.dat", "1 2\n", True),
-        ("gwyddion.txt", "# Channel: A\n# Width: 10 µm\n1 2\n", False),
-        ("spip.asc", "# File Format = ASCII\n# x-length = 1000\n1 2\n", False),
-        ("binary.dat", "\0\1\2\3", False),
-        ("scan.sur", "1 2\n", False),
+        ("plain.txt", "# heights in m\n", True),
+        ("plain.dat", "", True),
+        ("plain.sur", "", True),
+        ("nan.txt", "\n  nan 1e-9 2e-9 1e-9\n", True),
+        ("signs.txt", "# one x per line\n-1e-9 2e-9 1e-9 1e-9\n", True),
+        ("gwyddion.txt", "# Channel: A\n# Width: 10 µm\n", False),
+        ("german.txt", "# Kanal: Höhe\n# Breite: 10 µm\n", False),
+        ("japanese.txt", "# 幅： 10 µm\n", False),
+        ("units.txt", "# Channel: A\n# Value units: mm\n", False),
+        ("stylus.txt", "Data Type,Scan\nStylus,Radius: 2 um\n", False),
     ],
 )
-def test_what_counts_as_an_array(tmp_path, name, text, array):
-    (tmp_path / name).write_text(text, encoding="utf-8")
-    assert reading.is_array_file(tmp_path / name) is array
-
-
-@pytest.mark.parametrize(
-    ("name", "text", "array"),
-    [
-        ("german.txt", "# Kanal: Höhe\n# Breite: 10 µm\n1 2\n", False),
-        ("japanese.txt", "# 幅： 10 µm\n1 2\n", False),
-        ("units.txt", "# Channel: A\n# Value units: mm\n1 2\n", False),
-        ("stylus.csv", "Data Type,Scan\nStylus,Radius: 2 um\n", False),
-        ("nan.txt", "\n  nan 1\n", True),
-        ("signs.csv", "# one x per line\n-1,2\n", True),
-    ],
-)
-def test_exports_are_no_arrays(tmp_path, name, text, array):
+def test_exports_are_no_arrays(tmp_path, name, head, array):
     """In the languages of Gwyddion, with a unit and no size, and whatever begins with words."""
-    (tmp_path / name).write_text(text, encoding="utf-8")
-    assert reading.is_array_file(tmp_path / name) is array
+    rows = "1e-9 2e-9 3e-9 1e-9\n" * 4
+    (tmp_path / name).write_text(head + rows, encoding="utf-8")
+    assert read_scan(tmp_path / name, *SIZE).is_array is array
 
 
 def test_text_export_in_another_language(tmp_path):
