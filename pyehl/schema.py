@@ -189,7 +189,7 @@ s | second_amplitude | a^2/R | that of the second surface
 s | amplitude_ratio | - | A_d/A_i at the centre
 sp | surface_rms_m | m | rms height sigma that is solved, undeformed; composite of two surfaces
 sp | surface_slope | - | rms slope of it
-p | spectrum_beside | | least film and mu_r/mu_s with other roll-offs, where Ra or a finish is given
+p | spectrum_beside | | h_min and mu_r/mu_s with other roll-offs, where Ra or a finish is given
 p | surface_findings | | what of the maps is no roughness: form, line offsets, stitching step, dust
 sp | surface_correlation | - | correlation of the heights of two surfaces that move together
 s | variance_cut | - | share of the height's variance that was cut on purpose

@@ -76,7 +76,7 @@ def test_soft_ellipses(radius_ratio, moes_m, off):
     [(2000.0, 0.0, 513), (2000.0, 0.5, 513), (5000.0, 0.1, 513), (5000.0, 1.0, 513)],
 )
 def test_soft_contacts_converge(moes_m, moes_l, points):
-    """With the relaxation of hard ones the changes went round in circles."""
+    """With the relaxation of hard ones the changes go round in circles."""
     with pyehl.Solver(pyehl.Case.from_text("", moes(moes_m, moes_l, points))) as solver:
         assert solver.run()
         assert solver.summary()["status"] == "converged"

@@ -129,7 +129,7 @@ def test_steps_from_a_prediction_that_fail_after_a_resumption(tmp_path: Path):
 
 @pytest.mark.parametrize("estimate_error", [True, False])
 def test_waves_that_no_grid_resolves_are_named(estimate_error: bool):
-    """With a run for the error its waves went with that run: '32 nodes or more' stood here."""
+    """Also where the waves have gone with the run for the error: never '32 nodes or more'."""
     case = pyehl.Case.of(
         pyehl.Case(CASES["negative film"]), {"time.estimate_error": estimate_error}
     )

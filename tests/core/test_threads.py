@@ -226,7 +226,7 @@ FAILING = """&contact moes_m = 20, moes_l = 2 /
 
 @pytest.mark.parametrize("cases", [200, pytest.param(10_000, marks=pytest.mark.long)])
 def test_many_threads_find_what_one_finds(cases: int):
-    """Eight threads, each with its own solver; with static lengths 20 of 10 000 were wrong."""
+    """Eight threads, each with its own solver; with static lengths 20 of 10 000 are wrong."""
     amplitudes = ("0.1", "0.12345", "0.0123456789", "0.1111111111111")
     texts = [pyehl.Case(FAILING.format(amplitude)).text for amplitude in amplitudes]
     texts.append(texts[0].replace("max_points = 17", "max_points = 257"))

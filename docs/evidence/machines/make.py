@@ -95,12 +95,17 @@ def collect(files: list[str]) -> None:
     write("runs.csv", RUNS, runs)
 
 
+def radius_ratio(kappa: float) -> float:
+    """R_x/R_y of an ellipticity."""
+    return float(elliprd(0.0, 1.0, kappa**2) / elliprd(0.0, kappa**2, 1.0))
+
+
 def measure_sides() -> None:
     """Solve contacts as by default, with sides half as far again, and with cells half as long."""
     rows = []
     for kappa, moes_m, moes_l in POINTS:
-        ratio = float(elliprd(0.0, 1.0, kappa**2) / elliprd(0.0, kappa**2, 1.0))
-        keys = {"contact.radius_ratio": ratio, "contact.moes_m": moes_m, "contact.moes_l": moes_l}
+        keys = {"contact.radius_ratio": radius_ratio(kappa), "contact.moes_m": moes_m}
+        keys["contact.moes_l"] = moes_l
         keys |= SETTINGS | {"solver.accuracy": ACCURACY}
         grid = pyehl.Case.from_text("", keys).resolve()["grid"]
         extent = grid["y_extent"]
