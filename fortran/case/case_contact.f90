@@ -173,7 +173,7 @@ contains
       type(domain_t) :: domain
 
       call find_contact(input, contact, scales, point)
-      if (.not. schema%given("grid", "border") .and. flooded_by_default(point) .and. contact%is_even()) then
+      if (.not. schema%given("grid", "border") .and. flooded_by_default(contact, point) .and. contact%is_even()) then
          input%grid%border = "flooded"
       end if
       domain = needed_domain(contact, point, input%grid%border == "flooded")

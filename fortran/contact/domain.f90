@@ -30,8 +30,9 @@ module ehl_domain
 
    !> Relative cost of H_c that a default domain may have
    real(dp), parameter :: tolerance = 0.002_dp
-   !> From that M on border and domain are those of Zhang et al. 2019, unless the case says otherwise
-   real(dp), parameter :: first_usual = 500.0_dp
+   !> From that M on border and domain are those of Zhang et al. 2019, unless the case says otherwise or the contact is so
+   !> wide that P = 0 there would cost per cents of the film
+   real(dp), parameter :: first_usual = 500.0_dp, too_wide = 4.0_dp
    !> With a flooded border. Thick films: load that is wrong by sides and inlet, over lambda_bar s^2/r^3 with the length
    !> s = (2 H_c)^(1/2); most and least change of the film by load, and the M where it is half of the most. Thin films: what
    !> an inlet of 2.5 a costs, its power of s, and up to which s. H_min over H_c.
@@ -42,6 +43,10 @@ module ehl_domain
    !> inlet costs more, with the power of that
    real(dp), parameter :: of_inlet = 0.46_dp, of_sides = 0.06_dp, of_sides_at_minimum = 0.15_dp, &
                           thin_film = 0.06_dp, thin_power = 0.25_dp
+   !> Decay of what the sides of a wide contact cost with their distance from its ends, in half lengths along the motion, over
+   !> that around a round contact: at kappa = 1.5 to 16 and 1.07 to 2 half widths the changes fall with 1.2 at the least
+   !> (docs/evidence/machines)
+   real(dp), parameter :: end_decay = 1.2_dp
    !> Load beyond inlet and sides, over lambda_bar; least sensitivity of the film to load around M = 5, where the film
    !> formula has none and the elastic dent counts
    real(dp), parameter :: load_beyond_inlet = 1.0_dp, load_beyond_sides = 0.25_dp, least_sensitivity = 0.5_dp, &
@@ -49,8 +54,8 @@ module ehl_domain
    !> Around an ellipse the bodies are deflected as much further out as kappa k_b is larger than that of a round contact:
    !> what that costs with a flooded border, at the most, and with P = 0, where a narrow contact costs more, too
    real(dp), parameter :: most_wide = 4.0_dp, wide_power = 0.4_dp
-   !> Sides of a wide contact in terms of its half width, and length of the films from which on they are further out: both leave
-   !> less than 0.1 % of the film (docs/evidence/machines)
+   !> Sides of a wide contact in terms of its half width, and length of the films from which on they are further out: sides half
+   !> as far again change H_c by 0.01 % and H_min by up to 0.13 % (docs/evidence/machines)
    real(dp), parameter :: beyond_ends = 1.3_dp, thick_at_ends = 0.95_dp
    !> Points of an integral
    integer, parameter :: points = 100
@@ -58,9 +63,10 @@ module ehl_domain
 contains
 
    !> Whether the border has the pressure of a flooded contact unless the case says otherwise
-   pure logical function flooded_by_default(point)
+   pure logical function flooded_by_default(contact, point)
+      class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point
-      flooded_by_default = point%round_m < first_usual
+      flooded_by_default = point%round_m < first_usual .or. contact%reach(2) > too_wide*contact%reach(1)
    end function flooded_by_default
 
    !> The domain of a contact: that of Zhang et al. 2019, its sides further out around an ellipse, or with a flooded border
@@ -117,7 +123,7 @@ contains
       type(domain_t), intent(in) :: domain
       logical, intent(in) :: flooded
       real(dp) :: cost(2)
-      real(dp) :: film, length, whole, inlet, load, sides, side, width
+      real(dp) :: film, length, whole, inlet, load, sides, side, wide, width
 
       side = domain%side/sides_over_round(contact)
       width = contact%ellipticity*contact%kernel_factor/circle_factor
@@ -133,6 +139,8 @@ contains
             whole = pressure_gain(1.0_dp, film)
             inlet = pressure_gain(-domain%inlet/contact%reach(1), film)/whole
             sides = pressure_gain(side, film)/whole
+            wide = contact%reach(2)/contact%reach(1)
+            if (wide > 1.0_dp .and. side > 1.0_dp) sides = sides*exp(-end_decay*(wide - 1.0_dp)*(side - 1.0_dp))
             load = lambda_bar*(load_beyond_inlet/abs(domain%inlet) + load_beyond_sides/side)
             cost(1) = of_inlet*max(1.0_dp, (thin_film/film)**thin_power)*inlet + of_sides*sides &
                       + load*max(sensitivity(contact, point), least_sensitivity*min(1.0_dp, (dented_below/point%round_m)**6))

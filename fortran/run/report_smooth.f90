@@ -4,7 +4,7 @@ module ehl_report_smooth
    use ehl_contact_results, only: contact_results_t
    use ehl_domain, only: too_small
    use ehl_kinds, only: dp, not_known, pi
-   use ehl_level_result, only: extrapolated, film_errors, limit_error, share_error
+   use ehl_level_result, only: extrapolated, limit_error, share_error, stated_errors
    use ehl_plan, only: plan_t
    use ehl_record, only: record_t
    use ehl_resolution, only: better_grid, relative_errors, unresolved_inlet
@@ -17,9 +17,6 @@ module ehl_report_smooth
    !> the inlet. It counts for lubricants whose viscosity hardly rises with pressure.
    real(dp), parameter :: friction_beyond = 4.0_dp*pi*log(2.0_dp)
 
-   !> A relative error of more than that is not of the leading order alone, which two grids tell: contacts of machines with
-   !> errors of 10 to 15 % miss up to 1.1 times what order 2 makes of two grids (docs/evidence/machines)
-   real(dp), parameter :: leading = 0.05_dp, not_leading = 3.0_dp
    !> What a narrow contact misses that is solved on a single grid, over the a-priori error: 1.9 and 1.6 at kappa = 0.31, M = 1789
    real(dp), parameter :: alone_and_narrow = 2.0_dp
 
@@ -54,8 +51,7 @@ contains
       coarser = .false.
       if (good .and. n > 1) coarser = steady%results(n - 1)%solved
       if (coarser) then
-         error = film_errors(m, steady%results(n - 1)%m, steady%results(n)%mesh, plan%inlet)
-         error = error*(1.0_dp + not_leading*max(0.0_dp, error/m%films() - leading)) + steady%results(n)%algebraic
+         error = stated_errors(m, steady%results(n - 1)%m, steady%results(n)%mesh, plan%inlet) + steady%results(n)%algebraic
          limit = extrapolated(steady%results, n)
       else if (good) then
          ! one grid alone: what such grids have been found to miss

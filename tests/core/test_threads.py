@@ -211,7 +211,7 @@ def test_no_static_text_without_the_lock(root: Path):
         ("ehl_mlmi", "setup"),
         ("ehl_checkpoint", "read_state"),
         ("ehl_memory", "amount"),
-        ("ehl_text", "real_buffer"),
+        ("ehl_number_text", "real_buffer"),
     ):
         assert key in caller, key
 
