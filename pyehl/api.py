@@ -41,7 +41,7 @@ def solve(
     case
         A case, or the path of a case file.
     *options
-        Values that replace those of the case: dicts, or texts ``group.key=value``.
+        Values that replace those of the case, as of `Case`.
     surface, second_surface
         Rough surfaces in place of those of the case: a `Topography`, or an array of heights [m] of
         shape (nx, ny), peaks positive, with the size that the case says. Keys that prepare a map do
@@ -81,7 +81,7 @@ def solve(
     (0.072, 'Pa')
     """
     inputs, name = ((), "") if isinstance(case, Case) else ((case,), path_of(case, "case"))
-    case = Case.of(case, *options)
+    case = Case(case, *options)
     check_kind(check, bool, "check", "True or False")
     if not callable(progress):
         check_kind(progress, bool, "progress", "True, False or a function")
@@ -135,7 +135,7 @@ def predict(
     case
         A case, or the path of a case file.
     *options
-        Values that replace those of the case: dicts, or texts ``group.key=value``.
+        Values that replace those of the case, as of `Case`.
     surface, second_surface
         As of `solve`.
     smooth
@@ -171,7 +171,7 @@ def predict(
     Prediction(mu_ratio=1..., 'predicted')
     """
     inputs, name = ([], "") if isinstance(case, Case) else ([case], path_of(case, "case"))
-    case = Case.of(case, *options)
+    case = Case(case, *options)
     tiles: dict[str, Topography | None] = {"surface": None, "second_surface": None}
     inputs += files_of(case.resolve())
     for group, given in (("surface", surface), ("second_surface", second_surface)):
@@ -209,7 +209,7 @@ def film(case: Case | str | os.PathLike[str], *options: Option) -> dict[str, Any
     case
         A case, or the path of a case file.
     *options
-        Values that replace those of the case: dicts, or texts ``group.key=value``.
+        Values that replace those of the case, as of `Case`.
 
     Returns
     -------
@@ -234,7 +234,7 @@ def film(case: Case | str | os.PathLike[str], *options: Option) -> dict[str, Any
     Chittenden et al.: 171 nm
     """
     name = "" if isinstance(case, Case) else path_of(case, "case")
-    settings = Case.of(case, *options).resolve()
+    settings = Case(case, *options).resolve()
     with named(name):
         return film_sheet.sheet(settings)
 
@@ -247,7 +247,7 @@ def check(case: Case | str | os.PathLike[str], *options: Option) -> str:
     case
         A case, or the path of a case file.
     *options
-        Values that replace those of the case: dicts, or texts ``group.key=value``.
+        Values that replace those of the case, as of `Case`.
 
     Returns
     -------
@@ -266,6 +266,6 @@ def check(case: Case | str | os.PathLike[str], *options: Option) -> str:
     True
     """
     name = "" if isinstance(case, Case) else path_of(case, "case")
-    case = Case.of(case, *options)
+    case = Case(case, *options)
     with named(name), Solver(case) as solver:
         return f"{case.text}\n{solver.describe()}"

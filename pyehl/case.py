@@ -4,12 +4,15 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping
+import reprlib
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from types import EllipsisType
 from typing import TYPE_CHECKING, Any, Self
 
 from pyehl import display, library, namelist
-from pyehl.given import Option, check_kind, path_of
+from pyehl.errors import InputError
+from pyehl.given import Option, options_of, path_of
 from pyehl.types import Settings
 
 if TYPE_CHECKING:
@@ -20,15 +23,18 @@ if TYPE_CHECKING:
 class Case:
     """A case that can be solved: checked, with every value spelled out.
 
-    Options are everywhere the same: a dict with values by ``group.key``, or texts
-    ``group.key=value``.
+    Options are everywhere the same: dicts ``{"grid": {"points": 65}}`` or ``{"grid.points": 65}``,
+    or texts ``"grid.points=65"``; a whole number may be a float, as 65.0.
 
     Parameters
     ----------
-    text
-        Namelist text; '' is the case of all defaults.
+    case
+        Path of a case file, or another case; without it the case of all defaults. Text of a case
+        has `from_text`.
+    *options
+        Values that replace those of `case`.
     **groups
-        Values by key of the groups of a case file, in place of those of `text`.
+        Such values by key of their groups.
 
     Attributes
     ----------
@@ -38,72 +44,66 @@ class Case:
     Raises
     ------
     InputError
-        As `read` does.
+        With file, line and column, what was expected, and the nearest name.
 
     Examples
     --------
     >>> import pyehl
-    >>> case = pyehl.Case(contact={"moes_m": 200.0, "moes_l": 10.0}, grid={"points": 65})
+    >>> case = pyehl.Case("cases/quick.nml", {"grid.points": 65})
     >>> case
     Case(M=200, L=10, smooth, 65 points)
-    >>> case.with_options({"grid.points": 129}).resolve()["grid"]["points"]
-    129
-    >>> pyehl.Case.read("cases/quick.nml", {"grid.points": 65})
-    Case(M=200, L=10, smooth, 65 points)
+    >>> case["grid"]["points"]
+    65
+    >>> case == pyehl.Case(contact={"moes_m": 200.0, "moes_l": 10.0}, grid={"points": 65})
+    True
     """
 
     text: str
 
-    def __init__(self, text: str = "", **groups: Mapping[str, Any]) -> None:
-        values: dict[str, Any] = {}
-        for group, keys in groups.items():
-            check_kind(keys, Mapping, group, "values by key, as {'points': 65}")
-            values |= {f"{group}.{key}": value for key, value in keys.items()}
-        object.__setattr__(self, "text", library.resolve(text, "text of the case", values))
-
-    @classmethod
-    def resolved(cls, text: str) -> Self:
-        """Take text that a case has resolved before, as it is."""
-        case = object.__new__(cls)
-        object.__setattr__(case, "text", text)
-        return case
+    def __init__(
+        self,
+        case: Case | str | os.PathLike[str] | EllipsisType = ...,
+        *options: Option,
+        **groups: Mapping[str, Any],
+    ) -> None:
+        given = options_of([options, groups])
+        if isinstance(case, Case):
+            text = library.resolve(case.text, "resolved case", given) if given else case.text
+        elif case is ...:
+            text = library.resolve("", "case", given)
+        else:
+            path = path_of(case, "case")
+            if "\n" in path or path.lstrip().startswith("&"):
+                raise InputError(
+                    f"case = {reprlib.repr(path)}: expected the path of a case file; text of a "
+                    "case has pyehl.Case.from_text"
+                )
+            text = library.resolve("", path, given, from_file=True)
+        object.__setattr__(self, "text", text)
 
     @classmethod
     def read(cls, path: str | os.PathLike[str], *options: Option) -> Self:
-        """Read a case file; `options` replace its values.
+        """Read a case file, as ``Case(path, *options)``."""
+        return cls(path_of(path, "case"), *options)
 
-        Raises
-        ------
-        InputError
-            With file, line and column, what was expected, and the nearest name.
-        """
-        return cls.resolved(library.resolve("", path_of(path, "case"), options, from_file=True))
-
-    @classmethod
-    def of(cls, case: Case | str | os.PathLike[str], *options: Option) -> Case:
-        """Take a case, or the path of a case file, with some values replaced.
-
-        Raises
-        ------
-        InputError
-            As `read` does.
-        """
-        if isinstance(case, Case):
-            return case.with_options(*options) if options else case
-        return cls.read(case, *options)
-
-    @classmethod
-    def from_text(
-        cls, text: str, options: Option | Iterable[Option] = (), origin: str = "text of the case"
-    ) -> Self:
+    @staticmethod
+    def from_text(text: str, *options: Option, origin: str = "text of the case") -> Case:
         """Read a case from namelist text; '' is the case of all defaults.
 
         Raises
         ------
         InputError
-            As `read` does, with `origin` in place of the file.
+            With `origin` in place of a file.
         """
-        return cls.resolved(library.resolve(text, origin, options))
+        return trusted(library.resolve(text, origin, options))
+
+    def __getitem__(self, group: str) -> dict[str, Any]:
+        """Values of a group by key, as `resolve` gives them: ``case["grid"]["points"]``."""
+        return self.resolve()[group]
+
+    def __iter__(self) -> Iterator[str]:
+        """Names of the groups."""
+        return iter(self.resolve())
 
     def with_options(self, *options: Option) -> Case:
         """Replace some values: ``case.with_options("grid.points=257")`` is another case.
@@ -115,7 +115,7 @@ class Case:
         InputError
             If an option is not acceptable.
         """
-        return type(self).from_text(self.text, options, "resolved case")
+        return type(self)(self, *options)
 
     def smooth(self) -> Case:
         """Give the case of the smooth contact: everything but its rough surfaces."""
@@ -147,6 +147,13 @@ class Case:
         values; amplitude or amplitude_over_film.
         """
         return namelist.values(self.text)
+
+
+def trusted(text: str) -> Case:
+    """Give the case of text that a case has resolved before, without reading it anew."""
+    case = object.__new__(Case)
+    object.__setattr__(case, "text", text)
+    return case
 
 
 def files_of(settings: Settings) -> list[str]:

@@ -31,7 +31,7 @@ class InputError(EhlError, ValueError):
     --------
     >>> import pyehl
     >>> try:
-    ...     pyehl.Case.read("cases/quick.nml", "contact.laod=600.0")
+    ...     pyehl.Case("cases/quick.nml", "contact.laod=600.0")
     ... except pyehl.InputError as error:
     ...     print("load" in str(error))
     True

@@ -4,7 +4,7 @@
 import math
 import os
 import reprlib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from numbers import Real
 from pathlib import Path
 from typing import Any
@@ -16,10 +16,14 @@ from pyehl.errors import InputError
 from pyehl.types import Array
 
 Option = str | Mapping[str, Any] | Iterable[str | Mapping[str, Any]]
-"""A text ``group.key=value``, a dict with values by ``group.key``, or several of these."""
+"""``"group.key=value"``, ``{"group.key": value}``, ``{"group": {"key": value}}``, or several."""
 Value = float | int | bool | str
 
-EXPECTED = "texts group.key=value or a dict of values by group.key"
+EXPECTED = "texts group.key=value or dicts of values by group.key, or by group and key"
+TYPED = "--set "
+"""Begins an option that was given in a shell, so that messages repeat what a person typed."""
+WHOLE = 2.0**53
+"""Floats below that are whole numbers exactly where they have no fraction."""
 # Kinds of numbers that can be heights: floats, and whole numbers with and without a sign
 REAL = "fiu"
 OTHER_KINDS = {
@@ -104,13 +108,21 @@ def plain(value: object) -> Value:
 def option(key: str, value: Value) -> str:
     """Text ``group.key=value`` that the reader of cases takes.
 
-    Between quotes, where a word would lose its quotes or blanks, or is empty.
+    Between quotes, where a word would lose its quotes or blanks, or is empty. A float without a
+    fraction is written as a whole number, which a key of either kind takes.
     """
     if isinstance(value, bool):
         return f"{key}={'.true.' if value else '.false.'}"
     if isinstance(value, str) and (value != value.strip() or value[:1] in ("", "'", '"')):
         return f"{key}='{value.replace(chr(39), 2 * chr(39))}'"
-    return f"{key}={value!r}" if isinstance(value, float) else f"{key}={value}"
+    if isinstance(value, float):
+        return f"{key}={value:.0f}" if whole(value) else f"{key}={value!r}"
+    return f"{key}={value}"
+
+
+def whole(value: float) -> bool:
+    """Whether a float is a whole number with few enough digits to be written as one."""
+    return value.is_integer() and abs(value) < WHOLE
 
 
 def options_of(options: Any) -> list[str]:  # noqa: ANN401
@@ -120,17 +132,50 @@ def options_of(options: Any) -> list[str]:  # noqa: ANN401
     """
     if isinstance(options, str):
         if "\n" in options:
-            raise InputError("--set: more than one line\nexpected: group.key=value")
+            raise InputError(
+                f"{reprlib.repr(options)}: more than one line\nexpected: group.key=value"
+            )
         return [options]
     if isinstance(options, Mapping):
-        return [text for item in options.items() for text in options_of(_option_of(*item))]
+        return [
+            text for key, value in by_key(options) for text in options_of(_option_of(key, value))
+        ]
     if isinstance(options, bytes | None) or not isinstance(options, Iterable):
         check_kind(options, (), "options", EXPECTED)
     return [text for option in options for text in options_of(option)]
 
 
-def _option_of(key: Any, value: Any) -> str:  # noqa: ANN401
-    check_kind(key, str, "options", EXPECTED)
+def by_key(options: Mapping[Any, Any]) -> Iterator[tuple[str, Any]]:
+    """Give ``group.key`` and value one by one of a dict, whose groups may be dicts themselves.
+
+    InputError for a key without a group.
+    """
+    for name, value in options.items():
+        check_kind(name, str, "options", EXPECTED)
+        if isinstance(value, Mapping):
+            for key, inner in value.items():
+                check_kind(key, str, name, EXPECTED)
+                yield f"{name}.{key}", inner
+        elif "." not in name:
+            raise InputError(
+                f"{name} = {reprlib.repr(value)}: expected values by key, as {{'points': 65}}, or "
+                f"a name group.key"
+            )
+        else:
+            yield name, value
+
+
+def bare(option: str) -> str:
+    """Give an option as ``group.key=value``, however it was given."""
+    return option.removeprefix(TYPED)
+
+
+def key_of(option: str) -> str:
+    """Give the key ``group.key`` that an option sets."""
+    return bare(option).partition("=")[0].strip().lower()
+
+
+def _option_of(key: str, value: Any) -> str:  # noqa: ANN401
     try:
         return option(key, plain(value))
     except ValueError:

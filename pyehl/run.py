@@ -94,7 +94,7 @@ def resume(
     """
     kept = library.checkpoint_case(results)
     if case is None:
-        case = Case.read(kept, options)
+        case = Case(kept, options)
     return run(
         case,
         results if folder is None else folder,
@@ -115,7 +115,7 @@ def _open(case: Case, resumed: AnyPath, given: tuple[Surface | None, Surface | N
         return Solver(case, surface=given[0], second_surface=given[1])
     sizes: list[str] = []
     for group in kept:
-        old = Case.read(place).resolve()[group]
+        old = Case(place).resolve()[group]
         sizes += [f"{group}.{key}={old[key]!r}" for key in ("tile_x", "tile_y") if old[key]]
         if old["tile_mirrored"]:
             sizes.append(f"{group}.tile_mirrored=.true.")

@@ -84,7 +84,7 @@ class Solver(SolverHandle):
     case
         A case, or the path of a case file.
     *options
-        Values that replace those of the case: dicts, or texts ``group.key=value``.
+        Values that replace those of the case, as of `Case`.
     surface, second_surface
         Rough surfaces in place of those of the case: a `pyehl.Topography`, or an array of heights
         [m] with the size that the case says. Keys that prepare a map do not apply to them.
@@ -115,7 +115,7 @@ class Solver(SolverHandle):
         surface: Surface | None = None,
         second_surface: Surface | None = None,
     ) -> None:
-        case = Case.of(case, *options)
+        case = Case(case, *options)
         tiles = {}
         for group, in_memory in zip(GROUPS, (surface, second_surface), strict=True):
             if in_memory is not None:
@@ -149,7 +149,7 @@ class Solver(SolverHandle):
         """
         solver = cls.__new__(cls)
         both = zip(GROUPS, (heights, second_heights), strict=True)
-        solver._start(Case.of(case), {g: heights_of(h) for g, h in both if h is not None}, {})
+        solver._start(Case(case), {g: heights_of(h) for g, h in both if h is not None}, {})
         return solver
 
     def _start(

@@ -13,7 +13,7 @@ module ehl_arguments
       character(len=:), allocatable :: case_file, folder
       !> Result folder of the run to resume; empty: none
       character(len=:), allocatable :: resume
-      !> Texts group.key=value of the --set options, one a line
+      !> Options '--set group.key=value', one a line
       character(len=:), allocatable :: options
       !> Whether other files may be in the result folder
       logical :: force = .false.
@@ -46,7 +46,7 @@ contains
          case ("--set")
             call next_argument(k, word, value, status)
             if (index(value, newline) > 0) call refuse("--set: more than one line", status)
-            arguments%options = arguments%options // value // newline
+            arguments%options = arguments%options // "--set " // value // newline
          case ("--resume")
             call next_argument(k, word, arguments%resume, status)
             if (arguments%resume == "") call refuse("the folder behind --resume has no name", status)

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> From the text of a case file and --set options to a complete case
+!> From the text of a case file and options group.key=value to a complete case
 module ehl_case_reader
    use ehl_case, only: case_t
    use ehl_case_check, only: check_case, complete_case
@@ -19,6 +19,8 @@ module ehl_case_reader
 
    !> Largest case file; anything longer is not one
    integer, parameter :: largest_file = 1000000
+   !> Begins an option that a person typed in a shell
+   character(len=*), parameter :: typed = "--set "
 
 contains
 
@@ -44,7 +46,8 @@ contains
       character(len=*), intent(in) :: text
       !> Name of the file it came from, for messages and for relative file names
       character(len=*), intent(in) :: origin
-      !> Options group.key=value that replace values of the text, one a line; may be empty
+      !> Options group.key=value that replace values of the text, one a line, behind '--set ' where a person typed them so;
+      !> may be empty
       character(len=*), intent(in) :: options
       type(case_t), intent(out), target :: input
       type(status_t), intent(inout) :: status
@@ -65,7 +68,9 @@ contains
          last = start + index(options(start:)//newline, newline) - 2
          if (last >= start) then
             n = n + 1
-            sources(n)%name = "--set "//options(start:last)
+            ! messages call an option as it was given
+            sources(n)%name = options(start:last)
+            if (index(options(start:last), typed) == 1) start = start + len(typed)
             sources(n)%text = options(start:last)//newline
             sources(n)%has_lines = .false.
          end if

@@ -18,7 +18,7 @@ contains
    subroutine set_value(key, source, number, name, token, status)
       type(key_t), intent(inout) :: key
       type(source_t), intent(in) :: source
-      !> Number of the source: 1 the file, beyond it the --set options
+      !> Number of the source: 1 the file, beyond it the options
       integer, intent(in) :: number
       type(token_t), intent(in) :: name, token
       type(status_t), intent(inout) :: status

@@ -10,9 +10,9 @@ module ehl_source
    !> Longest part of a line that a message shows
    integer, parameter :: shown = 100
 
-   !> The text of a case file, or of one --set option
+   !> The text of a case file, or of one option
    type :: source_t
-      !> What a message calls it: a file name, or '--set' and the option
+      !> What a message calls it: a file name, or the option as it was given
       character(len=:), allocatable :: name
       !> Ends with a line end
       character(len=:), allocatable :: text

@@ -172,7 +172,7 @@ class Page:
         """Put the knobs where an uploaded case file says."""
         try:
             text = data.decode("utf-8-sig")
-            case = Case.from_text(text, (), name)
+            case = Case.from_text(text, origin=name)
             self._wish, note = from_case(case, self.uploads.files)
             self.position = self._wish
         except (InputError, UnicodeDecodeError) as error:

@@ -170,7 +170,7 @@ class Position:
         if self.values["oil"] != self.oil:
             lines = base.splitlines(keepends=True)
             base = "".join(line for line in lines if line.split(" =")[0].strip() not in OF_SHEET)
-        case = Case.from_text(base, self.options(points), "the knobs")
+        case = Case.from_text(base, self.options(points), origin="the knobs")
         return case.smooth() if smooth else case
 
     def text(self, points: int) -> str:

@@ -191,7 +191,7 @@ def _one(kind: str, folder: Path, label: str, command: Command) -> str:  # noqa:
 def _small(case: Path) -> bool:
     """Whether the case can be read and is solved in no time."""
     try:
-        settings = Case.read(case).resolve()
+        settings = Case(case).resolve()
     except EhlError:
         return False
     steps = int(settings["time"]["steps"])

@@ -23,7 +23,7 @@ def execute(args: argparse.Namespace) -> int:
     """Run ``pyehl app`` until it is interrupted; 0 then, 2 for bad input."""
     if not 0 <= args.port <= 65535:
         raise InputError(f"--port {args.port}: expected 0 ... 65535")
-    case = Case.read(args.case, args.overrides) if args.case else Case.from_text("", args.overrides)
+    case = Case(args.case, args.overrides) if args.case else Case.from_text("", args.overrides)
     try:
         from pyehl.app.server import serve  # noqa: PLC0415 (Bokeh is an extra)
     except ImportError as error:

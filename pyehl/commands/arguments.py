@@ -3,6 +3,8 @@
 
 import argparse
 
+from pyehl.given import TYPED
+
 
 def add_case_arguments(parser: argparse.ArgumentParser, *, optional: bool = False) -> None:
     """Case file and --set options, the same for every subcommand that takes a case."""
@@ -18,6 +20,7 @@ def add_overrides(parser: argparse.ArgumentParser, where: str) -> None:
         "--set",
         dest="overrides",
         action="append",
+        type=f"{TYPED}{{}}".format,
         default=[],
         metavar="GROUP.KEY=VALUE",
         help=f"replace a value {where}; may be repeated",

@@ -34,7 +34,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def execute(args: argparse.Namespace) -> int:
-    case = Case.read(args.case, args.overrides)
+    case = Case(args.case, args.overrides)
     case = exchanged(case) if args.second else case
     ratio = float(case.resolve()["surface"]["velocity_ratio"])
     # a step costs what its nodes do

@@ -90,7 +90,7 @@ def execute(args: argparse.Namespace) -> int:
     if args.resume is not None:
         if args.resume == "":
             raise InputError("pyehl run: error: the folder behind --resume has no name")
-        case = None if args.case is None else Case.read(args.case, args.overrides)
+        case = None if args.case is None else Case(args.case, args.overrides)
         done = resume(
             args.resume,
             args.output,
@@ -106,5 +106,5 @@ def execute(args: argparse.Namespace) -> int:
             f"pyehl run: error: no {missing}\n"
             "expected: pyehl run CASE.nml -o DIR, or pyehl run --resume DIR"
         )
-    case = Case.read(args.case, args.overrides)
+    case = Case(args.case, args.overrides)
     return _status(run(case, args.output, inputs=(args.case,), **words), say)

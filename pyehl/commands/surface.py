@@ -15,6 +15,7 @@ from pyehl.case import Case, exchanged, files_of
 from pyehl.commands.arguments import add_case_arguments
 from pyehl.destination import check_files, made_by, mark, new_file
 from pyehl.errors import FileError, InputError
+from pyehl.given import key_of
 from pyehl.surfaces import FEATURES, Topography, from_settings
 from pyehl.surfaces.areal import AREAL_NAMES, areal_numbers
 from pyehl.surfaces.in_memory import READY
@@ -61,13 +62,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def execute(args: argparse.Namespace) -> int:
     is_case = Path(args.case).suffix.lower() == ".nml"
     if is_case:
-        case = Case.read(args.case, args.overrides)
+        case = Case(args.case, args.overrides)
         if args.second:
             case = exchanged(case)
     else:
         name = str(Path(args.case).absolute()).replace("'", "''")
         text = f"&surface kind = 'map' file = '{name}' /"
-        case = Case.from_text(text, args.overrides, args.case)
+        case = Case.from_text(text, args.overrides, origin=args.case)
     settings = case.resolve()
     kind = settings["surface"]["kind"]
     if kind == "map":
@@ -100,7 +101,9 @@ def execute(args: argparse.Namespace) -> int:
         raise InputError(f"{named}{error}") from error
     print("\n".join([*_lines(surface), *numbers(surface)]))
     if args.output is not None:
-        known = is_case or any(o.startswith(("contact.", "lubricant.")) for o in args.overrides)
+        known = is_case or any(
+            key_of(o).startswith(("contact.", "lubricant.")) for o in args.overrides
+        )
         conditions = (
             operating.hertz_radius,
             *operating.equivalent_moes,

@@ -79,7 +79,7 @@ def response(
     case
         A case, or the path of a case file: its contact, lubricant and `surface.velocity_ratio`.
     *options
-        Values that replace those of the case: dicts, or texts ``group.key=value``.
+        Values that replace those of the case, as of `Case`.
     output
         Result folder, as ``pyehl response -o`` writes it; runs that are there already are not made
         again. None: nothing is kept on disk.
@@ -115,7 +115,7 @@ def response(
     surface.velocity_ratio = 0: a surface at rest makes no waves in time
     """
     inputs = () if isinstance(case, Case) else (case,)
-    case = Case.of(case, *options)
+    case = Case(case, *options)
     if second:
         case = exchanged(case)
     tiers = TIERS[:-1] if quick else TIERS

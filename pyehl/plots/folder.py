@@ -116,11 +116,11 @@ def plot(
             raise InputError(f"--{name} {value}: expected one of {', '.join(known)}")
     check_kind(dpi, int, "dpi", "a whole number")
     if not 10 <= dpi <= 2400:
-        raise InputError(f"--dpi {dpi}: 10 ... 2400 dots per inch were expected")
+        raise InputError(f"dpi = {dpi}: 10 ... 2400 dots per inch were expected")
     check_kind(width, (int, float), "width", "a number [m]")
     if width and not LEAST_WIDTH <= width <= MOST_WIDTH:
         raise InputError(
-            f"--width {width * 1e3:g}mm: {LEAST_WIDTH * 1e3:g} ... {MOST_WIDTH * 1e3:g} mm were "
+            f"width = {width * 1e3:g} mm: {LEAST_WIDTH * 1e3:g} ... {MOST_WIDTH * 1e3:g} mm were "
             "expected"
         )
     # a prediction draws without them

@@ -193,7 +193,7 @@ def remedies_of(tile: Topography) -> tuple[str, ...]:
 
 def first_of(remedy: str) -> str:
     """Line with an option that comes before all others."""
-    return f"first      --set {remedy}: it is no roughness"
+    return f"first      {remedy}: it is no roughness"
 
 
 def place_of(tile: Topography, i: int, j: int) -> tuple[float, float]:

@@ -236,7 +236,7 @@ class RoughPassage:
         ratios = passage[1]
         status, message = outcome(contact, ratios, load_balance=self.options.load_balance)
         if status == BEYOND and not brief and (first := remedies_of(self.topography)):
-            message += "; " + ", ".join(f"first --set {option}" for option in first)
+            message += "; " + ", ".join(f"first {option}" for option in first)
         elif status == BEYOND and not brief:
             message += self._carried(*parts)
         return passed(

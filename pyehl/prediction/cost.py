@@ -73,12 +73,12 @@ def _part(
             continue
         share *= want / size
         low = made.options.crop[2 * k] + 0.5 * (size - want)
-        options.append(f"--set {group}.crop_{name}_min={low:.4g}")
-        options.append(f"--set {group}.crop_{name}_max={low + want:.4g}")
+        options.append(f"{group}.crop_{name}_min={low:.4g}")
+        options.append(f"{group}.crop_{name}_max={low + want:.4g}")
     side = lengths.length(2.0 * ENOUGH * operating.hertz_radius, 2)
     return (
         f". A part of {ENOUGH:.0f} contacts ({side}) takes about {_time(share * seconds)}: "
-        f"{' '.join(options)}"
+        f"{', '.join(options)}"
     )
 
 

@@ -243,7 +243,7 @@ def _options(settings: Mapping[str, Mapping[str, Any]], tracks: int) -> Options:
     """How the model is read; InputError where nothing is predicted of the case."""
     if not 1 <= tracks <= MAX_TRACKS:
         raise InputError(
-            f"--tracks {tracks}: expected 1 to {MAX_TRACKS}; the mean over {MAX_TRACKS} is known "
+            f"tracks = {tracks}: expected 1 to {MAX_TRACKS}; the mean over {MAX_TRACKS} is known "
             "to a hundredth of the spread"
         )
     why = unpredictable(settings)

@@ -174,7 +174,7 @@ def _on_grid(
 
     With a boundary film that may touch because of the grid: why; else ''.
     """
-    case = Case.from_text(text, [f"grid.points={points}", *options], "smooth contact")
+    case = Case.from_text(text, [f"grid.points={points}", *options], origin="smooth contact")
     with SolverHandle(case.text) as solver:
         solver.run()
         summary = solver.summary()

@@ -63,7 +63,7 @@ WAVE = (
 
 def tile(seed: int = SEED) -> tuple[Topography, OperatingPoint]:
     """Make the surface of a seed, with its operating point."""
-    settings = Case.from_text(CASE, [f"surface.seed={seed}"], "table 1").resolve()
+    settings = Case.from_text(CASE, f"surface.seed={seed}", origin="table 1").resolve()
     point = OperatingPoint.from_settings(settings)
     return surfaces.from_settings(settings, point, 1e-7), point
 

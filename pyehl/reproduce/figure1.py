@@ -43,7 +43,7 @@ def run(runs: Runs, level: Level) -> Flow:
     paper, ours = (
         of_case.predict(case.resolve(), case.text, brief=True)
         for case in (
-            Case.from_text(CASE + MODELS[model], [f"surface.seed={SEED}"], "figure 1")
+            Case.from_text(CASE + MODELS[model], f"surface.seed={SEED}", origin="figure 1")
             for model in ("paper", "response")
         )
     )

@@ -102,7 +102,7 @@ class Results:
 
 @cache
 def _settings(text: str, options: tuple[str, ...]) -> dict[str, dict[str, Any]]:
-    return Case.from_text(text, options, "case of the results").resolve()
+    return Case.from_text(text, options, origin="case of the results").resolve()
 
 
 def read_results(path: str | os.PathLike[str]) -> Results:

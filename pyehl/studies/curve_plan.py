@@ -106,16 +106,17 @@ def plan_curve(
     study = make(case, axes, options=options, run="predict")
     size = study.size
     if not 0 <= ehl <= size:
-        raise InputError(f"--ehl {ehl}: expected 0 to {size}, the number of points")
+        raise InputError(f"ehl = {ehl}: expected 0 to {size}, the number of points")
     if not 1 <= seeds <= MAX_SURFACES:
         raise InputError(
-            f"--surfaces {seeds}: expected 1 to {MAX_SURFACES}; the spread of {MAX_SURFACES} is "
+            f"surfaces = {seeds}: expected 1 to {MAX_SURFACES}; the spread of {MAX_SURFACES} is "
             "known to 2 %"
         )
     count = size * (1 + seeds) + ehl
     if count > MAX_CASES:
         raise InputError(
-            f"{size} points with --surfaces {seeds} are {count} cases; a study can have {MAX_CASES}"
+            f"{size} points with {seeds} surfaces each are {count} cases; a study can have "
+            f"{MAX_CASES}"
         )
     check_memory(count)
     chosen = {int((k + 0.5) * size / ehl) for k in range(ehl)}
@@ -150,11 +151,11 @@ def _check_share(settings: Settings) -> None:
     """Refuse what the empirical law of a thin film says nothing of."""
     if not surfaces.rough_groups(settings):
         raise InputError(
-            "--boundary-friction: surface.kind = 'smooth' has no Lambda\nexpected: a rough surface"
+            "boundary friction: surface.kind = 'smooth' has no Lambda\nexpected: a rough surface"
         )
     if settings["lubricant"]["shear_law"] == "newtonian":
         raise InputError(
-            "--boundary-friction: of a Newtonian lubricant there is a ratio of friction alone\n"
+            "boundary friction: of a Newtonian lubricant there is a ratio of friction alone\n"
             "expected: lubricant.shear_law = 'eyring', 'limiting' or 'carreau'"
         )
 
@@ -166,10 +167,10 @@ def _check(settings: Settings, seeds: int, ehl: int) -> None:
     if why:
         raise InputError(why)
     if not groups and ehl:
-        raise InputError(f"--ehl {ehl}: surface.kind = 'smooth' has no passage to solve")
+        raise InputError(f"ehl = {ehl}: surface.kind = 'smooth' has no passage to solve")
     if seeds > 1 and not _fractal(settings):
         kinds = " and ".join(f"{g}.kind = '{settings[g]['kind']}'" for g in groups or ["surface"])
-        raise InputError(f"--surfaces {seeds}: {kinds} has no seed")
+        raise InputError(f"surfaces = {seeds}: {kinds} has no seed")
     if "load" not in settings["contact"]:
         raise InputError("a Stribeck curve needs a contact in SI units (load, mean_velocity)")
     film = formula_film(settings)

@@ -132,7 +132,7 @@ def stribeck(
     case
         A case in SI units, or the path of a case file.
     *options
-        Values that replace those of the case: dicts, or texts ``group.key=value``.
+        Values that replace those of the case, as of `Case`.
     speed, viscosity, load, temperature, slide_to_roll
         Values of contact.mean_velocity [m/s], lubricant.viscosity [Pa s], contact.load [N],
         lubricant.temperature [degC], contact.slide_to_roll [-]: a sequence, or a text as behind

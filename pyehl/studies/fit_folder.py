@@ -38,7 +38,7 @@ def fit_lubricant(
         A case, or the path of a case file: the contact in SI units and its lubricant. Roughness
         does not count.
     *options
-        Values that replace those of the case: dicts, or texts ``group.key=value``.
+        Values that replace those of the case, as of `Case`.
     law
         'eyring', 'limiting' (the limiting coefficient) or 'carreau'; '': that of the case, and
         'eyring' where the case has none.
@@ -75,13 +75,13 @@ def fit_lubricant(
     path = path_of(data, "data")
     inputs = [path] if isinstance(case, Case) else [path, path_of(case, "case")]
     check_kind(points, int, "points", "a whole number")
-    case = Case.of(case, *options)
+    case = Case(case, *options)
     settings = case.resolve()
     given = str(settings["lubricant"]["shear_law"])
     law = law or ("eyring" if given == "newtonian" else given)
     if law not in PARAMETERS:
         raise InputError(
-            f"--law {law}: expected one of {', '.join(PARAMETERS)}{did_you_mean(law, PARAMETERS)}"
+            f"law = {law}: expected one of {', '.join(PARAMETERS)}{did_you_mean(law, PARAMETERS)}"
         )
     measured = read_measured(path, KEY)
     if (measured.abscissa, measured.ordinate) != (KEY, "mu"):

@@ -17,6 +17,7 @@ from typing import Any
 from pyehl import library, surfaces
 from pyehl.case import Case, files_of
 from pyehl.errors import InputError
+from pyehl.given import key_of
 from pyehl.prediction.options import unpredictable
 from pyehl.prediction.smooth import POINTS
 from pyehl.prediction.smooth_case import smooth_case
@@ -227,7 +228,7 @@ def plan(study: Study, keep: str | os.PathLike[str] | None = None, *, brief: boo
     brief = brief and study.size > MOST
     if not brief:
         check_memory(study.size)
-    fixed = {text.partition("=")[0].strip().lower() for text in study.options} | set(study.keys)
+    fixed = {key_of(text) for text in study.options} | set(study.keys)
     one_thread = [] if THREADS in fixed else [f"{THREADS}=1"]
     digits = len(str(study.size))
     points, tasks = [], TaskList()

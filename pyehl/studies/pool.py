@@ -246,7 +246,7 @@ def cluster_rows(tasks: Sequence[Task], address: str) -> Generator[list[tuple[in
     try:
         from distributed import Client, as_completed  # noqa: PLC0415 (an optional extra)
     except ImportError as error:
-        raise InputError("--scheduler needs dask: pip install 'pyehl[cluster]'") from error
+        raise InputError("a scheduler needs dask: pip install 'pyehl[cluster]'") from error
     try:
         client = Client(address, timeout=PATIENCE, set_as_default=False)
     except (OSError, ValueError) as error:

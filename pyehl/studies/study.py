@@ -6,7 +6,7 @@ import itertools
 import math
 import os
 import tomllib
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from importlib import metadata
@@ -16,7 +16,7 @@ import numpy as np
 
 from pyehl.case import Case
 from pyehl.errors import EhlError, InputError, did_you_mean
-from pyehl.given import Value, option, text_file
+from pyehl.given import Value, bare, by_key, key_of, option, text_file
 from pyehl.studies.outputs import TRACKS, checked
 from pyehl.studies.vary import Axis, axis
 
@@ -52,7 +52,7 @@ class Study:
     """A case and what is varied in it."""
 
     case: Case | str  # a case, or the path of a case file
-    options: tuple[str, ...]  # Texts ``group.key=value`` that hold for all cases
+    options: tuple[str, ...]  # that hold for all cases
     # What is varied: the keys of one dimension move together. The last dimension is the fastest in
     # the table
     dimensions: tuple[tuple[Axis, ...], ...]
@@ -111,7 +111,7 @@ class Study:
         texts = [*self.options, *(option(key, value) for key, value in point.values.items())]
         texts += more
         with self.named(point):
-            return Case.of(self.case, texts)
+            return Case(self.case, texts)
 
     @contextmanager
     def named(self, point: Point) -> Iterator[None]:
@@ -133,7 +133,7 @@ class Study:
             "run": self.run,
             "case": first,
             "file": contents(files),
-            "set": list(self.options),
+            "set": [bare(text) for text in self.options],
             "vary": {a.key: list(a.values) for axes in self.dimensions for a in axes},
             "zip": [[a.key for a in axes] for axes in self.dimensions if len(axes) > 1],
         }
@@ -177,7 +177,7 @@ def make(
             f"run = '{run}': expected one of {', '.join(RUNS)}{did_you_mean(run, RUNS)}"
         )
     if not axes:
-        raise InputError("nothing is varied: at least one --vary group.key=VALUES is needed")
+        raise InputError("nothing is varied\nexpected: values of at least one group.key")
     names = [a.key for a in axes]
     for name in names:
         if names.count(name) > 1:
@@ -188,7 +188,7 @@ def make(
         _refuse_twice(together)
     texts = tuple(str(text) for text in options)
     for text in texts:
-        key = text.partition("=")[0].strip().lower()
+        key = key_of(text)
         if key in names:
             raise InputError(f"{key} is varied and set")
     base = case if isinstance(case, Case) else os.fspath(case)
@@ -260,8 +260,8 @@ def read_study(path: str | os.PathLike[str]) -> dict[str, Any]:
     if "case" not in values:
         raise InputError(f"{name}: error: there is no 'case'\nexpected: the path of a case file")
     try:
-        axes = [axis(key, found) for key, found in _flat(values.get("vary", {})).items()]
-        fixed = [axis(key, [found]) for key, found in _flat(values.get("set", {})).items()]
+        axes = [axis(key, found) for key, found in by_key(values.get("vary", {}))]
+        fixed = [axis(key, [found]) for key, found in by_key(values.get("set", {}))]
     except InputError as error:
         raise InputError(f"{name}: error: {error}") from error
     return {
@@ -273,14 +273,3 @@ def read_study(path: str | os.PathLike[str]) -> dict[str, Any]:
         "outputs": [str(word) for word in values.get("outputs", [])],
         "origin": f"{name}: error: ",
     }
-
-
-def _flat(table: Mapping[str, Any]) -> dict[str, Any]:
-    """Keys ``group.key`` of a table whose groups may be tables themselves."""
-    flat: dict[str, Any] = {}
-    for key, value in table.items():
-        if isinstance(value, dict):
-            flat |= {f"{key}.{inner}": found for inner, found in value.items()}
-        else:
-            flat[key] = value
-    return flat

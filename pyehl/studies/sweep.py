@@ -82,7 +82,7 @@ def sweep(
     vary
         Values by key ``group.key``: a sequence, or a text as behind ``pyehl sweep --vary``.
     *options
-        Values that hold for all cases: dicts, or texts ``group.key=value``.
+        Values that hold for all cases, as of `Case`.
     zip
         True: all keys move together; else lists of the keys that do. Otherwise every value of a
         key meets every value of the others.

@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from pyehl import arrays, library
+from pyehl.given import bare
 from pyehl.results import unit_of
 from pyehl.studies.outputs import LAST
 from pyehl.studies.study import Point, Study
@@ -65,7 +66,7 @@ def dataset(study: Study, points: Sequence[Point], rows: Mapping[int, Values]) -
     films = ("h_c_m_", "h_min_m_")
     units = {name: "m" if name.startswith(films) else unit_of(name) for name in found}
     attributes = {"title": "study of pyehl", "run": study.run}
-    attributes |= {"set": "\n".join(study.options)} if study.options else {}
+    attributes |= {"set": "\n".join(map(bare, study.options))} if study.options else {}
     return over(study, found, units, attributes)
 
 

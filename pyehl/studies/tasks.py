@@ -13,7 +13,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from pyehl.case import Case
+from pyehl.case import trusted
 from pyehl.errors import EhlError
 from pyehl.prediction import film_sheet, folder, of_case
 from pyehl.prediction.friction import BEYOND
@@ -78,7 +78,7 @@ def execute(task: Task) -> Row:
 
 
 def _solve(task: Task) -> Row:
-    case = Case.resolved(task.text)
+    case = trusted(task.text)
     if task.folder:
         run(case, task.folder)
         text = (Path(task.folder) / "summary.json").read_text(encoding="utf-8")
@@ -89,7 +89,7 @@ def _solve(task: Task) -> Row:
 
 
 def _predict(task: Task) -> Row:
-    case = Case.resolved(task.text)
+    case = trusted(task.text)
     full = task.full or bool(task.folder)
     prediction = of_case.predict(case.resolve(), case.text, brief=not full)
     if task.folder:
@@ -99,7 +99,7 @@ def _predict(task: Task) -> Row:
 
 
 def _film(task: Task) -> Row:
-    values = film_sheet.sheet(Case.resolved(task.text).resolve())
+    values = film_sheet.sheet(trusted(task.text).resolve())
     row = _scalars(values)
     row["h_c_m"] = values["formulas"][0]["h_c_m"]
     for formula in values["formulas"]:

@@ -24,7 +24,7 @@ class Finding:
 
     def report(self) -> str:
         """Tell it in one line."""
-        return f"{self.kind}: {self.text}" + (f"; --set {self.remedy}" if self.remedy else "")
+        return f"{self.kind}: {self.text}" + (f"; {self.remedy}" if self.remedy else "")
 
     def summary(self) -> dict[str, object]:
         """Return what ``summary.json`` holds of it."""

@@ -96,16 +96,15 @@ def _where(missing: Mask, pixel: tuple[float, float], corner: tuple[float, float
     text = ""
     if good is not None:
         part = [
-            f"--set surface.crop_{name}_{end}={corner[k] + blocks[k][at] * pixel[k]:.6g}"
+            f"surface.crop_{name}_{end}={corner[k] + blocks[k][at] * pixel[k]:.6g}"
             for k, name in enumerate("xy")
             for end, at in (("min", good[2 * k]), ("max", good[2 * k + 1]))
         ]
         i, j, m, n = good
         lost = 100 * count[i:j, m:n].sum() / area[i:j, m:n].sum()
         of_all = 100 * area[i:j, m:n].sum() / missing.size
-        text = (
-            f"\nexpected: such as {' '.join(part)}: {of_all:.0f} % of the map, {lost:.1f} % missing"
-        )
+        share = f"{of_all:.0f} % of the map, {lost:.1f} % missing"
+        text = f"\nexpected: such as {', '.join(part)}: {share}"
     # X to the right, Y upwards; a letter is about twice as high as wide
     rows = np.array_split(missing, min(missing.shape[1], SHOWN_ROWS), axis=1)
     lines = [

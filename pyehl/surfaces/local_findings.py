@@ -82,7 +82,7 @@ def _one_side(ends: Sequence[float], name: str) -> str:
     low, high = ends[first], ends[first + 1]
     options = [f"surface.crop_{name}_min={low:.6g}"] if low > ends[0] else []
     options += [f"surface.crop_{name}_max={high:.6g}"] if high < ends[-1] else []
-    return " --set ".join(options)
+    return ", ".join(options)
 
 
 def dust(z: Array, pixel: tuple[float, float], corner: tuple[float, float]) -> Finding | None:

@@ -82,7 +82,7 @@ def test_surface_is_predicted(tab):
     tab.rest()
     tab.until(lambda: "μ_r/μ_s" in tab.get("rough", "text"))
     rows = rows_of(tab, "rough")
-    case = pyehl.Case(tab.get("case", "value"))
+    case = pyehl.Case.from_text(tab.get("case", "value"))
     prediction = pyehl.predict(case)
     error = prediction.model_error
     assert rows["μ_r/μ_s"] == f"{prediction.mu_ratio:.3f} ± {error:.3f}"
@@ -245,7 +245,9 @@ def test_an_older_answer_never_comes_last(tab, page):
     assert tab.stamp()[0] == tab.stamp()[1]
     load = float(re.search(r"load = (\S+)", tab.get("case", "value"))[1])
     assert load == pyehl.app.knobs.KNOBS["load"].at(209)
-    point = pyehl.OperatingPoint.from_settings(pyehl.Case(tab.get("case", "value")).resolve())
+    point = pyehl.OperatingPoint.from_settings(
+        pyehl.Case.from_text(tab.get("case", "value")).resolve()
+    )
     assert rows_of(tab, "numbers")["Moes load M"] == f"{point.moes_m:.4g}"
 
 

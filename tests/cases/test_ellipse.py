@@ -159,10 +159,10 @@ def test_bodies_make_reduced_radii_and_modulus(ehl: str, tmp_path: Path):
     subprocess.run([ehl, tmp_path / "case.nml", "-o", first, *sets], check=True)
     subprocess.run([ehl, first / "case.nml", "-o", again], check=True)
     assert np.array_equal(np.load(first / "H.npy"), np.load(again / "H.npy"))
-    changed = pyehl.Case.read(first / "case.nml", "bodies.radius_x2=0").resolve()["contact"]
+    changed = pyehl.Case(first / "case.nml", "bodies.radius_x2=0").resolve()["contact"]
     assert changed["radius_x"] == ball
     # all values of a resolved case, as if each had been given
-    whole = pyehl.Case.read(first / "case.nml").resolve()
+    whole = pyehl.Case(first / "case.nml").resolve()
     again = {f"{g}.{k}": v for g, keys in whole.items() for k, v in keys.items() if v != ""}
     assert pyehl.Case.from_text("", again).resolve() == whole
 

@@ -75,7 +75,7 @@ def test_one_motion_said_in_three_ways(solve):
         assert done["steps"] == 60
         assert np.array_equal(done.history["mu_ratio"], runs[0].history["mu_ratio"])
     moes = solve((200.0, 10.0), 65, WAVE | {"contact.slide_to_roll": 0.5})
-    assert Case.read(moes.folder / "case.nml").resolve()["surface"]["velocity_ratio"] == 1.25
+    assert Case(moes.folder / "case.nml").resolve()["surface"]["velocity_ratio"] == 1.25
 
 
 def test_stress_laws_in_time_steps(solve):

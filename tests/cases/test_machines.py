@@ -60,7 +60,7 @@ def test_ball_bearing(root: Path, ehl: str, tmp_path: Path):
     assert f"{found['rolling_moment_N_m'] * 1e4:.2f}·10⁻⁴ N m" in text
     assert f"is {1 - found['H_min'] / found['H_c']:.0%} below".replace("%", " %") in text
     # bearing, speed and load make the case
-    given = pyehl.Case.read(case).resolve()
+    given = pyehl.Case(case).resolve()
     ball, pitch = 7.938e-3, 33.5e-3
     assert given["bodies"]["radius_x1"] == pytest.approx(0.5 * ball)
     assert given["bodies"]["radius_x2"] == pytest.approx(0.5 * (pitch - ball), rel=1e-3)
@@ -110,7 +110,7 @@ def test_gear_pair(root: Path, ehl: str, tmp_path: Path):
         made, kept = (np.load(place / "cases" / name) for place in (tmp_path, root))
         assert made == pytest.approx(kept, abs=1e-13)
     # gears, speed and slip make the case
-    given = pyehl.Case.read(case).resolve()
+    given = pyehl.Case(case).resolve()
     angle = math.acos(90.0 * math.cos(math.radians(20.0)) / 91.5)
     radius = 0.5 * 91.5e-3 * math.sin(angle)
     assert given["bodies"]["radius_x1"] == pytest.approx(radius, rel=1e-3)

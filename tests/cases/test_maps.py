@@ -309,7 +309,7 @@ import resource, sys
 from pyehl import Case, Solver
 import scipy.fft, scipy.ndimage
 z = 1024.0 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-with Solver(Case.read(sys.argv[1])) as solver:
+with Solver(Case(sys.argv[1])) as solver:
     print(1024.0 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - z)
 """
 

@@ -66,7 +66,7 @@ def test_solve_is_load_of_the_folder(smooth: Path, tmp_path: Path):
 
 
 def test_solve_takes_a_case_and_options(smooth: Path):
-    case = pyehl.Case.read(smooth, "grid.points=65")
+    case = pyehl.Case(smooth, "grid.points=65")
     same(pyehl.solve(case), pyehl.solve(smooth, ["grid.points=65"]))
     assert pyehl.solve(case, "grid.points=129").P.shape == (129, 129)
     assert case.resolve()["grid"]["points"] == 65
@@ -83,13 +83,20 @@ def test_transient_results_are_the_same_in_memory(fractal: Path, tmp_path: Path)
 
 
 def test_a_case_by_its_values():
-    """Checked at once; options are a dict or texts, everywhere."""
+    """Checked at once; options are dicts, nested or not, or texts, everywhere."""
     case = pyehl.Case(contact={"moes_m": 100.0, "moes_l": 5.0}, grid={"points": np.int64(33)})
-    assert case == pyehl.Case("&contact moes_m = 100.0 moes_l = 5.0 /\n&grid points = 33 /\n")
-    assert pyehl.Case("&grid points = 33 /", contact={"moes_m": 100.0, "moes_l": 5.0}) == case
+    assert case == pyehl.Case.from_text(
+        "&contact moes_m = 100.0 moes_l = 5.0 /\n&grid points = 33 /\n"
+    )
+    assert (
+        pyehl.Case.from_text("&grid points = 33 /", {"contact": {"moes_m": 100.0, "moes_l": 5.0}})
+        == case
+    )
     values = {"grid.points": 65, "output.fields": False, "surface.kind": "fractal"}
     texts = ["grid.points=65", "output.fields=.false.", "surface.kind=fractal"]
     assert case.with_options(values) == case.with_options(*texts) == case.with_options(texts)
+    nested = {"grid": {"points": 65.0}, "output": {"fields": False}, "surface.kind": "fractal"}
+    assert case.with_options(nested) == case.with_options(values)
     assert case.with_options(values, "surface.seed=3").resolve()["surface"]["seed"] == 3
     with pytest.raises(pyehl.InputError, match=r"(?s)contact\.laod.*'load'"):
         pyehl.Case(contact={"laod": 3.0})
@@ -104,7 +111,9 @@ def test_python_and_command_say_the_same(smooth: Path, values: dict[str, int], c
         words = {"solve": ["run"]}.get(call.__name__, [call.__name__])
         output = ["-o", "out"] if call in (pyehl.solve, pyehl.predict) else []
         assert cli.main([*words, str(smooth), *output, "--set", text]) == 2
-        assert capsys.readouterr().err == f"{caught.value}\n"
+        # each in the words of the caller
+        assert capsys.readouterr().err == f"--set {caught.value}\n"
+        assert str(caught.value).startswith(text)
 
 
 def test_scalars_have_units(fractal: Path, tmp_path: Path):
@@ -358,7 +367,7 @@ def test_solver_is_an_iterator(fractal: Path):
 def test_predict(fractal: Path):
     options = ("grid.points=65", "surface.seed=3", "surface.rms_height=1e-9")
     p = pyehl.predict(fractal, *options)
-    case = pyehl.Case.read(fractal, *options)
+    case = pyehl.Case(fractal, *options)
     assert p.mu_ratio == p.summary["mu_ratio"] == pyehl.predict(case).mu_ratio
     assert p.data.attrs["mu_ratio"] == p.mu_ratio
     assert p.data.attrs["case"] == case.text
@@ -373,7 +382,7 @@ def test_predict(fractal: Path):
 
 
 def test_case_is_shown_in_short(fractal: Path):
-    case = pyehl.Case.read(fractal)
+    case = pyehl.Case(fractal)
     assert len(repr(case)) < 100
     assert "fractal" in repr(case)
     assert "surface.rms_height" in case._repr_html_()

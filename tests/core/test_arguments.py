@@ -12,6 +12,7 @@ import pytest
 
 import pyehl
 from pyehl import cli
+from pyehl.case import trusted
 
 SMALL = "grid.points=65"
 WHOLE_TEXT = "the text of a case"
@@ -31,28 +32,29 @@ CALLS: dict[str, tuple[Callable[[str], Any], str]] = {
     "text None": (lambda q: pyehl.Case.from_text(None), "expected a text, not NoneType"),
     "text bytes": (lambda q: pyehl.Case.from_text(b"&grid /"), "expected a text, not bytes"),
     "text surrogate": (lambda q: pyehl.Case.from_text("\ud800"), "no text"),
-    "text nonsense": (lambda q: pyehl.solve(pyehl.Case("nonsense")), "text outside of a group"),
-    "case None": (lambda q: pyehl.Case(None), "expected a text"),
+    "text nonsense": (lambda q: pyehl.Case.from_text("nonsense"), "text outside of a group"),
+    "text for a path": (lambda q: pyehl.Case("&grid points = 65 /"), "pyehl.Case.from_text"),
+    "case None": (lambda q: pyehl.Case(None), "expected a path, not NoneType"),
     "option of text": (lambda q: pyehl.Case.from_text("", [3]), "expected texts group.key=value"),
-    "origin": (lambda q: pyehl.Case.from_text("", [], 3), "expected a path"),
+    "origin": (lambda q: pyehl.Case.from_text("", origin=3), "expected a path"),
     "read None": (lambda q: pyehl.Case.read(None), "expected a path, not NoneType"),
     "read zero byte": (lambda q: pyehl.Case.read("a\0b"), "zero byte"),
-    "read number": (lambda q: pyehl.Case.read(q, 65), "or a dict of values by group.key, not int"),
-    "read dict": (lambda q: pyehl.Case.read(q, {"grid.pionts": 65}), "'points'"),
-    "read nested": (
-        lambda q: pyehl.Case.read(q, {"grid": {"points": 65}}),
-        "grid = {'points': 65}",
-    ),
-    "read key": (lambda q: pyehl.Case.read(q, {3: 65}), "options = 3"),
-    "read array": (lambda q: pyehl.Case.read(q, {"grid.points": np.ones(2)}), "not ndarray"),
+    "read number": (lambda q: pyehl.Case(q, 65), "or by group and key, not int"),
+    "read dict": (lambda q: pyehl.Case(q, {"grid.pionts": 65}), "'points'"),
+    "read nested": (lambda q: pyehl.Case(q, {"grid": {"pionts": 65}}), "'points'"),
+    "read nested key": (lambda q: pyehl.Case(q, {"grid": {3: 65}}), "grid = 3"),
+    "read flat": (lambda q: pyehl.Case(q, {"points": 65}), "points = 65: expected values by key"),
+    "read fraction": (lambda q: pyehl.Case(q, {"grid.points": 65.5}), "not a whole number"),
+    "read key": (lambda q: pyehl.Case(q, {3: 65}), "options = 3"),
+    "read array": (lambda q: pyehl.Case(q, {"grid.points": np.ones(2)}), "not ndarray"),
     "case group": (lambda q: pyehl.Case(gird={"points": 65}), "did you mean 'grid'"),
     "case key": (lambda q: pyehl.Case(contact={"laod": 65.0}), "did you mean 'load'"),
     "case value": (lambda q: pyehl.Case(grid={"points": None}), "grid.points = None"),
     "case number": (lambda q: pyehl.Case(grid=65), "grid = 65: expected values by key"),
-    "read list": (lambda q: pyehl.Case.read(q, [SMALL, 3]), "options = 3"),
-    "read bytes": (lambda q: pyehl.Case.read(q, b"grid.points=65"), "not bytes"),
-    "read lines": (lambda q: pyehl.Case.read(q, f"{SMALL}\n"), "more than one line"),
-    "options number": (lambda q: pyehl.Case.read(q).with_options(3), "not int"),
+    "read list": (lambda q: pyehl.Case(q, [SMALL, 3]), "options = 3"),
+    "read bytes": (lambda q: pyehl.Case(q, b"grid.points=65"), "not bytes"),
+    "read lines": (lambda q: pyehl.Case(q, f"{SMALL}\n"), "more than one line"),
+    "options number": (lambda q: pyehl.Case(q).with_options(3), "not int"),
     "solve None": (lambda q: pyehl.solve(None), "expected a path"),
     "solve dict": (lambda q: pyehl.solve({}), "not dict"),
     "solve output": (lambda q: pyehl.solve(q, SMALL, output=3), "output = 3"),
@@ -99,8 +101,8 @@ def test_one_option_is_one_option(quick: str):
         pyehl.Case.from_text("", SMALL),
         pyehl.Case.from_text("", [SMALL]),
         pyehl.Case.from_text("").with_options([SMALL]),
-        pyehl.Case.read(quick, (SMALL,)),
-        pyehl.Case(f"&grid points = {65} /"),
+        pyehl.Case(quick, (SMALL,)),
+        pyehl.Case.from_text(f"&grid points = {65} /"),
     ):
         assert case.resolve()["grid"]["points"] == 65
     ds = pyehl.sweep(quick, {"contact.moes_m": 100.0}, SMALL, outputs="H_c", jobs=1)
@@ -109,19 +111,19 @@ def test_one_option_is_one_option(quick: str):
 
 
 def test_a_case_is_checked_at_once_and_resolved_once(monkeypatch):
-    case = pyehl.Case("")
-    assert pyehl.Case(case.text) == case
+    case = pyehl.Case()
+    assert pyehl.Case.from_text(case.text) == case
     calls = []
     resolve = pyehl.case.library.resolve
     monkeypatch.setattr(
         "pyehl.library.resolve", lambda *a, **k: calls.append(a) or resolve(*a, **k)
     )
-    assert pyehl.Case.resolved(case.text) == case
+    assert trusted(case.text) == pyehl.Case(case) == case
     assert calls == []
 
 
 def test_derived_values_follow_new_ones():
-    case = pyehl.Case("")
+    case = pyehl.Case()
     other = case.with_options("lubricant.pressure_viscosity=1.1e-8")
     before, after = (c.resolve()["lubricant"]["roelands_z"] for c in (case, other))
     assert after == pytest.approx(0.5 * before, rel=1e-12)
@@ -131,7 +133,7 @@ def test_what_a_terminal_hands_over_need_not_be_text(quick: str):
     """Bytes of a file name that are no UTF-8 come as lone surrogates."""
     name = os.fsdecode(b"m\xff.npy")
     with pytest.raises(pyehl.InputError, match=r"surface\.file"):
-        pyehl.Case.read(quick, "surface.kind=map", f"surface.file={name}")
+        pyehl.Case(quick, "surface.kind=map", f"surface.file={name}")
 
 
 def test_faults_of_the_package_stay_what_they_are(cases: Path, tmp_path: Path, monkeypatch):

@@ -194,7 +194,7 @@ def test_texts_of_any_length_arrive_whole(monkeypatch: pytest.MonkeyPatch):
         library.resolve("", "a text"),
         library.conclude({"mu_ratio": 1.5}),
     ) == whole
-    with Solver(Case("&grid points = 33 /\n")) as solver:
+    with Solver(Case.from_text("&grid points = 33 /\n")) as solver:
         solver.run()
         short = solver.summary()
         monkeypatch.undo()

@@ -68,7 +68,7 @@ def test_summary_and_fields(drive, tmp_path: Path):
     assert set(summary) >= SUMMARY
     assert summary["status"] == "converged"
     x, y = np.load(tmp_path / "out" / "X.npy"), np.load(tmp_path / "out" / "Y.npy")
-    grid = pyehl.Case.read(tmp_path / "out" / "case.nml").resolve()["grid"]
+    grid = pyehl.Case(tmp_path / "out" / "case.nml").resolve()["grid"]
     assert x == pytest.approx(np.linspace(grid["x_inlet"], grid["x_outlet"], 65), abs=1e-14)
     assert y == pytest.approx(np.linspace(-grid["y_extent"], grid["y_extent"], 65), abs=1e-14)
     pressure, film = np.load(tmp_path / "out" / "P.npy"), np.load(tmp_path / "out" / "H.npy")

@@ -64,7 +64,7 @@ def test_run_of_a_scan(scan: Path, tmp_path: Path, capsys):
     ]  # fmt: skip
     assert made["tile_size_m"] == pytest.approx([2 * LENGTH, 2 * LENGTH], rel=1e-6)
     assert "outliers 50" in (tmp_path / "out" / "plan.txt").read_text()
-    kept = Case.read(tmp_path / "out" / "case.nml").resolve()["surface"]
+    kept = Case(tmp_path / "out" / "case.nml").resolve()["surface"]
     assert kept["tile_x"] == pytest.approx(2 * LENGTH, rel=1e-6)
     assert kept["length_x"] == 0.0
     # the case of a result solves itself again
@@ -182,7 +182,7 @@ def test_unusable_maps_are_bad_input(scan: Path, tmp_path: Path, capsys, keys: s
     assert message in capsys.readouterr().err
     assert not (tmp_path / "none").exists()
     with pytest.raises(InputError):
-        Solver.open(Case.read(case))
+        Solver.open(Case(case))
 
 
 def test_surface_of_a_bare_file(scan: Path, tmp_path: Path, capsys):
@@ -232,7 +232,7 @@ def test_part_of_a_large_map(tmp_path: Path, monkeypatch):
     """What the grid does not resolve is predicted with a part; small maps are taken whole."""
     np.save(tmp_path / "map.npy", heights())
     size = f"length_x = {LENGTH} length_y = {LENGTH} edges = 'mirror'"
-    case = Case.read(write_case(tmp_path / "case.nml", "map.npy", size))
+    case = Case(write_case(tmp_path / "case.nml", "map.npy", size))
     assert surfaces.for_solver(case.resolve()).part is None
     # a function has the name of the module
     module = sys.modules["pyehl.surfaces.in_memory"]

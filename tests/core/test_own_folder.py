@@ -144,7 +144,7 @@ def test_lost_standard_output_ends_with_a_message(drivers, case: Path, driver: s
 def test_byte_order_mark_is_no_text(tmp_path: Path, drive):
     text = "&contact moes_m = 150.0 /\n&grid points = 33 /\n"
     (tmp_path / "case.nml").write_text(text, encoding="utf-8-sig")
-    assert pyehl.Case.read(tmp_path / "case.nml").resolve()["contact"]["moes_m"] == 150.0
+    assert pyehl.Case(tmp_path / "case.nml").resolve()["contact"]["moes_m"] == 150.0
     (tmp_path / "bad.nml").write_text("&contact moes_n = 1 /\n", encoding="utf-8-sig")
     done = drive("ehl", "bad.nml", "-o", "out")
     assert "bad.nml:1:10: error" in done.stderr

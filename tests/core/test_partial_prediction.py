@@ -247,7 +247,7 @@ TABLE1 = {
 )
 def test_no_number_of_contact_outside_the_range(cases, velocity, layer, note, message):
     """Bodies touch, and how much is not known: a missing value with the reason, and no friction."""
-    case = pyehl.Case.read(cases / "table1.nml", TABLE1)
+    case = pyehl.Case(cases / "table1.nml", TABLE1)
     options = {"contact.mean_velocity": velocity, "lubricant.boundary_film": layer}
     summary = pyehl.predict(case.with_options(options), tracks=1).summary
     assert summary["status"] == "film breakdown"
@@ -263,7 +263,7 @@ def test_no_number_of_contact_outside_the_range(cases, velocity, layer, note, me
 
 def test_no_contact_stays_known_outside_the_range(cases):
     """Where no body touches within the error of the film: 0."""
-    case = pyehl.Case.read(cases / "table1.nml", TABLE1 | {"surface.rms_height": 1e-8})
+    case = pyehl.Case(cases / "table1.nml", TABLE1 | {"surface.rms_height": 1e-8})
     summary = pyehl.predict(case.with_options("contact.mean_velocity=0.15"), tracks=1).summary
     assert summary["outside_range"] == ["moes_m"]
     assert summary["contact_load_share"] == summary["contact_load_share_error"] == 0.0

@@ -123,9 +123,9 @@ def test_the_case_in_it_can_be_run(folders, tmp_path, root):
     text = pyehl.report(folders / "smooth", tmp_path / "page.html").read_text(encoding="utf-8")
     short = re.search(r"<pre>(&amp;.*?)</pre>", text, re.DOTALL)[1]
     (tmp_path / "case.nml").write_text(short.replace("&amp;", "&").replace("&#x27;", "'"))
-    again = pyehl.Case.read(tmp_path / "case.nml").resolve()
+    again = pyehl.Case(tmp_path / "case.nml").resolve()
     asked = ("grid.points=129", "surface.kind=smooth")
-    assert again == pyehl.Case.read(root / "cases/table1.nml", *asked).resolve()
+    assert again == pyehl.Case(root / "cases/table1.nml", *asked).resolve()
 
 
 def test_no_answer_is_said(tmp_path, root):
@@ -158,7 +158,7 @@ def test_a_failed_case_of_a_study_is_said(folders, tmp_path):
 
 
 def test_heat_that_the_friction_has_is_no_warning(root):
-    settings = pyehl.Case.read(root / "cases/table1.nml").resolve()
+    settings = pyehl.Case(root / "cases/table1.nml").resolve()
     hot = {"kind": "solution", "status": "converged", "flash_temperature_K": 14.3}
     assert "not fed back" in " ".join(limits(settings, hot))
     assert "14.3 K" in " ".join(warnings(hot))
@@ -173,7 +173,7 @@ def test_heat_that_the_friction_has_is_no_warning(root):
 def test_a_page_for_a_measured_response(tmp_path, root):
     folder = tmp_path / "response"
     folder.mkdir()
-    (folder / "case.nml").write_text(pyehl.Case.read(root / "cases/table1.nml").text)
+    (folder / "case.nml").write_text(pyehl.Case(root / "cases/table1.nml").text)
     rng = np.random.default_rng(1)
     Image.fromarray(rng.integers(0, 255, (64, 64, 3), dtype=np.uint8)).save(folder / "response.png")
     summary = {
@@ -215,7 +215,7 @@ def test_where_the_maps_of_a_study_lie_is_left_out(tmp_path, root):
     for file in files:
         np.save(file, heights)
     size = {"surface.length_x": 4e-4, "surface.length_y": 4e-4, "surface.kind": "map"}
-    case = pyehl.Case.read(root / "cases/table1.nml", {**size, "surface.file": str(files[0])})
+    case = pyehl.Case(root / "cases/table1.nml", {**size, "surface.file": str(files[0])})
     vary = {"surface.file": [str(file) for file in files]}
     pyehl.sweep(case, vary, run="predict", output=tmp_path / "sweep", jobs=1)
     text = pyehl.report(tmp_path / "sweep").read_text(encoding="utf-8")
@@ -338,11 +338,11 @@ def test_judgement(changed, word, why, kind):
 
 
 def test_limits_that_apply(root):
-    settings = pyehl.Case.read(root / "cases/table1.nml").resolve()
+    settings = pyehl.Case(root / "cases/table1.nml").resolve()
     told = " ".join(limits(settings, {"kind": "prediction"}))
     assert "Newtonian" in told
     assert "one scan line" in told
-    thinning = pyehl.Case.read(root / "cases/table1.nml", "lubricant.shear_law=eyring").resolve()
+    thinning = pyehl.Case(root / "cases/table1.nml", "lubricant.shear_law=eyring").resolve()
     plain = {**thinning, "lubricant": {**thinning["lubricant"], "flow": "newtonian"}}
     for kind in ("prediction", "solution"):
         # flow = 'consistent', unless a case says otherwise
@@ -350,7 +350,7 @@ def test_limits_that_apply(root):
         assert "film and waves are Newtonian" not in told
         assert "film and waves are Newtonian" in " ".join(limits(plain, {"kind": kind}))
     # contact at a boundary film is never denied
-    layer = pyehl.Case.read(root / "cases/table1.nml", "lubricant.boundary_film=4e-8").resolve()
+    layer = pyehl.Case(root / "cases/table1.nml", "lubricant.boundary_film=4e-8").resolve()
     touching = {"kind": "prediction", "status": "predicted", "contact_load_share": 0.1423}
     for groups, summary, words in (
         (

@@ -150,7 +150,7 @@ def test_given_surface_is_kept_for_both_drivers(drive, tmp_path: Path):
     heights = np.random.default_rng(1).normal(scale=2e-9, size=(16, 16))
     np.save(tmp_path / "other.npy", 0.0 * heights)
     (tmp_path / "case.nml").write_text(text)
-    case = Case.read(tmp_path / "case.nml")
+    case = Case(tmp_path / "case.nml")
     with Solver.open(case, heights) as solver:
         solver.keep(tmp_path / "out")
         while solver.summary().get("steps", 0) < 10:

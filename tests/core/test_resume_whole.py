@@ -77,7 +77,7 @@ def killed_and_resumed(case: pyehl.Case, folder: Path, advances: int) -> dict[st
     [name if name in QUICK else pytest.param(name, marks=pytest.mark.long) for name in CASES],
 )
 def test_whole_summary(kind: str, tmp_path: Path):
-    case = pyehl.Case(CASES[kind])
+    case = pyehl.Case.from_text(CASES[kind])
     with pyehl.Solver(case) as solver:
         whole = ended(solver)
         advances = solver._calls
@@ -130,8 +130,8 @@ def test_steps_from_a_prediction_that_fail_after_a_resumption(tmp_path: Path):
 @pytest.mark.parametrize("estimate_error", [True, False])
 def test_waves_that_no_grid_resolves_are_named(estimate_error: bool):
     """Also where the waves have gone with the run for the error: never '32 nodes or more'."""
-    case = pyehl.Case.of(
-        pyehl.Case(CASES["negative film"]), {"time.estimate_error": estimate_error}
+    case = pyehl.Case(
+        pyehl.Case.from_text(CASES["negative film"]), {"time.estimate_error": estimate_error}
     )
     with pyehl.Solver(case) as solver:
         solver.run()

@@ -210,7 +210,7 @@ def test_given_surfaces_are_kept_for_both_drivers(drive, heights, tmp_path: Path
     monkeypatch.chdir(tmp_path)
     (tmp_path / "case.nml").write_text(CONTACT + SCENES["two maps"])
     swapped = [heights["two"], heights["one"]]
-    with Solver.open(Case.read("case.nml"), *swapped) as solver:
+    with Solver.open(Case("case.nml"), *swapped) as solver:
         solver.keep(tmp_path / "out")
         while solver.summary().get("steps", 0) < 3:
             solver.advance()
@@ -326,7 +326,7 @@ def test_second_surface_as_a_map(heights, tmp_path: Path, monkeypatch, capsys):
     assert cli.main(words) == 0
     values = heights["two"] - heights["two"].mean()
     assert np.load("tile.npy") == pytest.approx(values, abs=1e-20)
-    made = Case.read("tile.npy.nml").resolve()
+    made = Case("tile.npy.nml").resolve()
     assert made["surface"]["velocity_ratio"] == pytest.approx(SLOWER, rel=1e-15)
     assert cli.main([*words[:3], "--set", "second_surface.kind=smooth"]) == 2
     assert "expected: second_surface.kind" in capsys.readouterr().err

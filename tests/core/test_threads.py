@@ -228,11 +228,11 @@ FAILING = """&contact moes_m = 20, moes_l = 2 /
 def test_many_threads_find_what_one_finds(cases: int):
     """Eight threads, each with its own solver; with static lengths 20 of 10 000 are wrong."""
     amplitudes = ("0.1", "0.12345", "0.0123456789", "0.1111111111111")
-    texts = [pyehl.Case(FAILING.format(amplitude)).text for amplitude in amplitudes]
+    texts = [pyehl.Case.from_text(FAILING.format(amplitude)).text for amplitude in amplitudes]
     texts.append(texts[0].replace("max_points = 17", "max_points = 257"))
 
     def outcome(k: int) -> str:
-        with pyehl.Solver.open(pyehl.Case(texts[k % len(texts)])) as solver:
+        with pyehl.Solver.open(pyehl.Case.from_text(texts[k % len(texts)])) as solver:
             try:
                 solver.run()
             except pyehl.InputError as error:

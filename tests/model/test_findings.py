@@ -167,7 +167,7 @@ def test_where_points_are_missing_is_shown_and_a_part_offered():
     text = str(info.value)
     assert "|####" in text
     options = dict(
-        word.rstrip(":").split("=")
+        word.rstrip(":,").split("=")
         for word in text.split()
         if word.startswith("surface.crop_") and "=" in word
     )
@@ -188,11 +188,11 @@ def test_findings_are_reported_predicted_and_drawn(tmp_path, capsys):
     case = pyehl.Case.from_text(f"&surface kind='map' file='{path}' edges='mirror' /", size)
     result = pyehl.predict(case, tracks=1)
     assert result.summary["status"] == "beyond linear response"
-    assert "; first --set surface.detrend=curvature (form)" in result.summary["message"]
+    assert "; first surface.detrend=curvature (form)" in result.summary["message"]
     assert "shortest_wavelength" not in result.summary["message"]
     advice = advise(result.surface, lambda t: t.heights, (1e-4, 1e-4), thin_film, None)
     assert advice.wavelength is None
-    assert "first      --set surface.detrend=curvature (form)" in advice.report()[1]
+    assert "first      surface.detrend=curvature (form)" in advice.report()[1]
     assert result.summary["surface_findings"] == "form"
     assert result.summary["surface_preparation"]["findings"][0]["kind"] == "form"
     level_case = case.with_options({"surface.detrend": "curvature"})

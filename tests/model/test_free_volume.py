@@ -54,7 +54,7 @@ def viscosity(p: Array | float, temperature: float) -> Array:
 
 
 def of_case(*options: dict[str, object]) -> Lubricant:
-    return Lubricant.from_settings(Case.of(Case.from_text(""), *options).resolve())
+    return Lubricant.from_settings(Case(Case.from_text(""), *options).resolve())
 
 
 @TEMPERATURES
@@ -119,7 +119,7 @@ def test_a_written_case_reads_back():
             if "doolittle" not in f"{key} {value}"
         },
     ):
-        case = Case.of(Case.from_text("", {"lubricant.temperature": 50.0, **options}))
+        case = Case(Case.from_text("", {"lubricant.temperature": 50.0, **options}))
         assert Case.from_text(case.text).text == case.text
     warm = Case.from_text(Case.from_text("", OIL).text, {"lubricant.temperature": 70.0})
     assert warm.resolve()["lubricant"]["viscosity"] == pytest.approx(

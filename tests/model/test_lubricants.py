@@ -35,7 +35,7 @@ LIGHT = {"contact.load": 50.0, "grid.points": 65}
 
 
 def of_case(*options: dict[str, object]) -> Lubricant:
-    return Lubricant.from_settings(Case.of(Case.from_text(""), *options).resolve())
+    return Lubricant.from_settings(Case(Case.from_text(""), *options).resolve())
 
 
 @pytest.fixture
@@ -265,7 +265,7 @@ def test_a_written_case_of_an_oil_reads_back(table: Path):
         },
         {"lubricant.table": str(single), "lubricant.temperature_viscosity": 0.03},
     ):
-        case = Case.of(Case.from_text("", {"lubricant.temperature": 50.0, **options}))
+        case = Case(Case.from_text("", {"lubricant.temperature": 50.0, **options}))
         assert Case.from_text(case.text).text == case.text
         if single.name in case.text:
             continue

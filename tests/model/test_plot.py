@@ -326,7 +326,7 @@ def test_subcommand_at_other_resolutions_and_formats(settings, tmp_path, capsys)
     data = (tmp_path / "out" / "roughness.png").read_bytes()
     assert struct.unpack(">II", data[16:24]) == (720, 340)
     assert run_subcommand(tmp_path / "out", None, "--dpi", "1") == 2
-    assert "--dpi 1" in capsys.readouterr().err
+    assert "dpi = 1:" in capsys.readouterr().err
     assert run_subcommand(tmp_path / "out", None, "--format", "svg") == 0
     assert (tmp_path / "out" / "roughness.svg").is_file()
 

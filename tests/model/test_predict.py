@@ -48,7 +48,7 @@ def test_summary_says_what_was_done(settings):
 def test_too_many_tracks_are_refused_at_once(settings, tracks):
     """Before anything is made: a list of a thousand million would take the memory."""
     settings["surface"] = {"kind": "fractal"}
-    with pytest.raises(ValueError, match=rf"--tracks {tracks}: expected 1 to 10000; the mean over"):
+    with pytest.raises(ValueError, match=rf"tracks = {tracks}: expected 1 to 10000; the mean over"):
         predict(settings, tracks=tracks)
 
 

@@ -164,7 +164,7 @@ def test_options_of_the_paper_alone(settings):
 
 def test_smooth_contact_from_a_result_folder(tmp_path):
     """A folder of the smooth contact gives what is solved on the spot; another contact does not."""
-    case = pyehl.Case.read("cases/table1.nml", "surface.kind=smooth", "grid.points=257")
+    case = pyehl.Case("cases/table1.nml", "surface.kind=smooth", "grid.points=257")
     folder = tmp_path / "smooth"
     pyehl.solve(case, output=folder)
     given = pyehl.predict("cases/table1.nml", smooth=folder)
@@ -204,12 +204,12 @@ def test_what_a_grid_does_not_resolve():
     """More of the rise hangs on unresolved waves on a coarser grid; the parts agree with bands."""
     found = {}
     for points in (129, 513):
-        case = pyehl.Case.read("cases/table1.nml", f"grid.points={points}")
+        case = pyehl.Case("cases/table1.nml", f"grid.points={points}")
         found[points] = resolution(case)
     assert found[129].mu_ratio == found[513].mu_ratio
     assert found[129].matters
     assert found[129].resolved < found[513].resolved < found[513].mu_ratio
-    assert resolution(pyehl.Case.read("cases/quick.nml")) is None
+    assert resolution(pyehl.Case("cases/quick.nml")) is None
 
 
 def test_waves_left_out_are_in_the_error():

@@ -83,7 +83,7 @@ def test_measured_surface(says, cases: Path):
 def test_alpha_over_the_temperature(says, cases: Path):
     """By Roelands' law with a constant exponent, and what that makes of the film."""
     oils = [
-        pyehl.Case.read(cases / "finish.nml", [f"lubricant.temperature={t}"]).resolve()["lubricant"]
+        pyehl.Case(cases / "finish.nml", [f"lubricant.temperature={t}"]).resolve()["lubricant"]
         for t in (40, 100)
     ]
     cold, hot = (oil["pressure_viscosity"] for oil in oils)
@@ -113,7 +113,7 @@ def test_traction_near_the_origin(says, cases: Path):
 
 
 def test_fitted_shear_law(says, cases: Path):
-    case = pyehl.Case.read(cases / "traction.nml", ["grid.points=65"])
+    case = pyehl.Case(cases / "traction.nml", ["grid.points=65"])
     (found,) = pyehl.fit_lubricant(cases / "traction.csv", case).parameters
     value, low, high = (f"{1e-6 * v:.1f}" for v in (found.value, found.low, found.high))
     says("docs/howto/lubricants.md", f"finds {value} MPa with a 95 % interval from {low} to {high}")

@@ -239,7 +239,7 @@ def test_start_without_the_waves_that_the_grid_does_not_carry():
     x, y = np.linspace(-2.5, 1.5, 65), np.linspace(0.0, 2.0, 33)
     low, high = (
         starting_pressure(
-            Case.read("cases/table1.nml", f"surface.rms_height={rms}").resolve(),
+            Case("cases/table1.nml", f"surface.rms_height={rms}").resolve(),
             {},
             x,
             y,

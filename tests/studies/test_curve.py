@@ -71,7 +71,7 @@ def test_columns(wave: tuple[Path, str], cases: Path):
         assert float(row["mu"]) == pytest.approx(
             float(row["mu_smooth"]) * float(row["mu_ratio"]), rel=1e-9
         )
-        case = pyehl.Case.read(cases / "table1.nml", f"{KEY}={u}").resolve()
+        case = pyehl.Case(cases / "table1.nml", f"{KEY}={u}").resolve()
         point = OperatingPoint.from_settings(case)
         amplitude = 0.002 * point.film_scale
         ratio = float(row["h_c_m"]) / amplitude
@@ -144,7 +144,7 @@ def test_temperature_and_load(cases: Path, tmp_path: Path):
     rows = table(tmp_path / "t")
     assert [float(r["lubricant.temperature"]) for r in rows] == [40.0, 50.0, 60.0]
     for row in rows:
-        oil = pyehl.Case.read(
+        oil = pyehl.Case(
             tmp_path / "oil.nml", f"lubricant.temperature={row['lubricant.temperature']}"
         )
         viscosity = oil.resolve()["lubricant"]["viscosity"]
@@ -277,9 +277,9 @@ def test_where_full_film_ends(rows: list[dict[str, str]], says: str, broken: tup
     [
         ([], "expected at least one of --speed"),
         (["--speed", "0.5", "--set", "surface.kind=smooth", "--ehl", "1"], "no passage to solve"),
-        (["--speed", "0.5", "--ehl", "2"], "--ehl 2: expected 0 to 1"),
-        (["--speed", "0.5", "--surfaces", "0"], "--surfaces 0"),
-        (["--speed", "0.5", "--surfaces", "1000000000"], "--surfaces 1000000000: expected 1 to"),
+        (["--speed", "0.5", "--ehl", "2"], "ehl = 2: expected 0 to 1"),
+        (["--speed", "0.5", "--surfaces", "0"], "surfaces = 0:"),
+        (["--speed", "0.5", "--surfaces", "1000000000"], "surfaces = 1000000000: expected 1 to"),
         (["--speed", "1:2:2000", "--surfaces", "999"], "2000000 cases; a study can have"),
         (["--speed", "0.5,-1"], "case 2 of 2"),
         (["--temperature", "40:60:3"], "lubricant.temperature"),

@@ -33,7 +33,7 @@ STATUSES = {"breakdown": "film breakdown", "beyond": "beyond linear response"}
 @pytest.mark.parametrize("name", CASES)
 def test_a_row_is_the_summary_of_a_prediction(cases: Path, name: str):
     """To the last bit, but for what is over the tracks, and for advice in the message."""
-    case = pyehl.Case.read(cases / "table1.nml", *CASES[name])
+    case = pyehl.Case(cases / "table1.nml", *CASES[name])
     summary = pyehl.predict(case).summary
     row = execute(Task(0, case.text, "predict"))
     assert row["status"] == summary["status"] == STATUSES.get(name, "predicted")
@@ -75,7 +75,7 @@ def test_tracks_are_there_where_they_are_asked_for(cases: Path):
 
 def test_shared_parts_are_made_once(cases: Path):
     """Surface, slip and a law of friction alone change nothing of the smooth contact; heat does."""
-    base = pyehl.Case.read(cases / "table1.nml", *SMALL)
+    base = pyehl.Case(cases / "table1.nml", *SMALL)
     execute(Task(0, base.text, "predict"))
 
     def shared(option: str) -> bool:
@@ -130,7 +130,7 @@ def test_a_map_is_read_once(tmp_path: Path, monkeypatch):
 
 
 def test_brief_predictions_have_no_advice(cases: Path):
-    case = pyehl.Case.read(cases / "table1.nml", *CASES["breakdown"])
+    case = pyehl.Case(cases / "table1.nml", *CASES["breakdown"])
     brief = of_case.predict(case.resolve(), case.text, brief=True)
     assert brief.advice is None
     assert math.isnan(brief.tracks[0])

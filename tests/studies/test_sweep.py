@@ -274,7 +274,7 @@ def test_estimates_of_predictions(cases: Path):
         ("table1.nml", {"second_surface.kind": "fractal", "second_surface.seed": 2}, 1.27),
         ("ball_bearing.nml", rough, 7.8),
     ):
-        settings = pyehl.Case.read(cases / case, options).resolve()
+        settings = pyehl.Case(cases / case, options).resolve()
         ratio = seconds_of(settings, "predict") / measured
         assert 0.4 < ratio < 2.5, (case, options, ratio)
 
