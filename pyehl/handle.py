@@ -75,7 +75,7 @@ class SolverHandle:
 
     _handle = 0
     _calls = 0
-    # surfaces in place of files, until they are kept beside the results
+    # surfaces in place of files, until a checkpoint holds them
     _given: tuple[Array | None, Array | None] = (None, None)
     done = False
     converged = False
@@ -158,7 +158,9 @@ class SolverHandle:
         """
         return self._act("resume", path_of(results, "the result folder"))[0]
 
-    def keep(self, results: str | os.PathLike[str], resumed: str | os.PathLike[str] = "") -> str:
+    def checkpoint(
+        self, results: str | os.PathLike[str], resumed: str | os.PathLike[str] = ""
+    ) -> str:
         """Save states of a transient run in ``RESULTS.checkpoint`` at the interval of the case.
 
         Parameters
@@ -198,20 +200,23 @@ class SolverHandle:
         """
         return self._act("save" if at_once else "tick")[1]
 
-    def end_keeping(self) -> None:
+    def clear_checkpoint(self) -> None:
         """Remove the states: the run has ended."""
         self._act("drop")
 
+    @property
     def progress(self) -> str:
-        """Tell the state in one line."""
+        """The state in one line."""
         return self._text("progress")
 
+    @property
     def work(self) -> Work:
-        """Tell how much of a transient run is done, and how much there is."""
+        """How much of a transient run is done, and how much there is."""
         return Work(*self._call(ehl.work))
 
+    @property
     def summary(self) -> dict[str, Any]:
-        """Give the scalar results as in ``summary.json``; None for a number that does not exist."""
+        """The scalar results as in ``summary.json``; None for a number that does not exist."""
         values: dict[str, Any] = json.loads(self._text("summary"))
         return values
 
@@ -240,40 +245,6 @@ class SolverHandle:
         self._call(ehl.field, text_of(name, "field"), values)
         return values
 
-    def take_prediction(self, left_out: float, unresolved: float, why: str) -> None:
-        """Take what is predicted of the waves that the grid leaves out, for the error of mu_ratio.
-
-        Parameters
-        ----------
-        left_out, unresolved
-            Parts of mu_ratio in waves that the grid leaves out, and in those that it does not
-            resolve [-]; NaN where there is no prediction.
-        why
-            Why there is none.
-        """
-        self._call(predicted.take_prediction, left_out, unresolved, why.encode())
-
-    def start_fronts(self) -> Array:
-        """Positions of the fronts [a] at which `take_start` is to give a pressure.
-
-        Shape (4, surfaces); of no surface where it is not asked for, as mostly.
-        """
-        fronts, n = self._call(predicted.start_fronts)
-        return np.asarray(fronts[:, :n])
-
-    def take_start(self, pressure: Array | None, why: str = "") -> None:
-        """Take the pressure that roughness adds where it fills the contact, as a start.
-
-        Parameters
-        ----------
-        pressure
-            At the positions of `start_fronts`, shape (nx, ny, 4) [p_h]; None where there is none.
-        why
-            Why there is none.
-        """
-        given = np.zeros((1, 1, 4), order="F") if pressure is None else pressure
-        self._call(predicted.take_start, why.encode(), given)
-
     def _write(self, folder: str | os.PathLike[str]) -> None:
         self._act("write", folder)
 
@@ -284,3 +255,44 @@ class SolverHandle:
     def _text(self, what: str) -> str:
         found, *_ = whole(lambda room: self._call(ehl.describe, what.encode(), room), 0)
         return returned(found)
+
+
+def take_prediction(solver: SolverHandle, left_out: float, unresolved: float, why: str) -> None:
+    """Take what is predicted of the waves that the grid leaves out, for the error of mu_ratio.
+
+    Parameters
+    ----------
+    solver
+        The solver that takes it.
+    left_out, unresolved
+        Parts of mu_ratio in waves that the grid leaves out, and in those that it does not
+        resolve [-]; NaN where there is no prediction.
+    why
+        Why there is none.
+    """
+    solver._call(predicted.take_prediction, left_out, unresolved, why.encode())
+
+
+def start_fronts(solver: SolverHandle) -> Array:
+    """Positions of the fronts [a] at which `take_start` is to give a pressure.
+
+    Shape (4, surfaces); of no surface where it is not asked for, as mostly.
+    """
+    fronts, n = solver._call(predicted.start_fronts)
+    return np.asarray(fronts[:, :n])
+
+
+def take_start(solver: SolverHandle, pressure: Array | None, why: str = "") -> None:
+    """Take the pressure that roughness adds where it fills the contact, as a start.
+
+    Parameters
+    ----------
+    solver
+        The solver that takes it.
+    pressure
+        At the positions of `start_fronts`, shape (nx, ny, 4) [p_h]; None where there is none.
+    why
+        Why there is none.
+    """
+    given = np.zeros((1, 1, 4), order="F") if pressure is None else pressure
+    solver._call(predicted.take_start, why.encode(), given)

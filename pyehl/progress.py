@@ -18,7 +18,7 @@ class ProgressBar:
 
     def show(self, solver: Solver) -> None:
         """Show the state of a solver; when it is done the line ends."""
-        work, text = solver.work(), solver.progress()
+        work, text = solver.work, solver.progress
         if work.earliest > 0.0:
             self._bar.bar_format = TRANSIENT
             self._bar.total, self._bar.n = work.earliest, work.done

@@ -21,7 +21,7 @@ from pyehl.arrays import read_array
 from pyehl.case import Case, files_of
 from pyehl.destination import Destination
 from pyehl.errors import FileError, InputError, named
-from pyehl.solver import Solver
+from pyehl.solver import Solver, solver_on_heights
 from pyehl.surfaces import GROUPS, Surface, for_solver
 
 AnyPath = str | os.PathLike[str]
@@ -115,21 +115,21 @@ def _open(case: Case, resumed: AnyPath, given: tuple[Surface | None, Surface | N
         return Solver(case, surface=given[0], second_surface=given[1])
     sizes: list[str] = []
     for group in kept:
-        old = Case(place).resolve()[group]
+        old = Case(place)[group]
         sizes += [f"{group}.{key}={old[key]!r}" for key in ("tile_x", "tile_y") if old[key]]
         if old["tile_mirrored"]:
             sizes.append(f"{group}.tile_mirrored=.true.")
     changed = case.with_options(*sizes) if sizes else case
-    solver = Solver.open(changed, *(kept.get(group) for group in GROUPS))
+    made = {}
     for group, heights in kept.items():
         try:
-            made = for_solver(case.resolve(), group)
+            tile = for_solver(case.resolve(), group)
         except (InputError, FileError):
             # the file of the map is no longer needed
             continue
-        if made.heights is not None and np.array_equal(made.heights, heights):
-            solver.take_preparation(group, made)
-    return solver
+        if tile.heights is not None and np.array_equal(tile.heights, heights):
+            made[group] = tile
+    return solver_on_heights(changed, kept, made)
 
 
 def _open_named(
@@ -183,7 +183,7 @@ def run(
         if os.fspath(resumed):
             begins = "there is no state yet: the run begins at its beginning"
             say(f"resume: {solver.resume(resumed) or begins}")
-        note = solver.keep(folder, resumed)
+        note = solver.checkpoint(folder, resumed)
         if note:
             say(f"note: {note}")
         while not solver.done:
@@ -199,7 +199,7 @@ def run(
         name = os.fspath(folder)
         say(f"results: {name}")
         if solver.converged:
-            solver.end_keeping()
-        elif has_state and solver.resumption():
-            say(f"state: {name}.checkpoint\n{solver.resumption()}{name}")
+            solver.clear_checkpoint()
+        elif has_state and (command := solver.resumption(name)):
+            say(f"state: {name}.checkpoint\n{command}")
         return Outcome(solver.converged, request.wanted and not solver.converged)

@@ -13,7 +13,7 @@ import tempfile
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any
 
 from numpy.typing import ArrayLike
 
@@ -64,12 +64,12 @@ class Step:
     @property
     def summary(self) -> dict[str, Any]:
         """The scalars so far, as `Solver.summary`."""
-        return self.solver.summary()
+        return self.solver.summary
 
     @property
     def work(self) -> Work:
         """How much of a transient run is done, as `Solver.work`."""
-        return self.solver.work()
+        return self.solver.work
 
 
 class Solver(SolverHandle):
@@ -124,34 +124,6 @@ class Solver(SolverHandle):
         heights = {group: moved(tile, settings[group]).heights for group, tile in tiles.items()}
         self._start(case, heights, tiles)
 
-    @classmethod
-    def open(
-        cls,
-        case: Case | str | os.PathLike[str],
-        heights: ArrayLike | None = None,
-        second_heights: ArrayLike | None = None,
-    ) -> Self:
-        """Start a solver on a case with surfaces that are given.
-
-        Parameters
-        ----------
-        case
-            A case, or the path of a case file.
-        heights, second_heights
-            Surfaces [m], shape (nx, ny), peaks positive; for the kinds 'map' and 'fractal', in
-            place of the file or the generator. None: that of the case. Its size is `tile_x` and
-            `tile_y` of its group or, where these are 0, `length_x` and `length_y`.
-
-        Raises
-        ------
-        InputError, NoMemoryError
-            As the constructor.
-        """
-        solver = cls.__new__(cls)
-        both = zip(GROUPS, (heights, second_heights), strict=True)
-        solver._start(Case(case), {g: heights_of(h) for g, h in both if h is not None}, {})
-        return solver
-
     def _start(
         self, case: Case, heights: Mapping[str, Array], tiles: Mapping[str, Topography]
     ) -> None:
@@ -159,45 +131,47 @@ class Solver(SolverHandle):
         self._case = case
         # those that were in memory alone
         self._tiles = tiles
+        self._preparations: dict[str, Record] = {}
         own = gather(case.resolve(), heights, tiles)
-        # how maps became tiles, by group
-        self.preparations: dict[str, Record] = {
-            group: made.preparation for group, made in own.items() if made.preparation
-        }
-        parts = {group: made.part for group, made in own.items() if made.part is not None}
+        parts = self._take(own)
         self._predictions = Predictions(case, parts, whole=bool(heights) or not parts)
         options = [option for made in own.values() for option in made.options]
         text = case.with_options(*options).text if options else case.text
         super().__init__(text, *(made.heights for made in own.values()))
 
-    def take_preparation(self, group: str, made: SolverSurface) -> None:
-        """Take how the surface of a group was prepared, which came as heights of an earlier run."""
-        parts = {} if made.part is None else {group: made.part}
-        self._predictions = Predictions(self._case, parts, whole=not parts)
-        if made.preparation:
-            self.preparations[group] = made.preparation
+    def _take(self, made: Mapping[str, SolverSurface]) -> dict[str, Topography]:
+        """Take how maps became tiles, by group; gives the parts of large ones."""
+        self._preparations |= {g: one.preparation for g, one in made.items() if one.preparation}
+        return {group: one.part for group, one in made.items() if one.part is not None}
 
     def advance(self) -> bool:
         """One cycle (steady) or step (moving surface); whether nothing is left to do."""
         if not self._calls:
             self._predictions.begin(self)
-        return super().advance()
+        if super().advance():
+            self._predictions.tell(self)
+        return self.done
+
+    def interrupt(self) -> None:
+        """Stop here; the results so far stay readable, with the status 'interrupted'."""
+        super().interrupt()
+        self._predictions.tell(self)
 
     def __repr__(self) -> str:
         """Give the case and the state in one line."""
-        state = "closed" if self._handle == 0 else super().summary()["status"]
+        state = "closed" if self._handle == 0 else super().summary["status"]
         return f"Solver({self._case!r}, {state!r}, {self._calls} advances)"
 
     def _repr_html_(self) -> str:
         """Draw the scalars so far, for notebooks."""
-        values = {} if self._handle == 0 else self.summary()
+        values = {} if self._handle == 0 else self.summary
         return display.table(repr(self), {k: v for k, v in values.items() if v is not None})
 
     def __iter__(self) -> Iterator[Step]:
         """Advance to the end, or until the caller stops; yields the state after each advance."""
         while not self.done:
             self.advance()
-            yield Step(self._calls, self.progress(), self)
+            yield Step(self._calls, self.progress, self)
 
     def describe(self, *, predict: bool = False) -> str:
         """Tell the plan: what will be solved and how, with a table of the levels.
@@ -212,28 +186,27 @@ class Solver(SolverHandle):
 
     def _lines(self, *, predict: bool = True) -> list[str]:
         """Tell how a map was prepared, and what the grid does not resolve."""
-        lines = [line for made in self.preparations.values() for line in made.report()]
+        lines = [line for made in self._preparations.values() for line in made.report()]
         return lines + (self._predictions.lines() if predict else [])
 
+    @property
     def summary(self) -> dict[str, Any]:
-        """Give the scalar results as in ``summary.json``; None for a number that does not exist."""
-        self._predictions.tell(self, super().summary())
-        values = super().summary()
-        return values | self._prepared()
+        """The scalar results as in ``summary.json``; None for a number that does not exist."""
+        return super().summary | self._prepared()
 
     def _prepared(self) -> dict[str, Any]:
         """Tell what was done to measured maps, by the name in a summary."""
-        return {f"{name}_preparation": made.summary() for name, made in self.preparations.items()}
+        return {f"{name}_preparation": made.summary for name, made in self._preparations.items()}
 
     def conclusion(self) -> str:
         """Tell the results of a run that has ended, with their errors, in a few lines."""
-        self._predictions.tell(self, super().summary())
+        self._predictions.tell(self)
         return self._text("conclusion")
 
-    def resumption(self) -> str:
-        """Tell how a run that ended can go on, up to the name of its folder; '' if it cannot."""
+    def resumption(self, results: str | os.PathLike[str]) -> str:
+        """Tell how a run that was to write into a folder can go on; '' if it cannot."""
         text = self._text("resumption")
-        return f"{text} " if text else ""
+        return f"{text} {os.fspath(results)}" if text else ""
 
     def dataset(self) -> xarray.Dataset:
         """Give the results so far, the same as `pyehl.load` of the folder that `write` makes."""
@@ -276,13 +249,13 @@ class Solver(SolverHandle):
 
     def _fill(self, folder: Path) -> None:
         """Write all files into an empty folder, with what the library does not know."""
-        self._predictions.tell(self, super().summary())
+        self._predictions.tell(self)
         self._write(folder)
         if self._lines():
             plan = folder / "plan.txt"
             told = plan.read_text(encoding="utf-8").rstrip("\n")
             plan.write_text("\n".join([told, *self._lines(), ""]), encoding="utf-8")
-        if not self.preparations and not self._tiles:
+        if not self._preparations and not self._tiles:
             return
         summary = folder / "summary.json"
         values = json.loads(summary.read_text(encoding="utf-8")) | self._prepared()
@@ -290,3 +263,34 @@ class Solver(SolverHandle):
         if names:
             values["files"] = sorted([*values["files"], *names])
         write_json(summary, values)
+
+
+def solver_on_heights(
+    case: Case,
+    heights: Mapping[str, ArrayLike],
+    made: Mapping[str, SolverSurface] | None = None,
+) -> Solver:
+    """Start a solver on a case with heights in place of its surfaces.
+
+    Parameters
+    ----------
+    case
+        The case.
+    heights
+        Surfaces by group [m], shape (nx, ny), peaks positive; for the kinds 'map' and 'fractal', in
+        place of the file or the generator. The size is `tile_x` and `tile_y` of the group or, where
+        these are 0, `length_x` and `length_y`.
+    made
+        How some of them were prepared, where they come from an earlier run.
+
+    Raises
+    ------
+    InputError, NoMemoryError
+        As `Solver`.
+    """
+    solver = Solver.__new__(Solver)
+    solver._start(case, {group: heights_of(given) for group, given in heights.items()}, {})
+    if made:
+        parts = solver._take(made)
+        solver._predictions = Predictions(case, parts, whole=not parts)
+    return solver

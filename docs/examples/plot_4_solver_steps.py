@@ -14,7 +14,7 @@ import pyehl
 residuals = {}
 with pyehl.Solver("../../cases/quick.nml", "solver.accuracy=1e-3") as solver:
     for step in solver:
-        residuals.setdefault(solver.summary()["points"], []).append(step.summary["residual"])
+        residuals.setdefault(solver.summary["points"], []).append(step.summary["residual"])
     print(step)
 
 # %%

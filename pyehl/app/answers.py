@@ -89,7 +89,7 @@ def film(
             if not wanted():
                 return None
             solver.advance()
-        summary = solver.summary()
+        summary = solver.summary
         empty = np.zeros((0, 0))
         arrays = (np.zeros(0), np.zeros(0), empty, empty)
         if solver.converged:

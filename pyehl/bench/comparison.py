@@ -28,7 +28,7 @@ def solve(*options: str) -> dict[str, Any]:
     # what the solver does alone, nothing predicted
     with SolverHandle(Case.from_text("", [*options, "solver.threads=1"]).text) as solver:
         solver.run()
-        return solver.summary()
+        return solver.summary
 
 
 def solve_from_prediction(*options: str) -> dict[str, Any]:
@@ -37,7 +37,7 @@ def solve_from_prediction(*options: str) -> dict[str, Any]:
     with SolverHandle(case.text) as solver:
         hand_over(solver, case.resolve(), {}, whole=True)
         solver.run()
-        return solver.summary()
+        return solver.summary
 
 
 def compare(

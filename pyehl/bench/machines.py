@@ -219,7 +219,7 @@ def timed(keys: Mapping[str, Any]) -> Row:
     with Solver(case) as solver:
         solver.run()
         seconds = resource.getrusage(resource.RUSAGE_SELF).ru_utime - began
-        return {**solver.summary(), "seconds": seconds}
+        return {**solver.summary, "seconds": seconds}
 
 
 def covered(row: Row, name: str, error: str) -> bool | None:

@@ -65,7 +65,7 @@ def solve_once(text: str) -> dict[str, Any]:
     with Solver(case) as solver:
         solver.run()
         seconds = time.perf_counter() - began
-        return {"seconds": seconds, "summary": solver.summary(), "peak_megabytes": peak_megabytes()}
+        return {"seconds": seconds, "summary": solver.summary, "peak_megabytes": peak_megabytes()}
 
 
 def _solve_apart(text: str) -> dict[str, Any]:

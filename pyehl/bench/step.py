@@ -117,9 +117,9 @@ def _fill(solver: Solver, case: Case, front: float) -> None:
     wanted = (front - float(settings["x_start"])) / float(settings["velocity_ratio"])
     while not solver.done:
         solver.advance()
-        if float(solver.summary().get("T", -1.0)) >= wanted:
+        if float(solver.summary.get("T", -1.0)) >= wanted:
             return
-    raise EhlError(f"the run ended before it could be timed: {solver.progress()}")
+    raise EhlError(f"the run ended before it could be timed: {solver.progress}")
 
 
 def step_rows(
@@ -180,7 +180,7 @@ def _scene_rows(
                 one, points, scheme, f"solver.threads={max(threads)}", "time.steps=10000000"
             )
             solvers += _filled(case, threads, front, stack)
-        before = [solver.summary() for solver in solvers]
+        before = [solver.summary for solver in solvers]
         times: list[list[float]] = [[] for _ in solvers]
         # in turn, so that what else the machine does slows all of them alike
         for _ in range(steps):
@@ -191,7 +191,7 @@ def _scene_rows(
             began = time.perf_counter()
             deflect()
             units.append(time.perf_counter() - began)
-        after = [solver.summary() for solver in solvers]
+        after = [solver.summary for solver in solvers]
     per_node = [
         statistics.fmean(taken) / end.get("points_y", points)
         for taken, end in zip(times, after, strict=True)
@@ -227,13 +227,13 @@ def _filled(
     with tempfile.TemporaryDirectory() as folder:
         place = f"{folder}/state"
         with Solver(case) as solver:
-            solver.keep(place)
+            solver.checkpoint(place)
             _fill(solver, case, front)
             solver.save_state(at_once=True)
         for workers in threads:
             solver = stack.enter_context(Solver(case.with_options(f"solver.threads={workers}")))
             solver.resume(place)
-            while "steps" not in solver.summary() and not solver.done:
+            while "steps" not in solver.summary and not solver.done:
                 solver.advance()
             solvers.append(solver)
     return solvers
@@ -263,7 +263,7 @@ def error_rows(
             began = time.perf_counter()
             with Solver(case) as solver:
                 solver.run()
-                summary = solver.summary()
+                summary = solver.summary
             seconds = time.perf_counter() - began
             if summary["mu_ratio"] is not None:
                 means[points] = summary["mu_ratio"]

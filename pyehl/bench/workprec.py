@@ -125,7 +125,7 @@ def _run(
     with Solver(Case.from_text("", texts)) as solver:
         solver.run()
         seconds = processor_seconds() - began
-        summary = solver.summary()
+        summary = solver.summary
     row = {"setting": setting, "points": points, "threads": threads, "status": summary["status"]}
     rows = []
     for quantity in scene.quantities:
@@ -189,7 +189,7 @@ def share_of_deflection(points: int = 129) -> Row:
         texts = [*options, f"grid.points={n}", f"solver.deflection={engine}"]
         with Solver(Case.from_text("", texts)) as solver:
             solver.run()
-            return float(solver.summary()["mu_ratio"])
+            return float(solver.summary["mu_ratio"])
 
     fast, exact, finer = ratio(points, "mlmi"), ratio(points, "fft"), ratio(2 * points - 1, "fft")
     difference = abs(fast / exact - 1.0)

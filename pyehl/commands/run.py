@@ -59,7 +59,7 @@ def _display(say: Callable[[str], None]) -> Callable[[Solver], None]:
             if bar is not None:
                 bar.show(solver)
             if bar is None or solver.done:
-                say(solver.progress())
+                say(solver.progress)
 
     return show
 

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from pyehl.case import Case
 from pyehl.errors import EhlError
-from pyehl.solver import Solver
+from pyehl.solver import Solver, solver_on_heights
 from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Array, Complex, Settings
 
@@ -169,11 +169,11 @@ def superpose(
     )
     operating = OperatingPoint.from_settings(case.resolve())
     heights, amplitude = linear_surface(waves, slope)
-    with Solver.open(case, heights * operating.film_scale) as run:
-        while not run.done and float(run.summary().get("steps") or 0) < 1:
+    with solver_on_heights(case, {"surface": heights * operating.film_scale}) as run:
+        while not run.done and float(run.summary.get("steps") or 0) < 1:
             run.advance()
         _refuse_end(run)
-        central_film = float(run.summary().get("H_c_smooth") or run.summary()["H_c"])
+        central_film = float(run.summary.get("H_c_smooth") or run.summary["H_c"])
         x, y = run.axes()
         spacing = float(x[1] - x[0])
         near = np.abs(x) <= REACH + 0.5 * spacing
@@ -184,7 +184,7 @@ def superpose(
             run.advance()
             _refuse_end(run)
             if step > total - period:
-                times.append(float(run.summary()["T"]))
+                times.append(float(run.summary["T"]))
                 films.append(run.field("H")[near, middle])
                 pressures.append(run.field("P")[near, middle])
             progress(step, total)
@@ -194,7 +194,7 @@ def superpose(
 
 def _refuse_end(run: Solver) -> None:
     if run.done:
-        raise EhlError(f"the run ended too early: {run.summary()['status']}")
+        raise EhlError(f"the run ended too early: {run.summary['status']}")
 
 
 def _fit(

@@ -102,6 +102,7 @@ class Advice:
     # first, and no wave or spike was looked for
     first: tuple[str, ...] = ()
 
+    @property
     def summary(self) -> dict[str, float | int | None]:
         """Return what ``summary.json`` holds of it."""
         return {

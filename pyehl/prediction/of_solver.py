@@ -4,12 +4,11 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 from pyehl import lengths, surfaces
 from pyehl.case import Case
 from pyehl.errors import EhlError, InputError, InternalError
-from pyehl.handle import SolverHandle
+from pyehl.handle import SolverHandle, start_fronts, take_prediction
 from pyehl.prediction.by_response import RoughPassage
 from pyehl.prediction.options import Options, unpredictable
 from pyehl.prediction.pair import RoughPair
@@ -159,7 +158,7 @@ class Predictions:
 
     def begin(self, solver: SolverHandle) -> None:
         """Hand a solver the start that it asks for; mostly it asks for none."""
-        if solver.start_fronts().size:
+        if start_fronts(solver).size:
             from pyehl.prediction.start import hand_over  # noqa: PLC0415
 
             hand_over(solver, self._case.resolve(), self._tiles, whole=self._whole)
@@ -184,17 +183,18 @@ class Predictions:
             return [f"predicted   no mu_r/mu_s: {found}"]
         return found.report() if found else []
 
-    def tell(self, solver: SolverHandle, summary: Mapping[str, Any]) -> None:
-        """Tell a solver what is predicted, as soon as the error of mu_ratio asks for it."""
-        if self._told or summary.get("mu_ratio") is None or not summary["variance_unresolved"]:
+    def tell(self, solver: SolverHandle) -> None:
+        """Tell a solver what is predicted, if the error of its mu_ratio asks for it."""
+        summary = {} if self._told else solver.summary
+        if summary.get("mu_ratio") is None or not summary["variance_unresolved"]:
             return
         found = self._resolution_once()
         if isinstance(found, Resolution):
-            solver.take_prediction(found.left_out, found.unresolved, "")
+            take_prediction(solver, found.left_out, found.unresolved, "")
         elif found is not None:
             # a status without its message, which the plan has
             why = found.partition(": ")[0]
-            solver.take_prediction(
-                math.nan, math.nan, f"what the waves left out add is not predicted ({why})"
+            take_prediction(
+                solver, math.nan, math.nan, f"what the waves left out add is not predicted ({why})"
             )
         self._told = True

@@ -102,6 +102,7 @@ class PairAdvice:
     wavelengths: tuple[float | None, float | None, float | None]
     first: tuple[str, ...] = ()  # as of Advice
 
+    @property
     def summary(self) -> dict[str, float | int | None]:
         """Return what ``summary.json`` holds of it."""
         (x, y), (second_x, second_y) = self.places

@@ -250,7 +250,7 @@ class Prediction:
             "mu_ratio_tracks_spread": self.tracks[1],
             "tracks": self.track_count,
             "film_below_zero_share": self.below.share if self.below else None,
-            "film_breakdown": self.advice.summary() if self.advice else None,
+            "film_breakdown": self.advice.summary if self.advice else None,
             "positions": int(f.passage.size),
             "note": self.note,
             "reduction": self.options.reduction,
@@ -278,7 +278,7 @@ class Prediction:
             "lambda_ratio_central": self.film / sigma if sigma > 0.0 else None,
             **statistics(s, f.response),
             "surface_findings": findings_of(s, self.second.surface if self.second else None),
-            **(self.second.summary(s) if self.second else {}),
+            **(self.second.summary_with(s) if self.second else {}),
             **deformed_surface(
                 f,
                 self.film_minimum,

@@ -35,7 +35,7 @@ def statistics(tile: Topography, response: Response, prefix: str = "") -> dict[s
     made = tile.preparation
     found = {
         "surface": tile.origin,
-        "surface_preparation": made.record.summary() if made else None,
+        "surface_preparation": made.record.summary if made else None,
         "seed": tile.seed,
         "pixels": list(tile.shape),
         "length_x_m": tile.length_x,
@@ -69,7 +69,7 @@ class SecondSurface:
         """Arrays as those of the first surface."""
         return arrays(self.surface, self.passage.response, SECOND)
 
-    def summary(self, first: Topography) -> dict[str, Any]:
+    def summary_with(self, first: Topography) -> dict[str, Any]:
         """Return what a summary holds of it, and of both beside the `first` one."""
         both = first, self.surface
         together = self.together.tile if self.together else None

@@ -177,7 +177,7 @@ def _on_grid(
     case = Case.from_text(text, [f"grid.points={points}", *options], origin="smooth contact")
     with SolverHandle(case.text) as solver:
         solver.run()
-        summary = solver.summary()
+        summary = solver.summary
         if summary["status"] != "converged":
             return None, str(summary["status"])
         (x, y), pressure, film = solver.axes(), solver.field("P"), solver.field("H")

@@ -17,7 +17,7 @@ import scipy
 
 from pyehl import surfaces
 from pyehl.errors import EhlError, InputError, InternalError
-from pyehl.handle import SolverHandle
+from pyehl.handle import SolverHandle, start_fronts, take_start
 from pyehl.prediction.by_response import RoughPassage
 from pyehl.prediction.edge import Edge
 from pyehl.prediction.errors import model_error, outside_range
@@ -121,15 +121,15 @@ def hand_over(
         if not whole:
             raise InputError("the map is too large to be predicted as a whole")
         x, y = solver.axes()
-        found = starting_pressure(settings, tiles, x, y, solver.start_fronts())
+        found = starting_pressure(settings, tiles, x, y, start_fronts(solver))
     except InternalError:
         raise
     except (EhlError, OSError, MemoryError) as error:
         why = (str(error) or type(error).__name__).replace("\n", " ")
         LOG.warning("time.start = 'prediction': the roughness enters behind a front: %s", why)
-        solver.take_start(None, why)
+        take_start(solver, None, why)
     else:
-        solver.take_start(found)
+        take_start(solver, found)
 
 
 def _passages(settings: Settings, tiles: Mapping[str, Topography]) -> list[RoughPassage]:

@@ -237,7 +237,7 @@ def _friction(
     text = library.resolve(namelist.text_of(groups), "the contact of the fit")
     with SolverHandle(text) as solver:
         solver.run()
-        summary = solver.summary()
+        summary = solver.summary
     if summary["status"] != "converged" or summary["mu"] is None:
         told = ", ".join(f"{k} = {v:.4g}" for k, v in zip(keys, values, strict=True))
         raise EhlError(

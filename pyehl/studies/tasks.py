@@ -85,7 +85,7 @@ def _solve(task: Task) -> Row:
         return _scalars(json.loads(text))
     with Solver(case) as solver:
         solver.run()
-        return _scalars(solver.summary())
+        return _scalars(solver.summary)
 
 
 def _predict(task: Task) -> Row:

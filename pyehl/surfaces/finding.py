@@ -26,6 +26,7 @@ class Finding:
         """Tell it in one line."""
         return f"{self.kind}: {self.text}" + (f"; {self.remedy}" if self.remedy else "")
 
+    @property
     def summary(self) -> dict[str, object]:
         """Return what ``summary.json`` holds of it."""
         return {

@@ -46,6 +46,7 @@ class Step:
     after: areal.Extent
     note: str = ""
 
+    @property
     def summary(self) -> dict[str, Any]:
         """Return what ``summary.json`` holds of it."""
         return {
@@ -84,6 +85,7 @@ class Record:
     steps: tuple[Step, ...]  # the steps that did something, in order
     findings: tuple[Finding, ...] = ()  # what the levelled map has besides roughness
 
+    @property
     def summary(self) -> dict[str, Any]:
         """Return what ``summary.json`` holds of it: SI units."""
         return {
@@ -99,8 +101,8 @@ class Record:
             "edges": self.edges,
             "tile_pixels": list(self.tile_pixels),
             "tile_size_m": list(self.tile_size),
-            "steps": [step.summary() for step in self.steps],
-            "findings": [finding.summary() for finding in self.findings],
+            "steps": [step.summary for step in self.steps],
+            "findings": [finding.summary for finding in self.findings],
         }
 
     def report(self) -> list[str]:

@@ -24,8 +24,8 @@ def domain_of(case: Case) -> dict[str, float]:
 
 def solved(case: Case) -> dict:
     with Solver(case) as solver:
-        assert solver.run(), solver.summary()["status"]
-        return solver.summary()
+        assert solver.run(), solver.summary["status"]
+        return solver.summary
 
 
 @pytest.mark.parametrize(

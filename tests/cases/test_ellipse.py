@@ -430,7 +430,7 @@ def test_cells_that_a_narrow_contact_needs(kappa: float, round_m: float):
     }
     with pyehl.Solver(pyehl.Case.from_text("", keys)) as solver:
         assert not solver.run()
-        summary = solver.summary()
+        summary = solver.summary
     assert (summary["H_c"], summary["status"]) == (None, "negative film")
     named = re.findall(r"(\w+\.\w+) = ([\d.]+)", summary["judgement"])
     assert [key for key, _ in named] == ["grid.y_extent", "grid.points_y", "solver.max_cycles"]
@@ -441,7 +441,7 @@ def test_cells_that_a_narrow_contact_needs(kappa: float, round_m: float):
         remedy["grid.points_y"] = (remedy["grid.points_y"] - 1) * wider + 1
         with pyehl.Solver(pyehl.Case.from_text("", keys | remedy)) as solver:
             assert solver.run()
-            found.append(solver.summary())
+            found.append(solver.summary)
     # the sides of the domain are far enough
     assert found[0]["H_c"] == pytest.approx(found[1]["H_c"], rel=3e-5)
     assert found[0]["H_min"] == pytest.approx(found[1]["H_min"], rel=1e-4)

@@ -73,12 +73,12 @@ def test_sizes_in_metres():
         for solver in (one, other, third):
             solver.run()
         np.testing.assert_allclose(one.field("RR"), other.field("RR"), rtol=1e-12, atol=1e-17)
-        summary = third.summary()
+        summary = third.summary
         # a share of the film of the case, which grids of any size know alike
         with pyehl.Solver(share, "grid.points=257") as fine:
             fine.run()
-            assert summary["amplitude"] == pytest.approx(fine.summary()["amplitude"], rel=2e-3)
-            limit = fine.summary()["H_c_extrapolated"]
+            assert summary["amplitude"] == pytest.approx(fine.summary["amplitude"], rel=2e-3)
+            limit = fine.summary["H_c_extrapolated"]
         assert summary["amplitude"] == pytest.approx(0.4 * limit, rel=2e-3)
         assert summary["amplitude"] > 0.41 * summary["H_c"]
     # and a written case reads back

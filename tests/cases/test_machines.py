@@ -181,7 +181,7 @@ def test_a_sweep_over_ellipses(tmp_path: Path):
         one = {key: values[k] for key, values in radii.items()}
         with pyehl.Solver(case.with_options(one)) as solver:
             solver.run()
-            assert float(table["H_c"].values[k]) == solver.summary()["H_c"]
+            assert float(table["H_c"].values[k]) == solver.summary["H_c"]
 
 
 def test_resumed_on_an_ellipse(drive, tmp_path: Path):

@@ -12,7 +12,8 @@ import numpy as np
 import pytest
 import scipy.fft
 
-from pyehl import Case, Solver, surfaces
+from pyehl import Case, surfaces
+from pyehl.solver import solver_on_heights
 from pyehl.surfaces import Topography
 from pyehl.surfaces.reading import read_scan
 from pyehl.surfaces.seams import mirrored
@@ -255,9 +256,11 @@ def test_mirrored_map_is_its_tile(shape: tuple[int, int], pixel: float, cut: flo
     found = []
     for given, images in ((mirrored(z), ".false."), (z, ".true.")):
         option = f"surface.tile_mirrored={images}"
-        with Solver.open(Case.from_text(case, [option]), np.asfortranarray(given)) as solver:
+        with solver_on_heights(
+            Case.from_text(case, [option]), {"surface": np.asfortranarray(given)}
+        ) as solver:
             solver.run()
-            found.append((solver.field("RR"), solver.summary()))
+            found.append((solver.field("RR"), solver.summary))
     (tile, whole), (folded, part) = found
     assert np.abs(tile).max() > 0.0
     assert folded == pytest.approx(tile, abs=1e-13 * np.abs(tile).max())
@@ -275,8 +278,8 @@ def test_symmetric_map_is_known_as_one():
             "&grid points = 33 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
             "&time steps = 1 /\n"
         )
-        with Solver.open(Case.from_text(case), np.asfortranarray(z)) as solver:
-            assert (solver.summary()["half_domain"]) is even
+        with solver_on_heights(Case.from_text(case), {"surface": np.asfortranarray(z)}) as solver:
+            assert (solver.summary["half_domain"]) is even
 
 
 MEASURE = """

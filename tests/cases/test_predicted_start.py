@@ -154,9 +154,9 @@ def test_heights_in_memory_start_there_too(tile: dict[str, Any]):
 def test_where_there_is_no_prediction_a_front_enters(settings: dict[str, Any], why: str):
     case = pyehl.Case.from_text("", ALONE | settings | {"time.start": "prediction"})
     with pyehl.Solver(case) as solver:
-        while "start" not in solver.summary() and not solver.done:
+        while "start" not in solver.summary and not solver.done:
             solver.advance()
-        summary = solver.summary()
+        summary = solver.summary
     assert summary["start"] == "front"
     assert why in summary["start_note"]
 
@@ -204,7 +204,7 @@ def test_a_run_that_is_stopped_is_resumed_to_the_same_bits(tmp_path: Path):
     path.write_text(case.text)
     assert main(["run", str(path), "-o", str(tmp_path / "whole")]) == 0
     with pyehl.Solver(case) as solver:
-        solver.keep(tmp_path / "part")
+        solver.checkpoint(tmp_path / "part")
         for step in solver:
             if step.summary.get("steps") == 20:
                 break

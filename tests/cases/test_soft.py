@@ -79,7 +79,7 @@ def test_soft_contacts_converge(moes_m, moes_l, points):
     """With the relaxation of hard ones the changes go round in circles."""
     with pyehl.Solver(pyehl.Case.from_text("", moes(moes_m, moes_l, points))) as solver:
         assert solver.run()
-        assert solver.summary()["status"] == "converged"
+        assert solver.summary["status"] == "converged"
 
 
 def test_no_alpha_is_no_l(root: Path):

@@ -14,7 +14,7 @@ def test_error_covers_and_says_something(moes_m: float, limit: float, points: in
     settings = {"contact.moes_m": moes_m, "contact.moes_l": 0.0, "grid.points": points}
     with pyehl.Solver(pyehl.Case.from_text("", settings)) as solver:
         assert solver.run()
-        found = solver.summary()
+        found = solver.summary
         lines = library.conclude(found).lines
     miss = abs(found["H_c"] - limit)
     # the domain has an error of its own, for the film of an endless one

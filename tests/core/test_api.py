@@ -323,7 +323,7 @@ def test_work_and_time_left(tmp_path: Path, capsys):
                 assert re.search(r", about \d+ s left$", step.text)
             elif step.work.done and not solver.done:
                 assert re.search(r", at most \d+ s left$", step.text)
-        summary = solver.summary()
+        summary = solver.summary
     assert seen[0] == (0.0, 0.0, 0.0)
     running = [work for work in seen if work.done > 0]
     assert all(a.done < b.done for a, b in itertools.pairwise(running))
@@ -348,7 +348,7 @@ def test_solver_is_an_iterator(fractal: Path):
         numbers = []
         for step in solver:
             numbers.append(step.number)
-            assert str(step) == step.text == solver.progress()
+            assert str(step) == step.text == solver.progress
             if step.summary.get("steps") == 2:
                 break
         assert numbers == list(range(1, len(numbers) + 1))
@@ -362,6 +362,16 @@ def test_solver_is_an_iterator(fractal: Path):
         assert len(repr(solver)) < 200
         assert "<table>" in solver._repr_html_()
     assert "closed" in repr(solver)
+
+
+def test_solver_shows_what_a_user_needs():
+    methods = """advance axes checkpoint clear_checkpoint close conclusion dataset describe field
+    interrupt resume resumption run save_state write"""
+    getters = "converged done progress shape summary work"
+    assert {name for name in dir(pyehl.Solver) if name[0] != "_"} == {
+        *methods.split(),
+        *getters.split(),
+    }
 
 
 def test_predict(fractal: Path):

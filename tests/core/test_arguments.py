@@ -13,6 +13,7 @@ import pytest
 import pyehl
 from pyehl import cli
 from pyehl.case import trusted
+from pyehl.solver import solver_on_heights
 
 SMALL = "grid.points=65"
 WHOLE_TEXT = "the text of a case"
@@ -68,11 +69,23 @@ CALLS: dict[str, tuple[Callable[[str], Any], str]] = {
     "field unknown": (lambda q: pyehl.Solver(q, SMALL).field("Q"), "'P' or 'H'"),
     "write": (lambda q: pyehl.Solver(q, SMALL).write(3), "folder = 3"),
     "resume": (lambda q: pyehl.Solver(q, SMALL).resume(None), "expected a path"),
-    "keep": (lambda q: pyehl.Solver(q, SMALL).keep(None), "expected a path"),
-    "heights of a smooth contact": (lambda q: pyehl.Solver.open(q, np.ones((8, 8))), "'fractal'"),
-    "heights text": (lambda q: pyehl.Solver.open(q, "abc"), "a matrix of numbers"),
-    "heights line": (lambda q: pyehl.Solver.open(q, [1.0, 2.0]), "shape (2,)"),
-    "heights nan": (lambda q: pyehl.Solver.open(q, np.full((8, 8), np.nan)), "finite"),
+    "checkpoint": (lambda q: pyehl.Solver(q, SMALL).checkpoint(None), "expected a path"),
+    "heights of a smooth contact": (
+        lambda q: solver_on_heights(pyehl.Case(q), {"surface": np.ones((8, 8))}),
+        "'fractal'",
+    ),
+    "heights text": (
+        lambda q: solver_on_heights(pyehl.Case(q), {"surface": "abc"}),
+        "a matrix of numbers",
+    ),
+    "heights line": (
+        lambda q: solver_on_heights(pyehl.Case(q), {"surface": [1.0, 2.0]}),
+        "shape (2,)",
+    ),
+    "heights nan": (
+        lambda q: solver_on_heights(pyehl.Case(q), {"surface": np.full((8, 8), np.nan)}),
+        "finite",
+    ),
     "load None": (lambda q: pyehl.load(None), "expected a path"),
     "load file": (pyehl.load, "not a result folder"),
     "report nothing": (lambda q: pyehl.report("nowhere"), "nowhere: there is no such folder"),

@@ -47,13 +47,13 @@ def test_solver_in_python(solver: Solver):
     assert not solver.done
     assert solver.run()
     assert solver.done
-    assert solver.summary()["status"] == "converged"
+    assert solver.summary["status"] == "converged"
     x, y = solver.axes()
     assert (x[0], x[-1], y[0], y[-1]) == (-2.5, 1.5, -2.0, 2.0)
     pressure = solver.field("P")
     assert pressure.shape == solver.shape == (33, 33)
     assert pressure.flags.f_contiguous
-    assert pressure.max() == solver.summary()["P_max"]
+    assert pressure.max() == solver.summary["P_max"]
     with pytest.raises(errors.InputError):
         solver.field("Q")
 
@@ -70,7 +70,7 @@ def test_fields_refer_to_the_finest_grid_from_the_start():
             assert np.allclose(pressure, pressure[:, ::-1], rtol=0.0, atol=1e-14)
             solver.advance()
         assert shapes == {((129, 129), (129, 129), (129,), (129,))}
-        assert solver.summary()["P_max"] == solver.field("P").max()
+        assert solver.summary["P_max"] == solver.field("P").max()
 
 
 def test_interrupted_solver(solver: Solver):
@@ -78,7 +78,7 @@ def test_interrupted_solver(solver: Solver):
     solver.interrupt()
     assert solver.done
     assert not solver.converged
-    assert solver.summary()["status"] == "interrupted"
+    assert solver.summary["status"] == "interrupted"
 
 
 @pytest.mark.parametrize("array", [
@@ -108,9 +108,11 @@ def test_closed_solver_raises():
     handle = solver._handle
     solver.close()
     solver.close()
-    for call in (solver.advance, solver.describe, solver.summary, solver.interrupt, solver.axes):
+    for call in (solver.advance, solver.describe, solver.interrupt, solver.axes):
         with pytest.raises(errors.ClosedError):
             call()
+    with pytest.raises(errors.ClosedError):
+        solver.summary  # noqa: B018
     # A handle is never used again, also when its place is
     with Solver(Case.from_text(SMALL)) as other:
         assert other._handle != handle
@@ -151,7 +153,7 @@ def test_solvers_in_threads_do_not_disturb_each_other():
     def work(k: int) -> None:
         with Solver(Case.from_text(texts[k])) as solver:
             solver.run()
-            answers[k] = solver.summary()["H_c"]
+            answers[k] = solver.summary["H_c"]
 
     threads = [threading.Thread(target=work, args=(k,)) for k in range(len(texts))]
     for thread in threads:
@@ -196,9 +198,9 @@ def test_texts_of_any_length_arrive_whole(monkeypatch: pytest.MonkeyPatch):
     ) == whole
     with Solver(Case.from_text("&grid points = 33 /\n")) as solver:
         solver.run()
-        short = solver.summary()
+        short = solver.summary
         monkeypatch.undo()
-        assert solver.summary() == short
+        assert solver.summary == short
 
 
 def test_message_that_does_not_fit_says_so():

@@ -182,7 +182,7 @@ def test_unusable_maps_are_bad_input(scan: Path, tmp_path: Path, capsys, keys: s
     assert message in capsys.readouterr().err
     assert not (tmp_path / "none").exists()
     with pytest.raises(InputError):
-        Solver.open(Case(case))
+        Solver(Case(case))
 
 
 def test_surface_of_a_bare_file(scan: Path, tmp_path: Path, capsys):

@@ -91,7 +91,7 @@ def test_need_covers_what_is_taken(points: int, kind: str):
         need = re.search(r"need +about (\d+) MB of memory", solver.describe())
         assert need is not None
         solver.run()
-        taken = solver.summary()["bytes"] / 1e6
+        taken = solver.summary["bytes"] / 1e6
     assert taken <= float(need[1]) <= 2.5 * taken + 2.0
 
 
@@ -158,14 +158,14 @@ def test_steps_that_are_skipped_are_counted():
     faster = ("time.steps=2", "surface.velocity_ratio=1e-5", "surface.x_start=-100")
     with pyehl.Solver(pyehl.Case.from_text(WAVE, faster)) as solver:
         solver.run()
-        summary = json.loads(json.dumps(solver.summary()))
+        summary = json.loads(json.dumps(solver.summary))
     assert summary["steps_skipped"] > 7e7
 
 
 def test_time_left_of_very_many_periods():
     many = ("time.steps=0", "time.max_periods=100000", "surface.velocity_ratio=1e-3")
     with pyehl.Solver(pyehl.Case.from_text(WAVE, [*many, "time.estimate_error=.false."])) as solver:
-        while solver.work().done < 2:
+        while solver.work.done < 2:
             solver.advance()
-        assert solver.work().latest > 2.0**31 / 4
-        assert " -" not in solver.progress().rpartition(",")[2]
+        assert solver.work.latest > 2.0**31 / 4
+        assert " -" not in solver.progress.rpartition(",")[2]

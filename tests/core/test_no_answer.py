@@ -24,9 +24,9 @@ def end(text: str, *options: str, stop: int | None = None) -> dict[str, Any]:
         else:
             for _ in range(stop):
                 solver.advance()
-            assert not solver.summary().get("message")
+            assert not solver.summary.get("message")
             solver.interrupt()
-        summary = solver.summary()
+        summary = solver.summary
         assert solver.conclusion().endswith(f"judgement  {summary['judgement']}")
     assert "\n" not in summary["judgement"]
     return summary
@@ -113,7 +113,7 @@ def test_other_ends(options: list[str], stop: int | None, status: str, words: st
 def test_an_answer_has_no_message():
     with Solver(Case.from_text(WAVE, ["surface.kind=smooth"])) as solver:
         assert solver.run()
-        assert "message" not in solver.summary()
+        assert "message" not in solver.summary
 
 
 @pytest.mark.parametrize(
@@ -123,10 +123,10 @@ def test_interrupted_in_the_run_for_the_grid_error(ratio: float, at: str):
     case = Case.from_text(WAVE, {"surface.velocity_ratio": ratio})
     begun = ": step " if ratio else "mu_r/mu_s"
     with Solver(case) as solver:
-        while "on the next coarser grid" not in solver.progress() or begun not in solver.progress():
+        while "on the next coarser grid" not in solver.progress or begun not in solver.progress:
             assert not solver.done
             solver.advance()
         solver.interrupt()
-        told = solver.summary()["message"]
+        told = solver.summary["message"]
     assert told.startswith(f"stopped from outside in the run for the grid error: {at}")
     assert " on 33 x 33 nodes" in told

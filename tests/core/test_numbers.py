@@ -52,7 +52,7 @@ def everywhere(request, tmp_path_factory, drivers) -> tuple[dict[str, dict[str, 
     found = {}
     with Solver(case) as solver:
         solver.run()
-        found["Solver"] = solver.summary()
+        found["Solver"] = solver.summary
         solver.write(folder / "written")
     found["Solver.write"] = summary_of(folder / "written")
     found["solve"] = dict(pyehl.solve(case).attrs)
@@ -153,7 +153,7 @@ def test_a_prediction_that_fails_makes_no_error_smaller(monkeypatch, tmp_path: P
         )
         solver.run()
         solver.write(tmp_path / "out")
-        for values in (solver.summary(), summary_of(tmp_path / "out")):
+        for values in (solver.summary, summary_of(tmp_path / "out")):
             assert values["mu_ratio_error_grid"] > 0.0
             assert values["mu_ratio_error"] is values["mu_ratio_error_left_out"] is None
             note = "what the waves left out add is not predicted (film breakdown)"
@@ -162,7 +162,22 @@ def test_a_prediction_that_fails_makes_no_error_smaller(monkeypatch, tmp_path: P
     # where nothing is left out nothing is missing
     with Solver(Case.from_text(CARRIED)) as solver:
         solver.run()
-        assert solver.summary()["mu_ratio_error"] > 0.0
+        assert solver.summary["mu_ratio_error"] > 0.0
+
+
+def test_getters_of_a_solver_compute_nothing(monkeypatch):
+    """What the waves left out add is predicted at the end of a run, not where it is read."""
+    with Solver(Case.from_text(LEFT_OUT)) as solver:
+        solver.run()
+        for name in ("prediction.of_solver.resolution", "handle.SolverHandle.advance"):
+            monkeypatch.setattr(f"pyehl.{name}", lambda *_: pytest.fail("computed"))
+        assert solver.summary["mu_ratio_error_left_out"] > 0.0
+        assert solver.summary == solver.summary
+        assert solver.progress
+        assert solver.work.done > 0.0
+        assert solver.shape == solver.field("H").shape
+        assert "grid" in solver.describe()
+        assert solver._repr_html_().startswith("<table>")
 
 
 def test_nothing_is_predicted_where_nothing_is_left_out(monkeypatch):
@@ -173,33 +188,33 @@ def test_nothing_is_predicted_where_nothing_is_left_out(monkeypatch):
 
     monkeypatch.setattr("pyehl.prediction.of_solver.solve_contact", never)
     with Solver(Case.from_text(LEFT_OUT)) as solver:
-        while not solver.advance() and "steps" not in solver.summary():
+        while not solver.advance() and "steps" not in solver.summary:
             pass
-        assert solver.summary()["mu_ratio"] is None
+        assert solver.summary["mu_ratio"] is None
         assert "Solver(" in repr(solver)
         assert "predicted" not in solver.describe()
     for text in (WAVE.format(33, 0.1), ROUGH.format("shortest_wavelength = 1.3e-4")):
         with Solver(Case.from_text(text)) as solver:
             assert "predicted" not in solver.describe(predict=True)
             solver.run()
-            assert solver.summary()["mu_ratio"] > 1.0
+            assert solver.summary["mu_ratio"] > 1.0
 
 
 def test_error_in_the_coarser_run_does_not_end_the_run(tmp_path: Path):
     """Its state is there when the run is resumed, and gone when the coarser run begins."""
     case = Case.from_text(CARRIED, ["output.checkpoint_interval=1000.0"])
     with Solver(case) as solver:
-        solver.keep(tmp_path / "out")
-        while not solver.work().done > 1.0:
+        solver.checkpoint(tmp_path / "out")
+        while not solver.work.done > 1.0:
             solver.advance()
-        assert "next coarser grid" in solver.progress()
+        assert "next coarser grid" in solver.progress
         assert solver.save_state(at_once=True)
     with Solver(case) as solver:
         assert "going on after step" in solver.resume(tmp_path / "out")
         for path in (tmp_path / "out.checkpoint").glob("*coarse*"):
             path.unlink()
         assert solver.run()
-        values = solver.summary()
+        values = solver.summary
     assert values["mu_ratio"] > 1.0
     assert values["mu_ratio_error"] is values["mu_ratio_error_grid"] is None
     assert "coarser grid ended with the status 'failed' (" in values["mu_ratio_error_note"]
@@ -227,12 +242,12 @@ def test_steps_asked_for_do_not_make_a_mean_settle():
 def test_no_ratio_is_none(text: str):
     """Before it is known, and after a failure: of the smooth contact, or of a step."""
     with Solver(Case.from_text(text)) as solver:
-        assert solver.summary()["mu_ratio"] is None
+        assert solver.summary["mu_ratio"] is None
         solver.advance()
-        assert solver.summary()["mu_ratio_error"] is None
+        assert solver.summary["mu_ratio_error"] is None
     with Solver(Case.from_text(text, ["solver.max_cycles=1", "solver.accuracy=1e-6"])) as solver:
         assert not solver.run()
-        values = solver.summary()
+        values = solver.summary
         assert values["mu_ratio"] is values["mu_ratio_error"] is values["H_c"] is None
         assert values["mu_ratio_error_note"] == "there is no mu_ratio"
         assert values["message"] in values["judgement"]
@@ -288,7 +303,7 @@ def test_no_error_where_no_limit_is_in_sight():
     for values, known in (({}, False), ({"contact.moes_l": 2.0}, True)):
         with Solver(Case.from_text("", ridge | values)) as solver:
             assert solver.run()
-            found = solver.summary()
+            found = solver.summary
         assert (found["mu_ratio_error"] is not None) == known
         assert ("no limit is in sight" in found["mu_ratio_error_note"]) != known
         if known:
@@ -306,10 +321,10 @@ def test_what_is_read_while_another_thread_advances_is_a_state():
     with Solver(Case.from_text(text, options)) as solver:
         while not solver.done:
             states.add(solver.field("P").tobytes())
-            times.add(solver.summary().get("T"))
+            times.add(solver.summary.get("T"))
             solver.advance()
         states.add(solver.field("P").tobytes())
-        times.add(solver.summary().get("T"))
+        times.add(solver.summary.get("T"))
     reads = 0
     while reads < 300:
         with Solver(Case.from_text(text, options)) as solver:
@@ -317,8 +332,8 @@ def test_what_is_read_while_another_thread_advances_is_a_state():
             thread.start()
             while thread.is_alive():
                 assert solver.field("P").tobytes() in states, f"field {reads} is no state"
-                assert solver.summary().get("T") in times
-                assert solver.progress()
-                assert solver.work().done >= 0.0
+                assert solver.summary.get("T") in times
+                assert solver.progress
+                assert solver.work.done >= 0.0
                 reads += 1
             thread.join()

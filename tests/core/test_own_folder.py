@@ -60,11 +60,11 @@ def test_second_run_is_refused(drive, drivers, case: Path, driver: str):
 def test_solver_of_the_same_process_is_refused(case: Path):
     folder = case.parent / "out"
     with pyehl.Solver(case) as first, pyehl.Solver(case) as second:
-        first.keep(folder)
+        first.checkpoint(folder)
         with pytest.raises(pyehl.InputError, match=f"process {os.getpid()} on "):
-            second.keep(folder)
+            second.checkpoint(folder)
         first.close()
-        second.keep(folder)
+        second.checkpoint(folder)
     assert not folder.with_name("out.lock").exists()
 
 

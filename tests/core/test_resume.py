@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 from pyehl.case import Case
-from pyehl.solver import Solver
+from pyehl.solver import solver_on_heights
 
 WAVE = (
     "&contact moes_m = 200.0 /\n"
@@ -151,9 +151,9 @@ def test_given_surface_is_kept_for_both_drivers(drive, tmp_path: Path):
     np.save(tmp_path / "other.npy", 0.0 * heights)
     (tmp_path / "case.nml").write_text(text)
     case = Case(tmp_path / "case.nml")
-    with Solver.open(case, heights) as solver:
-        solver.keep(tmp_path / "out")
-        while solver.summary().get("steps", 0) < 10:
+    with solver_on_heights(case, {"surface": heights}) as solver:
+        solver.checkpoint(tmp_path / "out")
+        while solver.summary.get("steps", 0) < 10:
             solver.advance()
         assert solver.save_state(at_once=True)
     assert np.array_equal(np.load(tmp_path / "out.checkpoint" / "surface.npy"), heights)

@@ -51,7 +51,7 @@ QUICK = ("coarser run fails", "predicted start")
 def ended(solver: pyehl.Solver) -> dict[str, Any]:
     """Summary at the end, without times, and the frames."""
     solver.run()
-    found = {name: value for name, value in solver.summary().items() if "seconds" not in name}
+    found = {name: value for name, value in solver.summary.items() if "seconds" not in name}
     frames = solver.dataset().get("frame_P")
     return found if frames is None else found | {"frames": frames.values.tobytes()}
 
@@ -59,7 +59,7 @@ def ended(solver: pyehl.Solver) -> dict[str, Any]:
 def killed_and_resumed(case: pyehl.Case, folder: Path, advances: int) -> dict[str, Any] | None:
     """Summary of a run that was killed after so many advances; None where it left no state."""
     with pyehl.Solver(case) as solver:
-        solver.keep(folder)
+        solver.checkpoint(folder)
         for k in range(advances):
             solver.advance()
             if k % 5 == 0 or k > advances - 5:
@@ -112,7 +112,7 @@ def test_steps_from_a_prediction_that_fail_after_a_resumption(tmp_path: Path):
     with pyehl.Solver(case) as solver:
         while not solver.done:
             solver.advance()
-            summary = solver.summary()
+            summary = solver.summary
             if summary.get("start") == "prediction":
                 before = solver._calls
             elif before and not again:
@@ -135,5 +135,5 @@ def test_waves_that_no_grid_resolves_are_named(estimate_error: bool):
     )
     with pyehl.Solver(case) as solver:
         solver.run()
-        message = solver.summary()["message"]
+        message = solver.summary["message"]
     assert "the shortest waves have 3 nodes, and as high as the film they need 32" in message

@@ -14,6 +14,7 @@ import pyehl
 from pyehl import Case, Solver, cli
 from pyehl.errors import InputError
 from pyehl.prediction.of_solver import resolution
+from pyehl.solver import solver_on_heights
 
 # One body twice as fast as the other: the fewest positions in which tiles of one length meet
 FASTER, SLOWER = 4.0 / 3.0, 2.0 / 3.0
@@ -203,16 +204,18 @@ def test_heights_in_memory(heights, tmp_path: Path, monkeypatch):
     with pytest.raises(InputError, match=r"second_surface\.length_x"):
         Solver(Case.from_text(CONTACT), second_surface=heights["one"])
     with pytest.raises(InputError, match=r"second_surface\.kind = 'map' or 'fractal'"):
-        Solver.open(Case.from_text(CONTACT), second_heights=heights["one"])
+        solver_on_heights(Case.from_text(CONTACT), {"second_surface": heights["one"]})
 
 
 def test_given_surfaces_are_kept_for_both_drivers(drive, heights, tmp_path: Path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "case.nml").write_text(CONTACT + SCENES["two maps"])
     swapped = [heights["two"], heights["one"]]
-    with Solver.open(Case("case.nml"), *swapped) as solver:
-        solver.keep(tmp_path / "out")
-        while solver.summary().get("steps", 0) < 3:
+    with solver_on_heights(
+        Case("case.nml"), dict(zip(("surface", "second_surface"), swapped, strict=True))
+    ) as solver:
+        solver.checkpoint(tmp_path / "out")
+        while solver.summary.get("steps", 0) < 3:
             solver.advance()
         assert solver.save_state(at_once=True)
     for name, values in zip(("surface", "second_surface"), swapped, strict=True):
@@ -241,7 +244,8 @@ def test_maps_are_prepared(heights, tmp_path: Path, monkeypatch, capsys):
     assert summary["surface_rms_m"] > 0.0
     alone = Case.from_text(text + STEPS.format(3), {"surface.kind": "smooth"})
     with Solver(alone) as solver:
-        assert list(solver.preparations) == ["second_surface"]
+        assert "second_surface_preparation" in solver.summary
+        assert "surface_preparation" not in solver.summary
 
 
 @pytest.mark.long
@@ -305,7 +309,7 @@ def test_waves_that_are_left_out_are_predicted(heights, tmp_path: Path):
     with Solver(Case.from_text(text + "&time max_periods = 3 tolerance = 0.3 /\n")) as solver:
         plan = solver.describe(predict=True)
         solver.run()
-        summary = solver.summary()
+        summary = solver.summary
     assert summary["status"] == "converged"
     assert summary["variance_left_out"] > 0.1
     assert "predicted   mu_r/mu_s" in plan

@@ -232,12 +232,12 @@ def test_many_threads_find_what_one_finds(cases: int):
     texts.append(texts[0].replace("max_points = 17", "max_points = 257"))
 
     def outcome(k: int) -> str:
-        with pyehl.Solver.open(pyehl.Case.from_text(texts[k % len(texts)])) as solver:
+        with pyehl.Solver(pyehl.Case.from_text(texts[k % len(texts)])) as solver:
             try:
                 solver.run()
             except pyehl.InputError as error:
                 return str(error)
-            found = solver.summary()
+            found = solver.summary
             return str([(name, value) for name, value in found.items() if "seconds" not in name])
 
     alone = [outcome(k) for k in range(len(texts))]

@@ -82,10 +82,10 @@ def test_thermal_reduction_in_formula_prediction_and_solver():
     assert sheet(warm)["thermal_reduction"] == share
     films = {}
     for text in (more, ""):
-        with Solver.open(Case.from_text(OIL.format(t=60.0, more=text))) as solver:
+        with Solver(Case.from_text(OIL.format(t=60.0, more=text))) as solver:
             assert ("shear heating" in solver.describe()) == bool(text)
             assert solver.run()
-            films[text] = solver.summary()
+            films[text] = solver.summary
     assert films[more]["thermal_reduction"] == pytest.approx(share, rel=1e-13)
     assert films[more]["thermal_loading"] == pytest.approx(loading, rel=1e-13)
     assert films[more]["inlet_viscosity_Pa_s"] == pytest.approx(point.viscosity, rel=1e-12)
@@ -163,9 +163,9 @@ def test_flash_temperature_of_ellipses(kappa, near, peclet):
 def test_absolute_friction_of_the_solver():
     keys = ["lubricant.shear_law=limiting", "contact.slide_to_roll=-2.0", "grid.points=129"]
     case = Case.from_text("", keys)
-    with Solver.open(case) as solver:
+    with Solver(case) as solver:
         assert solver.run()
-        s = solver.summary()
+        s = solver.summary
     point = OperatingPoint(slide_to_roll=-2.0)
     # tau -> tau_L = 0.06 p: the whole load is borne by fluid pressure, p = 0 outside apart
     assert s["mu"] == s["mu_smooth"] == pytest.approx(0.06, rel=1e-2)
@@ -186,9 +186,9 @@ def test_absolute_friction_of_the_solver():
 
 def test_eyring_friction_of_table_1():
     keys = ["lubricant.shear_law=eyring", "grid.points=257"]
-    with Solver.open(Case.from_text("", keys)) as solver:
+    with Solver(Case.from_text("", keys)) as solver:
         assert solver.run()
-        s = solver.summary()
+        s = solver.summary
     # a semi-ellipse of pressure and a uniform film: the rim is thinner, the inlet carries too
     flat = Topography(np.zeros((64, 64)), (8.29e-4, 8.29e-4))
     oil = Lubricant(shear=ShearLaw("eyring"))
@@ -207,9 +207,9 @@ def test_eyring_friction_of_table_1():
     ],
 )
 def test_only_a_ratio_is_said_in_words(options, words):
-    with Solver.open(Case.from_text("", options)) as solver:
+    with Solver(Case.from_text("", options)) as solver:
         assert solver.run()
-        s = solver.summary()
+        s = solver.summary
     assert (s["mu"], s["mu_smooth"], s["flash_temperature_K"]) == (None, None, None)
     assert words in s["mu_note"]
 
@@ -223,9 +223,9 @@ def test_a_newtonian_coefficient_where_pressure_is_low():
         "grid.points": 65,
         "lubricant.density_law": "'incompressible'",
     }
-    with Solver.open(Case.from_text("", [f"{k}={v}" for k, v in keys.items()])) as solver:
+    with Solver(Case.from_text("", [f"{k}={v}" for k, v in keys.items()])) as solver:
         assert solver.run()
-        s = solver.summary()
+        s = solver.summary
     assert s["shear_stress_max_Pa"] < 5e6
     assert 0.0 < s["mu"] < 0.1
     assert "isothermal" in s["mu_note"]

@@ -268,7 +268,7 @@ def test_record_is_json_and_lines():
     z = rough() + 1e-6 * axes((64, 48))[0]
     z[3, 4] = np.nan
     made = prepare(instrument(z))
-    summary = json.loads(json.dumps(made.record.summary(), allow_nan=False))
+    summary = json.loads(json.dumps(made.record.summary, allow_nan=False))
     assert [s["key"] for s in summary["steps"]] == [
         "surface.fill", "surface.detrend", "surface.edges",
     ]  # fmt: skip

@@ -397,7 +397,7 @@ def test_files_without_size_and_unit(tmp_path, suffix):
     assert scan.heights == pytest.approx(z, abs=1e-24)
     assert (scan.length_x, scan.length_y) == SIZE
     record = prepare(scan, Options(detrend="centre")).record
-    assert "taken in m" in record.summary()["note"]
+    assert "taken in m" in record.summary["note"]
     assert any("taken in m" in line for line in record.report())
 
 

@@ -103,4 +103,4 @@ def test_a_killed_worker_takes_nothing_with_it(
         cases / "quick.nml", f"contact.moes_m={rows[20]['contact.moes_m']}"
     ) as solver:
         solver.run()
-        assert float(rows[20]["H_c"]) == solver.summary()["H_c"]
+        assert float(rows[20]["H_c"]) == solver.summary["H_c"]

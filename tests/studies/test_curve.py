@@ -92,7 +92,7 @@ def test_film_is_that_of_the_solved_contact(wave: tuple[Path, str], cases: Path)
         cases / "table1.nml", "surface.kind=smooth", *WAVE[5::2], f"{KEY}=1.6"
     ) as solver:
         solver.run()
-        alone = solver.summary()
+        alone = solver.summary
     limit = alone["H_c_extrapolated"] or alone["H_c"]
     assert float(row["h_c_m"]) == pytest.approx(limit * alone["film_scale_m"], rel=1e-12)
     assert float(row["h_c_error_m"]) == pytest.approx(

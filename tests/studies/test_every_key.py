@@ -179,7 +179,7 @@ def fields(text: str) -> tuple[Array, Array, str]:
     """P and H of a case, and the status."""
     with SolverHandle(text) as solver:
         solver.run()
-        return solver.field("P"), solver.field("H"), str(solver.summary()["status"])
+        return solver.field("P"), solver.field("H"), str(solver.summary["status"])
 
 
 def made(key: str, tmp_path: Path) -> pyehl.Case:

@@ -59,7 +59,7 @@ def test_table_is_that_of_single_runs(done: tuple[Path, str], cases: Path):
         options = [f"contact.{key}={row[f'contact.{key}']}" for key in ("moes_m", "moes_l")]
         with pyehl.Solver(cases / "quick.nml", "grid.points=65", *options) as solver:
             solver.run()
-            alone = solver.summary()
+            alone = solver.summary
         for name in ("H_c", "H_c_error", "H_min", "F", "P_max"):
             assert float(row[name]) == alone[name]
         assert row["judgement"] == alone["judgement"] != ""

@@ -112,7 +112,7 @@ def simulated(surface: str, points: int) -> Row:
     changes = SURFACES[surface] | {"grid.points": points}
     with pyehl.Solver(pyehl.Case.from_text(CASE, changes)) as solver:
         solver.run()
-        summary = solver.summary()
+        summary = solver.summary
         fields = {name: solver.field(name) for name in ("P", "RR")}
         fields |= dict(zip("XY", solver.axes(), strict=True))
     row = {"surface": surface, "points": points, "status": summary["status"]}

@@ -120,7 +120,7 @@ def simulated(run: Row) -> Row:
     }
     with pyehl.Solver(pyehl.Case.from_text(CASE, changes)) as solver:
         solver.run()
-        summary = solver.summary()
+        summary = solver.summary
     return run | {name: summary[name] for name in NAMES}
 
 

@@ -13,7 +13,7 @@ import argparse
 import csv
 
 from cases import HERE, case, read, surface
-from pyehl.solver import Solver
+from pyehl.solver import solver_on_heights
 
 COLUMNS = ("name status mu_ratio mu_ratio_error_grid mu_ratio_error_stop H_c steps").split()
 
@@ -32,9 +32,10 @@ def main() -> None:
         done = {line["name"] for line in read(path.name)}
         if row["name"] in done or (arguments.names and row["name"] not in arguments.names):
             continue
-        with Solver.open(case(row, arguments.points), surface(row).heights) as solver:
+        heights = {"surface": surface(row).heights}
+        with solver_on_heights(case(row, arguments.points), heights) as solver:
             solver.run()
-            summary = solver.summary() | {"name": row["name"]}
+            summary = solver.summary | {"name": row["name"]}
         values = [summary.get(name) for name in COLUMNS]
         with path.open("a", newline="", encoding="utf-8") as stream:
             csv.writer(stream, lineterminator="\n").writerow(

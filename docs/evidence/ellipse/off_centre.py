@@ -28,7 +28,7 @@ from pyehl.measured_response.superposition import (
     step_counts,
     transient_case,
 )
-from pyehl.solver import Solver
+from pyehl.solver import solver_on_heights
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import inlet_fit
 from pyehl.theory.transport import transport
@@ -48,8 +48,8 @@ def measure(kappa: float) -> list[list[str]]:
     heights, amplitude = linear_surface(waves)
     period, total = step_counts(points, waves.tile, RATIO)
     scale = OperatingPoint.from_settings(settings).film_scale
-    with Solver.open(case, heights * scale) as run:
-        while not run.done and float(run.summary().get("steps") or 0) < 1:
+    with solver_on_heights(case, {"surface": heights * scale}) as run:
+        while not run.done and float(run.summary.get("steps") or 0) < 1:
             run.advance()
         x, y = run.axes()
         middle = int(np.argmin(np.abs(x)))
@@ -58,7 +58,7 @@ def measure(kappa: float) -> list[list[str]]:
         for step in range(1, total + 1):
             run.advance()
             if step > total - period:
-                times.append(float(run.summary()["T"]))
+                times.append(float(run.summary["T"]))
                 films.append(run.field("H")[middle, lines])
     angle = np.outer(times, waves.kx * RATIO)
     basis = np.hstack([np.ones((len(times), 1)), np.cos(angle), np.sin(angle)])

@@ -22,7 +22,7 @@ from pyehl.measured_response.superposition import transient_case
 from pyehl.prediction.across import LINES, harmonics, pressed
 from pyehl.prediction.smooth import circle_of, solve_contact, zone_of
 from pyehl.prediction.transfer import AXIS
-from pyehl.solver import Solver
+from pyehl.solver import solver_on_heights
 from pyehl.theory.ellipse_edge import EllipseEdge
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -57,9 +57,9 @@ def fields(
     )
     if heights is None:
         case = case.with_options("surface.kind=smooth", "time.steps=0")
-    with Solver.open(case, heights) as run:
+    with solver_on_heights(case, {"surface": heights}) as run:
         if not run.run():
-            raise SystemExit(f"no solution: {run.summary()['status']}")
+            raise SystemExit(f"no solution: {run.summary['status']}")
         x, y = run.axes()
         middle = int(np.argmin(np.abs(x)))
         return [y, run.field("H")[middle], run.field("P")[middle]]

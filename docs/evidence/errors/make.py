@@ -42,7 +42,7 @@ def run(options: dict[str, Any]) -> Row:
     """Solve a case and give its summary."""
     with pyehl.Solver(pyehl.Case.from_text("", options)) as solver:
         solver.run()
-        return solver.summary()
+        return solver.summary
 
 
 def grids_of(moes_m: float, width: float) -> list[int]:

@@ -54,7 +54,7 @@ def solved(keys: Row) -> Row:
     """Solve a case and give its summary."""
     with pyehl.Solver(pyehl.Case.from_text("", keys)) as solver:
         solver.run()
-        return solver.summary()
+        return solver.summary
 
 
 def missed(kappa: float, moes_m: float, mesh: float) -> float:

@@ -38,7 +38,7 @@ from pyehl.prediction.smooth import solve_contact  # noqa: E402
 from pyehl.prediction.spectrum import Spectrum  # noqa: E402
 from pyehl.prediction.transfer import Transfer  # noqa: E402
 from pyehl.prediction.wavy_contact import WavyContact  # noqa: E402
-from pyehl.solver import Solver  # noqa: E402
+from pyehl.solver import solver_on_heights  # noqa: E402
 from pyehl.surfaces import Topography, shifted  # noqa: E402
 from pyehl.theory.lubricant import Lubricant  # noqa: E402
 from pyehl.theory.operating import OperatingPoint  # noqa: E402
@@ -85,10 +85,10 @@ def case_of(name: str, points: int) -> tuple[pyehl.Case, Topography]:
 def simulate(case: pyehl.Case, heights: Array | None = None) -> list[Moment]:
     """Fields of the last period of a case, with heights in place of its surface."""
     found: list[Moment] = []
-    with Solver.open(case, heights) as run:
+    with solver_on_heights(case, {"surface": heights}) as run:
         while not run.done:
             run.advance()
-            summary = run.summary()
+            summary = run.summary
             if not summary.get("steps"):
                 continue
             x, y = run.axes()

@@ -44,7 +44,7 @@ def main() -> None:
             continue
         with Solver(case(row, arguments.points), **surfaces(row)) as solver:
             solver.run()
-            summary = solver.summary()
+            summary = solver.summary
         new = not arguments.output.is_file()
         with arguments.output.open("a", newline="", encoding="utf-8") as stream:
             writer = csv.writer(stream, lineterminator="\n")

@@ -40,7 +40,7 @@ def main() -> None:
             continue
         with Solver(case(row)) as solver:
             solver.run()
-            summary = solver.summary()
+            summary = solver.summary
         new = not output.is_file()
         with output.open("a", newline="", encoding="utf-8") as stream:
             writer = csv.writer(stream, lineterminator="\n")

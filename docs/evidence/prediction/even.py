@@ -21,7 +21,7 @@ import scipy.fft
 from numpy.typing import NDArray
 
 from cases import HERE, case, rows, surface
-from pyehl.solver import Solver
+from pyehl.solver import solver_on_heights
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.transport import stiffness
@@ -41,7 +41,7 @@ def fields(row: dict[str, Any], factor: float) -> tuple[Array, Array, Fields]:
     The first ones are from before the surface comes, those of the smooth contact.
     """
     one_grid = case(row).with_options("time.estimate_error=.false.")
-    with Solver.open(one_grid, surface(row).heights * factor) as solver:
+    with solver_on_heights(one_grid, {"surface": surface(row).heights * factor}) as solver:
         found = [
             (solver.field("P"), solver.field("H"))
             for step in solver

@@ -9,7 +9,7 @@ from __future__ import annotations
 import argparse
 
 from cases import case, rows, surface
-from pyehl.solver import Solver
+from pyehl.solver import solver_on_heights
 
 
 def main() -> None:
@@ -22,9 +22,9 @@ def main() -> None:
         if row["name"] not in arguments.names:
             continue
         row["points"] = arguments.points or row["points"]
-        with Solver.open(case(row), surface(row).heights) as solver:
+        with solver_on_heights(case(row), {"surface": surface(row).heights}) as solver:
             solver.run()
-            summary = solver.summary()
+            summary = solver.summary
         print(
             row["name"],
             summary["status"],

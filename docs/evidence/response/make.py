@@ -110,9 +110,9 @@ def smooth_line(moes_m: float, moes_l: float, points: int) -> tuple[Array, ...]:
     """X, P and H of a smooth contact on Y = 0."""
     text = f"&contact moes_m = {moes_m!r} moes_l = {moes_l!r} /\n"
     options = ["surface.kind=smooth", f"grid.points={points}", "solver.accuracy=0.02"]
-    with Solver.open(Case.from_text(text, options)) as solver:
+    with Solver(Case.from_text(text, options)) as solver:
         if not solver.run():
-            raise SystemExit(f"{moes_m:g}, {moes_l:g} on {points}: {solver.summary()['status']}")
+            raise SystemExit(f"{moes_m:g}, {moes_l:g} on {points}: {solver.summary['status']}")
         x, y = solver.axes()
         middle = int(np.argmin(np.abs(y)))
         return x, solver.field("P")[:, middle], solver.field("H")[:, middle]

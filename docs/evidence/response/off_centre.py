@@ -24,7 +24,7 @@ from pyehl.measured_response.superposition import (
     step_counts,
     transient_case,
 )
-from pyehl.solver import Solver
+from pyehl.solver import solver_on_heights
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import inlet_fit
 
@@ -44,8 +44,8 @@ def measure(moes_m: float, moes_l: float) -> list[list[str]]:
     case = transient_case(settings, points=POINTS, tile=4.0, velocity_ratio=RATIO, solver={})
     heights, amplitude = linear_surface(waves)
     period, total = step_counts(POINTS, waves.tile, RATIO, FILLING)
-    with Solver.open(case, heights * operating.film_scale) as run:
-        while not run.done and float(run.summary().get("steps") or 0) < 1:
+    with solver_on_heights(case, {"surface": heights * operating.film_scale}) as run:
+        while not run.done and float(run.summary.get("steps") or 0) < 1:
             run.advance()
         x, y = run.axes()
         middle = int(np.argmin(np.abs(x)))
@@ -54,7 +54,7 @@ def measure(moes_m: float, moes_l: float) -> list[list[str]]:
         for step in range(1, total + 1):
             run.advance()
             if step > total - period:
-                times.append(float(run.summary()["T"]))
+                times.append(float(run.summary["T"]))
                 films.append(run.field("H")[middle, lines])
     angle = np.outer(times, waves.kx * RATIO)
     basis = np.hstack([np.ones((len(times), 1)), np.cos(angle), np.sin(angle)])

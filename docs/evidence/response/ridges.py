@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from pyehl.errors import EhlError
 from pyehl.measured_response.superposition import REACH, transient_case
 from pyehl.prediction.smooth import zone_on
-from pyehl.solver import Solver
+from pyehl.solver import Solver, solver_on_heights
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.transport import stiffness
@@ -61,12 +61,12 @@ def ridges(
             case = transient_case(
                 settings, points=points, tile=wavelength, velocity_ratio=0.0, solver=solver
             )
-            run = Solver.open(case, heights)
+            run = solver_on_heights(case, {"surface": heights})
         else:
             run = Solver(smooth)
         with run:
             if not run.run():
-                raise EhlError(f"ridges: no solution: {run.summary()['status']}")
+                raise EhlError(f"ridges: no solution: {run.summary['status']}")
             x, y = run.axes()
             solved.append((run.field("H"), run.field("P")))
     near, middle = np.abs(x) <= REACH + 0.5 * (x[1] - x[0]), int(np.argmin(np.abs(y)))

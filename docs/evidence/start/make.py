@@ -92,7 +92,7 @@ def row_of(name: str, points: int, options: dict[str, Any]) -> dict[str, Any]:
         case = pyehl.Case.from_text("", options | {"grid.points": points, "time.start": start})
         with pyehl.Solver(case) as solver:
             solver.run()
-            found.append(solver.summary())
+            found.append(solver.summary)
     front, other = found
     return {
         "scene": name,

@@ -109,9 +109,9 @@ def zone(settings: dict[str, dict[str, Any]], operating: OperatingPoint, points:
     """Centre line of the smooth contact on the grid of the runs."""
     grid = {"points": points, "x_inlet": -2.5, "x_outlet": 1.5, "y_extent": 2.0}
     case = Case(contact=settings["contact"], lubricant=settings["lubricant"], grid=grid)
-    with Solver.open(case) as solver:
+    with Solver(case) as solver:
         solver.run()
-        if solver.summary()["status"] != "converged":
+        if solver.summary["status"] != "converged":
             raise SystemExit("the smooth contact did not converge")
         (x, y), pressure, film = solver.axes(), solver.field("P"), solver.field("H")
     middle = int(np.argmin(np.abs(y)))

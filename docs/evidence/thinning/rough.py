@@ -174,10 +174,10 @@ def simulated(row: Row, points: int) -> dict[str, Any]:
     """Simulate a row; pressure and film over the last period."""
     case = case_of(row, points)
     records: list[tuple[float, ...]] = []
-    with Solver.open(case) as run:
+    with Solver(case) as run:
         while not run.done:
             run.advance()
-            summary = run.summary()
+            summary = run.summary
             if not summary.get("steps"):
                 continue
             if not records:
@@ -194,7 +194,7 @@ def simulated(row: Row, points: int) -> dict[str, Any]:
                     float(np.square((film - whole)[radius < NEAR]).mean()),
                 )
             )
-        summary = run.summary()
+        summary = run.summary
     o = OperatingPoint.from_settings(case.resolve())
     table = np.array(records)
     last = table[table[:, 0] > table[-1, 0] - float(summary["T_period"])]
