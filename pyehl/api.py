@@ -5,12 +5,14 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from pyehl.case import Case, files_of, with_surface
 from pyehl.errors import NotConverged, named
 from pyehl.given import Option, check_kind, path_of
-from pyehl.prediction import film_sheet, folder, of_case
+from pyehl.prediction import folder, of_case
+from pyehl.prediction.film_sheet import FilmThickness, sheet
 from pyehl.prediction.friction import TRACKS
 from pyehl.prediction.result import Prediction
 from pyehl.progress import ProgressBar
@@ -201,7 +203,7 @@ def predict(
     return found
 
 
-def film(case: Case | str | os.PathLike[str], *options: Option) -> dict[str, Any]:
+def film(case: Case | str | os.PathLike[str], *options: Option) -> FilmThickness:
     """Compute the film thickness of a case by closed formulas.
 
     Parameters
@@ -213,10 +215,9 @@ def film(case: Case | str | os.PathLike[str], *options: Option) -> dict[str, Any
 
     Returns
     -------
-    dict
-        What ``pyehl film --json`` prints: conditions, Moes and Hertz numbers, in ``formulas`` one
-        dict for each formula with h_c_m and h_min_m [m], and of a rough surface its rms height and
-        film ratio.
+    FilmThickness
+        With ``formulas``, one dict for each with h_c_m and h_min_m [m], and ``summary``, what
+        ``pyehl film --json`` prints; shown as the page of ``pyehl film``.
 
     Raises
     ------
@@ -226,8 +227,8 @@ def film(case: Case | str | os.PathLike[str], *options: Option) -> dict[str, Any
     Examples
     --------
     >>> import pyehl
-    >>> sheet = pyehl.film("cases/table1.nml", {"contact.mean_velocity": 0.5})
-    >>> for formula in (f for f in sheet["formulas"] if f["applies"]):
+    >>> found = pyehl.film("cases/table1.nml", {"contact.mean_velocity": 0.5})
+    >>> for formula in (f for f in found.formulas if f["applies"]):
     ...     print(f"{formula['name']}: {formula['h_c_m'] * 1e9:.0f} nm")
     Nijenbanning-Venner-Moes: 164 nm
     Hamrock-Dowson: 181 nm
@@ -236,10 +237,30 @@ def film(case: Case | str | os.PathLike[str], *options: Option) -> dict[str, Any
     name = "" if isinstance(case, Case) else path_of(case, "case")
     settings = Case(case, *options).resolve()
     with named(name):
-        return film_sheet.sheet(settings)
+        return FilmThickness(sheet(settings))
 
 
-def check(case: Case | str | os.PathLike[str], *options: Option) -> str:
+@dataclass(frozen=True, slots=True, repr=False)
+class CheckedCase:
+    """A case that can be solved, and how; its repr is what ``pyehl check`` prints.
+
+    Attributes
+    ----------
+    case
+        The case, with every value.
+    plan
+        What will be solved and how, with memory, time and a table of the levels.
+    """
+
+    case: Case
+    plan: str
+
+    def __repr__(self) -> str:
+        """Give the case and the plan as text."""
+        return f"{self.case.text}\n{self.plan}"
+
+
+def check(case: Case | str | os.PathLike[str], *options: Option) -> CheckedCase:
     """Tell a case with every value, and how it would be solved; solves nothing.
 
     Parameters
@@ -251,8 +272,8 @@ def check(case: Case | str | os.PathLike[str], *options: Option) -> str:
 
     Returns
     -------
-    str
-        What ``pyehl check`` prints.
+    CheckedCase
+        With ``case`` and ``plan``; shown as ``pyehl check`` prints it.
 
     Raises
     ------
@@ -262,10 +283,11 @@ def check(case: Case | str | os.PathLike[str], *options: Option) -> str:
     Examples
     --------
     >>> import pyehl
-    >>> "&grid" in pyehl.check("cases/quick.nml", {"grid.points": 65})
-    True
+    >>> checked = pyehl.check("cases/quick.nml", {"grid.points": 65})
+    >>> checked.case["grid"]["points"], "level" in checked.plan
+    (65, True)
     """
     name = "" if isinstance(case, Case) else path_of(case, "case")
     case = Case(case, *options)
     with named(name), Solver(case) as solver:
-        return f"{case.text}\n{solver.describe()}"
+        return CheckedCase(case, solver.describe())

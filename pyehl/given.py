@@ -22,8 +22,6 @@ Value = float | int | bool | str
 EXPECTED = "texts group.key=value or dicts of values by group.key, or by group and key"
 TYPED = "--set "
 """Begins an option that was given in a shell, so that messages repeat what a person typed."""
-WHOLE = 2.0**53
-"""Floats below that are whole numbers exactly where they have no fraction."""
 # Kinds of numbers that can be heights: floats, and whole numbers with and without a sign
 REAL = "fiu"
 OTHER_KINDS = {
@@ -108,21 +106,13 @@ def plain(value: object) -> Value:
 def option(key: str, value: Value) -> str:
     """Text ``group.key=value`` that the reader of cases takes.
 
-    Between quotes, where a word would lose its quotes or blanks, or is empty. A float without a
-    fraction is written as a whole number, which a key of either kind takes.
+    Between quotes, where a word would lose its quotes or blanks, or is empty.
     """
     if isinstance(value, bool):
         return f"{key}={'.true.' if value else '.false.'}"
     if isinstance(value, str) and (value != value.strip() or value[:1] in ("", "'", '"')):
         return f"{key}='{value.replace(chr(39), 2 * chr(39))}'"
-    if isinstance(value, float):
-        return f"{key}={value:.0f}" if whole(value) else f"{key}={value!r}"
-    return f"{key}={value}"
-
-
-def whole(value: float) -> bool:
-    """Whether a float is a whole number with few enough digits to be written as one."""
-    return value.is_integer() and abs(value) < WHOLE
+    return f"{key}={value!r}" if isinstance(value, float) else f"{key}={value}"
 
 
 def options_of(options: Any) -> list[str]:  # noqa: ANN401
@@ -145,13 +135,13 @@ def options_of(options: Any) -> list[str]:  # noqa: ANN401
     return [text for option in options for text in options_of(option)]
 
 
-def by_key(options: Mapping[Any, Any]) -> Iterator[tuple[str, Any]]:
+def by_key(options: Mapping[Any, Any], what: str = "options") -> Iterator[tuple[str, Any]]:
     """Give ``group.key`` and value one by one of a dict, whose groups may be dicts themselves.
 
     InputError for a key without a group.
     """
     for name, value in options.items():
-        check_kind(name, str, "options", EXPECTED)
+        check_kind(name, str, what, EXPECTED)
         if isinstance(value, Mapping):
             for key, inner in value.items():
                 check_kind(key, str, name, EXPECTED)

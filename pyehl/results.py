@@ -133,6 +133,12 @@ def scalars(summary: Mapping[str, Any]) -> dict[str, xr.Variable]:
     return found
 
 
+def attributes(summary: Mapping[str, Any]) -> dict[str, Any]:
+    """Give what of a summary is no variable: words, truth values, and the time at the end."""
+    found = {k: v for k, v in summary.items() if isinstance(v, str | int | float)}
+    return {k: v for k, v in found.items() if k not in SCALARS}
+
+
 def _tables(tables: Mapping[str, Mapping[str, Array]]) -> dict[str, xr.Variable]:
     return {
         f"{table}_{name}": _variable((table,), values, unit_of(name), f"{name} of the {table}")
@@ -202,10 +208,8 @@ def _dataset(
     """Dataset of arrays, tables and numbers; arrays of one dimension are its coordinates."""
     coords = {name: values for name, values in found.items() if values.ndim == 1}
     rest = {name: values for name, values in found.items() if values.ndim > 1}
-    attributes = {k: v for k, v in summary.items() if isinstance(v, str | int | float)}
-    return xr.Dataset(
-        rest | _tables(tables) | scalars(summary), coords, attributes | {"case": case}
-    )
+    variables = rest | _tables(tables) | scalars(summary)
+    return xr.Dataset(variables, coords, attributes(summary) | {"case": case})
 
 
 def _table(path: Path) -> dict[str, Array]:
@@ -229,9 +233,9 @@ def load(folder: str | os.PathLike[str]) -> xr.Dataset:
     xarray.Dataset
         Each variable has ``units`` and ``long_name``. The numbers of the summary (see
         `pyehl.schema`) are variables without a dimension, NaN where they do not exist:
-        ``float(ds.H_c)``. All scalars, words and truth values too, are attributes as well, without
-        those that do not exist, and ``case`` is the resolved case. The time at the end, ``T``, is
-        an attribute alone: its name is that of a coordinate.
+        ``float(ds.H_c)``. Words and truth values are attributes, without those that do not exist,
+        and ``case`` is the resolved case; so is the time at the end, ``T``, whose name is that of a
+        coordinate.
 
         Of a solution: X, Y, P, H [Hertz units], P and H of shape (nx, ny), and x_m, y_m, p_Pa,
         h_m when the case was given in SI units. A transient run also has P_smooth, H_smooth (the

@@ -9,7 +9,14 @@ capital letters are Hertz units. Kinds: ``solution`` (``ehl``, ``pyehl run``), `
 summaries.
 """
 
+from __future__ import annotations
+
+import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import xarray
 
 KINDS = {"s": "solution", "p": "prediction", "f": "film", "r": "response", "t": "fit"}
 
@@ -273,6 +280,12 @@ def _row(line: str) -> Quantity:
 
 
 QUANTITIES = tuple(_row(line) for line in _TABLE.strip().splitlines())
+
+
+def summary_of(data: xarray.Dataset) -> dict[str, Any]:
+    """Give the scalars of a result again: attributes, and numbers that exist."""
+    numbers = {str(k): float(v) for k, v in data.variables.items() if v.ndim == 0}
+    return {**data.attrs, **{k: v for k, v in numbers.items() if not math.isnan(v)}}
 
 
 def markdown() -> str:

@@ -13,6 +13,7 @@ import matplotlib.pyplot as plt
 import pyehl
 from pyehl.plots import contact
 from pyehl.plots.panels import headline
+from pyehl.schema import summary_of
 
 ds = pyehl.solve("../../cases/quick.nml")
 ds.attrs["status"], float(ds.H_c), float(ds.H_min)
@@ -32,5 +33,5 @@ figure, (left, right) = plt.subplots(1, 2, figsize=(9.5, 4.0), layout="constrain
 x, y = ds.X.values, ds.Y.values
 contact.pressure_and_film(x, ds.P.sel(Y=0.0).values, ds.H.sel(Y=0.0).values, ax=left)
 contact.interferogram(x, y, ds.H.values, ax=right)
-figure.suptitle(headline(ds.attrs))
+figure.suptitle(headline(summary_of(ds)))
 plt.show()

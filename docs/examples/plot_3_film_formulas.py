@@ -24,7 +24,7 @@ sorted(name for name in formulas.data_vars if name.startswith("h_c_m"))
 # %%
 
 figure, ax = plt.subplots(figsize=(6.2, 4.2), layout="constrained")
-speed = formulas["contact.mean_velocity"]
+speed = formulas.mean_velocity
 for name, label, style in (
     ("nijenbanning_venner_moes", "Nijenbanning, Venner & Moes", "-"),
     ("hamrock_dowson", "Hamrock & Dowson", "--"),
@@ -33,7 +33,7 @@ for name, label, style in (
     ax.loglog(speed, formulas[f"h_c_m_{name}"] * 1e6, style, label=label)
 unit = solved.h_c_m / solved.H_c * 1e6
 ax.errorbar(
-    solved["contact.mean_velocity"],
+    solved.mean_velocity,
     solved.H_c_extrapolated * unit,
     yerr=solved.H_c_error * unit,
     fmt="ko",

@@ -14,6 +14,7 @@ import pyehl
 from pyehl.plots import contact, transient
 from pyehl.plots.figures import solution_figures
 from pyehl.plots.panels import headline
+from pyehl.schema import summary_of
 
 ds = pyehl.solve(
     "../../cases/quick.nml",
@@ -37,7 +38,7 @@ for ax, k in zip(panels, np.arange(-4, 0), strict=True):
     contact.interferogram(x, y, ds.frame_H.isel(T=k).values, fringes=light, ax=ax)
     ax.set_title(f"$T$ = {float(ds['T'][k]):.2f}")
     ax.label_outer()
-figure.suptitle(headline(ds.attrs))
+figure.suptitle(headline(summary_of(ds)))
 plt.show()
 
 # %%

@@ -25,10 +25,10 @@ table.mu_ratio.dims
 # %%
 
 figure, ax = plt.subplots(figsize=(6.2, 3.8), layout="constrained")
-for seed in table["surface.seed"].values:
-    one = table.sel({"surface.seed": seed})
+for seed in table.seed.values:
+    one = table.sel(seed=seed)
     ax.errorbar(
-        one["surface.velocity_ratio"],
+        one.velocity_ratio,
         one.mu_ratio,
         yerr=one.mu_ratio_model_error,
         fmt="o-",

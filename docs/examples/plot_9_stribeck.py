@@ -15,8 +15,8 @@ import pyehl
 tables = {
     law: pyehl.stribeck(
         "../../cases/table1.nml",
+        {"contact.mean_velocity": "0.4:4:6log"},
         {"lubricant.shear_law": law, "grid.points": 129},
-        speed="0.4:4:6log",
         jobs=1,
     )
     for law in ("newtonian", "eyring")

@@ -36,7 +36,7 @@ contains
       first = token%first
       select case (key%kind)
       case (kind_real, kind_integer)
-         call set_number(key, token, problem, first)
+         call set_number(key, token, number > 1, problem, first)
       case (kind_logical)
          call set_logical(key, token, problem)
       case default
@@ -67,9 +67,11 @@ contains
    end subroutine set_value
 
    !> Real and integer values
-   subroutine set_number(key, token, problem, first)
+   subroutine set_number(key, token, is_option, problem, first)
       type(key_t), intent(inout) :: key
       type(token_t), intent(in) :: token
+      !> Whether it is no value of a file: then 65.0 is a whole number
+      logical, intent(in) :: is_option
       character(len=:), allocatable, intent(inout) :: problem
       !> Where the fault is in the text
       integer, intent(inout) :: first
@@ -96,7 +98,8 @@ contains
          read (token%text, *, iostat=stat) value
          if (stat /= 0) then
             problem = "cannot be read as a number"
-         else if (key%kind == kind_integer .and. verify(token%text, "+-0123456789") > 0) then
+         else if (key%kind == kind_integer .and. (verify(token%text, "+-0123456789") > 0 .and. &
+                                                  .not. (is_option .and. value == anint(value)))) then
             problem = "not a whole number"
          else if (.not. key%allows(value)) then
             problem = "out of range"

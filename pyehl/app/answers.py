@@ -83,7 +83,7 @@ def film(
     if points in of_it:
         return of_it[points]
     settings = case.resolve()
-    sheet = next((found.sheet for found in of_it.values()), None) or api.film(case)
+    sheet = next((found.sheet for found in of_it.values()), None) or api.film(case).summary
     with Solver(case) as solver:
         while not solver.done:
             if not wanted():

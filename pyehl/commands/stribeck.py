@@ -14,7 +14,7 @@ from pyehl.commands.watching import Terminal, add_worker_arguments, jobs_of, tel
 from pyehl.errors import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, InputError
 from pyehl.studies.curve import UNSOLVED, full_film_ends, no_coefficient
 from pyehl.studies.curve_plan import KEYS, CurvePlan, plan_curve
-from pyehl.studies.curve_run import CSV, NETCDF, PICTURE, axes_of, perform
+from pyehl.studies.curve_run import CSV, NETCDF, PICTURE, curve_axes, perform
 from pyehl.studies.curve_text import absolute_friction, curves_of, deviation, last_lines, report
 from pyehl.studies.measured_friction import Measured, read_measured
 from pyehl.surfaces import rough_groups
@@ -66,7 +66,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _plan(args: argparse.Namespace) -> CurvePlan:
-    axes = axes_of({name: getattr(args, name.replace("-", "_")) for name in KEYS})
+    given = {key: getattr(args, name.replace("-", "_")) for name, key in KEYS.items()}
+    if not any(given.values()):
+        raise InputError(f"expected at least one of --{', --'.join(KEYS)}")
+    axes = curve_axes({key: values for key, values in given.items() if values is not None})
     mu = args.boundary_friction
     return plan_curve(
         args.case,

@@ -96,7 +96,7 @@ def response(
     -------
     xarray.Dataset
         All waves, the longest first, each variable with its units; the numbers of the summary as
-        variables without a dimension, the whole summary as attributes.
+        variables without a dimension, its words and truth values as attributes.
 
     Raises
     ------
@@ -152,7 +152,7 @@ def _write(case: Case, found: Mapping[str, Mapping[str, Any]], place: Destinatio
         lines[direction] = (nabla, shipped_response(kx, ky, zone, moes, ratio)[:, 1])
     waves = {name: at_centre[name].values for name in ("nabla_2", "direction", "amplitude", "lag")}
     label = f"M = {operating.moes_m:.4g}, L = {operating.moes_l:.4g}, velocity ratio {ratio:g}"
-    summary = _summary(found, at_centre["shipped_difference"].values, data.attrs)
+    summary = _summary(found, at_centre["shipped_difference"].values, data)
     summary["within_fitted_range"] = not outside_range(operating, ratio, Options(), smooth.thinning)
     with with_tiers(place).fresh() as folder:
         write_table(data, folder / "response.csv")
@@ -160,11 +160,13 @@ def _write(case: Case, found: Mapping[str, Mapping[str, Any]], place: Destinatio
         save(response_figure(waves, lines, label), folder / PICTURE)
         (folder / "case.nml").write_text(case.text, encoding="utf-8")
         write_json(folder / "summary.json", summary)
-    return data.assign(scalars(summary)).assign_attrs(summary)
+    numbers = scalars(summary)
+    rest = {name: value for name, value in summary.items() if name not in numbers}
+    return data.assign(numbers).assign_attrs(rest)
 
 
 def _summary(
-    found: Mapping[str, Mapping[str, Any]], difference: Array, values: Mapping[str, Any]
+    found: Mapping[str, Mapping[str, Any]], difference: Array, values: xr.Dataset
 ) -> dict[str, Any]:
     """Give what ``summary.json`` holds; `values` has the conditions."""
     tiers = [
@@ -179,10 +181,11 @@ def _summary(
         }
         for name, tier in found.items()
     ]
+    conditions = "moes_m", "moes_l", "ellipticity", "velocity_ratio"
     return {
         "kind": "response",
         "files": list(FILES),
-        **{name: values[name] for name in ("moes_m", "moes_l", "ellipticity", "velocity_ratio")},
+        **{name: float(values[name]) for name in conditions},
         "waves": int(difference.size),
         "tiers": tiers,
         "shipped_difference_rms": float(np.sqrt(np.mean(difference**2))),
@@ -262,19 +265,19 @@ def dataset(
         dims = ("wave", "X")[: values.ndim]
         variables[name] = xr.Variable(dims, values, {"long_name": text, "units": unit})
     place = xr.Variable(("X",), STATIONS, {"long_name": "along the motion, x/a", "units": "1"})
-    scalars = {
-        "title": "response of a lubricated contact to waves of roughness",
+    conditions = {
         "moes_m": operating.moes_m,
         "moes_l": operating.moes_l,
         "ellipticity": operating.ellipse.ellipticity,
         "velocity_ratio": velocity_ratio,
     }
-    return xr.Dataset(variables, {"X": place}, scalars)
+    title = {"title": "response of a lubricated contact to waves of roughness"}
+    return xr.Dataset(variables | scalars(conditions), {"X": place}, title)
 
 
 def write_table(data: xr.Dataset, path: Path) -> None:
     """Write a Dataset of waves as CSV, one line a wave, a column for each X."""
-    table = data.drop_dims("X").to_dataframe()
+    table = data[[name for name in data if data[name].dims == ("wave",)]].to_dataframe()
     for name in VARIABLES:
         if "X" in data[name].dims:
             table[[f"{name}_{place}" for place in PLACES]] = data[name].values

@@ -15,6 +15,7 @@ from pyehl.plots import contact, surface, transient
 from pyehl.plots.outline import CIRCLE, Outline
 from pyehl.plots.panels import headline, no_second_label, panels
 from pyehl.plots.style import BLUE, VERMILLION, Scales, film_unit, nearest, pressure_unit
+from pyehl.schema import summary_of
 from pyehl.surfaces import Topography, wavenumbers
 from pyehl.theory.ellipse import ellipse
 from pyehl.theory.operating import OperatingPoint
@@ -52,7 +53,7 @@ def solution_figures(data: xr.Dataset, units: str = "auto") -> dict[str, Figure]
     `units`: 'si', 'hertz', or 'auto' for SI when the case was given in SI.
     """
     scales = scales_of(data, units)
-    title = headline(data.attrs, scales)
+    title = headline(summary_of(data), scales)
     figures = {}
     if "P" in data:
         figures["centre_lines"] = _centre_lines(data, scales, title)
@@ -64,7 +65,7 @@ def solution_figures(data: xr.Dataset, units: str = "auto") -> dict[str, Figure]
         figures["rough_and_smooth"] = _rough_and_smooth(data, scales, title)
     if "history_T" in data and data.sizes["history"] > 1:
         figures["friction"] = _friction(data, scales, title)
-        if "P_rise_max" in data.attrs:
+        if "P_rise_max" in summary_of(data):
             figures["extremes"] = _extremes(data, scales, title)
     return figures
 
@@ -137,13 +138,13 @@ def _rough_and_smooth(data: xr.Dataset, scales: Scales | None, title: str) -> Fi
 
 def _friction(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
     figure = panels(1, (6.4, 3.6), title)
-    settings = namelist.values(data.attrs["case"])
+    settings, about = namelist.values(data.attrs["case"]), summary_of(data)
     transient.friction_history(
         data.history_T.values,
         data.history_mu_ratio.values,
-        period=float(data.attrs["T_mean"]),
-        mean=data.attrs.get("mu_ratio"),
-        formula=transient.eq_16(data.attrs, settings),
+        period=float(about["T_mean"]),
+        mean=about.get("mu_ratio"),
+        formula=transient.eq_16(about, settings),
         seconds=OperatingPoint.from_settings(settings).time_scale if scales else 0.0,
         ax=figure.axes[0],
     )

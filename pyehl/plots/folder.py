@@ -15,6 +15,7 @@ from pyehl.errors import InputError
 from pyehl.given import check_kind, path_of
 from pyehl.plots.figures import prediction_figures, solution_figures
 from pyehl.plots.style import DPI, page_width, save
+from pyehl.schema import summary_of
 from pyehl.types import Array
 
 if TYPE_CHECKING:
@@ -163,4 +164,4 @@ def _of_prediction(data: xr.Dataset) -> dict[str, Figure]:
         table, _, column = str(name).partition("_")
         if table in tables:
             tables[table][column] = values.values
-    return prediction_figures(data.attrs, arrays, tables)
+    return prediction_figures(summary_of(data), arrays, tables)

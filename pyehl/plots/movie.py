@@ -17,6 +17,7 @@ from pyehl.plots.outline import Outline
 from pyehl.plots.panels import headline
 from pyehl.plots.style import film_unit, nearest, new_figure
 from pyehl.results import settings_of
+from pyehl.schema import summary_of
 from pyehl.theory.operating import OperatingPoint
 
 SUFFIXES = ("gif", "mp4")
@@ -74,7 +75,7 @@ def movie(
     deformed = smooth[:, :, np.newaxis] - data["frame_H"].values
     top = transient.roughness_top(x, y, *np.moveaxis(deformed, 2, 0), outline=outline)
     figure = new_figure(11.6, 3.9)
-    title = f"{headline(data.attrs, scales)}\n{_pace(data, seconds, si=scales is not None)}"
+    title = f"{headline(summary_of(data), scales)}\n{_pace(data, seconds, si=scales is not None)}"
 
     def draw(frame: int) -> list[Artist]:
         figure.clear()

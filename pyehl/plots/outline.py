@@ -11,6 +11,8 @@ import numpy as np
 from matplotlib.patches import Ellipse
 from numpy.typing import NDArray
 
+from pyehl.schema import summary_of
+
 if TYPE_CHECKING:
     import xarray as xr
 
@@ -35,9 +37,8 @@ class Outline:
     @classmethod
     def of(cls, data: xr.Dataset) -> Outline:
         """Of a solution."""
-        return cls(
-            float(data.attrs.get("ellipticity", 1.0)), float(data.attrs.get("angle_deg", 0.0))
-        )
+        about = summary_of(data)
+        return cls(float(about.get("ellipticity", 1.0)), float(about.get("angle_deg", 0.0)))
 
     @property
     def reach(self) -> tuple[float, float]:

@@ -2,9 +2,11 @@
 """What closed formulas say about the film of a case."""
 
 import math
+from dataclasses import dataclass
 from typing import Any
 
-from pyehl import surfaces
+from pyehl import display, surfaces
+from pyehl.prediction.film_text import report
 from pyehl.prediction.meeting import sum_of
 from pyehl.prediction.sides import composite_rms
 from pyehl.theory import film, stribeck
@@ -15,6 +17,40 @@ from pyehl.types import Settings
 
 # Inlet, without the pressure of a flooded contact at it, from which the film is that of one [a]
 FLOODED = -2.0
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class FilmThickness:
+    """Film thickness of a case by closed formulas; its repr is the page of ``pyehl film``.
+
+    Attributes
+    ----------
+    summary
+        What ``pyehl film --json`` prints: conditions, Moes and Hertz numbers, `formulas` and, of a
+        rough surface, its rms height and film ratio.
+    """
+
+    summary: dict[str, Any]
+
+    @property
+    def formulas(self) -> list[dict[str, Any]]:
+        """One dict for each formula, with h_c_m and h_min_m [m]."""
+        found: list[dict[str, Any]] = self.summary["formulas"]
+        return found
+
+    def __repr__(self) -> str:
+        """Give all of it as a page of text."""
+        return report(self.summary)
+
+    def _repr_html_(self) -> str:
+        """Draw the formulas, for notebooks."""
+        rows = {
+            f"{f['name']}, {name} [nm]": f[f"{name}_m"] * 1e9
+            for f in self.formulas
+            for name in ("h_c", "h_min")
+            if f["applies"] and f[f"{name}_m"] is not None
+        }
+        return display.table("Film thickness by formulas", rows)
 
 
 def left_out(settings: Settings, lubricant: Lubricant) -> list[str]:

@@ -12,7 +12,7 @@ import xarray as xr
 
 from pyehl.case import Case
 from pyehl.destination import Destination
-from pyehl.errors import InputError
+from pyehl.errors import InputError, did_you_mean
 from pyehl.given import Option, check_kind, options_of, path_of
 from pyehl.netcdf import write_netcdf
 from pyehl.studies import table
@@ -21,7 +21,7 @@ from pyehl.studies.curve_contact import CONTACT, lift_off
 from pyehl.studies.curve_plan import KEYS, CurvePlan, plan_curve
 from pyehl.studies.gather import Outcome, Watcher, gather
 from pyehl.studies.journal import NAME
-from pyehl.studies.vary import Axis, axis
+from pyehl.studies.vary import Axis, axes_of
 from pyehl.theory.load_share import AIHARA, LoadShare
 
 CSV, NETCDF, PICTURE = "stribeck.csv", "stribeck.nc", "stribeck.png"
@@ -35,16 +35,23 @@ def units_of(plan: CurvePlan) -> dict[str, str]:
     return UNITS | contact | (EMPIRICAL if plan.load_share is not None else {})
 
 
-def axes_of(values: Mapping[str, Any]) -> list[Axis]:
-    """Give what a curve goes over, from values by the names of `KEYS`; None for what it does not.
+def curve_axes(vary: Mapping[str, Any]) -> list[Axis]:
+    """Give what a curve goes over, from values by key.
 
-    InputError if there is nothing, or values are no numbers.
+    InputError if there is nothing, a curve does not go over it, or values are no numbers.
     """
-    axes = [axis(key, values[name]) for name, key in KEYS.items() if values[name] is not None]
+    axes, known = axes_of(vary), list(KEYS.values())
+    for one in axes:
+        if one.key not in known:
+            raise InputError(f"vary: '{one.key}'{expected_keys()}{did_you_mean(one.key, known)}")
     if not axes:
-        options = ", ".join(f"--{name}" for name in KEYS)
-        raise InputError(f"pyehl stribeck: expected at least one of {options}")
+        raise InputError(f"nothing is varied{expected_keys()}")
     return axes
+
+
+def expected_keys() -> str:
+    """Say what a curve may go over, as the end of a message."""
+    return f"\nexpected: values of at least one of {', '.join(KEYS.values())}"
 
 
 def perform(
@@ -94,26 +101,22 @@ def _dataset(plan: CurvePlan, rows: Sequence[Mapping[str, Any]]) -> xr.Dataset:
     """Give a curve as a Dataset whose dimensions are what was varied."""
     units = units_of(plan)
     found = {name: [row[name] for row in rows] for name in (*units, *WORDS)}
-    attributes: dict[str, Any] = {"title": "Stribeck curve of pyehl"}
+    attributes, ended = {"title": "Stribeck curve of pyehl"}, {}
     if len(plan.study.keys) == 1:
         key = plan.study.keys[0]
         places = np.array([float(p.point.values[key]) for p in plan.points])
         if ends := lift_off(key, places, rows):
-            attributes["transition_speed_m_s"] = ends.speed
-            attributes["transition_speed_error_m_s"] = ends.error
+            speeds = {"transition_speed_m_s": ends.speed, "transition_speed_error_m_s": ends.error}
+            ended = {name: ((), value, {"units": "m/s"}) for name, value in speeds.items()}
     if plan.load_share is not None:
         attributes["empirical"] = plan.load_share.words
-    return table.over(plan.study, found, units, attributes, float)
+    return table.over(plan.study, found, units, attributes, float).assign(ended)
 
 
 def stribeck(
     case: Case | str | os.PathLike[str],
+    vary: Mapping[str, Any],
     *options: Option,
-    speed: Any = None,  # noqa: ANN401
-    viscosity: Any = None,  # noqa: ANN401
-    load: Any = None,  # noqa: ANN401
-    temperature: Any = None,  # noqa: ANN401
-    slide_to_roll: Any = None,  # noqa: ANN401
     ehl: int = 0,
     surfaces: int = 1,
     boundary_friction: float | None = None,
@@ -131,12 +134,12 @@ def stribeck(
     ----------
     case
         A case in SI units, or the path of a case file.
+    vary
+        Values of contact.mean_velocity [m/s], lubricant.viscosity [Pa s], contact.load [N],
+        lubricant.temperature [degC], contact.slide_to_roll [-], as of `sweep`. Every value of one
+        meets those of the others.
     *options
         Values that replace those of the case, as of `Case`.
-    speed, viscosity, load, temperature, slide_to_roll
-        Values of contact.mean_velocity [m/s], lubricant.viscosity [Pa s], contact.load [N],
-        lubricant.temperature [degC], contact.slide_to_roll [-]: a sequence, or a text as behind
-        ``pyehl stribeck --speed``. Every value of one meets those of the others.
     ehl
         Points at which the passage of the surface is solved in full.
     surfaces
@@ -159,8 +162,9 @@ def stribeck(
     Returns
     -------
     xarray.Dataset
-        Its dimensions are what the curve goes over; columns as in ``stribeck.csv`` with units,
-        NaN where there is no number; ``status`` says what holds at each point.
+        Its dimensions are what the curve goes over, named as by `sweep`; columns as in
+        ``stribeck.csv`` with units, NaN where there is no number; ``status`` says what holds at
+        each point.
 
     Raises
     ------
@@ -172,9 +176,10 @@ def stribeck(
     Examples
     --------
     >>> import pyehl
-    >>> ds = pyehl.stribeck("cases/table1.nml", {"grid.points": 129}, speed=[0.6, 1.2], jobs=1)
+    >>> speeds = {"contact.mean_velocity": [0.6, 1.2]}
+    >>> ds = pyehl.stribeck("cases/table1.nml", speeds, {"grid.points": 129}, jobs=1)
     >>> ds.mu_ratio.dims, ds.status.values.tolist()
-    (('contact.mean_velocity',), ['full film', 'full film'])
+    (('mean_velocity',), ['full film', 'full film'])
     >>> bool(ds.h_c_m[0] < ds.h_c_m[1]), ds.h_c_m.attrs["units"]
     (True, 'm')
     """
@@ -182,16 +187,10 @@ def stribeck(
         check_kind(count, int, name, "a whole number")
     if jobs < 0:
         raise InputError(f"jobs = {jobs}: expected a number of worker processes")
-    values = {
-        "speed": speed,
-        "viscosity": viscosity,
-        "load": load,
-        "temperature": temperature,
-        "slide-to-roll": slide_to_roll,
-    }
     given = options_of(options)
     law = None if boundary_friction is None else LoadShare(boundary_friction, *load_share)
-    plan = plan_curve(case, axes_of(values), options=given, ehl=ehl, seeds=surfaces, load_share=law)
+    axes = curve_axes(vary)
+    plan = plan_curve(case, axes, options=given, ehl=ehl, seeds=surfaces, load_share=law)
     inputs = () if isinstance(case, Case) else (path_of(case, "case"),)
     with tempfile.TemporaryDirectory(prefix="pyehl-") as place:
         folder = place if output is None else path_of(output, "output")

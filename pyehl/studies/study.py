@@ -6,6 +6,7 @@ import itertools
 import math
 import os
 import tomllib
+from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -17,12 +18,19 @@ import numpy as np
 from pyehl.case import Case
 from pyehl.errors import EhlError, InputError, did_you_mean
 from pyehl.given import Value, bare, by_key, key_of, option, text_file
+from pyehl.schema import QUANTITIES
 from pyehl.studies.outputs import TRACKS, checked
-from pyehl.studies.vary import Axis, axis
+from pyehl.studies.vary import Axis, axes_of, axis
 
 RUNS = ("solve", "predict", "film")
 """What may be done with each case."""
 MAX_CASES = 1_000_000
+RESULTS = frozenset(quantity.name for quantity in QUANTITIES)
+ECHOED = frozenset(
+    "contact.moes_m contact.moes_l contact.radius_ratio contact.slide_to_roll "
+    "surface.seed surface.velocity_ratio".split()
+)
+"""Keys whose results of the same name are their values."""
 # Keys, their types, and these in words
 KEYS: dict[str, tuple[Any, str]] = {
     "case": (str, "a text"),
@@ -78,6 +86,22 @@ class Study:
     def keys(self) -> list[str]:
         """All keys that are varied."""
         return [a.key for axes in self.dimensions for a in axes]
+
+    @property
+    def names(self) -> dict[str, str]:
+        """Names in a Dataset of what is varied, by key.
+
+        What is behind the dot; with the group before it where two keys, or a key and a result that
+        need not be its value, are called so.
+        """
+        short = {key: key.partition(".")[2] for key in self.keys}
+        twice = Counter(short.values())
+        return {
+            key: name
+            if twice[name] == 1 and (key in ECHOED or name not in RESULTS)
+            else key.replace(".", "_")
+            for key, name in short.items()
+        }
 
     def point(self, number: int) -> Point:
         """Case of a number in the order of the table."""
@@ -217,14 +241,16 @@ def _dimensions(
     for number, group in enumerate(groups):
         for key in group:
             if key not in known:
-                raise InputError(f"zip: '{key}' is not varied{did_you_mean(key, known)}")
+                raise InputError(
+                    f"keys that move together: '{key}' is not varied{did_you_mean(key, known)}"
+                )
             if key in home:
-                raise InputError(f"zip: '{key}' is there twice")
+                raise InputError(f"keys that move together: '{key}' is there twice")
             home[key] = number
         sizes = {key: len(known[key].values) for key in group}
         if len(set(sizes.values())) > 1:
             told = ", ".join(f"{key} {size}" for key, size in sizes.items())
-            raise InputError(f"zip: keys that move together need as many values each: {told}")
+            raise InputError(f"keys that move together need as many values each: {told}")
     dimensions: list[tuple[Axis, ...]] = []
     done: set[int] = set()
     for a in axes:
@@ -260,7 +286,7 @@ def read_study(path: str | os.PathLike[str]) -> dict[str, Any]:
     if "case" not in values:
         raise InputError(f"{name}: error: there is no 'case'\nexpected: the path of a case file")
     try:
-        axes = [axis(key, found) for key, found in by_key(values.get("vary", {}))]
+        axes = axes_of(values.get("vary", {}))
         fixed = [axis(key, [found]) for key, found in by_key(values.get("set", {}))]
     except InputError as error:
         raise InputError(f"{name}: error: {error}") from error

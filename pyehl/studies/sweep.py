@@ -19,7 +19,7 @@ from pyehl.studies.gather import Outcome, Watcher, gather
 from pyehl.studies.journal import NAME
 from pyehl.studies.plan import Plan, plan
 from pyehl.studies.study import make
-from pyehl.studies.vary import axis
+from pyehl.studies.vary import axes_of
 from pyehl.types import Row
 
 CSV, NETCDF, CASES = "results.csv", "results.nc", "cases"
@@ -65,7 +65,7 @@ def sweep(
     case: Case | str | os.PathLike[str],
     vary: Mapping[str, Any],
     *options: Option,
-    zip: bool | Sequence[Sequence[str]] = False,
+    zipped: bool | Sequence[Sequence[str]] = False,
     run: str = "solve",
     outputs: Sequence[str] = (),
     output: str | os.PathLike[str] | None = None,
@@ -80,10 +80,11 @@ def sweep(
     case
         A case, or the path of a case file.
     vary
-        Values by key ``group.key``: a sequence, or a text as behind ``pyehl sweep --vary``.
+        Values by ``group.key``, or by group and key: a sequence, or a text as behind ``pyehl sweep
+        --vary``.
     *options
         Values that hold for all cases, as of `Case`.
-    zip
+    zipped
         True: all keys move together; else lists of the keys that do. Otherwise every value of a
         key meets every value of the others.
     run
@@ -104,8 +105,10 @@ def sweep(
     Returns
     -------
     xarray.Dataset
-        Its dimensions are what was varied. Results by their names in ``summary.json`` (units as
-        there), ``status``, ``seconds`` and ``message``; NaN where there is no number.
+        Its dimensions are what was varied, `load` of ``contact.load``; its attribute ``key`` is the
+        key, and its group is in its name where another key or a result is called so,
+        `grid_points`. Results by their names in ``summary.json`` (units as there), ``status``,
+        ``seconds`` and ``message``; NaN where there is no number.
 
     Raises
     ------
@@ -121,20 +124,17 @@ def sweep(
     ...     "cases/quick.nml", {"contact.moes_m": [100.0, 200.0]}, "grid.points=65", jobs=1
     ... )
     >>> ds.H_c.dims, ds.status.values.tolist()
-    (('contact.moes_m',), ['converged', 'converged'])
+    (('moes_m',), ['converged', 'converged'])
     """
-    check_kind(vary, Mapping, "vary", "values by key, as {'contact.load': [100.0, 200.0]}")
-    for key in vary:
-        check_kind(key, str, "a key of vary", "a text group.key")
     check_kind(run, str, "run", "'solve', 'predict' or 'film'")
     check_kind(outputs, Sequence, "outputs", "names of results")
     check_kind(jobs, int, "jobs", "a number of worker processes")
-    check_kind(zip, (bool, Sequence), "zip", "True, False or lists of keys")
+    check_kind(zipped, (bool, Sequence), "zipped", "True, False or lists of keys")
     study = make(
         case,
-        [axis(key, values) for key, values in vary.items()],
+        axes_of(vary),
         options=options_of(options),
-        zipped=zip,
+        zipped=zipped,
         run=run,
         outputs=[outputs] if isinstance(outputs, str) else outputs,
     )

@@ -79,21 +79,24 @@ def over(
 ) -> xr.Dataset:
     """Give columns in the order of the table as a Dataset over what was varied.
 
-    A dimension is called by its key; keys that move together are coordinates of the dimension of
-    the first of them, of a `kind` if it is given. Where there is no number there is NaN, where
-    there is no word ''.
+    Dimensions have the names of `Study.names`, and their keys as attributes; keys that move
+    together are coordinates of the dimension of the first of them, of a `kind` if it is given.
+    Where there is no number there is NaN, where there is no word ''.
     """
-    names = tuple(axes[0].key for axes in study.dimensions)
-    of_keys = {key.name: key.unit for key in library.keys()}
-    coords = {
-        a.key: xr.Variable(
-            (axes[0].key,), np.array(a.values, dtype=kind), {"units": of_keys.get(a.key) or "1"}
-        )
-        for axes in study.dimensions
-        for a in axes
-    }
+    called, of_keys = study.names, {key.name: key for key in library.keys()}
+    names = tuple(called[axes[0].key] for axes in study.dimensions)
+    coords = {}
+    for axes, name in zip(study.dimensions, names, strict=True):
+        for a in axes:
+            about = {"key": a.key, "units": "1"}
+            if known := of_keys.get(a.key):
+                about |= {"units": known.unit or "1", "long_name": known.meaning}
+            coords[called[a.key]] = xr.Variable((name,), np.array(a.values, dtype=kind), about)
     variables = {}
     for name, column in found.items():
+        if name in coords:
+            # the value that was given, see `ECHOED`
+            continue
         if any(isinstance(value, str) for value in column) or name in ("status", "message"):
             values = np.array(["" if v is None else str(v) for v in column])
             unit = {}

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a study varies: a key of a case file and the values it takes."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from itertools import islice
 from typing import Any
@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from pyehl.errors import InputError
-from pyehl.given import Value, plain
+from pyehl.given import Value, by_key, check_kind, plain
 
 FORMS = (
     "start:stop:count, start:stop:countlog (geometric spacing), start:stop (whole numbers), "
@@ -48,6 +48,12 @@ def parse_axis(text: str) -> Axis:
     if not equals or not key or not values:
         raise InputError(f"--vary {text}: expected group.key=VALUES, VALUES being {FORMS}")
     return axis(key, values)
+
+
+def axes_of(vary: Mapping[str, Any]) -> list[Axis]:
+    """Give the axes of values by ``group.key``, or by group and key; InputError as `axis`."""
+    check_kind(vary, Mapping, "vary", "values by key, as {'contact.load': [100.0, 200.0]}")
+    return [axis(key, values) for key, values in by_key(vary, "vary")]
 
 
 def axis(key: str, values: str | Iterable[Any] | Value) -> Axis:

@@ -55,7 +55,7 @@ def test_numbers_are_those_of_pyehl_run(tab, tmp_path, capsys):
     told = capsys.readouterr().out.replace("+-", "±")
     assert f"h_c {rows['h_c']}" in told
     assert f"h_min {rows['h_min']}" in told
-    sheet = pyehl.film(case)
+    sheet = pyehl.film(case).summary
     for formula in (f for f in sheet["formulas"] if f["applies"]):
         assert f"{formula['h_c_m'] * 1e9:.4g} nm" in rows[formula["name"]]
     assert rows["Moes load M"] == f"{sheet['moes_m']:.4g}"

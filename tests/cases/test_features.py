@@ -10,6 +10,7 @@ import pytest
 
 import pyehl
 from pyehl import Case, cli
+from pyehl.schema import summary_of
 from pyehl.surfaces import FEATURES
 
 POINT = (200.0, 10.0)
@@ -208,7 +209,7 @@ def test_resume(ehl: str, tmp_path: Path):
     assert run("case.nml", "-o", "whole") == 0
     assert run("case.nml", "-o", "parts", "--set", "time.steps=20") == 1
     assert run("--resume", "parts", "--set", "time.steps=0") == 0
-    whole, parts = (pyehl.load(tmp_path / name).attrs for name in ("whole", "parts"))
+    whole, parts = (summary_of(pyehl.load(tmp_path / name)) for name in ("whole", "parts"))
     names = [name for name in whole if name.startswith(("P_", "H_", "mu_", "T"))]
     assert len(names) > 20
     assert {name: whole[name] for name in names} == {name: parts[name] for name in names}

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import pyehl
+from pyehl.schema import summary_of
 
 FILM, WALL_1, WALL_2 = (f"temperature_rise{part}_K" for part in ("", "_wall_1", "_wall_2"))
 # Table 1 of Zhang et al. 2019, faster, with an Eyring stress of 5 MPa and the film of a Newtonian
@@ -175,7 +176,7 @@ def test_prediction_has_it_too(radii: tuple[float, float]):
     keys |= {"contact.radius_x": radii[0], "contact.radius_y": radii[1]}
     case = pyehl.Case.from_text("", keys | {"surface.kind": "fractal", "surface.pixels": 64})
     found = pyehl.predict(case).summary
-    solved = pyehl.solve(case.with_options("surface.kind=smooth", "grid.points=257")).attrs
+    solved = summary_of(pyehl.solve(case.with_options("surface.kind=smooth", "grid.points=257")))
     assert found["mu_smooth"] / found["mu_smooth_isothermal"] == pytest.approx(
         solved["mu"] / solved["mu_isothermal"], rel=0.01
     )

@@ -13,7 +13,8 @@ import pytest
 
 import pyehl
 from pyehl import library
-from pyehl.commands.film import report
+from pyehl.prediction.film_text import report
+from pyehl.schema import summary_of
 
 NUMBER = re.compile(r"\d+\.\d+(?:E[-+]\d+)?")
 
@@ -45,9 +46,9 @@ def test_ball_bearing(root: Path, ehl: str, tmp_path: Path):
     words = [ehl, case, "-o", tmp_path / "out"]
     run = subprocess.run(words, capture_output=True, text=True, check=False)
     assert run.returncode == 0, run.stdout
-    sheet = pyehl.film(case)
+    sheet = pyehl.film(case).summary
     same(texts(page), f"{report(sheet)}\n{run.stdout}")
-    found = pyehl.load(tmp_path / "out").attrs
+    found = summary_of(pyehl.load(tmp_path / "out"))
     text = page.read_text(encoding="utf-8")
     assert f"| solved on 257 × 961 nodes | {row_of(text)} |" in text
     unit = found["film_scale_m"] * 1e9
@@ -80,7 +81,7 @@ def test_gear_pair(root: Path, ehl: str, tmp_path: Path):
     unit = record["film_scale_m"] * 1e9
     films = [record[f"{name}_extrapolated"] * unit for name in ("H_c", "H_min")]
     assert f"| {films[0]:.1f} nm | {films[1]:.1f} nm |" in text
-    for formula in pyehl.film(case)["formulas"]:
+    for formula in pyehl.film(case).formulas:
         least = f" {formula['h_min_m'] * 1e9:.1f} nm |" if formula["h_min_m"] else ""
         assert f"| {formula['h_c_m'] * 1e9:.1f} nm |{least}" in text
     assert f"```text\n{library.conclude(record)}\n```" in text
@@ -176,7 +177,7 @@ def test_a_sweep_over_ellipses(tmp_path: Path):
     """Its rows are those of single runs."""
     case = pyehl.Case.from_text("", {"contact.load": 50.0, "grid.points": 33})
     radii = {"contact.radius_x": [0.01, 0.02], "contact.radius_y": [0.04, 0.01]}
-    table = pyehl.sweep(case, radii, zip=True, output=tmp_path / "sweep")
+    table = pyehl.sweep(case, radii, zipped=True, output=tmp_path / "sweep")
     for k in range(2):
         one = {key: values[k] for key, values in radii.items()}
         with pyehl.Solver(case.with_options(one)) as solver:

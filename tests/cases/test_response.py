@@ -87,7 +87,7 @@ def test_waves_on_an_ellipse(monkeypatch: pytest.MonkeyPatch):
     case = Case.from_text(CASE, ["contact.radius_ratio=0.5438"])
     monkeypatch.setattr("pyehl.measured_response.folder.TIERS", TINY)
     found = pyehl.response(case)
-    assert found.attrs["ellipticity"] == pytest.approx(1.5, abs=1e-4)
+    assert float(found.ellipticity) == pytest.approx(1.5, abs=1e-4)
     fine = found.where(found["tier"] == "middle", drop=True).sel(X=0.0)
     assert fine.sizes["wave"] >= 2
     assert float(fine["shipped_difference"].max()) < 0.03

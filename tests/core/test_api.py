@@ -18,6 +18,7 @@ import xarray as xr
 import pyehl
 from pyehl import cli
 from pyehl.measured_response import measurement
+from pyehl.schema import summary_of
 
 SMOOTH = (
     "&contact moes_m = 100.0 moes_l = 5.0 /\n"
@@ -61,7 +62,7 @@ def test_solve_is_load_of_the_folder(smooth: Path, tmp_path: Path):
     same(inside, written)
     assert inside.P.shape == (65, 65)
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
-    assert inside.attrs["H_c"] == summary["H_c"]
+    assert float(inside.H_c) == summary["H_c"]
     assert {p.name for p in tmp_path.iterdir()} == {"smooth.nml", "out"}
 
 
@@ -117,14 +118,14 @@ def test_python_and_command_say_the_same(smooth: Path, values: dict[str, int], c
 
 
 def test_scalars_have_units(fractal: Path, tmp_path: Path):
-    """Numbers of the summary are variables after solve, load, predict and sweep, and attributes."""
+    """Numbers of the summary are variables after solve, load, predict and sweep, not attributes."""
     solved = pyehl.solve(fractal, output=tmp_path / "out", check=False)
     for data in (solved, pyehl.load(tmp_path / "out"), pyehl.predict(fractal).data):
-        numbers = [name for name in data.attrs if name in data]
+        numbers = [name for name, found in data.variables.items() if found.dims == ()]
         assert len(numbers) > 30
+        assert not data.attrs.keys() & data.variables.keys() - {"T"}
+        assert {type(value) for name, value in data.attrs.items() if name != "T"} <= {str, bool}
         for name in numbers:
-            assert float(data[name]) == data.attrs[name]
-            assert data[name].dims == ()
             assert data[name].attrs["units"]
             assert data[name].attrs["long_name"]
         assert data.h_c_m.attrs["units"] == "m"
@@ -134,7 +135,7 @@ def test_scalars_have_units(fractal: Path, tmp_path: Path):
         assert len(names) == len(set(names))
     # what is not known is NaN, and no attribute
     assert np.isnan(float(solved.mu_ratio))
-    assert "mu_ratio" not in solved.attrs
+    assert "mu_ratio" not in summary_of(solved)
     assert {"status", "converged", "case"} <= set(solved.attrs) - set(solved.variables)
     swept = pyehl.sweep(fractal, {"surface.seed": [1]}, run="film", jobs=1)
     assert swept.h_c_m.attrs["units"] == swept.h_c_m_hamrock_dowson.attrs["units"] == "m"
@@ -234,9 +235,11 @@ def test_predict_writes_as_the_command(fractal: Path, tmp_path: Path, capsys):
 
 def test_subcommands_print_what_functions_return(fractal: Path, capsys):
     assert cli.main(["check", str(fractal), "--set", "grid.points=33"]) == 0
-    assert capsys.readouterr().out == pyehl.check(fractal, {"grid.points": 33}) + "\n"
+    assert capsys.readouterr().out == f"{pyehl.check(fractal, {'grid.points': 33})}\n"
     assert cli.main(["film", str(fractal), "--json"]) == 0
-    assert json.loads(capsys.readouterr().out) == json.loads(json.dumps(pyehl.film(fractal)))
+    assert json.loads(capsys.readouterr().out) == json.loads(
+        json.dumps(pyehl.film(fractal).summary)
+    )
 
 
 def test_plot(fractal: Path, tmp_path: Path):
@@ -251,15 +254,19 @@ def test_plot(fractal: Path, tmp_path: Path):
 
 
 def test_stribeck_is_that_of_the_command(fractal: Path, tmp_path: Path, capsys):
-    ds = pyehl.stribeck(fractal, speed=[0.5, 1.0], load=30.0, surfaces=2, jobs=1)
+    ds = pyehl.stribeck(
+        fractal, {"contact.mean_velocity": [0.5, 1.0], "contact.load": 30.0}, surfaces=2, jobs=1
+    )
     words = ["--speed", "0.5,1", "--load", "30", "--surfaces", "2", "--jobs", "1", "-q"]
     assert cli.main(["stribeck", str(fractal), *words, "-o", str(tmp_path / "out")]) == 0
     capsys.readouterr()
     with xr.open_dataset(tmp_path / "out" / "stribeck.nc", engine="scipy") as written:
         assert np.array_equal(written.mu_ratio.values, ds.mu_ratio.values)
     assert ds.mu_ratio.shape == (2, 1)
-    with pytest.raises(pyehl.InputError, match="at least one of --speed"):
-        pyehl.stribeck(fractal)
+    assert ds.mu_ratio.dims == ("mean_velocity", "load")
+    for vary in ({}, {"contact.radius": 0.01}, {"contact.mean_velocty": 0.5}):
+        with pytest.raises(pyehl.InputError, match=r"at least one of contact\.mean_velocity, lub"):
+            pyehl.stribeck(fractal, vary)
 
 
 def test_response_is_read_as_it_was_written(tmp_path: Path, monkeypatch):
@@ -282,8 +289,8 @@ def test_no_solution_raises_with_what_there_is(fractal: Path, tmp_path: Path):
         pyehl.solve(fractal, output=tmp_path / "out")
     assert isinstance(caught.value, pyehl.EhlError)
     same(caught.value.results, pyehl.load(tmp_path / "out"))
-    assert "H_c" in caught.value.results.attrs
-    assert "mu_ratio" not in caught.value.results.attrs
+    assert "H_c" in summary_of(caught.value.results)
+    assert "mu_ratio" not in summary_of(caught.value.results)
     assert not pyehl.solve(fractal, check=False).attrs["converged"]
 
 
@@ -357,7 +364,7 @@ def test_solver_is_an_iterator(fractal: Path):
         assert next(iter(solver)).summary["steps"] == 3
         assert solver.field("P").shape == (65, 65)
         data = solver.dataset()
-        assert data.attrs["steps"] == 3
+        assert float(data.steps) == 3
         assert np.array_equal(data.P.values, solver.field("P"))
         assert len(repr(solver)) < 200
         assert "<table>" in solver._repr_html_()
@@ -379,7 +386,7 @@ def test_predict(fractal: Path):
     p = pyehl.predict(fractal, *options)
     case = pyehl.Case(fractal, *options)
     assert p.mu_ratio == p.summary["mu_ratio"] == pyehl.predict(case).mu_ratio
-    assert p.data.attrs["mu_ratio"] == p.mu_ratio
+    assert float(p.data.mu_ratio) == p.mu_ratio
     assert p.data.attrs["case"] == case.text
     ax = p.plot()
     assert p.plot(ax) is ax

@@ -164,7 +164,7 @@ def test_faults_of_the_package_stay_what_they_are(cases: Path, tmp_path: Path, m
     # neither by a function nor by a command is it called bad input
     for name, words in (
         ("prediction.of_case.predict", ["predict", "-o", "out"]),
-        ("prediction.film_sheet.sheet", ["film"]),
+        ("api.sheet", ["film"]),
         ("studies.plan.central_film", ["stribeck", "--speed", "1", "-o", "out"]),
         ("commands.surface.from_settings", ["surface"]),
     ):

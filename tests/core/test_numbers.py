@@ -11,6 +11,7 @@ import pytest
 
 import pyehl
 from pyehl import Case, Solver, cli, errors
+from pyehl.schema import summary_of as scalars_of
 from pyehl.studies.tasks import Task, execute
 
 ROUGH = (
@@ -55,7 +56,7 @@ def everywhere(request, tmp_path_factory, drivers) -> tuple[dict[str, dict[str, 
         found["Solver"] = solver.summary
         solver.write(folder / "written")
     found["Solver.write"] = summary_of(folder / "written")
-    found["solve"] = dict(pyehl.solve(case).attrs)
+    found["solve"] = scalars_of(pyehl.solve(case))
     found["sweep"] = execute(Task(0, case.text, "solve"))
     found["sweep with folders"] = execute(Task(0, case.text, "solve", str(folder / "of a sweep")))
     (folder / "case.nml").write_text(text)
@@ -223,13 +224,13 @@ def test_error_in_the_coarser_run_does_not_end_the_run(tmp_path: Path):
 def test_steps_asked_for_do_not_make_a_mean_settle():
     """After as many steps as it takes to settle the run is converged, before it is not."""
     case = Case.from_text(WAVE.format(65, 0.2), ["time.estimate_error=.false."])
-    settled = pyehl.solve(case).attrs
+    settled = scalars_of(pyehl.solve(case))
     steps = settled["steps"]
-    again = pyehl.solve(case, f"time.steps={steps}").attrs
+    again = scalars_of(pyehl.solve(case, f"time.steps={steps}"))
     assert (again["status"], again["mu_ratio"]) == ("converged", settled["mu_ratio"])
     with pytest.raises(pyehl.NotConverged, match="not settled") as caught:
         pyehl.solve(case, f"time.steps={steps - 1}")
-    before = caught.value.results.attrs
+    before = scalars_of(caught.value.results)
     assert before["steps"] == steps - 1
     # it has a mean over a period, which is no result
     assert before["last_mu_ratio_mean"] == pytest.approx(settled["mu_ratio"], rel=0.05)
@@ -257,13 +258,13 @@ def test_no_ratio_is_none(text: str):
 
 def test_least_rough_film_is_that_of_the_time_of_the_mean():
     data = pyehl.solve(Case.from_text(CARRIED))
-    mean = data.history_T > float(data.history_T[-1]) - data.attrs["T_mean"] - 1e-9
+    mean = data.history_T > float(data.history_T[-1]) - float(data.T_mean) - 1e-9
     least = float(data.history_H_min[mean].min())
-    assert data.attrs["H_min_rough"] == pytest.approx(least, rel=1e-12)
-    assert data.attrs["H_min_rough"] < data.attrs["H_min"]
-    scale = data.attrs["film_scale_m"]
-    assert data.attrs["h_min_rough_m"] == pytest.approx(least * scale, rel=1e-12)
-    assert data.attrs["h_min_m"] == pytest.approx(data.attrs["H_min"] * scale, rel=1e-12)
+    assert float(data.H_min_rough) == pytest.approx(least, rel=1e-12)
+    assert float(data.H_min_rough) < float(data.H_min)
+    scale = float(data.film_scale_m)
+    assert float(data.h_min_rough_m) == pytest.approx(least * scale, rel=1e-12)
+    assert float(data.h_min_m) == pytest.approx(float(data.H_min) * scale, rel=1e-12)
 
 
 def test_film_and_lambda_mean_the_same_everywhere(tmp_path: Path):
@@ -277,7 +278,7 @@ def test_film_and_lambda_mean_the_same_everywhere(tmp_path: Path):
         tmp_path / "curve" / "stribeck.csv", delimiter=",", names=True, dtype=None, encoding="utf-8"
     )
     rest = case.with_options("surface.velocity_ratio=0", "time.estimate_error=.false.")
-    solved = pyehl.solve(rest).attrs
+    solved = scalars_of(pyehl.solve(rest))
     sigma = predicted["rms_height_m"]
     assert solved["surface_rms_m"] == pytest.approx(sigma, rel=1e-9)
     for way, values in (("run", solved), ("predict", predicted)):

@@ -14,6 +14,7 @@ from pyehl.plots.stribeck import Curve, draw_stribeck
 from pyehl.prediction import of_case, smooth
 from pyehl.prediction.obstacle import Compliance, lifted
 from pyehl.prediction.resolved_inlet import touching_points
+from pyehl.schema import summary_of as scalars_of
 from pyehl.studies.curve_contact import lift_off
 from pyehl.theory.friction import OF_ROUGH
 
@@ -67,7 +68,7 @@ def test_smooth_films_are_those_of_a_run_with_the_layer(velocity, layer):
     """Films, pressure and Lambda, as of a run and on a curve; a layer of no contact costs none."""
     values = predicted(layer, velocity=velocity)
     case = pyehl.Case.from_text(SCENE.format(velocity, layer, 0.1), {"grid.points": 257})
-    run = pyehl.solve(case.with_options({"surface.kind": "smooth"})).attrs
+    run = scalars_of(pyehl.solve(case.with_options({"surface.kind": "smooth"})))
     for name in ("c", "min"):
         error = run[f"H_{name}_error"] * run["film_scale_m"]
         limit = run[f"H_{name}_extrapolated"] * run["film_scale_m"]
@@ -75,7 +76,7 @@ def test_smooth_films_are_those_of_a_run_with_the_layer(velocity, layer):
     assert values["h_min_m"] == pytest.approx(values["lambda_ratio"] * values["rms_height_m"])
     assert values["p_max_Pa"] == pytest.approx(run["p_max_Pa"], rel=0.01)
     assert values["h_min_rough_m"] < values["h_min_m"]
-    row = pyehl.stribeck(case, speed=[velocity], jobs=1)
+    row = pyehl.stribeck(case, {"contact.mean_velocity": [velocity]}, jobs=1)
     for name in ("h_c_m", "h_min_m", "lambda_ratio", "lambda_ratio_deformed"):
         assert values[name] == pytest.approx(float(row[name][0]), rel=0.02), name
 
@@ -175,7 +176,7 @@ def test_friction_of_a_curve_is_its_ratio_times_that_of_the_smooth_contact(heat)
     """In every row, or mu_smooth is missing and the row says why."""
     case = pyehl.Case.from_text(HOT.format(1.2e-7) + "&grid points = 65 /\n")
     case = case.with_options({"lubricant.thermal_friction": heat})
-    curve = pyehl.stribeck(case, speed=[0.1, 0.3, 3.0], surfaces=2, jobs=1)
+    curve = pyehl.stribeck(case, {"contact.mean_velocity": [0.1, 0.3, 3.0]}, surfaces=2, jobs=1)
     isothermal = curve.mu_ratio.values * curve.mu_smooth_isothermal.values
     assert curve.mu_isothermal.values == pytest.approx(isothermal, rel=1e-12)
     assert "mixed film" in curve.status.values
@@ -194,10 +195,10 @@ def test_smooth_contact_of_a_curve_resolves_its_inlet():
     points = touching_points(case.resolve())
     assert points > 65
     alone = case.with_options({"surface.kind": "smooth"})
-    run = pyehl.solve(alone).attrs
+    run = scalars_of(pyehl.solve(alone))
     assert "contact_load_share" not in run
     assert f"grid.points = {points} or more" in run["mu_note"]
-    curve = pyehl.stribeck(alone, speed=[0.02], jobs=1)
+    curve = pyehl.stribeck(alone, {"contact.mean_velocity": [0.02]}, jobs=1)
     assert curve.status.values == ["mixed film"]
     assert curve.mu.values < 0.09
     assert abs(run["h_c_m"] - float(curve.h_c_m[0])) <= run["h_c_error_m"]
@@ -210,7 +211,7 @@ def test_contact_where_a_full_film_breaks_down(tmp_path, capsys):
     case = tmp_path / "case.nml"
     case.write_text(SCENE.format(0.02, 2e-8, 0.1).replace("rms_height = 3e-8", "rms_height = 1e-7"))
     assert cli.main(["predict", str(case), "-o", str(tmp_path / "out"), "--tracks", "1"]) == 0
-    summary = pyehl.load(tmp_path / "out").attrs
+    summary = scalars_of(pyehl.load(tmp_path / "out"))
     assert summary["message"].startswith("partial film")
     assert summary["contact_load_share"] > 0.1
     names = "p_rise_rms_Pa", "p_rise_max_Pa", "mu_ratio_tracks"
@@ -349,12 +350,12 @@ def test_lift_off_with_its_error():
 @pytest.mark.long
 def test_curve_with_a_layer():
     case = pyehl.Case.from_text(SCENE.format(0.3, 1e-7, 0.1) + "&grid points = 65 /\n")
-    curve = pyehl.stribeck(case, speed=[0.2, 1.2], jobs=1)
+    curve = pyehl.stribeck(case, {"contact.mean_velocity": [0.2, 1.2]}, jobs=1)
     assert curve.status.values[0] == "mixed film"
     # of the faster one M is below the range of the response
     assert curve.status.values[1] == "outside the range"
     assert curve.contact_load_share.values[0] > 0.05
     assert curve.contact_load_share.values[1] == 0.0
-    speed, error = (curve.attrs[f"transition_speed_{n}m_s"] for n in ("", "error_"))
+    speed, error = (float(curve[f"transition_speed_{n}m_s"]) for n in ("", "error_"))
     assert 0.2 < speed < 1.2
     assert 0.0 < error < 1.0

@@ -86,7 +86,13 @@ def folders(tmp_path_factory, root: Path) -> Path:
     pyehl.predict(table1, output=place / "prediction", plots=False)
     vary = {"contact.moes_m": [50.0, 100.0, 200.0]}
     pyehl.sweep(root / "cases/quick.nml", vary, SMALL, output=place / "sweep", jobs=1)
-    pyehl.stribeck(table1, "grid.points=129", speed=[0.6, 1.2], output=place / "curve", jobs=1)
+    pyehl.stribeck(
+        table1,
+        {"contact.mean_velocity": [0.6, 1.2]},
+        "grid.points=129",
+        output=place / "curve",
+        jobs=1,
+    )
     return place
 
 
@@ -199,7 +205,7 @@ def test_a_page_for_a_measured_response(tmp_path, root):
 def test_a_zipped_study_that_is_not_done_is_said(tmp_path, root):
     vary = {"contact.moes_m": [50.0, 100.0, 200.0], "contact.moes_l": [8.0, 9.0, 10.0]}
     folder = tmp_path / "sweep"
-    pyehl.sweep(root / "cases/quick.nml", vary, SMALL, zip=True, output=folder, jobs=1)
+    pyehl.sweep(root / "cases/quick.nml", vary, SMALL, zipped=True, output=folder, jobs=1)
     assert "3 of 3 cases have an answer." in read(pyehl.report(folder)).text
     rows = (folder / "results.csv").read_text().splitlines()
     (folder / "results.csv").write_text("\n".join(rows[:-1]) + "\n")

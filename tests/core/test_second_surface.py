@@ -109,7 +109,7 @@ def test_plan_has_the_heights_of_both(height: str, words: str):
     """Shares of the variance are per cents."""
     text = CONTACT + FRACTAL.format("surface")
     text += f"&second_surface kind = 'harmonic' amplitude{height} wavelength = 0.5 /\n"
-    told = pyehl.check(Case.from_text(text))
+    told = str(pyehl.check(Case.from_text(text)))
     assert "surface    &surface: rms height " in told
     assert f"surface    &second_surface: rms height {words}" in told
     share = told.partition("hold ")[2]
@@ -342,7 +342,7 @@ def test_film_over_both():
     both = Case.from_text(one.text, {f"second_surface.{k}": v for k, v in {
         "kind": "fractal", "pixels": 32, "length_x": 1e-4, "length_y": 1e-4, "rms_height": 1.2e-8,
     }.items()})  # fmt: skip
-    sheets = [pyehl.film(case) for case in (one, second, both)]
+    sheets = [pyehl.film(case).summary for case in (one, second, both)]
     assert [s["surface"] for s in sheets] == ["fractal", "fractal", "fractal and fractal"]
     sigma = [s["rms_height_m"] for s in sheets]
     assert sigma == pytest.approx([5e-9, 1.2e-8, 1.3e-8], rel=1e-9)

@@ -15,6 +15,7 @@ from pyehl.netcdf import export
 from pyehl.plots import transient
 from pyehl.plots.figures import solution_figures
 from pyehl.plots.style import new_figure
+from pyehl.schema import summary_of
 
 WAVE = (
     "&contact load = 20.0 /\n&grid points = 65 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
@@ -64,7 +65,7 @@ def test_fields_and_frames_with_units(run_folder: Path):
     past = data["T"].values - 0.5 * np.floor(data["T"].values / 0.5)
     assert np.all((past >= 0.0) & (past < step))
     assert np.diff(np.floor(data["T"].values / 0.5)) == pytest.approx(1.0)
-    assert float(np.abs(data["RR"]).max()) <= data.attrs["amplitude"]
+    assert float(np.abs(data["RR"]).max()) <= float(data.amplitude)
 
     with xr.open_dataset(export(run_folder), engine="scipy") as again:
         assert again["frame_p_Pa"].dims == ("T", "Y", "X")
@@ -117,7 +118,7 @@ def test_movie_has_all_frames(run_folder: Path, tmp_path: Path, monkeypatch):
 
 def test_friction_history_shows_the_averaging_window(run_folder: Path):
     data = pyehl.load(run_folder)
-    mean, period = data.attrs["mu_ratio"], data.attrs["T_mean"]
+    mean, period = float(data.mu_ratio), float(data.T_mean)
     run = {name: data[name].values for name in ("history_T", "history_mu_ratio")}
     ax = transient.friction_history(
         run["history_T"],
@@ -158,7 +159,7 @@ def test_deformed_roughness_ends_at_the_circle_and_shares_a_scale(run_folder: Pa
 def test_eq_16_only_where_it_holds(run_folder: Path):
     data = pyehl.load(run_folder)
     # M = 31, outside of the range of the fit
-    assert transient.eq_16(data.attrs, results.settings_of(data)) is None
+    assert transient.eq_16(summary_of(data), results.settings_of(data)) is None
     inside = {"moes_m": 1000.0, "moes_l": 10.0, "H_c": 0.0243, "amplitude": 9.72e-3}
     surface = {"kind": "harmonic", "wavelength_x": 0.5, "wavelength_y": 0.5}
     # theta_2 = 10^-1.1 1000^0.33 0.5^0.67 2.5, 1 + 0.546 theta_2^-2 + 0.219 theta_2^-4

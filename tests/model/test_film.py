@@ -6,8 +6,8 @@ import reference
 
 import pyehl
 from pyehl.case import Case
-from pyehl.commands import film as film_command
 from pyehl.prediction import film_sheet
+from pyehl.prediction.film_text import report
 from pyehl.theory import film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -56,7 +56,7 @@ def test_sheet_of_the_harmonic_case(settings):
     assert values["mu_ratio_eq_16"] == pytest.approx(1.468, abs=0.002)
     assert values["theta_2_outside"] == []
     assert values["lambda_ratio_central"] == pytest.approx(2 / 0.4)
-    page = film_command.report(values)
+    page = report(values)
     for word in ("p_h", "1.6602 GPa", "h_c/sigma", "theta_2", "inside", "Hamrock-Dowson"):
         assert word in page
 
@@ -73,7 +73,7 @@ def test_sheet_from_moes_numbers_and_smooth():
     values = film_sheet.sheet(case)
     assert values["moes_m"] == pytest.approx(20.0)
     assert "lambda_ratio_central" not in values
-    assert "made from M and L" in film_command.report(values)
+    assert "made from M and L" in report(values)
 
 
 def test_ellipses():
@@ -83,12 +83,12 @@ def test_ellipses():
         film_sheet.sheet(Case.from_text("", ellipse | {"contact.angle": angle}).resolve())
         for angle in (0.0, 30.0)
     )
-    page = film_command.report(straight)
+    page = report(straight)
     assert "Hamrock-Dowson" in page
     assert "too high" not in page
     assert turned["formulas"] == []
     assert turned["hertz_pressure_Pa"] == straight["hertz_pressure_Pa"]
-    page = film_command.report(turned)
+    page = report(turned)
     assert "both turned by                        30 deg" in page
     assert page.endswith("the formulas need an axis along the motion")
 
@@ -103,7 +103,7 @@ def test_says_what_the_formulas_do_not_know():
     values = film_sheet.sheet(Case.from_text("", told).resolve())
     keys = [text.split(" = ")[0] for text in values["left_out"]]
     assert keys == ["grid.x_inlet", "lubricant.shear_law", "lubricant.boundary_film"]
-    assert "left out: grid.x_inlet = -1.5" in film_command.report(values)
+    assert "left out: grid.x_inlet = -1.5" in report(values)
     assert film_sheet.sheet(Case.from_text("").resolve())["left_out"] == []
 
 

@@ -9,6 +9,7 @@ import pytest
 import pyehl
 from pyehl import cli
 from pyehl.errors import InputError
+from pyehl.schema import summary_of
 from pyehl.surfaces import fractal
 
 SMALL = "&contact mean_velocity = 4.0 /\n&grid points = 33 /\n&lubricant shear_law = 'eyring' /\n"
@@ -92,7 +93,7 @@ def test_a_prediction_by_ra_shows_what_the_spectrum_does(tmp_path, capsys):
     assert cli.main([*command, "--tracks", "1"]) == 0
     out = capsys.readouterr().out
     assert "spectrum   Ra and finish do not tell it" in out
-    about = pyehl.load(tmp_path / "out").attrs
+    about = summary_of(pyehl.load(tmp_path / "out"))
     assert about["status"] == "predicted"
     result = pyehl.predict(pyehl.Case.from_text(text), tracks=1)
     rows = result.summary["spectrum_beside"]

@@ -162,7 +162,7 @@ def test_film_friction_and_prediction_obey_the_law(table: Path):
         case = Case.from_text("", {**law, **CONTACT})
         data, predicted = pyehl.solve(case), pyehl.predict(case, rough)
         assert data.attrs["status"] == "converged"
-        formula = pyehl.film(case)["formulas"][0]["h_c_m"]
+        formula = pyehl.film(case).formulas[0]["h_c_m"]
         solved = float(data.h_c_m), float(data.h_min_m), float(data.mu)
         runs.append((solved, predicted.mu_ratio, formula))
     first, second = runs
@@ -179,7 +179,7 @@ def test_the_volume_counts_in_the_film():
     for law in ("tait", "incompressible"):
         case = Case.from_text("", {**OIL, **CONTACT, "lubricant.density_law": law})
         solved[law] = float(pyehl.solve(case).h_c_m)
-        film = pyehl.film(case)
+        film = pyehl.film(case).summary
         formula[law] = film["formulas"][0]["h_c_m"]
     inlet, pressed = volume(np.array([1.5e8, film["hertz_pressure_Pa"]]), 60.0) / volume(0.0, 60.0)
     assert formula["tait"] / formula["incompressible"] == pytest.approx(pressed, rel=1e-9)

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 import pyehl
+from pyehl.schema import summary_of
 
 
 @pytest.fixture(scope="module")
@@ -52,7 +53,7 @@ def test_this_build_makes_rows_of_the_table(evidence, number, points):
     )
     keys, _ = next(islice(evidence.contacts(), number, None))
     case = pyehl.Case.from_text("", keys | {"grid.points": points, "solver.max_cycles": 100})
-    found = pyehl.solve(case).attrs
+    found = summary_of(pyehl.solve(case))
     for name in ("h_c_m", "h_c_error_m", "h_min_m", "contact_load_share"):
         if row[name]:
             assert found[name] == pytest.approx(float(row[name]), rel=1e-3), name

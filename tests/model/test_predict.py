@@ -106,8 +106,7 @@ def test_folder_holds_the_data(folder, settings):
     again = load(folder)
     assert data.deformed_m.shape == (256, 256)
     assert data.bands_rise.dims == ("bands",)
-    times = [one.attrs.pop("wall_seconds") for one in (data, again)]
-    assert all(time > 0.0 for time in times)
+    assert min(float(one.wall_seconds) for one in (data, again)) > 0.0
     data, again = (one.drop_vars("wall_seconds") for one in (data, again))
     xr.testing.assert_identical(data, again)
 
@@ -170,9 +169,8 @@ def command(settings, monkeypatch, tmp_path):
     class Case:
         text = "&surface\n kind = 'fractal'\n/\n"
 
-        @classmethod
-        def of(cls, case, *options):
-            return cls()
+        def __init__(self, case, *options):
+            pass
 
         def resolve(self):
             return settings

@@ -22,6 +22,7 @@ from pyehl.prediction.smooth import hertz_contact, solve_contact, zone_of
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer, _at_amplitude
 from pyehl.prediction.waves import Waves
+from pyehl.schema import summary_of
 from pyehl.surfaces import Topography, filtered
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -218,7 +219,7 @@ def test_waves_left_out_are_in_the_error():
     options = "contact.load=119.0", "surface.rms_height=5e-9", "surface.length_x=4e-4"
     options = *options, "surface.length_y=4e-4", "contact.mean_velocity=0.832", "grid.points=65"
     options = *options, "grid.x_inlet=-2.5", "grid.x_outlet=1.5", "grid.y_extent=2.0"
-    summary = pyehl.solve("cases/table1.nml", *options).attrs
+    summary = summary_of(pyehl.solve("cases/table1.nml", *options))
     assert summary["variance_left_out"] > 0.0
     # grids that do not carry all waves have no common limit to extrapolate to
     assert "mu_ratio_extrapolated" not in summary

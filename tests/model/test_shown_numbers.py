@@ -16,6 +16,7 @@ import pyehl
 from pyehl.app import answers, worker
 from pyehl.prediction import second_order
 from pyehl.prediction.errors import ELLIPTICITY
+from pyehl.schema import summary_of
 from pyehl.studies import plan, study
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -34,7 +35,7 @@ def says(root: Path):
 
 
 def test_smooth_contact_of_the_readme(says, cases: Path):
-    found = pyehl.solve(cases / "table1.nml", {"surface.kind": "smooth"}).attrs
+    found = summary_of(pyehl.solve(cases / "table1.nml", {"surface.kind": "smooth"}))
     whole, grid, domain = (
         100.0 * found[f"H_c_error{part}"] / found["H_c"] for part in ("", "_grid", "_domain")
     )
@@ -49,7 +50,7 @@ def test_smooth_contact_of_the_readme(says, cases: Path):
 
 @pytest.mark.long
 def test_tutorial(says, cases: Path):
-    found = pyehl.solve(cases / "quick.nml").attrs
+    found = summary_of(pyehl.solve(cases / "quick.nml"))
     values = [found[f"H_c{end}"] for end in ("", "_extrapolated", "_error", "_error_grid")]
     say = "`H_c` {:.4f}, `H_c_extrapolated` {:.4f}, `H_c_error` {:.4f}. Of that {:.4f} is"
     ground, honed = (
@@ -88,7 +89,7 @@ def test_alpha_over_the_temperature(says, cases: Path):
     ]
     cold, hot = (oil["pressure_viscosity"] for oil in oils)
     kept, film = (
-        pyehl.film(cases / "finish.nml", {"lubricant.temperature": 100, **more})["formulas"][0]
+        pyehl.film(cases / "finish.nml", {"lubricant.temperature": 100, **more}).formulas[0]
         for more in ({"lubricant.pressure_viscosity": cold}, {})
     )
     says(
@@ -101,7 +102,7 @@ def test_alpha_over_the_temperature(says, cases: Path):
 def test_traction_near_the_origin(says, cases: Path):
     """In proportion to the ratio below 1e-6, and no more at 1e-5."""
     slopes = [
-        pyehl.solve(cases / "mtm.nml", {"contact.slide_to_roll": s, "grid.points": 129}).attrs["mu"]
+        float(pyehl.solve(cases / "mtm.nml", {"contact.slide_to_roll": s, "grid.points": 129}).mu)
         / s
         for s in (1e-7, 1e-6, 1e-5)
     ]
@@ -121,8 +122,9 @@ def test_fitted_shear_law(says, cases: Path):
 
 def test_heat_of_the_gears(says, cases: Path):
     smooth = {f"{group}.kind": "smooth" for group in ("surface", "second_surface")}
+    gears = cases / "gear_pair.nml"
     ratio = [
-        pyehl.solve(cases / "gear_pair.nml", smooth | {"lubricant.thermal_friction": when}).attrs
+        summary_of(pyehl.solve(gears, smooth, {"lubricant.thermal_friction": when}))
         for when in ("auto", "never")
     ]
     assert ratio[0]["mu"] / ratio[1]["mu"] == pytest.approx(0.75, abs=0.02)
@@ -131,7 +133,7 @@ def test_heat_of_the_gears(says, cases: Path):
 
 @pytest.mark.parametrize(("name", "case"), [("gear", "gear_pair"), ("bearing", "ball_bearing")])
 def test_ellipses_outside_the_range(says, cases: Path, name: str, case: str):
-    kappa = pyehl.film(cases / f"{case}.nml")["ellipticity"]
+    kappa = pyehl.film(cases / f"{case}.nml").summary["ellipticity"]
     least, most = ELLIPTICITY
     assert not least < kappa < most
     says(

@@ -15,6 +15,7 @@ from pyehl.prediction.of_solver import resolution
 from pyehl.prediction.smooth import solve_contact, zone_of
 from pyehl.prediction.start import starting_pressure
 from pyehl.prediction.transfer import _at_amplitude
+from pyehl.schema import summary_of
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import inlet_transfer
@@ -217,7 +218,7 @@ def test_the_deformed_surface_in_numbers():
     assert s["p_rise_max_Pa"] > 2.0 * s["p_rise_rms_Pa"]
     assert s["p_rise_rms_Pa"] == pytest.approx(s["rms_pressure_Pa"], rel=0.1)
     # pressures under the names of a run: the smooth contact is that of a run on the same grid
-    smooth = pyehl.solve(table_1(), ["surface.kind=smooth", "grid.points=257"]).attrs
+    smooth = summary_of(pyehl.solve(table_1(), ["surface.kind=smooth", "grid.points=257"]))
     assert s["p_max_Pa"] == smooth["p_max_Pa"]
     assert s["p_max_Pa"] < s["p_max_rough_Pa"] <= s["p_max_Pa"] + s["p_rise_max_Pa"]
     assert s["h_min_rough_m"] < s["h_min_m"]

@@ -54,7 +54,7 @@ def test_own_references(
         cases / "quick.nml",
         rows_of(name, points),
         "time.estimate_error=.false.",
-        zip=True,
+        zipped=True,
         output=folder,
     )
     assert main(["compare", str(folder), name]) == 1
@@ -100,7 +100,7 @@ def test_rows_without_results(study: tuple[Path, list[float]], tmp_path: Path, c
 def test_a_single_result(cases: Path, tmp_path: Path):
     """Keys are those of the case, varied or not; a row of another case is left out."""
     data = pyehl.solve(cases / "quick.nml", "grid.points=65", output=tmp_path / "one")
-    value = data.attrs["H_c"]
+    value = float(data.H_c)
     table = write(
         tmp_path / "t.csv",
         "# a comment",

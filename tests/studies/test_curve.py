@@ -188,9 +188,10 @@ def test_files_and_words(wave: tuple[Path, str]):
     assert "the full simulation at 1" in told
     assert "full film at all points" in told
     with xr.open_dataset(folder / "stribeck.nc") as data:
-        assert data.mu_ratio.dims == (KEY,)
+        assert data.mu_ratio.dims == ("mean_velocity",)
         assert data.h_c_m.attrs["units"] == "m"
-        assert data[KEY].attrs["units"] == "m/s"
+        assert data.mean_velocity.attrs["units"] == "m/s"
+        assert data.mean_velocity.attrs["key"] == KEY
         assert float(data.h_c_m[0]) == float(table(folder)[0]["h_c_m"])
     assert imread(folder / "stribeck.png").std() > 0.1
 

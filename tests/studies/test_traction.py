@@ -136,7 +136,7 @@ def test_roughness_of_the_second_surface_has_a_left_end():
 def test_no_empirical_number(tmp_path: Path, option: str, words: str):
     case = pyehl.Case.from_text(BALL.replace("eyring", "newtonian"), [option])
     with pytest.raises(InputError, match=words):
-        pyehl.stribeck(case, speed=[0.3, 0.6], boundary_friction=0.12)
+        pyehl.stribeck(case, {"contact": {"mean_velocity": [0.3, 0.6]}}, boundary_friction=0.12)
 
 
 @pytest.fixture(scope="module")

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 import pyehl
-from pyehl import InputError
+from pyehl import InputError, library
 from pyehl.given import option
-from pyehl.studies.study import Study, make, read_study
-from pyehl.studies.vary import axis, parse_axis
+from pyehl.studies.study import ECHOED, RESULTS, Study, make, read_study
+from pyehl.studies.vary import Axis, axis, parse_axis
 
 
 @pytest.mark.parametrize(
@@ -195,3 +195,19 @@ def test_more_values_than_a_study_can_have_are_not_collected():
     with pytest.raises(InputError, match="more than 1000000 values"):
         axis("surface.seed", taken)
     assert next(taken) == 1_000_001
+
+
+def test_dimensions_have_plain_names():
+    """Those of their keys; with the group where another key or a result is called so."""
+    for keys, names in (
+        (["contact.load", "contact.mean_velocity"], ["load", "mean_velocity"]),
+        (["contact.moes_m", "surface.seed"], ["moes_m", "seed"]),
+        (["grid.points", "time.steps"], ["grid_points", "time_steps"]),
+        (["surface.rq", "second_surface.rq"], ["surface_rq", "second_surface_rq"]),
+    ):
+        axes = [Axis(key, (1.0, 2.0)) for key in keys]
+        assert list(make(pyehl.Case(), axes).names.values()) == names
+    for key in library.keys():
+        (name,) = make(pyehl.Case(), [Axis(key.name, (1.0, 2.0))]).names.values()
+        assert name.isidentifier()
+        assert name not in RESULTS or key.name in ECHOED

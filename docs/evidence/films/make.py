@@ -101,10 +101,10 @@ def films(
     """Films [nm] over x [um] on the centre line with the dimple at each centre; NaN: without it."""
     slip = 2.0 * float(ssr)
     smooth = pyehl.solve(CASE, f"grid.points={points}")
-    a = smooth.attrs["hertz_radius_m"]
+    a = float(smooth.hertz_radius_m)
     velocity = 1.0 + 0.5 * slip
     start = float(smooth.X[0])
-    steps = round((END - start + BEHIND) / velocity / smooth.attrs["x_mesh"])
+    steps = round((END - start + BEHIND) / velocity / float(smooth.x_mesh))
     ds = pyehl.solve(
         CASE,
         f"grid.points={points}",
@@ -127,7 +127,7 @@ def films(
         else:
             time = (place * 1e-6 / a - start + BEHIND) / velocity
             film = ds.frame_H.values[:, line, int(np.argmin(np.abs(ds["T"].values - time)))]
-        found.append((x, 1e9 * ds.attrs["film_scale_m"] * film))
+        found.append((x, 1e9 * float(ds.film_scale_m) * film))
     return found
 
 

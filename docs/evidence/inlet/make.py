@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 
 import pyehl
+from pyehl.schema import summary_of
 from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -90,7 +91,7 @@ def run(count: int) -> None:
             # where the film is close to the layer the edge of the touching zone moves slowly
             more = {"grid.points": points, "solver.max_cycles": 100}
             case = pyehl.Case.from_text("", keys | more)
-            found = pyehl.solve(case, check=False).attrs
+            found = summary_of(pyehl.solve(case, check=False))
             film = what["layer_over_film"], found["boundary_film"]
             mesh = found["x_mesh"]
             missed = FACTOR * mesh**2 * (film[1] / film[0] / density(case)) ** (-4.0 / 3.0)

@@ -28,6 +28,7 @@ from pyehl.prediction.by_response import RoughPassage
 from pyehl.prediction.options import Options
 from pyehl.prediction.second_order import film_left
 from pyehl.prediction.smooth import solve_contact
+from pyehl.schema import summary_of
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
@@ -146,7 +147,7 @@ def simulated(seed: int, speed: float, flow: str, points: int) -> Row:
         data = pyehl.solve(case_of(seed, speed, flow, points))
     except pyehl.NotConverged as error:
         data = error.results
-    found = {name: data.attrs.get(name) for name in NAMES["simulated.csv"]}
+    found = {name: summary_of(data).get(name) for name in NAMES["simulated.csv"]}
     variables = [name for name in found if name in data]
     return found | {name: float(data[name]) for name in variables}
 
