@@ -22,7 +22,7 @@ from pyehl import namelist
 from pyehl.arrays import read_array
 from pyehl.errors import FileError, InputError
 from pyehl.given import path_of
-from pyehl.schema import QUANTITIES
+from pyehl.schema import QUANTITIES, VERSION
 from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Array
 
@@ -278,6 +278,11 @@ def load(folder: str | os.PathLike[str]) -> xr.Dataset:
         raise FileError(f"{folder}: summary.json or case.nml is damaged: {error}") from error
     if summary.get("kind", "solution") not in ("solution", "prediction"):
         raise InputError(_no_case(folder, f"of '{summary['kind']}'"))
+    if summary.get("schema_version", VERSION) > VERSION:
+        raise InputError(
+            f"{folder}: results of schema {summary['schema_version']}; this version of pyehl reads "
+            f"schema {VERSION}\nexpected: a newer version of pyehl"
+        )
     prediction = summary.get("kind") == "prediction"
     files = list(PREDICTION) if prediction else [field.file for field in SOLUTION]
     arrays = {

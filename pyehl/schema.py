@@ -18,6 +18,8 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     import xarray
 
+VERSION = 1
+"""Of names, units and meanings, as `schema_version` in a summary: another one where one changes."""
 KINDS = {"s": "solution", "p": "prediction", "f": "film", "r": "response", "t": "fit"}
 
 
@@ -34,6 +36,7 @@ class Quantity:
 # Letters of the kinds | name | unit | meaning
 _TABLE = """
 spfrt | kind | | what the summary is of: 'solution', 'prediction', 'film', 'response' or 'fit'
+spfrt | schema_version | | version of the names, units and meanings in the summary
 sprt | files | | names of the files of the result in its folder
 sp | status | | 'converged', 'predicted', or why there is no result
 s | converged | | whether the results are a solution

@@ -23,6 +23,9 @@ submodule (ehl_solver) ehl_solver_results
    !> wave or feature, which is the same on both grids: what rises more are peaks of pressure that no grid yet resolves
    real(dp), parameter :: most_change = 0.5_dp, most_rise = 0.05_dp
 
+   !> Of the names, units and meanings of results, with `VERSION` of pyehl/schema.py: another one where one of them changes
+   integer, parameter :: schema_version = 1
+
 contains
 
    module procedure summary
@@ -36,6 +39,7 @@ contains
       known = why_none == ""
       rough = self%in_steps .or. self%resting
       call record%set("kind", "solution")
+      call record%set("schema_version", schema_version)
       call record%set("status", trim(outcome_names(self%stand())))
       if (allocated(self%coarse)) then
          why = why_no_answer(self, self%coarse)

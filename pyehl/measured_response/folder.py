@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from pyehl import schema
 from pyehl.case import Case, exchanged
 from pyehl.destination import Destination, new_file, write_json
 from pyehl.given import Option, path_of
@@ -184,6 +185,7 @@ def _summary(
     conditions = "moes_m", "moes_l", "ellipticity", "velocity_ratio"
     return {
         "kind": "response",
+        "schema_version": schema.VERSION,
         "files": list(FILES),
         **{name: float(values[name]) for name in conditions},
         "waves": int(difference.size),

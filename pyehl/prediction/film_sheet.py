@@ -5,7 +5,7 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
-from pyehl import display, surfaces
+from pyehl import display, schema, surfaces
 from pyehl.prediction.film_text import report
 from pyehl.prediction.meeting import sum_of
 from pyehl.prediction.sides import composite_rms
@@ -83,6 +83,7 @@ def sheet(settings: Settings) -> dict[str, Any]:
     films = [] if turned else film.estimates(operating, lubricant)
     result: dict[str, Any] = {
         "kind": "film",
+        "schema_version": schema.VERSION,
         "load_N": operating.load,
         "mean_velocity_m_per_s": operating.mean_velocity,
         "radius_m": operating.radius,

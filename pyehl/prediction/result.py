@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pyehl import display, library, namelist, surfaces
+from pyehl import display, library, namelist, schema, surfaces
 from pyehl.destination import finite
 from pyehl.prediction.bands import BAND_COLUMNS, Band, records
 from pyehl.prediction.breakdown import Advice, BelowZero
@@ -236,6 +236,7 @@ class Prediction:
         rough = max(f.pressure_max, self.pressure_maximum) if f.status == "predicted" else None
         values: dict[str, Any] = {
             "kind": "prediction",
+            "schema_version": schema.VERSION,
             "status": f.status,
             "message": f.message,
             "mu_ratio": f.mu_ratio,

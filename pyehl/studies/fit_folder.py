@@ -128,13 +128,4 @@ def _write(fit: Fit, place: Destination) -> None:
         words = f"{fit.law}, fitted"
         figure = draw_fit(fit.slide_to_roll, fit.measured, fit.error, curve, words)
         save(figure, folder / "fit.png", command="fit-lubricant")
-        write_json(
-            folder / "summary.json",
-            {
-                "kind": "fit",
-                "shear_law": fit.law,
-                "residual_rms": fit.residual_rms,
-                "points": fit.points,
-                "files": sorted(FILES),
-            },
-        )
+        write_json(folder / "summary.json", {**fit.summary, "files": sorted(FILES)})

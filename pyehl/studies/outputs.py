@@ -16,10 +16,10 @@ TRACKS = ("tracks", "mu_ratio_tracks", "mu_ratio_tracks_spread")
 
 KINDS = {"solve": "solution", "predict": "prediction", "film": "film"}
 NOT_IN_A_TABLE = frozenset(
-    "bands film_breakdown formulas pixels second_pixels second_surface_preparation "
+    "bands film_breakdown formulas pixels schema_version second_pixels second_surface_preparation "
     "surface_preparation wall_seconds".split()
 )
-"""Quantities that are no number, truth value or word, and what `seconds` stands for."""
+"""Quantities that are no number, truth value or word, that all cases share, or are `seconds`."""
 
 
 def film_columns(name: str) -> tuple[str, str]:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pyehl import library, namelist
+from pyehl import library, namelist, schema
 from pyehl.errors import EhlError, InputError
 from pyehl.handle import SolverHandle
 from pyehl.prediction.smooth import SmoothContact, solve_contact
@@ -74,6 +74,17 @@ class Fit:
     def residual_rms(self) -> float:
         """Root mean square of fitted less measured mu [-]."""
         return float(np.sqrt(np.mean((self.fitted - self.measured) ** 2)))
+
+    @property
+    def summary(self) -> dict[str, Any]:
+        """What ``summary.json`` holds."""
+        return {
+            "kind": "fit",
+            "schema_version": schema.VERSION,
+            "shear_law": self.law,
+            "residual_rms": self.residual_rms,
+            "points": self.points,
+        }
 
     @property
     def group(self) -> str:

@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 import pyehl
 from pyehl import library, schema
@@ -110,6 +111,24 @@ def test_film_sheets():
     for text in (*(f"&surface kind = '{k}' /" for k in ("smooth", "harmonic", "fractal")), ellipse):
         written |= set(sheet(pyehl.Case.from_text(text).resolve()))
     assert written == names("film")
+
+
+def test_both_drivers_write_the_version_of_the_schema(drive, tmp_path: Path):
+    (tmp_path / "case.nml").write_text(MOES)
+    summaries = []
+    for driver in ("ehl", "pyehl"):
+        assert drive(driver, "case.nml", "-o", driver).returncode == 0
+        text = (tmp_path / driver / "summary.json").read_text()
+        values = json.loads(text)
+        assert list(values)[:2] == ["kind", "schema_version"]
+        summaries.append({k: v for k, v in values.items() if k != "wall_seconds"})
+    assert summaries[0] == summaries[1]
+    assert summaries[0]["schema_version"] == schema.VERSION
+    (tmp_path / "pyehl" / "summary.json").write_text(
+        text.replace(f'"schema_version": {schema.VERSION}', '"schema_version": 99')
+    )
+    with pytest.raises(pyehl.InputError, match="results of schema 99"):
+        pyehl.load(tmp_path / "pyehl")
 
 
 def test_reference_has_the_table(root: Path):
