@@ -34,6 +34,14 @@ contains
          known = ieee_is_finite(summary%number(name))
       end function known
 
+      !> Behind a value with its error: what the error is of; nothing where it is not known
+      function of(source, error)
+         character(len=*), intent(in) :: source, error
+         character(len=:), allocatable :: of
+         of = ""
+         if (known(error)) of = " ("//source//")"
+      end function of
+
       !> Central or minimum film
       function film(which, more)
          character(len=*), intent(in) :: which, more
@@ -50,9 +58,13 @@ contains
             film = "H_"//which//repeat(" ", 9 - len(which))// &
                    with_error(summary%number("H_"//which), summary%number("H_"//which//"_error"), "f10.6", "")
             if (in_metres /= "") film = film//", h_"//which//" "//in_metres
-            if (summary%text("error_estimate") == "a priori") film = film//" (error a priori)"
+            if (summary%text("error_estimate") == "a priori") then
+               film = film//" (grid, a priori)"
+            else
+               film = film//of("grid", "H_"//which//"_error")
+            end if
          else if (in_metres /= "") then
-            film = "h_"//which//repeat(" ", 9 - len(which))//in_metres//", smooth contact"
+            film = "h_"//which//repeat(" ", 9 - len(which))//in_metres//of("grid", "h_"//which//"_error_m")//", smooth contact"
          end if
          if (film /= "") film = film//more//newline
       end function film
@@ -65,7 +77,7 @@ contains
          if (known("h_min_rough_m")) then
             rough_film = "; rough "//fixed(summary%number("h_min_rough_m")*nanometres, "f10.2")//" nm"
             if (known("h_min_rough_error_m")) rough_film = "; rough "//with_error(summary%number("h_min_rough_m")*nanometres, &
-               summary%number("h_min_rough_error_m")*nanometres, "f10.2", " nm")
+               summary%number("h_min_rough_error_m")*nanometres, "f10.2", " nm")//of("model", "h_min_rough_error_m")
          else if (known("H_min_rough")) then
             rough_film = "; rough "//fixed(summary%number("H_min_rough"), "f10.6")
          end if
@@ -77,7 +89,8 @@ contains
 
          pressure = ""
          if (known("P_max")) then
-            pressure = "p_max      "//with_error(summary%number("P_max"), summary%number("P_max_error"), "f10.4", " p_h")
+            pressure = "p_max      "//with_error(summary%number("P_max"), summary%number("P_max_error"), "f10.4", " p_h")// &
+                       of("grid", "P_max_error")
             if (known("p_max_Pa")) pressure = pressure//", "//giga("p_max_Pa")
             if (known("p_max_rough_Pa")) then
                pressure = pressure//"; rough "//giga("p_max_rough_Pa")
@@ -93,7 +106,7 @@ contains
          ! of a prediction
          if (known("p_rise_max_Pa")) then
             rise = with_error(summary%number("p_rise_max_Pa")*gigapascals, summary%number("p_rise_max_error_Pa")*gigapascals, &
-                              "f10.4", " GPa above the smooth contact")
+                              "f10.4", " GPa above the smooth contact")//of("model", "p_rise_max_error_Pa")
             if (pressure == "") pressure = "p_max      not known"
             pressure = pressure//merge("; rough ", ", up to ", known("p_max_Pa") .and. .not. known("p_max_rough_Pa"))//rise
          end if
@@ -117,16 +130,24 @@ contains
                   fixed(summary%number("lambda_ratio_central"), "f9.3")//"), smooth films over undeformed roughness"//newline
       end function lambda
 
-      !> Friction ratio, and why its error is not known
+      !> Friction ratio, and why its error is not known; of a prediction first the mean over the tracks of the surface
       function ratio()
          character(len=:), allocatable :: ratio
-         real(dp) :: error
+         character(len=:), allocatable :: error, source
 
          ratio = ""
          if (.not. known("mu_ratio")) return
-         error = summary%number("mu_ratio_error")
-         if (summary%has("mu_ratio_model_error")) error = summary%number("mu_ratio_model_error")
-         ratio = "mu_r/mu_s  "//with_error(summary%number("mu_ratio"), error, "f9.5", "")
+         error = "mu_ratio_error"
+         source = "grid"
+         if (summary%has("mu_ratio_model_error")) then
+            error = "mu_ratio_model_error"
+            source = "model"
+         end if
+         ratio = with_error(summary%number("mu_ratio"), summary%number(error), "f9.5", "")//of(source, error)
+         if (known("mu_ratio_tracks") .and. summary%number("tracks") > 1.5_dp) ratio = &
+            with_error(summary%number("mu_ratio_tracks"), summary%number("mu_ratio_tracks_spread"), "f9.5", "", 3)// &
+            " (mean and scatter over "//to_text(nint(summary%number("tracks")))//" tracks); on the track of the case "//ratio
+         ratio = "mu_r/mu_s  "//ratio
          if (summary%text("mu_ratio_error_note") /= "") ratio = ratio//": "//summary%text("mu_ratio_error_note")
          ratio = ratio//newline
       end function ratio
@@ -182,11 +203,13 @@ contains
       end select
    end function resumption
 
-   !> A value with its error to two digits, and as many digits itself: '1.185 +- 0.048', '2.6435E-06 +- 5.5E-09'
-   function with_error(value, error, plain, unit) result(text)
+   !> A value with its error to two digits, or to so many, and as many digits itself: '1.185 +- 0.048',
+   !> '2.6435E-06 +- 5.5E-09'
+   function with_error(value, error, plain, unit, digits) result(text)
       real(dp), intent(in) :: value, error
       !> Edit descriptor of a value whose error is not known
       character(len=*), intent(in) :: plain, unit
+      integer, intent(in), optional :: digits
       character(len=:), allocatable :: text
       character(len=:), allocatable :: form
       !> Values below that have an exponent
@@ -197,7 +220,9 @@ contains
          text = fixed(value, plain)//unit//", error not known"
          return
       end if
-      decimals = max(0, 1 - floor(log10(max(abs(error), 1.0e-9_dp*abs(value), tiny(error)))))
+      decimals = 1
+      if (present(digits)) decimals = digits - 1
+      decimals = max(0, decimals - floor(log10(max(abs(error), 1.0e-9_dp*abs(value), tiny(error)))))
       if (abs(value) < small .and. abs(value) > 0.0_dp) then
          form = "es24."//to_text(min(15, max(1, decimals + floor(log10(abs(value))))))
          text = in_form(value, form)//" +- "//in_form(error, "es8.1")//unit

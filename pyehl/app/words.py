@@ -65,7 +65,9 @@ def _film(s: Mapping[str, float], small: str, big: str, scale: float, *, converg
     if not converged:
         return "no solution"
     error = s[f"{big}_error"]
-    return with_error(s[f"{small}_m"] * NM, None if error is None else error * scale * NM, "nm")
+    if error is None:
+        return with_error(s[f"{small}_m"] * NM, None, "nm")
+    return f"{with_error(s[f'{small}_m'] * NM, error * scale * NM, 'nm')} (grid)"
 
 
 def rough_rows(found: Rough, film: Film | None = None) -> list[tuple[str, str]]:
@@ -78,12 +80,14 @@ def rough_rows(found: Rough, film: Film | None = None) -> list[tuple[str, str]]:
     if p.friction.status == "predicted" and not math.isfinite(p.mu_ratio):
         rows.append(("μ_r/μ_s", f"not known: {p.why_no_error}"))
     elif p.friction.status == "predicted":
-        error = p.model_error if math.isfinite(p.model_error) else None
-        rows.append(("μ_r/μ_s", with_error(p.mu_ratio, error)))
-        rows.append(("over the passage", f"{s['mu_ratio_min']:.4g} … {s['mu_ratio_max']:.4g}"))
         if math.isfinite(p.tracks[0]):
-            rows.append((f"over {p.track_count} tracks", with_error(*p.tracks)))
-        if error is None:
+            name = f"μ_r/μ_s, mean and scatter of {p.track_count} tracks"
+            rows.append((name, with_error(*p.tracks)))
+        known = math.isfinite(p.model_error)
+        track = with_error(p.mu_ratio, p.model_error if known else None)
+        rows.append(("μ_r/μ_s of one track", f"{track} (model)" if known else track))
+        rows.append(("over the passage", f"{s['mu_ratio_min']:.4g} … {s['mu_ratio_max']:.4g}"))
+        if not known:
             rows.append(("error of the model", "not known"))
     else:
         rows.append(("no prediction", f"{p.friction.status}: {p.friction.message}"))

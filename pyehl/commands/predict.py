@@ -29,13 +29,10 @@ def report(prediction: Prediction) -> str:
     lines.append(f"model      {_model(prediction)}")
     if f.status == "predicted":
         lines += _deformed(values)
-        mean, spread = prediction.tracks
-        over = f"; {mean:.3f} +- {spread:.3f} over {prediction.track_count} tracks"
         ratio = f"mu_r/mu_s from {f.mu_ratio_min:.3f} to {f.mu_ratio_max:.3f}"
         lines += [
             f"passage    {ratio if math.isfinite(f.mu_ratio) else values['mu_ratio_error_note']}"
-            f"{over if math.isfinite(mean) else ''}   "
-            f"[{f.passage.size} positions, {prediction.seconds * 1e3:.0f} ms]",
+            f"   [{f.passage.size} positions, {prediction.seconds * 1e3:.0f} ms]",
             f"           {values['note']}",
         ]
         if values["mu"] is not None:
@@ -88,8 +85,8 @@ def _deformed(values: Mapping[str, Any]) -> list[str]:
             f"{lengths.length(values['film_limit_m'], 4)}"
         )
     return [
-        f"deformed   {', '.join(surface)}",
-        *(f"           {', '.join(film)}" for _ in film[:1]),
+        f"deformed   {', '.join(surface)} (model)",
+        *(f"           {', '.join(film)} (model)" for _ in film[:1]),
     ]
 
 

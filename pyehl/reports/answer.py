@@ -68,10 +68,8 @@ def _solved(s: Values) -> dict[str, str]:
 
 
 def _predicted(s: Values) -> dict[str, str]:
-    tracks = with_error(s["mu_ratio_tracks"], s["mu_ratio_tracks_spread"])
     heights = f"{s['rms_height_m'] * NM:.4g} nm, in the contact {s['rms_deformed_m'] * NM:.4g} nm"
     return {
-        "over the tracks": f"{tracks} (spread of {s['tracks']} tracks)",
         "smooth contact": str(s["h_c_source"]),
         "rms height": heights,
     }

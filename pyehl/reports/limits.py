@@ -61,8 +61,8 @@ def limits(settings: Settings, summary: Values) -> list[str]:
         )
     if rough:
         found.append(
-            "μ_r/μ_s is that of one scan line of this surface at this slip. Between scan lines "
-            "of one surface it scatters by about 10 %."
+            "μ_r/μ_s on the track of the case is that of one track of this surface at this slip. "
+            "Between tracks of one surface it scatters by about 10 %."
         )
     if len(rough) == 1 and str(settings[rough[0]]["kind"]) in FEATURES:
         found[-1] = "μ_r/μ_s is the mean over one passage of the feature."

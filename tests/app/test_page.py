@@ -85,7 +85,7 @@ def test_surface_is_predicted(tab):
     case = pyehl.Case.from_text(tab.get("case", "value"))
     prediction = pyehl.predict(case)
     error = prediction.model_error
-    assert rows["μ_r/μ_s"] == f"{prediction.mu_ratio:.3f} ± {error:.3f}"
+    assert rows["μ_r/μ_s of one track"] == f"{prediction.mu_ratio:.3f} ± {error:.3f} (model)"
     assert "Λ" in tab.words("rough")
 
 
@@ -117,7 +117,7 @@ def test_map_is_taken_or_refused_in_the_words_of_its_reader(tab, page, tmp_path)
     rows = rows_of(tab, "rough")
     (tmp_path / "case.nml").write_text(text)
     prediction = pyehl.predict(tmp_path / "case.nml")
-    assert rows["μ_r/μ_s"].startswith(f"{prediction.mu_ratio:.3f} ±")
+    assert rows["μ_r/μ_s of one track"].startswith(f"{prediction.mu_ratio:.3f} ±")
     # where the map lies is nowhere on the page
     everything = json.dumps(page.document.to_json(), default=str)
     place = Path(page.uploads.files["ground.npy"]).parent.parent

@@ -121,7 +121,12 @@ def test_numbers_are_those_of_the_result(folders, tmp_path):
     prediction = json.loads((folders / "prediction/summary.json").read_text())
     page = read(pyehl.report(folders / "prediction", tmp_path / "other.html"))
     ratio = with_error(prediction["mu_ratio"], prediction["mu_ratio_model_error"])
-    assert f"{ratio}; between {prediction['mu_ratio_min']:.4g}" in page.text
+    # what each ± is, the mean over the tracks of the surface first
+    assert (
+        "1.324 ± 0.134 (mean and scatter over 8 tracks); on the track of the case 1.540"
+        in page.text
+    )
+    assert f"{ratio} (model); between {prediction['mu_ratio_min']:.4g}" in page.text
 
 
 def test_the_case_in_it_can_be_run(folders, tmp_path, root):
@@ -196,7 +201,7 @@ def test_a_page_for_a_measured_response(tmp_path, root):
     assert len(found.pictures) == 1
     assert "Take with care. 12 waves; they differ from the shipped response by 0.021" in found.text
     assert "Film and pressure are isothermal" in found.text
-    assert "scan line" not in found.text
+    assert "one track" not in found.text
     (folder / "case.nml").unlink()
     with pytest.raises(pyehl.FileError, match=r"case\.nml.*cannot be read"):
         pyehl.report(folder)
@@ -347,7 +352,7 @@ def test_limits_that_apply(root):
     settings = pyehl.Case(root / "cases/table1.nml").resolve()
     told = " ".join(limits(settings, {"kind": "prediction"}))
     assert "Newtonian" in told
-    assert "one scan line" in told
+    assert "one track" in told
     thinning = pyehl.Case(root / "cases/table1.nml", "lubricant.shear_law=eyring").resolve()
     plain = {**thinning, "lubricant": {**thinning["lubricant"], "flow": "newtonian"}}
     for kind in ("prediction", "solution"):

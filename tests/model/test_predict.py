@@ -40,7 +40,13 @@ def test_summary_says_what_was_done(settings):
     assert "no absolute coefficient" in summary["note"]
     assert 0.0 < summary["wall_seconds"] < 5.0
     assert sum(b["rise"] for b in summary["bands"]) == pytest.approx(summary["mu_ratio"] - 1)
-    for word in ("mu_r/mu_s  1.25", "positions", "ms", "seed 1", "no absolute coefficient"):
+    for word in (
+        "on the track of the case 1.25",
+        "positions",
+        "ms",
+        "seed 1",
+        "no absolute coefficient",
+    ):
         assert word in predict_command.report(result)
 
 
