@@ -263,7 +263,9 @@ def test_friction_of_both_oils_in_the_readme(root: Path):
     case = root / "cases/table1.nml"
     newtonian = pyehl.predict(case).summary
     ratio, error = newtonian["mu_ratio"], newtonian["mu_ratio_model_error"]
-    assert f"is {ratio:.3f} ± {error:.3f} times that of smooth surfaces" in text
+    mean, scatter = newtonian["mu_ratio_tracks"], newtonian["mu_ratio_tracks_spread"]
+    assert f"is {mean:.3f} ± {scatter:.3f} times that of smooth surfaces (mean and scatter" in text
+    assert f"on the track of the case it is {ratio:.3f} ± {error:.3f} times (error of the" in text
     summary = pyehl.predict(case, {"lubricant.shear_law": "eyring"}).summary
     assert f"coefficient of friction is {summary['mu']:.4f}" in text
     assert f"the roughness adds {100.0 * (summary['mu_ratio'] - 1.0):.1f} % to it" in text
