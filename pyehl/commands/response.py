@@ -10,6 +10,7 @@ from pyehl.commands.arguments import add_case_arguments, add_force
 from pyehl.commands.watching import Bar
 from pyehl.measured_response.folder import response
 from pyehl.measured_response.measurement import TIERS
+from pyehl.schema import summary_of
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -48,7 +49,7 @@ def execute(args: argparse.Namespace) -> int:
         bar.show(sum(done.values()), f"{name}: step {step} of {total}")
 
     try:
-        summary = response(
+        data = response(
             args.case,
             args.overrides,
             output=args.output,
@@ -56,11 +57,12 @@ def execute(args: argparse.Namespace) -> int:
             quick=args.quick,
             second=args.second,
             progress=show,
-        ).attrs
+        )
     finally:
         bar.close()
+    summary = summary_of(data)
     print(
-        f"response    {summary['waves']} waves at M = {summary['moes_m']:.4g}, "
+        f"response    {data.sizes['wave']} waves at M = {summary['moes_m']:.4g}, "
         f"L = {summary['moes_l']:.4g}, velocity ratio {ratio:g}   "
         f"[{time.perf_counter() - began:.0f} s]"
     )

@@ -90,7 +90,9 @@ def over(
         for a in axes:
             about = {"key": a.key, "units": "1"}
             if known := of_keys.get(a.key):
-                about |= {"units": known.unit or "1", "long_name": known.meaning}
+                about["long_name"] = known.meaning
+                if known.unit not in ("", "-"):
+                    about["units"] = known.unit
             coords[called[a.key]] = xr.Variable((name,), np.array(a.values, dtype=kind), about)
     variables = {}
     for name, column in found.items():

@@ -11,6 +11,7 @@ import pytest
 import pyehl
 from pyehl import library
 from pyehl.app.position import from_case
+from pyehl.case import trusted
 from pyehl.handle import SolverHandle
 from pyehl.prediction.smooth import solve_contact
 from pyehl.prediction.smooth_case import OF_RUN, smooth_case
@@ -224,9 +225,7 @@ def test_curves_and_fits_keep_every_key(key: str, tmp_path: Path):
         return
     speed = contact["mean_velocity"]
     plan = plan_curve(case, [axis("contact.mean_velocity", [speed])])
-    smooth, predicted = (
-        pyehl.Case.resolved(task.text).resolve() for task in (plan.tasks[0], plan.tasks[1])
-    )
+    smooth, predicted = (trusted(task.text).resolve() for task in (plan.tasks[0], plan.tasks[1]))
     assert predicted[group][name] == wanted
     assert smooth[group][name] == wanted
 
