@@ -27,6 +27,8 @@ module ehl_case_contact
    integer, parameter :: fewest_rows = 8, few_rows = 32
    !> Least and largest ratio of the sides of a cell
    real(dp), parameter :: least_ratio = 0.25_dp, largest_ratio = 1.41_dp
+   !> Largest M of a round contact with the same equations
+   real(dp), parameter :: most_m = 1.0e5_dp
    !> Least p_h/E' of a contact that can be meant: 0.1 MPa between steel bodies
    real(dp), parameter :: least_strain = 4.0e-7_dp
    !> Difference of velocity ratios that is none
@@ -59,13 +61,18 @@ contains
       real(dp) :: least
       character(len=:), allocatable :: what, expected
 
+      call find_contact(input, contact, scales, point)
       if (.not. input%contact%si) then
+         if (point%round_m > most_m) then
+            call schema%refuse("contact.moes_m", "the Moes parameter M of the round contact with the same equations is "// &
+                               short(point%round_m), "a moes_m that makes it 1e5 at most", status)
+            return
+         end if
          if (input%lubricant%pressure_viscosity > 0.0_dp .or. .not. input%contact%moes_l > 0.0_dp) return
          call schema%contradict("lubricant.pressure_viscosity", "contact.moes_l", &
                                 "moes_l = 0.0, or a pressure_viscosity above 0", status)
          return
       end if
-      call find_contact(input, contact, scales, point)
       what = ""
       expected = ""
       least = least_strain*input%contact%reduced_modulus
@@ -75,9 +82,9 @@ contains
       else if (scales%length > input%contact%radius_x) then
          what = "the Hertz radius " // short(scales%length) // " m exceeds that of the ball"
          expected = "values in SI units with a contact much smaller than the ball"
-      else if (point%moes_m > 1.0e5_dp .or. point%moes_m < 0.1_dp) then
+      else if (point%round_m > most_m .or. point%moes_m < 0.1_dp) then
          what = "the Moes parameter M is " // short(point%moes_m)
-         expected = "values in SI units with M between 0.1 and 1e5"
+         expected = "values in SI units with M between 0.1 and 1e5 (that of the round contact with the same equations)"
       else if (point%moes_l > 100.0_dp) then
          what = "the Moes parameter L is " // short(point%moes_l)
          expected = "values in SI units with L of 100 at most"
@@ -207,7 +214,7 @@ contains
    end function rows
 
    !> Side of a cell along Y over that along X: cells longer along the longer axis reach the same error with fewer nodes, as
-   !> long as multigrid converges as on square ones
+   !> long as multigrid converges as on square ones.
    pure real(dp) function cell_ratio(elongation)
       real(dp), intent(in) :: elongation
       cell_ratio = min(largest_ratio, max(least_ratio, elongation))

@@ -20,7 +20,7 @@ contains
 
       self%group = "contact"
       associate (c => input%contact)
-         call self%reals("moes_m", c%moes_m, "-", "(0, 1e5]", "Moes load parameter M")
+         call self%reals("moes_m", c%moes_m, "-", "(0, 1e6]", "Moes load parameter M")
          call self%reals("moes_l", c%moes_l, "-", "[0, 100]", "Moes material parameter L")
          call self%reals("radius_ratio", c%radius_ratio, "-", "[0.004, 250]", &
                          "R_x/R_y of an elliptical contact, whose M and L are by R_x; 1: round")
@@ -120,7 +120,7 @@ contains
          call self%reals("y_extent", g%y_extent, "a", "[0.03, 1e4]", &
                          "side boundaries Y = -y_extent and y_extent; default by M, L and the ellipse")
          call self%words("border", g%border, "flooded|zero", &
-                         "pressure of a flooded contact, or P = 0; default by M: the former below 500")
+                         "pressure of a flooded contact, or P = 0; default: the former below M = 500 and from kappa = 4 on")
          call self%reals("target_error", g%target_error, "-", "0 or [1e-5, 0.1]", &
                          "relative error of H_c wanted; 0: solve on points as given")
          call self%integers("max_points", g%max_points, "[17, 8193]", "most nodes per side that target_error may choose")

@@ -44,9 +44,9 @@ module ehl_domain
    real(dp), parameter :: of_inlet = 0.46_dp, of_sides = 0.06_dp, of_sides_at_minimum = 0.15_dp, &
                           thin_film = 0.06_dp, thin_power = 0.25_dp
    !> Decay of what the sides of a wide contact cost with their distance from its ends, in half lengths along the motion, over
-   !> that around a round contact: at kappa = 1.5 to 16 and 1.07 to 2 half widths the changes fall with 1.2 at the least
-   !> (docs/evidence/machines)
-   real(dp), parameter :: end_decay = 1.2_dp
+   !> that around a round contact: at kappa = 1.5 to 16 and 1.07 to 2 half widths the changes fall with 1.2 at the least in thin
+   !> films (docs/evidence/machines); none in films from which on nothing is known of it
+   real(dp), parameter :: end_decay = 1.2_dp, thick_for_decay = 0.2_dp
    !> Load beyond inlet and sides, over lambda_bar; least sensitivity of the film to load around M = 5, where the film
    !> formula has none and the elastic dent counts
    real(dp), parameter :: load_beyond_inlet = 1.0_dp, load_beyond_sides = 0.25_dp, least_sensitivity = 0.5_dp, &
@@ -140,7 +140,9 @@ contains
             inlet = pressure_gain(-domain%inlet/contact%reach(1), film)/whole
             sides = pressure_gain(side, film)/whole
             wide = contact%reach(2)/contact%reach(1)
-            if (wide > 1.0_dp .and. side > 1.0_dp) sides = sides*exp(-end_decay*(wide - 1.0_dp)*(side - 1.0_dp))
+            if (wide > 1.0_dp .and. side > 1.0_dp) then
+               sides = sides*exp(-end_decay*max(0.0_dp, 1.0_dp - film/thick_for_decay)*(wide - 1.0_dp)*(side - 1.0_dp))
+            end if
             load = lambda_bar*(load_beyond_inlet/abs(domain%inlet) + load_beyond_sides/side)
             cost(1) = of_inlet*max(1.0_dp, (thin_film/film)**thin_power)*inlet + of_sides*sides &
                       + load*max(sensitivity(contact, point), least_sensitivity*min(1.0_dp, (dented_below/point%round_m)**6))

@@ -8,13 +8,13 @@ submodule (ehl_steady) ehl_steady_guard
    !> Cycles of a level that leave more than this share of the residual stall, after so many
    real(dp), parameter :: stalled = 0.6_dp
    integer, parameter :: stalls_after = 5
+   !> Residual over that before a cycle from which on it is taken back, above the residual of a solution
+   real(dp), parameter :: most_growth = 1.2_dp
 
 contains
 
    module procedure begin_guard
-      associate (lasting => self%guard%lasting)
-         self%guard = guard_t(damping=lasting, lasting=lasting)
-      end associate
+      self%guard = guard_t()
       call self%mixing%finish()
    end procedure begin_guard
 
@@ -33,13 +33,16 @@ contains
    end procedure keep_state
 
    module procedure guard_cycle
+      real(dp) :: most
       logical :: lost
 
       if (status%failed()) return
       associate (guard => self%guard)
          guard%since = guard%since + 1
          lost = any(self%state == [outcome_diverged, outcome_negative_film])
-         if (self%state == outcome_running) lost = self%residual > most_residual*max(1.0_dp, guard%residual_kept)
+         most = most_residual
+         if (guard%residual_kept > 0.0_dp) most = max(residual_tolerance, most_growth*guard%residual_kept)
+         if (self%state == outcome_running) lost = self%residual > most
          if (.not. lost) guard%residual_kept = self%residual
          if (lost) then
             if (guard%damping == most_damping .or. self%cycles >= self%max_cycles) return

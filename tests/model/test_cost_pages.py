@@ -120,7 +120,7 @@ def speed(read: Read) -> Iterator[str]:
         if row["case"] in ("circle", "ellipse") and row["points"] == "257"
     }
     assert ends["circle"] - ends["ellipse"] == 1
-    yield "which needs a cycle less on 257 nodes"
+    yield "which needed a cycle less on 257 nodes"
 
 
 def coarse_film(read: Read) -> Iterator[str]:

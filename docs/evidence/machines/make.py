@@ -8,6 +8,7 @@ pyehl bench machines --seed 4 --count 16 --fine -o seed4.json
 python docs/evidence/machines/make.py read seed1.json seed2.json seed3.json \
     seed4.json
 python docs/evidence/machines/make.py sides    sides.csv
+python docs/evidence/machines/make.py border   border.csv
 python docs/evidence/machines/make.py show     prints the tables as the documents have them
 """
 
@@ -52,6 +53,24 @@ SIDES = (
     "border",
     *("H_c", "H_min", "H_c_further", "H_min_further", "H_c_square", "H_min_square"),
     *("H_c_error_domain", "H_min_error_domain", "seconds", "seconds_further", "seconds_square"),
+)
+
+# Domains of one mesh, 257 nodes on 4 a: border, inlet [a], sides over the half width; the first
+# one is the limit
+DOMAINS = (
+    ("flooded", -4.5, 2.0),
+    ("flooded", -2.5, 1.6),
+    ("zero", -2.5, 1.6),
+    ("zero", -4.5, 1.15),
+    ("zero", -4.5, 1.3),
+    ("zero", -4.5, 1.6),
+    ("zero", -4.5, 2.0),
+)
+BORDER_KAPPA = (1.5, 2.2, 4.0, 8.0, 16.0)
+BORDER_POINTS = ((700.0, 2.0), (2000.0, 1.0), (2000.0, 12.0), (10000.0, 8.0))
+BORDER = (
+    *("ellipticity", "moes_m", "moes_l", "border", "x_inlet", "y_extent", "points", "points_y"),
+    *("status", "H_c", "H_min", "H_c_error_domain", "H_min_error_domain"),
 )
 
 Row = dict[str, Any]
@@ -124,6 +143,44 @@ def measure_sides() -> None:
     write("sides.csv", SIDES, rows)
 
 
+def measure_border() -> None:
+    """Solve wide contacts of M above 500 with either border on domains of several sizes."""
+    rows = []
+    mesh = 4.0 / 256
+    for kappa in BORDER_KAPPA:
+        for moes_m, moes_l in BORDER_POINTS:
+            for border, inlet, sides in DOMAINS:
+                across = 32 * max(1, round(2.0 * sides * kappa / (1.35 * mesh) / 32))
+                keys = {"contact.radius_ratio": radius_ratio(kappa), "contact.moes_m": moes_m}
+                keys |= {"contact.moes_l": moes_l, "grid.border": border, "grid.x_inlet": inlet}
+                keys |= {"grid.x_outlet": 1.5, "grid.y_extent": 0.5 * across * 1.35 * mesh}
+                points = round((1.5 - inlet) / mesh) + 1
+                keys |= {"grid.points": points, "grid.points_y": across + 1}
+                found = timed(keys | SETTINGS | {"solver.accuracy": ACCURACY})
+                rows.append(found | {key.partition(".")[2]: keys[key] for key in keys})
+                rows[-1]["ellipticity"] = kappa
+    write("border.csv", BORDER, rows)
+
+
+def by_border() -> list[str]:
+    """Table of docs/theory/border.md: changes of H_c against the limit, and what is stated."""
+    lines = ["| κ | P = 0 | stated | flooded border | stated |", "|---|---|---|---|---|"]
+    groups: dict[float, dict[str, list[tuple[float, float]]]] = {}
+    limit = math.nan
+    for row in read("border.csv"):
+        first = (row["border"], row["x_inlet"]) == DOMAINS[0][:2]
+        if first:
+            limit = row["H_c"]
+        elif row["x_inlet"] == -2.5:
+            of = groups.setdefault(row["ellipticity"], {}).setdefault(row["border"], [])
+            of.append((row["H_c"] / limit - 1.0, row["H_c_error_domain"] / row["H_c"]))
+    for kappa, of in groups.items():
+        worst = [max(of[name], key=lambda pair: abs(pair[0])) for name in ("zero", "flooded")]
+        cells = [f"{100.0 * change:+.2f} % | {100.0 * stated:.2f} %" for change, stated in worst]
+        lines.append(f"| {kappa:g} | {' | '.join(cells)} |")
+    return lines
+
+
 def robustness() -> list[str]:
     """Table of docs/robustness.md."""
     lines = [
@@ -177,14 +234,17 @@ def _percent(value: float, other: float) -> str:
     return f"{100.0 * (other / value - 1.0):+.3f} %"
 
 
+MEASURE = {"sides": measure_sides, "border": measure_border}
+
+
 def main(words: list[str]) -> None:
     """Do what is asked for."""
     if words[0] == "read":
         collect(words[1:])
-    elif words[0] == "sides":
-        measure_sides()
+    elif words[0] in MEASURE:
+        MEASURE[words[0]]()
     else:
-        print("\n".join([*robustness(), "", *speed(), "", *sides()]))
+        print("\n\n".join("\n".join(f()) for f in (robustness, speed, sides, by_border)))
 
 
 if __name__ == "__main__":
