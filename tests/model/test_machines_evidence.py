@@ -6,7 +6,6 @@ from pathlib import Path
 
 import pytest
 
-import pyehl
 from pyehl.bench.machines import KINDS, covered, draw, summary
 
 
