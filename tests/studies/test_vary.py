@@ -80,7 +80,9 @@ def test_options_are_as_a_case_file_has_them():
     assert axis("a.b", """'', 'it''s', " x" """).values == ("", "it's", " x")
 
 
-@pytest.mark.parametrize("text", ["", " x", " x ", "Height ", "'q'", '"', "it's", "a,b!/", "\t", "'"])
+@pytest.mark.parametrize(
+    "text", ["", " x", " x ", "Height ", "'q'", '"', "it's", "a,b!/", "\t", "'"]
+)
 def test_options_keep_quotes_blanks_and_emptiness(text: str):
     case = pyehl.Case(surface={"channel": text})
     for made in (
