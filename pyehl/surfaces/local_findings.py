@@ -156,7 +156,7 @@ def _raised(z: Array) -> tuple[Mask, float]:
 
 
 def _specks(z: Array) -> tuple[list[_Speck], float]:
-    """Groups of raised pixels that are high enough and not long, highest first; the spread [m]."""
+    """Group raised pixels that are high enough and not long, highest first; the spread [m]."""
     raised, spread = _raised(z)
     if not raised.any() or raised.mean() > MOST_DUST:
         return [], spread

@@ -10,7 +10,7 @@ import scipy.io
 
 from pyehl import cli
 from pyehl.errors import InputError, NoMemoryError
-from pyehl.surfaces import Options, prepare, read_scan, reading
+from pyehl.surfaces import Options, prepare, read_scan
 
 pytest.importorskip("SurfaceTopography")
 import h5py
