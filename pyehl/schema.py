@@ -171,7 +171,7 @@ sp | boundary_film | a^2/R | film at ambient pressure at which bodies touch
 sp | contact_load_share | - | share of the load where they touch: a mean, as mu_ratio
 sp | contact_load_share_error | - | its error: the sum of its parts; of a prediction by the film
 s | contact_load_share_error_grid | - | part of it from the grid, by two grids
-s | contact_load_share_error_stop | - | part of it from the end of a mean over time; else 0
+s | contact_load_share_error_stop | - | part of it from the end of a mean over time, or of cycles
 sp | contact_load_share_error_note | | why it is not known; else empty
 sp | contact_area_share | - | area where they touch over that of the dry contact
 p | contact_area_share_error | - | estimate of its error

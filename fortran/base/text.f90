@@ -106,7 +106,7 @@ contains
       integer :: i
 
       answer = "'"
-      do i = 1, len_trim(text)
+      do i = 1, len(text)
          answer = answer // text(i:i)
          if (text(i:i) == "'") answer = answer // "'"
       end do

@@ -30,6 +30,9 @@ contains
          call status%fail(ehl_file, path // ": error: this is a folder, not a file")
       else if (.not. is_file(path)) then
          call status%fail(ehl_file, path // ": error: this is a device or a pipe, not a file")
+      else if (len_trim(path) < len(path)) then
+         ! open takes blanks away, and would find another file
+         call status%fail(ehl_file, "'"//path//"': error: the name ends with a blank; files of such names are not read here")
       end if
       if (status%failed()) return
       open (newunit=lun, file=path, status="old", action="read", access="stream", &

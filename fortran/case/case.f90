@@ -5,12 +5,22 @@ module ehl_case
    use ehl_viscosity_table, only: isotherm_t
    implicit none (type, external)
    private
-   public :: case_t, contact_case_t, lubricant_case_t, surface_case_t, is_feature, has_no_height, word_length, path_length
+   public :: case_t, contact_case_t, lubricant_case_t, surface_case_t, text_case_t, is_feature, has_no_height, word_length, &
+             path_length
 
    !> Longest option word
    integer, parameter :: word_length = 32
    !> Longest file name
    integer, parameter :: path_length = 1024
+
+   !> A file name or any other text, whose end may be blanks
+   type :: text_case_t
+      character(len=path_length), private :: padded = ""
+      integer, private :: length = 0
+   contains
+      procedure :: set
+      procedure :: text
+   end type text_case_t
 
    ! Units, allowed values and meaning of the keys are in ehl_keys. A zero that is allowed there stands for "not given".
 
@@ -59,7 +69,7 @@ module ehl_case
       !> An oil whose constants are known; they rule where their keys are not given
       character(len=word_length) :: name = ""
       !> Measured viscosities; made absolute by the reader
-      character(len=path_length) :: table = ""
+      type(text_case_t) :: table
       !> What it holds, read once. Not a key; set by the reader.
       type(isotherm_t), allocatable :: isotherms(:)
       real(dp) :: viscosity = 0.04_dp
@@ -130,8 +140,8 @@ module ehl_case
       real(dp) :: velocity_ratio = 1.01_dp
       real(dp) :: x_start = -2.5_dp
       !> Made absolute by the reader. .npy files are read here, the rest by pyehl.
-      character(len=path_length) :: file = ""
-      character(len=path_length) :: channel = ""
+      type(text_case_t) :: file
+      type(text_case_t) :: channel
       !> Of a fractal surface set by the reader
       real(dp) :: length_x = 0.0_dp, length_y = 0.0_dp
       real(dp) :: crop_x_min = 0.0_dp, crop_x_max = 0.0_dp, crop_y_min = 0.0_dp, crop_y_max = 0.0_dp
@@ -222,6 +232,22 @@ module ehl_case
    end type case_t
 
 contains
+
+   !> Take a text of at most path_length characters
+   pure subroutine set(self, text)
+      class(text_case_t), intent(inout) :: self
+      character(len=*), intent(in) :: text
+
+      self%padded = text
+      self%length = len(text)
+   end subroutine set
+
+   !> The text as it was given
+   pure function text(self)
+      class(text_case_t), intent(in) :: self
+      character(len=self%length) :: text
+      text = self%padded(:self%length)
+   end function text
 
    !> Whether a kind of surface is a single feature
    pure logical function is_feature(kind)

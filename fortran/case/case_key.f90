@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> A key of a case file: what it takes, what it means, and where its value lives
 module ehl_case_key
-   use ehl_case, only: path_length, word_length
+   use ehl_case, only: text_case_t, word_length
    use ehl_kinds, only: dp
    use ehl_text, only: quoted, to_text
    implicit none (type, external)
@@ -36,7 +36,7 @@ module ehl_case_key
       integer, pointer :: integer_value => null()
       logical, pointer :: logical_value => null()
       character(len=word_length), pointer :: word_value => null()
-      character(len=path_length), pointer :: path_value => null()
+      type(text_case_t), pointer :: text_value => null()
       !> Whether the input says that nobody gave it; whether an option replaces what the file gives
       logical :: marked = .false., replaced = .false.
    contains
@@ -71,9 +71,9 @@ contains
       case (kind_logical)
          text = to_text(self%logical_value)
       case (kind_word)
-         text = quoted(self%word_value)
+         text = quoted(trim(self%word_value))
       case default
-         text = quoted(self%path_value)
+         text = quoted(self%text_value%text())
       end select
    end function value_text
 
@@ -96,9 +96,9 @@ contains
          words = choices(self%allowed)
          text = ""
          do k = 1, size(words) - 1
-            text = text // quoted(words(k)) // ", "
+            text = text // quoted(trim(words(k))) // ", "
          end do
-         text = text // "or " // quoted(words(size(words)))
+         text = text // "or " // quoted(trim(words(size(words))))
       case (kind_path)
          text = "a file name between quotes"
       case default
@@ -169,7 +169,7 @@ contains
       case (kind_word)
          self%word_value = other%word_value
       case default
-         self%path_value = other%path_value
+         self%text_value = other%text_value
       end select
       self%origin_t = other%origin_t
    end subroutine take

@@ -32,7 +32,7 @@ contains
       type(oil_t) :: oil
 
       law = ""
-      if (l%table /= "") then
+      if (l%table%text() /= "") then
          law = "table"
       else if (l%name /= "") then
          oil = oil_named(trim(l%name))
@@ -116,7 +116,7 @@ contains
          if (allocated(l%isotherms)) then
             isotherms = l%isotherms
          else
-            call read_isotherms(trim(l%table), isotherms, status)
+            call read_isotherms(l%table%text(), isotherms, status)
             if (status%failed()) return
          end if
          if (size(isotherms) == 1) call check_single(l, isotherms(1), status)
@@ -152,7 +152,7 @@ contains
       type(status_t), intent(inout) :: status
 
       if (abs(isotherm%temperature - l%temperature - freezing) <= 0.01_dp) return
-      call status%fail(ehl_bad_input, trim(l%table)//": error: the table has the single temperature "// &
+      call status%fail(ehl_bad_input, l%table%text()//": error: the table has the single temperature "// &
                        to_text(isotherm%temperature - freezing)//" degC, and lubricant.temperature = "// &
                        to_text(l%temperature)//newline//"expected: that temperature, or a table of two or more")
    end subroutine check_single

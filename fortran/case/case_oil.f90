@@ -58,7 +58,7 @@ contains
       if (.not. schema%given("lubricant", "density_law") .and. own_law(input%lubricant) == "doolittle") then
          input%lubricant%density_law = "tait"
       end if
-      if (input%lubricant%table == "") then
+      if (input%lubricant%table%text() == "") then
          if (input%lubricant%viscosity_law == "table") call schema%refuse("lubricant.viscosity_law", &
             "lubricant.viscosity_law = 'table' without lubricant.table", "table = '...', a CSV of measured viscosities", status)
          return
@@ -80,7 +80,7 @@ contains
       call check_constants(schema, input, status)
       if (status%failed()) return
       associate (l => input%lubricant)
-         if (own_law(l) == "table" .and. .not. allocated(l%isotherms)) call read_isotherms(trim(l%table), l%isotherms, status)
+         if (own_law(l) == "table" .and. .not. allocated(l%isotherms)) call read_isotherms(l%table%text(), l%isotherms, status)
          if (status%failed()) return
          ! a pressure of 1 Pa
          call make_viscosity(l, own_law(l), 1.0_dp, law, status)

@@ -185,7 +185,7 @@ contains
       type(status_t), intent(inout) :: status
       character(len=*), parameter :: height_map = "a height map: .npy, text or a file of an instrument"
 
-      if (s%kind == "map" .and. s%file == "") then
+      if (s%kind == "map" .and. s%file%text() == "") then
          call schema%refuse(group//".kind", group//".kind = 'map' without "//group//".file", "file = '...', "//height_map, status)
       else if (s%sign == 0) then
          call schema%refuse(group//".sign", group//".sign = 0", "1 or -1", status)
@@ -195,15 +195,15 @@ contains
       else if (s%crop_y_max > 0.0_dp .and. s%crop_y_max <= s%crop_y_min) then
          call schema%refuse(group//".crop_y_max", group//".crop_y_max is not beyond crop_y_min", &
                             "a larger value [m], or 0 for the end of the map", status)
-      else if (s%file /= "") then
+      else if (s%file%text() /= "") then
          call schema%find_file(group//".file", s%file, status)
          if (status%failed() .or. s%kind /= "map") return
-         if (.not. file_exists(trim(s%file))) then
+         if (.not. file_exists(s%file%text())) then
             ! the heights of a tile that pyehl has made come from it, or are kept beside the results
-            if (.not. s%tile_x > 0.0_dp) call schema%refuse(group//".file", group//".file: there is no file "//trim(s%file), &
+            if (.not. s%tile_x > 0.0_dp) call schema%refuse(group//".file", group//".file: there is no file "//s%file%text(), &
                                                             height_map, status)
-         else if (.not. is_file(trim(s%file))) then
-            call schema%refuse(group//".file", group//".file: "//trim(s%file)//" is a folder, a device or a pipe", height_map, &
+         else if (.not. is_file(s%file%text())) then
+            call schema%refuse(group//".file", group//".file: "//s%file%text()//" is a folder, a device or a pipe", height_map, &
                                status)
          end if
       end if

@@ -48,10 +48,8 @@ contains
             call set_word(key, token, problem)
          else if (len(token%text) > path_length) then
             problem = "longer than " // to_text(path_length) // " characters"
-         else if (len(token%text) > len_trim(token%text)) then
-            problem = "a blank at its end, which is not kept"
          else
-            key%path_value = token%text
+            call key%text_value%set(token%text)
          end if
       end select
       if (problem == "") return

@@ -125,7 +125,7 @@ contains
       case ("name")
          holds_of_lubricant = l%name /= ""
       case ("table")
-         holds_of_lubricant = l%table /= ""
+         holds_of_lubricant = l%table%text() /= ""
       case ("temperature")
          holds_of_lubricant = knows_temperature(l) .or. l%temperature_viscosity > 0.0_dp
       case ("thermal_expansion")

@@ -2,7 +2,7 @@
 !> A table of keys, each bound to a place in a case: what reading, checking, writing and documenting walk; and messages about
 !> values that each by itself is good, with the place of the key
 module ehl_schema
-   use ehl_case, only: path_length, word_length
+   use ehl_case, only: path_length, text_case_t, word_length
    use ehl_case_key, only: key_t, kind_integer, kind_logical, kind_real, kind_word, name_length
    use ehl_files, only: absolute_path, folder_of
    use ehl_kinds, only: dp
@@ -88,9 +88,9 @@ contains
       class(schema_t), intent(inout) :: self
       character(len=*), intent(in) :: name, meaning
       integer, intent(in) :: kind
-      character(len=path_length), intent(inout), target :: value
+      type(text_case_t), intent(inout), target :: value
 
-      call self%add(key_t(name=name, kind=kind, meaning=meaning, path_value=value))
+      call self%add(key_t(name=name, kind=kind, meaning=meaning, text_value=value))
    end subroutine texts
 
    !> Position of a key in the table; 0 when there is no such key
@@ -201,18 +201,18 @@ contains
       class(schema_t), intent(in) :: self
       !> group.name of its key
       character(len=*), intent(in) :: name
-      character(len=path_length), intent(inout) :: file
+      type(text_case_t), intent(inout) :: file
       type(status_t), intent(inout) :: status
       character(len=:), allocatable :: path
 
-      path = trim(file)
+      path = file%text()
       if (path(1:1) /= "/" .and. self%keys(position_of(self, name))%source == 1) path = folder_of(self%sources(1)%name)//path
       path = absolute_path(path)
       if (len(path) > path_length) then
          call self%refuse(name, name//": the full name is longer than "//to_text(path_length)//" characters", "a shorter path", &
                           status)
       else
-         file = path
+         call file%set(path)
       end if
    end subroutine find_file
 

@@ -7,7 +7,7 @@ module ehl_report_smooth
    use ehl_level_result, only: extrapolated, limit_error, share_error, stated_errors
    use ehl_plan, only: plan_t
    use ehl_record, only: record_t
-   use ehl_resolution, only: better_grid, relative_errors, unresolved_inlet
+   use ehl_resolution, only: better_grid, lone_grid_errors, unresolved_inlet
    use ehl_steady, only: steady_t
    implicit none (type, external)
    private
@@ -16,9 +16,6 @@ module ehl_report_smooth
    !> What a domain of twice the size would add to F, int 2/r^2 dA = 4 pi ln 2 over a gap of r^2/2 and the viscosity of
    !> the inlet. It counts for lubricants whose viscosity hardly rises with pressure.
    real(dp), parameter :: friction_beyond = 4.0_dp*pi*log(2.0_dp)
-
-   !> What a narrow contact misses that is solved on a single grid, over the a-priori error: 1.9 and 1.6 at kappa = 0.31, M = 1789
-   real(dp), parameter :: alone_and_narrow = 2.0_dp
 
 contains
 
@@ -55,8 +52,7 @@ contains
          limit = extrapolated(steady%results, n)
       else if (good) then
          ! one grid alone: what such grids have been found to miss
-         error = relative_errors(plan%contact, plan%point, plan%finest)*m%films()
-         if (plan%contact%reach(2) < plan%contact%reach(1)) error = alone_and_narrow*error
+         error = lone_grid_errors(plan%contact, plan%point, plan%finest, m%films())
          if (m%touching%load_share > 0.0_dp) error = max(error, plan%inlet%film_errors(m, steady%results(n)%mesh))
       end if
       domain = not_known

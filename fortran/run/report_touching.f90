@@ -56,7 +56,7 @@ contains
       else if (good) then
          numbers = touching_of(run)
          associate (results => run%steady%results)
-            stop_error = results(n)%share_algebraic
+            stop_error = max(results(n)%share_algebraic, run%plan%inlet%share_left(results(n)%m, results(n)%residual))
             if (n > 1) then
                if (results(n - 1)%solved) coarser = results(n - 1)%m%touching%load_share
                error = share_error(results, n, run%plan%inlet)

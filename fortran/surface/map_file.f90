@@ -19,18 +19,18 @@ contains
       type(status_t), intent(inout) :: status
       integer :: n(2), j
 
-      call npy_shape(trim(path), n, status)
-      call check_heights(trim(path), n, status)
+      call npy_shape(path, n, status)
+      call check_heights(path, n, status)
       allocate (heights(0, 0))
-      if (.not. status%failed()) call read_npy(trim(path), heights, status)
+      if (.not. status%failed()) call read_npy(path, heights, status)
       if (status%failed()) return
       do j = 1, size(heights, 2)
          if (all(abs(heights(:, j)) < huge(1.0_dp))) cycle
-         call status%fail(ehl_file, trim(path)//": the map has points that are not finite: fill them first")
+         call status%fail(ehl_file, path//": the map has points that are not finite: fill them first")
          return
       end do
       if (size(heights, 1) < 4 .or. size(heights, 2) < 4) then
-         call status%fail(ehl_file, trim(path)//": the map has "//to_text(size(heights, 1))//" x "// &
+         call status%fail(ehl_file, path//": the map has "//to_text(size(heights, 1))//" x "// &
                           to_text(size(heights, 2))//" pixels; at least 4 x 4 are needed")
       end if
    end subroutine read_map

@@ -22,8 +22,9 @@ from pyehl.errors import InputError
 ADDRESS = "127.0.0.1"
 HOSTS = (ADDRESS, "localhost")
 """What a browser on this machine calls it: any other name was bound to the loopback by somebody."""
-# A tab that was closed is gone after so long [ms]
-UNUSED = 3000
+# A tab that was closed is gone after so long [ms]. One whose browser has to wait for those of many
+# others is not there yet: its page would be made a second time.
+UNUSED, LOOK = 30_000, 3000
 
 
 class _Elsewhere(RequestHandler):
@@ -66,7 +67,7 @@ def make_server(
             port=found,
             # Bokeh also takes the origin that the request names as its Host: that is checked first
             allow_websocket_origin=[f"{host}:{found}" for host in HOSTS],
-            check_unused_sessions_milliseconds=UNUSED,
+            check_unused_sessions_milliseconds=LOOK,
             unused_session_lifetime_milliseconds=UNUSED,
             websocket_max_message_size=2 * LARGEST,
         )

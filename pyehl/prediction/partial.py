@@ -115,6 +115,8 @@ def partial_film(
 ) -> Partial:
     """Find the partial film over a passage of a tile, with a layer [m], of a resolved case.
 
+    Its errors are by a film that is thicker and thinner by its error.
+
     `friction`: coefficient of friction of the layer [-]; 0: not known.
     """
     grid, spectrum, transfer, _ = parts
@@ -123,7 +125,9 @@ def partial_film(
     power = spectrum.power * np.square(left)
     points = POINTS_OF_WAVE / _shortest(spectrum, power)
     contact = _Contact(passage, parts, min(max(points, POINTS[0]), POINTS[1]), layer, friction)
-    margin = FILM * math.sqrt(float(power.sum()))
+    # what the smooth film may be off, where that is more: bodies touch where it is least
+    of_smooth = np.nan_to_num(passage.contact.minimum_film_error)
+    margin = max(FILM * math.sqrt(float(power.sum())), float(of_smooth))
     levels = [_Level(film) for film in (0.0, margin, -margin)]
     steps = np.arange(POSITIONS) * (grid.shape[0] // POSITIONS)
     with np.errstate(over="ignore", invalid="ignore"):

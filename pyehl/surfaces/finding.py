@@ -16,7 +16,7 @@ SAMPLES = 512
 class Finding:
     """One thing that is no roughness."""
 
-    kind: str  # 'form', 'line offsets', 'stitching step', 'dust'
+    kind: str  # 'form', 'line offsets', 'stitching step', 'dust', 'spikes'
     text: str  # what it is, how large and where
     remedy: str  # option of a case that takes it off, 'surface.key=value'; '' if there is none
     # Where it is on the map (x_min, x_max, y_min, y_max) [m]; empty: everywhere

@@ -56,7 +56,7 @@ def find(
         level(rest, "curvature")
     if found[1] is None and found[2] is None:
         found += [stitching(rest, pixel, axis, corner) for axis in (0, 1)]
-    found.append(dust(rest, pixel, corner))
+    found += dust(rest, pixel, corner)
     return tuple(finding for finding in found if finding is not None)
 
 

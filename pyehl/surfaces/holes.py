@@ -155,6 +155,13 @@ def nearest(heights: Array) -> Array:
     return np.asarray(heights[tuple(at)])
 
 
+def levelled(heights: Array) -> Array:
+    """Copy of a map without tilt and curvature, whose missing points have the nearest height."""
+    z = heights.copy()
+    level(z, "curvature")
+    return nearest(z)
+
+
 def prominence(heights: Array) -> Array:
     """Distance (nx, ny) of each point from the median around it, over the spread of these.
 
@@ -168,9 +175,7 @@ def prominence(heights: Array) -> Array:
     there is no spread to compare with.
     """
     missing = ~np.isfinite(heights)
-    z = heights.copy()
-    level(z, "curvature")
-    z = nearest(z)
+    z = levelled(heights)
     largest = max(float(z.max()), -float(z.min()))
     above = np.empty(z.shape)
     for first in range(0, z.shape[0], LINES):

@@ -3,6 +3,7 @@
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 import scipy
@@ -21,6 +22,10 @@ DUST = 8.0
 """Dust stands out so many standard deviations, by the median."""
 HIGH = 6.0
 """And its top so many above what is around it, by all that is no dust."""
+SPIKE = 12.0
+"""The same of spikes, which are few pixels and can be so by chance."""
+REMEDY = {"dust": "surface.outliers=6", "spikes": "surface.outliers=8"}
+"""Take off what of these stands out of its neighbourhood."""
 LEAST_DUST, MOST_DUST = 5, 0.02
 """Pixels of a speck of dust at the least; fewer are spikes. Share of the map at the most."""
 BLOCK = 32
@@ -85,8 +90,49 @@ def _one_side(ends: Sequence[float], name: str) -> str:
     return ", ".join(options)
 
 
-def dust(z: Array, pixel: tuple[float, float], corner: tuple[float, float]) -> Finding | None:
-    """Specks of several pixels that stand out."""
+def dust(z: Array, pixel: tuple[float, float], corner: tuple[float, float]) -> list[Finding]:
+    """Specks of several pixels that stand out, and spikes of fewer."""
+    specks, spread = _specks(z)
+    large, small = ([speck for speck in specks if speck.is_dust == yes] for yes in (True, False))
+    return [
+        _named(kind, noun, some, spread, pixel, corner)
+        for kind, noun, some in (("dust", "speck", large), ("spikes", "spike", small))
+        if some
+    ]
+
+
+def dust_points(z: Array, limit: float) -> Mask:
+    """Where on a levelled map specks of several pixels are, with a rim of one pixel.
+
+    Those that stand out by more than `limit` standard deviations.
+    """
+    points = np.zeros(z.shape, dtype=bool)
+    specks, spread = _specks(z)
+    for speck in specks:
+        if speck.is_dust and speck.height > limit * spread:
+            points[speck.box] |= speck.points
+    return np.asarray(scipy.ndimage.binary_dilation(points, structure=np.ones((3, 3))))
+
+
+@dataclass(frozen=True, slots=True)
+class _Speck:
+    """Pixels that touch each other and stand out."""
+
+    height: float  # above what is around it [m]
+    box: tuple[slice, slice]
+    points: Mask  # in the box
+
+    @property
+    def size(self) -> int:
+        return int(np.count_nonzero(self.points))
+
+    @property
+    def is_dust(self) -> bool:
+        return self.size >= LEAST_DUST
+
+
+def _raised(z: Array) -> tuple[Mask, float]:
+    """Pixels that stand out, and the spread of all others [m]; 0: there is none."""
     nx, ny = z.shape
     raised = np.zeros(z.shape, dtype=bool)
     spreads, tops = [], []
@@ -98,7 +144,7 @@ def dust(z: Array, pixel: tuple[float, float], corner: tuple[float, float]) -> F
             tops.append((i, j, median))
     spread = MAD_TO_SIGMA * float(np.median(spreads))
     if not spread > 0.0:
-        return None
+        return raised, 0.0
     count, square = 0, 0.0
     for i, j, median in tops:
         block = slice(i, i + BLOCK), slice(j, j + BLOCK)
@@ -106,40 +152,45 @@ def dust(z: Array, pixel: tuple[float, float], corner: tuple[float, float]) -> F
         rest = z[block][~raised[block]] - median
         count, square = count + rest.size, square + float(np.dot(rest, rest))
     # plateaus with valleys are narrow in the median and broad otherwise
-    return _specks(z, raised, max(spread, math.sqrt(square / max(1, count))), pixel, corner)
+    return raised, max(spread, math.sqrt(square / max(1, count)))
 
 
-def _specks(
-    z: Array,
-    raised: Mask,
-    spread: float,
-    pixel: tuple[float, float],
-    corner: tuple[float, float],
-) -> Finding | None:
-    """Name the groups of raised pixels that are large enough and not long."""
+def _specks(z: Array) -> tuple[list[_Speck], float]:
+    """Group raised pixels that are high enough and not long, highest first; the spread [m]."""
+    raised, spread = _raised(z)
     if not raised.any() or raised.mean() > MOST_DUST:
-        return None
-    label, count = scipy.ndimage.label(raised, structure=np.ones((3, 3)))
-    sizes = np.bincount(label.ravel(), minlength=count + 1)
+        return [], spread
+    label, _ = scipy.ndimage.label(raised, structure=np.ones((3, 3)))
     specks = []
     for k, box in enumerate(scipy.ndimage.find_objects(label), 1):
         sides = [s.stop - s.start for s in box]
-        if sizes[k] >= LEAST_DUST and max(sides) <= 5 * min(sides):
-            around = z[tuple(slice(max(0, s.start - 3), s.stop + 3) for s in box)]
-            height = float(z[box].max()) - float(np.median(around))
-            if height > HIGH * spread:
-                specks.append((height, int(sizes[k]), box))
-    if not specks:
-        return None
-    specks.sort(key=lambda speck: -speck[0])
-    height, size, (bx, by) = specks[0]
+        around = z[tuple(slice(max(0, s.start - 3), s.stop + 3) for s in box)]
+        speck = _Speck(float(z[box].max()) - float(np.median(around)), box, label[box] == k)
+        limit = HIGH if speck.is_dust else SPIKE
+        if max(sides) <= 5 * min(sides) and speck.height > limit * spread:
+            specks.append(speck)
+    return sorted(specks, key=lambda speck: -speck.height), spread
+
+
+def _named(
+    kind: str,
+    noun: str,
+    specks: Sequence[_Speck],
+    spread: float,
+    pixel: tuple[float, float],
+    corner: tuple[float, float],
+) -> Finding:
+    """Tell of specks, the highest first."""
+    first = specks[0]
     x, y = (
-        c + 0.5 * (b.start + b.stop) * p for c, b, p in zip(corner, (bx, by), pixel, strict=True)
+        c + 0.5 * (b.start + b.stop) * p for c, b, p in zip(corner, first.box, pixel, strict=True)
     )
-    number = "1 speck" if len(specks) == 1 else f"{len(specks)} specks"
+    number = f"{len(specks)} {noun}{'' if len(specks) == 1 else 's'}"
+    of = f"of {LEAST_DUST} pixels or more" if kind == "dust" else "of fewer pixels than dust has"
     text = (
-        f"{number} of {LEAST_DUST} pixels or more, the highest {lengths.length(height)} "
-        f"({height / spread:.0f} standard deviations) on {size} pixels at "
+        f"{number} {of}, the highest {lengths.length(first.height)} "
+        f"({first.height / spread:.0f} standard deviations) on {first.size} "
+        f"pixel{'' if first.size == 1 else 's'} at "
         f"x = {lengths.length(x, 4)}, y = {lengths.length(y, 4)}"
     )
     places = tuple(
@@ -147,6 +198,6 @@ def _specks(
             *(corner[0] + end * pixel[0] for end in (bx.start, bx.stop)),
             *(corner[1] + end * pixel[1] for end in (by.start, by.stop)),
         )
-        for _, _, (bx, by) in specks
+        for bx, by in (speck.box for speck in specks)
     )
-    return Finding("dust", text, "", places)
+    return Finding(kind, text, REMEDY[kind], places)

@@ -15,6 +15,7 @@ import numpy as np
 
 from pyehl.errors import InputError
 from pyehl.surfaces import cutting, findings, holes, levelling, seams
+from pyehl.surfaces.local_findings import dust_points
 from pyehl.surfaces.memory import check_pixels
 from pyehl.surfaces.options import NEUTRAL, Options, defaults
 from pyehl.surfaces.reading import Scan
@@ -115,6 +116,8 @@ def _prepared(
     if options.outliers > 0.0:
         _tell(scan, "outliers")
         spiky = holes.prominence(work.z) > options.outliers
+        # a median of 5 x 5 points does not see specks of half as many
+        spiky |= dust_points(holes.levelled(work.z), options.outliers)
         valid = ~spiky if valid is None else valid & ~spiky
         work.begin()
         work.own()[spiky] = np.nan

@@ -82,6 +82,18 @@ def test_soft_contacts_converge(moes_m, moes_l, points):
         assert solver.summary["status"] == "converged"
 
 
+@pytest.mark.parametrize(("moes_m", "ratio"), [(655.0, 1.0), (1500.0, 1.0), (1800.0, 1.4)])
+def test_errors_of_thin_films_on_a_single_grid(moes_m, ratio):
+    """No coarser grid has a solution: the error is what the grid misses of the inlet."""
+    options = {"contact.radius_ratio": 1.0 / ratio}
+    coarse, fine = (solved(moes(moes_m, 0.0, points), options) for points in (129, 513))
+    assert coarse.attrs["error_estimate"] == "a priori"
+    for name in ("H_c", "H_min"):
+        limit = float(fine[f"{name}_extrapolated"])
+        off = abs(float(coarse[name]) - limit)
+        assert off <= float(coarse[f"{name}_error"]) < 2.5 * off
+
+
 def test_no_alpha_is_no_l(root: Path):
     """A contact in SI units with alpha = 0 is that of M with L = 0, in every law."""
     file = root / "cases/soft.nml"

@@ -47,6 +47,15 @@ def test_full_film_is_as_without_a_layer():
     }
 
 
+def test_error_of_the_smooth_film_is_one_of_the_load_share():
+    """Of a surface that is nearly smooth there is hardly another."""
+    text = SCENE.format(0.1, 3e-8, 0.1).replace("rms_height = 3e-8", "rms_height = 1e-11")
+    found = summary_of(text)
+    assert found["contact_load_share"] > 0.0
+    assert found["contact_load_share_error"] > 0.1 * found["contact_load_share"]
+    assert found["h_min_rough_error_m"] > 0.1 * found["h_min_error_m"]
+
+
 @pytest.mark.long
 def test_share_grows_with_the_layer_up_to_dry_contact():
     found = [predicted(layer) for layer in (9e-8, 1.1e-7, 1.3e-7, 4e-7)]

@@ -156,6 +156,25 @@ def test_dust_of_several_pixels_is_found():
     assert "2 specks" in finding.text
     assert "on 16 pixels at x = 0.16 mm, y = 0.26 mm" in finding.text
     assert finding.places[0] == pytest.approx((1.5e-4, 1.7e-4, 2.5e-4, 2.7e-4))
+    assert finding.remedy == "surface.outliers=6"
+    kept = prepare(scan(z), Options(outliers=200.0))
+    assert [f.kind for f in kept.record.findings] == ["dust"]
+    made = prepare(scan(z), Options(outliers=6.0))
+    assert made.record.findings == ()
+    steps = {step.name: step for step in made.steps}
+    # with rims of a pixel
+    assert steps["outliers"].changed == 6 * 6 + 5 * 5
+    assert made.prepared.std() == pytest.approx(prepare(scan(rough())).prepared.std(), rel=0.02)
+
+
+def test_spikes_are_found():
+    z = rough()
+    z[20, 33] += 1e-6
+    z[64, 71:73] += 7e-7
+    (finding,) = found(z)
+    assert finding.kind == "spikes"
+    assert finding.text.startswith("2 spikes of fewer pixels than dust has, the highest")
+    assert prepare(scan(z), Options(outliers=8.0)).record.findings == ()
 
 
 def test_where_points_are_missing_is_shown_and_a_part_offered():

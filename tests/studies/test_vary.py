@@ -80,21 +80,19 @@ def test_options_are_as_a_case_file_has_them():
     assert axis("a.b", """'', 'it''s', " x" """).values == ("", "it's", " x")
 
 
-@pytest.mark.parametrize("text", ["", " x", "'q'", '"', "it's", "a,b!/", "\t", "'"])
+@pytest.mark.parametrize(
+    "text", ["", " x", " x ", "Height ", "'q'", '"', "it's", "a,b!/", "\t", "'"]
+)
 def test_options_keep_quotes_blanks_and_emptiness(text: str):
     case = pyehl.Case(surface={"channel": text})
     for made in (
         case,
         case.with_options({"grid.points": 65}),
         pyehl.Case.from_text("", {"surface.channel": text}),
+        pyehl.Case.from_text("", "surface.channel='" + text.replace("'", "''") + "'"),
+        pyehl.Case.from_text(case.text),
     ):
         assert made.resolve()["surface"]["channel"] == text
-
-
-def test_a_blank_at_the_end_of_a_text_is_refused():
-    """It is not kept, so it is not taken."""
-    with pytest.raises(InputError, match="a blank at its end"):
-        pyehl.Case(surface={"channel": "Height "})
 
 
 def study(*texts: str, zipped: bool | list[list[str]] = False) -> Study:
