@@ -6,6 +6,7 @@ module ehl_case_contact
    use ehl_contact_factory, only: hertz_scales, new_contact
    use ehl_domain, only: domain_t, flooded_by_default, needed_domain
    use ehl_grid, only: find_levels
+   use ehl_grid_error, only: relative_errors
    use ehl_kinds, only: dp, pi
    use ehl_moes, only: operating_from_moes, operating_from_si, operating_t
    use ehl_keys, only: bind_keys
@@ -29,6 +30,8 @@ module ehl_case_contact
    real(dp), parameter :: least_ratio = 0.25_dp, largest_ratio = 1.41_dp
    !> Largest M of a round contact with the same equations
    real(dp), parameter :: most_m = 1.0e5_dp
+   !> Largest a-priori error of H_c that the usual grid of a smooth contact may have
+   real(dp), parameter :: most_missed = 0.05_dp
    !> Least p_h/E' of a contact that can be meant: 0.1 MPa between steel bodies
    real(dp), parameter :: least_strain = 4.0e-7_dp
    !> Difference of velocity ratios that is none
@@ -187,8 +190,25 @@ contains
       if (.not. schema%given("grid", "x_inlet")) input%grid%x_inlet = domain%inlet
       if (.not. schema%given("grid", "x_outlet")) input%grid%x_outlet = domain%outlet
       if (.not. schema%given("grid", "y_extent")) input%grid%y_extent = domain%side
+      if (.not. schema%given("grid", "points") .and. .not. input%grid%target_error > 0.0_dp .and. &
+          input%surface%kind == "smooth" .and. input%second_surface%kind == "smooth") then
+         if (misses_much(input, contact, point)) input%grid%points = 2*input%grid%points - 1
+      end if
       if (.not. input%grid%points_y > 0) input%grid%points_y = rows(input, contact)
    end subroutine complete_domain
+
+   !> Whether the usual grid misses more of the film than a smooth contact may
+   pure logical function misses_much(input, contact, point)
+      type(case_t), intent(in) :: input
+      class(contact_t), intent(in) :: contact
+      type(operating_t), intent(in) :: point
+      real(dp) :: errors(2)
+
+      associate (g => input%grid)
+         errors = relative_errors(contact, point, (g%x_outlet - g%x_inlet)/(g%points - 1))
+      end associate
+      misses_much = errors(1) > most_missed
+   end function misses_much
 
    !> Nodes along Y: as many as along X in a round contact, else as many as make cells of the shape wanted
    pure integer function rows(input, contact)

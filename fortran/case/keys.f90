@@ -112,7 +112,7 @@ contains
       self%group = "grid"
       associate (g => input%grid)
          call self%integers("points", g%points, "[17, 4097]", &
-                            "nodes along X: odd, points - 1 halved must end even at 32 or less")
+                            "nodes along X: odd, halved to 32 or less even; default 1025 where 513 miss 5 % of a smooth film")
          call self%integers("points_y", g%points_y, "0 or [9, 40961]", &
                             "nodes along Y, halved as often; default points in a round contact, else by the shape of the cells")
          call self%reals("x_inlet", g%x_inlet, "a", "[-1e4, -1.05]", "inlet boundary X; default by M and L")

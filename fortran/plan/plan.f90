@@ -7,6 +7,7 @@ module ehl_plan
    use ehl_cycle, only: coarsening_alcouffe, coarsening_classical, cycle_options_t
    use ehl_domain, only: domain_cost, domain_t
    use ehl_friction_mean, only: automatic_periods
+   use ehl_grid_error, only: relative_errors
    use ehl_grid, only: coarsest_most, find_levels, grid_t, new_grid
    use ehl_inlet, only: inlet_t
    use ehl_kinds, only: dp
@@ -17,7 +18,7 @@ module ehl_plan
    use ehl_plan_heat, only: heat_plan_t, may_touch, plan_heat
    use ehl_plan_lubricant, only: alpha_note, law_note, plan_lubricant
    use ehl_plan_surface, only: check_carried, make_surfaces
-   use ehl_resolution, only: has_solution, relative_errors
+   use ehl_resolution, only: has_solution
    use ehl_scales, only: scales_t
    use ehl_status, only: ehl_bad_input, status_t
    use ehl_steady_options, only: steady_options_t
@@ -286,7 +287,7 @@ contains
       end do
       if (plan%start == 0) plan%start = plan%levels
       plan%finest = grid
-      associate (errors => relative_errors(plan%contact, plan%point, grid))
+      associate (errors => relative_errors(plan%contact, plan%point, grid%hx))
          plan%may_restart = errors(1) <= resolved_error .or. plan%touches .or. &
                             plan%contact%reach(2) > wide*plan%contact%reach(1)
       end associate

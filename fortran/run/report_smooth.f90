@@ -3,11 +3,12 @@
 module ehl_report_smooth
    use ehl_contact_results, only: contact_results_t
    use ehl_domain, only: too_small
+   use ehl_grid_error, only: lone_grid_errors
    use ehl_kinds, only: dp, not_known, pi
    use ehl_level_result, only: extrapolated, limit_error, share_error, stated_errors
    use ehl_plan, only: plan_t
    use ehl_record, only: record_t
-   use ehl_resolution, only: better_grid, lone_grid_errors, unresolved_inlet
+   use ehl_resolution, only: better_grid, unresolved_inlet
    use ehl_steady, only: steady_t
    implicit none (type, external)
    private
@@ -52,7 +53,7 @@ contains
          limit = extrapolated(steady%results, n)
       else if (good) then
          ! one grid alone: what such grids have been found to miss
-         error = lone_grid_errors(plan%contact, plan%point, plan%finest, m%films())
+         error = lone_grid_errors(plan%contact, plan%point, plan%finest%hx, m%films())
          if (m%touching%load_share > 0.0_dp) error = max(error, plan%inlet%film_errors(m, steady%results(n)%mesh))
       end if
       domain = not_known

@@ -58,7 +58,7 @@ def solved(keys: Row) -> Row:
 
 
 def missed(kappa: float, moes_m: float, mesh: float) -> float:
-    """Half of the a-priori error of H_min (fortran/plan/resolution.f90)."""
+    """Half of the a-priori error of H_min (fortran/contact/grid_error.f90)."""
     return 0.16 * moes_m * mesh**2 * max(1.0, 0.3 / min(1.0, kappa) ** 2)
 
 

@@ -39,7 +39,7 @@ def cells(rows: list[Row], point: tuple[float, float]) -> dict[float, tuple[floa
 
 
 def over_estimate(rows: list[Row], ratio: float) -> tuple[list[float], list[float]]:
-    """Give true errors of H_c and H_min over the a-priori ones (fortran/plan/resolution.f90).
+    """Give true errors of H_c and H_min over the a-priori ones (fortran/contact/grid_error.f90).
 
     In narrow contacts, on cells so many times as long across the motion as along it.
     """
