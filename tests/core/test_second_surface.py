@@ -291,7 +291,9 @@ def test_curve_of_two(tmp_path: Path, monkeypatch, capsys):
     lines = [x for x in path.read_text().splitlines() if not x.startswith("#")]
     row = dict(zip(lines[0].split(","), lines[1].split(","), strict=True))
     keys = {"contact.mean_velocity": 0.5}
-    seeds = [{f"{group}.seed": 1 + k for group in ("surface", "second_surface")} for k in (0, 1)]
+    # that of the second surface is one more by default
+    groups = ("surface", "second_surface")
+    seeds = [{f"{group}.seed": 1 + k + n for n, group in enumerate(groups)} for k in (0, 1)]
     each = [pyehl.predict(Case.from_text(both, keys | seed), tracks=1) for seed in seeds]
     assert each[0].mu_ratio != each[1].mu_ratio
     assert float(row["mu_ratio"]) == pytest.approx(np.mean([p.mu_ratio for p in each]), rel=1e-6)
