@@ -152,10 +152,12 @@ contains
       if (descriptor < 0) return
       length = posix_lseek(descriptor, 0_c_size_t, from_end)
       is_file = length >= 0
-      ! a device has no length, but bytes, or no place behind its end
-      if (length == 0) is_file = posix_lseek(descriptor, 1_c_size_t, from_start) == 1
-      if (length == 0 .and. is_file) is_file = posix_lseek(descriptor, 0_c_size_t, from_start) == 0
-      if (length == 0 .and. is_file) is_file = posix_read(descriptor, byte, 1_c_size_t) == 0
+      ! a device has no length, but bytes, or no place behind its end; `.and.` may call what stands behind it
+      if (length == 0) then
+         is_file = posix_lseek(descriptor, 1_c_size_t, from_start) == 1
+         if (is_file) is_file = posix_lseek(descriptor, 0_c_size_t, from_start) == 0
+         if (is_file) is_file = posix_read(descriptor, byte, 1_c_size_t) == 0
+      end if
       closed = posix_close(descriptor)
       if (closed /= 0) is_file = .false.
    end function is_file

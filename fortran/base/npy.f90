@@ -126,7 +126,12 @@ contains
       if (stat /= 0) then
          call status%fail(ehl_no_memory, path // ": no memory for " // to_text(n(1)) // " x " // to_text(n(2)) // " numbers")
       else if (by_rows) then
-         allocate (rows(n(2), min(block, n(1))))
+         allocate (rows(n(2), min(block, n(1))), stat=stat)
+         if (stat /= 0) then
+            call status%fail(ehl_no_memory, path // ": no memory for " // to_text(n(2)) // " columns")
+            close (lun)
+            return
+         end if
          do i = 1, n(1), block
             last = min(i + block - 1, n(1))
             call read_values(lun, single, rows(:, :last - i + 1), stat)

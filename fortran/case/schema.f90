@@ -171,6 +171,10 @@ contains
       character(len=:), allocatable :: what
 
       both = [position_of(self, one), position_of(self, other)]
+      if (any(both == 0)) then
+         call status%fail(ehl_internal, "there is no key "//one//" or "//other)
+         return
+      end if
       if (is_before(self, both(1), both(2))) both = both([2, 1])
       associate (key => self%keys(both(1)))
          what = key%full_name()//" contradicts "//self%keys(both(2))%full_name()
@@ -189,6 +193,10 @@ contains
       character(len=*), intent(in) :: from
       type(status_t), intent(inout) :: status
 
+      if (position_of(self, name) == 0) then
+         call status%fail(ehl_internal, "there is no key "//name)
+         return
+      end if
       associate (key => self%keys(position_of(self, name)))
          if (.not. key%allows(value)) call self%refuse(culprit, name//" = "//short(value)//" follows from "//from, &
                                                        key%type_text(), status)
@@ -205,6 +213,10 @@ contains
       type(status_t), intent(inout) :: status
       character(len=:), allocatable :: path
 
+      if (position_of(self, name) == 0) then
+         call status%fail(ehl_internal, "there is no key "//name)
+         return
+      end if
       path = file%text()
       if (path(1:1) /= "/" .and. self%keys(position_of(self, name))%source == 1) path = folder_of(self%sources(1)%name)//path
       path = absolute_path(path)

@@ -175,7 +175,7 @@ contains
    end subroutine move
 
    !> Whether the lubricant has a film to flow through; above a boundary film it always has
-   logical function is_positive(level)
+   pure logical function is_positive(level)
       type(level_t), intent(in) :: level
       is_positive = allocated(level%boundary)
       if (.not. is_positive) is_positive = minval(level%h) > 0.0_dp

@@ -2,11 +2,12 @@
 !> Reading, checking and writing cases
 module test_case
    use check, only: has_text, is_close, is_equal, is_text, is_true
-   use ehl_case, only: case_t
+   use ehl_case, only: case_t, text_case_t
    use ehl_case_reader, only: read_case
    use ehl_case_writer, only: case_text
    use ehl_kinds, only: dp
-   use ehl_status, only: ehl_bad_input, status_t
+   use ehl_schema, only: schema_t
+   use ehl_status, only: ehl_bad_input, ehl_internal, status_t
    implicit none (type, external)
    private
    public :: run_case
@@ -21,7 +22,24 @@ contains
       call writes_what_it_reads()
       call options_win()
       call faults_have_places()
+      call misspelt_names_are_faults_of_the_program()
    end subroutine run_case
+
+   !> A name in the source that is no key: an error, not the memory before the table
+   subroutine misspelt_names_are_faults_of_the_program()
+      type(schema_t) :: schema
+      type(status_t) :: status(3)
+      type(text_case_t) :: file
+      real(dp), target :: value
+
+      value = 1.0_dp
+      schema%group = "contact"
+      call schema%reals("load", value, "N", "", "load")
+      call schema%contradict("contact.load", "contact.laod", "one", status(1))
+      call schema%check_range("contact.laod", value, "contact.load", "load", status(2))
+      call schema%find_file("contact.laod", file, status(3))
+      call is_true(all(status%code == ehl_internal), "a misspelt name of a key is an internal error")
+   end subroutine misspelt_names_are_faults_of_the_program
 
    subroutine defaults_are_the_papers()
       type(case_t) :: input
