@@ -97,7 +97,7 @@ contains
          if (stat /= 0) then
             problem = "cannot be read as a number"
          else if (key%kind == kind_integer .and. (verify(token%text, "+-0123456789") > 0 .and. &
-                                                  .not. (is_option .and. value == anint(value)))) then
+                                                  .not. (is_option .and. .not. abs(value - anint(value)) > 0.0_dp))) then
             problem = "not a whole number"
          else if (.not. key%allows(value)) then
             problem = "out of range"

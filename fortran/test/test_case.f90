@@ -106,8 +106,8 @@ contains
       call fault("&contact load = 1e999 /", "", "text:1:17: error", "too large")
       call fault("&contact load = 1e99999999999 /", "", "text:1:17: error", "too large")
       call fault("&contact load = 1e-99999999999 /", "", "text:1:17: error", "out of range")
-      call fault("", "grid.pionts=65", "--set grid.pionts=65: error", "'points'")
-      call fault("", "points=65", "--set points=65: error", "group.key=value")
+      call fault("", "grid.pionts=65", "grid.pionts=65: error", "'points'")
+      call fault("", "points=65", "points=65: error", "group.key=value")
    end subroutine faults_have_places
 
    !> A case that must be refused with a message that begins and goes on as wanted

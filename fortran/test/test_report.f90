@@ -92,7 +92,7 @@ contains
                     "contact, error not known"//lf, "pressures of a prediction")
       call record%set("p_max_rough_Pa", not_known)
       call record%set("p_rise_max_error_Pa", 1.2e7_dp)
-      call has_text(conclusion(record), lf//"p_max      1.0215 GPa; rough 0.085 +- 0.012 GPa above the smooth contact"//lf, &
+      call has_text(conclusion(record), lf//"p_max      1.0215 GPa; rough 0.085 +- 0.012 GPa above the smooth contact (model)"//lf, &
                     "its rise alone")
    end subroutine last_lines
 
