@@ -60,7 +60,7 @@ contains
       call record%set("H_c_error", 0.000266_dp)
       call record%set("H_min", 0.008315_dp)
       call record%set("H_min_error", not_known)
-      call is_text(conclusion(record), "H_c        0.02437 +- 0.00027"//lf//"H_min      0.008315, error not known"//lf// &
+      call is_text(conclusion(record), "H_c        0.02437 +- 0.00027 (grid)"//lf//"H_min      0.008315, error not known"//lf// &
                    "judgement  full film: smooth surfaces; the case gives no size in metres; but the error of H_min is not "// &
                    "known", "smooth contact without a size")
       call record%set("H_c_error", 0.0266_dp)
@@ -77,9 +77,9 @@ contains
       call record%set("mu_smooth", 0.0338_dp)
       call record%set("shear_law", "eyring")
       text = conclusion(record)
-      call has_text(text, "H_c        0.024 +- 0.027, h_c 234 +- 255 nm"//lf, "central film in nm")
+      call has_text(text, "H_c        0.024 +- 0.027, h_c 234 +- 255 nm (grid)"//lf, "central film in nm")
       call has_text(text, lf//"p_max      1.0049 p_h, error not known, 1.0215 GPa; rough 1.0684 GPa"//lf, "pressures")
-      call has_text(text, lf//"mu_r/mu_s  1.185 +- 0.048"//lf, "friction ratio")
+      call has_text(text, lf//"mu_r/mu_s  1.185 +- 0.048 (grid)"//lf, "friction ratio")
       call has_text(text, "Lambda     1.590 (h_c/sigma 4.670), smooth films", "film over roughness")
       call has_text(text, lf//"mu         0.04000, smooth contact 0.03380; law 'eyring'"//lf, "friction with its law")
       call record%set("mu_ratio_error", not_known)
@@ -92,7 +92,8 @@ contains
                     "contact, error not known"//lf, "pressures of a prediction")
       call record%set("p_max_rough_Pa", not_known)
       call record%set("p_rise_max_error_Pa", 1.2e7_dp)
-      call has_text(conclusion(record), lf//"p_max      1.0215 GPa; rough 0.085 +- 0.012 GPa above the smooth contact (model)"//lf, &
+      call has_text(conclusion(record), lf//"p_max      1.0215 GPa; rough 0.085 +- 0.012 GPa above the smooth "// &
+                    "contact (model)"//lf, &
                     "its rise alone")
    end subroutine last_lines
 
