@@ -26,7 +26,8 @@ contains
       character(len=longest_number) :: buffer
       character(len=17) :: digits
       real(dp) :: back
-      integer :: n, exponent, mark, last, stat
+      real(dp), parameter :: nearly_huge = 1.797693134862e308_dp
+      integer :: n, first, exponent, mark, last, stat
 
       if (.not. ieee_is_finite(x)) then
          text = "nan"
@@ -39,8 +40,10 @@ contains
          return
       end if
       ! 15 digits, their zeros dropped, are the shortest text that reads back, if any of them does; not so of a number that
-      ! has lost digits to be so small
-      do n = merge(15, 1, abs(x) >= tiny(x)), 17
+      ! has lost digits to be so small, and rounded up the largest ones would overflow
+      first = merge(15, 1, abs(x) >= tiny(x))
+      if (abs(x) > nearly_huge) first = 17
+      do n = first, 17
          write (buffer, forms(n)) abs(x)
          read (buffer, *, iostat=stat) back
          if (stat == 0 .and. .not. abs(back - abs(x)) > 0.0_dp) exit

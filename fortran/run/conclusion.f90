@@ -144,9 +144,11 @@ contains
             source = "model"
          end if
          ratio = with_error(summary%number("mu_ratio"), summary%number(error), "f9.5", "")//of(source, error)
-         if (known("mu_ratio_tracks") .and. summary%number("tracks") > 1.5_dp) ratio = &
-            with_error(summary%number("mu_ratio_tracks"), summary%number("mu_ratio_tracks_spread"), "f9.5", "", 3)// &
-            " (mean and scatter over "//to_text(nint(summary%number("tracks")))//" tracks); on the track of the case "//ratio
+         if (known("mu_ratio_tracks")) then
+            if (nint(summary%number("tracks")) > 1) ratio = &
+               with_error(summary%number("mu_ratio_tracks"), summary%number("mu_ratio_tracks_spread"), "f9.5", "", 3)// &
+               " (mean and scatter over "//to_text(nint(summary%number("tracks")))//" tracks); on the track of the case "//ratio
+         end if
          ratio = "mu_r/mu_s  "//ratio
          if (summary%text("mu_ratio_error_note") /= "") ratio = ratio//": "//summary%text("mu_ratio_error_note")
          ratio = ratio//newline
