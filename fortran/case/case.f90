@@ -110,7 +110,7 @@ module ehl_case
       character(len=word_length) :: thermal_friction = "auto"
    end type lubricant_case_t
 
-   !> &grid: the domain in Hertz radii a and its finest grid; all but points, target_error and max_points set by the
+   !> &grid: the domain in Hertz radii a and its finest grid; all but target_error and max_points set by the
    !> reader
    type :: grid_case_t
       integer :: points = 513

@@ -234,7 +234,7 @@ contains
    end function rows
 
    !> Side of a cell along Y over that along X: cells longer along the longer axis reach the same error with fewer nodes, as
-   !> long as multigrid converges as on square ones.
+   !> long as multigrid converges as on square ones
    pure real(dp) function cell_ratio(elongation)
       real(dp), intent(in) :: elongation
       cell_ratio = min(largest_ratio, max(least_ratio, elongation))

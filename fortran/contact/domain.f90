@@ -44,7 +44,7 @@ module ehl_domain
    real(dp), parameter :: of_inlet = 0.46_dp, of_sides = 0.06_dp, of_sides_at_minimum = 0.15_dp, &
                           thin_film = 0.06_dp, thin_power = 0.25_dp
    !> Decay of what the sides of a wide contact cost with their distance from its ends, in half lengths along the motion, over
-   !> that around a round contact: at kappa = 1.5 to 16 and 1.07 to 2 half widths the changes fall with 1.2 at the least in thin
+   !> that around a round contact: at kappa = 1.5 to 16 and 1.15 to 2 half widths the changes fall with 1.2 at the least in thin
    !> films (docs/evidence/machines); none in films from which on nothing is known of it
    real(dp), parameter :: end_decay = 1.2_dp, thick_for_decay = 0.2_dp
    !> Load beyond inlet and sides, over lambda_bar; least sensitivity of the film to load around M = 5, where the film
