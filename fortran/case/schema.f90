@@ -137,6 +137,18 @@ contains
       names = pack(self%keys%name, [(self%keys(k)%group == group, k=1, size(self%keys))])
    end function names_of
 
+   !> Position of a key that must be in the table; 0 and an internal error where it is not
+   subroutine find_key(self, name, k, status)
+      class(schema_t), intent(in) :: self
+      !> group.name of the key
+      character(len=*), intent(in) :: name
+      integer, intent(out) :: k
+      type(status_t), intent(inout) :: status
+
+      k = position_of(self, name)
+      if (k == 0) call status%fail(ehl_internal, "there is no key "//name)
+   end subroutine find_key
+
    !> Refuse a case at the value of a key
    subroutine refuse(self, name, what, expected, status)
       class(schema_t), intent(in) :: self
@@ -144,12 +156,11 @@ contains
       character(len=*), intent(in) :: name
       character(len=*), intent(in) :: what, expected
       type(status_t), intent(inout) :: status
+      integer :: k
 
-      if (position_of(self, name) == 0) then
-         call status%fail(ehl_internal, what//": there is no key "//name)
-         return
-      end if
-      associate (key => self%keys(position_of(self, name)))
+      call find_key(self, name, k, status)
+      if (k == 0) return
+      associate (key => self%keys(k))
          if (key%given) then
             call self%sources(key%source)%refuse(key%first, key%last, what, expected, status)
          else
@@ -170,11 +181,9 @@ contains
       integer :: both(2)
       character(len=:), allocatable :: what
 
-      both = [position_of(self, one), position_of(self, other)]
-      if (any(both == 0)) then
-         call status%fail(ehl_internal, "there is no key "//one//" or "//other)
-         return
-      end if
+      call find_key(self, one, both(1), status)
+      call find_key(self, other, both(2), status)
+      if (any(both == 0)) return
       if (is_before(self, both(1), both(2))) both = both([2, 1])
       associate (key => self%keys(both(1)))
          what = key%full_name()//" contradicts "//self%keys(both(2))%full_name()
@@ -192,12 +201,11 @@ contains
       !> What it follows from, in words
       character(len=*), intent(in) :: from
       type(status_t), intent(inout) :: status
+      integer :: k
 
-      if (position_of(self, name) == 0) then
-         call status%fail(ehl_internal, "there is no key "//name)
-         return
-      end if
-      associate (key => self%keys(position_of(self, name)))
+      call find_key(self, name, k, status)
+      if (k == 0) return
+      associate (key => self%keys(k))
          if (.not. key%allows(value)) call self%refuse(culprit, name//" = "//short(value)//" follows from "//from, &
                                                        key%type_text(), status)
       end associate
@@ -212,13 +220,12 @@ contains
       type(text_case_t), intent(inout) :: file
       type(status_t), intent(inout) :: status
       character(len=:), allocatable :: path
+      integer :: k
 
-      if (position_of(self, name) == 0) then
-         call status%fail(ehl_internal, "there is no key "//name)
-         return
-      end if
+      call find_key(self, name, k, status)
+      if (k == 0) return
       path = file%text()
-      if (path(1:1) /= "/" .and. self%keys(position_of(self, name))%source == 1) path = folder_of(self%sources(1)%name)//path
+      if (path(1:1) /= "/" .and. self%keys(k)%source == 1) path = folder_of(self%sources(1)%name)//path
       path = absolute_path(path)
       if (len(path) > path_length) then
          call self%refuse(name, name//": the full name is longer than "//to_text(path_length)//" characters", "a shorter path", &
