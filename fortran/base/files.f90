@@ -152,7 +152,7 @@ contains
       if (descriptor < 0) return
       length = posix_lseek(descriptor, 0_c_size_t, from_end)
       is_file = length >= 0
-      ! a device has no length, but bytes, or no place behind its end; `.and.` may call what stands behind it
+      ! a device has no length but bytes, or no position after its end; `.and.` may evaluate both operands
       if (length == 0) then
          is_file = posix_lseek(descriptor, 1_c_size_t, from_start) == 1
          if (is_file) is_file = posix_lseek(descriptor, 0_c_size_t, from_start) == 0

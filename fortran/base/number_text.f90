@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Numbers as text with blanks behind it. ehl_text takes the blanks away; its results have a length that these functions tell,
-!> for which they must be in a module of their own.
+!> Numbers as text padded with blanks. ehl_text trims them; its results have a length that these functions give, so that they
+!> must be in a module of their own.
 module ehl_number_text
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use, intrinsic :: iso_fortran_env, only: int64

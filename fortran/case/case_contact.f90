@@ -30,6 +30,7 @@ module ehl_case_contact
    real(dp), parameter :: least_ratio = 0.25_dp, largest_ratio = 1.41_dp
    !> Largest M of a round contact with the same equations
    real(dp), parameter :: most_m = 1.0e5_dp
+   character(len=*), parameter :: too_large_m = "the Moes parameter M of the round contact with the same equations is "
    !> Largest a-priori error of H_c that the usual grid of a smooth contact may have
    real(dp), parameter :: most_missed = 0.05_dp
    !> Least p_h/E' of a contact that can be meant: 0.1 MPa between steel bodies
@@ -67,8 +68,7 @@ contains
       call find_contact(input, contact, scales, point)
       if (.not. input%contact%si) then
          if (point%round_m > most_m) then
-            call schema%refuse("contact.moes_m", "the Moes parameter M of the round contact with the same equations is "// &
-                               short(point%round_m), "a moes_m that makes it 1e5 at most", status)
+            call schema%refuse("contact.moes_m", too_large_m//short(point%round_m), "a moes_m that makes it 1e5 at most", status)
             return
          end if
          if (input%lubricant%pressure_viscosity > 0.0_dp .or. .not. input%contact%moes_l > 0.0_dp) return
@@ -85,9 +85,12 @@ contains
       else if (scales%length > input%contact%radius_x) then
          what = "the Hertz radius " // short(scales%length) // " m exceeds that of the ball"
          expected = "values in SI units with a contact much smaller than the ball"
-      else if (point%round_m > most_m .or. point%moes_m < 0.1_dp) then
+      else if (point%moes_m < 0.1_dp) then
          what = "the Moes parameter M is " // short(point%moes_m)
-         expected = "values in SI units with M between 0.1 and 1e5 (that of the round contact with the same equations)"
+         expected = "values in SI units with M of 0.1 at least"
+      else if (point%round_m > most_m) then
+         what = too_large_m // short(point%round_m)
+         expected = "values in SI units with an M between 0.1 and 1e5"
       else if (point%moes_l > 100.0_dp) then
          what = "the Moes parameter L is " // short(point%moes_l)
          expected = "values in SI units with L of 100 at most"

@@ -112,7 +112,7 @@ contains
       self%group = "grid"
       associate (g => input%grid)
          call self%integers("points", g%points, "[17, 4097]", &
-                            "nodes along X: odd, halved to 32 or less even; default 1025 where 513 miss 5 % of a smooth film")
+                            "nodes along X, odd; points - 1 halved stays even to 32; default 1025 if 513 misses 5 % of H_c")
          call self%integers("points_y", g%points_y, "0 or [9, 40961]", &
                             "nodes along Y, halved as often; default points in a round contact, else by the shape of the cells")
          call self%reals("x_inlet", g%x_inlet, "a", "[-1e4, -1.05]", "inlet boundary X; default by M and L")
@@ -120,7 +120,7 @@ contains
          call self%reals("y_extent", g%y_extent, "a", "[0.03, 1e4]", &
                          "side boundaries Y = -y_extent and y_extent; default by M, L and the ellipse")
          call self%words("border", g%border, "flooded|zero", &
-                         "pressure of a flooded contact, or P = 0; default: the former below M = 500 and from kappa = 4 on")
+                         "pressure of a flooded contact, or P = 0; default: the former below M = 500 or above kappa = 4")
          call self%reals("target_error", g%target_error, "-", "0 or [1e-5, 0.1]", &
                          "relative error of H_c wanted; 0: solve on points as given")
          call self%integers("max_points", g%max_points, "[17, 8193]", "most nodes per side that target_error may choose")

@@ -34,7 +34,7 @@ contains
          known = ieee_is_finite(summary%number(name))
       end function known
 
-      !> Behind a value with its error: what the error is of; nothing where it is not known
+      !> What the error of a value is of, in parentheses; empty where the error is not known
       function of(source, error)
          character(len=*), intent(in) :: source, error
          character(len=:), allocatable :: of

@@ -330,7 +330,7 @@ def test_too_coarse_a_grid_names_one_that_will_do(ehl: str, tmp_path: Path):
 @pytest.mark.long
 @pytest.mark.parametrize("moes_l", [5.0, 10.0, 15.0])
 def test_wide_thin_films_take_cycles_back(solve, moes_l: float):
-    """Full cycles diverge, damped ones do not: nothing begins again. H_c as on a finer grid."""
+    """Full cycles diverge, damped ones do not: no restart. H_c as on a finer grid."""
     shape = ellipse(RATIO_OF_TEN)
     scale = shape.ellipticity * shape.kernel_ratio**0.25
     point = 1000.0 * scale, moes_l / shape.kernel_ratio**0.75
