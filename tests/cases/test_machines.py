@@ -10,11 +10,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.special import elliprd
 
 import pyehl
 from pyehl import library
 from pyehl.prediction.film_text import report
 from pyehl.schema import summary_of
+from pyehl.theory.ellipse import ellipse
 
 NUMBER = re.compile(r"\d+\.\d+(?:E[-+]\d+)?")
 
@@ -263,3 +265,55 @@ def test_evidence_of_ellipses_is_what_its_page_says(root: Path, capsys, evidence
         found = re.findall(rf"^kappa {kappa}, M {m}: .* off by ([\d.]+)%$", printed, re.M)
         shown = re.findall(r"([\d.]+) %", line)
         assert shown == found[: len(shown)]
+
+
+@pytest.mark.parametrize(
+    ("keys", "points"),
+    [
+        ({"contact.moes_m": 5000.0}, 513),
+        ({"contact.moes_m": 5300.0}, 1025),
+        # M by R_x; that of the round contact is a fifth of it
+        ({"contact.moes_m": 20000.0, "contact.radius_ratio": 0.04}, 513),
+        ({"contact.moes_m": 9000.0, "grid.points": 257}, 257),
+        ({"contact.moes_m": 9000.0, "grid.target_error": 0.05}, 513),
+        ({"contact.moes_m": 9000.0, "surface.kind": "harmonic"}, 513),
+    ],
+)
+def test_default_grid_of_a_heavy_smooth_contact(keys, points):
+    """Its a-priori error of H_c, 0.16 M h^2, is 5 % at M = 5120 on 513 nodes."""
+    case = pyehl.Case.from_text("", {"contact.moes_l": 5.0, "surface.kind": "smooth"} | keys)
+    assert case["grid"]["points"] == points
+
+
+@pytest.mark.parametrize(("kappa", "border"), [(3.9, "zero"), (4.1, "flooded")])
+def test_default_border_of_a_wide_contact(kappa, border):
+    """At an M of the round contact of 600, where the border of a round contact is P = 0."""
+    square = kappa**2
+    ratio = float(elliprd(0.0, 1.0, square) / elliprd(0.0, square, 1.0))
+    moes_m = 600.0 * kappa * ellipse(ratio).kernel_ratio ** 0.25
+    keys = {"contact.moes_m": moes_m, "contact.moes_l": 10.0, "contact.radius_ratio": ratio}
+    assert pyehl.Case.from_text("", keys)["grid"]["border"] == border
+    assert pyehl.Case.from_text("", keys | {"grid.border": "zero"})["grid"]["border"] == "zero"
+
+
+@pytest.mark.long
+def test_cycles_whose_residual_grows_are_taken_back():
+    """A crowned roller with L = 32, kappa = 15: left alone these cycles end at the cycle limit."""
+    keys = {
+        "contact.radius_x": 0.00370017,
+        "contact.radius_y": 0.261986,
+        "contact.load": 1339.9,
+        "contact.mean_velocity": 5.5522,
+        "contact.reduced_modulus": 2.26e11,
+        "lubricant.viscosity": 0.13002,
+        "lubricant.pressure_viscosity": 2.2144e-8,
+        "surface.kind": "smooth",
+    }
+    found = []
+    for points in (257, 513):
+        with pyehl.Solver(pyehl.Case.from_text("", keys | {"grid.points": points})) as solver:
+            assert solver.run()
+            found.append(solver.summary)
+    assert [done["restarts"] for done in found] == [0, 0]
+    coarse, fine = found
+    assert abs(coarse["H_c"] - fine["H_c"]) <= coarse["H_c_error"] + fine["H_c_error"]
