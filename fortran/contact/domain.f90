@@ -66,7 +66,7 @@ contains
    pure logical function flooded_by_default(contact, point)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point
-      flooded_by_default = point%round_m < first_usual .or. contact%reach(2) > too_wide*contact%reach(1)
+      flooded_by_default = point%round_m < first_usual .or. elongation(contact) > too_wide
    end function flooded_by_default
 
    !> The domain of a contact: that of Zhang et al. 2019, its sides further out around an ellipse, or with a flooded border
@@ -100,13 +100,19 @@ contains
       type(operating_t), intent(in) :: point
       real(dp) :: wide, length
 
-      wide = contact%reach(2)/contact%reach(1)
+      wide = elongation(contact)
       side = huge(side)
       if (.not. wide > 1.0_dp) return
       ! in terms of the half length along the motion, where the bodies have the radius of this curvature
       length = sqrt(2.0_dp*contact%film_formula(point%moes_m, point%moes_l)*contact%radius)/contact%reach(1)
       side = contact%reach(2)*(beyond_ends + (2.0_dp - beyond_ends)/wide**2)*max(1.0_dp, length/thick_at_ends)
    end function side_of_wide
+
+   !> How far the contact reaches across the motion over how far along it
+   pure real(dp) function elongation(contact)
+      class(contact_t), intent(in) :: contact
+      elongation = contact%reach(2)/contact%reach(1)
+   end function elongation
 
    !> How much further out the sides are than those around a round contact: as the ends of a wide contact, and around a narrow
    !> one no less far, because in terms of its semi-axis the gap opens slowly there
@@ -139,7 +145,7 @@ contains
             whole = pressure_gain(1.0_dp, film)
             inlet = pressure_gain(-domain%inlet/contact%reach(1), film)/whole
             sides = pressure_gain(side, film)/whole
-            wide = contact%reach(2)/contact%reach(1)
+            wide = elongation(contact)
             if (wide > 1.0_dp .and. side > 1.0_dp) then
                sides = sides*exp(-end_decay*max(0.0_dp, 1.0_dp - film/thick_for_decay)*(wide - 1.0_dp)*(side - 1.0_dp))
             end if

@@ -274,6 +274,7 @@ FAULTS: list[tuple[str, str, list[str], list[str]]] = [
     ("another value replaced", "&grid points=66/ &contact load=§-1 /", ["grid.points=65"], ["load = -1"]),
     ("option as bad as the value", "&grid points = 66 /", ["grid.points=68"], ["grid.points = 68"]),
     ("pipe as a map", "&surface kind='map' file=§'/dev/zero'/", [], ["surface.file", "a device"]),
+    ("heavy Moes number", "&contact moes_m = §5e5 /", [], ["M of the round contact", "1e5 at most"]),
     ("negative Moes number", "&contact moes_m = §-1 /", [], ["contact.moes_m", "(0, 1e6]"]),
     ("inlet inside the contact", "&grid x_inlet = §-0.5 /", [], ["grid.x_inlet", "-1.05"]),
     ("accuracy of zero", "&solver accuracy = §0 /", [], ["solver.accuracy"]),
