@@ -155,7 +155,7 @@ contains
          call self%reals("accuracy", s%accuracy, "-", "[1e-6, 1]", &
                          "algebraic error wanted as a share of the discretisation error")
          call self%integers("max_cycles", s%max_cycles, "[1, 10000]", &
-                            "most cycles per level; ten times as many in a time step that needs damped changes")
+                            "most cycles per level; three times as many at a boundary film, ten in a time step with damped changes")
          call self%integers("threads", s%threads, "[1, 256]", "OpenMP threads; the result does not depend on it")
       end associate
       self%group = "psd"
