@@ -12,6 +12,7 @@ module ehl_destination
    use ehl_files, only: absolute_path, file_exists, make_folder, may_write, real_path, remove_file, remove_folder, rename_path
    use ehl_folders, only: change_places, folder_above, full_path, is_here, is_movable, is_there, link_text, list_folder, &
                           lock_folder, make_link, make_parents, move_new, spare_path, unlock_folder, name_t
+   use ehl_folder_lock, only: remove_stale_locks
    use ehl_folder_trial, only: try_folder, try_path
    use ehl_processes, only: remove_left_over
    use ehl_status, only: ehl_bad_input, ehl_file, status_t
@@ -73,6 +74,7 @@ contains
       character(len=:), allocatable, intent(out) :: fresh
       type(status_t), intent(inout) :: status
       type(found_t) :: found
+      type(name_t), allocatable :: ended(:)
       integer :: k
 
       fresh = ""
@@ -80,7 +82,11 @@ contains
       if (.not. status%failed()) call look(self, found, status)
       if (status%failed()) return
       call make_parents(found%path)
+      call remove_stale_locks(folder_above(found%path), ended)
       call remove_left_over(found%path, partial, self%names, is_of_result)
+      do k = 1, size(ended)
+         call remove_left_over(ended(k)%text, partial, self%names, is_of_result)
+      end do
       do k = 1, tries
          fresh = fresh_path(found)
          ! on another machine a process of the same number may have taken the name

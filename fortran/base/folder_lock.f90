@@ -1,17 +1,17 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Who writes into a folder: a file DIR.lock beside it, with process and machine, for as long as a run has the folder. The lock of
-!> a process that has ended is taken over.
+!> a process that has ended is taken over, and removed by the next result that is written beside it.
 module ehl_folder_lock
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char, c_size_t
    use ehl_files, only: file_exists, fortran_text, may_write, process_mark, remove_file, rename_path
-   use ehl_folders, only: folder_above, full_path, is_there, make_parents, move_new, spare_path
+   use ehl_folders, only: folder_above, full_path, is_there, list_folder, make_parents, move_new, name_t, spare_path
    use ehl_processes, only: process_is_there
    use ehl_status, only: ehl_bad_input, ehl_file, status_t
    use ehl_text, only: newline
    use ehl_whole_file, only: read_text, write_text
    implicit none (type, external)
    private
-   public :: folder_lock_t
+   public :: folder_lock_t, remove_stale_locks
 
    type :: folder_lock_t
       !> The file; not allocated: nothing is locked
@@ -84,6 +84,34 @@ contains
       gone = remove_file(self%path)
       deallocate (self%path)
    end subroutine release
+
+   !> Remove the locks that ended runs of this machine have left in a folder
+   subroutine remove_stale_locks(folder, ended)
+      character(len=*), intent(in) :: folder
+      !> What their runs wrote into, from the root
+      type(name_t), allocatable, intent(out) :: ended(:)
+      type(name_t), allocatable :: names(:)
+      character(len=:), allocatable :: path, text
+      type(status_t) :: reading, held
+      logical :: done
+      integer :: k
+
+      allocate (ended(0))
+      done = list_folder(folder, names, suffix)
+      do k = 1, size(names)
+         path = folder//"/"//names(k)%text
+         if (index(path, suffix, back=.true.) /= len(path) - len(suffix) + 1) cycle
+         reading = status_t()
+         held = status_t()
+         call read_text(path, longest, text, reading)
+         if (.not. reading%failed()) call refuse_if_held(folder, path, text, held)
+         if (reading%failed() .or. held%failed()) cycle
+         call take_away(path, text)
+         ! of a variable: gfortran 12 gives a component that is made of an expression one byte
+         path = path(:len(path) - len(suffix))
+         ended = [ended, name_t(path)]
+      end do
+   end subroutine remove_stale_locks
 
    !> Refuse the lock of a process that is alive, or may be
    subroutine refuse_if_held(folder, path, text, status)

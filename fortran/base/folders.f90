@@ -103,9 +103,11 @@ contains
    end function error_number
 
    !> What is in a folder, sorted; false when it cannot be read
-   logical function list_folder(path, names)
+   logical function list_folder(path, names, containing)
       character(len=*), intent(in) :: path
       type(name_t), allocatable, intent(out) :: names(:)
+      !> Names with this text alone: sorting takes the square of their number
+      character(len=*), intent(in), optional :: containing
       type(c_ptr) :: folder, place
       type(entry_t), pointer :: entry
       character(len=:), allocatable :: text
@@ -122,6 +124,9 @@ contains
          call c_f_pointer(place, entry)
          text = fortran_text(entry%name)
          if (text == "." .or. text == "..") cycle
+         if (present(containing)) then
+            if (index(text, containing) == 0) cycle
+         end if
          k = 1
          do while (k <= size(names))
             if (lgt(names(k)%text, text)) exit

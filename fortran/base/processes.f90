@@ -57,7 +57,7 @@ contains
 
       folder = folder_above(path)
       beginning = path(index(path, "/", back=.true.) + 1:)//between//"-"
-      if (.not. list_folder(folder, beside)) return
+      if (.not. list_folder(folder, beside, beginning)) return
       do k = 1, size(beside)
          associate (name => beside(k)%text)
             if (index(name, beginning) /= 1) cycle

@@ -122,6 +122,31 @@ def test_what_killed_runs_left_goes(drive, case: Path):
         assert (folder / name / "P.npy").exists()
 
 
+@pytest.mark.parametrize("command", ["run", "predict"])
+def test_next_result_removes_locks_of_killed_runs(drive, drivers, case: Path, command: str):
+    """The state of the killed run stays, as do locks of others and what no run wrote."""
+    folder, words = case.parent, [*drivers["ehl"], "case.nml", "-o", "out", "-q"]
+    with subprocess.Popen([*words, "--set", "grid.points=257"], cwd=folder) as first:
+        while not (folder / "out.lock").exists():
+            assert first.poll() is None
+            time.sleep(0.01)
+        first.kill()
+    (folder / f"out.partial-{first.pid}").mkdir()
+    (folder / f"out.partial-{first.pid}" / "summary.json").write_text("half")
+    start = Path("/proc/self/stat").read_text().rpartition(")")[2].split()[19]
+    kept = {"alive.lock": f"{MARK}{os.getpid()} {start} {socket.gethostname()}\n"}
+    kept |= {"far.lock": f"{MARK}{dead_process()} 1 another-machine\n", "mine.lock": "notes\n"}
+    for name, text in kept.items():
+        (folder / name).write_text(text)
+    words = [*drivers["pyehl"][:-1], command, "case.nml", "-o", "other"]
+    words += ["--set", "surface.kind='fractal'" if command == "predict" else "grid.points=65"]
+    done = subprocess.run(words, cwd=folder, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    expected = {"case.nml", "other", "out.checkpoint", *kept}
+    assert {path.name for path in folder.iterdir()} == expected
+    assert {name: (folder / name).read_text() for name in kept} == kept
+
+
 @DRIVERS
 @pytest.mark.parametrize("target", ["full", "closed"])
 def test_lost_standard_output_ends_with_a_message(drivers, case: Path, driver: str, target: str):
