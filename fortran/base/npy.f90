@@ -116,54 +116,52 @@ contains
       !> Rows of the file, or columns where its order is Fortran's, that are read at a time
       integer, parameter :: block = 64
       real(dp), allocatable :: rows(:, :)
+      real(real32), allocatable :: short(:)
       logical :: by_rows, single
       integer :: lun, stat, n(2), i, last
 
       call open_npy(path, lun, n, by_rows, single, status)
       if (status%failed()) return
       if (allocated(values)) deallocate (values)
-      allocate (values(n(1), n(2)), stat=stat)
+      allocate (values(n(1), n(2)), rows(merge(n(2), 0, by_rows), min(block, n(1))), &
+                short(merge(merge(n(2), n(1), by_rows), 0, single)), stat=stat)
       if (stat /= 0) then
          call status%fail(ehl_no_memory, path // ": no memory for " // to_text(n(1)) // " x " // to_text(n(2)) // " numbers")
-      else if (by_rows) then
-         allocate (rows(n(2), min(block, n(1))), stat=stat)
-         if (stat /= 0) then
-            call status%fail(ehl_no_memory, path // ": no memory for " // to_text(n(2)) // " columns")
-            close (lun)
-            return
-         end if
-         do i = 1, n(1), block
-            last = min(i + block - 1, n(1))
-            call read_values(lun, single, rows(:, :last - i + 1), stat)
-            if (stat /= 0) exit
-            values(i:last, :) = transpose(rows(:, :last - i + 1))
-         end do
-      else
-         do i = 1, n(2), block
-            call read_values(lun, single, values(:, i:min(i + block - 1, n(2))), stat)
-            if (stat /= 0) exit
-         end do
+         close (lun)
+         return
       end if
+      do i = 1, n(merge(1, 2, by_rows)), block
+         last = min(i + block - 1, n(merge(1, 2, by_rows)))
+         if (by_rows) then
+            call read_values(lun, short, rows(:, :last - i + 1), stat)
+            values(i:last, :) = transpose(rows(:, :last - i + 1))
+         else
+            call read_values(lun, short, values(:, i:last), stat)
+         end if
+         if (stat /= 0) exit
+      end do
       if (stat /= 0) call status%fail(ehl_file, path // ": cannot read the array: it is shorter than it says")
       close (lun)
    end subroutine read_npy
 
-   !> The next numbers of a file
-   subroutine read_values(lun, single, values, stat)
+   !> The next numbers of a file, by columns
+   subroutine read_values(lun, short, values, stat)
       integer, intent(in) :: lun
-      !> Whether they are of single precision
-      logical, intent(in) :: single
+      !> Room for a column of single precision; of size 0: they are of double precision
+      real(real32), intent(inout) :: short(:)
       real(dp), contiguous, intent(inout) :: values(:, :)
       integer, intent(out) :: stat
-      real(real32), allocatable :: short(:, :)
+      integer :: j
 
-      if (single) then
-         allocate (short(size(values, 1), size(values, 2)))
-         read (lun, iostat=stat) short
-      else
+      if (size(short) == 0) then
          read (lun, iostat=stat) values
+         return
       end if
-      if (single .and. stat == 0) values = real(short, dp)
+      do j = 1, size(values, 2)
+         read (lun, iostat=stat) short
+         if (stat /= 0) exit
+         values(:, j) = short
+      end do
    end subroutine read_values
 
    !> Open a file and read its header, as far as the first number

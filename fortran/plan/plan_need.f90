@@ -17,9 +17,11 @@ module ehl_plan_need
    !> smooth contact; what the rough one takes besides; what Alcouffe coarsening takes
    real(dp), parameter :: smooth_bytes = 190.0_dp, rough_bytes = 150.0_dp, alcouffe_bytes = 120.0_dp
    !> Of the temperatures of film and walls
-   real(dp), parameter :: heat_bytes = 24.0_dp
+   real(dp), parameter :: heat_bytes = 32.0_dp
    !> The same of a flow that thins
    real(dp), parameter :: thinning_bytes = 165.0_dp
+   !> Bytes per node of the whole finest grid, to write a field: it, a copy and what it is made of
+   real(dp), parameter :: written_bytes = 24.0_dp
    !> Bytes per node along X and thread
    real(dp), parameter :: line_bytes = 2000.0_dp
    !> Share of the run on the next coarser grid in memory and, with half as many steps, in time
@@ -172,7 +174,7 @@ contains
       bytes = bytes*nodes(plan) + line_bytes*plan%finest%nx*threads
       bytes = bytes + plan%surfaces%bytes_on(plan%finest)
       if (plan%coarse_run) bytes = bytes*(1.0_dp + coarser_bytes)
-      bytes = bytes + 16.0_dp*frames(plan, most_steps(plan))*plan%finest%nx*plan%finest%full_ny()
+      bytes = bytes + (written_bytes + 16.0_dp*frames(plan, most_steps(plan)))*plan%finest%nx*plan%finest%full_ny()
    end function bytes
 
    !> Seconds on one thread until the run can end

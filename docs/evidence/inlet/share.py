@@ -72,8 +72,8 @@ def run(seed: int) -> None:
                 continue
             found, best = (solved(keys | {"grid.points": points} | more) for more in ({}, STRICT))
             row: Row = {"seed": seed, "contact": number, **what, "points": points}
-            row |= {name: found[name] for name in ENDS}
-            row |= {f"strict_{name}": best[name] for name in ENDS[:-2]}
+            row |= {name: found.get(name) for name in ENDS}
+            row |= {f"strict_{name}": best.get(name) for name in ENDS[:-2]}
             append(row)
 
 
