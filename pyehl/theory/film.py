@@ -115,7 +115,9 @@ def hamrock_dowson_soft(
 ) -> tuple[float, float]:
     """h_c/R_x and h_min/R_x [-] of soft bodies and a constant viscosity, from U and W2.
 
-    Hamrock & Dowson 1978, J. Lubr. Technol. 100, 236-245.
+    Hamrock & Dowson 1978, J. Lubr. Technol. 100, 236-245. h_min agrees with the form of regimes
+    in textbooks, 8.70 g_E^0.67 (1 - 0.85 exp(-0.31 k)) (U/W)^2, within 1.2 % at U = 1e-8. The
+    constants of h_c are quoted and checked nowhere else.
     """
     side_c, side_min = math.exp(-0.28 * ellipticity), math.exp(-0.31 * ellipticity)
     h_c = 7.32 * (1 - 0.72 * side_c) * speed**0.64 * load_number**-0.22
@@ -126,7 +128,8 @@ def hamrock_dowson_soft(
 def de_vicente(speed: float, load_number: float) -> float:
     """h_c/R [-] of a circle, soft bodies and a constant viscosity, from U and W2.
 
-    de Vicente, Stokes & Spikes 2005, Tribol. Lett. 20, 273-286.
+    de Vicente, Stokes & Spikes 2005, Tribol. Lett. 20, 273-286: quoted and checked nowhere else
+    but by converged solutions (docs/howto/soft.md).
     """
     return 3.3 * speed**0.6 * load_number**-0.14
 

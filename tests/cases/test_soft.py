@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Soft bodies and water: formulas of their regimes, keys, where the theory ends."""
 
+import math
 from pathlib import Path
 
 import pytest
@@ -21,6 +22,19 @@ def moes(moes_m: float, moes_l: float, points: int = 257) -> dict[str, float]:
 
 def formulas(point: OperatingPoint) -> dict[str, film.FilmEstimate]:
     return {f.name: f for f in film.estimates(point, Lubricant())}
+
+
+@pytest.mark.parametrize("load_number", [1e-4, 1e-3, 1e-2])
+@pytest.mark.parametrize("ellipticity", [1.0, 3.0])
+def test_soft_formula_is_that_of_textbooks(load_number: float, ellipticity: float):
+    """In their form for regimes, of other constants."""
+    speed = 1e-8
+    elasticity = load_number ** (8.0 / 3.0) / speed**2
+    shape = 1.0 - 0.85 * math.exp(-0.31 * ellipticity)
+    textbook = 8.70 * elasticity**0.67 * shape * (speed / load_number) ** 2
+    found = film.hamrock_dowson_soft(speed, load_number, ellipticity)[1]
+    assert found == pytest.approx(textbook, rel=0.012)
+
 
 
 @pytest.mark.parametrize("moes_m", [0.2, 1.0, 2.0])
