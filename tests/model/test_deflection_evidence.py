@@ -5,8 +5,7 @@ from pathlib import Path
 from types import ModuleType
 
 import pytest
-
-from pyehl.bench.workprec import share_of_deflection
+from workprec import share_of_deflection
 
 
 @pytest.fixture(scope="module")

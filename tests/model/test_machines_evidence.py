@@ -5,8 +5,7 @@ import re
 from pathlib import Path
 
 import pytest
-
-from pyehl.bench.machines import KINDS, covered, draw, summary
+from machines import KINDS, covered, draw, summary
 
 
 @pytest.fixture(scope="module")

@@ -22,7 +22,7 @@ def test_the_page_shows_the_campaigns(page: str, stress, script):
 
 
 def test_the_record_is_of_the_scenes_that_the_command_draws(stress):
-    from pyehl.bench.stress_cases import draw
+    from stress_cases import draw
 
     rows = stress.read()
     scenes = draw(len(rows), 1)

@@ -76,7 +76,7 @@ def test_what_the_page_says_of_the_formulas(root: Path):
 def test_rows_of_the_other_programs(root: Path, made: dict[str, Any]):
     """How far two rows are apart, and what Carreau's law takes of the film."""
     text = (root / "docs" / "validation.md").read_text(encoding="utf-8")
-    with (root / "pyehl/reproduce/data/smooth.csv").open(encoding="utf-8") as stream:
+    with (root / "pyehl/studies/references/smooth.csv").open(encoding="utf-8") as stream:
         known = {
             (r["lubricant.roelands_z"], r["grid.points"]): r
             for r in csv.DictReader(line for line in stream if line[0] != "#")

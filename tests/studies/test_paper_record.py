@@ -7,9 +7,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-
-from pyehl.reproduce.driver import PIECES, reproduce
-from pyehl.reproduce.piece import QUICK, read_references
+from driver import PIECES, reproduce
+from piece import QUICK, read_references
 
 
 @pytest.fixture(scope="module")
