@@ -6,11 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 import pictures
 import scipy.fft
+from conditions import CASE, MODELS, SEED
 from pictures import Step
 from piece import Check, Level, References, Result
 from runs import Runs
 
-from cases import CASE, MODELS, SEED
 from pyehl.case import Case
 from pyehl.prediction import of_case
 from pyehl.prediction.result import Prediction

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 import pictures
+from conditions import SCHEMES
 from piece import Check, Level, References, Result
 from runs import Made, Runs
 
-from cases import SCHEMES
 from pyehl.studies.reference_table import read_reference
 from pyehl.types import Array
 

@@ -3,10 +3,9 @@
 
 import numpy as np
 import pictures
+from conditions import SCHEMES, WaveSet, smooth_films, waves
 from piece import Level, References, Result
 from runs import Runs
-
-from cases import SCHEMES, WaveSet, smooth_films, waves
 
 NAME = "figure 3"
 TITLE = "Relative friction of moving waves over H_c/A_i"

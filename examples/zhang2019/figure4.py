@@ -6,13 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 import pictures
+from conditions import SCHEMES, VELOCITY_RATIO, WaveSet, waves
+from curve_fit import Fit, evaluate, fit, scatter
 from figure3 import series, without_result
-from fit import Fit, evaluate, fit, scatter
 from parameter import SMALL_WAVES, response_parameter
 from piece import Check, Finding, Level, References, Result
 from runs import Runs
 
-from cases import SCHEMES, VELOCITY_RATIO, WaveSet, waves
 from pyehl.theory.stribeck import theta_2
 from pyehl.types import Array, Mask
 

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 import pictures
+from conditions import SEED, tile
 from piece import Check, Level, References, Result
 from runs import Runs
 
-from cases import SEED, tile
 from pyehl.surfaces import Topography, psd_2d, psd_isotropic
 
 NAME = "figure 5"

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 
 import numpy as np
 import pictures
+from conditions import SEED, deformed_run, tile
 from piece import Check, Finding, Level, References, Result
 from runs import Made, Runs
 
-from cases import SEED, deformed_run, tile
 from pyehl import results
 from pyehl.prediction.smooth import solve_contact, zone_of
 from pyehl.theory.amplitude import component_amplitude_ratio

@@ -5,11 +5,11 @@ from dataclasses import dataclass
 
 import numpy as np
 import pictures
+from conditions import MODELS, SEED, carried, predictions, simulations
 from piece import Check, Finding, Level, References, Result
 from runs import Made, Runs, friction_of
 from table1 import CASE
 
-from cases import MODELS, SEED, carried, predictions, simulations
 from pyehl.prediction.by_response import STIFFER
 from pyehl.types import Array
 

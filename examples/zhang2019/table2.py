@@ -4,10 +4,10 @@
 import math
 from dataclasses import dataclass
 
+from conditions import CASE, MODELS, SCHEMES, SEED, WIDTH, deformed_run, tile
 from piece import Check, Finding, Level, References, Result
 from runs import Made, Runs, friction_of
 
-from cases import CASE, MODELS, SCHEMES, SEED, WIDTH, deformed_run, tile
 from pyehl.types import Row
 
 NAME = "table 2"

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from document_text import plain
 
 from pyehl import Case, Solver, library
 
@@ -134,7 +135,7 @@ def test_evidence_is_what_this_build_gives(root: Path):
 
 def test_theory_has_the_numbers_of_the_records(root: Path):
     """The table of docs/theory/border.md."""
-    text = (root / "docs" / "theory" / "border.md").read_text(encoding="utf-8")
+    text = plain(root / "docs" / "theory" / "border.md")
     table = re.findall(r"^\| (\d+), (\d+) \| (\S+) % \| (\S+) % \|$", text, re.MULTILINE)
     assert len(table) == 4
     for border, column in (("zero", 2), ("flooded", 3)):
@@ -153,7 +154,7 @@ def test_accuracy_has_the_shares_of_the_records(root: Path, capsys, evidence):
     """What docs/accuracy.md says of random points is what make.py show prints."""
     evidence("errors", "make").show()
     printed = capsys.readouterr().out
-    text = (root / "docs" / "accuracy.md").read_text(encoding="utf-8")
+    text = plain(root / "docs" / "accuracy.md")
     for name in ("H_c", "H_min", "P_max", "F"):
         share = re.search(rf"^{name}: true error .*: (\d+ of \d+)$", printed, re.MULTILINE)
         assert share is not None

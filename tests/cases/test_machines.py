@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from document_text import plain
 from scipy.special import elliprd
 
 import pyehl
@@ -137,7 +138,7 @@ def test_gear_pair_made_anew(root: Path, tmp_path: Path):
 
 def test_border_of_an_ellipse(root: Path, solve):
     """The default is flooded, and thicker than tables with P = 0 on a small domain have it."""
-    text = (root / "docs" / "theory" / "border.md").read_text(encoding="utf-8")
+    text = plain(root / "docs" / "theory" / "border.md")
     keys = {"contact.radius_ratio": 0.35177, "lubricant.roelands_z": 0.6684}
     place = {"grid.x_inlet": -2.5, "grid.x_outlet": 1.5, "grid.y_extent": 4.0}
     for more, words in (({}, "along X is"), (place | {"grid.border": "zero"}, "`) it is")):
@@ -147,7 +148,7 @@ def test_border_of_an_ellipse(root: Path, solve):
 
 def test_rolling_moment_grows_with_the_domain(root: Path, solve):
     """In a round contact towards the asymptote of Biboulet & Houpert 2010, with its logarithm."""
-    text = (root / "docs" / "theory" / "border.md").read_text(encoding="utf-8")
+    text = plain(root / "docs" / "theory" / "border.md")
     shares = []
     for width, points in ((4.0, 129), (8.0, 257), (16.0, 513)):
         place = {"grid.x_inlet": -0.625 * width, "grid.x_outlet": 0.375 * width}

@@ -20,6 +20,11 @@ NUMBER = r"\d+(?:\.\d+)?(?:[eE][-+]?\d+)?"
 _FREE = re.compile(rf"(?<=residual )\s*{NUMBER}|\d+(?= ms\b)")
 
 
+def plain(path: Path) -> str:
+    """Text of a page without the markers of `python docs/numbers`."""
+    return re.sub(r"<!--(?:\w+=.+?|/)-->", "", path.read_text(encoding="utf-8"))
+
+
 def fences(path: Path) -> list[tuple[str, str]]:
     """Languages and texts of the fenced blocks, in their order."""
     return re.findall(r"^```(\S+)\n(.*?)^```$", path.read_text(), re.MULTILINE | re.DOTALL)

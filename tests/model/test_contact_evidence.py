@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from document_text import plain
 
 from pyehl.studies.plan import formula_film
 
@@ -16,7 +17,7 @@ def evidence(script):
 
 @pytest.fixture(scope="module")
 def text(root: Path) -> str:
-    return (root / "docs/evidence/contact/README.md").read_text(encoding="utf-8")
+    return plain(root / "docs/evidence/contact/README.md")
 
 
 @pytest.fixture(scope="module")
@@ -115,7 +116,7 @@ def test_the_page_says_how_rough_balls_compare(root: Path, text: str, dry):
     worst = f"{np.ceil(1e3 * max(row['rms'] for row in solved)) / 10.0:.1f} %"
     peak = np.ceil(1e3 * max(abs(row["P_max_off"]) for row in solved)) / 10.0
     assert f"within {worst} (rms), the greatest one within {peak:.1f} %" in text
-    chapter = (root / "docs/theory/contact.md").read_text(encoding="utf-8")
+    chapter = plain(root / "docs/theory/contact.md")
     assert f"within {worst[:-2]} % of $p_h$ (rms) for every surface tried" in chapter
     # those of the layer and speed of the text
     same = [row for row in solved if row["surface"] not in list(dry.SURFACES)[-3:]]

@@ -5,6 +5,7 @@ from pathlib import Path
 from types import ModuleType
 
 import pytest
+from document_text import plain
 from workprec import share_of_deflection
 
 
@@ -16,7 +17,7 @@ def evidence(script) -> ModuleType:
 def test_the_page_shows_the_tables(root: Path, evidence):
     pages = "theory/deflection.md", "evidence/deflection/README.md"
     for page, table in zip(pages, evidence.tables(), strict=True):
-        assert "\n".join(table) in (root / "docs" / page).read_text(encoding="utf-8")
+        assert "\n".join(table) in plain(root / "docs" / page)
 
 
 def test_this_build_makes_the_stored_errors(evidence):
@@ -38,7 +39,7 @@ def test_share_in_the_friction_of_a_short_wave(root: Path):
         ("evidence/workprec/README.md", "makes {:.2f} % of μ_r/μ_s"),
         ("evidence/workprec/README.md", share),
     ):
-        text = (root / "docs" / page).read_text(encoding="utf-8")
+        text = plain(root / "docs" / page)
         assert said.format(100.0 * found["difference"]) in text
 
 

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from document_text import plain
 
 Row = dict[str, Any]
 
@@ -33,7 +34,7 @@ def beside(root: Path, script, monkeypatch) -> Iterator[Callable[[str, str], Mod
 
 def page(root: Path, name: str) -> str:
     """Text of an evidence page on one line a paragraph."""
-    return (root / "docs" / "evidence" / name / "README.md").read_text(encoding="utf-8")
+    return plain(root / "docs" / "evidence" / name / "README.md")
 
 
 def rows_of(root: Path, name: str) -> list[dict[str, str]]:
@@ -238,3 +239,21 @@ def test_waves_that_are_not_fitted_on_the_page(root: Path, script, capsys):
     worst = max(float(line[-1]) for line in lines)
     slow = max(float(line[-1]) for line in lines if abs(float(line[2]) - 1.0) < 0.02)
     assert f"They are met within {worst:.2g}, at U = 1 and 1.01 within {slow:.3f}." in text
+
+
+def test_this_build_makes_a_narrow_contact(root: Path, script):
+    """A row of ends.csv."""
+    made = script("docs/evidence/errors_ellipses/make.py").ends((0.1, 200.0, 10.0, 257))
+    (row,) = ({name: str(value) for name, value in one.items()} for one in made)
+    with (root / "docs/evidence/errors_ellipses/ends.csv").open(encoding="utf-8") as stream:
+        assert row == next(csv.DictReader(stream))
+
+
+@pytest.mark.long
+def test_this_build_makes_a_point_left_out(root: Path, evidence):
+    leave_out = evidence("response", "leave_out")
+    everything = leave_out.read()
+    data = everything.chosen(leave_out.select(everything))
+    found = leave_out.left_out(data, leave_out.fit(data), 500.0, 5.0)
+    text = (root / "docs/evidence/response/leave_out.csv").read_text(encoding="utf-8")
+    assert f"500,5,{','.join(found)}\n" in text

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from document_text import plain
 
 import pyehl
 from pyehl.prediction import wavy_contact
@@ -69,7 +70,7 @@ def test_load_is_kept_in_rings(root: Path, evidence, table, monkeypatch):
         100.0 * (1.0 - compare.predictions(rows[name])[0] / table[name]["prediction"])
         for name in ("t1s21", "m120l12", "m250l6")
     ]
-    text = (root / "docs" / "theory" / "prediction-second-order.md").read_text(encoding="utf-8")
+    text = plain(root / "docs" / "theory" / "prediction-second-order.md")
     said = "t1s21, m120l12 and m250l6 by {:.1f}, {:.1f} and {:.1f} %".format(*lower)
     assert said in text
 
@@ -147,7 +148,7 @@ def test_better_than_the_model_of_the_paper(table):
 @pytest.mark.long
 def test_page_of_the_theory_prints_the_table(root, table):
     """The example of docs/theory/prediction-compared.md, and the summary of all cases."""
-    text = (root / "docs" / "theory" / "prediction-compared.md").read_text().replace("−", "-")
+    text = plain(root / "docs" / "theory" / "prediction-compared.md").replace("−", "-")
     for name in ("t1s21u1", "t1s21", "t1s21u105"):
         row = table[name]
         (line,) = re.findall(rf"^\| {row['velocity_ratio']:.2f} \|.*$", text, re.M)
@@ -173,7 +174,7 @@ def test_page_of_the_theory_prints_the_table(root, table):
 
 def test_page_of_the_theory_prints_the_bands(root: Path):
     """What each octave adds without slip and with 1 %, and what is below and above a/16."""
-    text = (root / "docs" / "theory" / "prediction-compared.md").read_text()
+    text = plain(root / "docs" / "theory" / "prediction-compared.md")
     shown = re.findall(r"^\| \d+ to \d+ \| (\S+) \((\S+)\) \| (\S+) \((\S+)\) \|$", text, re.M)
     table = [[float(word) for word in line] for line in shown]
     for column, ratio in ((0, 1.0), (2, 1.01)):
@@ -194,7 +195,7 @@ def test_starts_from_the_prediction(root: Path, script):
     folder = root / "docs" / "evidence" / "start"
     make = script("docs/evidence/start/make.py")
     rows = make.rows_of(folder / "scenes.csv")
-    text = (folder / "README.md").read_text()
+    text = plain(folder / "README.md")
     assert len(rows) == 19
     for row in rows:
         assert make.line_of(row) in text
@@ -249,7 +250,7 @@ def test_pressure_of_ridges(root: Path):
                 light.append(100.0 * (ratio - 1.0))
             else:
                 lost.append(ratio)
-    text = (folder / "README.md").read_text(encoding="utf-8")
+    text = plain(folder / "README.md")
     middle = statistics.median(heavy)
     assert f"by {min(heavy):.1f} to {max(heavy):.1f} % (median {middle:.1f} %)" in text
     assert f"`edge_gain` has {min(gains):.1f} to {max(gains):.1f} %" in text

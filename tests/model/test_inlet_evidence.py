@@ -5,6 +5,7 @@ from itertools import islice
 from pathlib import Path
 
 import pytest
+from document_text import plain
 
 import pyehl
 from pyehl.schema import summary_of
@@ -17,7 +18,7 @@ def evidence(script):
 
 @pytest.fixture(scope="module")
 def text(root: Path) -> str:
-    return (root / "docs/evidence/inlet/README.md").read_text(encoding="utf-8")
+    return plain(root / "docs/evidence/inlet/README.md")
 
 
 def test_the_page_shows_the_table(text: str, evidence):

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from document_text import plain
 
 import pyehl
 
@@ -48,10 +49,10 @@ def test_pages_show_the_stored_profiles(
     assert set(theirs) == set(ours)
     assert len(ours) == 20
     assert [list(row) for row in made["table"](theirs, ours)] == rows
-    readme = (home / "README.md").read_text(encoding="utf-8")
+    readme = plain(home / "README.md")
     for source in (MEASURED, SIMULATED):
         assert "\n".join(made["lines"](rows, source)) in readme
-    page = (root / "docs" / "validation.md").read_text(encoding="utf-8")
+    page = plain(root / "docs" / "validation.md")
     assert "\n".join(made["lines"](rows, MEASURED)) in page
 
 

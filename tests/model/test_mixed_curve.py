@@ -3,10 +3,12 @@
 
 from pathlib import Path
 
+from document_text import plain
+
 
 def test_prediction_and_simulation_along_a_curve(root: Path, script):
     make = script("docs/evidence/mixed_curve/make.py")
-    text = (make.HERE / "README.md").read_text(encoding="utf-8")
+    text = plain(make.HERE / "README.md")
     assert "\n".join(make.lines()) in text
     compared = [row for row in make.rows() if row[f"{make.SHARE}_ehl"]]
     assert len(compared) == 5

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from document_text import plain
 
 
 @pytest.fixture(scope="module")
@@ -31,7 +32,7 @@ def test_predictions_of_before_stay(place: Path):
 
 def test_blind_contacts(place: Path):
     """Those that were predicted by the present version before they were simulated."""
-    text = (place / "README.md").read_text(encoding="utf-8")
+    text = plain(place / "README.md")
     rows = [row for name, row in read(place / "table.csv").items() if name.startswith("d")]
     share, found, stated, area, area_found = columns(
         rows,
@@ -53,7 +54,7 @@ def test_blind_contacts(place: Path):
 
 
 def test_contacts_in_view(place: Path):
-    text = (place / "README.md").read_text(encoding="utf-8")
+    text = plain(place / "README.md")
     rows = [row for name, row in read(place / "table.csv").items() if name.startswith("c")]
     now, found, stated = columns(
         rows, "contact_load_share_now", "contact_load_share", "stated_error"

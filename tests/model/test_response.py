@@ -9,6 +9,7 @@ from types import ModuleType
 
 import numpy as np
 import pytest
+from document_text import plain
 
 from pyehl.theory import disc
 from pyehl.theory.response import GAIN, fitted_range, inlet_fit, inlet_transfer
@@ -291,7 +292,7 @@ def test_gain_of_oblique_waves_is_that_of_the_measured_pressures(
     assert len(points) >= 15
     each = [left[(waves[:, 0] == m) & (waves[:, 1] == ell)] for m, ell in points]
     rms = [float(np.sqrt(np.mean(np.square(here)))) for here in each]
-    text = (root / "docs/evidence/response/README.md").read_text(encoding="utf-8")
+    text = plain(root / "docs/evidence/response/README.md")
     assert f"the rms it leaves is {min(rms):.3f} to {max(rms):.3f} at an operating point" in text
     assert max(rms) <= 0.011
     assert max(np.abs(here).max() for here in each) <= 0.051

@@ -4,11 +4,12 @@
 from pathlib import Path
 
 import pytest
+from document_text import plain
 
 
 @pytest.fixture(scope="module")
 def page(root: Path) -> str:
-    return (root / "docs" / "robustness.md").read_text(encoding="utf-8")
+    return plain(root / "docs" / "robustness.md")
 
 
 @pytest.fixture(scope="module")

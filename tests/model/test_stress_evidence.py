@@ -6,6 +6,7 @@ from collections import Counter
 from pathlib import Path
 
 import pytest
+from document_text import plain
 
 NAMES = {"eyring": "Eyring", "carreau": "Carreau", "newtonian": "Newtonian"}
 GOOD = ("converged", "ended at its number of steps")
@@ -33,7 +34,7 @@ def campaigns(root: Path) -> dict[str, list[dict[str, str]]]:
 
 
 def test_ends(root: Path, campaigns: dict[str, list[dict[str, str]]]):
-    text = (root / "docs" / "robustness.md").read_text(encoding="utf-8")
+    text = plain(root / "docs" / "robustness.md")
     for law, rows in campaigns.items():
         counts = Counter(row["outcome"] for row in rows)
         numbers = [len(rows), *(counts[name] for name in (*GOOD, *FAILED))]
@@ -58,9 +59,9 @@ def test_failures_of_a_newtonian_oil_are_failures_of_all(
         for law, rows in campaigns.items()
     }
     newtonian = failed.pop("newtonian")
-    text = (root / "docs" / "robustness.md").read_text(encoding="utf-8")
+    text = plain(root / "docs" / "robustness.md")
     assert f"The {len(newtonian)} scenes that fail with a Newtonian oil" in text
-    page = (root / "docs" / "evidence" / "stress" / "README.md").read_text(encoding="utf-8")
+    page = plain(root / "docs" / "evidence" / "stress" / "README.md")
     assert f"; {len(newtonian)} of these scenes fail with the Newtonian oil" in page
     for law, those in failed.items():
         assert newtonian < those
@@ -85,7 +86,7 @@ def test_contacts(root: Path):
     numbers += [len(fields), sum(row["broken"] != "none" for row in fields)]
     for name, found in shares.items():
         numbers += [len(found), len(wrong[name])]
-    text = (root / "docs" / "robustness.md").read_text(encoding="utf-8")
+    text = plain(root / "docs" / "robustness.md")
     assert f"| {' | '.join(map(str, numbers))} |" in text
     assert not any(row["wrong"] == "True" for row in rows)
 

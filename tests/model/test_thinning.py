@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from document_text import plain
 
 import pyehl
 from pyehl.case import Case
@@ -158,7 +159,7 @@ def test_a_law_in_the_friction_alone_states_no_error():
 
 def test_reference_values(root):
     """The table of docs/theory/thinning.md: factors of Python, and the rows that Fortran tests."""
-    text = (root / "docs" / "theory" / "thinning.md").read_text(encoding="utf-8")
+    text = plain(root / "docs" / "theory" / "thinning.md")
     source = (root / "fortran" / "test" / "test_flow.f90").read_text(encoding="utf-8")
     calls = [re.sub("_dp", "", line) for line in re.findall(r"call agree\(.*by_.*\)", source)]
     tested = [[float(v) for v in re.findall(r"-?\d[\d.e]*", line)] for line in calls]
@@ -330,7 +331,7 @@ def test_all_surfaces_of_the_page(root):
         for name in ("mu_ratio", "h_min_rough_m")
     )
     rms = [100.0 * np.sqrt(np.mean(off**2)) for off in (ratio, film)]
-    text = (folder / "README.md").read_text(encoding="utf-8")
+    text = plain(folder / "README.md")
     assert (
         f"Over all {ratio.size} surfaces {np.count_nonzero(abs(ratio) <= 0.005)} ratios are within "
         f"0.5 %, {rms[0]:.2f} % rms, and {np.count_nonzero(abs(film) <= 0.05)} least films within "
@@ -342,7 +343,7 @@ def test_rows_of_the_page(root):
     """Predicted and simulated of each surface, those of g, h and i as committed."""
     folder = root / "docs" / "evidence" / "thinning"
     before, today = numbers(folder / "committed.csv"), numbers(folder / "predicted.csv")
-    text = (folder / "README.md").read_text(encoding="utf-8")
+    text = plain(folder / "README.md")
     units = {"p_rise_rms_Pa": 1e6, "p_rise_max_Pa": 1e6, "h_min_rough_m": 1e-9}
     for name, run in numbers(folder / "simulated.csv").items():
         said = (before if name[0] in "ghi" else today)[name]
@@ -366,7 +367,7 @@ def test_surfaces_predicted_before(root, table, heading):
     """The tables of g and h: deviations, how many are within the aims, and covered."""
     folder = root / "docs" / "evidence" / "thinning"
     said, found = numbers(folder / "committed.csv"), numbers(folder / f"{table}.csv")
-    text = (folder / "README.md").read_text(encoding="utf-8")
+    text = plain(folder / "README.md")
     part = text.split(f"### {heading}\n")[1].split("\n### ")[0]
     rows = [name for name in said if name[0] in "gh"]
     aims = (0.005, 0.05, None, 0.05, None)

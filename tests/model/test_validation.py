@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from document_text import plain
 
 # Worst deviation from the other program, in per cent, that the page may show
 LIMITS = {"circle": 0.45, "ellipse": 0.3, "thinning": 0.9, "waviness": 0.1}
@@ -26,7 +27,7 @@ def rows(root: Path, name: str) -> list[dict[str, str]]:
 
 def test_page_shows_what_is_stored(root: Path):
     """Each stored row has a line with its deviation, and no line is without one."""
-    text = (root / "docs" / "validation.md").read_text(encoding="utf-8")
+    text = plain(root / "docs" / "validation.md")
     shown = re.findall(r"\| ([^|]+) \| ([^|]+) \| ([+−]?[\d.]+) % \|", text)
     stored = rows(root, "table.csv")
     assert len(shown) == len(stored)
@@ -39,7 +40,7 @@ def test_page_shows_what_is_stored(root: Path):
 
 
 def test_spans_of_the_formulas(root: Path):
-    text = (root / "docs" / "validation.md").read_text(encoding="utf-8")
+    text = plain(root / "docs" / "validation.md")
     lines = re.findall(r"\| ([\w .-]+) \| (\w+) \| (\d+) to (\d+) \| ([\d.]+) \| ([\d.]+) \|", text)
     assert len(lines) == 10
     stored = rows(root, "formulas.csv")
@@ -55,7 +56,7 @@ def test_spans_of_the_formulas(root: Path):
 
 def test_what_the_page_says_of_the_formulas(root: Path):
     """Largest deviations of the central films, and of the least ones at high loads."""
-    text = (root / "docs" / "validation.md").read_text(encoding="utf-8")
+    text = plain(root / "docs" / "validation.md")
     off = {}
     for row in rows(root, "formulas.csv"):
         key = row["formula"].partition("-")[0], row["quantity"], float(row["moes_m"]) >= 500.0
@@ -75,7 +76,7 @@ def test_what_the_page_says_of_the_formulas(root: Path):
 
 def test_rows_of_the_other_programs(root: Path, made: dict[str, Any]):
     """How far two rows are apart, and what Carreau's law takes of the film."""
-    text = (root / "docs" / "validation.md").read_text(encoding="utf-8")
+    text = plain(root / "docs" / "validation.md")
     with (root / "pyehl/studies/references/smooth.csv").open(encoding="utf-8") as stream:
         known = {
             (r["lubricant.roelands_z"], r["grid.points"]): r

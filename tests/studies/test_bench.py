@@ -23,6 +23,7 @@ import stress
 import stress_cases
 import sweep
 import workprec
+from document_text import plain
 from matplotlib.image import imread
 
 import pyehl
@@ -443,7 +444,7 @@ def test_defaults_are_on_the_front_that_was_measured(root: Path):
     assert min(row["bar"] for row in whole) > 0.01
     (prediction,) = (row for row in whole if row["setting"] == "prediction")
     assert prediction["error"] <= prediction["bar"]
-    text = (root / "docs/evidence/workprec/README.md").read_text(encoding="utf-8")
+    text = plain(root / "docs/evidence/workprec/README.md")
     (resolved,) = (r for r in rows if (r["scene"], r["setting"]) == (RESOLVED, "prediction"))
     said = f"{100 * resolved['error']:.3f} % where", f"{100 * prediction['error']:.1f} % on the"
     assert all(words in text for words in said)

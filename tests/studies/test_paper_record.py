@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from document_text import plain
 from driver import PIECES, reproduce
 from piece import QUICK, read_references
 
@@ -23,13 +24,13 @@ def rows(made: dict[str, Any]) -> list[dict[str, str]]:
 
 
 def test_pages_show_the_record(root: Path, made: dict[str, Any], rows: list[dict[str, str]]):
-    page = (root / "docs" / "validation.md").read_text(encoding="utf-8")
+    page = plain(root / "docs" / "validation.md")
     shown = [made["line"](row) for row in rows if row["piece"] != "table 1"]
     head = made["HEAD"]
     assert "\n".join([*head, *shown]) in page
     # and nothing else in that table
     assert page.split(head[1])[1].split("\n\n")[0].strip().splitlines() == shown
-    readme = (root / "docs/evidence/paper/README.md").read_text(encoding="utf-8")
+    readme = plain(root / "docs/evidence/paper/README.md")
     for row in made["read"]("findings.csv"):
         assert made["finding"](row) in readme
 
@@ -57,7 +58,7 @@ def test_verdicts_of_the_record(rows: list[dict[str, str]]):
 def test_numbers_of_the_howto_are_of_the_record(
     root: Path, made: dict[str, Any], rows: list[dict[str, str]]
 ):
-    text = (root / "docs" / "howto" / "reproduce.md").read_text(encoding="utf-8")
+    text = plain(root / "docs" / "howto" / "reproduce.md")
     (item,) = re.findall(r"^- \*\*Eq\. 16.*$", text, re.M)
     for power in ("2", "4"):
         name = f"coefficient of theta_2^-{power}, theta_2 > 1, scheme 'paper'"

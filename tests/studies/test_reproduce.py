@@ -8,16 +8,16 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import conditions
 import figure2
 import numpy as np
 import pytest
+from curve_fit import evaluate, fit, scatter
 from driver import PIECES, reproduce, write_report
-from fit import evaluate, fit, scatter
 from parameter import SMALL_WAVES, response_parameter
 from piece import FULL, QUICK, Check, Level, Result, read_references
 from reproduce import main
 
-import cases
 from pyehl.case import Case
 from pyehl.studies.journal import NAME
 
@@ -203,8 +203,8 @@ def test_a_failed_run_fails_its_piece_alone(tmp_path: Path, monkeypatch: pytest.
 def test_waves_and_surfaces_on_coarse_grids(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     """All other pieces, small: what they find, not how well the paper is met on such grids."""
     curves = ((1000.0, 10.0, 1.0), (1000.0, 10.0, 0.5), (500.0, 5.0, 1.0), (500.0, 10.0, 0.5))
-    monkeypatch.setattr(cases, "CURVES", curves)
-    monkeypatch.setattr(cases, "RATIOS", (1.6, 2.5, 5.0))
+    monkeypatch.setattr(conditions, "CURVES", curves)
+    monkeypatch.setattr(conditions, "RATIOS", (1.6, 2.5, 5.0))
     names = [n for n in PIECES if n not in ("table 1", "figure 1", "figure 2", "figure 5")]
     found = {r.name: r for r in reproduce(names, SMALL, tmp_path)}
     assert set(found) == set(names)
@@ -257,13 +257,13 @@ def test_command(tmp_path: Path, capsys: Any):
 
 
 def test_levels_differ_as_they_say():
-    assert len(cases.CURVES) * len(cases.RATIOS) >= 60
+    assert len(conditions.CURVES) * len(conditions.RATIOS) >= 60
     assert FULL.surfaces == 20
     assert FULL.meshes == (257, 513, 1025)
     assert QUICK.collapse_grid < FULL.collapse_grid == 513
 
 
 def test_predictions_have_the_waves_of_the_grid():
-    (option,) = cases.carried(257)
-    shortest = Case.from_text(cases.CASE, [option]).resolve()["surface"]
+    (option,) = conditions.carried(257)
+    shortest = Case.from_text(conditions.CASE, [option]).resolve()["surface"]
     assert shortest["shortest_wavelength"] == pytest.approx(8.0 / 256 * 4.154e-4, rel=1e-3)
