@@ -86,7 +86,7 @@ def ellipse_waves() -> Values:
             for n in ("circle", "dry", "houpert", "by_rx")
         ]
         cells = [f"{np.sqrt(np.mean(np.square(one))):.3f}" for one in off]
-        lines[f"{kappa:g} | {m:g}, {ell:g} | {ratio:g}"] = " | ".join(cells)
+        lines[f"{kappa:g}; {m:g}, {ell:g}; {ratio:g}"] = " | ".join(cells)
         mean = np.mean(of(rows, "circle_pressure") / of(rows, "pressure") - 1.0)
         worst[kappa == 0.4] = max(worst[kappa == 0.4], abs(100.0 * mean))
     return locals()
@@ -136,7 +136,7 @@ def extreme_ellipses() -> Values:
     for row in read("errors_ellipses/ends.csv"):
         kappa = "1/30" if row["kappa"].startswith("0.03") else f"{float(row['kappa']):g}"
         heads = f"{float(row['moes_m']):g}", f"{float(row['moes_l']):g}", row["points"]
-        cells = found.setdefault(" | ".join((kappa, *heads)), ["", ""])
+        cells = found.setdefault("; ".join((kappa, *heads)), ["", ""])
         ended = row["status"] == "converged"
         cells[int(row["short_cells"])] = f"{row['cycles']} cycles" if ended else row["status"]
     lines = {head: " | ".join(cells) for head, cells in found.items()}

@@ -32,8 +32,10 @@ def test_a_wrong_number_is_replaced(numbers: dict[str, Any]):
         numbers["filled"]("<!--nobody=x-->7<!--/-->")
 
 
-def test_no_paragraph_begins_with_a_marker(numbers: dict[str, Any]):
-    """Markdown would take the whole line as HTML."""
+def test_markers_are_comments_to_markdown(numbers: dict[str, Any]):
+    """One that begins a line would make the whole line HTML, a bar would end a cell."""
     for page in numbers["pages"]():
         for line in page.read_text(encoding="utf-8").splitlines():
             assert not line.startswith("<!--") or line.endswith("-->"), f"{page}: {line}"
+            if line.startswith("|"):
+                assert "|" not in "".join(e for _, e, _ in numbers["MARKER"].findall(line)), line
