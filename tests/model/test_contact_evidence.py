@@ -30,11 +30,6 @@ def shares(evidence) -> dict:
     }
 
 
-def test_the_page_shows_the_tables(text: str, evidence):
-    for name in evidence.CONTACTS:
-        assert "\n".join(evidence.lines(name)) in text
-
-
 def test_how_often_stated_errors_cover_the_next_grid(text: str, evidence, shares):
     known = covered = 0
     for row in evidence.read():
@@ -111,7 +106,6 @@ def test_rough_balls_at_vanishing_speed(dry, surface):
 
 
 def test_the_page_says_how_rough_balls_compare(root: Path, text: str, dry):
-    assert "\n".join(dry.lines()) in text
     solved = [row for row in dry.read() if row["status"] == "converged"]
     worst = f"{np.ceil(1e3 * max(row['rms'] for row in solved)) / 10.0:.1f} %"
     peak = np.ceil(1e3 * max(abs(row["P_max_off"]) for row in solved)) / 10.0

@@ -23,7 +23,6 @@ def text(root: Path) -> str:
 
 def test_the_page_shows_the_table(text: str, evidence):
     rows = evidence.read()
-    assert "\n".join(evidence.lines()) in text
     assert f"{len({row['contact'] for row in rows})} contacts drawn with a seed" in text
     good, told = evidence.by_two_grids(rows)
     assert f"would cover {good} of {told} central films" in text

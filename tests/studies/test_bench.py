@@ -212,6 +212,13 @@ def test_cases_of_a_campaign_cover_what_can_be_asked_for():
         assert case.values["time.steps"] in (0, stress_cases.BOUNDS[case.points])
 
 
+def test_the_record_is_of_the_cases_that_are_drawn(script):
+    rows = script("docs/evidence/stress/make.py").read()
+    drawn = stress_cases.draw(len(rows), 1)
+    assert [row["family"] for row in rows] == [case.family for case in drawn]
+    assert [float(row["moes_m"]) for row in rows] == [case.moes_m for case in drawn]
+
+
 def test_cases_with_a_shear_law_are_the_same_scenes():
     plain = stress_cases.draw(60, 1)
     for law in ("eyring", "carreau"):
