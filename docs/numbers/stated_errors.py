@@ -9,6 +9,8 @@ import io
 import numpy as np
 from records import Values, read, script
 
+from pyehl.prediction.second_order import INLET_FILM
+
 
 def steps() -> Values:
     """Algebraic errors of time steps; one of them is above a tenth."""
@@ -113,6 +115,11 @@ def best_fields() -> Values:
         name: " | ".join(f"{float(r[f'{name}_correlation']):.{digits}f}" for r in best)
         for name, digits in (("p", 4), ("film", 3))
     }
+    # first order at the centre; the constant of the prediction is that of the inlet
+    centre = [r for r in rows if (r["points"], r["place"]) == ("513", "r < 0.4")]
+    assert all(abs(float(r["p_slope"]) - 1.0) <= 0.005 for r in centre)
+    assert all(abs(float(r["film_slope"]) - 1.0) <= 0.013 for r in centre)
+    assert abs(np.mean([float(r["film_square"]) for r in centre]) + INLET_FILM) <= 0.02
     inner = [
         float(r["film_square"]) for r in rows if r["points"] == "513" and r["place"] == "r < 0.4"
     ]

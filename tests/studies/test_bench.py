@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The scripts of `benchmarks/` on tiny campaigns."""
 
-import csv
 import importlib
 import json
 import math
@@ -23,7 +22,6 @@ import stress
 import stress_cases
 import sweep
 import workprec
-from document_text import plain
 from matplotlib.image import imread
 
 import pyehl
@@ -413,69 +411,6 @@ def test_cases_per_core_hour(tmp_path: Path, capsys: pytest.CaptureFixture[str])
     assert one["overhead_ms"] > 0.0
     assert two["overhead_ms"] is None
     assert list(one["statuses"].values()) == [400]
-
-
-RESOLVED = "resolved fractal"
-
-
-@pytest.mark.long
-def test_defaults_are_on_the_front_that_was_measured(root: Path):
-    """docs/evidence/workprec: what is cheapest, as its README says."""
-    with (root / "docs" / "evidence" / "workprec" / "workprec.csv").open() as stream:
-        rows = [
-            row | {key: float(row[key]) for key in ("seconds", "error", "bar") if row[key]}
-            for row in csv.DictReader(stream)
-            # right by chance on one grid
-            if row["error"] and row["threads"] == "1" and not row["setting"].startswith("paper")
-        ]
-
-    def least(scene: str, level: float, family: tuple[str, ...]) -> float:
-        return min(
-            row["seconds"]
-            for row in rows
-            if row["scene"] == scene
-            and row["quantity"] in ("H_c", "mu_ratio")
-            and row["setting"].startswith(family)
-            and max(row["error"], row["bar"]) <= level
-        )
-
-    # one deflection by FFT on 129 x 129 nodes is cheaper than by multi-integration
-    others = ("default", "alcouffe", "classical")
-    for scene in ("smooth", "wave", "resolved fractal"):
-        for level in workprec.LEVELS:
-            assert least(scene, level, ("default",)) <= 1.1 * least(scene, level, others)
-            assert least(scene, level, ("default",)) <= 1.2 * least(scene, level, ("fft",))
-    predicted = least("resolved fractal", 3e-3, ("prediction",))
-    assert predicted < 0.3 * least("resolved fractal", 3e-3, others)
-    whole = [row for row in rows if row["scene"] == "fractal"]
-    assert min(row["bar"] for row in whole) > 0.01
-    (prediction,) = (row for row in whole if row["setting"] == "prediction")
-    assert prediction["error"] <= prediction["bar"]
-    text = plain(root / "docs/evidence/workprec/README.md")
-    (resolved,) = (r for r in rows if (r["scene"], r["setting"]) == (RESOLVED, "prediction"))
-    said = f"{100 * resolved['error']:.3f} % where", f"{100 * prediction['error']:.1f} % on the"
-    assert all(words in text for words in said)
-    found = {
-        (row["scene"], row["setting"], int(row["points"])): row
-        for row in rows
-        if row["quantity"] in ("H_c", "mu_ratio")
-    }
-
-    def gain(scene: str, points: int) -> float:
-        errors = (
-            found[scene, setting, points]["error"]
-            for setting in ("default", "default, extrapolated")
-        )
-        plain, better = errors
-        return plain / better
-
-    assert f"a factor of {gain('smooth', 257):.0f} on 257², {gain('smooth', 513):.0f} on 5" in text
-    assert f"gains {gain('wave', 257):.1f} to {gain('wave', 513):.1f} in the wave" in text
-    assert f"on the resolved surface {gain(RESOLVED, 513):.1f} on 513²" in text
-    at = "{:.2g} s"
-    assert f"| 129², {at.format(found['wave', 'default', 129]['seconds'])} |" in text
-    assert f"| 257², {at.format(found['wave', 'default', 257]['seconds'])} |" in text
-    assert f"| prediction, {resolved['seconds']:.2f} s |" in text
 
 
 def test_cheapest_setting():
