@@ -26,6 +26,7 @@ from pyehl.cli import status_of
 from pyehl.destination import check_files, mark, write_json
 from pyehl.types import Array, Mask, Row
 
+LISTS = {"points": "nodes per side", "threads": "numbers of threads"}
 GRIDS = (65, 129, 257, 513, 1025)
 X_INLET, X_OUTLET, Y_EXTENT = -2.5, 1.5, 2.0
 
@@ -43,9 +44,12 @@ def say(text: str) -> None:
     print(text, file=sys.stderr)
 
 
-def parser(text: str | None) -> argparse.ArgumentParser:
-    """Make the parser of a script from its docstring."""
-    return argparse.ArgumentParser(description=(text or "").split("\n\n")[0], allow_abbrev=False)
+def parser(text: str | None, **lists: Sequence[int]) -> argparse.ArgumentParser:
+    """Make the parser of a script from its docstring, with defaults of `points` and `threads`."""
+    made = argparse.ArgumentParser(description=(text or "").split("\n\n")[0], allow_abbrev=False)
+    for name, default in lists.items():
+        add_list(made, name, default, LISTS[name])
+    return made
 
 
 def add_list(

@@ -10,7 +10,6 @@ import numpy as np
 from common import (
     GRIDS,
     ScipyDeflection,
-    add_list,
     columns,
     hertz,
     measure,
@@ -100,9 +99,7 @@ def work(args: argparse.Namespace) -> Row:
 
 def main(words: Sequence[str] | None = None) -> int:
     """Run the script."""
-    made = parser(__doc__)
-    add_list(made, "points", GRIDS, "nodes per side")
-    add_list(made, "threads", (1, 2), "numbers of threads")
+    made = parser(__doc__, points=GRIDS, threads=(1, 2))
     return measure(work, made, words)
 
 

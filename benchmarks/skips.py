@@ -253,8 +253,7 @@ def work(args: argparse.Namespace) -> Row:
 
 def main(words: Sequence[str] | None = None) -> int:
     """Run the script; exit status 1 if skipped work would change a result."""
-    made = parser(__doc__)
-    add_list(made, "points", (LEAST,), "nodes per side")
+    made = parser(__doc__, points=(LEAST,))
     add_list(made, "scenes", list(SCENES), known=list(SCENES))
     return measure(work, made, words)
 

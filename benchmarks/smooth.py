@@ -188,9 +188,7 @@ def work(args: argparse.Namespace) -> Row:
 
 def main(words: Sequence[str] | None = None) -> int:
     """Run the script."""
-    made = parser(__doc__)
-    add_list(made, "points", GRIDS, "nodes per side")
-    add_list(made, "threads", (1, 2), "numbers of threads")
+    made = parser(__doc__, points=GRIDS, threads=(1, 2))
     add_list(made, "engines", ENGINES, known=ENGINES)
     add_number(made, "moes-m", 1000.0)
     add_number(made, "moes-l", 10.0)

@@ -15,6 +15,7 @@ import tempfile
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 from common import (
     GRIDS,
@@ -137,31 +138,20 @@ def step_rows(
     """
     rows: list[Row] = []
     for points in grids:
-        p, h, _, _ = hertz(points)
-        yardstick = ScipyDeflection(points, points, h, h)
+        pressure, h, _, _ = hertz(points)
+        deflect = partial(ScipyDeflection(points, points, h, h).apply, pressure)
+        mine: list[Row] = []
         units: list[float] = []
-        first = len(rows)
         for scene in scenes:
-            name = f"{points} {scene.name} {scene.domain}"
-            say(name)
-            rows += _scene_rows(
-                scene,
-                name,
-                points,
-                threads,
-                (scheme, front, steps),
-                lambda p=p, y=yardstick: y.apply(p),  # type: ignore[misc]
-                units,
-            )
-        for row in rows[first:]:
-            row["unit_seconds"] = statistics.median(units)
-            row["units"] = row["seconds"] / row["unit_seconds"]
+            say(f"{points} {scene.name} {scene.domain}")
+            mine += _scene_rows(scene, points, threads, (scheme, front, steps), deflect, units)
+        unit = statistics.median(units)
+        rows += [row | {"unit_seconds": unit, "units": row["seconds"] / unit} for row in mine]
     return rows
 
 
 def _scene_rows(
     scene: Scene,
-    name: str,
     points: int,
     threads: Sequence[int],
     how: tuple[str, float, int],
@@ -196,7 +186,7 @@ def _scene_rows(
     ]
     for k, workers in enumerate(threads):
         if after[k]["steps"] - before[k]["steps"] != steps:
-            raise EhlError(f"{name}: a step did not converge: {after[k]['status']}")
+            raise EhlError(f"{points} {scene.name}: a step did not converge: {after[k]['status']}")
         cycles = after[k]["steps"] * after[k]["cycles_per_step"]
         cycles -= before[k]["steps"] * before[k]["cycles_per_step"]
         ratios = [one / now for one, now in zip(times[0], times[k], strict=True)]
@@ -261,21 +251,12 @@ def error_rows(
             with Solver(case) as solver:
                 solver.run()
                 summary = solver.summary
-            seconds = time.perf_counter() - began
-            if summary["mu_ratio"] is not None:
-                means[points] = summary["mu_ratio"]
-            rows.append(
-                {
-                    "points": points,
-                    "case": scene.name,
-                    "threads": threads,
-                    "status": summary["status"],
-                    "steps": summary["steps"],
-                    "seconds": seconds,
-                    "mu_ratio": summary["mu_ratio"],
-                    "error": None,
-                }
-            )
+            row: Row = {"points": points, "case": scene.name, "threads": threads, "error": None}
+            row["seconds"] = time.perf_counter() - began
+            row |= {name: summary[name] for name in ("status", "steps", "mu_ratio")}
+            if row["mu_ratio"] is not None:
+                means[points] = row["mu_ratio"]
+            rows.append(row)
         finest = max(means, default=0)
         for row in rows:
             if row["case"] == scene.name and row["points"] in means and row["points"] < finest:
@@ -308,9 +289,7 @@ def work(args: argparse.Namespace) -> Row:
 
 def main(words: Sequence[str] | None = None) -> int:
     """Run the script."""
-    made = parser(__doc__)
-    add_list(made, "points", GRIDS[1:4], "nodes per side")
-    add_list(made, "threads", (1, 2), "numbers of threads")
+    made = parser(__doc__, points=GRIDS[1:4], threads=(1, 2))
     names = list(dict.fromkeys(scene.name for scene in CASES))
     add_list(made, "cases", USUAL, "; wave: of Fig. 2, fractal: of Table 1", names)
     made.add_argument("--scheme", choices=("narrow", "paper"), default="narrow")

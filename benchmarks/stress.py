@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from common import add_list, add_number, columns, header, parser, say, show, verdict
+from common import add_number, columns, header, parser, say, show, verdict
 from figures import draw_outcomes
 from stress_cases import FAMILIES, GRIDS, LAWS, StressCase, draw, study_of
 
@@ -297,8 +297,7 @@ def work(args: argparse.Namespace) -> int:
 
 def main(words: Sequence[str] | None = None) -> int:
     """Run the script."""
-    made = parser(__doc__)
-    add_list(made, "points", GRIDS, "nodes per side")
+    made = parser(__doc__, points=GRIDS)
     add_number(made, "cases", 500, "how many", least=1)
     add_number(made, "seed", 1)
     made.add_argument(

@@ -120,48 +120,31 @@ def _run(
         solver.run()
         seconds = processor_seconds() - began
         summary = solver.summary
-    row = {"setting": setting, "points": points, "threads": threads, "status": summary["status"]}
+    row: Row = {"scene": scene.name, "setting": setting, "points": points, "threads": threads}
+    row |= {"seconds": seconds, "units": seconds / unit, "unit_seconds": unit}
+    row["status"] = summary["status"]
     rows = []
     for quantity in scene.quantities:
         value, error = summary.get(quantity), summary.get(f"{quantity}_error")
         estimate = abs(error / value) if error and value else None
-        rows.append(row | _common(scene, quantity, seconds, unit, value, estimate))
+        rows.append(row | {"quantity": quantity, "value": value, "estimate": estimate})
     return rows
-
-
-def _common(
-    scene: Scene,
-    quantity: str,
-    seconds: float,
-    unit: float,
-    value: float | None,
-    estimate: float | None,
-) -> Row:
-    return {
-        "scene": scene.name,
-        "quantity": quantity,
-        "seconds": seconds,
-        "units": seconds / unit,
-        "unit_seconds": unit,
-        "value": value,
-        "estimate": estimate,
-    }
 
 
 def _predicted(scene: Scene, unit: float) -> list[Row]:
     """Give the prediction as one more setting."""
-    case = Case.from_text("", scene.options)
     if scene.name == "wave":
         # the prediction takes heights in metres: no such surface there
         return []
+    case = Case.from_text("", scene.options)
     began = processor_seconds()
-    told = predict(case.resolve()).summary
+    found = predict(case.resolve()).summary
     seconds = processor_seconds() - began
-    value, model = told["mu_ratio"], told.get("mu_ratio_model_error")
-    row = {"setting": "prediction", "points": 257, "threads": 1, "status": told["status"]}
-    return [
-        row | _common(scene, "mu_ratio", seconds, unit, value, model / value if model else None)
-    ]
+    value, model = found["mu_ratio"], found.get("mu_ratio_model_error")
+    row: Row = {"scene": scene.name, "setting": "prediction", "points": 257, "threads": 1}
+    row |= {"seconds": seconds, "units": seconds / unit, "unit_seconds": unit}
+    row |= {"status": found["status"], "quantity": "mu_ratio", "value": value}
+    return [row | {"estimate": model / value if model else None}]
 
 
 def share_of_deflection(points: int = 129) -> Row:
@@ -297,9 +280,8 @@ def work(args: argparse.Namespace) -> Row:
 
 def main(words: Sequence[str] | None = None) -> int:
     """Run the script."""
-    made = parser(__doc__)
+    made = parser(__doc__, threads=(1, 2))
     add_list(made, "points", (), "nodes per side (default: those of each scene)")
-    add_list(made, "threads", (1, 2), "numbers of threads")
     names = [scene.name for scene in SCENES]
     add_list(made, "scenes", names, known=names)
     made.add_argument("--full", action="store_true", help="the finest grids too, for reference")

@@ -15,7 +15,6 @@ from pyehl.case import Case
 from pyehl.prediction.of_solver import resolution
 from pyehl.prediction.smooth import solve_contact, zone_of
 from pyehl.prediction.start import starting_pressure
-from pyehl.prediction.transfer import _at_amplitude
 from pyehl.schema import summary_of
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -242,19 +241,6 @@ def test_start_from_the_prediction():
         for options in ((), ("lubricant.flow='newtonian'",))
     )
     assert 0.0 < np.std(thin) < np.std(newtonian)
-
-
-def test_leak_of_finite_waves_goes_by_what_is_left_of_the_viscosity():
-    settings = table_1().resolve()
-    o, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
-    zone = zone_of(solve_contact(settings), o, oil)
-    newtonian = replace(zone, factors=None)
-    pressed = zone.pressure > 0.5
-    thin, slow = (
-        _at_amplitude(one, 0.05**2).conductance / one.conductance for one in (zone, newtonian)
-    )
-    assert slow[pressed].max() < 0.95
-    np.testing.assert_allclose(thin[pressed], 1.0, atol=1e-6)
 
 
 # Quantities of `rough.py` and their errors
