@@ -7,7 +7,7 @@ import contextlib
 import io
 
 import numpy as np
-from records import Values, read, script
+from records import Values, percent, read, script
 
 from pyehl.prediction.second_order import INLET_FILM
 
@@ -57,10 +57,25 @@ def smooth_errors() -> Values:
     assert {known for _, known in counts.values()} == {len(changed)}
     assert sum(good == len(changed) for good, _ in counts.values()) == 3
     least = counts["H_min_error_domain"][0]
-    twice = [
-        "{} {} of {}".format(name, *make.shares(rows, name, f"{name}_limit", f"{name}_error", 2.0))
+    twice = {
+        name: "{} of {}".format(*make.shares(rows, name, f"{name}_limit", f"{name}_error", 2.0))
         for name in ("H_c", "H_min", "P_max", "F")
-    ]
+    }
+    return locals()
+
+
+def borders_by_moes() -> Values:
+    """What the domain of the paper takes of H_c, by the border."""
+    lines: dict[str, list[str]] = {}
+    for border in ("zero", "flooded"):
+        rows = [{k: float(v or "nan") for k, v in r.items()} for r in read(f"errors/{border}.csv")]
+        for point in dict.fromkeys((row["moes_m"], row["moes_l"]) for row in rows):
+            here = [row for row in rows if (row["moes_m"], row["moes_l"]) == point]
+            small = [row for row in here if (row["x_inlet"], row["y_extent"]) == (-2.5, 2.0)]
+            if small:
+                wide = max(here, key=lambda row: row["y_extent"])
+                change = percent(100.0 * (small[0]["H_c"] / wide["H_c"] - 1.0), 2)
+                lines.setdefault("{:g}, {:g}".format(*point), []).append(change)
     return locals()
 
 
@@ -75,7 +90,10 @@ def ratio_errors() -> Values:
         found = make.shares(part, "mu_ratio", "mu_ratio_limit", "mu_ratio_error", 2.0)
         return "{} of {}".format(*found)
 
+    within, known = make.shares(rows, "mu_ratio", "mu_ratio_limit", "mu_ratio_error", 2.0)
+    assert within >= 0.9 * known
     cases = {tuple(row[key] for key in make.ROUGH_NAMES) for row in rows if row["mu_ratio_limit"]}
+    assert len(cases) >= 40
     whole = {tuple(row[key] for key in make.ROUGH_NAMES) for row in every}
     without = whole - {tuple(row[key] for key in make.ROUGH_NAMES) for row in rows}
     assert all(case[0] < 50.0 or case[1] > 16.0 for case in without)
@@ -91,11 +109,11 @@ def ellipse_errors() -> Values:
 
     def good(limit: str, stated: str, factor: float, border: str = "") -> str:
         part = [row for row in rows if not border or row["border"] == border]
-        cells = [
-            "{} of {}".format(*show.shares(part, n, f"{n}_{limit}", f"{n}_{stated}", factor))
-            for n in ("H_c", "H_min")
+        found = [
+            show.shares(part, n, f"{n}_{limit}", f"{n}_{stated}", factor) for n in ("H_c", "H_min")
         ]
-        return " | ".join(cells)
+        assert all(hold >= (0.95 if factor > 1.0 else 0.88) * known for hold, known in found)
+        return " | ".join("{} of {}".format(*pair) for pair in found)
 
     cells = show.numbers_of(show.HERE / "cells.csv")
     quarter, half = (show.over_estimate(cells, ratio) for ratio in (0.25, 0.5))

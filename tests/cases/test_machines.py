@@ -245,29 +245,6 @@ def test_bad_input_has_place_and_remedy(text: str, place: str, message: str, rem
     assert remedy in said.partition("expected")[2], said
 
 
-def test_evidence_of_ellipses_is_what_its_page_says(root: Path, capsys, evidence):
-    """The shares and the errors by cells, from the records; most errors hold."""
-    page = root / "docs" / "evidence" / "errors_ellipses" / "README.md"
-    text = page.read_text(encoding="utf-8")
-    evidence("errors_ellipses", "show").show()
-    printed = capsys.readouterr().out
-    shares = [tuple(map(int, pair)) for pair in re.findall(r": (\d+) of (\d+)$", printed, re.M)]
-    assert len(shares) == 8
-    for good, known in shares:
-        assert f"{good} of {known}" in text
-        assert good >= 0.88 * known
-    twice = re.findall(r"at most 2 times the stated: (\d+) of (\d+)$", printed, re.M)
-    assert all(int(good) >= 0.95 * int(known) for good, known in twice)
-    found = [line for line in text.splitlines() if re.match(r"\| [\d.]+, \d+ \|", line)]
-    rows = [line for line in found if "%" in line]
-    assert len(rows) == 7
-    for line in rows:
-        kappa, m = re.findall(r"[\d.]+", line)[:2]
-        found = re.findall(rf"^kappa {kappa}, M {m}: .* off by ([\d.]+)%$", printed, re.M)
-        shown = re.findall(r"([\d.]+) %", line)
-        assert shown == found[: len(shown)]
-
-
 @pytest.mark.parametrize(
     ("keys", "points"),
     [
