@@ -11,6 +11,8 @@ from records import Values, percent, read, script
 
 from pyehl.prediction.second_order import INLET_FILM
 
+TABLES = script("tables.py")
+
 
 def steps() -> Values:
     """Algebraic errors of time steps; one of them is above a tenth."""
@@ -50,7 +52,7 @@ def smooth_errors() -> Values:
         values = max(change), np.median(change), np.median(said)
         lines[name] = " | ".join([str(len(points)), *(f"{value:.2f} %" for value in values)])
     counts = {
-        stated: make.shares(rows, name, f"{name}_doubled", stated, 1.0)
+        stated: TABLES.shares(rows, name, f"{name}_doubled", stated, 1.0)
         for name in ("H_c", "H_min")
         for stated in (f"{name}_error_domain", f"{name}_error")
     }
@@ -58,7 +60,7 @@ def smooth_errors() -> Values:
     assert sum(good == len(changed) for good, _ in counts.values()) == 3
     least = counts["H_min_error_domain"][0]
     twice = {
-        name: "{} of {}".format(*make.shares(rows, name, f"{name}_limit", f"{name}_error", 2.0))
+        name: "{} of {}".format(*TABLES.shares(rows, name, f"{name}_limit", f"{name}_error", 2.0))
         for name in ("H_c", "H_min", "P_max", "F")
     }
     return locals()
@@ -87,10 +89,10 @@ def ratio_errors() -> Values:
 
     def good(points: int = 0) -> str:
         part = [row for row in rows if not points or row["points"] == points]
-        found = make.shares(part, "mu_ratio", "mu_ratio_limit", "mu_ratio_error", 2.0)
+        found = TABLES.shares(part, "mu_ratio", "mu_ratio_limit", "mu_ratio_error", 2.0)
         return "{} of {}".format(*found)
 
-    within, known = make.shares(rows, "mu_ratio", "mu_ratio_limit", "mu_ratio_error", 2.0)
+    within, known = TABLES.shares(rows, "mu_ratio", "mu_ratio_limit", "mu_ratio_error", 2.0)
     assert within >= 0.9 * known
     cases = {tuple(row[key] for key in make.ROUGH_NAMES) for row in rows if row["mu_ratio_limit"]}
     assert len(cases) >= 40
@@ -103,19 +105,20 @@ def ratio_errors() -> Values:
 def ellipse_errors() -> Values:
     """How many errors of ellipses hold, with and without a flooded border."""
     show = script("errors_ellipses/show.py")
-    rows = show.numbers_of(show.HERE / "errors.csv")
+    rows = TABLES.numbers_of(show.HERE / "errors.csv")
     assert {row["status"] for row in rows} == {"converged"}
     points = {(row["kappa"], row["moes_m"]) for row in rows}
 
     def good(limit: str, stated: str, factor: float, border: str = "") -> str:
         part = [row for row in rows if not border or row["border"] == border]
         found = [
-            show.shares(part, n, f"{n}_{limit}", f"{n}_{stated}", factor) for n in ("H_c", "H_min")
+            TABLES.shares(part, n, f"{n}_{limit}", f"{n}_{stated}", factor)
+            for n in ("H_c", "H_min")
         ]
         assert all(hold >= (0.95 if factor > 1.0 else 0.88) * known for hold, known in found)
         return " | ".join("{} of {}".format(*pair) for pair in found)
 
-    cells = show.numbers_of(show.HERE / "cells.csv")
+    cells = TABLES.numbers_of(show.HERE / "cells.csv")
     quarter, half = (show.over_estimate(cells, ratio) for ratio in (0.25, 0.5))
     spans = [f"{min(found):.1f} to {max(found):.1f}" for found in half]
     return locals()

@@ -54,7 +54,7 @@ def test_estimate_of_the_domain(root: Path, beside):
 def test_cells_of_ellipses(root: Path, script):
     """Errors of H_c on 129 nodes by the shape of the cells."""
     show, text = script("docs/evidence/errors_ellipses/show.py"), page(root, "errors_ellipses")
-    rows = show.numbers_of(show.HERE / "cells.csv")
+    rows = script("docs/evidence/tables.py").numbers_of(show.HERE / "cells.csv")
     part = text.split("| κ, M | cells 1 : 0.25 |")[1].split("\n\n")[0]
     lines = re.findall(r"^\| ([\d.]+), (\d+) \| (.*) \|$", part, re.MULTILINE)
     assert len(lines) == 7
