@@ -144,6 +144,22 @@ def pairs() -> Values:
     return locals()
 
 
+def by_ratio() -> Values:
+    """Deviations of the prediction and of the paper's model, by the simulated ratio."""
+    rows = read("prediction/table.csv")
+    ends = {"up to 1.3": (0.0, 1.3), "1.3 to 1.6": (1.3, 1.6), "1.6 to 2.5": (1.6, 2.5)}
+    ends["above 2.5"] = (2.5, 9.9)
+    lines = {}
+    for head, (low, high) in ends.items():
+        part = [row for row in rows if low < float(row["mu_ratio"]) <= high]
+        ours, paper = (of(part, f"{n}deviation_percent") for n in ("", "paper_"))
+        cells = percent(ours.mean()), f"{largest(ours, 1)} %", percent(paper.mean())
+        lines[head] = " | ".join((str(len(part)), *cells))
+    assert sum(int(line.split()[0]) for line in lines.values()) == len(rows)
+    example = {row["name"]: row for row in rows if row["name"].startswith("t1s21")}
+    return locals()
+
+
 def finest() -> Values:
     """Surfaces on 1025 x 1025 nodes."""
     rows = [row for row in read("prediction/table.csv") if row["mu_ratio_1025"]]
