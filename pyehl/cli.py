@@ -4,7 +4,7 @@
 import argparse
 import logging
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from importlib import import_module
 
 from pyehl.errors import (
@@ -27,7 +27,6 @@ SUBCOMMANDS = {
     "stribeck": "friction against speed, film ratio and theta_2",
     "app": "an interactive contact, in the browser",
     "sweep": "many cases with one table of results",
-    "reproduce": "the figures and tables of a paper, redone and compared",
     "compare": "results against a table of references",
     "response": "measure what the contact makes of small waves of roughness",
     "surface": "write the surface of a case as a height map",
@@ -37,7 +36,6 @@ SUBCOMMANDS = {
     "plot": "pictures of a result folder",
     "report": "one HTML page about a result, to send",
     "export": "a result folder as netCDF",
-    "bench": "time and error of the parts, side by side",
     "info": "versions, compiler, machine",
 }
 
@@ -107,7 +105,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         return EXIT_OK
     chosen = words[0] if words else ""
     _listen(quiet=not {"-q", "--quiet"}.isdisjoint(words))
-    try:
+
+    def run() -> int:
         parser = _parser(chosen)
         if chosen not in SUBCOMMANDS and not chosen.startswith("-"):
             if words:
@@ -115,8 +114,15 @@ def main(argv: Sequence[str] | None = None) -> int:
                 print(f"pyehl: error: unknown subcommand '{chosen}'{hint}", file=sys.stderr)
             parser.print_help(sys.stderr if words else sys.stdout)
             return EXIT_USAGE
-        args = parser.parse_args(words)
-        return _execute(args)
+        return _execute(parser.parse_args(words))
+
+    return status_of(run)
+
+
+def status_of(run: Callable[[], int]) -> int:
+    """Give the exit status of a command; what stops it is printed on standard error."""
+    try:
+        return run()
     except InputError as error:
         print(error, file=sys.stderr)
         return EXIT_USAGE

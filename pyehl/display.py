@@ -2,12 +2,8 @@
 """Tables for notebooks and terminals."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from html import escape
-from typing import Any
-
-Columns = Sequence[tuple[str, str]]
-"""Names and formats."""
 
 
 def table(title: str, rows: Mapping[str, object]) -> str:
@@ -22,20 +18,6 @@ def table(title: str, rows: Mapping[str, object]) -> str:
 
 def _text(value: object) -> str:
     return f"{value:.6g}" if isinstance(value, float) else str(value)
-
-
-def text_table(rows: Sequence[Mapping[str, Any]], columns: Columns) -> str:
-    """Give rows as text; '-' for a value that does not exist."""
-    lines = [[name.replace("_", " ") for name, _ in columns]]
-    lines += [
-        ["-" if row[name] is None else format(row[name], form) for name, form in columns]
-        for row in rows
-    ]
-    widths = [max(len(line[k]) for line in lines) for k in range(len(columns))]
-    return "\n".join(
-        "  ".join(text.rjust(width) for text, width in zip(line, widths, strict=True))
-        for line in lines
-    )
 
 
 def with_error(value: float | None, error: float | None = None, unit: str = "") -> str:

@@ -65,7 +65,7 @@ def read_reference(path: str | os.PathLike[str]) -> ReferenceTable:
     """
     name = os.fspath(path)
     if name in SHIPPED and not Path(name).exists():
-        file = resources.files("pyehl").joinpath("reproduce", "data", f"{name}.csv")
+        file = resources.files("pyehl").joinpath("studies", "references", f"{name}.csv")
         name, text = f"{name}.csv", file.read_text(encoding="utf-8")
     else:
         text = text_file(path, f"a CSV file, or one of {', '.join(SHIPPED)}")

@@ -44,10 +44,11 @@ def results(folder: Path) -> dict[str, object]:
 
 @pytest.mark.parametrize("engine", ["mlmi", "fft"])
 @pytest.mark.parametrize(
-    # whole domains of 257 x 257 nodes are worked on by all threads
+    # whole domains of 257 x 257 nodes are worked on by all threads; a run begins with the smooth
+    # contact, whose fields are among its results
     ("points", "scene"),
-    [(257, FULL), (129, HARMONIC), (257, FULL | HARMONIC | SHORT)],
-    ids=["smooth", "harmonic", "harmonic-whole"],
+    [(129, HARMONIC), (257, FULL | HARMONIC | SHORT)],
+    ids=["harmonic", "harmonic-whole"],
 )
 def test_threads(solve, points: int, scene: dict[str, object], engine: str):
     settings = scene | {"solver.deflection": engine}
@@ -58,7 +59,7 @@ def test_threads(solve, points: int, scene: dict[str, object], engine: str):
     assert (one["threads"], four["threads"]) == (1, 4)
     assert one["status"] in ("converged", "not settled")  # of a few steps no mean is asked
     expected = results(one.folder)
-    assert {"P.npy", "H.npy", "history.csv", "H_c"} <= set(expected)
+    assert {"P.npy", "H.npy", "P_smooth.npy", "H_smooth.npy", "history.csv", "H_c"} <= set(expected)
     assert results(two.folder) == expected
     assert results(four.folder) == expected
 

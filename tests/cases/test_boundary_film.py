@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from document_text import plain
 
 import pyehl
 
@@ -87,7 +88,7 @@ def within(off: float) -> str:
 
 def theory(root: Path, name: str) -> str:
     """Text of a chapter of the theory."""
-    return (root / "docs" / "theory" / f"{name}.md").read_text(encoding="utf-8")
+    return plain(root / "docs" / "theory" / f"{name}.md")
 
 
 # A ball on a disc in a traction machine: at 0.01 m/s the film is 3.67 nm on ever finer
@@ -468,7 +469,7 @@ def test_no_error_where_a_layer_that_gives_much_carries_most(solve, root):
         assert done["contact_load_share_error"] is None
     assert "would have to give much of the flow" in runs[1]["contact_load_share_error_note"]
     said = "{:.3f}, {:.3f} and {:.3f} on".format(*(done["contact_load_share"] for done in runs))
-    assert said in (root / "docs" / "robustness.md").read_text(encoding="utf-8")
+    assert said in plain(root / "docs" / "robustness.md")
 
 
 def test_both_drivers_say_the_same(solve, tmp_path):

@@ -227,7 +227,7 @@ def test_commands(tmp_path: Path, cases: Path, capsys: pytest.CaptureFixture[str
     assert cli.main(["predict", dent, "-o", str(tmp_path / "psd")]) == 2
     assert "passes once" in capsys.readouterr().err
     assert not (tmp_path / "psd").exists()
-    words = ["--set", "grid.points=65", "--set", "output.frame_interval=1"]
+    words = ["--set", "grid.points=65", "--set", "output.frame_interval=4"]
     assert cli.main(["run", dent, "-q", "-o", str(tmp_path / "out"), *words]) == 0
     assert cli.main(["plot", str(tmp_path / "out"), "--dpi", "60"]) == 0
     assert cli.main(["plot", str(tmp_path / "out"), "--movie"]) == 0

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from document_text import plain
 from scipy.special import elliprd
 
 import pyehl
@@ -137,7 +138,7 @@ def test_gear_pair_made_anew(root: Path, tmp_path: Path):
 
 def test_border_of_an_ellipse(root: Path, solve):
     """The default is flooded, and thicker than tables with P = 0 on a small domain have it."""
-    text = (root / "docs" / "theory" / "border.md").read_text(encoding="utf-8")
+    text = plain(root / "docs" / "theory" / "border.md")
     keys = {"contact.radius_ratio": 0.35177, "lubricant.roelands_z": 0.6684}
     place = {"grid.x_inlet": -2.5, "grid.x_outlet": 1.5, "grid.y_extent": 4.0}
     for more, words in (({}, "along X is"), (place | {"grid.border": "zero"}, "`) it is")):
@@ -147,7 +148,7 @@ def test_border_of_an_ellipse(root: Path, solve):
 
 def test_rolling_moment_grows_with_the_domain(root: Path, solve):
     """In a round contact towards the asymptote of Biboulet & Houpert 2010, with its logarithm."""
-    text = (root / "docs" / "theory" / "border.md").read_text(encoding="utf-8")
+    text = plain(root / "docs" / "theory" / "border.md")
     shares = []
     for width, points in ((4.0, 129), (8.0, 257), (16.0, 513)):
         place = {"grid.x_inlet": -0.625 * width, "grid.x_outlet": 0.375 * width}
@@ -242,29 +243,6 @@ def test_bad_input_has_place_and_remedy(text: str, place: str, message: str, rem
     assert place in said.partition("\n")[0], said
     assert message in said, said
     assert remedy in said.partition("expected")[2], said
-
-
-def test_evidence_of_ellipses_is_what_its_page_says(root: Path, capsys, evidence):
-    """The shares and the errors by cells, from the records; most errors hold."""
-    page = root / "docs" / "evidence" / "errors_ellipses" / "README.md"
-    text = page.read_text(encoding="utf-8")
-    evidence("errors_ellipses", "show").show()
-    printed = capsys.readouterr().out
-    shares = [tuple(map(int, pair)) for pair in re.findall(r": (\d+) of (\d+)$", printed, re.M)]
-    assert len(shares) == 8
-    for good, known in shares:
-        assert f"{good} of {known}" in text
-        assert good >= 0.88 * known
-    twice = re.findall(r"at most 2 times the stated: (\d+) of (\d+)$", printed, re.M)
-    assert all(int(good) >= 0.95 * int(known) for good, known in twice)
-    found = [line for line in text.splitlines() if re.match(r"\| [\d.]+, \d+ \|", line)]
-    rows = [line for line in found if "%" in line]
-    assert len(rows) == 7
-    for line in rows:
-        kappa, m = re.findall(r"[\d.]+", line)[:2]
-        found = re.findall(rf"^kappa {kappa}, M {m}: .* off by ([\d.]+)%$", printed, re.M)
-        shown = re.findall(r"([\d.]+) %", line)
-        assert shown == found[: len(shown)]
 
 
 @pytest.mark.parametrize(

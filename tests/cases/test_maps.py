@@ -330,7 +330,7 @@ with Solver(Case(sys.argv[1])) as solver:
 )
 def test_memory_of_prepared_maps(tmp_path: Path, keys: str):
     """From Python, too, at most three times the size of the map."""
-    pixels = 2048
+    pixels = 1536
     z = 1e3 * rough((pixels, pixels))
     if "fill" in keys:
         z[100:110, 200:205] = np.nan

@@ -10,6 +10,7 @@ ROOT = Path(__file__).parents[2]
 DOCUMENTS = (
     "README.md",
     "cases/README.md",
+    "benchmarks/README.md",
     "tests/README.md",
     "fortran/README.md",
     *sorted(path.relative_to(ROOT).as_posix() for path in (ROOT / "docs").glob("**/*.md")),
@@ -17,6 +18,11 @@ DOCUMENTS = (
 NUMBER = r"\d+(?:\.\d+)?(?:[eE][-+]?\d+)?"
 # Differ from machine to machine
 _FREE = re.compile(rf"(?<=residual )\s*{NUMBER}|\d+(?= ms\b)")
+
+
+def plain(path: Path) -> str:
+    """Text of a page without the markers of `python docs/numbers`."""
+    return re.sub(r"<!--(?:\w+=.+?|/)-->", "", path.read_text(encoding="utf-8"))
 
 
 def fences(path: Path) -> list[tuple[str, str]]:

@@ -4,9 +4,11 @@
 from __future__ import annotations
 
 import argparse
+import importlib
 import re
 from pathlib import Path
 
+import pytest
 from document_text import DOCUMENTS
 
 from pyehl.cli import SUBCOMMANDS, _parser
@@ -17,11 +19,12 @@ def test_scripts_in_documents_are_there(root: Path):
     seen = 0
     for name in DOCUMENTS:
         text = (root / name).read_text()
-        for script in re.findall(r"python (docs/evidence/[\w/]+\.py|make\.py)", text):
+        folders = "docs/evidence|benchmarks|examples"
+        for script in re.findall(rf"python ((?:{folders})/[\w/]+\.py|make\.py)", text):
             places = root / script, (root / name).parent / script
             assert any(place.is_file() for place in places), f"{name}: {script}"
             seen += 1
-    assert seen > 40
+    assert seen > 60
 
 
 def options_of(parser: argparse.ArgumentParser) -> set[str]:
@@ -46,3 +49,22 @@ def test_options_in_documents_are_options(root: Path):
                 assert option in known[subcommand], f"{name}: {line}"
                 seen += 1
     assert seen > 100
+
+
+def test_options_of_scripts_are_options(root: Path, capsys: pytest.CaptureFixture[str]):
+    """Of every `python benchmarks/…` and `python examples/…`."""
+    known: dict[str, str] = {}
+    seen = 0
+    for name in DOCUMENTS:
+        text = (root / name).read_text()
+        pattern = r"python (?:benchmarks|examples/\w+)/(\w+)\.py([^`\n]*)"
+        for script, words in re.findall(pattern, text):
+            if script not in known:
+                with pytest.raises(SystemExit, match="0"):
+                    importlib.import_module(script).main(["--help"])
+                known[script] = capsys.readouterr().out
+            for option in re.findall(r"(?<!\S)--?[a-z][a-z-]*", words.partition("#")[0]):
+                found = re.search(rf"(?<![\w-]){option}\b", known[script])
+                assert found, f"{name}: {script} {option}"
+                seen += 1
+    assert seen > 30

@@ -13,10 +13,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import reproduce
+import smooth
+import stress
 
 import pyehl
 from pyehl import cli
-from pyehl.bench import smooth
 from pyehl.measured_response import measurement
 
 SMOOTH = (
@@ -37,9 +39,11 @@ FOLDERS = {
     "sweep": (SMOOTH, ["sweep", "case.nml", "--run", "film", "--vary", MANY, *QUIET]),
     "stribeck": (SI, ["stribeck", "case.nml", "--speed", "1,2", *QUIET]),
     "response": (SMOOTH, ["response", "case.nml"]),
-    "reproduce": (SMOOTH, ["reproduce", "zhang2019", "--table", "1", *QUIET]),
-    "stress": (SMOOTH, ["bench", "stress", "--cases", "1"]),
+    "reproduce": (SMOOTH, ["reproduce", "--table", "1", *QUIET]),
+    "stress": (SMOOTH, ["stress", "--cases", "1"]),
 }  # fmt: skip
+# Of `benchmarks/` and `examples/`
+SCRIPTS = {"reproduce": reproduce, "stress": stress, "smooth": smooth}
 REPLACING = ("run", "ehl", "predict")
 Call = Callable[..., subprocess.CompletedProcess[str]]
 
@@ -60,7 +64,10 @@ def call(
             command = [ehl, *own, *words]
             return subprocess.run(command, capture_output=True, text=True, check=False)
         capsys.readouterr()
-        status = cli.main([*own, *words])
+        if own[0] in SCRIPTS:
+            status = SCRIPTS[own[0]].main([*own[1:], *words])
+        else:
+            status = cli.main([*own, *words])
         return subprocess.CompletedProcess(name, status, *capsys.readouterr())
 
     return run
@@ -232,6 +239,13 @@ def without_rights() -> list[str]:
     return ["setpriv", "--bounding-set", "-dac_override,-dac_read_search"]
 
 
+def command_of(words: list[str]) -> list[str]:
+    """The command of a process of its own."""
+    if words[0] in SCRIPTS:
+        return [sys.executable, str(SCRIPTS[words[0]].__file__), *words[1:]]
+    return [sys.executable, "-P", "-m", "pyehl", *words]
+
+
 # that folders are made on the way is nobody's but `Destination`'s
 @pytest.mark.parametrize(
     ("name", "deep"), [*((name, False) for name in FOLDERS), ("ehl", True), ("sweep", True)]
@@ -241,7 +255,7 @@ def test_no_permission(ehl: str, tmp_path: Path, name: str, deep: bool):
     (tmp_path / "case.nml").write_text(text)
     (tmp_path / "locked").mkdir()
     (tmp_path / "locked").chmod(0o555)
-    command = [ehl, *words] if name == "ehl" else [sys.executable, "-P", "-m", "pyehl", *words]
+    command = [ehl, *words] if name == "ehl" else command_of(words)
     place = "locked/deep/out" if deep else "locked"
     began = time.monotonic()
     done = subprocess.run(
@@ -254,7 +268,7 @@ def test_no_permission(ehl: str, tmp_path: Path, name: str, deep: bool):
     assert set(tree(tmp_path)) == {"case.nml", "locked"}
 
 
-@pytest.mark.parametrize("name", ["plot", "export", "surface", "bench"])
+@pytest.mark.parametrize("name", ["plot", "export", "surface", "smooth"])
 def test_no_permission_for_files(tmp_path: Path, name: str):
     (tmp_path / "case.nml").write_text(ROUGH)
     pyehl.solve(pyehl.Case.from_text(SMOOTH), output=tmp_path / "out")
@@ -264,10 +278,10 @@ def test_no_permission_for_files(tmp_path: Path, name: str):
         "plot": ["plot", "out", "-o", "locked"],
         "export": ["export", "out", "-o", "locked/a.nc"],
         "surface": ["surface", "case.nml", "-o", "locked/a.npy"],
-        "bench": ["bench", "smooth", "--points", "17", "-o", "locked/a.json"],
+        "smooth": ["smooth", "--points", "17", "-o", "locked/a.json"],
     }[name]
     done = subprocess.run(
-        [*without_rights(), sys.executable, "-P", "-m", "pyehl", *words],
+        [*without_rights(), *command_of(words)],
         cwd=tmp_path, capture_output=True, text=True, check=False,
     )  # fmt: skip
     refused(done, "locked", "no permission to write")
@@ -297,7 +311,7 @@ FILES = {
         )
         for end in (".npy", ".txt", ".nc")
     },
-    "bench": (["bench", "smooth", "--points", "17", "--threads", "1", "-o", "a.json"], ["a.json"]),
+    "smooth": (["smooth", "--points", "17", "--threads", "1", "-o", "a.json"], ["a.json"]),
 }  # fmt: skip
 
 

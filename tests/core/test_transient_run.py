@@ -22,10 +22,6 @@ WAVE = (
     "&surface kind = 'harmonic' amplitude_over_film = 0.2 wavelength = 0.8 /\n"
     "&time estimate_error = .false. /\n&output frame_interval = 0.5 /\n"
 )
-FRACTAL = (
-    "&contact load = 20.0 /\n&grid x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
-    "&surface kind = 'fractal' pixels = 32 length_x = 1e-4 length_y = 1e-4 rms_height = 2e-8 /\n"
-)
 # a^3 = 3wR/(2E')
 RADIUS = (1.5 * 20.0 * 0.018 / 2.26e11) ** (1.0 / 3.0)
 
@@ -169,33 +165,3 @@ def test_eq_16_only_where_it_holds(run_folder: Path):
     )
     for other in ({"kind": "fractal"}, {"wavelength_y": 0.6}):
         assert transient.eq_16(inside, {"surface": surface | other}) is None
-
-
-@pytest.mark.long
-def test_bench_step(tmp_path: Path, capsys, monkeypatch):
-    from pyehl.bench import step
-
-    scene = step.Scene("fractal", "whole", FRACTAL)
-    monkeypatch.setattr(step, "CASES", (scene,))
-    words = ["--points", "33,65", "--threads", "1,2", "--cases", "fractal", "--steps", "3"]
-    target = tmp_path / "step.json"
-    assert cli.main(["bench", "step", *words, "--error", "-o", str(target)]) == 0
-    printed = capsys.readouterr().out
-    assert "units: of one scipy.fft deflection" in printed
-    answer = json.loads(target.read_text())
-    rows = answer["rows"]
-    assert [(row["points"], row["threads"]) for row in rows] == [(33, 1), (33, 2), (65, 1), (65, 2)]
-    for row in rows:
-        assert len(row["seconds_of_steps"]) == 3
-        assert row["seconds"] == pytest.approx(sum(row["seconds_of_steps"]) / 3, rel=1e-12)
-        assert row["units"] == row["seconds"] / row["unit_seconds"]
-        assert 1.0 <= row["cycles"] <= 30.0
-    first = [row["seconds_of_steps"] for row in rows[:2]]
-    assert rows[1]["speedup"] == sorted(one / two for one, two in zip(*first, strict=True))[1]
-    # the same steps whatever the number of threads
-    assert rows[0]["cycles"] == rows[1]["cycles"]
-    runs = {row["points"]: row for row in answer["runs"]}
-    assert runs[65]["error"] is None
-    expected = abs(runs[33]["mu_ratio"] / runs[65]["mu_ratio"] - 1.0)
-    assert rows[0]["error"] == runs[33]["error"] == pytest.approx(expected, rel=1e-12)
-    assert cli.main(["bench", "step", "--cases", "nothing"]) == 2

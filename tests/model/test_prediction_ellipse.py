@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from document_text import plain
 
 import pyehl
 from pyehl.errors import InputError
@@ -270,7 +271,7 @@ def test_table_is_what_is_predicted(compare, name):
 
 def test_readme_says_what_the_table_says(compare):
     """Counts, largest deviations and coverage, of the predictions from before."""
-    text = (compare.HERE / "README.md").read_text().replace("−", "-")
+    text = plain(compare.HERE / "README.md").replace("−", "-")
     table = compare.read("table.csv")
     ended = [row for row in compare.read("simulated.csv") if row["status"] == "converged"]
     assert len(table) == len(ended) == len(compare.read("cases.csv")) - 1
@@ -295,7 +296,7 @@ def test_readme_says_what_the_table_says(compare):
 
 def test_page_shows_the_finer_grid(compare):
     """1025 nodes along X: the deviations there, which the stated error covers."""
-    text = (compare.HERE / "README.md").read_text(encoding="utf-8")
+    text = plain(compare.HERE / "README.md")
     assert "\n".join(compare.fine_lines()) in text
     table = {row["name"]: row for row in compare.read("table.csv")}
     fine = {row["name"]: row for row in compare.read("fine.csv")}
@@ -316,7 +317,7 @@ def test_page_shows_the_finer_grid(compare):
 def test_ridges_beside_the_centre_line(root: Path, compare, script):
     """What they take beyond the half-space, by calculation: most of what is measured."""
     folder = root / "docs" / "evidence" / "ellipse"
-    rows, text = rows_of(folder / "sides.csv"), (folder / "README.md").read_text(encoding="utf-8")
+    rows, text = rows_of(folder / "sides.csv"), plain(folder / "README.md")
     for key in {(row["ellipticity"], row["wavelength"]) for row in rows}:
         part = {row["y"]: row for row in rows if (row["ellipticity"], row["wavelength"]) == key}
         cells = [

@@ -9,6 +9,7 @@ from types import ModuleType
 
 import numpy as np
 import pytest
+from document_text import plain
 
 from pyehl.theory import disc
 from pyehl.theory.response import GAIN, fitted_range, inlet_fit, inlet_transfer
@@ -184,12 +185,6 @@ def cell(dx: np.ndarray, dy: np.ndarray, h: float) -> np.ndarray:
     return total
 
 
-def disc_pressure(qx, qy, x, y):
-    """Pressure of the whole series, with a few terms more than the largest q."""
-    radial = disc._radial(np.sqrt(1.0 - x * x - y * y), int(np.hypot(qx, qy).max()) + 13)
-    return disc._series(qx, qy, np.arctan2(y, x), radial)
-
-
 def test_pressure_of_a_wave_on_the_disc_is_that_of_a_dense_system():
     h = 2.0 / 45.0
     line = (np.arange(45) - 22.0) * h + 1e-9
@@ -205,25 +200,11 @@ def test_pressure_of_a_wave_on_the_disc_is_that_of_a_dense_system():
     # the last unknown is the approach of the bodies, the last equation: no load
     found = np.linalg.solve(system, np.vstack([wave, np.zeros((1, 2))]))[:n]
     middle = np.hypot(x, y) < 0.7
-    closed = disc_pressure(qx, qy, x[middle], y[middle])
-    size = np.abs(closed).max(axis=0)
-    # first order in the cell at the edge, where the pressure is singular
-    assert np.abs(found[middle] - closed).max(axis=0) / size == pytest.approx(0.0, abs=0.03)
     terms = disc.monomials(x[middle], y[middle]) @ disc.disc_correction(qx, qy)
-    periodic = 0.25 * np.pi * np.hypot(qx, qy) * wave[middle]
-    assert np.abs(periodic + terms - closed).max(axis=0) / size == pytest.approx(0.0, abs=0.015)
-
-
-def test_pressure_of_a_wave_on_the_disc_carries_no_load():
-    # Gauss points in z = sqrt(1 - r^2) and equal angles: dx dy = z dz dtheta
-    nodes, weights = np.polynomial.legendre.leggauss(40)
-    z, weights = 0.5 * (nodes + 1.0), 0.5 * weights
-    theta = np.arange(48) * 2.0 * np.pi / 48
-    r = np.sqrt(1.0 - z * z)
-    x, y = (np.outer(r, f(theta)).ravel() for f in (np.cos, np.sin))
-    pressure = disc_pressure(np.array([3.0]), np.array([4.0]), x, y)[:, 0]
-    share = np.repeat(weights * z, theta.size)
-    assert abs((pressure * share).sum()) < 1e-10 * np.abs(pressure * share).sum()
+    closed = 0.25 * np.pi * np.hypot(qx, qy) * wave[middle] + terms
+    size = np.abs(closed).max(axis=0)
+    # first order in the cell at the edge, where the pressure is singular; and a cut series
+    assert np.abs(found[middle] - closed).max(axis=0) / size == pytest.approx(0.0, abs=0.03)
 
 
 @pytest.fixture(scope="module")
@@ -291,7 +272,7 @@ def test_gain_of_oblique_waves_is_that_of_the_measured_pressures(
     assert len(points) >= 15
     each = [left[(waves[:, 0] == m) & (waves[:, 1] == ell)] for m, ell in points]
     rms = [float(np.sqrt(np.mean(np.square(here)))) for here in each]
-    text = (root / "docs/evidence/response/README.md").read_text(encoding="utf-8")
+    text = plain(root / "docs/evidence/response/README.md")
     assert f"the rms it leaves is {min(rms):.3f} to {max(rms):.3f} at an operating point" in text
     assert max(rms) <= 0.011
     assert max(np.abs(here).max() for here in each) <= 0.051

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from document_text import plain
 from records import percent
 from scipy.integrate import quad
 from scipy.optimize import brentq
@@ -28,7 +29,7 @@ def says(root: Path):
     """Assert that words stand in a page."""
 
     def check(page: str, *words: str) -> None:
-        text = (root / page).read_text(encoding="utf-8")
+        text = plain(root / page)
         assert [one for one in words if one not in text] == []
 
     return check
@@ -212,7 +213,7 @@ def test_what_the_page_may_take(root: Path, says):
 
 def test_constants_of_the_solver(root: Path):
     """The table of docs/design.md has the values of the sources."""
-    text = (root / "docs/design.md").read_text(encoding="utf-8")
+    text = plain(root / "docs/design.md")
     table = re.findall(r"^\| `(\w+)` \(`([\w/.]+)`\) \| (\S+) \|", text, re.MULTILINE)
     assert len(table) == 12
     for name, file, shown in table:

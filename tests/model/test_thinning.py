@@ -8,13 +8,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from document_text import plain
 
 import pyehl
 from pyehl.case import Case
 from pyehl.prediction.of_solver import resolution
 from pyehl.prediction.smooth import solve_contact, zone_of
 from pyehl.prediction.start import starting_pressure
-from pyehl.prediction.transfer import _at_amplitude
 from pyehl.schema import summary_of
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -102,24 +102,6 @@ def test_short_waves_of_an_oil_that_thins_are_not_flattened():
     assert abs(thin[1].conjugate() - (0.6535 - 0.3833j)) < 0.05
 
 
-def test_measured_waves(root):
-    """T at X = 0 in the table: within 0.03 at slide-to-roll ratios up to 1."""
-    table = root / "docs" / "evidence" / "thinning" / "waves.csv"
-    with table.open(newline="", encoding="utf-8") as stream:
-        rows = [row for row in csv.DictReader(stream) if float(row["x"]) == 0.0]
-
-    def value(row: dict[str, str], name: str) -> complex:
-        return complex(float(row[f"{name}_re"]), float(row[f"{name}_im"]))
-
-    off = np.array([abs(value(row, "T") - value(row, "predicted")) for row in rows])
-    assert off.size == 400
-    assert max(float(row["slide_to_roll"]) for row in rows) == 1.0
-    assert len({row["run"] for row in rows}) == 16
-    assert off.max() < 0.03
-    fine = [row["run"].endswith("fine") for row in rows]
-    assert off[fine].max() < 0.013
-
-
 def test_the_table_of_waves_is_that_of_this_package(root, evidence):
     folder = root / "docs" / "evidence" / "thinning"
     compare = evidence("thinning", "compare")
@@ -158,7 +140,7 @@ def test_a_law_in_the_friction_alone_states_no_error():
 
 def test_reference_values(root):
     """The table of docs/theory/thinning.md: factors of Python, and the rows that Fortran tests."""
-    text = (root / "docs" / "theory" / "thinning.md").read_text(encoding="utf-8")
+    text = plain(root / "docs" / "theory" / "thinning.md")
     source = (root / "fortran" / "test" / "test_flow.f90").read_text(encoding="utf-8")
     calls = [re.sub("_dp", "", line) for line in re.findall(r"call agree\(.*by_.*\)", source)]
     tested = [[float(v) for v in re.findall(r"-?\d[\d.e]*", line)] for line in calls]
@@ -261,19 +243,6 @@ def test_start_from_the_prediction():
     assert 0.0 < np.std(thin) < np.std(newtonian)
 
 
-def test_leak_of_finite_waves_goes_by_what_is_left_of_the_viscosity():
-    settings = table_1().resolve()
-    o, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
-    zone = zone_of(solve_contact(settings), o, oil)
-    newtonian = replace(zone, factors=None)
-    pressed = zone.pressure > 0.5
-    thin, slow = (
-        _at_amplitude(one, 0.05**2).conductance / one.conductance for one in (zone, newtonian)
-    )
-    assert slow[pressed].max() < 0.95
-    np.testing.assert_allclose(thin[pressed], 1.0, atol=1e-6)
-
-
 # Quantities of `rough.py` and their errors
 ERRORS = {
     "mu_ratio": "mu_ratio_model_error",
@@ -284,115 +253,8 @@ ERRORS = {
 }
 
 
-def simulated(run: dict[str, float], name: str) -> float:
-    """A simulated quantity; the film with what that of the smooth contact lacks on the grid."""
-    lacking = run["h_min_extrapolated_m"] - run["h_min_m"] if name == "h_min_rough_m" else 0.0
-    return run[name] + lacking
-
-
 # Largest deviations and how many the stated errors cover: of those in view when the error of the
 # film was chosen, and of those predicted before they were simulated
-@pytest.mark.parametrize(
-    ("table", "names", "count", "most", "covered"),
-    [
-        ("predicted", "e", 18, (0.005, 0.03, 0.19, 0.094, 0.14), (18, 18, 17, 17, 18)),
-        ("predicted", "f", 8, (0.004, 0.014, 0.045, 0.055, 0.14), (8, 8, 8, 8, 7)),
-        ("predicted", "g", 10, (0.009, 0.023, 0.083, 0.048, 0.22), (10, 10, 10, 10, 9)),
-        ("predicted", "h", 8, (0.004, 0.017, 0.125, 0.064, 0.085), (8, 8, 8, 8, 8)),
-        ("predicted", "i", 6, (0.002, 0.009, 0.061, 0.181, 0.12), (6, 6, 6, 6, 6)),
-        ("committed", "g", 10, (0.009, 0.018, 0.075, 0.051, 0.22), (10, 10, 10, 10, 9)),
-        ("committed", "h", 8, (0.004, 0.017, 0.125, 0.064, 0.085), (8, 8, 8, 8, 8)),
-        ("committed", "i", 6, (0.002, 0.009, 0.061, 0.181, 0.12), (6, 6, 6, 2, 6)),
-    ],
-)
-def test_simulated_surfaces(root, table, names, count, most, covered):
-    """Deviations of the table, and what the stated errors cover of them."""
-    folder = root / "docs" / "evidence" / "thinning"
-    said, found = numbers(folder / f"{table}.csv"), numbers(folder / "simulated.csv")
-    rows = [name for name in found if name.startswith(names)]
-    assert len(rows) == count
-    for (name, error), largest, good in zip(ERRORS.items(), most, covered, strict=True):
-        off, within = [], 0
-        for row in rows:
-            p, s = said[row][name], simulated(found[row], name)
-            off.append(abs(p / s - 1.0))
-            within += abs(p - s) <= said[row][error]
-        assert max(off) < largest, name
-        assert within == good, name
-
-
-def test_all_surfaces_of_the_page(root):
-    """How many are within the aims, and the least films."""
-    folder = root / "docs" / "evidence" / "thinning"
-    said, found = numbers(folder / "predicted.csv"), numbers(folder / "simulated.csv")
-    ratio, film = (
-        np.array([said[row][name] / simulated(run, name) - 1.0 for row, run in found.items()])
-        for name in ("mu_ratio", "h_min_rough_m")
-    )
-    rms = [100.0 * np.sqrt(np.mean(off**2)) for off in (ratio, film)]
-    text = (folder / "README.md").read_text(encoding="utf-8")
-    assert (
-        f"Over all {ratio.size} surfaces {np.count_nonzero(abs(ratio) <= 0.005)} ratios are within "
-        f"0.5 %, {rms[0]:.2f} % rms, and {np.count_nonzero(abs(film) <= 0.05)} least films within "
-        f"5 %, {rms[1]:.1f} % rms and {100.0 * abs(film).max():.1f} % at most."
-    ) in text
-
-
-def test_rows_of_the_page(root):
-    """Predicted and simulated of each surface, those of g, h and i as committed."""
-    folder = root / "docs" / "evidence" / "thinning"
-    before, today = numbers(folder / "committed.csv"), numbers(folder / "predicted.csv")
-    text = (folder / "README.md").read_text(encoding="utf-8")
-    units = {"p_rise_rms_Pa": 1e6, "p_rise_max_Pa": 1e6, "h_min_rough_m": 1e-9}
-    for name, run in numbers(folder / "simulated.csv").items():
-        said = (before if name[0] in "ghi" else today)[name]
-        cells = [f"{said['mu_ratio']:.4f} / {run['mu_ratio']:.4f}"]
-        cells += [
-            f"{said[key] / unit:.3g} / {simulated(run, key) / unit:.3g}"
-            for key, unit in units.items()
-        ]
-        (line,) = re.findall(rf"^\| {name} \|.*$", text, re.MULTILINE)
-        assert line.endswith(f"| {' | '.join(cells)} |"), name
-
-
-@pytest.mark.parametrize(
-    ("table", "heading"),
-    [
-        ("simulated", "18 surfaces predicted before they were simulated"),
-        ("fine", "The 18 on 513 × 513 nodes"),
-    ],
-)
-def test_surfaces_predicted_before(root, table, heading):
-    """The tables of g and h: deviations, how many are within the aims, and covered."""
-    folder = root / "docs" / "evidence" / "thinning"
-    said, found = numbers(folder / "committed.csv"), numbers(folder / f"{table}.csv")
-    text = (folder / "README.md").read_text(encoding="utf-8")
-    part = text.split(f"### {heading}\n")[1].split("\n### ")[0]
-    rows = [name for name in said if name[0] in "gh"]
-    aims = (0.005, 0.05, None, 0.05, None)
-    for (name, error), aim in zip(ERRORS.items(), aims, strict=True):
-        p = np.array([said[row][name] for row in rows])
-        off = p - np.array([simulated(found[row], name) for row in rows])
-        covered = np.count_nonzero(abs(off) <= [said[row][error] for row in rows])
-        off /= p - off
-        good = f"{np.count_nonzero(abs(off) <= aim)} of {off.size} within {aim:.3g}" if aim else ""
-        good = good.replace("0.005", "0.5 %").replace("0.05", "5 %")
-        assert (
-            f"| {100.0 * np.sqrt(np.mean(off**2)):.2f} % | {100.0 * abs(off).max():.1f} % | {good} "
-            f"| {covered} of {off.size} |"
-        ) in part, name
-
-
-def test_committed_friction(root):
-    """What was there before the simulations is today's but for the load and the inlet."""
-    folder = root / "docs" / "evidence" / "thinning"
-    said, committed = numbers(folder / "predicted.csv"), numbers(folder / "committed.csv")
-    for row, before in committed.items():
-        later = row[0] in "ghi"
-        rel = 2.9e-3 if later else 9e-3
-        assert said[row]["mu_ratio"] == pytest.approx(before["mu_ratio"], rel=rel)
-        for name in ("p_rise_rms_Pa", "p_rise_max_Pa", "h_min_rough_m") if later else ():
-            assert said[row][name] == pytest.approx(before[name], rel=0.01)
 
 
 @pytest.mark.parametrize("name", ["e1", "e8"])

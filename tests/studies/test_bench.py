@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""``pyehl bench`` on tiny campaigns: skips, stress, machines, faults, work and precision."""
+"""The scripts of `benchmarks/` on tiny campaigns."""
 
-import csv
+import importlib
 import json
 import math
 import subprocess
@@ -10,24 +10,21 @@ import time
 from dataclasses import replace
 from pathlib import Path
 
+import faults
+import faults_inputs
+import machines
 import numpy as np
 import pytest
+import skips
+import smooth
+import step
+import stress
+import stress_cases
+import sweep
+import workprec
 from matplotlib.image import imread
 
 import pyehl
-from pyehl.bench import (
-    faults_inputs,
-    machines,
-    skips,
-    smooth,
-    step,
-    stress,
-    stress_cases,
-    sweep,
-    workprec,
-)
-from pyehl.bench.faults import CASE, damage
-from pyehl.bench.stress import broken, judge_share
 from pyehl.cli import main
 from pyehl.studies.gather import Outcome
 from pyehl.studies.journal import NAME
@@ -42,8 +39,8 @@ def test_skips_change_nothing(tmp_path: Path, capsys, monkeypatch):
     domain = ("grid.x_inlet=-2.5", "grid.x_outlet=1.5", "grid.y_extent=2.0")
     wave = (*point, *domain, "surface.kind=harmonic", "surface.amplitude_over_film=0.2")
     monkeypatch.setattr(skips, "WAVE", wave)
-    words = ["bench", "skips", "--scenes", "wave,predict", "--points", "65"]
-    assert main([*words, "-o", str(tmp_path / "skips.json")]) == 0
+    words = ["--scenes", "wave,predict", "--points", "65"]
+    assert skips.main([*words, "-o", str(tmp_path / "skips.json")]) == 0
     assert "symmetric in Y" in capsys.readouterr().out
     rows = json.loads((tmp_path / "skips.json").read_text())["rows"]
     assert [row["quantity"] for row in rows] == ["mu_ratio"] * 4 + ["F", "mu_ratio"]
@@ -58,17 +55,42 @@ def test_skips_that_change_something_are_told(monkeypatch, capsys):
     row = dict.fromkeys((name for name, _ in skips.COLUMNS), 0.0)
     row |= {"scene": "s", "skipped": "w", "quantity": "q", "same": False}
     monkeypatch.setattr(skips, "SCENES", {"predict": lambda points: [row]})
-    assert main(["bench", "skips", "--scenes", "predict"]) == 1
-    assert main(["bench", "skips", "--scenes", "perdict"]) == 2
+    assert skips.main(["--scenes", "predict"]) == 1
+    with pytest.raises(SystemExit, match="2"):
+        skips.main(["--scenes", "perdict"])
     assert "perdict" in capsys.readouterr().err
 
 
-def test_each_benchmark_has_its_own_options(capsys):
-    with pytest.raises(SystemExit, match="2"):
-        main(["bench", "deflection", "--seed", "3"])
-    assert "unrecognized arguments: --seed 3" in capsys.readouterr().err
-    assert main(["bench", "stress", "--seed", "3"]) == 2
-    assert "-o DIR is needed" in capsys.readouterr().err
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("deflection --seed 3", "unrecognized arguments: --seed 3"),
+        ("deflection --points 2", "2; expected: 3 or more"),
+        ("deflection --threads 0", "0; expected: 1 or more"),
+        ("deflection --points many", "'many' is not like 129,257"),
+        ("smooth --cases square", "'square'; expected: some of circle, law, ellipse"),
+        ("sweep --scenes flim", "'flim'; expected: some of film, predict"),
+        ("step --cases nothing", "'nothing'; expected: some of wave, fractal"),
+        ("machines --count 0", "0; expected: 1 or more"),
+        ("stress --seed 3", "arguments are required: -o"),
+        ("stress --cases 0 -o t", "0; expected: 1 or more"),
+        ("stress --cases many -o t", "invalid int value: 'many'"),
+        ("stress --boundary-film -o t", "--boundary-film needs a --shear-law that thins"),
+        ("faults", "arguments are required: -o"),
+    ],
+)
+def test_words_that_a_script_does_not_take(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys, words: str, said: str
+):
+    monkeypatch.chdir(tmp_path)
+    name, *rest = words.split()
+    try:
+        status = importlib.import_module(name).main(rest)
+    except SystemExit as end:
+        status = end.code
+    assert status == 2
+    assert said in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())
 
 
 def test_skips_of_smooth_contacts():
@@ -77,7 +99,7 @@ def test_skips_of_smooth_contacts():
     assert all(row["same"] for row in rows)
 
 
-def test_smooth_cases_beside_the_circle(capsys, monkeypatch):
+def test_smooth_cases_beside_the_circle(monkeypatch):
     """Rows of a law and of an ellipse with the same equations; seconds per node by those."""
     # that of the benchmark has as many nodes as the circle
     monkeypatch.setattr(smooth, "RADIUS_RATIO", 0.1)
@@ -96,8 +118,6 @@ def test_smooth_cases_beside_the_circle(capsys, monkeypatch):
     assert across > 129
     per_node = rows[2]["seconds"] / rows[0]["seconds"] * 129 / across
     assert rows[2]["ratio"] == pytest.approx(per_node, rel=1e-12)
-    assert main(["bench", "smooth", "--cases", "square"]) == 2
-    assert "circle, law, ellipse" in capsys.readouterr().err
 
 
 def test_steps_beside_the_plain_scene(monkeypatch):
@@ -125,8 +145,8 @@ def test_scenes_of_steps_are_cases():
 @pytest.mark.slow
 def test_stress_campaign(tmp_path: Path, capsys):
     """A tiny campaign: it ends, nothing is wrong, the same seed draws the same cases."""
-    words = ["bench", "stress", "--cases", "8", "--seed", "3", "--points", "65", "--jobs", "1"]
-    assert main([*words, "-o", str(tmp_path / "s")]) == 0
+    words = ["--cases", "8", "--seed", "3", "--points", "65", "--jobs", "1"]
+    assert stress.main([*words, "-o", str(tmp_path / "s")]) == 0
     assert "checked" in capsys.readouterr().out
     answer = json.loads((tmp_path / "s" / "stress.json").read_text())
     assert [row["family"] for row in answer["rows"]].count("wave") == 4
@@ -136,17 +156,14 @@ def test_stress_campaign(tmp_path: Path, capsys):
     assert total["wrong"] == 0
     assert total["checked"] >= 1
     assert stress_cases.draw(8, 3, (65,)) == stress_cases.draw(8, 3, (65,))
-    assert main(["bench", "stress", "--cases", "0", "-o", str(tmp_path / "t")]) == 2
-    with pytest.raises(SystemExit, match="2"):
-        main(["bench", "stress", "--cases", "many", "-o", str(tmp_path / "t")])
 
 
-def test_interrupted_stress_keeps_what_is_done(tmp_path: Path):
+def test_interrupted_stress_keeps_what_is_done(root: Path, tmp_path: Path):
     """By SIGTERM: a sentence, status 130, and the rows that are finished stay in the journal."""
     folder = tmp_path / "s"
-    words = ["bench", "stress", "--cases", "100", "--points", "65", "--jobs", "1"]
+    words = ["--cases", "100", "--points", "65", "--jobs", "1"]
     process = subprocess.Popen(
-        [sys.executable, "-P", "-m", "pyehl", *words, "-o", str(folder)],
+        [sys.executable, root / "benchmarks" / "stress.py", *words, "-o", str(folder)],
         stderr=subprocess.PIPE,
         text=True,
     )
@@ -167,7 +184,7 @@ def test_interrupted_stress_keeps_what_is_done(tmp_path: Path):
 
 def test_interrupted_throughput_is_none(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(sweep, "perform", lambda *_, **__: Outcome({}, interrupted=True))
-    assert main(["bench", "sweep", "--scenes", "film", "--threads", "1"]) == 130
+    assert sweep.main(["--scenes", "film", "--threads", "1"]) == 130
 
 
 def test_wrong_results_are_seen():
@@ -193,6 +210,13 @@ def test_cases_of_a_campaign_cover_what_can_be_asked_for():
         assert case.values["time.steps"] in (0, stress_cases.BOUNDS[case.points])
 
 
+def test_the_record_is_of_the_cases_that_are_drawn(script):
+    rows = script("docs/evidence/stress/make.py").read()
+    drawn = stress_cases.draw(len(rows), 1)
+    assert [row["family"] for row in rows] == [case.family for case in drawn]
+    assert [float(row["moes_m"]) for row in rows] == [case.moes_m for case in drawn]
+
+
 def test_cases_with_a_shear_law_are_the_same_scenes():
     plain = stress_cases.draw(60, 1)
     for law in ("eyring", "carreau"):
@@ -215,8 +239,6 @@ def test_cases_with_a_boundary_film_are_the_same_scenes():
         changed = dict(with_layer.values.items() ^ without.values.items())
         assert set(changed) - {"solver.coarsening"} == new
         assert pyehl.Case.from_text("", with_layer.values).resolve()["lubricant"]["boundary_film"]
-    words = ["bench", "stress", "--boundary-film", "--cases", "1", "-o", "nowhere"]
-    assert main(words) == 2
 
 
 @pytest.mark.parametrize(
@@ -225,7 +247,7 @@ def test_cases_with_a_boundary_film_are_the_same_scenes():
 )
 def test_wrong_load_shares_are_seen(other: float, error: float | None, *, wrong: bool):
     row = {"contact_load_share": 0.3, "contact_load_share_error": error, "wrong": False}
-    judge_share(row, "share_finer", {"contact_load_share": other})
+    stress.judge_share(row, "share_finer", {"contact_load_share": other})
     assert row["wrong"] is wrong
     assert row["share_finer"] == other
 
@@ -234,17 +256,17 @@ def test_fields_that_break_a_condition_are_seen(tmp_path: Path):
     values = {"contact.load": 20.0, "contact.mean_velocity": 0.1, "grid.points": 65}
     values["lubricant.boundary_film"] = 1e-7
     pyehl.solve(pyehl.Case.from_text("", values), output=tmp_path / "c")
-    assert broken(tmp_path / "c") == ""
+    assert stress.broken(tmp_path / "c") == ""
     film = np.load(tmp_path / "c" / "H.npy")
     np.save(tmp_path / "c" / "H.npy", 0.9 * film)
-    assert broken(tmp_path / "c").startswith("film of the layer")
+    assert stress.broken(tmp_path / "c").startswith("film of the layer")
 
 
 def test_contacts_of_machines(tmp_path: Path, capsys, monkeypatch):
     """A handful on a coarse grid: the table, the rows, the ratio to the ball on disc."""
     monkeypatch.setattr(machines, "SETTINGS", {"solver.threads": 1, "grid.points": 129})
-    words = ["bench", "machines", "--seed", "2", "--count", "4"]
-    assert main([*words, "--fine", "-o", str(tmp_path / "m.json")]) == 0
+    words = ["--seed", "2", "--count", "4"]
+    assert machines.main([*words, "--fine", "-o", str(tmp_path / "m.json")]) == 0
     printed = capsys.readouterr()
     assert "kappa > 4" in printed.out
     assert "4 of 4: crowned roller" in printed.err
@@ -262,8 +284,6 @@ def test_contacts_of_machines(tmp_path: Path, capsys, monkeypatch):
     assert ball["points_y"] is None
     # twice the nodes move the film by about three times the error of the grid
     assert abs(ball["H_c"] - ball["H_c_fine"]) < 2.0 * ball["H_c_error_grid"]
-    assert main(["bench", "machines", "--count", "0"]) == 2
-    assert "count must be 1 or more" in capsys.readouterr().err
 
 
 def test_contacts_of_machines_have_the_pressure_that_was_drawn():
@@ -316,25 +336,25 @@ def test_mutated_inputs(tmp_path: Path):
 
 @pytest.mark.slow
 def test_damaged_states(tmp_path: Path, monkeypatch):
-    monkeypatch.setattr("pyehl.bench.faults.REGIONS", 2)
-    (tmp_path / "case.nml").write_text(CASE)
-    trials, counts, bad = damage(tmp_path, np.random.default_rng(1))
+    monkeypatch.setattr(faults, "REGIONS", 2)
+    (tmp_path / "case.nml").write_text(faults.CASE)
+    trials, counts, bad = faults.damage(tmp_path, np.random.default_rng(1))
     assert (trials, bad) == (4, [])
     assert counts["same bits"] + counts.get("told", 0) >= 4
 
 
 @pytest.mark.slow
 def test_faults_campaign(tmp_path: Path, capsys):
-    words = ["bench", "faults", "--kills", "4", "--inputs", "20"]
-    assert main([*words, "-o", str(tmp_path / "f")]) == 0
+    words = ["--kills", "4", "--inputs", "20"]
+    assert faults.main([*words, "-o", str(tmp_path / "f")]) == 0
     rows = json.loads((tmp_path / "f" / "faults.json").read_text())["rows"]
     assert [row["wrong"] for row in rows] == [0] * 5
-    assert main([*words, "-o", str(tmp_path / "f")]) == 2
+    assert faults.main([*words, "-o", str(tmp_path / "f")]) == 2
 
 
 def test_work_and_precision(tmp_path: Path, capsys):
-    words = ["bench", "workprec", "--scenes", "smooth", "--points", "65,129,257", "--threads", "1"]
-    assert main([*words, "-o", str(tmp_path / "w.json")]) == 0
+    words = ["--scenes", "smooth", "--points", "65,129,257", "--threads", "1"]
+    assert workprec.main([*words, "-o", str(tmp_path / "w.json")]) == 0
     assert "smooth, H_c to 1.0%" in capsys.readouterr().out
     rows = json.loads((tmp_path / "w.json").read_text())["rows"]
     assert imread(tmp_path / "w.png").std() > 0.1
@@ -348,67 +368,49 @@ def test_work_and_precision(tmp_path: Path, capsys):
     assert film[129] / film[257] == pytest.approx(4.0, rel=0.3)
 
 
-RESOLVED = "resolved fractal"
+@pytest.mark.long
+def test_seconds_of_a_step(tmp_path: Path, capsys, monkeypatch):
+    contact = "&contact load = 20.0 /\n&grid x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
+    tile = "pixels = 32 length_x = 1e-4 length_y = 1e-4 rms_height = 2e-8"
+    scene = step.Scene("fractal", "whole", f"{contact}&surface kind = 'fractal' {tile} /\n")
+    monkeypatch.setattr(step, "CASES", (scene,))
+    words = ["--points", "33,65", "--threads", "1,2", "--cases", "fractal", "--steps", "3"]
+    target = tmp_path / "step.json"
+    assert step.main([*words, "--error", "-o", str(target)]) == 0
+    printed = capsys.readouterr().out
+    assert "units: of one scipy.fft deflection" in printed
+    answer = json.loads(target.read_text())
+    rows = answer["rows"]
+    assert [(row["points"], row["threads"]) for row in rows] == [(33, 1), (33, 2), (65, 1), (65, 2)]
+    for row in rows:
+        assert len(row["seconds_of_steps"]) == 3
+        assert row["seconds"] == pytest.approx(sum(row["seconds_of_steps"]) / 3, rel=1e-12)
+        assert row["units"] == row["seconds"] / row["unit_seconds"]
+        assert 1.0 <= row["cycles"] <= 30.0
+    first = [row["seconds_of_steps"] for row in rows[:2]]
+    assert rows[1]["speedup"] == sorted(one / two for one, two in zip(*first, strict=True))[1]
+    # the same steps whatever the number of threads
+    assert rows[0]["cycles"] == rows[1]["cycles"]
+    runs = {row["points"]: row for row in answer["runs"]}
+    assert runs[65]["error"] is None
+    expected = abs(runs[33]["mu_ratio"] / runs[65]["mu_ratio"] - 1.0)
+    assert rows[0]["error"] == runs[33]["error"] == pytest.approx(expected, rel=1e-12)
 
 
 @pytest.mark.long
-def test_defaults_are_on_the_front_that_was_measured(root: Path):
-    """docs/evidence/workprec: what is cheapest, as its README says."""
-    with (root / "docs" / "evidence" / "workprec" / "workprec.csv").open() as stream:
-        rows = [
-            row | {key: float(row[key]) for key in ("seconds", "error", "bar") if row[key]}
-            for row in csv.DictReader(stream)
-            # right by chance on one grid
-            if row["error"] and row["threads"] == "1" and not row["setting"].startswith("paper")
-        ]
-
-    def least(scene: str, level: float, family: tuple[str, ...]) -> float:
-        return min(
-            row["seconds"]
-            for row in rows
-            if row["scene"] == scene
-            and row["quantity"] in ("H_c", "mu_ratio")
-            and row["setting"].startswith(family)
-            and max(row["error"], row["bar"]) <= level
-        )
-
-    # one deflection by FFT on 129 x 129 nodes is cheaper than by multi-integration
-    others = ("default", "alcouffe", "classical")
-    for scene in ("smooth", "wave", "resolved fractal"):
-        for level in workprec.LEVELS:
-            assert least(scene, level, ("default",)) <= 1.1 * least(scene, level, others)
-            assert least(scene, level, ("default",)) <= 1.2 * least(scene, level, ("fft",))
-    predicted = least("resolved fractal", 3e-3, ("prediction",))
-    assert predicted < 0.3 * least("resolved fractal", 3e-3, others)
-    whole = [row for row in rows if row["scene"] == "fractal"]
-    assert min(row["bar"] for row in whole) > 0.01
-    (prediction,) = (row for row in whole if row["setting"] == "prediction")
-    assert prediction["error"] <= prediction["bar"]
-    text = (root / "docs/evidence/workprec/README.md").read_text(encoding="utf-8")
-    (resolved,) = (r for r in rows if (r["scene"], r["setting"]) == (RESOLVED, "prediction"))
-    said = f"{100 * resolved['error']:.3f} % where", f"{100 * prediction['error']:.1f} % on the"
-    assert all(words in text for words in said)
-    found = {
-        (row["scene"], row["setting"], int(row["points"])): row
-        for row in rows
-        if row["quantity"] in ("H_c", "mu_ratio")
-    }
-
-    def gain(scene: str, points: int) -> float:
-        errors = (
-            found[scene, setting, points]["error"]
-            for setting in ("default", "default, extrapolated")
-        )
-        plain, better = errors
-        return plain / better
-
-    assert f"a factor of {gain('smooth', 257):.0f} on 257², {gain('smooth', 513):.0f} on 5" in text
-    assert f"gains {gain('wave', 257):.1f} to {gain('wave', 513):.1f} in the wave" in text
-    assert f"on the resolved surface {gain(RESOLVED, 513):.1f} on 513²" in text
-    at = "{:.2g} s"
-    assert f"| 129², {at.format(found['wave', 'default', 129]['seconds'])} |" in text
-    assert f"| 257², {at.format(found['wave', 'default', 257]['seconds'])} |" in text
-    assert f"| prediction, {resolved['seconds']:.2f} s |" in text
+def test_cases_per_core_hour(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    words = ["--scenes", "film", "--threads", "1,2"]
+    assert sweep.main([*words, "-o", str(tmp_path / "b.json")]) == 0
+    told = capsys.readouterr().out
+    assert "cases per core hour" in told
+    one, two = json.loads((tmp_path / "b.json").read_text())["rows"]
+    assert (one["cases"], one["processes"], two["processes"]) == (400, 1, 2)
+    assert one["efficiency"] == 1.0
+    assert two["efficiency"] == pytest.approx(one["wall_seconds"] / two["wall_seconds"] / 2.0)
+    assert 0.0 < one["busy"] <= 1.0
+    assert one["overhead_ms"] > 0.0
+    assert two["overhead_ms"] is None
+    assert list(one["statuses"].values()) == [400]
 
 
 def test_cheapest_setting():

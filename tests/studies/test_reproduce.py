@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""``pyehl reproduce``: the paper beside our runs, and a wrong number of it fails."""
+"""`examples/zhang2019`: the paper beside our runs, and a wrong number of it fails."""
 
 import ast
 import html
@@ -8,16 +8,17 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import conditions
+import figure2
 import numpy as np
 import pytest
+from curve_fit import evaluate, fit, scatter
+from driver import PIECES, reproduce, write_report
+from parameter import SMALL_WAVES, response_parameter
+from piece import FULL, QUICK, Check, Level, Result, read_references
+from reproduce import main
 
 from pyehl.case import Case
-from pyehl.cli import main
-from pyehl.reproduce import cases, figure2
-from pyehl.reproduce.driver import PIECES, reproduce, write_report
-from pyehl.reproduce.fit import evaluate, fit, scatter
-from pyehl.reproduce.parameter import SMALL_WAVES, response_parameter
-from pyehl.reproduce.piece import FULL, QUICK, Check, Level, Result, read_references
 from pyehl.studies.journal import NAME
 
 SMALL = Level("small", (257,), 97, 129, 129, (97, 129), 2, "most of it")
@@ -111,8 +112,9 @@ def test_figure_2_on_the_grid_of_the_paper(tmp_path: Path):
 
 
 def test_nothing_that_computes_reads_the_numbers_of_the_paper(root: Path):
-    """`driver` alone reads them, `show` alone gets them; nobody else imports this package."""
-    for path in (root / "pyehl").rglob("*.py"):
+    """`driver` alone reads them, and `show` alone gets them."""
+    folder = root / "examples" / "zhang2019"
+    for path in [*(root / "pyehl").rglob("*.py"), *folder.glob("*.py")]:
         tree = ast.parse(path.read_text())
         names = {
             f"{node.module}.{alias.name}"
@@ -120,20 +122,17 @@ def test_nothing_that_computes_reads_the_numbers_of_the_paper(root: Path):
             if isinstance(node, ast.ImportFrom)
             for alias in node.names
         }
-        home = path.relative_to(root / "pyehl").as_posix()
-        if any(name.startswith("pyehl.reproduce") for name in names):
-            assert home.startswith("reproduce/") or home == "commands/reproduce.py", home
-        if "pyehl.reproduce.piece.read_references" in names:
-            assert home == "reproduce/driver.py"
+        if "piece.read_references" in names:
+            assert path == folder / "driver.py"
         if "zhang2019.csv" in path.read_text():
-            assert home == "reproduce/piece.py"
-        if home.startswith("reproduce/"):
+            assert path == folder / "piece.py"
+        if path.parent == folder:
             for node in ast.walk(tree):
                 if isinstance(node, ast.FunctionDef) and node.name == "run":
-                    assert "eferences" not in ast.unparse(node), home
+                    assert "eferences" not in ast.unparse(node), path
 
 
-def test_references_say_where_they_are_from(root: Path):
+def test_references_say_where_they_are_from():
     numbers = read_references()
     for r in numbers.values():
         assert int(r.page) in range(1, 9)
@@ -141,10 +140,6 @@ def test_references_say_where_they_are_from(root: Path):
         assert r.how.split(":")[0] in ("text", "table", "derived", "digitised")
         assert r.reading >= 0.0
         assert r.why
-    # no table of the package is left out of the installation
-    listed = (root / "pyehl" / "meson.build").read_text()
-    for path in (root / "pyehl" / "reproduce" / "data").iterdir():
-        assert f"'reproduce/data/{path.name}'" in listed
 
 
 def test_figures_1_and_5_and_the_report(tmp_path: Path):
@@ -208,8 +203,8 @@ def test_a_failed_run_fails_its_piece_alone(tmp_path: Path, monkeypatch: pytest.
 def test_waves_and_surfaces_on_coarse_grids(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     """All other pieces, small: what they find, not how well the paper is met on such grids."""
     curves = ((1000.0, 10.0, 1.0), (1000.0, 10.0, 0.5), (500.0, 5.0, 1.0), (500.0, 10.0, 0.5))
-    monkeypatch.setattr(cases, "CURVES", curves)
-    monkeypatch.setattr(cases, "RATIOS", (1.6, 2.5, 5.0))
+    monkeypatch.setattr(conditions, "CURVES", curves)
+    monkeypatch.setattr(conditions, "RATIOS", (1.6, 2.5, 5.0))
     names = [n for n in PIECES if n not in ("table 1", "figure 1", "figure 2", "figure 5")]
     found = {r.name: r for r in reproduce(names, SMALL, tmp_path)}
     assert set(found) == set(names)
@@ -246,28 +241,29 @@ def test_what_has_no_number_to_judge_is_no_pass():
 
 def test_command(tmp_path: Path, capsys: Any):
     folder = tmp_path / "out"
-    assert main(["reproduce", "zhang2019", "--table", "1", "-o", str(folder)]) == 0
+    assert main(["--table", "1", "-o", str(folder)]) == 0
     told = capsys.readouterr().out
     assert "table 1    pass: 17 of 17" in told
     assert "report.html" in told
     page = (folder / "report.html").read_text()
     assert QUICK.leaves_out in page
     assert "numpy" in page
-    assert main(["reproduce", "zhang2019", "--figure", "8", "-o", str(tmp_path / "no")]) == 2
-    assert "1, 2, 3, 4, 5, 6, 7" in capsys.readouterr().err
+    with pytest.raises(SystemExit, match="2"):
+        main(["--figure", "8", "-o", str(tmp_path / "no")])
+    assert "choose from" in capsys.readouterr().err
     assert not (tmp_path / "no").exists()
     with pytest.raises(SystemExit):
-        main(["reproduce", "zhang2019", "--quick", "--full", "-o", str(folder)])
+        main(["--quick", "--full", "-o", str(folder)])
 
 
 def test_levels_differ_as_they_say():
-    assert len(cases.CURVES) * len(cases.RATIOS) >= 60
+    assert len(conditions.CURVES) * len(conditions.RATIOS) >= 60
     assert FULL.surfaces == 20
     assert FULL.meshes == (257, 513, 1025)
     assert QUICK.collapse_grid < FULL.collapse_grid == 513
 
 
 def test_predictions_have_the_waves_of_the_grid():
-    (option,) = cases.carried(257)
-    shortest = Case.from_text(cases.CASE, [option]).resolve()["surface"]
+    (option,) = conditions.carried(257)
+    shortest = Case.from_text(conditions.CASE, [option]).resolve()["surface"]
     assert shortest["shortest_wavelength"] == pytest.approx(8.0 / 256 * 4.154e-4, rel=1e-3)

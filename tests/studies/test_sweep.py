@@ -3,7 +3,6 @@
 
 import csv
 import io
-import json
 import time
 from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
@@ -208,23 +207,6 @@ def test_predictions_share_smooth_contacts(cases: Path):
     todo = plan(make(str(cases / "table1.nml"), axes, run="predict"))
     assert len(todo.tasks) == 6
     assert len({task.shares for task in todo.tasks}) == 2
-
-
-@pytest.mark.long
-def test_benchmark(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
-    words = ["bench", "sweep", "--scenes", "film", "--threads", "1,2"]
-    assert main([*words, "-o", str(tmp_path / "b.json")]) == 0
-    told = capsys.readouterr().out
-    assert "cases per core hour" in told
-    one, two = json.loads((tmp_path / "b.json").read_text())["rows"]
-    assert (one["cases"], one["processes"], two["processes"]) == (400, 1, 2)
-    assert one["efficiency"] == 1.0
-    assert two["efficiency"] == pytest.approx(one["wall_seconds"] / two["wall_seconds"] / 2.0)
-    assert 0.0 < one["busy"] <= 1.0
-    assert one["overhead_ms"] > 0.0
-    assert two["overhead_ms"] is None
-    assert list(one["statuses"].values()) == [400]
-    assert main(["bench", "sweep", "--scenes", "flim"]) == 2
 
 
 def test_a_message_for_each_case_without_a_result(cases: Path, tmp_path: Path):

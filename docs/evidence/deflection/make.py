@@ -20,9 +20,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pyehl import library
-from pyehl.bench.unit import hertz
 
-HERE = Path(__file__).parent
+sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "benchmarks"))
+from common import hertz
+
+HERE = Path(__file__).resolve().parent
 POINTS = (65, 129, 257, 513, 1025)
 # Accuracies asked for on 257 x 257 nodes
 ACCURACIES = (2e-4, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10)

@@ -2,7 +2,6 @@
 
     python docs/evidence/errors/make.py smooth     # smooth.csv, a minute
     python docs/evidence/errors/make.py rough      # rough.csv, forty minutes
-    python docs/evidence/errors/make.py show       # what holds, from the two tables
 
 Operating points and surfaces are drawn from a seed that was not used to choose any estimate.
 """
@@ -24,7 +23,7 @@ import pyehl
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE.parent))
 
-from tables import numbers_of, shares  # noqa: E402
+from tables import numbers_of  # noqa: E402
 
 SEED = 20261
 SMOOTH, ROUGH = 80, 60
@@ -143,33 +142,9 @@ def numbers(name: str) -> list[Row]:
     return numbers_of(HERE / f"{name}.csv")
 
 
-def show() -> None:
-    """Print the shares of the two tables."""
-    rows = numbers("smooth")
-    for name in ("H_c", "H_min"):
-        for stated in (f"{name}_error_domain", f"{name}_error"):
-            good, known = shares(rows, name, f"{name}_doubled", stated, 1.0)
-            print(f"{name}: changed by the doubled domain by {stated} at most: {good} of {known}")
-    usual = [row for row in rows if row["moes_m"] >= 10.0]
-    both = [row for row in usual if row["H_c_doubled"] and row["H_c"]]
-    for low, high in ((10.0, 400.0), (400.0, 5000.0)):
-        costs = [1.0 - r["H_c"] / r["H_c_doubled"] for r in both if low <= r["moes_m"] < high]
-        print(f"M {low:g} to {high:g}: domain costs {np.mean(costs):.2%}, {max(costs):.2%} at most")
-    for name in QUANTITIES:
-        good, known = shares(rows, name, f"{name}_limit", f"{name}_error", 2.0)
-        print(f"{name}: true error at most twice the stated one: {good} of {known}")
-    rows = [row for row in numbers("rough") if row["mu_ratio_error"] is not None]
-    cases = {tuple(row[key] for key in ROUGH_NAMES) for row in rows if row["mu_ratio_limit"]}
-    good, known = shares(rows, "mu_ratio", "mu_ratio_limit", "mu_ratio_error", 2.0)
-    print(f"mu_ratio: at most twice the stated error: {good} of {known} in {len(cases)} cases")
-
-
 def main() -> None:
-    """Make a table with two workers, or print what holds."""
+    """Make a table with two workers."""
     what = sys.argv[1]
-    if what == "show":
-        show()
-        return
     todo = list(smooth_points() if what == "smooth" else rough_cases())
     make = smooth_rows if what == "smooth" else rough_rows
     rows: list[Row] = []

@@ -4,7 +4,6 @@
     python docs/evidence/errors_ellipses/make.py errors     # errors.csv
     python docs/evidence/errors_ellipses/make.py cells      # cells.csv
     python docs/evidence/errors_ellipses/make.py ends       # ends.csv
-    python docs/evidence/errors_ellipses/make.py show       # what the first two tables say
 
 M and L are those of the round contact with the same equations (Biboulet & Houpert 2010), kappa is
 the semi-axis across the motion over that along it. Points are drawn from a seed that was not used
@@ -184,13 +183,8 @@ TABLES: dict[str, tuple[Callable[[Any], list[Row]], Callable[[], Any]]] = {
 
 
 def main() -> None:
-    """Make a table, or print what the tables say."""
+    """Make a table."""
     name = sys.argv[1]
-    if name == "show":
-        from show import show  # noqa: PLC0415
-
-        show()
-        return
     make, todo = TABLES[name]
     with (HERE / f"{name}.csv").open("w", newline="", encoding="utf-8") as stream:
         writer = None

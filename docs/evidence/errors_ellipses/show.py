@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Print what the tables of this folder say."""
+"""What the tables of this folder say."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ from typing import Any
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE.parent))
 
-from tables import numbers_of, shares  # noqa: E402
 
 Row = dict[str, Any]
 
@@ -62,32 +61,3 @@ def over_estimate(rows: list[Row], ratio: float) -> tuple[list[float], list[floa
             limit = (4.0 * finer[0][name] - row[name]) / 3.0
             ratios.append(abs(row[name] / limit - 1.0) / (rough * factor))
     return found
-
-
-def show() -> None:
-    """Print the shares of the errors that hold, and what cells are worth."""
-    rows = numbers_of(HERE / "errors.csv")
-    points = {(row["kappa"], row["moes_m"]) for row in rows}
-    done = sum(row["status"] == "converged" for row in rows)
-    print(f"{len(points)} contacts, {done} of {len(rows)} runs converged")
-    for name in ("H_c", "H_min"):
-        for border in ("flooded", "zero"):
-            here = [row for row in rows if row["border"] == border]
-            good, known = shares(here, name, f"{name}_doubled", f"{name}_error_domain", 1.0)
-            print(f"{name}, {border}: domain changes it by what is stated: {good} of {known}")
-        for factor in (1.0, 2.0):
-            good, known = shares(rows, name, f"{name}_limit", f"{name}_error", factor)
-            print(f"{name}: true error at most {factor:g} times the stated: {good} of {known}")
-    rows = numbers_of(HERE / "cells.csv")
-    for point in sorted({(row["kappa"], row["moes_m"]) for row in rows}):
-        for ratio, (nodes, error) in cells(rows, point).items():
-            print("kappa {:g}, M {:g}:".format(*point), end=" ")
-            print(f"cells 1 : {ratio:.2f}, {nodes:.0f} nodes, H_c off by {error:.2%}")
-    for ratio in (0.25, 0.5):
-        for name, found in zip(("H_c", "H_min"), over_estimate(rows, ratio), strict=True):
-            span = f"{min(found):.2f} to {max(found):.2f} times the a-priori one ({len(found)})"
-            print(f"{name}, narrow contacts, cells 1 : {ratio:g}: the error is {span}")
-
-
-if __name__ == "__main__":
-    show()

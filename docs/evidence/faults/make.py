@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What happens to killed runs, damaged states and mutated inputs: faults.csv.
 
-pyehl bench faults --kills 100 --inputs 1000 -o faults
+python benchmarks/faults.py --kills 100 --inputs 1000 -o faults
 python docs/evidence/faults/make.py faults/faults.json
 python docs/evidence/faults/make.py show       prints the table of docs/robustness.md
 """

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 r"""Make the tables of this folder, or print those of the documents.
 
-pyehl bench machines --seed 1 -o seed1.json
-pyehl bench machines --seed 2 -o seed2.json
-pyehl bench machines --seed 3 -o seed3.json
-pyehl bench machines --seed 4 --count 16 --fine -o seed4.json
+python benchmarks/machines.py --seed 1 -o seed1.json
+python benchmarks/machines.py --seed 2 -o seed2.json
+python benchmarks/machines.py --seed 3 -o seed3.json
+python benchmarks/machines.py --seed 4 --count 16 --fine -o seed4.json
 python docs/evidence/machines/make.py read seed1.json seed2.json seed3.json \
     seed4.json
 python docs/evidence/machines/make.py sides    sides.csv
@@ -25,7 +25,9 @@ from typing import Any
 from scipy.special import elliprd
 
 import pyehl
-from pyehl.bench.machines import SETTINGS, summary, timed
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "benchmarks"))
+from machines import SETTINGS, summary, timed
 
 HERE = Path(__file__).resolve().parent
 COLUMNS = (

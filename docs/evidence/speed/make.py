@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 r"""Make the tables of this folder from what benchmarks measured, or print those of the documents.
 
-pyehl bench step --points 129,257,513 --error -o step.json
-pyehl bench step --points 1025 --front 0 --steps 16 -o step_1025.json
-pyehl bench smooth -o smooth.json
-pyehl bench skips -o skips.json
-pyehl bench sweep -o sweep.json
-pyehl bench step --points 257 --threads 1 --steps 384 \
+python benchmarks/step.py --points 129,257,513 --error -o step.json
+python benchmarks/step.py --points 1025 --front 0 --steps 16 -o step_1025.json
+python benchmarks/smooth.py -o smooth.json
+python benchmarks/skips.py -o skips.json
+python benchmarks/sweep.py -o sweep.json
+python benchmarks/step.py --points 257 --threads 1 --steps 384 \
     --cases wave-law,fractal-law,two-fractals -o laws.json
-pyehl bench smooth --points 257,513 --threads 1 --engines mlmi --cases circle,law,ellipse \
+python benchmarks/smooth.py --points 257,513 --threads 1 --engines mlmi --cases circle,law,ellipse \
     -o more.json
 python docs/evidence/speed/make.py read FOLDER    writes the tables, from these files
 python docs/evidence/speed/make.py show           prints them as the documents have them

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Make contacts.csv of a campaign with boundary films.
+r"""Make contacts.csv of a campaign with boundary films.
 
-pyehl bench stress --shear-law eyring --boundary-film --cases 60 --seed 1 --points 65,129 -o layers
+python benchmarks/stress.py --shear-law eyring --boundary-film --cases 60 --seed 1 \
+    --points 65,129 -o layers
 python docs/evidence/stress/contacts.py layers/stress.json
 """
 

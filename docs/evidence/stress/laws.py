@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Make laws.csv of campaigns with a shear law and without one, and print what came of them.
 
-pyehl bench stress --shear-law eyring --cases 60 --seed 1 --points 65,129 -o eyring
-pyehl bench stress --shear-law carreau --cases 60 --seed 1 --points 65,129 -o carreau
-pyehl bench stress --cases 60 --seed 1 --points 65,129 -o newtonian
+python benchmarks/stress.py --shear-law eyring --cases 60 --seed 1 --points 65,129 -o eyring
+python benchmarks/stress.py --shear-law carreau --cases 60 --seed 1 --points 65,129 -o carreau
+python benchmarks/stress.py --cases 60 --seed 1 --points 65,129 -o newtonian
 python docs/evidence/stress/laws.py {eyring,carreau,newtonian}/stress.json
 """
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Make table.csv and stress.png of a campaign, with what the second solver says of its cases.
 
-pyehl bench stress --cases 100 --seed 1 -o stress
+python benchmarks/stress.py --cases 100 --seed 1 -o stress
 PYTHONPATH=tests/cases python docs/evidence/stress/make.py stress/stress.json
 python docs/evidence/stress/make.py show       prints the table of docs/robustness.md
 
@@ -21,10 +21,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pyehl.case import Case
-from pyehl.plots import bench
 
 if TYPE_CHECKING:
     from second_solver import SecondSolver
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "benchmarks"))
+from figures import draw_outcomes
 
 HERE = Path(__file__).resolve().parent
 COLUMNS = (
@@ -179,7 +181,7 @@ def main(file: str) -> None:
             values = row | {"points": row["values"]["grid.points"]}
             cells = (values.get(name) for name in COLUMNS)
             writer.writerow(f"{v:.2g}" if isinstance(v, float) and v < 1.0 else v for v in cells)
-    bench.stress(rows, HERE / "stress.png")
+    draw_outcomes(rows, HERE / "stress.png")
 
 
 if __name__ == "__main__":

@@ -89,7 +89,7 @@ def table_of(path: Traversable) -> list[dict[str, str]]:
 
 def smooth() -> Iterator[tuple[Any, ...]]:
     """Circles, limits of fine grids."""
-    for row in table_of(resources.files("pyehl") / "reproduce" / "data" / "smooth.csv"):
+    for row in table_of(resources.files("pyehl") / "studies" / "references" / "smooth.csv"):
         if not row["H_c_extrapolated"]:
             continue
         keys = [key for key in row if "." in key and key not in ("grid.points", "grid.border")]
@@ -119,7 +119,7 @@ def ellipses() -> Iterator[tuple[Any, ...]]:
 
 def waviness() -> Iterator[tuple[Any, ...]]:
     """Waves that move, on the same grid and by the same scheme."""
-    for row in table_of(resources.files("pyehl") / "reproduce" / "data" / "waviness.csv"):
+    for row in table_of(resources.files("pyehl") / "studies" / "references" / "waviness.csv"):
         if int(row["grid.points"]) > 257:
             continue
         words = ("surface.kind", "time.scheme")

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Make workprec.csv and workprec.png from what the benchmark measured.
 
-pyehl bench workprec --full -o workprec.json && python docs/evidence/workprec/make.py workprec.json
+python benchmarks/workprec.py --full -o workprec.json
+python docs/evidence/workprec/make.py workprec.json
 
 Scenes may have been measured one at a time (``--scenes``): several files are put together.
 """
@@ -13,11 +14,11 @@ import json
 import sys
 from pathlib import Path
 
-from pyehl.bench.workprec import COLUMNS
-from pyehl.plots.bench import work
+sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "benchmarks"))
+from figures import draw_work
+from workprec import COLUMNS
 
 HERE = Path(__file__).resolve().parent
-
 
 def main(files: list[str]) -> None:
     """Write the table and the figure."""
@@ -30,7 +31,8 @@ def main(files: list[str]) -> None:
                 "" if row[name] is None else format(row[name], form) for name, form in COLUMNS
             )
     # the film and one panel of each rough scene
-    work([row for row in rows if row["quantity"] in ("H_c", "mu_ratio")], HERE / "workprec.png")
+    shown = [row for row in rows if row["quantity"] in ("H_c", "mu_ratio")]
+    draw_work(shown, HERE / "workprec.png")
 
 
 if __name__ == "__main__":

@@ -1,0 +1,276 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Smooth contacts of machines at default settings.
+
+Which converge, what they cost on one thread, and whether the stated errors hold. A contact follows
+from the seed and its number alone. The processor's time is that of the solution in this process,
+so that Python's start is not in it and the load of the machine hardly.
+"""
+
+import argparse
+import resource
+import statistics
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from common import add_number, columns, measure, parser, say, show
+
+from pyehl.case import Case
+from pyehl.errors import InputError
+from pyehl.solver import Solver
+from pyehl.theory.operating import OperatingPoint
+from pyehl.types import Row
+
+MODULUS = 2.26e11
+"""E' of steel on steel [Pa]."""
+WIDEST = 240.0
+"""Largest R_y/R_x: an ellipse of kappa = 30."""
+WIDE = 4.0
+"""Contacts of a larger kappa are wide."""
+LAWS = ("newtonian", "eyring", "carreau")
+SETTINGS: dict[str, Any] = {"solver.threads": 1}
+"""Everything else is as by default."""
+QUANTITIES = ("H_c", "H_min")
+REFUSED = "refused"
+"""Status of a contact whose case is no input."""
+KEPT = (
+    *("status", "message", "moes_m", "moes_l", "points", "points_y", "cycles", "total_cycles"),
+    *("restarts", "H_c", "H_c_error", "H_c_error_grid", "H_min", "H_min_error"),
+    *("H_min_error_grid", "film_scale_m"),
+)
+
+COLUMNS = columns(
+    "contacts:s drawn:d converged:d median_seconds:.2f largest_seconds:.1f median_ratio:.1f "
+    "largest_ratio:.1f restarts:d checked:d h_c_covered:d h_min_covered:d"
+)
+MEANING = (
+    "seconds: of the processor, one thread, all grids of a solution; ratio: to the median of the "
+    "ball on disc;\nchecked: solved on twice the nodes too (--fine); covered: the error against "
+    "those, extrapolated, is at most the stated one"
+)
+"""What the columns are."""
+
+
+@dataclass(frozen=True, slots=True)
+class Contact:
+    """A contact of a machine, and the keys of its case."""
+
+    kind: str
+    ellipticity: float  # semi-axis across the motion over that along it
+    pressure: float  # of Hertz, maximum [Pa]
+    values: Mapping[str, Any]
+
+
+@dataclass(frozen=True, slots=True)
+class _Shape:
+    """Radii [m], and ranges: pressure of Hertz [Pa], mean velocity [m/s], slide-to-roll ratio."""
+
+    radius_x: float
+    radius_y: float
+    pressure: tuple[float, float]
+    velocity: tuple[float, float]
+    slide: float
+
+
+def _scale(rng: np.random.Generator, low: float, high: float) -> float:
+    """Draw evenly in the logarithm."""
+    return float(np.exp(rng.uniform(np.log(low), np.log(high))))
+
+
+def _bearing(rng: np.random.Generator) -> _Shape:
+    """Ball of 3 to 40 mm on an inner ring; the groove has 0.51 to 0.53 of the ball's diameter."""
+    ball = _scale(rng, 3e-3, 0.04)
+    ring = 0.5 * ball * (rng.uniform(4.0, 8.0) - 1.0)
+    groove = ball * rng.uniform(0.51, 0.53)
+    across = 1.0 / (2.0 / ball - 1.0 / groove)
+    return _Shape(1.0 / (2.0 / ball + 1.0 / ring), across, (0.8e9, 3e9), (0.3, 20.0), 0.1)
+
+
+def _gear(rng: np.random.Generator) -> _Shape:
+    """Flank with a crown of 8 to 200 times its radius."""
+    along = _scale(rng, 3e-3, 0.03)
+    return _Shape(along, along * _scale(rng, 8.0, 200.0), (0.5e9, 1.8e9), (0.5, 20.0), 0.8)
+
+
+def _ball(rng: np.random.Generator) -> _Shape:
+    """Ball of a tribometer on its disc."""
+    radius = _scale(rng, 4e-3, 0.0127)
+    return _Shape(radius, radius, (0.4e9, 1.3e9), (0.02, 4.0), 1.0)
+
+
+def _roller(rng: np.random.Generator) -> _Shape:
+    """Roller of R_x = 2 to 20 mm with a crown of 0.1 to 3 m."""
+    along = _scale(rng, 2e-3, 0.02)
+    across = min(_scale(rng, 0.1, 3.0), WIDEST * along)
+    return _Shape(along, across, (0.6e9, 2.5e9), (0.3, 15.0), 0.1)
+
+
+DISC = "ball on disc"
+KINDS: dict[str, Callable[[np.random.Generator], _Shape]] = {
+    "ball bearing": _bearing,
+    "gear": _gear,
+    DISC: _ball,
+    "crowned roller": _roller,
+}
+"""Kinds of contacts, drawn in turn."""
+
+
+def draw(count: int, seed: int) -> list[Contact]:
+    """Draw contacts: the first ones are the same whatever the count."""
+    kinds = list(KINDS)
+    return [_one(kinds[k % len(kinds)], np.random.default_rng((seed, k))) for k in range(count)]
+
+
+def _one(kind: str, rng: np.random.Generator) -> Contact:
+    shape = KINDS[kind](rng)
+    keys = {
+        "contact.radius_x": shape.radius_x,
+        "contact.radius_y": shape.radius_y,
+        "contact.mean_velocity": _scale(rng, *shape.velocity),
+        "contact.slide_to_roll": rng.uniform(0.0, shape.slide),
+        "lubricant.viscosity": _scale(rng, 0.004, 0.3),
+        "lubricant.pressure_viscosity": rng.uniform(1.3e-8, 2.4e-8),
+    }
+    law = str(rng.choice(LAWS))
+    stress, exponent = _scale(rng, 1e6, 1e7), rng.uniform(0.4, 0.9)
+    if law != "newtonian":
+        keys[f"lubricant.{law}_stress"] = stress
+    if law == "carreau":
+        keys["lubricant.carreau_exponent"] = exponent
+    keys = {key: float(f"{value:.4g}") for key, value in keys.items()}
+    pressure = rng.uniform(*shape.pressure)
+    unloaded = _point(keys, 1.0)
+    # the pressure of Hertz goes with the cube root of the load
+    load = float(f"{(pressure / unloaded.hertz_pressure) ** 3:.4g}")
+    values: dict[str, Any] = {"contact.reduced_modulus": MODULUS, "contact.load": load, **keys}
+    values["lubricant.shear_law"] = law
+    return Contact(kind, unloaded.ellipse.ellipticity, _point(keys, load).hertz_pressure, values)
+
+
+def _point(keys: Mapping[str, float], load: float) -> OperatingPoint:
+    return OperatingPoint(
+        load=load,
+        mean_velocity=keys["contact.mean_velocity"],
+        radius=keys["contact.radius_x"],
+        reduced_modulus=MODULUS,
+        viscosity=keys["lubricant.viscosity"],
+        pressure_viscosity=keys["lubricant.pressure_viscosity"],
+        radius_ratio=keys["contact.radius_x"] / keys["contact.radius_y"],
+    )
+
+
+def campaign(count: int, seed: int, *, fine: bool = False) -> list[Row]:
+    """Solve so many contacts of a seed; a row for each.
+
+    With `fine` each that converged is solved on twice the nodes, too: `H_c_fine` and `H_min_fine`
+    are extrapolated from these.
+    """
+    rows: list[Row] = []
+    for number, contact in enumerate(draw(count, seed)):
+        row = _solved(contact, {})
+        row |= {"seed": seed, "number": number, "kind": contact.kind, "values": contact.values}
+        row |= {"ellipticity": contact.ellipticity, "hertz_pressure_Pa": contact.pressure}
+        row |= dict.fromkeys(["fine_status", *(f"{name}_fine" for name in QUANTITIES)])
+        if fine and row["status"] == "converged":
+            finer = _solved(contact, _finer(row))
+            row["fine_status"] = finer["status"]
+            if finer["status"] == "converged":
+                row |= {f"{name}_fine": finer[f"{name}_extrapolated"] for name in QUANTITIES}
+        say(
+            f"{number + 1} of {count}: {contact.kind}, kappa {contact.ellipticity:.1f}, "
+            f"{row['status']}" + (f", {row['seconds']:.2f} s" if row["seconds"] else "")
+        )
+        rows.append(row)
+    return rows
+
+
+def _finer(row: Row) -> dict[str, int]:
+    """Give keys of a grid with twice the nodes along each axis."""
+    keys = {"grid.points": 2 * row["points"] - 1}
+    if row["points_y"] is not None:
+        keys["grid.points_y"] = 2 * row["points_y"] - 1
+    return keys
+
+
+def _solved(contact: Contact, more: Mapping[str, Any]) -> Row:
+    try:
+        found = timed(dict(contact.values) | SETTINGS | dict(more))
+    except InputError as error:
+        # M beyond what a case may have
+        found = {"status": REFUSED, "message": str(error), "seconds": None}
+    names = ("seconds", *KEPT, *(f"{name}_extrapolated" for name in QUANTITIES))
+    return {name: found.get(name) for name in names}
+
+
+def timed(keys: Mapping[str, Any]) -> Row:
+    """Solve a case: its summary, and `seconds` of the processor."""
+    case = Case.from_text("", keys)
+    began = resource.getrusage(resource.RUSAGE_SELF).ru_utime
+    with Solver(case) as solver:
+        solver.run()
+        seconds = resource.getrusage(resource.RUSAGE_SELF).ru_utime - began
+        return {**solver.summary, "seconds": seconds}
+
+
+def covered(row: Row, name: str, error: str) -> bool | None:
+    """Whether an error of a row covers the difference to the finer grid; None: not checked."""
+    value, finer, stated = row[name], row[f"{name}_fine"], row[f"{name}_{error}"]
+    if None in (value, finer, stated):
+        return None
+    return bool(abs(value - finer) <= stated)
+
+
+def summary(rows: Sequence[Row]) -> list[Row]:
+    """Count and time by kind, of the wide ones, and of all."""
+    discs = [row["seconds"] for row in rows if row["kind"] == DISC and row["seconds"]]
+    unit = statistics.median(discs) if discs else None
+    groups = {kind: [row for row in rows if row["kind"] == kind] for kind in KINDS}
+    groups[f"kappa > {WIDE:g}"] = [row for row in rows if row["ellipticity"] > WIDE]
+    groups["all"] = list(rows)
+    return [_counted(name, mine, unit) for name, mine in groups.items() if mine]
+
+
+def _counted(name: str, rows: Sequence[Row], unit: float | None) -> Row:
+    seconds = [row["seconds"] for row in rows if row["seconds"]]
+    middle, largest = (statistics.median(seconds), max(seconds)) if seconds else (None, None)
+    holds = {what: [covered(row, what, "error") for row in rows] for what in QUANTITIES}
+    checked = any(row["fine_status"] for row in rows)
+    return {
+        "contacts": name,
+        "drawn": len(rows),
+        "converged": sum(row["status"] == "converged" for row in rows),
+        "median_seconds": middle,
+        "largest_seconds": largest,
+        "median_ratio": middle / unit if unit and middle else None,
+        "largest_ratio": largest / unit if unit and largest else None,
+        "restarts": sum(row["restarts"] or 0 for row in rows),
+        "checked": sum(each is not None for each in holds["H_c"]) if checked else None,
+        "h_c_covered": holds["H_c"].count(True) if checked else None,
+        "h_min_covered": holds["H_min"].count(True) if checked else None,
+    }
+
+
+def work(args: argparse.Namespace) -> Row:
+    """Measure and print."""
+    rows = campaign(args.count, args.seed, fine=args.fine)
+    found = summary(rows)
+    show(found, COLUMNS, MEANING)
+    asked = {name: getattr(args, name) for name in ("seed", "count", "fine")}
+    return asked | {"summary": found, "rows": rows}
+
+
+def main(words: Sequence[str] | None = None) -> int:
+    """Run the script."""
+    made = parser(__doc__)
+    add_number(made, "seed", 1)
+    add_number(made, "count", 60, "how many contacts, of four kinds in turn", least=1)
+    made.add_argument(
+        "--fine", action="store_true", help="on twice the nodes too, to check the stated errors"
+    )
+    return measure(work, made, words)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

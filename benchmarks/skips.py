@@ -1,0 +1,262 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a scene does not need, the seconds saved, and that nothing changes.
+
+Each row is a scene solved as usual and once more with that work done, in turn, on one thread.
+Seconds are those of the processor.
+"""
+
+import argparse
+import math
+import sys
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import Any
+
+from common import add_list, columns, hertz, measure, parser, show
+from comparison import ROUNDING, compare, mean_tolerance, solve, solve_from_prediction
+from numpy import finfo, maximum
+
+from pyehl import library
+from pyehl.case import Case
+from pyehl.prediction import smooth as smooth_contact
+from pyehl.prediction.of_case import predict
+from pyehl.types import Row, Values
+
+COLUMNS = columns(
+    "scene:s skipped:s seconds:.3f without:.3f saved:.0% quantity:s difference:.1e allowed:.1e"
+)
+MEANING = (
+    "seconds: of the processor, one thread; without: the same with that work done; difference: in "
+    "the quantity, relative;\nallowed: 0 where the bits are equal, "
+    f"{ROUNDING:.0e} where sums are taken in another order, else the tolerance of the solver or of "
+    "the mean"
+)
+"""What the columns are."""
+
+FRACTAL = ("surface.kind=fractal",)
+WAVE = (
+    "contact.moes_m=1000.0",
+    "contact.moes_l=10.0",
+    "surface.kind=harmonic",
+    "surface.amplitude=9.734e-3",
+    "surface.velocity_ratio=1.01",
+)
+# Steps of one cycle carry rounding on to the algebraic error; steps solved to this do not
+EXACTER = "solver.accuracy=0.02"
+# Relative algebraic error at which the first grid of the nested iteration is left
+START_TOLERANCE = 1e-3
+# The grid coarser than this has no solution at Table 1, so that the error is not known
+LEAST = 257
+# Periods after which a run of fixed length is over: until the start has died out, and one more
+FIXED_PERIODS = 3
+# Surfaces of a sweep
+PREDICTIONS = 20
+
+
+def smooth_scene(points: int) -> list[Row]:
+    """Smooth contact of Table 1 in SI units."""
+    points = max(points, LEAST)
+    scene, grid = "smooth contact, SI units", f"grid.points={points}"
+
+    def usual() -> Values:
+        return solve(grid) | {"mu_ratio": 1.0}
+
+    def transient_run() -> Values:
+        # one period, as a rough surface would need
+        return solve(
+            grid, "surface.kind=harmonic", "surface.amplitude=0.0", "time.estimate_error=.false."
+        )
+
+    def estimated() -> Values:
+        values = solve(grid)
+        error = values["H_c_error_grid"] - values["H_c_algebraic_error"]
+        return values | {"coarser H_c": values["H_c"] - 3.0 * error}
+
+    def coarser() -> Values:
+        return {"coarser H_c": solve(f"grid.points={(points + 1) // 2}")["H_c"]}
+
+    row = partial(compare, scene)
+    return [
+        row(
+            "half of the domain: symmetric in Y",
+            "H_c",
+            usual,
+            lambda: solve(grid, "solver.symmetry=full"),
+            ROUNDING,
+        ),
+        row(
+            "roughness, time levels and time steps",
+            "mu_ratio",
+            usual,
+            transient_run,
+            1e-4,
+        ),
+        row(
+            "a solve on the next coarser grid for the error",
+            "coarser H_c",
+            estimated,
+            coarser,
+            START_TOLERANCE,
+            besides=True,
+        ),
+        _deflection_row(scene, points),
+    ]
+
+
+def _deflection_row(scene: str, points: int) -> Row:
+    """Corrections of the deflection where P = 0, in so many deflections of a Hertz pressure."""
+    pressure, h, _, _ = hertz(points)
+    # as little as keeps a pressure from being zero
+    everywhere = maximum(pressure, finfo(float).tiny / finfo(float).eps)
+    count = 20
+
+    def call(p: Any) -> Callable[[], Values]:  # noqa: ANN401
+        def deflect() -> Values:
+            done = library.deflection(p, h, h, "mlmi", accuracy=1e-5, threads=1, repeats=count)
+            return {"deflection": done.values}
+
+        return deflect
+
+    what = f"corrections where P = 0, {count} deflections"
+    return compare(scene, what, "deflection", call(pressure), call(everywhere), ROUNDING)
+
+
+def _run_rows(scene: str, options: Sequence[str], *, symmetric: bool) -> list[Row]:
+    """Measure what a transient run leaves out."""
+
+    def usual() -> Values:
+        return solve(*options)
+
+    first = usual()
+
+    def at_the_end() -> Values:
+        """Run to the end of a fixed number of periods."""
+        # from where the front, half a contact radius long, comes near to where it fills the contact
+        filled = 1.05 + 1.25 + 0.25
+        step = float(first["x_mesh"])
+        steps = math.ceil(filled / 1.01 / step + FIXED_PERIODS * float(first["T_period"]) / step)
+        return solve(*options, f"time.steps={steps}")
+
+    row = partial(compare, scene)
+    rows = []
+    if symmetric:
+        rows.append(
+            row(
+                "half of the domain: symmetric in Y",
+                "mu_ratio",
+                lambda: solve(*options, EXACTER),
+                lambda: solve(*options, EXACTER, "solver.symmetry=full"),
+                ROUNDING,
+            )
+        )
+    rows += [
+        row(
+            f"{first['steps_skipped']} steps before the roughness is near",
+            "mu_ratio",
+            usual,
+            lambda: solve(*options, "time.skip_start=.false."),
+            mean_tolerance,
+        ),
+        row(
+            "steps in which the roughness fills the contact: time.start = 'prediction'",
+            "mu_ratio",
+            lambda: solve_from_prediction(*options),
+            usual,
+            mean_tolerance,
+        ),
+        row(
+            f"steps up to the end of period {FIXED_PERIODS}: settled before",
+            "mu_ratio",
+            lambda: solve(*options, "time.estimate_error=.false."),
+            at_the_end,
+            mean_tolerance(first),
+        ),
+        row(
+            "a solve of the smooth contact for mu_s",
+            "F",
+            usual,
+            lambda: _smooth_of(options, symmetric=symmetric),
+            0.0,
+            besides=True,
+        ),
+    ]
+    return rows
+
+
+def _smooth_of(options: Sequence[str], *, symmetric: bool) -> dict[str, Any]:
+    kept = [text for text in options if not text.startswith("surface.")]
+    # all cycles full and on the same domain, as before the rough run
+    return solve(*kept, "solver.cycle=F", f"solver.symmetry={'auto' if symmetric else 'full'}")
+
+
+def wave_scene(points: int) -> list[Row]:
+    """Wave of Fig. 2 of Zhang et al. 2019: symmetric in Y."""
+    options = [*WAVE, f"grid.points={max(points, LEAST)}"]
+    return _run_rows("symmetric wave", options, symmetric=True)
+
+
+def fractal_scene(points: int) -> list[Row]:
+    """Fractal surface of Table 1."""
+    options = [*FRACTAL, f"grid.points={max(points, LEAST)}"]
+    return _run_rows("fractal surface", options, symmetric=False)
+
+
+def prediction_scene(points: int) -> list[Row]:
+    """Predictions of fractal surfaces, nothing simulated."""
+    seeds = range(1, PREDICTIONS + 1)
+    cases = [Case.from_text("", [*FRACTAL, f"surface.seed={seed}"]).resolve() for seed in seeds]
+
+    def ratios(*, keep: bool) -> Values:
+        smooth_contact.forget()
+        found = []
+        for settings in cases:
+            if not keep:
+                smooth_contact.forget()
+            found.append(predict(settings).mu_ratio)
+        return {"mu_ratio": found}
+
+    return [
+        compare(
+            f"sweep of {PREDICTIONS} predictions",
+            f"{PREDICTIONS - 1} smooth contacts",
+            "mu_ratio",
+            lambda: ratios(keep=True),
+            lambda: ratios(keep=False),
+            0.0,
+        )
+    ]
+
+
+SCENES: dict[str, Callable[[int], list[Row]]] = {
+    "smooth": smooth_scene,
+    "wave": wave_scene,
+    "fractal": fractal_scene,
+    "predict": prediction_scene,
+}
+"""Scenes by name; each takes the nodes per side."""
+
+
+def skip_rows(scenes: Sequence[str], points: int) -> list[Row]:
+    """Seconds with and without what is skipped, and the difference in the result.
+
+    Of scenes by their names in `SCENES`, on so many nodes per side.
+    """
+    return [row for name in scenes for row in SCENES[name](points)]
+
+
+def work(args: argparse.Namespace) -> Row:
+    """Measure and print."""
+    rows = skip_rows(args.scenes, max(args.points))
+    show(rows, COLUMNS, MEANING)
+    return {"rows": rows}
+
+
+def main(words: Sequence[str] | None = None) -> int:
+    """Run the script; exit status 1 if skipped work would change a result."""
+    made = parser(__doc__, points=(LEAST,))
+    add_list(made, "scenes", list(SCENES), known=list(SCENES))
+    return measure(work, made, words)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

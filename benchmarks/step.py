@@ -1,0 +1,308 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Time of a step of a transient run, and the error of its friction ratio.
+
+Every run is made once with the largest number of threads until the roughness has passed most of
+the contact; its state is then resumed with each number of threads, for the same few steps, one
+step of each in turn. The unit of time is one scipy.fft deflection on the same grid, made after each
+of these turns.
+"""
+
+import argparse
+import contextlib
+import statistics
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+
+from common import (
+    GRIDS,
+    ScipyDeflection,
+    add_list,
+    add_number,
+    columns,
+    hertz,
+    measure,
+    parser,
+    say,
+    show,
+)
+
+from pyehl.case import Case
+from pyehl.errors import EhlError
+from pyehl.solver import Solver
+from pyehl.types import Row
+
+# X of the front when the contact is full
+FILLED = 1.05
+# Steps measured; their cycles vary over a period of the wave, which has points/8 steps
+STEPS = 64
+# Relative change of the mean at which the runs for the error end
+TOLERANCE = 5e-4
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """A run to be measured: what it is called, its case, whole or half domain.
+
+    A scene that is measured beside another one, a step of each in turn, has the name of that.
+    """
+
+    name: str
+    domain: str
+    text: str
+    beside: str = ""
+
+
+WAVE = "&surface kind = 'harmonic' amplitude = 9.734e-3 wavelength = 0.5 velocity_ratio = 1.01 /\n"
+FRACTAL = "&surface kind = 'fractal' /\n"
+SECOND = "&second_surface kind = 'fractal' seed = 2 /\n"
+LAW = "&lubricant shear_law = 'eyring' /\n"
+CIRCLE = "&contact moes_m = 1000.0 moes_l = 10.0 /\n"
+# kappa = 2, with the same equations as the circle
+ELLIPSE = "&contact moes_m = 2357.0 moes_l = 10.3 radius_ratio = 0.35177 /\n"
+# The wave is that of Fig. 2 of Zhang et al. 2019, the fractal surface that of Table 1. The contact
+# with a law is that of Table 1, of nearly the same Moes numbers.
+CASES = (
+    Scene("wave", "whole", CIRCLE + WAVE + "&solver symmetry = 'full' /\n"),
+    Scene("wave", "half", CIRCLE + WAVE),
+    Scene("fractal", "whole", FRACTAL),
+    Scene("wave-law", "half", WAVE + LAW, "wave"),
+    Scene("wave-ellipse", "half", ELLIPSE + WAVE, "wave"),
+    Scene("fractal-law", "whole", FRACTAL + LAW, "fractal"),
+    Scene("two-fractals", "whole", FRACTAL + SECOND, "fractal"),
+)
+# Those that are measured unless others are asked for
+USUAL = ("wave", "fractal")
+
+COLUMNS = columns(
+    "points:d case:s domain:s threads:d seconds:.4f units:.2f ratio:.2f speedup:.2f "
+    "cycles:.2f error:.1e"
+)
+
+RUN_COLUMNS = columns(
+    "points:d case:s threads:d status:s steps:d seconds:.1f mu_ratio:.5f error:.1e"
+)
+
+
+def meaning(scheme: str, front: float, steps: int) -> str:
+    """Tell what the columns are, for the arguments of :func:`step_rows`."""
+    return (
+        f"scheme '{scheme}'; seconds, cycles: of a step, mean of {steps} after the front of the "
+        f"roughness has come to X = {front:g};\nunits: of one scipy.fft deflection at that grid; "
+        "ratio: of the seconds per node to those of the plain scene, steps in turn; "
+        "speedup: of a step, median; error: of the mean of mu_r/mu_s against the finest grid "
+        "(--error)"
+    )
+
+
+def _case(scene: Scene, points: int, scheme: str, *options: str) -> Case:
+    return Case.from_text(
+        scene.text,
+        [
+            f"grid.points={points}",
+            f"time.scheme={scheme}",
+            "time.estimate_error=.false.",
+            "output.checkpoint_interval=1e6",
+            *options,
+        ],
+    )
+
+
+def _fill(solver: Solver, case: Case, front: float) -> None:
+    """Advance until the front of the roughness is at X = front."""
+    settings = case.resolve()["surface"]
+    wanted = (front - float(settings["x_start"])) / float(settings["velocity_ratio"])
+    while not solver.done:
+        solver.advance()
+        if float(solver.summary.get("T", -1.0)) >= wanted:
+            return
+    raise EhlError(f"the run ended before it could be timed: {solver.progress}")
+
+
+def step_rows(
+    grids: Sequence[int],
+    threads: Sequence[int],
+    *,
+    scenes: Sequence[Scene] = CASES,
+    scheme: str = "narrow",
+    front: float = FILLED,
+    steps: int = STEPS,
+) -> list[Row]:
+    """Seconds and cycles of a step (means), per grid, case and number of threads.
+
+    The speed-up is the median over the steps of the ratio to the first number of threads. Measured
+    are the steps that follow those in which the front of the roughness comes to X = `front`.
+    """
+    rows: list[Row] = []
+    for points in grids:
+        pressure, h, _, _ = hertz(points)
+        deflect = partial(ScipyDeflection(points, points, h, h).apply, pressure)
+        mine: list[Row] = []
+        units: list[float] = []
+        for scene in scenes:
+            say(f"{points} {scene.name} {scene.domain}")
+            mine += _scene_rows(scene, points, threads, (scheme, front, steps), deflect, units)
+        unit = statistics.median(units)
+        rows += [row | {"unit_seconds": unit, "units": row["seconds"] / unit} for row in mine]
+    return rows
+
+
+def _scene_rows(
+    scene: Scene,
+    points: int,
+    threads: Sequence[int],
+    how: tuple[str, float, int],
+    deflect: Callable[[], object],
+    units: list[float],
+) -> list[Row]:
+    scheme, front, steps = how
+    rows: list[Row] = []
+    plain = [s for s in CASES if (s.name, s.domain) == (scene.beside, scene.domain)]
+    with contextlib.ExitStack() as stack:
+        solvers = []
+        for one in (scene, *plain):
+            case = _case(
+                one, points, scheme, f"solver.threads={max(threads)}", "time.steps=10000000"
+            )
+            solvers += _filled(case, threads, front, stack)
+        before = [solver.summary for solver in solvers]
+        times: list[list[float]] = [[] for _ in solvers]
+        # in turn, so that what else the machine does slows all of them alike
+        for _ in range(steps):
+            for solver, taken in zip(solvers, times, strict=True):
+                began = time.perf_counter()
+                solver.advance()
+                taken.append(time.perf_counter() - began)
+            began = time.perf_counter()
+            deflect()
+            units.append(time.perf_counter() - began)
+        after = [solver.summary for solver in solvers]
+    per_node = [
+        statistics.fmean(taken) / end.get("points_y", points)
+        for taken, end in zip(times, after, strict=True)
+    ]
+    for k, workers in enumerate(threads):
+        if after[k]["steps"] - before[k]["steps"] != steps:
+            raise EhlError(f"{points} {scene.name}: a step did not converge: {after[k]['status']}")
+        cycles = after[k]["steps"] * after[k]["cycles_per_step"]
+        cycles -= before[k]["steps"] * before[k]["cycles_per_step"]
+        ratios = [one / now for one, now in zip(times[0], times[k], strict=True)]
+        rows.append(
+            {
+                "points": points,
+                "case": scene.name,
+                "domain": scene.domain,
+                "threads": workers,
+                "seconds": statistics.fmean(times[k]),
+                "seconds_of_steps": times[k],
+                "ratio": per_node[k] / per_node[len(threads) + k] if plain else None,
+                "speedup": statistics.median(ratios),
+                "cycles": cycles / steps,
+                "error": None,
+            }
+        )
+    return rows
+
+
+def _filled(
+    case: Case, threads: Sequence[int], front: float, stack: contextlib.ExitStack
+) -> list[Solver]:
+    """Make a solver for each number of threads, all from the state with the front at X = front."""
+    solvers = []
+    with tempfile.TemporaryDirectory() as folder:
+        place = f"{folder}/state"
+        with Solver(case) as solver:
+            solver.checkpoint(place)
+            _fill(solver, case, front)
+            solver.save_state(at_once=True)
+        for workers in threads:
+            solver = stack.enter_context(Solver(case.with_options(f"solver.threads={workers}")))
+            solver.resume(place)
+            while "steps" not in solver.summary and not solver.done:
+                solver.advance()
+            solvers.append(solver)
+    return solvers
+
+
+def error_rows(
+    grids: Sequence[int],
+    threads: int,
+    *,
+    scheme: str = "narrow",
+    scenes: Sequence[Scene] = CASES,
+) -> list[Row]:
+    """Mean of mu_r/mu_s by whole runs, and its relative change to that on the finest grid.
+
+    The half domain serves for the whole one where the scene is symmetric.
+    """
+    rows: list[Row] = []
+    chosen = {scene.name: scene for scene in scenes}
+    chosen |= {scene.name: scene for scene in scenes if scene.domain == "half"}
+    for scene in chosen.values():
+        means: dict[int, float] = {}
+        for points in sorted(grids):
+            say(f"{points} {scene.name}, whole run")
+            options = f"solver.threads={threads}", f"time.tolerance={TOLERANCE}"
+            case = _case(scene, points, scheme, *options)
+            began = time.perf_counter()
+            with Solver(case) as solver:
+                solver.run()
+                summary = solver.summary
+            row: Row = {"points": points, "case": scene.name, "threads": threads, "error": None}
+            row["seconds"] = time.perf_counter() - began
+            row |= {name: summary[name] for name in ("status", "steps", "mu_ratio")}
+            if row["mu_ratio"] is not None:
+                means[points] = row["mu_ratio"]
+            rows.append(row)
+        finest = max(means, default=0)
+        for row in rows:
+            if row["case"] == scene.name and row["points"] in means and row["points"] < finest:
+                row["error"] = abs(means[row["points"]] / means[finest] - 1.0)
+    return rows
+
+
+def work(args: argparse.Namespace) -> Row:
+    """Measure and print."""
+    scenes = [scene for scene in CASES if scene.name in args.cases]
+    rows = step_rows(
+        args.points,
+        args.threads,
+        scenes=scenes,
+        scheme=args.scheme,
+        front=args.front,
+        steps=args.steps,
+    )
+    answer: Row = {"scheme": args.scheme, "front": args.front, "steps": args.steps, "rows": rows}
+    if args.error:
+        runs = error_rows(args.points, max(args.threads), scheme=args.scheme, scenes=scenes)
+        errors = {(row["points"], row["case"]): row["error"] for row in runs}
+        for row in rows:
+            row["error"] = errors.get((row["points"], row["case"]))
+        show(runs, RUN_COLUMNS, "")
+        answer["runs"] = runs
+    show(rows, COLUMNS, meaning(args.scheme, args.front, args.steps))
+    return answer
+
+
+def main(words: Sequence[str] | None = None) -> int:
+    """Run the script."""
+    made = parser(__doc__, points=GRIDS[1:4], threads=(1, 2))
+    names = list(dict.fromkeys(scene.name for scene in CASES))
+    add_list(made, "cases", USUAL, "; wave: of Fig. 2, fractal: of Table 1", names)
+    made.add_argument("--scheme", choices=("narrow", "paper"), default="narrow")
+    add_number(made, "steps", STEPS, "timed steps", least=1)
+    front = "X of the front of the roughness when the timed steps begin; that takes many steps on "
+    add_number(made, "front", FILLED, f"{front}fine grids where the contact is to be full")
+    made.add_argument(
+        "--error",
+        action="store_true",
+        help="whole runs too, for the error of mu_r/mu_s against the finest grid",
+    )
+    return measure(work, made, words)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

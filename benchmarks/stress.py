@@ -1,0 +1,329 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Where the solver converges and where not, and that it is never wrong.
+
+Cases drawn from a seed run through the machinery of ``pyehl sweep``. All that end with a result are
+solved once more to a twentieth of the algebraic error. Cases with a boundary film are checked by
+their fields and on a finer grid as well.
+"""
+
+import argparse
+import math
+import sys
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from common import add_number, columns, header, parser, say, show, verdict
+from figures import draw_outcomes
+from stress_cases import FAMILIES, GRIDS, LAWS, StressCase, draw, study_of
+
+from pyehl.cli import status_of
+from pyehl.commands.arguments import add_force
+from pyehl.destination import Destination, write_json
+from pyehl.errors import InputError
+from pyehl.results import load, settings_of
+from pyehl.studies.plan import Plan, plan
+from pyehl.studies.sweep import CASES, perform
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
+from pyehl.types import Row
+
+STRICT = {"solver.accuracy": 0.005, "solver.max_cycles": 200}
+"""Settings of the stricter run."""
+ENDED = "ended at its number of steps"
+"""Status of a run that was to end after so many steps, all of which converged."""
+HIGHEST = 1.0
+"""Largest surface.amplitude that a case may have [a^2/R]."""
+UNKNOWN_ERROR = 0.03
+"""Difference allowed where a result comes without an estimate of its error."""
+# What a result is, by the kind of scene, and the estimate of its error
+RESULTS = {"smooth": ("H_c", "H_c_error_grid")}
+KEPT = (
+    *("status", "points", "restarts", "steps", "cycles_per_step", "cycles", "rough_cycles"),
+    *("amplitude", "H_c", "H_c_error_grid", "H_min", "mu_ratio", "mu_ratio_error", "last_mu_ratio"),
+    *("mu_ratio_min", "mu_ratio_max", "T_mean", "coarsening_changed_at", "seconds", "message"),
+    *("points_suggested", "contact_load_share", "contact_load_share_error", "layer_supply"),
+)
+
+COLUMNS = columns(
+    "family:s cases:d converged:d ended:d failed:d checked:d wrong:d cycles:.1f most_cycles:.1f"
+)
+MEANING = (
+    "ended: all steps asked for converged; checked: solved once more to a twentieth of the "
+    "algebraic error;\nwrong: differs by more than the error it states; cycles: of a step, or all"
+)
+"""What the columns are."""
+HELD = 0.01
+"""Share of the layer by which the film of a touching node may differ from it."""
+LOAD = 1e-4
+"""Error of the load and of the load share as summed here; these are sums over the same nodes."""
+LEAST = 1e-3
+"""Share of the load that any load share may be off by."""
+
+
+def campaign(
+    cases: int,
+    seed: int,
+    folder: Path,
+    *,
+    jobs: int = 1,
+    grids: Sequence[int] = (65, 129, 257),
+    law: str = "newtonian",
+    layer: bool = False,
+) -> list[Row]:
+    """Run so many cases of a seed and check what they say; a row for each.
+
+    `law` is their shear law; with `layer` each has a boundary film. A row is the case, what its
+    run said, `outcome`, `difference` and `allowed`; with a layer what conditions its fields break
+    (`broken`) and load shares of other runs, too. The folder gets the journals of the runs, so that
+    a campaign that was stopped is resumed. Each grid has half as many cases as the one before.
+    KeyboardInterrupt if it is stopped.
+    """
+    rows: list[Row] = []
+    drawn = draw(cases, seed, grids, law, layer=layer)
+    for family in FAMILIES:
+        mine = [case for case in drawn if case.family == family]
+        if not mine:
+            continue
+        say(f"{family}: {len(mine)} cases")
+        found = _run(family, mine, folder / family, jobs, fields=layer)
+        chosen = [row for row in found if row["outcome"] in ("converged", ENDED)]
+        known = [row for row in chosen if row["contact_load_share_error"] is not None]
+        for name, how, some in (
+            ("strict", "to a stricter end", chosen),
+            ("finer", "on a finer grid", known),
+        ):
+            if some:
+                say(f"{family}: {len(some)} once more, {how}")
+            for end, high in (("", False), ("-high", True)):
+                part = [row for row in some if _is_high(row) == high]
+                if part:
+                    place = folder / f"{family}-{name}{end}"
+                    _check(family, part, place, jobs, finer=name == "finer")
+        rows += found
+    return rows
+
+
+def folders() -> list[str]:
+    """Names of the folders of the runs."""
+    ends = ("", "-strict", "-strict-high", "-finer", "-finer-high")
+    return [f"{family}{end}" for family in FAMILIES for end in ends]
+
+
+def _run(
+    family: str, cases: Sequence[StressCase], folder: Path, jobs: int, *, fields: bool
+) -> list[Row]:
+    keep = folder / CASES if fields else None
+    todo = plan(study_of(family, cases, fields=fields), keep)
+    rows = []
+    for task, case, told in zip(todo.tasks, cases, _solved(todo, folder, jobs), strict=True):
+        row: Row = {"family": family, "moes_m": case.moes_m, "moes_l": case.moes_l}
+        row |= {"values": dict(case.values)} | {name: told.get(name) for name in KEPT}
+        row["outcome"] = _outcome(row)
+        row |= {"difference": None, "allowed": None, "strict_status": None, "wrong": False}
+        if fields and row["outcome"] in ("converged", ENDED):
+            row["broken"] = broken(Path(task.folder))
+            row["wrong"] = row["broken"] != ""
+        rows.append(row)
+    return rows
+
+
+def _solved(todo: Plan, folder: Path, jobs: int) -> list[Row]:
+    """Rows of all cases; KeyboardInterrupt if the study was stopped, its folder has the rest."""
+    outcome = perform(todo, folder, jobs=jobs)
+    if outcome.interrupted:
+        raise KeyboardInterrupt
+    return [outcome.rows[number] for number in range(len(todo.points))]
+
+
+def _outcome(row: Mapping[str, Any]) -> str:
+    asked = row["values"].get("time.steps") or 0
+    if row["status"] == "not settled" and asked and row["steps"] == asked:
+        return ENDED
+    return str(row["status"])
+
+
+def _is_high(row: Mapping[str, Any]) -> bool:
+    """Whether a surface is higher than surface.amplitude may be: it stays a share of the film."""
+    return row["amplitude"] is not None and row["amplitude"] > HIGHEST
+
+
+def _check(
+    family: str, rows: Sequence[Row], folder: Path, jobs: int, *, finer: bool = False
+) -> None:
+    """Solve again what has a result, to a stricter end or on a finer grid."""
+    cases = [StressCase(family, r["moes_m"], r["moes_l"], r["points"], r["values"]) for r in rows]
+    strict: list[dict[str, Any]] = []
+    for row in rows:
+        more: dict[str, Any] = dict(STRICT)
+        if row["amplitude"] is not None and not _is_high(row):
+            # a share of the film would be another height
+            more |= {"surface.amplitude_over_film": None, "surface.amplitude": row["amplitude"]}
+        if finer:
+            more |= {"grid.points": 2 * row["values"]["grid.points"] - 1, "time.steps": 0}
+            more |= {"time.estimate_error": False, **dict.fromkeys(STRICT)}
+        elif row["steps"] is not None:
+            more["time.steps"] = row["steps"]
+        strict.append(more)
+    todo = plan(study_of(family, cases, strict))
+    for row, told in zip(rows, _solved(todo, folder, jobs), strict=True):
+        if not finer:
+            judge(row, told)
+        name = "share_finer" if finer else "share_strict"
+        judge_share(row, name, told)
+
+
+def judge(row: Row, strict: Mapping[str, Any]) -> None:
+    """Compare a result with that of the stricter run; wrong if they differ by more than its error.
+
+    Where the mean has no estimate of its error, or there is no mean yet, the allowed difference is
+    `UNKNOWN_ERROR`.
+    """
+    name, error = RESULTS.get(row["family"], ("mu_ratio", "mu_ratio_error"))
+    value, other = row[name], strict.get(name)
+    if row["outcome"] == ENDED:
+        value, other = row["last_mu_ratio"], strict.get("last_mu_ratio")
+    row["strict_status"] = strict.get("status")
+    if value is None:
+        return
+    estimate = row[error]
+    row["allowed"] = UNKNOWN_ERROR if not estimate else max(estimate / abs(value), 1e-3)
+    if other is None and name == "mu_ratio":
+        # the same steps, solved more strictly: the mean may just not have settled
+        other = strict.get("last_mu_ratio_mean")
+    if other is None:
+        return
+    row["difference"] = abs(value / other - 1.0) if other else math.inf
+    row["wrong"] = row.get("wrong", False) or row["difference"] > row["allowed"]
+
+
+def summary(rows: Sequence[Row]) -> list[Row]:
+    """Count outcomes by family."""
+    table = []
+    for family in [*FAMILIES, "all"]:
+        mine = [row for row in rows if family in ("all", row["family"])]
+        if not mine:
+            continue
+        counts = Counter(row["outcome"] for row in mine)
+        good = counts["converged"] + counts[ENDED]
+        cycles = [row["cycles_per_step"] or row["cycles"] or 0.0 for row in mine]
+        table.append(
+            {
+                "family": family,
+                "cases": len(mine),
+                "converged": counts["converged"],
+                "ended": counts[ENDED],
+                "failed": len(mine) - good,
+                "checked": sum(row["difference"] is not None for row in mine),
+                "wrong": sum(bool(row["wrong"]) for row in mine),
+                "cycles": sum(cycles) / len(cycles),
+                "most_cycles": max(cycles),
+            }
+        )
+    return table
+
+
+def broken(folder: Path) -> str:
+    """Say what conditions of contact the last fields of a result folder break; '' if none.
+
+    Film and pressure are those of the folder, the density is that of the Python side.
+    """
+    data = load(folder)
+    settings = settings_of(data)
+    point = OperatingPoint.from_settings(settings)
+    pressure, film = data["P"].to_numpy(), data["H"].to_numpy()
+    oil = Lubricant.from_settings(settings)
+    layer = settings["lubricant"]["boundary_film"] / point.film_scale
+    mass = oil.density_ratio(pressure * point.hertz_pressure) * film / layer
+    touching = (pressure > 0.0) & (mass <= 1.0 + HELD)
+    cell = float(data["X"][1] - data["X"][0]) * float(data["Y"][1] - data["Y"][0])
+    last = "history_" if "history_load_share" in data else "contact_"
+    share = pressure[touching].sum() / pressure.sum()
+    told = float(data[f"{last}load_share"].to_numpy().flat[-1])
+    given = data[f"{last.removeprefix('contact_')}layer_supply"].to_numpy().flat[-1]
+    carried = pressure.sum() * cell / (2.0 * np.pi / 3.0) + float(data["load_beyond"])
+    conditions = {
+        "P >= 0": pressure.min() >= 0.0,
+        "film of the layer": mass.min() >= 1.0 - HELD,
+        "load": abs(carried - 1.0) <= LOAD,
+        "load share": abs(share - told) <= LOAD,
+        "N <= 0": given >= -HELD,
+    }
+    return ", ".join(name for name, holds in conditions.items() if not holds)
+
+
+def judge_share(row: dict[str, Any], name: str, told: Mapping[str, Any]) -> None:
+    """Set `name` of a row to the load share of another run, and `wrong` if its error is exceeded.
+
+    Where no error is stated, `UNKNOWN_ERROR` is allowed.
+    """
+    value, other = row["contact_load_share"], told.get("contact_load_share")
+    row[name] = other
+    if None in (value, other):
+        return
+    stated = row["contact_load_share_error"]
+    allowed = UNKNOWN_ERROR if stated is None else max(stated, LEAST)
+    row["wrong"] = row["wrong"] or abs(value - other) > allowed
+
+
+def work(args: argparse.Namespace) -> int:
+    """Run the campaign, print and draw; exit status."""
+    if args.boundary_film and args.shear_law == "newtonian":
+        raise InputError("--boundary-film needs a --shear-law that thins")
+    names = ("stress.json", "stress.png", *folders())
+    Destination(args.output, "bench stress", names, force=args.force).claim({})
+    try:
+        rows = campaign(
+            args.cases,
+            args.seed,
+            args.output,
+            jobs=args.jobs,
+            grids=args.points,
+            law=args.shear_law,
+            layer=args.boundary_film,
+        )
+    except KeyboardInterrupt as stop:
+        raise KeyboardInterrupt(f"the same command resumes it in {args.output}") from stop
+    asked = ("cases", "seed", "points", "shear_law", "boundary_film")
+    answer = header(work) | {name: getattr(args, name) for name in asked}
+    answer |= {"summary": summary(rows), "rows": rows}
+    write_json(args.output / "stress.json", answer, allow_nan=True)
+    draw_outcomes(rows, args.output / "stress.png")
+    show(summary(rows), COLUMNS, MEANING)
+    return verdict(rows)
+
+
+def main(words: Sequence[str] | None = None) -> int:
+    """Run the script."""
+    made = parser(__doc__, points=GRIDS)
+    add_number(made, "cases", 500, "how many", least=1)
+    add_number(made, "seed", 1)
+    made.add_argument(
+        "--shear-law",
+        choices=LAWS,
+        default="newtonian",
+        help="of all cases, each with a stress of its own (default: newtonian)",
+    )
+    made.add_argument(
+        "--boundary-film",
+        action="store_true",
+        help="all cases with one of a thickness of its own; needs a --shear-law",
+    )
+    add_number(made, "jobs", 2, "worker processes", least=1)
+    add_force(made)
+    made.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="DIR",
+        required=True,
+        help="folder of results; an interrupted campaign is resumed in it",
+    )
+    args = made.parse_args(words)
+    return status_of(lambda: work(args))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Cases per core-hour of studies, overhead of a case, estimate of time.
+
+Each scene runs as a study, in one worker process and in several. The start of the workers (they
+import the package) is taken off: it ends with the first row.
+"""
+
+import argparse
+import sys
+import tempfile
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from common import add_list, columns, measure, parser, show
+
+from pyehl.case import Case
+from pyehl.studies.gather import Watcher
+from pyehl.studies.plan import Plan, plan
+from pyehl.studies.study import make
+from pyehl.studies.sweep import perform
+from pyehl.studies.tasks import Task
+from pyehl.studies.vary import axis
+from pyehl.types import Row
+
+COLUMNS = columns(
+    "scene:s cases:d processes:d wall_seconds:.2f estimate_seconds:.2f "
+    "cases_per_core_hour:.0f busy:.2f overhead_ms:.2f efficiency:.2f"
+)
+MEANING = (
+    "wall seconds: from the start of the workers to the last row; estimate: of the plan; busy: "
+    "share of the workers' time that cases took;\noverhead: of a case, in the plan and in one "
+    "worker; efficiency: throughput over that of the first number of processes"
+)
+"""What the columns are."""
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """What a study is made of."""
+
+    # Its name, and what is done with each case
+    name: str
+    run: str
+    cases: int  # number of cases for each process
+    # Texts ``group.key=value``. The mean velocity is varied, or a key that stands alone
+    options: tuple[str, ...]
+
+
+FRACTAL = ("surface.kind=fractal",)
+WAVE = ("surface.kind=harmonic", "surface.amplitude_over_film=0.3")
+SEEDS = "surface.seed"
+SCENES = (
+    Scene("film", "film", 200, FRACTAL),
+    Scene("predict", "predict", 40, FRACTAL),
+    Scene("predict shared", "predict", 40, (*FRACTAL, SEEDS)),
+    Scene("smooth 257", "solve", 8, ("grid.points=257",)),
+    Scene("transient 257", "solve", 2, (*WAVE, "grid.points=257")),
+    Scene("transient 513", "solve", 1, (*WAVE, "grid.points=513")),
+)
+"""Scenes by name: a prediction of a fractal surface, smooth contacts, passages of a waviness."""
+
+
+class _FirstRow(Watcher):
+    """Knows when the workers had started."""
+
+    def __init__(self) -> None:
+        self.began_at = self.started = 0.0
+
+    def began(self, tasks: Sequence[Task], done: Sequence[int], damaged: int) -> None:
+        self.began_at = time.monotonic()
+
+    def finished(self, rows: Sequence[tuple[int, Mapping[str, Any]]]) -> None:
+        if not self.started:
+            first = float(rows[0][1].get("seconds") or 0.0)
+            self.started = time.monotonic() - self.began_at - first
+
+
+def sweep_rows(scenes: Sequence[Scene], processes: Sequence[int]) -> list[Row]:
+    """Run scenes with each number of worker processes.
+
+    `overhead_ms` is the overhead per case, in the plan (without what every plan costs)
+    and in one worker process; `busy` the share of the time of the workers that cases took;
+    `efficiency` the throughput over that of the first number of processes times their ratio.
+    """
+    rows: list[Row] = []
+    for scene in scenes:
+        count = scene.cases * max(processes)
+        slowest: float | None = None
+        for jobs in processes:
+            row = _run(scene, count, jobs)
+            rate = count / row["wall_seconds"]
+            slowest = slowest or rate / jobs
+            row["efficiency"] = rate / (slowest * jobs)
+            rows.append(row)
+    return rows
+
+
+def _planned(scene: Scene, count: int) -> tuple[float, Plan]:
+    """Plan so many cases of a scene: seconds, and the plan."""
+    began = time.monotonic()
+    varied = axis("contact.mean_velocity", f"0.7:1.0:{count}")
+    if SEEDS in scene.options:
+        varied = axis(SEEDS, f"1:{count}")
+    options = [text for text in scene.options if "=" in text]
+    todo = plan(make(Case.from_text(""), [varied], options=options, run=scene.run))
+    return time.monotonic() - began, todo
+
+
+def _run(scene: Scene, count: int, jobs: int) -> Row:
+    single, _ = _planned(scene, 1)
+    planned, todo = _planned(scene, count)
+    watcher = _FirstRow()
+    with tempfile.TemporaryDirectory(prefix="pyehl-") as folder:
+        outcome = perform(todo, folder, jobs=jobs, watcher=watcher)
+    if outcome.interrupted:
+        raise KeyboardInterrupt
+    wall = outcome.wall - watcher.started
+    spent = wall * jobs
+    return {
+        "scene": scene.name,
+        "cases": count,
+        "processes": jobs,
+        "wall_seconds": wall,
+        "estimate_seconds": sum(task.seconds for task in todo.tasks) / min(jobs, count),
+        "cases_per_core_hour": 3600.0 * count / spent,
+        "busy": outcome.busy / spent,
+        # with several processes the end, when one waits for the other, would be in it
+        "overhead_ms": 1e3 * (planned - single + wall - outcome.busy) / count
+        if jobs == 1
+        else None,
+        "start_seconds": watcher.started,
+        "plan_seconds": planned,
+        "statuses": outcome.statuses(),
+    }
+
+
+def work(args: argparse.Namespace) -> Row:
+    """Measure and print."""
+    rows = sweep_rows([scene for scene in SCENES if scene.name in args.scenes], args.threads)
+    show(rows, COLUMNS, MEANING)
+    return {"rows": rows}
+
+
+def main(words: Sequence[str] | None = None) -> int:
+    """Run the script."""
+    made = parser(__doc__)
+    add_list(made, "threads", (1, 2), "numbers of worker processes")
+    names = [scene.name for scene in SCENES]
+    add_list(made, "scenes", names, known=names)
+    return measure(work, made, words)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Random cases and contacts of machines: what came of them."""
+
+from __future__ import annotations
+
+from collections import Counter
+from importlib import import_module
+
+from records import Row, Values, read, script
+
+NAMES = {"eyring": "Eyring", "carreau": "Carreau", "newtonian": "Newtonian"}
+GOOD = ("converged", "ended at its number of steps")
+FAILED = ("negative film", "diverged", "cycle limit")
+
+
+def machine_ends() -> Values:
+    """Contacts of machines that did not converge, missed errors, large errors."""
+    make = script("machines/make.py")
+    covered, rows = import_module("machines").covered, make.read()
+    failed = [row for row in rows if row["status"] != "converged"]
+    (one,) = failed
+    assert one["status"] == "cycle limit"
+    words = f"a {one['kind']} at {one['hertz_pressure_Pa'] / 1e9:.1f} GPa "
+    words += f"(κ = {one['ellipticity']:.1f}, seed {one['seed']}, number {one['number']})"
+    grid = [covered(row, name, "error_grid") for row in rows for name in ("H_c", "H_min")]
+    checked = [each for each in grid if each is not None]
+    found = {"H_c": "h_c", "H_min": "h_min"}
+    known = [
+        (row, name) for row in rows for name in found if covered(row, name, "error") is not None
+    ]
+    missed = [(row, name) for row, name in known if not covered(row, name, "error")]
+    lines = {}
+    for row, name in missed:
+        wrong = 100.0 * abs(row[f"{name}_fine"] / row[name] - 1.0)
+        stated = 100.0 * row[f"{name}_error"] / row[name]
+        head = f"{row['kind']} | {row['moes_m']:.0f}, {row['moes_l']:.1f} | {row['points']} "
+        lines[len(lines)] = f"{head}| {found[name]} | {wrong:.1f} % | {stated:.1f} %"
+    (disc,) = (row for row in make.summary(rows) if row["contacts"] == "ball on disc")
+    long = [row for row in rows if (row["seconds"] or 0.0) > 10.0]
+    none = sum(row["status"] != "converged" for row in long)
+    wide = [row for row in rows if row["ellipticity"] > 4.0]
+    ends = [sum(row["status"] == s for row in wide) for s in ("converged", "cycle limit")]
+    assert sum(ends) == len(wide)
+    span = [f(row["ellipticity"] for row in wide) for f in (min, max)]
+    good = [row for row in rows if row["status"] == "converged"]
+    large = [row for row in good if row["H_c_error"] > 0.05 * row["H_c"]]
+    twice = [row for row in good if covered(row, "H_c", "error") is not None]
+    both = [row for row in twice if row in large]
+    assert all(covered(row, "H_c", "error") for row in both)
+    return locals()
+
+
+def borders() -> Values:
+    """How far sides and cells change films, and what the error of the domain covers."""
+    make = script("machines/make.py")
+    for row in make.read("sides.csv"):
+        for end in ("_further", "_square"):
+            assert abs(row[f"H_c{end}"] / row["H_c"] - 1.0) < 1e-4 + 1e-9
+            assert abs(row[f"H_min{end}"] / row["H_min"] - 1.0) < 1.4e-3
+    good = known = 0
+    limit: Values = {}
+    for row in make.read("border.csv"):
+        if row["x_inlet"] != -4.5:
+            continue
+        if row["border"] == "flooded":
+            limit = row
+            continue
+        for name in ("H_c", "H_min"):
+            known += 1
+            # algebraic errors
+            allowed = row[f"{name}_error_domain"] + 2e-5 * limit[name]
+            good += abs(row[name] - limit[name]) <= allowed
+    return locals()
+
+
+def random_cases() -> Values:
+    """Random cases with a Newtonian oil."""
+    rows = read("stress/table.csv")
+    checked = [row for row in rows if row["difference"]]
+    largest = max(float(row["difference"]) / float(row["allowed"]) for row in checked)
+    films = [row for row in rows if row["outcome"] == "negative film"]
+    coarse = [
+        r for r in films if 0.16 * float(r["moes_m"]) * (4.0 / (int(r["points"]) - 1)) ** 2 > 0.6
+    ]
+    ended = Counter(row["outcome"] for row in rows)
+    assert ended["not settled"] == 0
+    return locals()
+
+
+def laws() -> Values:
+    """The same scenes with a shear law and without one."""
+    rows = read("stress/laws.csv")
+    every = {law: [row for row in rows if row["law"] == law] for law in NAMES}
+    assert sum(map(len, every.values())) == len(rows)
+    # with a law in SI units
+    scenes = [
+        [(r["family"], r["moes_m"], max(1.0, float(r["moes_l"])), r["points"]) for r in each]
+        for each in every.values()
+    ]
+    assert scenes[0] == scenes[1] == scenes[2]
+    assert sum(float(row["moes_l"]) < 1.0 for row in every["newtonian"]) == 2
+    lines = {}
+    for law, mine in every.items():
+        counts = Counter(row["outcome"] for row in mine)
+        numbers = [len(mine), *(counts[name] for name in (*GOOD, *FAILED))]
+        assert sum(numbers[1:]) == len(mine)
+        numbers.append(sum(row["difference"] != "" for row in mine))
+        numbers.append(sum(row["wrong"] == "True" for row in mine))
+        lines[NAMES[law]] = " | ".join(map(str, numbers))
+    worst = max(float(r["difference"]) / float(r["allowed"]) for r in rows if r["difference"])
+    failed = {
+        law: {k for k, row in enumerate(mine) if row["outcome"] in FAILED}
+        for law, mine in every.items()
+    }
+    newtonian = failed.pop("newtonian")
+    more = [
+        Counter(every[law][k]["outcome"] for k in those - newtonian)
+        for law, those in failed.items()
+    ]
+    assert all(newtonian < those for those in failed.values())
+    assert more[0] == more[1]
+    return locals()
+
+
+def boundary_films() -> Values:
+    """Random cases with a boundary film, in the order of the table."""
+    rows = read("stress/contacts.csv")
+    counts = Counter(row["outcome"] for row in rows)
+    fields = [row for row in rows if row["broken"]]
+    numbers = [len(rows), *(counts[name] for name in (*GOOD, "diverged", "cycle limit"))]
+    assert sum(numbers[1:]) == len(rows)
+    numbers += [len(fields), sum(row["broken"] != "none" for row in fields)]
+    for name in ("share_strict", "share_finer"):
+        known = [row for row in rows if row["contact_load_share"] and row[name]]
+        numbers += [len(known), sum(off(row, name) for row in known)]
+    assert not any(row["wrong"] == "True" for row in rows)
+    line = " | ".join(map(str, numbers))
+    return locals()
+
+
+def off(row: Row, name: str) -> bool:
+    """Whether a load share differs from that of another run by more than is allowed."""
+    stated = row["contact_load_share_error"]
+    allowed = max(float(stated), 1e-3) if stated else 0.03
+    return abs(float(row["contact_load_share"]) - float(row[name])) > allowed

@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Results beside values of other programs and film formulas."""
+
+from __future__ import annotations
+
+from records import Row, Values, of, read
+
+LIMITS = {"circle": 0.45, "ellipse": 0.3, "thinning": 0.9, "waviness": 0.1}
+"""Largest deviation from the other program that the page may show, by group [%]."""
+LOW, HIGH = (20.0, 100.0), (200.0, 2000.0)
+
+
+def others() -> Values:
+    """Values of the other programs, ours, and the deviation, in the order of the table."""
+    lines = []
+    for row in read("validation/table.csv"):
+        share = 100.0 * (float(row["ours"]) / float(row["theirs"]) - 1.0)
+        assert abs(share) <= LIMITS[row["group"]]
+        told = f"{share:+.2f} %".replace("-", "−")
+        told = told[1:] if told[1:] == "0.00 %" else told
+        lines.append(f"{float(row['theirs']):.5g} | {float(row['ours']):.5g} | {told}")
+    return locals()
+
+
+def film_formulas() -> Values:
+    """Ratios of films by formula to ours: spans, and the largest deviations."""
+    every = read("validation/formulas.csv")
+
+    def ratios(name: str, quantity: str, bounds: tuple[float, float]) -> list[float]:
+        def here(row: Row) -> bool:
+            inside = bounds[0] <= float(row["moes_m"]) <= bounds[1]
+            return row["formula"].startswith(name) and row["quantity"] == quantity and inside
+
+        return list(of(filter(here, every), "ratio"))
+
+    def span(name: str, quantity: str, bounds: tuple[float, float]) -> str:
+        found = ratios(name, quantity, bounds)
+        return f"{min(found):.3f} | {max(found):.3f}"
+
+    heavy, light = (500.0, 1e9), (0.0, 499.0)
+    moes = max(abs(100.0 * (r - 1.0)) for r in ratios("Nijenbanning", "H_c", heavy))
+    low = 100.0 * (1.0 - min(ratios("Nijenbanning", "H_c", light)))
+    high = [
+        100.0 * (max(ratios(name, "H_c", (0.0, 1e9))) - 1.0) for name in ("Hamrock", "Chittenden")
+    ]
+    # twice too thick
+    assert 2.0 < max(ratios("Hamrock", "H_min", heavy)) < 2.3
+    return locals()

@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Tables that the scripts of docs/evidence make, whole."""
+
+from __future__ import annotations
+
+from records import Values, script
+
+
+def machines() -> Values:
+    """Contacts of machines, their borders and sides, and modes on cells."""
+    make, modes = script("machines/make.py"), script("machines/modes.py")
+    names = ("robustness", "speed", "sides", "by_border")
+    return {name: "\n".join(getattr(make, name)()) for name in names} | {
+        "modes": "\n".join(modes.lines())
+    }
+
+
+def deflection() -> Values:
+    """Errors of the multi-integration, of theory and of evidence."""
+    theory, evidence = script("deflection/make.py").tables()
+    return {"theory": "\n".join(theory), "evidence": "\n".join(evidence)}
+
+
+def campaigns() -> Values:
+    """Random cases and faults."""
+    return {name: "\n".join(script(f"{name}/make.py").lines()) for name in ("stress", "faults")}
+
+
+def times() -> Values:
+    """Seconds of steps, runs, smooth contacts and studies."""
+    make = script("speed/make.py")
+    names = ("steps", "whole", "smooth", "ratios", "sweep", "skips")
+    return {name: "\n".join(getattr(make, name)()) for name in names}
+
+
+def shares() -> Values:
+    """Load shares on ever finer grids, and rough balls beside dry contact."""
+    make = script("contact/make.py")
+    found = {name: "\n".join(make.lines(name)) for name in make.CONTACTS}
+    return found | {"dry": "\n".join(script("contact/dry.py").lines())}
+
+
+def inlet() -> Values:
+    """Smooth contacts that touch: at least 95 % of the stated errors hold."""
+    make = script("inlet/make.py")
+    rows = make.read()
+    for name in make.QUANTITIES:
+        known, good = (sum(part[k] for part in make.covered(rows, name).values()) for k in (0, 1))
+        assert known > 40
+        assert good >= 0.95 * known, name
+    return {"lines": "\n".join(make.lines()), "good": make.by_two_grids(rows)}
+
+
+def start() -> Values:
+    """Runs that start from the prediction: the same means in fewer steps."""
+    make = script("start/make.py")
+    rows = make.rows_of(make.Path(make.__file__).with_name("scenes.csv"))
+    for row in rows:
+        stop = row["error_stop"] + row["error_stop_front"]
+        assert abs(row["mu_ratio"] - row["mu_ratio_front"]) <= stop
+    return {"rows": [make.line_of(row)[2:-2] for row in rows]}
+
+
+def mixed_curve() -> Values:
+    """Friction from boundary to full film."""
+    return {"lines": "\n".join(script("mixed_curve/make.py").lines())}
+
+
+def paper() -> Values:
+    """The record of the paper redone."""
+    make = script("paper/make.py")
+    rows = [make.line(row) for row in make.read("table.csv") if row["piece"] != "table 1"]
+    findings = map(make.finding, make.read("findings.csv"))
+    return {"table": "\n".join([*make.HEAD, *rows]), "findings": "\n".join(findings)}
+
+
+def films() -> Values:
+    """Measured films of dimples."""
+    make = script("films/make.py")
+    profiles = (make.read_profiles(make.HERE / f"{n}.csv") for n in ("mourier", "profiles"))
+    rows = [[str(cell) for cell in row] for row in make.table(*profiles)]
+    return {name: "\n".join(make.lines(rows, name)) for name in ("measured", "simulated")}
