@@ -45,6 +45,7 @@ class ShearedContact:
         self.thins = lubricant.shear.law != "newtonian" and operating.sliding_speed > 0.0
         self.cavitated = 0  # points where the pressure is not positive
         self.count = 0  # positions
+        self.ended = 0  # points where the film has ended
         self.imbalance = 0.0  # greatest share of the load that delta p carries or takes off [-]
         self.lost = False  # whether the roughness takes more pressure than there is
         self.greatest_rise = -math.inf  # of the pressure over the smooth contact within INNER
@@ -141,9 +142,10 @@ class HertzContact(ShearedContact):
         self.inner, self.near = (self.radius_squared < r**2 for r in (INNER, NEAR))
         self.smooth = float(self.stress(self.semi_ellipse, np.array(film)).sum())
 
-    def friction(self, step: int, track: int = 0) -> float:
-        """Integral of the shear stress over that of the smooth contact, some pixels on."""
-        moved = [np.roll(v, (step, track), (0, 1)) for v in (self.pressure, self.deformed)]
+    def friction(self, position: tuple[float, float]) -> float:
+        """Integral of the shear stress over that of the smooth contact, in a position."""
+        pixels = [int(number) for number in position]
+        moved = [np.roll(v, pixels, (0, 1)) for v in (self.pressure, self.deformed)]
         delta, deformed = (values.ravel().take(self.index) for values in moved)
         film = self.film - deformed
         if min(self.thinnest, float(film.min())) <= 0.0:

@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from pyehl.prediction.across import harmonics
+from pyehl.prediction.response import Transfer
 from pyehl.prediction.spectrum import Spectrum
-from pyehl.prediction.transfer import Transfer
+from pyehl.prediction.transverse_modes import harmonics
 from pyehl.theory.disc import LARGEST, RADIUS, RIM_ANGLES, disc_correction, disc_rim, monomials
 from pyehl.theory.ellipse import Ellipse
 from pyehl.theory.ellipse_edge import ellipse_edge

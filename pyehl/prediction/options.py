@@ -9,6 +9,8 @@ from pyehl.surfaces import FEATURES, rough_groups
 from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Settings
 
+FIRST_POSITIONS = 8
+"""Fewest positions of a tile in a passage, and those of a mean over a few."""
 MAX_POSITIONS = 4096
 """Most positions of a passage, as the schema of cases has it."""
 

@@ -6,13 +6,18 @@ Units: lengths along the surface by a, heights by a^2/R.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field, replace
 from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pyehl.prediction.options import FIRST_POSITIONS
 from pyehl.types import Array, Complex, Indices
+
+RADIUS_PIXELS = 48
+"""Pixels per semi-axis below which a coarse map is interpolated."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,3 +125,34 @@ class Spectrum:
         # components with 0 < qx < Nyquist stand for two
         power[1 : (self.shape[0] + 1) // 2] *= 2.0
         return cast(Array, power)
+
+
+def _fewer_pixels(pixels: int, length: float, limit: float, semi_axis: float) -> int:
+    """Pixels for waves below a limit [1/a] in a contact, as a mean over a few positions takes them.
+
+    Of a tile of a length [a] that has so many, along a semi-axis of the contact [a].
+    """
+    if math.isinf(limit):
+        return pixels
+    highest = int(limit * length / (2.0 * math.pi))
+    few = max(2 * highest + 2, math.ceil(RADIUS_PIXELS * length / semi_axis))
+    few = FIRST_POSITIONS * math.ceil(few / FIRST_POSITIONS)
+    return few if few < pixels else pixels
+
+
+def longer_waves(
+    spectrum: Spectrum, limit: float, ellipticity: float
+) -> tuple[Spectrum, tuple[Indices, Indices]]:
+    """Waves of a tile with |q| below a limit [1/a] on as few pixels as they need.
+
+    And the rows and columns that are left of the spectrum.
+    """
+    axes = 1.0, ellipticity
+    nx, ny = (
+        _fewer_pixels(n, pixel * n, limit, axis)
+        for n, pixel, axis in zip(spectrum.shape, spectrum.pixel, axes, strict=True)
+    )
+    index = spectrum.longest(nx, ny)
+    part = spectrum.kept(index, (nx, ny))
+    part.values[part.q >= limit] = 0.0
+    return part, index

@@ -16,8 +16,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from pyehl.prediction.response import Transfer
 from pyehl.prediction.spectrum import Spectrum
-from pyehl.prediction.transfer import Transfer
 from pyehl.theory.transport import free_stiffness, stiffness
 from pyehl.types import Array, Complex, Single
 

@@ -4,7 +4,8 @@
 from dataclasses import replace
 
 from pyehl.prediction import Band, Options, Response, RoughFriction
-from pyehl.prediction.by_response import RoughPassage
+from pyehl.prediction.model import Model
+from pyehl.prediction.passage_friction import run
 from pyehl.prediction.smooth import hertz_contact
 from pyehl.surfaces import Topography
 from pyehl.theory.lubricant import Lubricant
@@ -17,11 +18,11 @@ def passage(
     oil: Lubricant,
     film: float,
     options: Options | None = None,
-) -> RoughPassage:
+) -> Model:
     """A tile in a semi-ellipse of pressure and a uniform film [m]."""
     read = replace(options or Options(), reduction="amplitude", smooth="hertz")
     contact = hertz_contact(film / operating.film_scale, "given")
-    return RoughPassage(tile, contact, operating, oil, read, 1.01)
+    return Model.of_one(tile, contact, operating, oil, read, 1.01)
 
 
 def predict_friction(
@@ -32,14 +33,14 @@ def predict_friction(
     options: Options | None = None,
 ) -> RoughFriction:
     """Friction over a passage."""
-    return passage(tile, operating, oil, film, options).run(0, brief=True)[0]
+    return run(passage(tile, operating, oil, film, options), 0, brief=True)[0]
 
 
 def contributions(
     tile: Topography, operating: OperatingPoint, oil: Lubricant, film: float
 ) -> list[Band]:
     """What each octave adds."""
-    return passage(tile, operating, oil, film).run(0)[2]
+    return run(passage(tile, operating, oil, film), 0)[2]
 
 
 def response(

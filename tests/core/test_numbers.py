@@ -147,7 +147,7 @@ def test_a_prediction_that_fails_makes_no_error_smaller(monkeypatch, tmp_path: P
     def fails(*_: object) -> None:
         raise errors.EhlError("film breakdown: no full film")
 
-    monkeypatch.setattr("pyehl.prediction.of_solver.resolution", fails)
+    monkeypatch.setattr("pyehl.prediction.resolution.resolution", fails)
     with Solver(Case.from_text(LEFT_OUT)) as solver:
         assert "predicted   no mu_r/mu_s: film breakdown: no full film" in solver.describe(
             predict=True
@@ -187,7 +187,7 @@ def test_nothing_is_predicted_where_nothing_is_left_out(monkeypatch):
     def never(*_: object) -> None:
         raise AssertionError
 
-    monkeypatch.setattr("pyehl.prediction.of_solver.solve_contact", never)
+    monkeypatch.setattr("pyehl.prediction.resolution.solve_contact", never)
     with Solver(Case.from_text(LEFT_OUT)) as solver:
         while not solver.advance() and "steps" not in solver.summary:
             pass

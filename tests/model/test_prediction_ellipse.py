@@ -13,11 +13,11 @@ import pytest
 import pyehl
 from pyehl.errors import InputError
 from pyehl.measured_response.folder import shipped_response
-from pyehl.prediction.across import LINES, harmonics, pressed
 from pyehl.prediction.errors import model_error, outside_range
 from pyehl.prediction.options import Options
+from pyehl.prediction.response import AXIS
 from pyehl.prediction.smooth import solve_contact, zone_of
-from pyehl.prediction.transfer import AXIS
+from pyehl.prediction.transverse_modes import LINES, harmonics, pressed
 from pyehl.theory.disc import RADIUS, disc_correction, monomials
 from pyehl.theory.ellipse import Ellipse, ellipse
 from pyehl.theory.ellipse_edge import EllipseEdge, Series

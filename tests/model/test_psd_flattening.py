@@ -9,7 +9,7 @@ from paper_model import response
 
 from pyehl import surfaces
 from pyehl.prediction import Options
-from pyehl.prediction.by_response import STIFFER
+from pyehl.prediction.model import PAPER_STIFFNESS
 from pyehl.surfaces import Topography
 from pyehl.theory import amplitude
 from pyehl.theory.operating import OperatingPoint
@@ -87,7 +87,7 @@ def test_paper_stiffness_is_too_stiff():
     q = np.array([1e4, 1e5])
     # eq. 11 to the letter, with 2 pi/|q|
     literal = math.pi * POINT.reduced_modulus / (math.sqrt(2) * 2 * math.pi / q)
-    assert STIFFER * half_space(q) == pytest.approx(literal)
+    assert PAPER_STIFFNESS * half_space(q) == pytest.approx(literal)
 
 
 # --- response

@@ -10,6 +10,7 @@ from paper_model import contributions, passage, predict_friction, response
 
 from pyehl import surfaces
 from pyehl.prediction import Options
+from pyehl.prediction.passage_friction import run
 from pyehl.surfaces import Topography
 from pyehl.theory import stribeck
 from pyehl.theory.lubricant import Lubricant
@@ -79,7 +80,7 @@ def test_below_equation_16():
 
 
 def over_tracks(rough):
-    return passage(rough, POINT, ROELANDS, FILM).run(8)[1]
+    return run(passage(rough, POINT, ROELANDS, FILM), 8)[1]
 
 
 def test_rise_over_all_tracks_is_quadratic_in_the_height(table_1):

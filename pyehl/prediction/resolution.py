@@ -9,9 +9,9 @@ from pyehl import lengths, surfaces
 from pyehl.case import Case
 from pyehl.errors import EhlError, InputError, InternalError
 from pyehl.handle import SolverHandle, start_fronts, take_prediction
-from pyehl.prediction.by_response import RoughPassage
+from pyehl.prediction.model import Model, RoughSurface
 from pyehl.prediction.options import Options, unpredictable
-from pyehl.prediction.pair import RoughPair
+from pyehl.prediction.passage_friction import run_and_below
 from pyehl.prediction.smooth import solve_contact
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.surfaces import Topography
@@ -110,15 +110,12 @@ def resolution(case: Case, tiles: Mapping[str, Topography] | None = None) -> Res
     if not any(spectrum.share_below(shortest) > 0.0 for spectrum in spectra):
         return None
     contact = solve_contact(settings)
-    alone = [
-        RoughPassage(tile, contact, operating, lubricant, Options(), float(keys["velocity_ratio"]))
+    rough_tiles = tuple(
+        RoughSurface(tile, float(keys["velocity_ratio"]), float(keys["x_start"]))
         for (tile, _), keys in zip(found, rough, strict=True)
-    ]
-    passage: RoughPassage | RoughPair = alone[0]
-    if len(alone) > 1:
-        fronts = float(rough[0]["x_start"]), float(rough[1]["x_start"])
-        passage = RoughPair((alone[0], alone[1]), fronts)
-    friction, below = passage.run_and_below(NODES * mesh, CARRIED * mesh)
+    )
+    model = Model(rough_tiles, contact, operating, lubricant, Options())
+    friction, below = run_and_below(model, NODES * mesh, CARRIED * mesh)
     if not math.isfinite(friction.mu_ratio):
         raise EhlError(f"{friction.status}: {friction.message}")
     resolved, carried = below
@@ -159,7 +156,7 @@ class Predictions:
     def begin(self, solver: SolverHandle) -> None:
         """Hand a solver the start that it asks for; mostly it asks for none."""
         if start_fronts(solver).size:
-            from pyehl.prediction.start import hand_over  # noqa: PLC0415
+            from pyehl.prediction.initial_condition import hand_over  # noqa: PLC0415
 
             hand_over(solver, self._case.resolve(), self._tiles, whole=self._whole)
 

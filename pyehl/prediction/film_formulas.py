@@ -7,8 +7,7 @@ from typing import Any
 
 from pyehl import display, schema, surfaces
 from pyehl.prediction.film_text import report
-from pyehl.prediction.meeting import sum_of
-from pyehl.prediction.sides import composite_rms
+from pyehl.prediction.second_surface import composite_rms, sum_of
 from pyehl.theory import film, stribeck
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.moes_film import regime
@@ -140,10 +139,8 @@ def sheet(settings: Settings) -> dict[str, Any]:
             surfaces.from_settings({**settings, "surface": surface}, operating, h_c)
             for surface in both
         ]
-        sigma = tiles[0].rms_height
-        if len(tiles) == 2:
-            together = sum_of(both, tiles, operating.hertz_radius)
-            sigma = composite_rms(tiles[0], tiles[1], together)
+        together = sum_of(both, tiles, operating.hertz_radius) if len(tiles) == 2 else None
+        sigma = composite_rms(tiles, together)
         result["rms_height_m"] = sigma
         result["lambda_ratio_central"] = films[0].h_c / sigma if sigma > 0.0 else None
     if kinds == ["harmonic"] and operating.radius_ratio == 1.0 and operating.moes_l > 0.0:

@@ -7,9 +7,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from pyehl.prediction.errors import KNOWN_RATIO
-from pyehl.prediction.friction import RoughFriction
 from pyehl.prediction.spectrum import Spectrum
-from pyehl.surfaces import GROUPS
 from pyehl.surfaces.tile import Topography
 from pyehl.types import Array
 
@@ -24,9 +22,6 @@ CUT_OFF_TOLERANCE, THRESHOLD_TOLERANCE = 0.05, 0.1
 
 LEAST_THRESHOLD = 5.0
 """Below it, points of a normal distribution would be taken for spikes."""
-
-Below = Callable[[tuple[float, float]], float]
-Predicted = Callable[[Sequence[int], float], RoughFriction]
 
 
 def carrying_wavelength(
@@ -115,34 +110,46 @@ def _two_digits(value: float) -> float:
 
 
 def known_by_cut_off(
+    keys: Sequence[str],
     spectra: Sequence[Spectrum],
-    order: tuple[int, int],
+    order: Sequence[int],
     radius: float,
-    below: Below,
-    without: Predicted,
+    below: Callable[[list[float]], float],
+    known: Callable[[Sequence[int], float], bool],
 ) -> str:
     """Say which cut-offs would bring the ratio into the range of the model; '' for none.
 
-    Of surfaces with these `spectra`, whose numbers are `order`, in a contact of a Hertz `radius`
-    [m]. `below` gives mu_r/mu_s of the waves with |q| below a limit [1/a] of each, `without` the
-    friction without the waves shorter than a length [m] of the surfaces so numbered.
+    Of surfaces whose cut-offs are the `keys` of a case; the `spectra` are theirs in `order`, in a
+    contact of a Hertz `radius` [m]. `below` gives mu_r/mu_s of the waves with |q| below a limit
+    [1/a] of each, in order; `known` tells whether the ratio without the waves shorter than a length
+    [m] of the surfaces so numbered is.
     """
     ways = []
     shortest = min(min(spectrum.pixel) for spectrum in spectra)
     longest = 2.0 * math.pi / min(float(s.q[s.q > 0].min()) for s in spectra)
-    for numbers in ((0,), (1,), (0, 1)):
+    for numbers in choices(len(keys)):
 
         def ratio(length: float, numbers: Sequence[int] = numbers) -> float:
-            first, second = (2.0 * math.pi / length if k in numbers else math.inf for k in order)
-            return below((first, second))
+            return below([2.0 * math.pi / length if k in numbers else math.inf for k in order])
 
-        def known(length: float, numbers: Sequence[int] = numbers) -> bool:
-            found = without(numbers, length)
-            return found.status == "predicted" and found.mu_ratio <= KNOWN_RATIO
+        def good(length: float, numbers: Sequence[int] = numbers) -> bool:
+            return known(numbers, length)
 
         high = within_range(ratio, shortest, longest)
-        cut = None if high is None else confirmed(high * radius, longest * radius, known)
+        cut = None if high is None else confirmed(high * radius, longest * radius, good)
         if cut is not None:
-            names = " with ".join(f"{GROUPS[k]}.shortest_wavelength" for k in numbers)
-            ways.append(f"{names} = {cut:g}")
+            ways.append(f"{' with '.join(keys[k] for k in numbers)} = {cut:g}")
     return f"; {', or '.join(ways)} would leave {KNOWN_RATIO:g} or less" if ways else ""
+
+
+def choices(count: int) -> list[tuple[int, ...]]:
+    """Numbers of the surfaces of which short waves are cut: each alone, then both."""
+    return [(0,)] if count == 1 else [(0,), (1,), (0, 1)]
+
+
+def remedies_of(tile: Topography) -> tuple[str, ...]:
+    """Options that take form and line offsets off a map: cuts of waves would take them as well."""
+    if tile.preparation is None:
+        return ()
+    found = tile.preparation.record.findings
+    return tuple(f"{f.remedy} ({f.kind})" for f in found if f.kind in ("form", "line offsets"))
