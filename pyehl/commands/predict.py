@@ -46,7 +46,7 @@ def report(prediction: Prediction) -> str:
     if prediction.advice:
         lines += prediction.advice.report()
     if f.cavitated_share > 0.0:
-        line = f"rim        p_s + delta p <= 0 on {f.cavitated_share:.2g} of the contact"
+        line = f"edge       p_s + delta p <= 0 on {f.cavitated_share:.2g} of the contact"
         if math.isfinite(f.cavitated_friction):
             line += f", at most {f.cavitated_friction:.1g} of the friction"
         lines.append(line)

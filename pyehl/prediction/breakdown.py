@@ -12,14 +12,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pyehl import lengths
-from pyehl.prediction.cutoff_search import carrying_outliers, carrying_wavelength, choices
+from pyehl.prediction.cutoff_search import choices, spikes_of, suggested_wavelength
 from pyehl.prediction.model import Model
 from pyehl.prediction.passage_friction import known, remedies
 from pyehl.prediction.relative_positions import RelativePositions
 from pyehl.prediction.second_order import FILM_ENDS
-from pyehl.surfaces.cutting import cropped
-from pyehl.surfaces.holes import prominence
-from pyehl.surfaces.prepare import Preparation
 from pyehl.surfaces.tile import Topography
 from pyehl.types import Array, Indices
 
@@ -203,11 +200,11 @@ class Advice:
         names = ("", "second_", "both_")[: 3 if two else 1]
         lengths_of = self.wavelengths or (None,) * len(names)
         for name, length in zip(names, lengths_of, strict=True):
-            found[f"carrying_{name}shortest_wavelength_m"] = length
+            found[f"suggested_{name}shortest_wavelength_m"] = length
         if not two:
             found["pixels"] = self.below.count
-            found["carrying_outliers"] = self.outliers
-            found["carrying_outliers_points"] = self.outlier_points
+            found["suggested_outliers"] = self.outliers
+            found["suggested_outliers_points"] = self.outlier_points
         return found
 
     def report(self) -> list[str]:
@@ -220,9 +217,10 @@ class Advice:
                 f"{place} of {group}" for place, group in zip(places, self.groups, strict=True)
             )
         pixels = "" if two else f"{self.below.count} pixels, "
+        higher = f"{-self.below.deepest * 1e9:.3g} nm higher than the film sustains"
         lines = [
-            f"film ends  {where}: {-self.below.deepest * 1e9:.3g} nm higher than the film bears; "
-            f"{pixels}{100 * self.below.share:.3g} % of the contact in the mean over the passage"
+            f"film ends  {where}: {higher}; {pixels}{100 * self.below.share:.3g} % of the contact "
+            "in the mean over the passage"
         ]
         if self.first:
             return lines + [f"first      {option}: it is no roughness" for option in self.first]
@@ -272,12 +270,12 @@ def advise(
 
         shortest = min(min(tiles[k].pixel) for k in numbers)
         longest = max(max(tiles[k].size) for k in numbers)
-        wavelengths.append(carrying_wavelength(2.0 * shortest, longest, good))
+        wavelengths.append(suggested_wavelength(2.0 * shortest, longest, good))
     spikes: tuple[float, int] | None = None
     made = tiles[0].preparation
     if made is not None and without_spikes is not None and not made.options.outliers > 0.0:
         (one,) = model.surfaces
-        spikes = _spikes(
+        spikes = spikes_of(
             made,
             without_spikes,
             lambda tile: full(replace(model, surfaces=(replace(one, topography=tile),))),
@@ -289,22 +287,3 @@ def place_of(tile: Topography, i: int, j: int) -> tuple[float, float]:
     """Place of a pixel on the surface [m]; of a prepared map on the map."""
     made = tile.preparation
     return made.place(i, j) if made else (i * tile.pixel[0], j * tile.pixel[1])
-
-
-def _spikes(
-    made: Preparation,
-    without_spikes: Callable[[float], Topography],
-    carries: Callable[[Topography], bool],
-) -> tuple[float, int] | None:
-    """Threshold that carries, and the number of points beyond it."""
-    heights = made.scan.heights
-    if any(made.options.crop):
-        nx, ny = heights.shape
-        pixel = (made.scan.length_x / nx, made.scan.length_y / ny)
-        heights = cropped(heights, pixel, made.options.crop)
-    try:
-        away = prominence(heights)
-    except ValueError:
-        # no spread to tell spikes by
-        return None
-    return carrying_outliers(away, without_spikes, carries)

@@ -15,12 +15,12 @@ from pyehl.theory.shear import shear_stress
 from pyehl.types import Array, Indices, Mask, Single
 
 INNER = 0.8
-"""Pressures are told within this distance from the centre: at the rim the roughness moves the edge
-of the contact to and fro [a]."""
+"""Pressures are reported within this distance from the centre: further out the roughness moves the
+edge of the contact to and fro [a]. The errors of docs/evidence/thinning are of this and NEAR."""
 NEAR = 0.5
-"""Their rms is told within this distance [a]."""
-# Fewest points per Hertz radius when not all pixels are visited
+"""Their rms is reported within this distance [a]."""
 MIN_SAMPLES = 128
+"""Fewest points per Hertz radius when not all pixels are visited, in the model of the paper."""
 
 
 @dataclass(frozen=True, slots=True)

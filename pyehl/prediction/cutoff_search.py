@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What would carry where a film ends: a cut-off or a threshold of spikes, found by bisection."""
+"""The cut-off, or the threshold of spikes, with which a film is full, found by bisection."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -8,70 +8,73 @@ import numpy as np
 
 from pyehl.prediction.errors import KNOWN_RATIO
 from pyehl.prediction.spectrum import Spectrum
+from pyehl.surfaces.cutting import cropped
+from pyehl.surfaces.holes import prominence
+from pyehl.surfaces.prepare import Preparation
 from pyehl.surfaces.tile import Topography
 from pyehl.types import Array
 
-Carries = Callable[[Topography], bool]
+Full = Callable[[Topography], bool]
 """Whether a tile is good enough: its film is full."""
 
 FEW = 0.01
-"""Largest share of a map that counts as a few spikes."""
+"""Largest share of a map that counts as a few spikes: more is roughness, not dirt."""
 
 CUT_OFF_TOLERANCE, THRESHOLD_TOLERANCE = 0.05, 0.1
 """Of a cut-off and of a threshold of spikes, relative."""
 
 LEAST_THRESHOLD = 5.0
-"""Below it, points of a normal distribution would be taken for spikes."""
+"""Below it points of a normal distribution would count as spikes: at 5 one in two million."""
 
 
-def carrying_wavelength(
-    shortest: float, longest: float, carries: Callable[[float], bool]
+def suggested_wavelength(
+    shortest: float, longest: float, full: Callable[[float], bool]
 ) -> float | None:
     """Find the cut-off [m] at which the film is full: shorter waves are taken off.
 
-    Bisection in the logarithm of the wavelength to 5 %, between a `shortest`
-    one, two pixels, and the `longest`, the length of the tile; the film need not be full for every
-    longer cut-off, but it is for the one returned. `carries` tells whether it is for a cut-off.
-    None if even the longest waves break the film.
+    Bisection in the logarithm of the wavelength to 5 %, between a `shortest` one, two pixels, and
+    the `longest`, the length of the tile; the film need not be full for every longer cut-off, but
+    it is for the one returned. `full` tells whether it is for a cut-off. None if even the longest
+    waves break the film.
     """
     low, high = math.log(shortest), math.log(longest)
-    if not carries(math.exp(high)):
+    if not full(math.exp(high)):
         return None
     while high - low > CUT_OFF_TOLERANCE:
         middle = 0.5 * (low + high)
-        if carries(math.exp(middle)):
+        if full(math.exp(middle)):
             high = middle
         else:
             low = middle
     rounded = _two_digits(math.exp(high))
-    return rounded if carries(rounded) else math.exp(high)
+    return rounded if full(rounded) else math.exp(high)
 
 
-def carrying_outliers(
-    prominence: Array, without_spikes: Callable[[float], Topography], carries: Carries
+def suggested_outliers(
+    away: Array, without_spikes: Callable[[float], Topography], full: Full
 ) -> tuple[float, int] | None:
     """Find the threshold of spikes at which the film is full, if a few points are what breaks it.
 
-    `prominence` is (nx, ny), see :func:`pyehl.surfaces.holes.prominence`; `without_spikes` takes
+    `away` is (nx, ny), see :func:`pyehl.surfaces.holes.prominence`; `without_spikes` takes
     a threshold. Threshold and number of points beyond it; None if more than a few have to go.
     """
-    allowed = float(np.quantile(prominence, 1.0 - FEW))
+    allowed = float(np.quantile(away, 1.0 - FEW))
     low = max(LEAST_THRESHOLD, allowed)
-    high = float(prominence.max())
-    if low >= high or not carries(without_spikes(low)):
+    high = float(away.max())
+    if low >= high or not full(without_spikes(low)):
         return None
     least, most = math.log(low), math.log(high)
     while most - least > THRESHOLD_TOLERANCE:
         middle = 0.5 * (least + most)
-        if carries(without_spikes(math.exp(middle))):
+        if full(without_spikes(math.exp(middle))):
             least = middle
         else:
             most = middle
     # a threshold that a person would write, on the safe side
     rounded = float(f"{math.exp(least):.2g}")
-    if rounded > math.exp(least) or rounded < low or not carries(without_spikes(rounded)):
+    if rounded > math.exp(least) or rounded < low or not full(without_spikes(rounded)):
         rounded = math.exp(least)
-    return rounded, int(np.count_nonzero(prominence > rounded))
+    return rounded, int(np.count_nonzero(away > rounded))
 
 
 def within_range(below: Callable[[float], float], shortest: float, longest: float) -> float | None:
@@ -153,3 +156,22 @@ def remedies_of(tile: Topography) -> tuple[str, ...]:
         return ()
     found = tile.preparation.record.findings
     return tuple(f"{f.remedy} ({f.kind})" for f in found if f.kind in ("form", "line offsets"))
+
+
+def spikes_of(
+    made: Preparation,
+    without_spikes: Callable[[float], Topography],
+    full: Full,
+) -> tuple[float, int] | None:
+    """Threshold that carries, and the number of points beyond it."""
+    heights = made.scan.heights
+    if any(made.options.crop):
+        nx, ny = heights.shape
+        pixel = (made.scan.length_x / nx, made.scan.length_y / ny)
+        heights = cropped(heights, pixel, made.options.crop)
+    try:
+        away = prominence(heights)
+    except ValueError:
+        # no spread to tell spikes by
+        return None
+    return suggested_outliers(away, without_spikes, full)

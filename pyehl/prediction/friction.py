@@ -165,21 +165,20 @@ def passed(
 
 
 def too_high(height: float) -> str:
-    """Say that the deformed roughness is higher than the film bears, by a height [m]."""
-    return (
-        f"the deformed roughness is {height * 1e9:.3g} nm higher than the film bears: no full film"
-    )
+    """Say that the deformed roughness is higher than the film sustains, by a height [m]."""
+    much = f"{height * 1e9:.3g} nm"
+    return f"the deformed roughness is {much} higher than the film sustains: no full film"
 
 
-def broken(friction: RoughFriction, borne: float) -> RoughFriction:
+def broken(friction: RoughFriction, sustained: float) -> RoughFriction:
     """Return a prediction whose film ends between its positions: no film, no ratio.
 
-    `borne`: least of what the film bears less the deformed roughness [m].
+    `sustained`: least of what the film sustains less the deformed roughness [m].
     """
     return replace(
         friction,
         status="film breakdown",
-        message=too_high(-borne),
+        message=too_high(-sustained),
         mu_ratio=math.nan,
         mu_ratio_min=math.nan,
         mu_ratio_max=math.nan,

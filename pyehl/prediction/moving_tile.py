@@ -29,7 +29,7 @@ which both have moved along it [a]."""
 
 REACH = 1.0
 """Friction is taken within this distance from the centre [semi-axes]: in the dry contact, outside
-of which the viscosity is hardly raised."""
+of which the viscosity is hardly raised. 0.95 and 1.05 change mu_r/mu_s of Table 1 by 0.02 %."""
 
 
 @dataclass(frozen=True)

@@ -38,6 +38,7 @@ from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
 MAX_TRACKS = 10_000
+"""The mean over as many is known to a hundredth of the spread."""
 
 
 def predict(
@@ -57,7 +58,7 @@ def predict(
     `second_surface` are surfaces before their spectrum is cut and off their track, by default made
     as the case says. `brief`:
     mu_r/mu_s and its errors, bit for bit the same, but no tracks, of the bands the shortest alone,
-    and no search for what would carry where there is no ratio.
+    and no search for a cut-off with which there is a ratio.
 
     InputError if the surface is smooth or a single feature, a map is not usable, the conditions
     are outside the model, or there are too many tracks; OSError if a map cannot be opened.

@@ -10,14 +10,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pyehl import display, library, namelist, schema
-from pyehl.destination import finite
-from pyehl.prediction.bands import BAND_COLUMNS, Band, records
+from pyehl import display, namelist
+from pyehl.prediction.bands import BAND_COLUMNS, Band
 from pyehl.prediction.breakdown import Advice, BelowZero
-from pyehl.prediction.deformed import deformed_surface
-from pyehl.prediction.errors import cutoff_error, model_error, outside_range, why_no_error
+from pyehl.prediction.errors import model_error, outside_range, why_no_error
 from pyehl.prediction.friction import TRACKS, RoughFriction, meaning, thins
-from pyehl.prediction.mixed_lubrication import NO_FRICTION, MixedFilm, contact_numbers
+from pyehl.prediction.mixed_lubrication import NO_FRICTION, MixedFilm
 from pyehl.prediction.model import Model, RoughSurface
 from pyehl.prediction.options import Options
 from pyehl.prediction.passage_friction import Outcome
@@ -25,15 +23,11 @@ from pyehl.prediction.second_surface import (
     SECOND,
     Together,
     arrays,
-    composite_rms,
-    findings_of,
-    second_summary,
-    statistics,
 )
 from pyehl.prediction.smooth import SmoothContact
+from pyehl.prediction.summary import summary_of
 from pyehl.surfaces import Topography, psd_isotropic
 from pyehl.theory.amplitude import component_amplitude_ratio
-from pyehl.theory.friction import absolute_friction
 from pyehl.theory.heat import Heat
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -69,7 +63,7 @@ class Prediction:
     track_count
         Number of tracks.
     advice
-        With the status ``"film breakdown"``: where the film ends, and what would carry.
+        With the status ``"film breakdown"``: where the film ends, and a suggested cut-off.
     together
         The sum of two surfaces that move so; None: there is none.
     mixed
@@ -188,15 +182,15 @@ class Prediction:
         return self.friction.mu_ratio
 
     @property
-    def _ratios(self) -> list[float]:
+    def velocity_ratios(self) -> list[float]:
         """Velocity ratios of the rough surfaces."""
         return [one.velocity_ratio for one in self.surfaces]
 
     @property
     def outside_range(self) -> list[str]:
         """What of the case lies outside the range in which the response was measured; mostly []."""
-        thinning = self.model.contact.thinning
-        found = [outside_range(self.operating, u, self.options, thinning) for u in self._ratios]
+        how = self.options, self.model.contact.thinning
+        found = [outside_range(self.operating, u, *how) for u in self.velocity_ratios]
         return list(dict.fromkeys(name for names in found for name in names))
 
     @property
@@ -219,7 +213,7 @@ class Prediction:
         return why_no_error(*of, friction_alone_thins=alone)
 
     @property
-    def _known(self) -> bool:
+    def is_known(self) -> bool:
         """Whether the model is one whose errors were measured, and the case in its range."""
         return self.options.measured and not self.outside_range
 
@@ -275,87 +269,4 @@ class Prediction:
     @property
     def summary(self) -> dict[str, Any]:
         """What ``summary.json`` holds; None for a number that does not exist."""
-        f, o = self.friction, self.operating
-        tiles = [one.topography for one in self.surfaces]
-        layer = float(self.settings["lubricant"]["boundary_film"]) / o.film_scale
-        together = self.together.tile if self.together else None
-        sigma = composite_rms(tiles, together)
-        lacking = self.mixed is not None and self.mixed.lacks_friction
-        rough = max(f.pressure_max, self.pressure_maximum) if f.status == "predicted" else None
-        values: dict[str, Any] = {
-            "kind": "prediction",
-            "schema_version": schema.VERSION,
-            "status": f.status,
-            "message": f.message,
-            "mu_ratio": f.mu_ratio,
-            "mu_ratio_model_error": self.model_error,
-            "mu_ratio_error_note": self.why_no_error,
-            "mu_ratio_cutoff_error": cutoff_error(self.bands),
-            "outside_range": self.outside_range,
-            "mu_ratio_min": f.mu_ratio_min,
-            "mu_ratio_max": f.mu_ratio_max,
-            "position_error": f.position_error,
-            "mu_ratio_tracks": self.tracks[0],
-            "mu_ratio_tracks_spread": self.tracks[1],
-            "tracks": self.track_count,
-            "film_below_zero_share": self.below.share,
-            "film_breakdown": self.advice.summary if self.advice else None,
-            "positions": int(f.passage.size),
-            "note": self.note,
-            "reduction": self.options.reduction,
-            "smooth": self.options.smooth,
-            "velocity_ratio": self.velocity_ratio,
-            "wavelength_convention": self.options.wavelength_convention,
-            "stiffness": self.options.stiffness,
-            "viscosity_law": self.lubricant.viscosity_law,
-            "roelands_z": self.lubricant.roelands_z or None,
-            "load_balance": self.options.load_balance,
-            "pressure_viscosity_note": library.alpha_origin(self.text),
-            "shear_law": self.lubricant.shear.law,
-            "slide_to_roll": o.slide_to_roll,
-            **absolute_friction(o, self.lubricant, self.film, f.mu_smooth, f.mu_ratio, self.heat),
-            **({"mu_note": NO_FRICTION} if lacking else {}),
-            "thermal_reduction": o.thermal_reduction,
-            "h_c_m": self.film,
-            "h_c_error_m": self.films.central_film_error * o.film_scale,
-            "h_c_source": self.film_source,
-            "h_min_m": self.film_minimum,
-            "h_min_error_m": self.films.minimum_film_error * o.film_scale,
-            "p_max_Pa": self.pressure_maximum,
-            "p_max_rough_Pa": rough,
-            "lambda_ratio": self.film_minimum / sigma if sigma > 0.0 else None,
-            "lambda_ratio_central": self.film / sigma if sigma > 0.0 else None,
-            **statistics(tiles[0], f.responses[0]),
-            "surface_findings": findings_of(tiles),
-            **(
-                second_summary(tiles, f.responses[1], self._ratios[1], together)
-                if len(tiles) > 1
-                else {}
-            ),
-            **deformed_surface(
-                f,
-                self.film_minimum,
-                self.options.film_limit,
-                self._ratios,
-                known=self._known,
-                together=self.together,
-            ),
-            **contact_numbers(self.mixed, layer, known=self._known),
-            "cavitated_share": f.cavitated_share,
-            "cavitated_friction": f.cavitated_friction,
-            "load_error": f.load_error,
-            "moes_m": o.moes_m,
-            "moes_l": o.moes_l,
-            "si": o.si,
-            "hertz_radius_m": o.hertz_radius,
-            "hertz_pressure_Pa": o.hertz_pressure,
-            "film_scale_m": o.film_scale,
-            "bands": records(self.bands),
-            "spectrum_beside": list(self.beside) or None,
-            "wall_seconds": self.seconds,
-        }
-        if o.radius_ratio != 1.0:
-            values |= {"radius_ratio": o.radius_ratio, "semi_axis_y_m": o.semi_axis_y}
-            values["ellipticity"] = o.ellipse.ellipticity
-        told = {key: finite(value) for key, value in values.items()}
-        return told | {"judgement": library.conclude(told).judgement}
+        return summary_of(self)

@@ -259,9 +259,9 @@ class RoughContact(ShearedContact):
         self.count += 1
         imbalance = 1.5 * float(gain.sum()) / self.points
         self.imbalance = max(self.imbalance, abs(imbalance))
-        borne = float((self.ends * smooth - loss).min(initial=math.inf))
-        if borne <= 0.0:
-            self.thinnest = min(self.thinnest, borne)
+        sustained = float((self.ends * smooth - loss).min(initial=math.inf))
+        if sustained <= 0.0:
+            self.thinnest = min(self.thinnest, sustained)
             return math.nan
         self.thinnest = min(self.thinnest, float(film.min(initial=math.inf)))
         pulling = np.flatnonzero(pressure <= 0.0)

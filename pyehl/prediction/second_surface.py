@@ -18,7 +18,8 @@ from pyehl.types import Array
 SECOND = "second_"
 """Before the names of what belongs to the second surface."""
 MOST_TILES = 12
-"""Tiles beside each other, along one way, that are added to those of the other surface."""
+"""Tiles beside each other, along one way, that are added to those of the other surface, as many as
+passages of a common period (:data:`pyehl.prediction.relative_positions.MOST_PASSAGES`)."""
 
 
 def arrays(tile: Topography, response: Response, prefix: str = "") -> dict[str, Array]:

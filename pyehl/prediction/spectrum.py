@@ -13,7 +13,10 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from pyehl.errors import InputError
 from pyehl.prediction.options import FIRST_POSITIONS
+from pyehl.surfaces import MAX_PIXELS, Topography, resampled
+from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Array, Complex, Indices
 
 RADIUS_PIXELS = 48
@@ -156,3 +159,23 @@ def longer_waves(
     part = spectrum.kept(index, (nx, ny))
     part.values[part.q >= limit] = 0.0
     return part, index
+
+
+def working_grid(topography: Topography, operating: OperatingPoint, positions: int) -> Topography:
+    """Return the tile on a grid that resolves the contact and has room for the positions.
+
+    InputError if that takes too many pixels.
+    """
+    nx, ny = topography.shape
+    finest = operating.hertz_radius / RADIUS_PIXELS, operating.semi_axis_y / RADIUS_PIXELS
+    want_x = max(nx, math.ceil(topography.length_x / finest[0]))
+    want_y = max(ny, math.ceil(topography.length_y / finest[1]))
+    multiple = positions or FIRST_POSITIONS * 4
+    want_x = multiple * math.ceil(want_x / multiple)
+    if want_x * want_y > MAX_PIXELS:
+        raise InputError(
+            f"{topography.origin}: a tile of {topography.length_x:.3g} x "
+            f"{topography.length_y:.3g} m would need {want_x} x {want_y} pixels to resolve a "
+            f"contact of radius {operating.hertz_radius:.3g} m; cut a part out of it"
+        )
+    return resampled(topography, (want_x, want_y))

@@ -42,7 +42,7 @@ class Task:
     folder: str = ""  # where its results go; '' for nowhere
     seconds: float = 0.0  # how long it may take, by estimate
     shares: str = ""  # what it has in common with others; those go to one worker where possible
-    # A prediction with its tracks, bands and what would carry; else mu_r/mu_s and its errors
+    # A prediction with its tracks, bands and a suggested cut-off; else mu_r/mu_s and its errors
     full: bool = False
 
     def message(self) -> dict[str, Any]:

@@ -14,7 +14,7 @@ from pyehl.plots.stribeck import Curve, draw_stribeck
 from pyehl.prediction import smooth
 from pyehl.prediction.contact_solver import Compliance, lifted
 from pyehl.prediction.predict import predict
-from pyehl.prediction.resolved_inlet import touching_points
+from pyehl.prediction.smooth_case import touching_points
 from pyehl.schema import summary_of as scalars_of
 from pyehl.studies.curve_contact import lift_off
 from pyehl.theory.friction import OF_ROUGH

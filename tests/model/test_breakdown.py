@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Where the film ends, what would carry, and many tracks."""
+"""Where the film ends, the suggested cut-off wavelength, and many tracks."""
 
 from dataclasses import replace
 
@@ -8,7 +8,7 @@ import pytest
 
 from pyehl import surfaces
 from pyehl.prediction.breakdown import BelowZero, advise, below_zero
-from pyehl.prediction.cutoff_search import carrying_outliers, carrying_wavelength
+from pyehl.prediction.cutoff_search import suggested_outliers, suggested_wavelength
 from pyehl.prediction.model import Model
 from pyehl.prediction.predict import predict
 from pyehl.surfaces import Topography, filtered
@@ -79,11 +79,11 @@ def test_cut_off_that_carries_is_found():
         return np.abs(filtered(tile, shortest).heights).max() < 0.8
 
     limits = 2.0 * LENGTH / 256, LENGTH
-    found = carrying_wavelength(*limits, carries)
+    found = suggested_wavelength(*limits, carries)
     assert carries(found)
     assert not carries(0.9 * found)
     assert short < found < 1.15 * short
-    assert carrying_wavelength(*limits, lambda shortest: False) is None
+    assert suggested_wavelength(*limits, lambda shortest: False) is None
 
 
 def test_threshold_that_carries_is_found():
@@ -93,14 +93,14 @@ def test_threshold_that_carries_is_found():
     def without(threshold):
         return Topography(np.where(away > threshold, 0.0, away), (1e-4, 1e-4))
 
-    found = carrying_outliers(away, without, lambda tile: tile.heights.max() < 100.0)
+    found = suggested_outliers(away, without, lambda tile: tile.heights.max() < 100.0)
     assert found is not None
     threshold, points = found
     assert points == 2
     assert 40.0 < threshold < 300.0
-    assert carrying_outliers(away, without, lambda tile: False) is None
+    assert suggested_outliers(away, without, lambda tile: False) is None
     # no spike stands out
-    assert carrying_outliers(np.ones((9, 9)), without, lambda tile: True) is None
+    assert suggested_outliers(np.ones((9, 9)), without, lambda tile: True) is None
 
 
 @pytest.fixture

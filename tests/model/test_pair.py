@@ -272,9 +272,9 @@ def test_what_would_carry():
     about = found.summary["film_breakdown"]
     assert about["film_m"] < 0.0
     assert 0.0 < about["share_of_contact"] < 1.0
-    assert about["carrying_shortest_wavelength_m"] is None
-    cut = about["carrying_second_shortest_wavelength_m"]
-    both = about["carrying_both_shortest_wavelength_m"]
+    assert about["suggested_shortest_wavelength_m"] is None
+    cut = about["suggested_second_shortest_wavelength_m"]
+    both = about["suggested_both_shortest_wavelength_m"]
     assert 0.0 < both <= cut
     told = "\n".join(found.advice.report())
     assert "of surface meets x = " in told
