@@ -51,6 +51,6 @@ lubricant at these pressures has no meaning.
 from pyehl.prediction.bands import Band
 from pyehl.prediction.contact import Response
 from pyehl.prediction.friction import RoughFriction
-from pyehl.prediction.options import Options
+from pyehl.prediction.options import ModelOptions
 
-__all__ = ["Band", "Options", "Response", "RoughFriction"]
+__all__ = ["Band", "ModelOptions", "Response", "RoughFriction"]

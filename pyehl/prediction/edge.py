@@ -17,7 +17,8 @@ from pyehl.theory.ellipse import Ellipse
 from pyehl.theory.ellipse_edge import ellipse_edge
 from pyehl.types import Array, Complex
 
-# The polynomials of the edge of a circle are held constant beyond this radius
+# The polynomials of the edge of a circle are held constant beyond this radius; 0.8 and 0.9 change
+# mu_r/mu_s of Table 1 by 1e-6
 EDGE_RADIUS = 0.85
 
 

@@ -26,7 +26,7 @@ from pyehl.prediction.moving_tile import (
     slipped,
     station_weights,
 )
-from pyehl.prediction.options import Options, turned
+from pyehl.prediction.options import ModelOptions, turned
 from pyehl.prediction.passage_friction import mean
 from pyehl.prediction.response import Transfer
 from pyehl.prediction.smooth import SmoothContact, solve_contact
@@ -147,7 +147,7 @@ def _model(
             RoughSurface(tile, float(keys["velocity_ratio"]), float(front), groups=(group,))
         )
     lubricant = Lubricant.from_settings(settings)
-    return Model(tuple(found), contact, operating, lubricant, Options(), mesh)
+    return Model(tuple(found), contact, operating, lubricant, ModelOptions(), mesh)
 
 
 class _GridWaves:

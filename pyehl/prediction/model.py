@@ -15,7 +15,7 @@ T = driven + free e^(i (U-1) k_x (X+1)) :func:`pyehl.theory.transport.transport`
                                         the free wave), :func:`pyehl.theory.response.inlet_transfer`
 delta p = E'|q|/4 (1 - T) rr(q), eq. 11 :func:`pyehl.theory.transport.wave_pressure`,
                                         :meth:`response.Transfer.gain` (finite contact)
-sum over all waves, eq. 12              :meth:`waves.Waves.of`, :class:`moving_tile.PixelTile`,
+sum over all waves, eq. 12              :meth:`waves.WaveTiles.of`, :class:`moving_tile.PixelTile`,
                                         :class:`moving_tile.LineTile`
 edge of the contact                     :meth:`edge.Edge.of`
 second order: gamma (P^2 - s^2), f(t/H) :meth:`second_order.SecondOrder.of`,
@@ -51,7 +51,7 @@ from pyehl.errors import InputError
 from pyehl.prediction.contact import HertzContact, Response
 from pyehl.prediction.edge import Edge
 from pyehl.prediction.moving_tile import Component, PixelTile
-from pyehl.prediction.options import Options
+from pyehl.prediction.options import ModelOptions
 from pyehl.prediction.relative_positions import Positions, RelativePositions, TilePositions
 from pyehl.prediction.response import Transfer
 from pyehl.prediction.rough_contact import RoughContact
@@ -96,7 +96,7 @@ class Model:
     contact: SmoothContact
     operating: OperatingPoint
     lubricant: Lubricant
-    options: Options
+    options: ModelOptions
     mesh: float = 0.0  # mesh size on which the waves leak [a]; 0: as in nature
 
     @classmethod
@@ -106,7 +106,7 @@ class Model:
         contact: SmoothContact,
         operating: OperatingPoint,
         lubricant: Lubricant,
-        options: Options,
+        options: ModelOptions,
         velocity_ratio: float,
         mesh: float = 0.0,
     ) -> Model:

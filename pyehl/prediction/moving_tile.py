@@ -16,7 +16,7 @@ from pyehl import extension
 from pyehl.prediction.edge import Edge
 from pyehl.prediction.response import AXIS, LINES, STATIONS, Transfer
 from pyehl.prediction.spectrum import Spectrum
-from pyehl.prediction.waves import REFINEMENT, Waves
+from pyehl.prediction.waves import REFINEMENT, WaveTiles
 from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Array, Complex, Single
 
@@ -98,7 +98,7 @@ class PixelTile:
     ) -> None:
         self.wave, self.stride, self.pixel = wave, stride, wave.spectrum.pixel
         ratio, transfer = wave.velocity_ratio, wave.transfer
-        self.waves = Waves.of(wave.spectrum, transfer, central_film, ratio, stride)
+        self.waves = WaveTiles.of(wave.spectrum, transfer, central_film, ratio, stride)
         reach = REACH, REACH * operating.ellipse.ellipticity
         half = [int(r / (stride * p)) for r, p in zip(reach, self.pixel, strict=True)]
         self.rows, self.columns = (np.arange(-n, n + 1, dtype=np.int32) * stride for n in half)
@@ -150,7 +150,9 @@ class LineTile:
         x, y, across = points
         self.edge, self.track, self.number = wave.edge, track, number
         ratio, bent = wave.velocity_ratio, wave.transfer.bent
-        self.waves = Waves.of(wave.spectrum, wave.transfer, central_film, ratio, lines=y - track)
+        self.waves = WaveTiles.of(
+            wave.spectrum, wave.transfer, central_film, ratio, lines=y - track
+        )
         self.columns = np.arange(y.size, dtype=np.int32)
         self.beside = self.waves.beside(self.columns, *two_lines(across))
         self.scale = REFINEMENT / wave.spectrum.pixel[0]

@@ -47,7 +47,7 @@ def turned(settings: Settings) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class Options:
+class ModelOptions:
     """How the model is read: the group ``psd`` of a case, whose schema has the allowed words."""
 
     # What is left of a wave in the contact: ``"response"``, the complex response of
@@ -77,7 +77,7 @@ class Options:
         return self.reduction == "response" and self.smooth == "solved"
 
     @classmethod
-    def from_settings(cls, settings: Settings) -> Options:
+    def from_settings(cls, settings: Settings) -> ModelOptions:
         """From the group ``psd`` of a resolved case."""
         group = settings["psd"]
         return cls(**{field.name: group[field.name] for field in fields(cls)})

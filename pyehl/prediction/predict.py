@@ -27,7 +27,7 @@ from pyehl.prediction.folder import read_contact
 from pyehl.prediction.friction import TRACKS, RoughFriction, broken
 from pyehl.prediction.mixed_lubrication import mixed_film, with_contact
 from pyehl.prediction.model import Model, RoughSurface
-from pyehl.prediction.options import Options, unpredictable
+from pyehl.prediction.options import ModelOptions, unpredictable
 from pyehl.prediction.passage_friction import Outcome, run
 from pyehl.prediction.result import Prediction
 from pyehl.prediction.second_surface import Together
@@ -163,7 +163,7 @@ def _spike_removal(
     return lambda threshold: surfaces.without_spikes(one.topography, threshold, group)
 
 
-def _options(settings: Mapping[str, Mapping[str, Any]], tracks: int) -> Options:
+def _options(settings: Mapping[str, Mapping[str, Any]], tracks: int) -> ModelOptions:
     """How the model is read; InputError where nothing is predicted of the case."""
     if not 1 <= tracks <= MAX_TRACKS:
         raise InputError(
@@ -173,8 +173,8 @@ def _options(settings: Mapping[str, Mapping[str, Any]], tracks: int) -> Options:
     why = unpredictable(settings)
     if why:
         raise InputError(why)
-    options = Options.from_settings(settings)
-    as_by_default = Options(positions=options.positions, film_limit=options.film_limit)
+    options = ModelOptions.from_settings(settings)
+    as_by_default = ModelOptions(positions=options.positions, film_limit=options.film_limit)
     if OperatingPoint.from_settings(settings).radius_ratio != 1.0 and options != as_by_default:
         raise InputError(
             "psd: the model of the paper, and what is between it and the response, is for circular "
@@ -197,7 +197,7 @@ def _contact(
     settings: Mapping[str, Mapping[str, Any]],
     operating: OperatingPoint,
     lubricant: Lubricant,
-    options: Options,
+    options: ModelOptions,
     folder: str | os.PathLike[str] | None,
 ) -> SmoothContact:
     """Pressure and film under the roughness, of a result folder if there is one."""

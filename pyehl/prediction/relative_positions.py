@@ -41,7 +41,8 @@ LATTICES = (9, 13, 19, 27)
 """m of the lattices of a mean over all positions, the next one where one is not enough: each has
 about twice as many positions as the one before."""
 SHORT_LATTICE = 7
-"""m of the lattice of a mean over a few positions."""
+"""m of the lattice of a mean over a few positions: in 48 of them no product of waves, up to the
+third of each of the two tiles, has a mean."""
 PER_PASSAGE = 16
 """Positions per passage of a mean over a few of them along a line."""
 

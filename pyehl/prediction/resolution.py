@@ -9,7 +9,7 @@ from pyehl import lengths, surfaces
 from pyehl.case import Case
 from pyehl.errors import EhlError, InputError
 from pyehl.prediction.model import Model, RoughSurface
-from pyehl.prediction.options import Options, unpredictable
+from pyehl.prediction.options import ModelOptions, unpredictable
 from pyehl.prediction.passage_friction import run_and_below
 from pyehl.prediction.smooth import solve_contact
 from pyehl.prediction.spectrum import Spectrum
@@ -113,7 +113,7 @@ def resolution(case: Case, tiles: Mapping[str, Topography] | None = None) -> Res
         RoughSurface(tile, float(keys["velocity_ratio"]), float(keys["x_start"]))
         for (tile, _), keys in zip(found, rough, strict=True)
     )
-    model = Model(rough_tiles, contact, operating, lubricant, Options())
+    model = Model(rough_tiles, contact, operating, lubricant, ModelOptions())
     friction, below = run_and_below(model, NODES * mesh, CARRIED * mesh)
     if not math.isfinite(friction.mu_ratio):
         raise EhlError(f"{friction.status}: {friction.message}")

@@ -21,7 +21,8 @@ from pyehl.theory.transport import Zone, free_stiffness, transport, wave_pressur
 from pyehl.types import Array, Complex, Indices
 
 STATIONS = np.array([-0.5, 0.0, 0.5])
-"""Where the waves are made, along the motion [a]; between them they are interpolated."""
+"""Where the waves are made, along the motion [a]; between them they are interpolated. Two more, at
+-0.25 and 0.25, change mu_r/mu_s of Table 1 by 0.06 % and, at a velocity ratio of 1.2, by 0.2 %."""
 MIDDLE = 1
 """The one of them at X = 0."""
 CENTRE = STATIONS[: MIDDLE + 1]

@@ -17,7 +17,7 @@ from pyehl.prediction.errors import model_error, outside_range, why_no_error
 from pyehl.prediction.friction import TRACKS, RoughFriction, meaning, thins
 from pyehl.prediction.mixed_lubrication import NO_FRICTION, MixedFilm
 from pyehl.prediction.model import Model, RoughSurface
-from pyehl.prediction.options import Options
+from pyehl.prediction.options import ModelOptions
 from pyehl.prediction.passage_friction import Outcome
 from pyehl.prediction.second_surface import (
     SECOND,
@@ -108,7 +108,7 @@ class Prediction:
         return self.model.lubricant
 
     @property
-    def options(self) -> Options:
+    def options(self) -> ModelOptions:
         """How the model was read."""
         return self.model.options
 

@@ -35,7 +35,7 @@ from pyehl.prediction.moving_tile import (
 from pyehl.prediction.response import STATIONS
 from pyehl.prediction.second_order import FILM_ENDS, film_left
 from pyehl.prediction.smooth import SmoothContact
-from pyehl.prediction.waves import Waves
+from pyehl.prediction.waves import WaveTiles
 from pyehl.theory.disc import RIM_ANGLES
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -166,7 +166,7 @@ class RoughContact(ShearedContact):
 
     def add_free(
         self,
-        waves: Waves,
+        waves: WaveTiles,
         beside: Single | None,
         places: tuple[NDArray[np.int32], Single],
         columns: NDArray[np.int32],
@@ -176,7 +176,7 @@ class RoughContact(ShearedContact):
         """Add free waves to loss of film and gain of pressure (m, n, 2), moved by some rows.
 
         `places` are the row before each point (m, 1 or n) and the share of the next one; columns
-        (n,); `beside`: :meth:`Waves.beside`.
+        (n,); `beside`: :meth:`WaveTiles.beside`.
         """
         if waves.free is None or beside is None:
             return

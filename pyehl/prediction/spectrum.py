@@ -19,7 +19,7 @@ from pyehl.surfaces import MAX_PIXELS, Topography, resampled
 from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Array, Complex, Indices
 
-RADIUS_PIXELS = 48
+WORKING_PIXELS = 48
 """Pixels per semi-axis below which a coarse map is interpolated."""
 
 
@@ -138,7 +138,7 @@ def _fewer_pixels(pixels: int, length: float, limit: float, semi_axis: float) ->
     if math.isinf(limit):
         return pixels
     highest = int(limit * length / (2.0 * math.pi))
-    few = max(2 * highest + 2, math.ceil(RADIUS_PIXELS * length / semi_axis))
+    few = max(2 * highest + 2, math.ceil(WORKING_PIXELS * length / semi_axis))
     few = FIRST_POSITIONS * math.ceil(few / FIRST_POSITIONS)
     return few if few < pixels else pixels
 
@@ -167,7 +167,7 @@ def working_grid(topography: Topography, operating: OperatingPoint, positions: i
     InputError if that takes too many pixels.
     """
     nx, ny = topography.shape
-    finest = operating.hertz_radius / RADIUS_PIXELS, operating.semi_axis_y / RADIUS_PIXELS
+    finest = operating.hertz_radius / WORKING_PIXELS, operating.semi_axis_y / WORKING_PIXELS
     want_x = max(nx, math.ceil(topography.length_x / finest[0]))
     want_y = max(ny, math.ceil(topography.length_y / finest[1]))
     multiple = positions or FIRST_POSITIONS * 4

@@ -3,7 +3,7 @@
 
 from dataclasses import replace
 
-from pyehl.prediction import Band, Options, Response, RoughFriction
+from pyehl.prediction import Band, ModelOptions, Response, RoughFriction
 from pyehl.prediction.model import Model
 from pyehl.prediction.passage_friction import run
 from pyehl.prediction.smooth import hertz_contact
@@ -17,10 +17,10 @@ def passage(
     operating: OperatingPoint,
     oil: Lubricant,
     film: float,
-    options: Options | None = None,
+    options: ModelOptions | None = None,
 ) -> Model:
     """A tile in a semi-ellipse of pressure and a uniform film [m]."""
-    read = replace(options or Options(), reduction="amplitude", smooth="hertz")
+    read = replace(options or ModelOptions(), reduction="amplitude", smooth="hertz")
     contact = hertz_contact(film / operating.film_scale, "given")
     return Model.of_one(tile, contact, operating, oil, read, 1.01)
 
@@ -30,7 +30,7 @@ def predict_friction(
     operating: OperatingPoint,
     oil: Lubricant,
     film: float,
-    options: Options | None = None,
+    options: ModelOptions | None = None,
 ) -> RoughFriction:
     """Friction over a passage."""
     return run(passage(tile, operating, oil, film, options), 0, brief=True)[0]
@@ -44,7 +44,7 @@ def contributions(
 
 
 def response(
-    tile: Topography, operating: OperatingPoint, options: Options | None = None
+    tile: Topography, operating: OperatingPoint, options: ModelOptions | None = None
 ) -> Response:
     """Pressure and deformed roughness of a tile, in a film of a metre."""
     return predict_friction(tile, operating, Lubricant(), 1.0, options).response

@@ -13,7 +13,7 @@ from pyehl import cli
 from pyehl.prediction import second_surface
 from pyehl.prediction.breakdown import of_model
 from pyehl.prediction.model import Model, RoughSurface
-from pyehl.prediction.options import Options
+from pyehl.prediction.options import ModelOptions
 from pyehl.prediction.passage_friction import run
 from pyehl.prediction.relative_positions import RelativePositions, common_passages
 from pyehl.prediction.response import Transfer
@@ -52,13 +52,13 @@ def contact():
 
 
 def alone(contact, tile, ratio, **options) -> Model:
-    return Model.of_one(tile, contact, POINT, OIL, Options(**options), ratio)
+    return Model.of_one(tile, contact, POINT, OIL, ModelOptions(**options), ratio)
 
 
 def pair(contact, tiles, ratios, fronts=(-2.5, -2.5)) -> Model:
     of_each = zip(tiles, ratios, fronts, (("surface",), ("second_surface",)), strict=True)
     rough = (RoughSurface(tile, u, front, groups=group) for tile, u, front, group in of_each)
-    return Model(tuple(rough), contact, POINT, OIL, Options())
+    return Model(tuple(rough), contact, POINT, OIL, ModelOptions())
 
 
 def one_transfer(spectrum, zone, moes, ratio, **options) -> Transfer:
@@ -202,7 +202,7 @@ def test_positions():
 def test_what_is_left_undecided(contact):
     found, _, _ = run(pair(contact, (rough(3), rough(4, length=3.7e-4)), (1.05, 0.95)), 0)
     more = pair(contact, (rough(3), rough(4, length=3.7e-4)), (1.05, 0.95))
-    finer, _, _ = run(replace(more, options=Options(positions=1600)), 0)
+    finer, _, _ = run(replace(more, options=ModelOptions(positions=1600)), 0)
     assert finer.passage.size == 1680
     error = abs(found.mu_ratio / finer.mu_ratio - 1.0)
     assert error < found.position_error + finer.position_error < 0.01

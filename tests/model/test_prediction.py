@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The prediction by the response of the contact: its parts and its limits."""
 
+import importlib
 import re
 from dataclasses import replace
 
@@ -10,12 +11,12 @@ import scipy.interpolate
 import scipy.ndimage
 
 import pyehl
-from pyehl.prediction import moving_tile, rough_contact, second_order
+from pyehl.prediction import model, moving_tile, rough_contact, second_order
 from pyehl.prediction.errors import KNOWN_RATIO
 from pyehl.prediction.folder import read_contact
 from pyehl.prediction.friction import outcome
 from pyehl.prediction.model import Model
-from pyehl.prediction.options import Options
+from pyehl.prediction.options import ModelOptions
 from pyehl.prediction.passage_friction import run
 from pyehl.prediction.predict import predict
 from pyehl.prediction.resolution import resolution
@@ -23,7 +24,7 @@ from pyehl.prediction.response import Transfer, _at_amplitude
 from pyehl.prediction.second_order import film_left, loss_at
 from pyehl.prediction.smooth import hertz_contact, solve_contact, zone_of
 from pyehl.prediction.spectrum import Spectrum
-from pyehl.prediction.waves import Waves
+from pyehl.prediction.waves import WaveTiles
 from pyehl.schema import summary_of
 from pyehl.surfaces import Topography, filtered
 from pyehl.theory.lubricant import Lubricant
@@ -45,13 +46,32 @@ def one_transfer(spectrum, zone, moes, ratio, **options) -> Transfer:
 
 
 def passage(contact, tile, ratio=1.01, **options):
-    return Model.of_one(tile, contact, POINT, OIL, Options(**options), ratio)
+    return Model.of_one(tile, contact, POINT, OIL, ModelOptions(**options), ratio)
 
 
 def test_smooth_contact_is_that_of_a_fine_grid(contact):
     # the Richardson limit of two solvers (z = 0.6684), good to 0.2 %
     assert contact.central_film == pytest.approx(0.02459, rel=3e-3)
     assert contact.pressure.max() == pytest.approx(1.004, abs=0.01)
+
+
+def test_every_function_of_the_table_of_equations_exists(root):
+    """In the head of the model, and in the page of the theory."""
+    page = (root / "docs" / "theory" / "prediction.md").read_text(encoding="utf-8")
+    for kind, name in re.findall(r":(\w+):`([\w.]+)`", model.__doc__):
+        parts = (name if name.startswith("pyehl.") else f"pyehl.prediction.{name}").split(".")
+        module, rest = (parts, []) if kind == "mod" else (parts[:3], parts[3:])
+        found = importlib.import_module(".".join(module))
+        for part in rest:
+            found = getattr(found, part)
+    table = page[page.index("## From equation to code") :]
+    rows = re.findall(r"^\|.*\|(.*)\|$", table, re.M)
+    for path in re.findall(r"`(pyehl/[\w/]+\.py)`", table):
+        text = (root / path).read_text(encoding="utf-8")
+        names = re.findall(rf"((?:`[\w.]+`, )+)`{path}`", table)
+        for name in re.findall(r"`([\w.]+)`", "".join(names)):
+            assert f" {name.split('.')[-1]}(" in text or f"class {name}" in text, (path, name)
+    assert len(rows) > 10
 
 
 def test_no_roughness_no_change(contact, table_1):
@@ -70,7 +90,7 @@ def test_a_wave_in_the_contact_is_its_transfer():
     spectrum = Spectrum.of(np.tile(np.cos(q * x)[:, np.newaxis], n), side, side)
     t = np.full(spectrum.values.shape, 0.4 * np.exp(0.6j))
     transfer = Transfer([t] * 3, [0.5 * t] * 3, [0.1 * t] * 8, bent=False)
-    waves = Waves.of(spectrum, transfer, 0.0, 1.2)
+    waves = WaveTiles.of(spectrum, transfer, 0.0, 1.2)
     k = float(stiffness(q))
     film, pressure = np.moveaxis(waves.driven[1], -1, 0)
     assert film[:, 7] == pytest.approx(np.real(0.4 * np.exp(1j * (q * x + 0.6))), abs=1e-6)

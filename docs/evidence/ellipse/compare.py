@@ -21,7 +21,7 @@ import numpy as np
 from cases import HERE, case, read, surface
 from pyehl.prediction.errors import model_error
 from pyehl.prediction.model import Model
-from pyehl.prediction.options import Options
+from pyehl.prediction.options import ModelOptions
 from pyehl.prediction.passage_friction import run
 from pyehl.prediction.smooth import solve_contact
 from pyehl.theory.lubricant import Lubricant
@@ -35,7 +35,7 @@ def prediction(row: dict[str, Any]) -> float:
     settings = case(row).resolve()
     operating, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
     model = Model.of_one(
-        surface(row), solve_contact(settings), operating, oil, Options(), row["velocity_ratio"]
+        surface(row), solve_contact(settings), operating, oil, ModelOptions(), row["velocity_ratio"]
     )
     return run(model, 0, brief=True).friction.mu_ratio
 

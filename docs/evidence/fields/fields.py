@@ -33,7 +33,7 @@ import pyehl  # noqa: E402
 from pyehl import surfaces  # noqa: E402
 from pyehl.prediction import second_order  # noqa: E402
 from pyehl.prediction.model import Model  # noqa: E402
-from pyehl.prediction.options import Options  # noqa: E402
+from pyehl.prediction.options import ModelOptions  # noqa: E402
 from pyehl.prediction.response import Transfer  # noqa: E402
 from pyehl.prediction.rough_contact import RoughContact  # noqa: E402
 from pyehl.prediction.smooth import solve_contact  # noqa: E402
@@ -112,7 +112,7 @@ def passage_of(case: pyehl.Case, tile: Topography) -> Model:
     point, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
     ratio = float(settings["surface"]["velocity_ratio"])
     mesh = 4.0 / (settings["grid"]["points"] - 1.0)
-    return Model.of_one(tile, solve_contact(settings), point, oil, Options(), ratio, mesh)
+    return Model.of_one(tile, solve_contact(settings), point, oil, ModelOptions(), ratio, mesh)
 
 
 def at(

@@ -17,7 +17,7 @@ import numpy as np
 from cases import HERE, case, rows, surface
 from pyehl.prediction.errors import model_error
 from pyehl.prediction.model import Model
-from pyehl.prediction.options import Options
+from pyehl.prediction.options import ModelOptions
 from pyehl.prediction.passage_friction import run
 from pyehl.prediction.smooth import hertz_contact, solve_contact
 from pyehl.theory.film import central_film
@@ -38,8 +38,8 @@ def predictions(row: dict[str, float]) -> tuple[float, float]:
             brief=True,
         ).friction.mu_ratio
         for contact, options in (
-            (solve_contact(settings), Options()),
-            (dry, Options(reduction="amplitude", smooth="hertz")),
+            (solve_contact(settings), ModelOptions()),
+            (dry, ModelOptions(reduction="amplitude", smooth="hertz")),
         )
     ]
     return ratios[0], ratios[1]

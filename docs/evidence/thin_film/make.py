@@ -25,7 +25,7 @@ import numpy as np
 import pyehl
 from pyehl import surfaces
 from pyehl.prediction.model import Model
-from pyehl.prediction.options import Options
+from pyehl.prediction.options import ModelOptions
 from pyehl.prediction.second_order import film_left
 from pyehl.prediction.smooth import solve_contact
 from pyehl.schema import summary_of
@@ -103,7 +103,7 @@ def loss(seed: int, speed: float, flow: str) -> float:
     point, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
     tile = surfaces.from_settings(settings, point, None)
     ratio = float(settings["surface"]["velocity_ratio"])
-    model = Model.of_one(tile, solve_contact(settings), point, oil, Options(), ratio)
+    model = Model.of_one(tile, solve_contact(settings), point, oil, ModelOptions(), ratio)
     waves = model.components()
     contact, pixels = model.rough_contact(waves), waves[0].spectrum.shape[0]
     greatest = 0.0
