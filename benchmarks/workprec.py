@@ -17,7 +17,7 @@ from common import add_list, columns, measure, parser, processor_seconds, say, s
 from figures import draw_work
 
 from pyehl.case import Case
-from pyehl.prediction.of_case import predict
+from pyehl.prediction.predict import predict
 from pyehl.solver import Solver
 from pyehl.types import Row
 

@@ -9,7 +9,7 @@ import numpy as np
 from records import Row, Values, largest, of, read, span
 
 from pyehl.prediction import errors
-from pyehl.prediction.partial import FILM
+from pyehl.prediction.mixed_lubrication import TOUCHING_FILM_ERROR
 from pyehl.studies.curve_contact import lift_off
 from pyehl.theory.operating import OperatingPoint
 
@@ -203,7 +203,7 @@ def partial() -> Values:
     ]
     moes_m, slip = of(rows, "moes_m"), of(rows, "slide_to_roll")
     cases = read("partial/cases.csv")
-    share_of_rms = FILM
+    share_of_rms = TOUCHING_FILM_ERROR
     return locals()
 
 

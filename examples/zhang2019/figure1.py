@@ -12,7 +12,7 @@ from piece import Check, Level, References, Result
 from runs import Runs
 
 from pyehl.case import Case
-from pyehl.prediction import of_case
+from pyehl.prediction.predict import predict
 from pyehl.prediction.result import Prediction
 from pyehl.theory.amplitude import component_amplitude_ratio
 
@@ -41,7 +41,7 @@ class Flow:
 def run(runs: Runs, level: Level) -> Flow:
     """Predict the surface of the seed by both models, and put the steps together."""
     paper, ours = (
-        of_case.predict(case.resolve(), case.text, brief=True)
+        predict(case.resolve(), case.text, brief=True)
         for case in (
             Case.from_text(CASE + MODELS[model], f"surface.seed={SEED}", origin="figure 1")
             for model in ("paper", "response")
