@@ -5,6 +5,8 @@ passed by reference, never copied: another dtype or order is refused with a Valu
 routine that can fail ends its results with (status, message).
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -153,7 +155,6 @@ class _Surfaces:
     def film_moved(self, *given: _Array | _Indices) -> None: ...
 
 class _Lubricants:
-    def oils(self, room: _Indices) -> int: ...
     def properties(
         self, group: bytes, p: _Array, rise: _Array, log_viscosity: _Array, density: _Array
     ) -> tuple[int, bytes]: ...
@@ -163,6 +164,20 @@ class _Lubricants:
     ) -> None: ...
     def sliding_stresses(self, law: int, exponent: float, b: _Array, stress: _Array) -> None: ...
 
+class _Cases:
+    # what makes the contact, see fortran/bind/ehl_f2py_case.f90; then border, smooth, domain, nodes
+    def operating(
+        self, *contact: float
+    ) -> tuple[float, float, float, float, float, _Array, int]: ...
+    def grid_defaults(
+        self, *contact_and_grid: float | Sequence[float]
+    ) -> tuple[int, _Array, int, int]: ...
+    def inlet(self, group: bytes) -> tuple[float, float, float, int, bytes, bytes]: ...
+    def sheet(
+        self, temperature: float, viscosities: Sequence[float], density_15: float, expansion: float
+    ) -> tuple[float, float]: ...
+
+ehl_f2py_case: _Cases
 ehl_f2py_solver: _Solver
 ehl_f2py_predicted: _Predicted
 ehl_f2py_functions: _Functions

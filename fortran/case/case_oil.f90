@@ -86,7 +86,7 @@ contains
          call make_viscosity(l, own_law(l), 1.0_dp, law, status)
          if (status%failed()) return
          if (.not. ieee_is_finite(law%ambient_viscosity)) then
-            call schema%refuse(law_key(schema), "the law '"//own_law(l)//"' has no viscosity at "// &
+            call schema%refuse(law_key(schema), "the law '"//trim(own_law(l))//"' has no viscosity at "// &
                                to_text(l%temperature)//" degC", "a temperature and constants at which the oil is liquid", status)
             return
          end if

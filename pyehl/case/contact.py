@@ -66,7 +66,9 @@ def check_operating_point(draft: Draft) -> None:
     least = LEAST_STRAIN * c.reduced_modulus
     if not least <= point.pressure <= 2e10:
         what = f"the Hertz pressure is {short(point.pressure)} Pa"
-        expected = f"a Hertz pressure between {short(least)} Pa (4e-7 of reduced_modulus) and 2e10 Pa"
+        expected = (
+            f"a Hertz pressure between {short(least)} Pa (4e-7 of reduced_modulus) and 2e10 Pa"
+        )
     elif point.length > c.radius_x:
         what = f"the Hertz radius {short(point.length)} m exceeds that of the ball"
         expected = "a contact much smaller than the ball"

@@ -49,7 +49,9 @@ class Draft:
 
     def first_given(self, names: Iterable[str]) -> str:
         """Of some keys give the one that stands first: file before options; '' for none."""
-        return min((n for n in names if n in self.given), key=lambda n: self.given[n][:2], default="")
+        return min(
+            (n for n in names if n in self.given), key=lambda n: self.given[n][:2], default=""
+        )
 
     def refuse(self, name: str, what: str, expected: str) -> NoReturn:
         """Refuse the case at the value of a key."""

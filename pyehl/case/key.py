@@ -66,14 +66,15 @@ class Key:
         return {word.lower(): word for word in self.choices}
 
     @cached_property
-    def _interval(self) -> tuple[float, float, bool, bool]:
+    def interval(self) -> tuple[float, float, bool, bool]:
+        """Ends of what is allowed, whether the lower one is not, and whether 0 is besides."""
         inner = self.allowed.removeprefix("0 or ")
         low, high = inner[1:-1].split(",")
         return float(low), float(high), inner[0] == "(", inner != self.allowed
 
     def allows(self, value: float) -> bool:
         """Whether a number lies in the allowed interval."""
-        low, high, is_open, or_zero = self._interval
+        low, high, is_open, or_zero = self.interval
         return (low <= value <= high and not (is_open and value == low)) or (
             or_zero and value == 0.0
         )
@@ -113,7 +114,7 @@ def whole(default: int, allowed: str, meaning: str) -> Any:  # noqa: ANN401
     return _field("whole", default, "-", allowed, meaning)
 
 
-def truth(default: bool, meaning: str) -> Any:  # noqa: ANN401, FBT001
+def truth(default: bool, meaning: str) -> Any:  # noqa: ANN401
     """Describe a key that takes a truth value."""
     return _field("truth", default, "-", ".true.|.false.", meaning)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The lubricant of a case: oils by name, laws with constants of an oil, laws of the shear stress."""
+"""The lubricant of a case: oils by name, laws of viscosity and of the shear stress."""
 
 import math
 
@@ -28,7 +28,7 @@ CONTACT_IN_SI = "load, mean_velocity, radius and reduced_modulus"
 
 
 def complete_oil(draft: Draft) -> None:
-    """Take constants of an oil where their keys are not given; make the name of a table absolute."""
+    """Take the constants of an oil where their keys are not given, and find a table."""
     oil = draft.settings.lubricant
     # the data sheet would rule over what was given
     vogel = draft.is_given("lubricant", "vogel_viscosity", "vogel_b", "vogel_c")
@@ -79,8 +79,8 @@ def _take_table(draft: Draft) -> None:
     coldest, warmest = tables[0].temperature, tables[-1].temperature
     if len(tables) == 1 and abs(coldest - oil.temperature) > SAME_TEMPERATURE:
         raise InputError(
-            f"{oil.table}: error: the table has the single temperature {to_text(coldest)} degC, and "
-            f"lubricant.temperature = {to_text(oil.temperature)}\n"
+            f"{oil.table}: error: the table has the single temperature {to_text(coldest)} degC, "
+            f"and lubricant.temperature = {to_text(oil.temperature)}\n"
             "expected: that temperature, or a table of two or more"
         )
     if not draft.is_given("lubricant", "range_temperature_min"):
@@ -211,8 +211,8 @@ def check_law(draft: Draft) -> None:
         if is_simple or falls.size == 0:
             continue
         where = (
-            f"{short(pressure[falls[0] + 1])} Pa and {to_text(oil.temperature)} degC, and the Hertz "
-            f"pressure is {short(hertz)} Pa"
+            f"{short(pressure[falls[0] + 1])} Pa and {to_text(oil.temperature)} degC, and the "
+            f"Hertz pressure is {short(hertz)} Pa"
         )
         draft.refuse(
             key,
@@ -231,9 +231,7 @@ def check_shear_law(draft: Draft) -> None:
     if oil.shear_law == "newtonian":
         return
     if not draft.settings.contact.si:
-        what = (
-            f"{law} with a contact given by moes_m and moes_l, which has no sliding speed in m/s"
-        )
+        what = f"{law} with a contact given by moes_m and moes_l, which has no sliding speed in m/s"
         draft.refuse(name, what, f"'newtonian', or {CONTACT_IN_SI}")
     if oil.shear_law == "carreau" and not (oil.carreau_stress > 0.0 and oil.carreau_exponent > 0.0):
         what = f"{law} without carreau_stress and carreau_exponent"

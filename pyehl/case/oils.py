@@ -26,8 +26,8 @@ class Constant:
 
 
 @dataclass(frozen=True, slots=True)
-class KnownOil:
-    """An oil whose constants are known: ``lubricant.name`` of a case."""
+class OilConstants:
+    """What is known of an oil: ``lubricant.name`` of a case."""
 
     name: str
     viscosity_law: str
@@ -38,14 +38,13 @@ class KnownOil:
 
 
 WINGERTSZAHN = "Wingertszahn, Koch, Maccioni, Concli & Sauer 2023, Lubricants 11, 369"
-ARANA = (
-    "Arana, Larranaga & Ulacia 2019, Proc. IMechE J 233, 303, after measurements of Mann 1995"
-)
+ARANA = "Arana, Larranaga & Ulacia 2019, Proc. IMechE J 233, 303, after measurements of Mann 1995"
 NO_RANGE = (
     "the source does not state the range of the measurements; it applies them at 42 and 50 degC"
 )
 MANN_RANGE = (
-    "the source names states from 25 to 60 degC and up to 510 MPa, and does not tell the whole range"
+    "the source names states from 25 to 60 degC and up to 510 MPa, and does not tell the whole "
+    "range"
 )
 MANN_LIMITS = (
     Constant("range_temperature_min", 25.0, "states named in the text"),
@@ -56,7 +55,7 @@ MANN_LIMITS = (
 OILS = {
     oil.name: oil
     for oil in (
-        KnownOil(
+        OilConstants(
             "fva3",
             "dicke",
             "FVA reference oil 3, mineral, ISO VG 100",
@@ -75,7 +74,7 @@ OILS = {
                 Constant("thermal_conductivity", 0.134, "Table A1"),
             ),
         ),
-        KnownOil(
+        OilConstants(
             "n100",
             "dicke",
             "N100 of Mann, naphthenic mineral base oil, ISO VG 100",
@@ -93,7 +92,7 @@ OILS = {
                 *MANN_LIMITS,
             ),
         ),
-        KnownOil(
+        OilConstants(
             "pao100",
             "dicke",
             "PAO100 of Mann, polyalphaolefin base oil, ISO VG 100",

@@ -78,12 +78,13 @@ def _grid(
     ends: tuple[float | None, ...],
     points: int,
     points_y: int,
-    smooth: bool,  # noqa: FBT001
+    smooth: bool,
 ) -> Domain:
     given = [math.nan if end is None else end for end in ends]
     number = BORDERS.index(border)
     found, domain, nx, ny = cases.grid_defaults(*values, number, smooth, given, points, points_y)
-    return Domain(BORDERS[found], *domain.tolist(), nx, ny)
+    x_inlet, x_outlet, y_extent = domain.tolist()
+    return Domain(BORDERS[found], x_inlet, x_outlet, y_extent, nx, ny)
 
 
 def sheet(
@@ -108,6 +109,8 @@ def under_pressure(group: str, pressure: Array) -> tuple[Array, Array]:
     """ln(eta/eta0) and rho/rho0 of a lubricant at pressures [Pa]."""
     viscosity, density = np.empty(pressure.size), np.empty(pressure.size)
     check(
-        *lubricants.properties(group.encode(), pressure, np.zeros(pressure.size), viscosity, density)
+        *lubricants.properties(
+            group.encode(), pressure, np.zeros(pressure.size), viscosity, density
+        )
     )
     return viscosity, density

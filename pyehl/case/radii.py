@@ -54,7 +54,11 @@ def _complete_bodies(draft: Draft) -> None:
     follows = (
         _reduced(b.radius_x1, b.radius_x2),
         _reduced(b.radius_y1, b.radius_y2),
-        2.0 / ((1.0 - b.poisson_1 * b.poisson_1) / b.modulus_1 + (1.0 - b.poisson_2 * b.poisson_2) / b.modulus_2),
+        2.0
+        / (
+            (1.0 - b.poisson_1 * b.poisson_1) / b.modulus_1
+            + (1.0 - b.poisson_2 * b.poisson_2) / b.modulus_2
+        ),
     )
     # a resolved case has these with the bodies
     values = (c.radius_x, c.radius_y, c.reduced_modulus)

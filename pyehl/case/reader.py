@@ -60,9 +60,10 @@ def read(text: str, origin: str, options: Iterable[str] = ()) -> Draft:
         Options group.key=value that replace values of the text, behind '--set ' where a person
         typed them so.
     """
-    sources = [Source(origin, text + "\n")]
-    for option in options:
-        sources.append(Source(option, option.removeprefix(TYPED) + "\n", has_lines=False))
+    sources = [
+        Source(origin, text + "\n"),
+        *(Source(o, o.removeprefix(TYPED) + "\n", has_lines=False) for o in options),
+    ]
     draft = Draft(Settings(), sources)
     replaced = set()
     for source in sources[1:]:

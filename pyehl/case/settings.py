@@ -41,7 +41,8 @@ def _keys() -> Iterator[Key]:
         kind: Any = group.default_factory
         for key in fields(kind):
             if key.metadata:
-                yield Key(group.name, key.name, **key.metadata, default_value=key.default)
+                default: Any = key.default
+                yield Key(group.name, key.name, **key.metadata, default_value=default)
 
 
 KEYS: dict[str, Key] = {key.name: key for key in _keys()}

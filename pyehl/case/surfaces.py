@@ -15,7 +15,7 @@ LARGEST_SEED = 2147483647
 FRACTAL_LENGTH = 8.29e-4
 # Rq over Ra of normal heights
 RQ_OVER_RA = math.sqrt(0.5 * math.pi)
-# Where roughness comes near the contact, and where it has filled it [a]; as fortran/surface has them
+# Where roughness comes near the contact and where it has filled it [a], as in fortran/surface
 X_MATTERS, X_FILLED = -1.25, 1.05
 # Time in which the film made in the inlet passes the contact [a/u]
 THROUGH = 2.0

@@ -103,8 +103,8 @@ def check_heat(draft: Draft) -> None:
     reduction = thermal_reduction(loading, strain, c.slide_to_roll)
     if reduction <= 0.0:
         what = (
-            f"lubricant.thermal_reduction: the formula gives a film of {short(reduction)} times the "
-            f"isothermal one at a thermal loading of {short(loading)}"
+            f"lubricant.thermal_reduction: the formula gives a film of {short(reduction)} times "
+            f"the isothermal one at a thermal loading of {short(loading)}"
         )
         draft.refuse("lubricant.thermal_reduction", what, "a slower contact, or .false.")
 
@@ -113,9 +113,8 @@ def _need(draft: Draft, key: str, value: str, velocity: str, others: tuple[str, 
     """Refuse a key without a velocity in m/s, or how the viscosity falls with temperature."""
     name = f"lubricant.{key}"
     if not draft.settings.contact.si:
-        what = (
-            f"{name}{value} with a contact given by moes_m and moes_l, which has no {velocity} in m/s"
-        )
+        contact = "a contact given by moes_m and moes_l"
+        what = f"{name}{value} with {contact}, which has no {velocity} in m/s"
         expected = f"load, mean_velocity, radius and reduced_modulus, or {others[0]}"
         draft.refuse(name, what, expected)
     if draft.settings.lubricant.temperature_viscosity <= 0.0:

@@ -56,14 +56,16 @@ def group_text(settings: Settings, group: str, other: Mapping[str, Value] | None
     lines = []
     for key in GROUPS[group]:
         if key.key not in unwritten:
-            value = getattr(owner, key.key) if other is None or key.key not in other else other[key.key]
+            value = (
+                getattr(owner, key.key) if other is None or key.key not in other else other[key.key]
+            )
             lines.append(f"{key.key} = {to_text(value)}")
     return "\n".join([f"&{group}", *lines, "/\n"])
 
 
 @cache
 def _ends(key: Key) -> tuple[str, str]:
-    """What stands before and behind a value."""
+    """Give what stands before a value and behind it."""
     unit = "" if key.unit == "-" else f"[{key.unit}] "
     return f"   {key.key} = ", f"! {unit}{key.meaning}"
 
@@ -129,8 +131,10 @@ def _of_lubricant(settings: Settings) -> Iterator[str]:
 
 def _of_surface(settings: Settings, group: str) -> Iterator[str]:
     surface = getattr(settings, group)
-    if surface.amplitude_given or surface.height_m > 0.0 or not (
-        surface.kind == "harmonic" or surface.is_feature
+    if (
+        surface.amplitude_given
+        or surface.height_m > 0.0
+        or not (surface.kind == "harmonic" or surface.is_feature)
     ):
         yield "amplitude_over_film"
     if not surface.amplitude_given:

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from pyehl.case import Case
 from pyehl.errors import InputError
 from pyehl.given import heights_of, real_numbers
 from pyehl.surfaces.holes import filled
@@ -150,3 +151,12 @@ def given(heights: Array, surface: Mapping[str, Any]) -> Topography:
         pixel = (0.5 * pixel[0], 0.5 * pixel[1])
     part = part_of(heights, pixel, "the heights", images=images)
     return part or Topography(mirrored(heights) if images else heights, (x, y))
+
+
+def with_surface(case: Case, surface: Surface, group: str = "surface") -> tuple[Case, Topography]:
+    """Give a case with a surface in memory in place of that of a group, and it as a tile.
+
+    InputError if it is none of heights, or the case does not say its size.
+    """
+    tile = in_memory(surface, case.resolve().get(group, {}), group)
+    return case.with_options(as_map(tile, group)), tile

@@ -87,7 +87,8 @@ MORE = {
     "turned and flooded": "&contact moes_m = 50.0 radius_ratio = 0.2 angle = 30.0 /\n"
     "&grid border = 'flooded' /",
     "turned": "&contact moes_m = 50.0 radius_ratio = 0.2 angle = 30.0 /",
-    "side inside an ellipse": "&contact radius_ratio = 0.05 moes_m = 100.0 / &grid y_extent = 2.0 /",
+    "side inside an ellipse": "&contact radius_ratio = 0.05 moes_m = 100.0 /\n"
+    "&grid y_extent = 2.0 /",
     "very thick film": "&contact moes_m = 0.05 moes_l = 2.0 /",
     "heavy": "&contact moes_m = 5000.0 moes_l = 15.0 /",
     "oil of its own law, Barus": "&lubricant name = 'fva3' viscosity_law = 'barus' /",
@@ -100,7 +101,8 @@ MORE = {
     "isoviscous Moes": "&contact moes_l = 0.0 /\n&lubricant pressure_viscosity = 0.0 /",
     "isoviscous with L": "&contact moes_l = 5.0 /\n&lubricant pressure_viscosity = 0.0 /",
     "water": "&lubricant viscosity = 1e-3 pressure_viscosity = 5e-10 / &contact load = 20.0 /",
-    "rows that cannot be halved": "&contact radius_ratio = 0.3 / &grid points = 129 points_y = 131 /",
+    "rows that cannot be halved": "&contact radius_ratio = 0.3 /\n"
+    "&grid points = 129 points_y = 131 /",
     "rows": "&contact radius_ratio = 0.3 moes_m = 300.0 / &grid points = 129 /",
     "Fortran numbers": "&Contact LOAD = 1.d2, Radius=.02 / ! end\n&grid\tpoints=+65,/",
     "quotes": "&surface file = 'it''s ! a \"file\"' channel = \"a 'b'\" /",
@@ -115,7 +117,9 @@ def values(allowed: str, default: str) -> list[str]:
         return [word for word in words if word not in (default, "''")]
     if not allowed:
         return ["'scan.x3p'"]
-    low, high = (float(part) for part in re.findall(r"[-\d.e]+", allowed.removeprefix("0 or "))[-2:])
+    low, high = (
+        float(part) for part in re.findall(r"[-\d.e]+", allowed.removeprefix("0 or "))[-2:]
+    )
     usual = float(default) or (max(low, 1e-12) * high) ** 0.5
     tries = [usual * 1.1, usual * 0.9, low, high, 0.0]
     tries = tries if "." in default else [65, 3, 2, 1, -1, 0]
