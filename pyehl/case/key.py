@@ -2,9 +2,10 @@
 """A key of a case: what it takes, what it means, its default."""
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import Any, TypeVar
 
 from pyehl.case.number import quoted, to_text
 
@@ -102,6 +103,15 @@ class Key:
         if not NUMBER.fullmatch(number) or abs(float(number)) < 1.0:
             return ""
         return f"; {number} mm is {number}e-3"
+
+
+T = TypeVar("T")
+
+
+def typed(kind: type[T], group: Mapping[str, Any]) -> T:
+    """Give values of a group of a resolved case as attributes; other keys have their defaults."""
+    names = kind.__dataclass_fields__  # type: ignore[attr-defined]
+    return kind(**{key: value for key, value in group.items() if key in names})
 
 
 def real(default: float, unit: str, allowed: str, meaning: str) -> Any:  # noqa: ANN401

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The groups ``&surface`` and ``&second_surface`` of a case, key by key."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any, Self
 
-from pyehl.case.key import path, real, text, truth, whole, word
+from pyehl.case.key import path, real, text, truth, typed, whole, word
 
 FEATURES = ("dent", "bump", "ridge", "groove")
 """Kinds of surfaces that are a single feature."""
@@ -173,6 +175,11 @@ class Surface:
     )
     amplitude_given: bool = False
     """Whether `amplitude` holds and not `amplitude_over_film`."""
+
+    @classmethod
+    def of(cls, group: Mapping[str, Any]) -> Self:
+        """Give a group of a resolved case as attributes; keys that are not there have defaults."""
+        return typed(cls, group)
 
     @property
     def is_feature(self) -> bool:
