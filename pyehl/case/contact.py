@@ -2,6 +2,7 @@
 """The contact of a case: Moes numbers or SI values, operating point, motion of the surfaces."""
 
 import math
+from typing import Any
 
 from pyehl.case import physics
 from pyehl.case.draft import Draft
@@ -93,11 +94,11 @@ def _most_unusual(draft: Draft) -> str:
     found, most = "lubricant.viscosity", -1.0
     for name, common in COMMON.items():
         key = KEYS[name]
-        value = float(draft.settings.value(key))
+        value: Any = draft.settings.value(key)
         # a radius of 0 is that of a flat body
         if name not in draft.given or (key.group == "bodies" and value == 0.0):
             continue
-        usual = Contact().radius if key.key.startswith("radius") else float(key.default_value)
+        usual: Any = Contact().radius if key.key.startswith("radius") else key.default_value
         unusual = abs(math.log10(abs(value) / usual)) / common if value else math.inf
         if unusual > most:
             found, most = name, unusual

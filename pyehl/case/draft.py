@@ -88,6 +88,9 @@ class Draft:
                 path = origin[: origin.rfind("/") + 1] + path
             if path[:1] != "/":
                 path = f"{os.getcwd()}/{path}"
+        if path.endswith(" "):
+            # a namelist cannot tell it from the name without
+            self.refuse(name, f"{name}: the name ends with a blank", "a file of another name")
         if len(os.fsencode(path)) > LONGEST_PATH:
             what = f"{name}: the full name is longer than {LONGEST_PATH} characters"
             self.refuse(name, what, "a shorter path")

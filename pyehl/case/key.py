@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 
 from pyehl.case.number import quoted, to_text
 
-Value = bool | int | float | str
+Value = bool | int | float | str | tuple[float, ...]
 
 NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][-+]?\d+)?", re.ASCII)
 TRUTHS = {
@@ -27,7 +27,7 @@ class Key:
     group, key
         Its names in a namelist.
     kind
-        'real', 'whole', 'truth', 'word', 'path' or 'text'.
+        'real', 'whole', 'truth', 'word', 'path', 'text', or 'numbers', which pyehl writes alone.
     unit
         Of a number; '-' for none.
     allowed
@@ -55,6 +55,11 @@ class Key:
     def default(self) -> str:
         """The default as a namelist has it."""
         return to_text(self.default_value)
+
+    @cached_property
+    def for_input(self) -> bool:
+        """Whether people give it, and not pyehl alone."""
+        return not self.meaning.endswith("not for input")
 
     @cached_property
     def choices(self) -> list[str]:
@@ -94,6 +99,7 @@ class Key:
             "truth": ".true. or .false.",
             "path": "a file name between quotes",
             "text": "a text between quotes",
+            "numbers": "what pyehl writes; lubricant.table names measured values",
         }[self.kind]
 
     def in_millimetres(self, number: str) -> str:
@@ -142,6 +148,11 @@ def path(meaning: str) -> Any:  # noqa: ANN401
 def text(meaning: str) -> Any:  # noqa: ANN401
     """Describe a key that takes any text."""
     return _field("text", "", "-", "", meaning)
+
+
+def numbers(unit: str, meaning: str) -> Any:  # noqa: ANN401
+    """Describe a key that takes numbers, which nobody types."""
+    return _field("numbers", (), unit, "", meaning)
 
 
 def _field(kind: str, default: Value, unit: str, allowed: str, meaning: str) -> Any:  # noqa: ANN401

@@ -2,6 +2,7 @@
 """The lubricant of a case: oils by name, laws of viscosity and of the shear stress."""
 
 import math
+import os
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from pyehl.case.draft import Draft
 from pyehl.case.number import short, to_text
 from pyehl.case.oils import OILS
 from pyehl.case.settings import GROUPS
-from pyehl.case.viscosity_table import read_isotherms
+from pyehl.case.viscosity_table import read_table
 from pyehl.case.writer import group_text
 from pyehl.errors import InputError
 
@@ -41,9 +42,10 @@ def complete_oil(draft: Draft) -> None:
     # its constants hold with that volume
     if not draft.is_given("lubricant", "density_law") and oil.own_law == "doolittle":
         oil.density_law = "tait"
+    oil.inlet_law = oil.own_law if oil.own_law != oil.viscosity_law else ""
     if oil.table:
         oil.table = draft.absolute("lubricant.table", oil.table)
-    elif oil.viscosity_law == "table":
+    elif oil.viscosity_law == "table" and not oil.table_pressure:
         what = "lubricant.viscosity_law = 'table' without lubricant.table"
         expected = "table = '...', a CSV of measured viscosities"
         draft.refuse("lubricant.viscosity_law", what, expected)
@@ -75,9 +77,14 @@ def complete_law(draft: Draft) -> None:
 def _take_table(draft: Draft) -> None:
     """Read a table, and take its range where the keys of that are not given."""
     oil = draft.settings.lubricant
-    oil.isotherms = tables = read_isotherms(oil.table)
-    coldest, warmest = tables[0].temperature, tables[-1].temperature
-    if len(tables) == 1 and abs(coldest - oil.temperature) > SAME_TEMPERATURE:
+    # a resolved case holds its table, whose file may be elsewhere
+    if oil.table and not (oil.table_pressure and not os.path.exists(oil.table)):
+        states = read_table(oil.table)
+        oil.table_temperature = tuple(state.temperature for state in states)
+        oil.table_pressure = tuple(state.pressure for state in states)
+        oil.table_viscosity = tuple(state.viscosity for state in states)
+    coldest, warmest = oil.table_temperature[0], oil.table_temperature[-1]
+    if coldest == warmest and abs(coldest - oil.temperature) > SAME_TEMPERATURE:
         raise InputError(
             f"{oil.table}: error: the table has the single temperature {to_text(coldest)} degC, "
             f"and lubricant.temperature = {to_text(oil.temperature)}\n"
@@ -88,7 +95,9 @@ def _take_table(draft: Draft) -> None:
     if not draft.is_given("lubricant", "range_temperature_max"):
         oil.range_temperature_max = warmest
     if not draft.is_given("lubricant", "range_pressure_max"):
-        oil.range_pressure_max = min(table.pressure[-1] for table in tables)
+        # the highest at each temperature
+        highest = dict(zip(oil.table_temperature, oil.table_pressure, strict=True))
+        oil.range_pressure_max = min(highest.values())
 
 
 def _follow(draft: Draft, key: str, follows: float) -> None:

@@ -3,8 +3,8 @@
 
 from dataclasses import dataclass
 
-from pyehl.case.key import path, real, truth, word
-from pyehl.case.oils import OILS, Isotherm
+from pyehl.case.key import numbers, path, real, truth, word
+from pyehl.case.oils import OILS
 
 
 @dataclass(slots=True)
@@ -185,19 +185,29 @@ class Lubricant:
         "friction with the temperature of the film; auto: where it counts and "
         "temperature_viscosity is known",
     )
-    isotherms: tuple[Isotherm, ...] = ()
-    """What `table` holds."""
-    alpha_origin: str = "given"
-    """'estimated' from a data sheet, or 'default' beside a viscosity that was given."""
+    alpha_origin: str = word(
+        "given",
+        "given|estimated|default",
+        "where pressure_viscosity is from; default: from no key; not for input",
+    )
+    inlet_law: str = word(
+        "",
+        "dicke|yasutomi|doolittle|table|",
+        "law of viscosity and pressure_viscosity where it is not viscosity_law; not for input",
+    )
+    table_temperature: tuple[float, ...] = numbers("degC", "what table holds; not for input")
+    table_pressure: tuple[float, ...] = numbers("Pa", "what table holds; not for input")
+    table_viscosity: tuple[float, ...] = numbers("Pa s", "what table holds; not for input")
 
     @property
     def own_law(self) -> str:
         """The law that tells viscosity and alpha of the inlet: table, oil or key; '' for none."""
-        if self.table:
+        if self.table or self.table_pressure:
             return "table"
         if self.name:
             return OILS[self.name].viscosity_law
-        return "" if self.viscosity_law in ("roelands", "barus") else self.viscosity_law
+        simple = self.viscosity_law in ("roelands", "barus")
+        return self.inlet_law if simple else self.viscosity_law
 
     def uses_law(self, law: str) -> bool:
         """Whether a law tells the viscosity of the inlet, or how it rises with pressure."""

@@ -73,7 +73,7 @@ def unknown_key(name: str, group: str) -> str:
     sentence = OTHER_NAMES.get((group, lower)) or OTHER_NAMES.get(("", lower))
     if sentence:
         return sentence
-    names = [key.key for key in GROUPS[group]]
+    names = [key.key for key in GROUPS[group] if key.for_input]
     owner = next((key.group for key in KEYS.values() if key.key == lower), "")
     hint = f"; '{lower}' belongs to &{owner}" if owner else did_you_mean(name, names)
     return f"one of the keys {', '.join(names)}{hint}"

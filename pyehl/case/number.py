@@ -7,7 +7,7 @@ from decimal import Decimal
 LEAST, LARGEST = 1e-4, 1e7
 
 
-def to_text(value: bool | int | float | str) -> str:
+def to_text(value: bool | int | float | str | tuple[float, ...]) -> str:
     """Give a value as a namelist has it: 0.4, 2.2e-8, 600.0, .true., 'harmonic'."""
     if isinstance(value, float):
         return real_text(value)
@@ -15,6 +15,8 @@ def to_text(value: bool | int | float | str) -> str:
         return quoted(value)
     if isinstance(value, bool):
         return ".true." if value else ".false."
+    if isinstance(value, tuple):
+        return ", ".join(map(real_text, value))
     return str(value)
 
 

@@ -8,15 +8,6 @@ KELVIN = 273.15
 
 
 @dataclass(frozen=True, slots=True)
-class Isotherm:
-    """Measured viscosities [Pa s] over pressure [Pa] at a temperature [degC]."""
-
-    temperature: float
-    pressure: tuple[float, ...]
-    viscosity: tuple[float, ...]
-
-
-@dataclass(frozen=True, slots=True)
 class Constant:
     """A constant of an oil: key of ``&lubricant``, value in its unit, place in the source."""
 

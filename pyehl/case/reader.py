@@ -7,12 +7,12 @@ Every fault ends in one message with its place.
 import re
 from collections.abc import Iterable
 from functools import lru_cache
-from typing import NoReturn
 
+from pyehl import namelist
 from pyehl.case import names
 from pyehl.case.complete import complete
-from pyehl.case.draft import LONGEST_PATH, Draft, Place
-from pyehl.case.key import NUMBER, TRUTHS, Key, Value
+from pyehl.case.draft import Draft, Place
+from pyehl.case.key import Key, Value
 from pyehl.case.settings import GROUPS, KEYS, Settings
 from pyehl.case.source import (
     ATOM,
@@ -26,25 +26,13 @@ from pyehl.case.source import (
     Piece,
     Source,
 )
+from pyehl.case.value import BadValue, set_value, value_of
 from pyehl.errors import InputError
 from pyehl.given import TYPED
 
-# A line as the writer of cases makes it
-LINE = re.compile(
-    r"[ \t]*(\w+) = ('(?:[^']|'')*'|\.true\.|\.false\.|-?\d[\d.]*(?:e[-+]?\d+)?) *(?:!.*)?",
-    re.ASCII,
-)
 MARKS = ("! default", "! derived")
 """Ends of lines of a written case whose keys were not given: defaults, and what follows."""
 NO_VALUE = (COMMA, SLASH, EQUALS, GROUP, END)
-
-
-class _Bad(Exception):  # noqa: N818
-    """What is wrong with a value, and how far behind its beginning."""
-
-    def __init__(self, problem: str, behind: int = 0) -> None:
-        super().__init__(problem)
-        self.behind = behind
 
 
 def read(text: str, origin: str, options: Iterable[str] = ()) -> Draft:
@@ -167,7 +155,7 @@ class _Groups:
 
     def _set(self, key: Key, name: tuple[int, int], value: Piece) -> None:
         try:
-            _set(self.draft, key, 0, name, value)
+            set_value(self.draft, key, 0, name, value)
         except InputError:
             # a value that an option replaces need not be acceptable
             if key.name not in self.replaced:
@@ -227,17 +215,21 @@ def _written(group: str, line: str) -> tuple[Key, Value, tuple[int, int, int, in
 
     None for any other line, and for a value that is not acceptable.
     """
-    match = LINE.fullmatch(line)
+    match = namelist.LINE.fullmatch(line)
     key = KEYS.get(f"{group}.{match[1]}") if match else None
     if match is None or key is None:
         return None
+    marked = line.rstrip(" \r").endswith(MARKS)
+    spans = (*match.span(1), *match.span(2))
+    if key.kind == "numbers":
+        return key, tuple(map(float, match[2].split(","))), spans, marked
     is_string = match[2][0] == "'"
     text = match[2][1:-1].replace("''", "'") if is_string else match[2]
     try:
-        value = _value(key, Piece(STRING if is_string else ATOM, 0, 0, text), is_option=False)
-    except _Bad:
+        value = value_of(key, Piece(STRING if is_string else ATOM, 0, 0, text), is_option=False)
+    except BadValue:
         return None
-    return key, value, (*match.span(1), *match.span(2)), line.rstrip(" ").endswith(MARKS)
+    return key, value, spans, marked
 
 
 def _find(source: Source, group: str, name: Piece, given: dict[str, Place]) -> Key:
@@ -288,85 +280,7 @@ def _read_option(draft: Draft, number: int) -> None:
     if value.kind != STRING:
         # without quotes the rest of the option is the value, whatever it looks like
         value = Piece(ATOM, first, last, text[first:last])
-    _set(draft, key, number, (name_first, max(name_first + 1, equals)), value)
-
-
-def _set(draft: Draft, key: Key, number: int, name: tuple[int, int], value: Piece) -> None:
-    """Give a key its value and remember where it came from."""
-    source = draft.sources[number]
-    if value.kind == OPEN_STRING:
-        what = f"the quote in the value of {key.name} is not closed"
-        source.refuse(value.first, value.end, what, key.expected)
-    draft.given[key.name] = Place(number, *name, value.first, value.end)
-    try:
-        found = _value(key, value, is_option=number > 0)
-    except _Bad as bad:
-        _refuse_value(source, key, value, bad)
-    setattr(getattr(draft.settings, key.group), key.key, found)
-
-
-def _refuse_value(source: Source, key: Key, value: Piece, bad: _Bad) -> NoReturn:
-    problem, expected = str(bad), key.expected
-    if problem == "out of range":
-        expected += key.in_millimetres(value.text)
-    # units are too short to be near each other
-    if key.kind == "word" and any(len(choice) > 2 for choice in key.choices):
-        near = names.nearest(value.text, key.choices)
-        expected += f"; did you mean '{near}'?" if near else ""
-    shown = source.text[value.first : value.end]
-    if len(shown) > 60:
-        shown = f"{shown[:57]}..."
-    what = f"{key.name} = {shown}: {problem}"
-    source.refuse(value.first + bad.behind, value.end, what, expected)
-
-
-def _value(key: Key, value: Piece, *, is_option: bool) -> Value:
-    """Give the value of a piece of text; _Bad with what is wrong with it."""
-    if key.kind in ("real", "whole"):
-        return _number(key, value, is_option=is_option)
-    if key.kind == "truth":
-        if value.kind == STRING:
-            raise _Bad("text where a truth value is wanted")
-        truth = TRUTHS.get(value.text.lower())
-        if truth is None:
-            raise _Bad("not a truth value")
-        return truth
-    if value.kind == ATOM and not is_option:
-        what = {"word": "word", "path": "file name"}.get(key.kind, "text")
-        raise _Bad(f"no quotes around the {what}")
-    if key.kind == "word":
-        word = key.by_word.get(value.text.lower().rstrip(" "))
-        if word is None:
-            raise _Bad("no such choice")
-        return word
-    if len(value.text.encode(errors="surrogateescape")) > LONGEST_PATH:
-        raise _Bad(f"longer than {LONGEST_PATH} characters")
-    return value.text
-
-
-def _number(key: Key, piece: Piece, *, is_option: bool) -> float | int:
-    text = piece.text
-    if piece.kind == STRING:
-        raise _Bad("text where a number is wanted")
-    match = NUMBER.match(text)
-    if match is None or match.end() < len(text):
-        if "," in text:
-            raise _Bad("decimal comma, or more than one value")
-        if text.lstrip("+-").lower().startswith(("nan", "inf")):
-            raise _Bad("not a finite number")
-        if "*" in text:
-            raise _Bad("not one plain number")
-        if match is None:
-            raise _Bad("not a number")
-        raise _Bad("text behind the number", match.end())
-    value = float(text.lower().replace("d", "e"))
-    if abs(value) == float("inf"):
-        raise _Bad("too large for a number")
-    if key.kind == "whole" and not (text.lstrip("+-").isdigit() or (is_option and value % 1 == 0)):
-        raise _Bad("not a whole number")
-    if not key.allows(value):
-        raise _Bad("out of range")
-    return int(value) if key.kind == "whole" else value
+    set_value(draft, key, number, (name_first, max(name_first + 1, equals)), value)
 
 
 def _settled(draft: Draft, marked: set[str]) -> Draft:

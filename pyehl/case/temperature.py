@@ -70,7 +70,10 @@ def complete_alpha(draft: Draft) -> None:
     a mineral oil.
     """
     oil = draft.settings.lubricant
-    if oil.own_law or draft.is_given("lubricant", "pressure_viscosity"):
+    if draft.is_given("lubricant", "pressure_viscosity"):
+        return
+    oil.alpha_origin = "given"
+    if oil.own_law:
         return
     if oil.kinematic_viscosity_40 <= 0.0:
         if draft.settings.contact.si and draft.is_given("lubricant", "viscosity"):

@@ -12,7 +12,6 @@ from typing import NamedTuple, NoReturn
 from pyehl.case.file import read_text
 from pyehl.case.key import NUMBER
 from pyehl.case.number import to_text
-from pyehl.case.oils import Isotherm
 from pyehl.case.source import Source
 from pyehl.errors import InputError
 
@@ -37,8 +36,8 @@ class State(NamedTuple):
     end: int
 
 
-def read_isotherms(path: str) -> tuple[Isotherm, ...]:
-    """Read the isotherms of a file, by rising temperature; a fault is told with file and line."""
+def read_table(path: str) -> list[State]:
+    """Read the states of a file by temperature, then pressure; a fault is told with its line."""
     text = read_text(path, f"a file of measured viscosities, {HEADER}")
     source = Source(path, text.replace("\r", " ") + "\n")
     states = sorted(_states(source), key=lambda state: state[:2])
@@ -47,13 +46,9 @@ def read_isotherms(path: str) -> tuple[Isotherm, ...]:
             f"{path}: error: no measured viscosity\nexpected: {HEADER}, and a line for each state "
             "behind it"
         )
-    found = []
-    for temperature, group in groupby(states, key=lambda state: state.temperature):
-        measured = list(group)
-        _check(source, measured)
-        pressures = tuple(state.pressure for state in measured)
-        found.append(Isotherm(temperature, pressures, tuple(s.viscosity for s in measured)))
-    return tuple(found)
+    for _, group in groupby(states, key=lambda state: state.temperature):
+        _check(source, list(group))
+    return states
 
 
 def _states(source: Source) -> Iterator[State]:

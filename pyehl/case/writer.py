@@ -8,6 +8,11 @@ from pyehl.case.key import Key, Value
 from pyehl.case.number import to_text
 from pyehl.case.settings import GROUPS, Settings
 
+OPTIONAL = (
+    *("name", "table", "inlet_law"),
+    *("table_temperature", "table_pressure", "table_viscosity"),
+)
+"""Keys of the lubricant that are written where they say something."""
 LAWS = {
     "vogel": "dicke",
     "dicke": "dicke",
@@ -108,7 +113,17 @@ def _of_contact(settings: Settings) -> Iterator[str]:
 
 def _of_lubricant(settings: Settings) -> Iterator[str]:
     oil = settings.lubricant
-    yield from (key for key in ("name", "table") if not getattr(oil, key))
+    optional = (
+        "name",
+        "table",
+        "inlet_law",
+        "table_temperature",
+        "table_pressure",
+        "table_viscosity",
+    )
+    yield from (key for key in optional if not getattr(oil, key))
+    if oil.alpha_origin == "given":
+        yield "alpha_origin"
     sheet = oil.kinematic_viscosity_40 > 0.0
     warm = oil.knows_temperature or oil.temperature_viscosity > 0.0
     if not warm:

@@ -10,6 +10,8 @@ from pyehl.case.settings import KEYS
 from pyehl.errors import InputError
 
 CASES = Path(__file__).resolve().parents[2] / "cases"
+# Keys that are written since, for the solver
+ADDED = ("alpha_origin", "inlet_law", "table_temperature", "table_pressure", "table_viscosity")
 LAW = "&lubricant name = 'n100' temperature = 50.0 /\n"
 # Contexts in which keys are changed
 BASES = {
@@ -168,7 +170,7 @@ def lines(resolved: str) -> list[str]:
     for line in resolved.splitlines():
         if line[:1] == "&":
             group = line[1:]
-        elif match := namelist.LINE.fullmatch(line):
+        elif (match := namelist.LINE.fullmatch(line)) and match[1] not in ADDED:
             mark = next((m for m in ("default", "derived") if line.endswith(f"! {m}")), "given")
             found.append(f"{group}.{match[1]} = {match[2]} {mark}")
     return found
