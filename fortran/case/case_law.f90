@@ -32,7 +32,9 @@ contains
       type(oil_t) :: oil
 
       law = ""
-      if (l%table%text() /= "") then
+      if (l%inlet_law /= "") then
+         law = l%inlet_law
+      else if (l%table%text() /= "") then
          law = "table"
       else if (l%name /= "") then
          oil = oil_named(trim(l%name))

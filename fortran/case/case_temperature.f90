@@ -82,11 +82,12 @@ contains
       associate (l => input%lubricant)
          if (own_law(l) /= "" .or. schema%given("lubricant", "pressure_viscosity")) return
          if (.not. l%kinematic_viscosity_40 > 0.0_dp) then
-            l%alpha_default = input%contact%si .and. schema%given("lubricant", "viscosity")
+            if (input%contact%si .and. schema%given("lubricant", "viscosity")) l%alpha_origin = "default"
             return
          end if
-         l%alpha_estimated = .not. schema%given("lubricant", "roelands_z")
-         l%pressure_viscosity = merge(mineral_z, l%roelands_z, l%alpha_estimated)*(log(l%viscosity) + 9.67_dp)/l%roelands_p0
+         if (.not. schema%given("lubricant", "roelands_z")) l%alpha_origin = "estimated"
+         l%pressure_viscosity = merge(mineral_z, l%roelands_z, l%alpha_origin == "estimated")* &
+                                (log(l%viscosity) + 9.67_dp)/l%roelands_p0
          call schema%check_range("lubricant.pressure_viscosity", l%pressure_viscosity, "lubricant.kinematic_viscosity_40", &
                                  "the data sheet at "//to_text(l%temperature)//" degC", status)
       end associate
