@@ -9,6 +9,7 @@ module ehl_f2py_solver
    use, intrinsic :: iso_c_binding, only: c_double, c_int
    use ehl_case, only: case_t
    use ehl_case_reader, only: read_case
+   use ehl_case_writer, only: case_text
    use ehl_checkpoint_folder, only: checkpoint_path
    use ehl_conclusion, only: conclusion, resumption
    use ehl_grid, only: grid_t
@@ -41,6 +42,7 @@ contains
       if (.not. status%failed()) call new_handle(handle, run, status)
       if (.not. status%failed()) then
          run%input = input
+         run%input%text = case_text(input)
          associate (n => merge(nx, 0, has_heights /= 0), m => merge(mx, 0, has_second /= 0))
             call run%solver%start(input, status, heights(:n, :), second(:m, :))
          end associate
