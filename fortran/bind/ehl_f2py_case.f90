@@ -3,23 +3,20 @@
 module ehl_f2py_case
    use, intrinsic :: iso_c_binding, only: c_double, c_int
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use ehl_case, only: case_t
-   use ehl_case_contact, only: complete_domain, find_contact
-   use ehl_case_law, only: make_viscosity
+   use ehl_case, only: case_t, lubricant_case_t
+   use ehl_case_defaults, only: inlet_of => inlet
+   use ehl_case_grid, only: fill_grid
+   use ehl_case_point, only: find_contact
    use ehl_contact, only: contact_t
-   use ehl_group_reader, only: read_groups
-   use ehl_handles, only: reply
+   use ehl_handles, only: put_text, reply
    use ehl_heat, only: dynamic_viscosity, temperature_viscosity
-   use ehl_keys, only: bind_keys
    use ehl_moes, only: operating_t
+   use ehl_read_case, only: defaults_text, read_case, read_lubricant
    use ehl_scales, only: scales_t
-   use ehl_schema, only: schema_t
-   use ehl_source, only: source_t
    use ehl_status, only: status_t
-   use ehl_viscosity_law, only: viscosity_law_t
    implicit none (type, external)
    private
-   public :: operating, grid_defaults, inlet, sheet
+   public :: operating, grid_defaults, inlet, sheet, check_case, defaults
 
 contains
 
@@ -57,35 +54,29 @@ contains
       real(c_double), intent(in) :: domain(3)
       integer(c_int), intent(out) :: border_out, points_out, points_y_out
       real(c_double), intent(out) :: domain_out(3)
-      type(case_t), target :: input
-      type(schema_t) :: schema
-      integer :: k
-      character(len=8), parameter :: ends(3) = [character(len=8) :: "x_inlet", "x_outlet", "y_extent"]
+      type(case_t) :: input
+      class(contact_t), allocatable :: contact
+      type(scales_t) :: scales
+      type(operating_t) :: point
 
-      call bind_keys(schema, input)
       call take(input, si, radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, viscosity, alpha, moes_m, moes_l)
-      if (smooth == 0) input%surface%kind = "harmonic"
-      do k = 1, 3
-         if (ieee_is_nan(domain(k))) cycle
-         schema%keys(schema%find("grid", ends(k)))%given = .true.
-         schema%keys(schema%find("grid", ends(k)))%real_value = domain(k)
-      end do
-      if (border > 0) then
-         schema%keys(schema%find("grid", "border"))%given = .true.
-         input%grid%border = merge("flooded", "zero   ", border == 2)
-      end if
-      if (points > 0) then
-         schema%keys(schema%find("grid", "points"))%given = .true.
-         input%grid%points = points
-      end if
-      input%grid%points_y = points_y
-      call complete_domain(schema, input)
-      border_out = merge(2_c_int, 1_c_int, input%grid%border == "flooded")
-      domain_out = [input%grid%x_inlet, input%grid%x_outlet, input%grid%y_extent]
-      points_out = input%grid%points
-      points_y_out = input%grid%points_y
+      call find_contact(input, contact, scales, point)
+      associate (grid => input%grid)
+         grid%border = merge("flooded", "zero   ", border == 2)
+         grid%x_inlet = domain(1)
+         grid%x_outlet = domain(2)
+         grid%y_extent = domain(3)
+         if (points > 0) grid%points = points
+         grid%points_y = points_y
+         call fill_grid(contact, point, smooth /= 0, [border > 0, .not. ieee_is_nan(domain), points > 0], grid)
+         border_out = merge(2_c_int, 1_c_int, grid%border == "flooded")
+         domain_out = [grid%x_inlet, grid%x_outlet, grid%y_extent]
+         points_out = grid%points
+         points_y_out = grid%points_y
+      end associate
    end subroutine grid_defaults
 
+   !> What makes the contact
    pure subroutine take(input, si, radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, viscosity, alpha, &
                         moes_m, moes_l)
       type(case_t), intent(inout) :: input
@@ -113,30 +104,16 @@ contains
       integer(c_int), intent(out) :: stat
       character(len=64), intent(out) :: key
       character(len=4096), intent(out) :: message
-      type(case_t), target :: input
-      type(schema_t) :: schema
+      type(lubricant_case_t) :: lubricant
       type(status_t) :: status
-      class(viscosity_law_t), allocatable :: law
-      real(c_double) :: slopes(1), level(1), at(2)
-      !> [K] the error of the difference is its square over some hundred K^2
-      real(c_double), parameter :: step = 0.01_c_double
 
       viscosity = 0.0_c_double
       alpha = 0.0_c_double
       slope = 0.0_c_double
+      call read_lubricant(group, lubricant, status)
+      if (.not. status%failed()) call inlet_of(lubricant, viscosity, alpha, slope, status)
       key = ""
-      call bind_keys(schema, input)
-      call read_groups(source_t("the lubricant", group//new_line("a")), schema, status)
-      ! a pressure of 1 Pa
-      if (.not. status%failed()) call make_viscosity(input%lubricant, trim(input%lubricant%viscosity_law), 1.0_c_double, law, &
-                                                     status)
-      if (.not. status%failed()) then
-         viscosity = law%ambient_viscosity
-         call law%log_viscosity([0.0_c_double], level, slopes)
-         call law%log_viscosity_at([0.0_c_double, 0.0_c_double], [-step, step], at)
-         alpha = slopes(1)
-         slope = (at(1) - at(2))/(2.0_c_double*step)
-      end if
+      if (allocated(status%key)) key = status%key
       call reply(status, stat, message)
    end subroutine inlet
 
@@ -148,4 +125,30 @@ contains
       viscosity = dynamic_viscosity(temperature, viscosities, density_15, expansion)
       slope = temperature_viscosity(temperature, viscosities, density_15, expansion)
    end subroutine sheet
+
+   !> Whether the solver takes a resolved case; group.key of the value that it refuses
+   subroutine check_case(text, origin, stat, key, message)
+      character(len=*), intent(in) :: text, origin
+      integer(c_int), intent(out) :: stat
+      character(len=64), intent(out) :: key
+      character(len=4096), intent(out) :: message
+      type(case_t) :: input
+      type(status_t) :: status
+
+      call read_case(text, origin, "", input, status)
+      key = ""
+      if (allocated(status%key)) key = status%key
+      call reply(status, stat, message)
+   end subroutine check_case
+
+   !> All keys with default and range, one a line with tabs between
+   subroutine defaults(n, bytes, length)
+      integer(c_int), intent(in) :: n
+      integer(c_int), intent(inout) :: bytes(n)
+      integer(c_int), intent(out) :: length
+      character(len=:), allocatable :: text
+
+      call defaults_text(text)
+      call put_text(text, bytes, length)
+   end subroutine defaults
 end module ehl_f2py_case

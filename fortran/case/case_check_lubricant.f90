@@ -3,7 +3,7 @@
 module ehl_case_check_lubricant
    use ehl_case, only: case_t
    use ehl_case_defaults, only: inlet
-   use ehl_case_law, only: make_lubricant, own_law, uses_law
+   use ehl_case_law, only: knows_temperature, make_lubricant, own_law, uses_law
    use ehl_case_source, only: case_source_t
    use ehl_heat, only: dynamic_viscosity, thermal_loading, thermal_reduction
    use ehl_kinds, only: dp
@@ -32,6 +32,7 @@ contains
       type(case_source_t), intent(in) :: source
       type(case_t), intent(in) :: input
       type(status_t), intent(inout) :: status
+      logical :: has_table
 
       associate (l => input%lubricant)
          call need("dicke", l%kinematic_viscosity_40 > 0.0_dp .or. &
@@ -40,7 +41,9 @@ contains
          call need("yasutomi", l%yasutomi_a1*l%yasutomi_a2*l%yasutomi_c1*l%yasutomi_c2 > 0.0_dp, "all of yasutomi_...")
          call need("doolittle", l%doolittle_viscosity*l%doolittle_b*l%doolittle_r0 > 0.0_dp, "all of doolittle_...")
          call need("doolittle", l%tait_modulus*l%tait_rate > 0.0_dp, "tait_modulus, tait_rate and the other constants of Tait")
-         call need("table", allocated(l%isotherms), "table_temperature, table_pressure and table_viscosity, as "// &
+         has_table = allocated(l%table_viscosity)
+         if (has_table) has_table = size(l%table_viscosity) > 0
+         call need("table", has_table, "table_temperature, table_pressure and table_viscosity, as "// &
                    "'pyehl check --resolved' writes them")
          call need_density("murnaghan", l%murnaghan_modulus*l%murnaghan_rate)
          call need_density("tait", l%tait_modulus*l%tait_rate)
@@ -71,12 +74,22 @@ contains
       type(scales_t), intent(in) :: scales
       type(operating_t), intent(in) :: point
       type(status_t), intent(inout) :: status
+      character(len=*), parameter :: unknown = "nothing tells how the viscosity falls with temperature", &
+         by_law = "temperature_viscosity, or viscosity at the inlet temperature alone"
+      logical :: knows
 
       call check_inlet(source, input, status)
       call check_rise(source, input, scales, point, status)
       associate (l => input%lubricant, c => input%contact)
          call refuse(l%range_temperature_max < l%range_temperature_min, "lubricant.range_temperature_max", &
                      "below range_temperature_min", "a range of temperatures, or both 0")
+         call refuse(l%density_law == "tait" .and. source%given("lubricant.thermal_expansion") .and. .not. &
+                     l%kinematic_viscosity_40 > 0.0_dp, "lubricant.thermal_expansion", "Tait's law has its own", "tait_expansion")
+         call refuse(source%given("lubricant.density_15") .and. .not. l%kinematic_viscosity_40 > 0.0_dp, "lubricant.density_15", &
+                     "without the viscosities of the data sheet", "viscosity at the inlet alone")
+         knows = knows_temperature(l) .or. l%temperature_viscosity > 0.0_dp
+         call refuse(source%given("lubricant.temperature") .and. .not. knows, "lubricant.temperature", unknown, by_law)
+         call refuse(source%given("lubricant.thermal_expansion") .and. .not. knows, "lubricant.thermal_expansion", unknown, by_law)
          call refuse(all(input%psd%viscosity_law /= [character(len=32) :: "roelands", "barus", l%viscosity_law]), &
                      "psd.viscosity_law", "not that of the lubricant", "'roelands', 'barus' or that of the lubricant")
          call refuse((l%viscosity_law == "roelands" .or. input%psd%viscosity_law == "roelands") .and. &
@@ -121,8 +134,7 @@ contains
       subroutine check_heat(key, or)
          character(len=*), intent(in) :: key, or
          call refuse(.not. input%contact%si, key, "with a contact by Moes numbers", si_units//", or "//or)
-         call refuse(.not. input%lubricant%temperature_viscosity > 0.0_dp, key, "nothing tells how the viscosity falls with "// &
-                     "temperature", "temperature_viscosity, or "//or)
+         call refuse(.not. input%lubricant%temperature_viscosity > 0.0_dp, key, unknown, "temperature_viscosity, or "//or)
       end subroutine check_heat
    end subroutine check_lubricant
 

@@ -154,9 +154,8 @@ contains
       real(dp) :: least
 
       key = merge("contact.load  ", "contact.moes_m", input%contact%si)
-      if (point%round_m > most_m) call source%refuse(trim(key), "the Moes parameter M of the round contact with the same "// &
-         "equations is "//short(point%round_m), "an M of 1e5 at most", status)
       if (.not. input%contact%si) then
+         call check_largest()
          if (input%contact%moes_l > 0.0_dp .and. .not. input%lubricant%pressure_viscosity > 0.0_dp) &
             call source%contradict("lubricant.pressure_viscosity", "contact.moes_l", &
                                    "moes_l = 0.0, or a pressure_viscosity above 0", status)
@@ -176,6 +175,14 @@ contains
          call source%refuse("lubricant.pressure_viscosity", "the Moes parameter L is "//short(point%moes_l), &
                             "values in SI units with 100 at most", status)
       end if
+      call check_largest()
+
+   contains
+
+      subroutine check_largest()
+         if (point%round_m > most_m) call source%refuse(trim(key), "the Moes parameter M of the round contact with the same "// &
+            "equations is "//short(point%round_m), "an M of 1e5 at most", status)
+      end subroutine check_largest
    end subroutine check_point
 
    !> The domain must hold the contact

@@ -2,10 +2,10 @@
 !> A case from a plain namelist: the one reader of the program and of the extension. Pieces of the text are checked one by one,
 !> then each group is read by one intrinsic read, completed by what the numerics knows, and checked as a whole.
 module ehl_read_case
-   use ehl_case, only: case_t, path_length
+   use ehl_case, only: case_t, lubricant_case_t, path_length
    use ehl_case_check_lubricant, only: check_constants
    use ehl_case_checks, only: check_complete, check_given
-   use ehl_case_defaults, only: complete
+   use ehl_case_defaults, only: complete, make_isotherms
    use ehl_case_groups, only: group_names, read_group, write_group
    use ehl_case_ranges, only: allows, range_of, words_of
    use ehl_case_source, only: case_source_t
@@ -17,7 +17,7 @@ module ehl_read_case
    use ehl_whole_file, only: read_text
    implicit none (type, external)
    private
-   public :: read_case, read_case_file, write_case
+   public :: defaults_text, read_case, read_case_file, read_lubricant, write_case
 
    !> Largest case file; anything longer is not one
    integer, parameter :: largest_file = 4000000
@@ -58,7 +58,6 @@ contains
 
       source%origin = origin
       call split_text(origin, text, source%pieces, status)
-      call check_pieces(source, status)
       allocate (replacing(0))
       first = 1
       do while (first <= len(options) .and. .not. status%failed())
@@ -66,10 +65,10 @@ contains
          if (last >= first) call keep_pieces(replacing, [(.true., k=1, size(replacing))], [option_piece(options(first:last))])
          first = last + 2
       end do
+      if (.not. status%failed()) call check_pieces(source, status, replacing)
       if (.not. status%failed()) call drop_marked(source)
       if (size(replacing) > 0 .and. .not. status%failed()) then
-         call keep_pieces(source%pieces, [(all(replacing%group /= source%pieces(k)%group .or. &
-                                               replacing%key /= source%pieces(k)%key), k=1, size(source%pieces))], replacing)
+         call keep_pieces(source%pieces, [(.not. is_one_of(source%pieces(k), replacing), k=1, size(source%pieces))], replacing)
          call check_pieces(source, status)
       end if
       if (.not. status%failed()) call read_pieces(source, input, status)
@@ -79,6 +78,44 @@ contains
       if (.not. status%failed()) call check_complete(source, input, status)
       if (.not. status%failed()) call write_case(input, input%text, source)
    end subroutine read_case
+
+   !> The group &lubricant alone, of a resolved case
+   subroutine read_lubricant(text, lubricant, status)
+      character(len=*), intent(in) :: text
+      type(lubricant_case_t), intent(out) :: lubricant
+      type(status_t), intent(inout) :: status
+      type(case_source_t) :: source
+      type(case_t) :: input
+      character(len=:), allocatable :: why
+
+      source%origin = "the lubricant"
+      call split_text(source%origin, text, source%pieces, status)
+      if (.not. status%failed()) call check_pieces(source, status)
+      if (.not. status%failed()) call read_pieces(source, input, status)
+      if (status%failed()) return
+      lubricant = input%lubricant
+      call make_isotherms(lubricant, why)
+      if (why /= "") call source%refuse("lubricant.table_viscosity", "a table of viscosities "//why, "one of isotherms", status)
+   end subroutine read_lubricant
+
+   !> All keys with default and range, one a line with tabs between
+   subroutine defaults_text(text)
+      character(len=:), allocatable, intent(out) :: text
+      type(case_t) :: usual
+      character(len=name_length), allocatable :: keys(:)
+      character(len=path_length + 2), allocatable :: values(:)
+      character(len=1), parameter :: tab = achar(9)
+      integer :: k, n
+
+      text = ""
+      do n = 1, size(group_names)
+         call write_group(trim(group_names(n)), usual, keys, values)
+         do k = 1, size(keys)
+            text = text//trim(group_names(n))//"."//trim(keys(k))//tab//trim(values(k))//tab// &
+                   range_of(trim(group_names(n)), trim(keys(k)))//newline
+         end do
+      end do
+   end subroutine defaults_text
 
    !> An option as a piece
    pure function option_piece(option) result(piece)
@@ -98,10 +135,20 @@ contains
       piece%option = option
    end function option_piece
 
+   !> Whether the key of a piece is one of those of others
+   pure logical function is_one_of(piece, others)
+      type(piece_t), intent(in) :: piece, others(:)
+      is_one_of = any(others%group == piece%group .and. others%key == piece%key)
+   end function is_one_of
+
    !> Refuse pieces with unknown names, names that stand twice, and values that their keys do not take
-   subroutine check_pieces(source, status)
+   subroutine check_pieces(source, status, replacing)
       type(case_source_t), intent(inout) :: source
       type(status_t), intent(inout) :: status
+      !> Pieces that will replace some: a value that is not acceptable is left out then
+      type(piece_t), intent(in), optional :: replacing(:)
+      type(status_t) :: ignored
+      logical, allocatable :: good(:)
       type(case_t) :: usual
       character(len=name_length), allocatable :: keys(:)
       character(len=path_length + 2), allocatable :: values(:)
@@ -109,6 +156,7 @@ contains
       integer :: k, place
 
       group = ""
+      allocate (good(size(source%pieces)), source=.true.)
       do k = 1, size(source%pieces)
          if (status%failed()) return
          associate (piece => source%pieces(k))
@@ -125,10 +173,17 @@ contains
             else if (source%find(piece%name()) /= k) then
                call source%refuse(piece%name(), "key "//piece%name()//" is set twice", "every key once", status)
             else
-               call check_value(source, piece, trim(values(place)), status)
+               ignored = status_t()
+               call check_value(source, piece, trim(values(place)), ignored)
+               good(k) = .not. ignored%failed()
+               if (present(replacing)) then
+                  if (is_one_of(piece, replacing)) cycle
+               end if
+               if (.not. good(k)) status = ignored
             end if
          end associate
       end do
+      call keep_pieces(source%pieces, good)
    end subroutine check_pieces
 
    !> What a name could have been
