@@ -20,7 +20,7 @@ module ehl_read_case
    public :: defaults_text, read_case, read_case_file, read_lubricant, write_case
 
    !> Largest case file; anything longer is not one
-   integer, parameter :: largest_file = 4000000
+   integer, parameter :: largest_file = 1000000
    !> What pyehl makes of an oil, a data sheet, two bodies or a finish, and no routine here
    character(len=name_length), parameter :: made_by_pyehl(*) = [character(len=name_length) :: "radius_x", "radius_y", &
       "reduced_modulus", "viscosity", "pressure_viscosity", "temperature_viscosity", "viscosity_law", "inlet_law", &
