@@ -20,7 +20,12 @@ module ehl_read_case
    public :: defaults_text, read_case, read_case_file, read_lubricant, write_case
 
    !> Largest case file; anything longer is not one
-   integer, parameter :: largest_file = 4000000
+   integer, parameter :: largest_file = 1000000
+   !> What pyehl makes of an oil, a data sheet, two bodies or a finish, and no routine here
+   character(len=name_length), parameter :: made_by_pyehl(*) = [character(len=name_length) :: "radius_x", "radius_y", &
+      "reduced_modulus", "viscosity", "pressure_viscosity", "temperature_viscosity", "viscosity_law", "inlet_law", &
+      "alpha_origin", "kind", "table_temperature", "table_pressure", "table_viscosity"], &
+      groups_by_pyehl(*) = [character(len=name_length) :: "contact", "lubricant", "surface", "second_surface"]
    !> Begins an option that a person typed in a shell
    character(len=*), parameter :: typed = "--set "
 
@@ -306,11 +311,11 @@ contains
    end subroutine read_pieces
 
    !> Drop marked values that are what follows from the others: so an option on a resolved case does the same as on the case
-   !> that it was made of, and a value that somebody has changed counts as given
+   !> that it was made of. A value that somebody has changed, or that pyehl alone can make, counts as given.
    subroutine drop_marked(source)
       type(case_source_t), intent(inout) :: source
       type(case_source_t) :: given
-      type(case_t) :: trial
+      type(case_t) :: trial, usual
       type(status_t) :: ignored
       character(len=name_length), allocatable :: keys(:)
       character(len=path_length + 2), allocatable :: values(:)
@@ -321,6 +326,14 @@ contains
       allocate (follows(size(source%pieces)))
       follows = source%pieces%marked
       if (.not. any(follows)) return
+      group = ""
+      do k = 1, size(follows)
+         if (.not. (follows(k) .and. any(made_by_pyehl == source%pieces(k)%key) .and. &
+                   any(groups_by_pyehl == source%pieces(k)%group))) cycle
+         if (source%pieces(k)%group /= group) call write_group(trim(source%pieces(k)%group), usual, keys, values)
+         group = source%pieces(k)%group
+         follows(k) = values(findloc(keys, source%pieces(k)%key, dim=1)) == source%pieces(k)%value
+      end do
       given = source
       call keep_pieces(given%pieces, .not. follows)
       call read_pieces(given, trial, ignored)

@@ -44,8 +44,10 @@ def write_resolved(
         surface = case[group]
         x, y = (float(surface[f"tile_{axis}"] or surface[f"length_{axis}"]) for axis in "xy")
         ready = as_map(Topography(made.heights, (x, y)), group)
-        ready |= {f"{group}.file": str(tile.absolute()), f"{group}.finish": "none"}
-        ready |= {f"{group}.{key}": 0.0 for key in ("track", "ra", "rq")}
+        ready[f"{group}.file"] = str(tile.absolute())
+        # what the heights have taken in
+        done = {"finish": "none", "track": 0.0, "ra": 0.0, "rq": 0.0}
+        ready |= {f"{group}.{k}": value for k, value in done.items() if surface[k] != value}
         ready[f"{group}.tile_mirrored"] = surface["tile_mirrored"]
         case = case.with_options(ready)
     with new_file(path) as fresh:
