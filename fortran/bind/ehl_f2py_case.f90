@@ -11,9 +11,10 @@ module ehl_f2py_case
    use ehl_handles, only: put_text, reply
    use ehl_heat, only: dynamic_viscosity, temperature_viscosity
    use ehl_moes, only: operating_t
-   use ehl_read_case, only: defaults_text, read_case, read_lubricant
+   use ehl_read_case, only: read_case, read_lubricant
    use ehl_scales, only: scales_t
    use ehl_status, only: status_t
+   use ehl_write_case, only: defaults_text
    implicit none (type, external)
    private
    public :: operating, grid_defaults, inlet, sheet, check_case, defaults

@@ -81,8 +81,9 @@ contains
       subroutine exclude(one, rival, has_one)
          character(len=*), intent(in) :: one, rival
          logical, intent(in) :: has_one
-         if (has_one .and. source%given(group//"."//rival)) &
-            call source%contradict(group//"."//one, group//"."//rival, "one of the two", status)
+         if (has_one .and. source%given(group//"."//rival)) then
+           call source%contradict(group//"."//one, group//"."//rival, "one of the two", status)
+         end if
       end subroutine exclude
    end subroutine check_surface
 end module ehl_case_check_surface

@@ -43,12 +43,14 @@ contains
       si = source%first_given("contact", si_keys)
       if (moes /= "" .and. si /= "") call source%contradict(moes, si, "moes_m, moes_l and radius_ratio, or "//si_units, status)
       associate (c => input%contact)
-         if (source%given("contact.radius") .and. (c%radius_x > 0.0_dp .or. c%radius_y > 0.0_dp)) &
-            call source%contradict("contact.radius", source%first_given("contact", si_keys(5:)), &
+         if (source%given("contact.radius") .and. (c%radius_x > 0.0_dp .or. c%radius_y > 0.0_dp)) then
+           call source%contradict("contact.radius", source%first_given("contact", si_keys(5:)), &
                                    "radius of a round contact, or radius_x and radius_y", status)
-         if ((c%radius_x > 0.0_dp) .neqv. (c%radius_y > 0.0_dp)) &
-            call source%refuse(source%first_given("contact", si_keys(5:)), "one of contact.radius_x and radius_y", &
+         end if
+         if ((c%radius_x > 0.0_dp) .neqv. (c%radius_y > 0.0_dp)) then
+           call source%refuse(source%first_given("contact", si_keys(5:)), "one of contact.radius_x and radius_y", &
                                "both, or contact.radius of a round contact", status)
+         end if
       end associate
       call need(source%first_given("bodies", source%pieces%key), "contact", si_keys(4:6), "reduced radii and modulus alone")
       call need(if_given("lubricant.name"), "lubricant", [character(len=18) :: "viscosity", "pressure_viscosity", &
@@ -109,8 +111,9 @@ contains
       call check_motion(source, input, status)
       if (.not. status%failed()) call check_lubricant(source, input, scales, point, status)
       if (.not. status%failed()) call check_surfaces(source, input, status)
-      if (input%time%steps > 0 .and. input%time%max_periods > 0) &
-         call source%contradict("time.max_periods", "time.steps", "one of the two, the other 0", status)
+      if (input%time%steps > 0 .and. input%time%max_periods > 0) then
+        call source%contradict("time.max_periods", "time.steps", "one of the two, the other 0", status)
+      end if
    end subroutine check_complete
 
    !> Reduced radii and modulus must be those of the bodies
@@ -156,9 +159,10 @@ contains
       key = merge("contact.load  ", "contact.moes_m", input%contact%si)
       if (.not. input%contact%si) then
          call check_largest()
-         if (input%contact%moes_l > 0.0_dp .and. .not. input%lubricant%pressure_viscosity > 0.0_dp) &
-            call source%contradict("lubricant.pressure_viscosity", "contact.moes_l", &
+         if (input%contact%moes_l > 0.0_dp .and. .not. input%lubricant%pressure_viscosity > 0.0_dp) then
+           call source%contradict("lubricant.pressure_viscosity", "contact.moes_l", &
                                    "moes_l = 0.0, or a pressure_viscosity above 0", status)
+         end if
          return
       end if
       least = least_strain*input%contact%reduced_modulus

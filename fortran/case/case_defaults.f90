@@ -149,10 +149,12 @@ contains
 
       associate (isotherms => l%isotherms)
          if (.not. source%given("lubricant.range_temperature_min")) l%range_temperature_min = isotherms(1)%temperature - freezing
-         if (.not. source%given("lubricant.range_temperature_max")) &
-            l%range_temperature_max = isotherms(size(isotherms))%temperature - freezing
-         if (.not. source%given("lubricant.range_pressure_max")) &
-            l%range_pressure_max = minval([(isotherms(k)%p(size(isotherms(k)%p)), k=1, size(isotherms))])
+         if (.not. source%given("lubricant.range_temperature_max")) then
+           l%range_temperature_max = isotherms(size(isotherms))%temperature - freezing
+         end if
+         if (.not. source%given("lubricant.range_pressure_max")) then
+           l%range_pressure_max = minval([(isotherms(k)%p(size(isotherms(k)%p)), k=1, size(isotherms))])
+         end if
       end associate
    end subroutine take_range
 
@@ -187,8 +189,9 @@ contains
          end associate
          first = last + 1
       end do
-      if (any(l%isotherms(2:)%temperature <= l%isotherms(:size(l%isotherms) - 1)%temperature)) &
-         why = "is not by rising temperature"
+      if (any(l%isotherms(2:)%temperature <= l%isotherms(:size(l%isotherms) - 1)%temperature)) then
+        why = "is not by rising temperature"
+      end if
    end subroutine make_isotherms
 
    !> Of slide-to-roll ratio and velocities of the surfaces one gives the others

@@ -3,7 +3,7 @@
 !> nothing else.
 module ehl_solver
    use ehl_case, only: case_t
-   use ehl_read_case, only: write_case
+   use ehl_write_case, only: write_case
    use ehl_checkpoint, only: checkpoint_t, coarser
    use ehl_contact_run, only: contact_run_t
    use ehl_grid, only: grid_t
