@@ -17,11 +17,11 @@ module ehl_arguments
       character(len=:), allocatable :: options
       !> Whether other files may be in the result folder
       logical :: force = .false.
-      logical :: quiet = .false., version = .false., help = .false., keys = .false.
+      logical :: quiet = .false., version = .false., help = .false.
    end type arguments_t
 
    character(len=*), parameter :: switches(*) = [character(len=12) :: &
-      "-o", "--output", "--set", "--resume", "--force", "--quiet", "--version", "--help", "--options"]
+      "-o", "--output", "--set", "--resume", "--force", "--quiet", "--version", "--help"]
 
 contains
 
@@ -58,14 +58,12 @@ contains
             arguments%version = .true.
          case ("-h", "--help")
             arguments%help = .true.
-         case ("--options")
-            arguments%keys = .true.
          case default
             call take_other(word, arguments, status)
          end select
       end do
       if (status%failed()) return
-      if (arguments%help .or. arguments%version .or. arguments%keys) return
+      if (arguments%help .or. arguments%version) return
       if (arguments%resume /= "") then
          if (arguments%folder == "") arguments%folder = arguments%resume
       else if (arguments%case_file == "") then
@@ -137,13 +135,14 @@ contains
       text = "Solve an elastohydrodynamically lubricated point contact." // newline // newline &
              // "  ehl CASE.nml -o DIR [--set group.key=value ...] [--force] [--quiet]" // newline &
              // "  ehl --resume DIR [CASE.nml] [-o DIR] [--set group.key=value ...] [--force] [--quiet]" // newline // newline &
-             // "  CASE.nml   namelist file; every key has a default" // newline &
+             // "  CASE.nml   namelist file, keys as in cases/README.md; every key has a default. What needs a table, a data" // &
+             " sheet" // newline &
+             // "             or two bodies is resolved by 'pyehl check CASE.nml --resolved out.nml'" // newline &
              // "  -o DIR     folder for the results: new, empty, or of an earlier run" // newline &
              // "  --force    take a folder with other files, which stay" // newline &
              // "  --set      replace a value of the case, as often as wanted" // newline &
              // "  --resume   resume the interrupted run in DIR; results are bitwise identical" // newline &
              // "  --quiet    print nothing but errors" // newline &
-             // "  --options  list all keys: unit, default, allowed values, meaning" // newline &
              // "  --version  print the version and how it was built" // newline // newline &
              // "Exit status: 0 converged, 1 not converged or failed, 2 bad input, 130 interrupted." &
              // newline

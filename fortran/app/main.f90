@@ -4,8 +4,7 @@ program ehl
    use, intrinsic :: iso_fortran_env, only: error_unit
    use ehl_arguments, only: arguments_t, get_arguments, help_text
    use ehl_case, only: case_t, surface_case_t
-   use ehl_case_reader, only: read_case_file
-   use ehl_case_writer, only: options_text
+   use ehl_read_case, only: read_case_file
    use ehl_clock, only: clock_t, start_clock
    use ehl_checkpoint_folder, only: checkpoint_path, find_checkpoint, checkpoint_folder_t
    use ehl_conclusion, only: conclusion, resumption
@@ -43,11 +42,10 @@ program ehl
    call end_if_failed()
    call get_arguments(arguments, status)
    call end_if_failed()
-   if (arguments%help .or. arguments%version .or. arguments%keys) then
+   if (arguments%help .or. arguments%version) then
       arguments%quiet = .false.
       if (arguments%help) call say(without_end(help_text()))
       if (arguments%version) call say("ehl " // version // newline // build_text())
-      if (arguments%keys) call say(without_end(options_text()))
       call end_if_mute()
       stop exit_ok, quiet=.true.
    end if

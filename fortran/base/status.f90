@@ -25,6 +25,8 @@ module ehl_status
       integer :: code = ehl_ok
       !> What went wrong, for a person to read; empty when all is well
       character(len=:), allocatable :: message
+      !> group.key of the value of a case that is refused, if it is one
+      character(len=:), allocatable :: key
    contains
       procedure :: failed
       procedure :: fail
@@ -39,12 +41,14 @@ contains
    end function failed
 
    !> Record a failure; the first one is kept
-   subroutine fail(self, code, message)
+   subroutine fail(self, code, message, key)
       class(status_t), intent(inout) :: self
       integer, intent(in) :: code
       character(len=*), intent(in) :: message
+      character(len=*), intent(in), optional :: key
       if (self%failed()) return
       self%code = code
       self%message = message
+      if (present(key)) self%key = key
    end subroutine fail
 end module ehl_status

@@ -5,7 +5,8 @@ module ehl_case
    use ehl_viscosity_table, only: isotherm_t
    implicit none (type, external)
    private
-   public :: case_t, contact_case_t, lubricant_case_t, surface_case_t, text_case_t, is_feature, has_no_height, word_length, &
+   public :: bodies_case_t, case_t, contact_case_t, grid_case_t, lubricant_case_t, output_case_t, psd_case_t, solver_case_t, &
+             surface_case_t, text_case_t, time_case_t, is_feature, has_no_height, word_length, &
              path_length
 
    !> Longest option word
@@ -70,14 +71,17 @@ module ehl_case
       character(len=word_length) :: name = ""
       !> Measured viscosities; made absolute by the reader
       type(text_case_t) :: table
-      !> What it holds, read once. Not a key; set by the reader.
+      !> What it holds [degC], [Pa], [Pa s]: by temperature, then by pressure
+      real(dp), allocatable, dimension(:) :: table_temperature, table_pressure, table_viscosity
+      !> The same as isotherms. Not a key; set by the reader.
       type(isotherm_t), allocatable :: isotherms(:)
       real(dp) :: viscosity = 0.04_dp
       real(dp) :: pressure_viscosity = 2.2e-8_dp
-      !> Whether it is an estimate from a data sheet, or the default beside a viscosity that was given. No keys; set by the
-      !> reader.
-      logical :: alpha_estimated = .false., alpha_default = .false.
+      !> Whether it was given, is an estimate from a data sheet, or the default beside a viscosity that was given
+      character(len=word_length) :: alpha_origin = "given"
       character(len=word_length) :: viscosity_law = "roelands"
+      !> The law that gives viscosity and pressure-viscosity coefficient at the inlet, where viscosity_law does not tell it
+      character(len=word_length) :: inlet_law = ""
       !> Set by the reader
       real(dp) :: roelands_z = 0.0_dp
       real(dp) :: roelands_p0 = 1.96e8_dp
@@ -227,6 +231,8 @@ module ehl_case
       type(solver_case_t) :: solver
       type(psd_case_t) :: psd
       type(output_case_t) :: output
+      !> The case as namelist text
+      character(len=:), allocatable :: text
       !> Which keys were given, in the order of the table of keys; not allocated: nobody knows
       logical, allocatable :: given(:)
    end type case_t

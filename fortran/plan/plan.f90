@@ -2,7 +2,7 @@
 !> The plan of a run: what this scene needs, decided once. The only reader of option words.
 module ehl_plan
    use ehl_case, only: case_t
-   use ehl_case_contact, only: find_contact, operating_point
+   use ehl_case_point, only: find_contact, operating_point
    use ehl_contact, only: contact_t
    use ehl_cycle, only: coarsening_alcouffe, coarsening_classical, cycle_options_t
    use ehl_domain, only: domain_cost, domain_t

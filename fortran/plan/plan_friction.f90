@@ -2,7 +2,7 @@
 !> What absolute friction and the heat of it need to know of a case
 module ehl_plan_friction
    use ehl_case, only: case_t
-   use ehl_case_contact, only: operating_point
+   use ehl_case_point, only: operating_point
    use ehl_contact, only: contact_t
    use ehl_heat, only: thermal_loading, thermal_reduction
    use ehl_kinds, only: dp

@@ -2,7 +2,7 @@
 !> Whether the heat of sliding counts for the friction of a case, and what it needs to know then
 module ehl_plan_heat
    use ehl_case, only: case_t
-   use ehl_case_contact, only: find_contact, operating_point
+   use ehl_case_point, only: find_contact, operating_point
    use ehl_contact, only: contact_t
    use ehl_heat, only: flash_temperature
    use ehl_heated_friction, only: film_heat_t

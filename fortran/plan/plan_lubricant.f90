@@ -78,10 +78,10 @@ contains
 
       note = ""
       associate (l => input%lubricant)
-         if (l%alpha_estimated) note = "alpha = "//fixed(l%pressure_viscosity, "es9.3")//" 1/Pa at "//to_text(l%temperature)// &
-            " degC is an estimate by the z of a mineral oil (Roelands): for z = "//known// &
+         if (l%alpha_origin == "estimated") note = "alpha = "//fixed(l%pressure_viscosity, "es9.3")//" 1/Pa at "// &
+            to_text(l%temperature)//" degC is an estimate by the z of a mineral oil (Roelands): for z = "//known// &
             " the film is 17 % thinner to 12 % thicker; give lubricant.pressure_viscosity"
-         if (l%alpha_default) note = "alpha = "//fixed(l%pressure_viscosity, "es9.3")// &
+         if (l%alpha_origin == "default") note = "alpha = "//fixed(l%pressure_viscosity, "es9.3")// &
             " 1/Pa is the default, that of another oil; give lubricant.pressure_viscosity"
       end associate
    end subroutine alpha_note

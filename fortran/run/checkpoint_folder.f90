@@ -3,7 +3,6 @@
 !> It holds the case, the surface if it came from Python, and the last two states.
 module ehl_checkpoint_folder
    use ehl_case, only: case_t
-   use ehl_case_writer, only: case_text
    use ehl_checkpoint, only: coarser, frame_file, state_files
    use ehl_clock, only: clock_t, start_clock
    use ehl_files, only: file_exists, make_folder, remove_file, remove_folder, rename_path
@@ -121,7 +120,7 @@ contains
       end if
       call put_heights(place//surface_file, heights, status)
       call put_heights(place//second_file, second_heights, status)
-      if (.not. status%failed()) call write_text(place//case_file//".new", mark//newline//case_text(input), status)
+      if (.not. status%failed()) call write_text(place//case_file//".new", mark//newline//input%text, status)
       if (.not. status%failed()) call put(place//case_file, status)
       if (status%failed() .or. place == self%folder) return
       same = move_new(place(:len(place) - 1), self%folder(:len(self%folder) - 1))

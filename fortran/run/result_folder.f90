@@ -2,7 +2,6 @@
 !> The files of a result, the same for both drivers
 module ehl_result_folder
    use ehl_case, only: case_t
-   use ehl_case_writer, only: case_text
    use ehl_files, only: remove_file, remove_folder
    use ehl_folders, only: list_folder, name_t
    use ehl_kinds, only: dp
@@ -65,7 +64,7 @@ contains
       summary = solver%summary()
       call summary%set("version", version)
       call summary%set("wall_seconds", wall_seconds)
-      call write_text(folder // "case.nml", case_text(input), status)
+      call write_text(folder // "case.nml", input%text, status)
       if (.not. status%failed()) call write_text(folder // "plan.txt", plan_text(solver%plan), status)
       if (.not. status%failed()) call solver%history%write_csv(folder // "history.csv", status)
       if (.not. status%failed() .and. input%output%fields) call write_fields(folder, solver, status)

@@ -3,7 +3,7 @@
 !> nothing else.
 module ehl_solver
    use ehl_case, only: case_t
-   use ehl_case_writer, only: case_text
+   use ehl_write_case, only: write_case
    use ehl_checkpoint, only: checkpoint_t, coarser
    use ehl_contact_run, only: contact_run_t
    use ehl_grid, only: grid_t
@@ -291,7 +291,6 @@ contains
       plain%psd = default%psd
       plain%output = default%output
       plain%output%frame_interval = input%output%frame_interval
-      if (allocated(plain%given)) deallocate (plain%given)
-      text = case_text(plain)
+      call write_case(plain, text)
    end function step_text
 end module ehl_solver

@@ -3,7 +3,7 @@
 program example
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use ehl_case, only: case_t
-   use ehl_case_reader, only: read_case
+   use ehl_read_case, only: read_case
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
    use ehl_record, only: record_t

@@ -1,13 +1,11 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Reading, checking and writing cases
+!> Reading, completing, checking and writing cases
 module test_case
    use check, only: has_text, is_close, is_equal, is_text, is_true
-   use ehl_case, only: case_t, text_case_t
-   use ehl_case_reader, only: read_case
-   use ehl_case_writer, only: case_text
+   use ehl_case, only: case_t
    use ehl_kinds, only: dp
-   use ehl_schema, only: schema_t
-   use ehl_status, only: ehl_bad_input, ehl_internal, status_t
+   use ehl_read_case, only: read_case
+   use ehl_status, only: ehl_bad_input, status_t
    implicit none (type, external)
    private
    public :: run_case
@@ -22,24 +20,50 @@ contains
       call writes_what_it_reads()
       call options_win()
       call faults_have_places()
-      call misspelt_names_are_faults_of_the_program()
+      call options_move_what_follows()
+      call what_pyehl_makes_is_asked_for()
    end subroutine run_case
 
-   !> A name in the source that is no key: an error, not the memory before the table
-   subroutine misspelt_names_are_faults_of_the_program()
-      type(schema_t) :: schema
-      type(status_t) :: status(3)
-      type(text_case_t) :: file
-      real(dp), target :: value
+   !> On a case that was written with all that follows, an option moves what follows from it
+   subroutine options_move_what_follows()
+      type(case_t) :: first, resolved, direct
+      type(status_t) :: status
+      character(len=*), parameter :: text = "&contact moes_m = 30 / &surface kind = 'harmonic' amplitude = 0.01 /"
 
-      value = 1.0_dp
-      schema%group = "contact"
-      call schema%reals("load", value, "N", "", "load")
-      call schema%contradict("contact.load", "contact.laod", "one", status(1))
-      call schema%check_range("contact.laod", value, "contact.load", "load", status(2))
-      call schema%find_file("contact.laod", file, status(3))
-      call is_true(all(status%code == ehl_internal), "a misspelt name of a key is an internal error")
-   end subroutine misspelt_names_are_faults_of_the_program
+      call read_case(text, "text", "", first, status)
+      call read_case(first%text, "written", "contact.moes_m=2"//lf//"grid.points=65", resolved, status)
+      call read_case(text, "text", "contact.moes_m=2"//lf//"grid.points=65", direct, status)
+      call is_true(.not. status%failed(), "options on a written case")
+      call is_text(resolved%text, direct%text, "an option on a written case does what it does on the case itself")
+      call is_true(resolved%grid%x_inlet < first%grid%x_inlet .and. resolved%grid%points_y == 65, "domain and nodes follow")
+      ! a value that somebody has changed counts, whatever its line says
+      call read_case("&grid x_inlet = -3.7 ! derived"//lf//"/", "changed", "", direct, status)
+      call is_close(direct%grid%x_inlet, -3.7_dp, 0.0_dp, "a changed value with a mark")
+   end subroutine options_move_what_follows
+
+   !> Keys that say nothing to the solver need what pyehl makes of them
+   subroutine what_pyehl_makes_is_asked_for()
+      type(case_t) :: input
+      type(status_t) :: status
+
+      call fault("&lubricant name = 'fva3' /", "", "text:1: error: lubricant.name", "pyehl check")
+      call fault("&lubricant kinematic_viscosity_40 = 95 kinematic_viscosity_100 = 10 /", "", "text:1: error: lubricant.kin", &
+                 "pyehl check")
+      call fault("&bodies radius_x1 = 0.01 radius_y1 = 0.01 /", "", "text:1: error: bodies.radius_", "pyehl check")
+      call fault("&surface finish = 'ground' /", "", "text:1: error: surface.finish", "pyehl check")
+      call fault("&lubricant viscosity_law = 'table' /", "", "text:1: error: the law 'table'", "pyehl check")
+      call fault("&bodies radius_x1 = 0.01 radius_y1 = 0.01 /"//lf//"&contact radius_x = 0.01 radius_y = 0.02 "// &
+                 "reduced_modulus = 2.2637e11 /", "", "text:2: error: contact.radius_y", "pyehl check")
+      call read_case("&bodies radius_x1=0.01 radius_y1=0.01/ &contact radius_x=0.01 radius_y=0.01 reduced_modulus=2.26373626e11/", &
+                     "text", "", input, status)
+      call is_true(.not. status%failed() .and. input%bodies%given, "bodies with what follows from them")
+      call read_case("&lubricant viscosity_law = 'table' temperature = 40 table_temperature = 40, 40, 80, 80 "// &
+                     "table_pressure = 1e5, 4e9, 1e5, 4e9"//lf//" table_viscosity = 0.06, 1e7, 0.01, 1e6 /", "text", "", input, &
+                     status)
+      call is_true(.not. status%failed(), "a table of viscosities")
+      call is_close(input%lubricant%viscosity, 0.06_dp, 1.0e-3_dp, "the viscosity of the table")
+      call is_equal(size(input%lubricant%isotherms), 2, "its isotherms")
+   end subroutine what_pyehl_makes_is_asked_for
 
    subroutine defaults_are_the_papers()
       type(case_t) :: input
@@ -69,7 +93,6 @@ contains
    subroutine writes_what_it_reads()
       type(case_t) :: input, again
       type(status_t) :: status
-      character(len=:), allocatable :: text
 
       call read_case("&contact moes_m=123.456 moes_l=7 / &grid points=257 x_inlet=-4.5/ " &
                      // "&surface kind='harmonic' amplitude=9.734e-3 wavelength=.25/ " &
@@ -79,10 +102,10 @@ contains
       call is_close(input%surface%wavelength_y, 0.25_dp, 0.0_dp, "wavelength along Y as given for both")
       call is_close(input%surface%x_start, -4.5_dp, 0.0_dp, "roughness begins at the inlet")
       call is_true(input%psd%load_balance, "short form of true")
-      text = case_text(input)
-      call read_case(text, "written", "", again, status)
+      call read_case(input%text, "written", "", again, status)
       call is_true(.not. status%failed(), "a written case can be read")
-      call is_text(case_text(again), text, "a case read and written again")
+      call is_text(again%text, input%text, "a case read and written again")
+      call has_text(input%text, "wavelength_y = 0.25 ! derived", "a mark")
    end subroutine writes_what_it_reads
 
    subroutine options_win()
@@ -92,22 +115,39 @@ contains
       call read_case("&grid points = 257 /", "text", "grid.points=129" // lf // "surface.kind=fractal" // lf, &
                      input, status)
       call is_true(.not. status%failed(), "options are read")
+      call read_case("&grid points = 64.5 /", "text", "grid.points=129"//lf//"surface.kind=fractal", input, status)
+      call is_true(.not. status%failed(), "an option replaces a value that is not acceptable")
       call is_equal(input%grid%points, 129, "an option replaces the value of the file")
       call is_text(trim(input%surface%kind), "fractal", "an option's word needs no quotes")
    end subroutine options_win
 
    subroutine faults_have_places()
-      call fault("&grid" // lf // "  pionts = 65 /", "", "text:2:3: error", "'points'")
-      call fault("&grid" // lf // "  x_inlet = -2,5 /", "", "text:2:15: error", "decimal comma")
-      call fault("&contact load = 600 N /", "", "text:1:21: error", "contact.load")
-      call fault("&grid points = 65", "", "text:1:18: error", "'/'")
-      call fault("&grid points = 512 /", "", "text:1:16: error", "513")
-      call fault("&contact load = nan /", "", "text:1:17: error", "finite")
-      call fault("&contact load = 1e999 /", "", "text:1:17: error", "too large")
-      call fault("&contact load = 1e99999999999 /", "", "text:1:17: error", "too large")
-      call fault("&contact load = 1e-99999999999 /", "", "text:1:17: error", "out of range")
+      call fault("&grid"//lf//"  pionts = 65 /", "", "text:2: error", "'points'")
+      call fault("&gird points = 65 /", "", "text:1: error", "'grid'")
+      call fault("&grid"//lf//"  x_inlet = -2,5 /", "", "text:2: error: grid.x_inlet = -2, 5", "a number in [-1e4, -1.05]")
+      call fault("&contact load = 600 N /", "", "text:1: error: contact.load = 600, N", "a number in (0, 1e5]")
+      call fault("&contact load = 2*600 /", "", "text:1: error: contact.load", "(0, 1e5]")
+      call fault("&contact load = /", "", "text:1: error: no value for contact.load", "(0, 1e5]")
+      call fault("&contact load(1) = 5 /", "", "text:1: error: unknown key 'load(1)'", "'load'")
+      call fault("&grid points = 65", "", "text:1: error", "'/'")
+      call fault("&grid points = 65 &solver threads = 1 /", "", "text:1: error: &grid", "'/'")
+      call fault("points = 65 /", "", "text:1: error", "&group")
+      call fault("&grid points = 65.0 /", "", "text:1: error: grid.points = 65.0", "a whole number in [17, 4097]")
+      call fault("&grid points = 512 /", "", "text:1: error", "513")
+      call fault("&grid points = 65 points = 65 /", "", "text:1: error", "every key once")
+      call fault("&surface kind = harmonic /", "", "text:1: error: surface.kind", "'harmonic'")
+      call fault("&surface kind = 'harmonic"//lf//"' /", "", "text:1: error", "'...'")
+      call fault("&psd load_balance = yes /", "", "text:1: error", ".true. or .false.")
+      call fault("&contact load = nan /", "", "text:1: error", "(0, 1e5]")
+      call fault("&contact load = 1e999 /", "", "text:1: error", "(0, 1e5]")
+      call fault("&contact load = 1e99999999999 /", "", "text:1: error", "(0, 1e5]")
+      call fault("&surface x_start = 1e-99999 /", "", "text:1: error", "[-1e5, 1e4]")
       call fault("", "grid.pionts=65", "grid.pionts=65: error", "'points'")
-      call fault("", "points=65", "points=65: error", "group.key=value")
+      call fault("", "--set grid.points=64", "--set grid.points=64: error", "65")
+      call fault("", "points=65", "points=65: error", "group")
+      call fault("&contact moes_m = 100 load = 50 /", "", "text:1: error: contact.load contradicts contact.moes_m", "moes_l")
+      call fault("&contact slide_to_roll = 0.1 / &surface velocity_ratio = 1 /", "", "text:1: error: surface.velocity", "= 0.0")
+      call fault("&contact load = 1e4 radius = 1e-4 /", "", "text:1: error: the Hertz", "SI units")
    end subroutine faults_have_places
 
    !> A case that must be refused with a message that begins and goes on as wanted

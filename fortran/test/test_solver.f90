@@ -6,7 +6,7 @@ module test_solver
                                             ieee_set_halting_mode, ieee_value
    use check, only: is_close, is_equal, is_true
    use ehl_case, only: case_t
-   use ehl_case_reader, only: read_case
+   use ehl_read_case, only: read_case
    use ehl_contact, only: contact_t
    use ehl_contact_factory, only: hertz_scales, new_contact
    use ehl_deflection, only: deflection_t

@@ -3,7 +3,7 @@
 module test_transient
    use check, only: is_close, is_equal, is_true
    use ehl_case, only: case_t
-   use ehl_case_reader, only: read_case
+   use ehl_read_case, only: read_case
    use ehl_contact_run, only: contact_run_t
    use ehl_film, only: refresh
    use ehl_flow, only: along

@@ -21,7 +21,15 @@ from pyehl.surfaces.from_case import (
     without_spikes,
 )
 from pyehl.surfaces.generators import FEATURES, fractal, harmonic
-from pyehl.surfaces.in_memory import Surface, as_map, given, in_memory, keep_beside, part_of
+from pyehl.surfaces.in_memory import (
+    Surface,
+    as_map,
+    given,
+    in_memory,
+    keep_beside,
+    part_of,
+    with_surface,
+)
 from pyehl.surfaces.interpolation import interpolated, resampled, shifted
 from pyehl.surfaces.options import Options
 from pyehl.surfaces.prepare import Preparation, prepare

@@ -1,0 +1,268 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Values of a case that follow from others where they are not given, by the numerics alone. What needs tables, data sheets or
+!> judgement is completed by pyehl.
+module ehl_case_defaults
+   use ehl_case, only: case_t, has_no_height, is_feature, lubricant_case_t, surface_case_t
+   use ehl_case_grid, only: fill_grid, grid_keys
+   use ehl_case_law, only: make_viscosity, own_law
+   use ehl_case_point, only: find_contact
+   use ehl_case_source, only: case_source_t
+   use ehl_contact, only: contact_t
+   use ehl_heat, only: freezing
+   use ehl_kinds, only: dp
+   use ehl_moes, only: operating_t
+   use ehl_scales, only: scales_t
+   use ehl_status, only: status_t
+   use ehl_surface, only: x_filled, x_matters
+   use ehl_viscosity_law, only: viscosity_law_t
+   use ehl_viscosity_table, only: isotherm_t, new_isotherm
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   implicit none (type, external)
+   private
+   public :: complete, inlet, latest_start, make_isotherms, moes_keys, roelands_exponent, si_keys, sliding, velocity_ratio, &
+             waits
+
+   character(len=16), parameter :: moes_keys(3) = [character(len=16) :: "moes_m", "moes_l", "radius_ratio"], &
+      si_keys(6) = [character(len=16) :: "load", "mean_velocity", "radius", "reduced_modulus", "radius_x", "radius_y"]
+   !> Size of the tile of Table 1 of Zhang et al. 2019 [m]
+   real(dp), parameter :: fractal_length = 8.29e-4_dp
+   !> Time in which the film made in the inlet passes the contact [a/u]
+   real(dp), parameter :: through = 2.0_dp
+
+contains
+
+   !> Give values to all keys that were not given
+   subroutine complete(source, input, status)
+      type(case_source_t), intent(in) :: source
+      type(case_t), intent(inout) :: input
+      type(status_t), intent(inout) :: status
+      class(contact_t), allocatable :: contact
+      type(scales_t) :: scales
+      type(operating_t) :: point
+      integer :: k
+
+      call complete_contact(source, input)
+      call complete_lubricant(source, input, status)
+      if (status%failed()) return
+      call find_contact(input, contact, scales, point)
+      call fill_grid(contact, point, input%surface%kind == "smooth" .and. input%second_surface%kind == "smooth", &
+                     [(source%given("grid."//grid_keys(k)), k=1, size(grid_keys))], input%grid)
+      call complete_motion(source, input)
+      call complete_surface(source, "surface", input%grid%x_inlet, input%surface)
+      call complete_surface(source, "second_surface", input%grid%x_inlet, input%second_surface)
+      ! two fractal surfaces of one seed are the same surface, whose waves add up
+      if (input%surface%kind == "fractal" .and. input%second_surface%kind == "fractal" &
+          .and. .not. source%given("second_surface.seed")) then
+         input%second_surface%seed = input%surface%seed + merge(1, -1, input%surface%seed < huge(1))
+      end if
+      if (.not. source%given("surface.x_start")) call late_start(input%surface, input%second_surface)
+      if (.not. source%given("second_surface.x_start")) call late_start(input%second_surface, input%surface)
+   end subroutine complete
+
+   !> SI units or Moes numbers, and both radii
+   subroutine complete_contact(source, input)
+      type(case_source_t), intent(in) :: source
+      type(case_t), intent(inout) :: input
+
+      input%bodies%given = any(source%pieces%group == "bodies")
+      associate (c => input%contact)
+         c%si = source%first_given("contact", moes_keys) == ""
+         if (.not. c%si) return
+         c%round = .not. (c%radius_x > 0.0_dp .or. c%radius_y > 0.0_dp)
+         if (c%round) then
+            c%radius_x = c%radius
+            c%radius_y = c%radius
+         end if
+         if (c%radius_y > 0.0_dp) c%radius_ratio = c%radius_x/c%radius_y
+      end associate
+   end subroutine complete_contact
+
+   !> Viscosity, pressure-viscosity coefficient and fall with temperature at the inlet by a law that tells them; exponent of
+   !> Roelands
+   subroutine complete_lubricant(source, input, status)
+      type(case_source_t), intent(in) :: source
+      type(case_t), intent(inout) :: input
+      type(status_t), intent(inout) :: status
+      real(dp) :: viscosity, alpha, slope
+      character(len=:), allocatable :: why
+
+      associate (l => input%lubricant)
+         ! its constants hold with that volume
+         if (.not. source%given("lubricant.density_law") .and. l%viscosity_law == "doolittle") l%density_law = "tait"
+         call make_isotherms(l, why)
+         if (why /= "") call source%refuse("lubricant.table_viscosity", "a table of viscosities "//why, &
+                                           "what 'pyehl check --resolved' writes of a table", status)
+         if (status%failed()) return
+         if (allocated(l%isotherms)) call take_range(source, l)
+         if (own_law(l) /= "" .and. .not. (source%given("lubricant.viscosity") .and. source%given("lubricant.pressure_viscosity") &
+                                           .and. source%given("lubricant.temperature_viscosity"))) then
+            call inlet(l, viscosity, alpha, slope, status)
+            if (status%failed()) return
+            if (.not. source%given("lubricant.viscosity")) l%viscosity = viscosity
+            if (.not. source%given("lubricant.pressure_viscosity")) l%pressure_viscosity = alpha
+            if (.not. source%given("lubricant.temperature_viscosity")) l%temperature_viscosity = slope
+         end if
+         if (own_law(l) == "" .and. input%contact%si .and. source%given("lubricant.viscosity") .and. .not. &
+             source%given("lubricant.pressure_viscosity") .and. l%alpha_origin == "given") l%alpha_origin = "default"
+         if (.not. source%given("lubricant.roelands_z")) then
+            l%roelands_z = roelands_exponent(l%viscosity, l%pressure_viscosity, l%roelands_p0)
+         end if
+         if (input%psd%viscosity_law == "") input%psd%viscosity_law = l%viscosity_law
+      end associate
+   end subroutine complete_lubricant
+
+   !> z of Roelands' law by viscosity [Pa s], pressure-viscosity coefficient [1/Pa] and reference pressure [Pa]
+   pure real(dp) function roelands_exponent(viscosity, alpha, p0)
+      real(dp), intent(in) :: viscosity, alpha, p0
+      roelands_exponent = alpha*p0/(log(viscosity) + 9.67_dp)
+   end function roelands_exponent
+
+   !> Viscosity [Pa s], pressure-viscosity coefficient [1/Pa] and -(d eta/dT)/eta [1/K] at the inlet by the law that tells them
+   subroutine inlet(l, viscosity, alpha, slope, status)
+      type(lubricant_case_t), intent(in) :: l
+      real(dp), intent(out) :: viscosity, alpha, slope
+      type(status_t), intent(inout) :: status
+      class(viscosity_law_t), allocatable :: law
+      real(dp) :: rise(1), level(1), at(2)
+      !> [K] the error of the difference is its square over some hundred K^2
+      real(dp), parameter :: step = 0.01_dp
+
+      viscosity = 0.0_dp
+      alpha = 0.0_dp
+      slope = 0.0_dp
+      ! a pressure of 1 Pa in place of the Hertz pressure
+      call make_viscosity(l, trim(own_law(l)), 1.0_dp, law, status)
+      if (status%failed()) return
+      viscosity = law%ambient_viscosity
+      if (.not. ieee_is_finite(viscosity)) return
+      call law%log_viscosity([0.0_dp], level, rise)
+      call law%log_viscosity_at([0.0_dp, 0.0_dp], [-step, step], at)
+      alpha = rise(1)
+      slope = (at(1) - at(2))/(2.0_dp*step)
+   end subroutine inlet
+
+   !> The range of the measurements is that of a table, where it is not given
+   subroutine take_range(source, l)
+      type(case_source_t), intent(in) :: source
+      type(lubricant_case_t), intent(inout) :: l
+      integer :: k
+
+      associate (isotherms => l%isotherms)
+         if (.not. source%given("lubricant.range_temperature_min")) l%range_temperature_min = isotherms(1)%temperature - freezing
+         if (.not. source%given("lubricant.range_temperature_max")) then
+           l%range_temperature_max = isotherms(size(isotherms))%temperature - freezing
+         end if
+         if (.not. source%given("lubricant.range_pressure_max")) then
+           l%range_pressure_max = minval([(isotherms(k)%p(size(isotherms(k)%p)), k=1, size(isotherms))])
+         end if
+      end associate
+   end subroutine take_range
+
+   !> The table of measured viscosities by isotherms, or why it makes none
+   subroutine make_isotherms(l, why)
+      type(lubricant_case_t), intent(inout) :: l
+      character(len=:), allocatable, intent(out) :: why
+      integer :: first, last, n
+
+      why = ""
+      if (.not. allocated(l%table_viscosity)) return
+      n = size(l%table_viscosity)
+      if (n == 0) return
+      if (size(l%table_temperature) /= n .or. size(l%table_pressure) /= n) then
+         why = "has not as many temperatures and pressures"
+         return
+      end if
+      allocate (l%isotherms(0))
+      first = 1
+      do while (first <= n)
+         last = first
+         do while (last < n)
+            if (abs(l%table_temperature(last + 1) - l%table_temperature(first)) > 0.0_dp) exit
+            last = last + 1
+         end do
+         associate (p => l%table_pressure(first:last), eta => l%table_viscosity(first:last))
+            if (first == last .or. any(p(2:) <= p(:last - first)) .or. any([eta(2:) - eta(:last - first), eta(1)] <= 0.0_dp)) then
+               why = "does not rise with two pressures or more at each temperature"
+               return
+            end if
+            l%isotherms = [l%isotherms, new_isotherm(l%table_temperature(first) + freezing, p, eta)]
+         end associate
+         first = last + 1
+      end do
+      if (any(l%isotherms(2:)%temperature <= l%isotherms(:size(l%isotherms) - 1)%temperature)) then
+        why = "is not by rising temperature"
+      end if
+   end subroutine make_isotherms
+
+   !> Of slide-to-roll ratio and velocities of the surfaces one gives the others
+   subroutine complete_motion(source, input)
+      type(case_source_t), intent(in) :: source
+      type(case_t), intent(inout) :: input
+
+      associate (body => input%contact%rough_surface, srr => input%contact%slide_to_roll, &
+                 first => input%surface%velocity_ratio, second => input%second_surface%velocity_ratio)
+         if (.not. source%given("contact.slide_to_roll")) then
+            if (source%given("surface.velocity_ratio")) then
+               srr = sliding(body, first)
+            else if (source%given("second_surface.velocity_ratio")) then
+               srr = sliding(3 - body, second)
+            end if
+         end if
+         if (.not. source%given("surface.velocity_ratio")) first = velocity_ratio(body, srr)
+         if (.not. source%given("second_surface.velocity_ratio")) second = velocity_ratio(3 - body, srr)
+      end associate
+   end subroutine complete_motion
+
+   !> Velocity of body 1 or 2 over the mean one, by the slide-to-roll ratio
+   pure real(dp) function velocity_ratio(body, srr)
+      integer, intent(in) :: body
+      real(dp), intent(in) :: srr
+      velocity_ratio = 1.0_dp + 0.5_dp*merge(1.0_dp, -1.0_dp, body == 1)*srr
+   end function velocity_ratio
+
+   !> Slide-to-roll ratio by the velocity of a body, free of the rounding of the difference: 0.02 for 1.01
+   pure real(dp) function sliding(body, ratio)
+      integer, intent(in) :: body
+      real(dp), intent(in) :: ratio
+      sliding = anint(merge(1.0_dp, -1.0_dp, body == 1)*(ratio - 1.0_dp)*2.0e12_dp)/1.0e12_dp
+   end function sliding
+
+   !> Defaults of a surface that depend on other keys
+   subroutine complete_surface(source, group, x_inlet, s)
+      type(case_source_t), intent(in) :: source
+      character(len=*), intent(in) :: group
+      real(dp), intent(in) :: x_inlet
+      type(surface_case_t), intent(inout) :: s
+
+      if (s%kind == "fractal") then
+         if (.not. s%length_x > 0.0_dp) s%length_x = fractal_length
+         if (.not. s%length_y > 0.0_dp) s%length_y = fractal_length
+      end if
+      if (.not. source%given(group//".wavelength_x")) s%wavelength_x = s%wavelength
+      if (.not. source%given(group//".wavelength_y")) s%wavelength_y = s%wavelength
+      if (.not. source%given(group//".x_start")) s%x_start = x_inlet
+      s%amplitude_given = source%given(group//".amplitude")
+   end subroutine complete_surface
+
+   !> A feature comes when the roughness of the other surface has filled the contact, with the film that it made in the
+   !> inlet: its x_start unless it is given
+   pure subroutine late_start(s, other)
+      type(surface_case_t), intent(inout) :: s
+      type(surface_case_t), intent(in) :: other
+
+      if (waits(s, other)) s%x_start = min(s%x_start, latest_start(s, other) - s%velocity_ratio*through)
+   end subroutine late_start
+
+   !> Whether one is a feature on the move and the other one roughness on the move
+   pure logical function waits(s, other)
+      type(surface_case_t), intent(in) :: s, other
+      waits = is_feature(s%kind) .and. .not. is_feature(other%kind) .and. .not. has_no_height(other) .and. &
+              s%velocity_ratio > 0.0_dp .and. other%velocity_ratio > 0.0_dp
+   end function waits
+
+   !> Where a feature begins that comes near the contact just when the front of the other surface leaves it
+   pure real(dp) function latest_start(s, other)
+      type(surface_case_t), intent(in) :: s, other
+      latest_start = x_matters - s%velocity_ratio*(x_filled - other%x_start)/other%velocity_ratio
+   end function latest_start
+end module ehl_case_defaults

@@ -1,0 +1,77 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Border, domain and numbers of nodes that a contact needs, where a case does not give them
+module ehl_case_grid
+   use ehl_case, only: grid_case_t
+   use ehl_contact, only: contact_t
+   use ehl_domain, only: domain_t, flooded_by_default, needed_domain
+   use ehl_grid, only: find_levels
+   use ehl_grid_error, only: relative_errors
+   use ehl_kinds, only: dp
+   use ehl_moes, only: operating_t
+   implicit none (type, external)
+   private
+   public :: grid_keys, fill_grid
+
+   !> Keys of &grid that have a default by the contact
+   character(len=8), parameter :: grid_keys(5) = [character(len=8) :: "border", "x_inlet", "x_outlet", "y_extent", "points"]
+   !> Fewest and most intervals along Y of a coarsest grid
+   integer, parameter :: fewest_rows = 8, few_rows = 32
+   !> Least and largest ratio of the sides of a cell
+   real(dp), parameter :: least_ratio = 0.25_dp, largest_ratio = 1.41_dp
+   !> Largest a-priori error of H_c that the usual grid of a smooth contact may have
+   real(dp), parameter :: most_missed = 0.05_dp
+
+contains
+
+   !> Border and domain follow from the operating point, side by side, unless they are given
+   pure subroutine fill_grid(contact, point, smooth, given, grid)
+      class(contact_t), intent(in) :: contact
+      type(operating_t), intent(in) :: point
+      !> Whether both surfaces are smooth
+      logical, intent(in) :: smooth
+      !> Of grid_keys
+      logical, intent(in) :: given(5)
+      type(grid_case_t), intent(inout) :: grid
+      type(domain_t) :: domain
+      real(dp) :: errors(2)
+
+      if (.not. given(1) .and. flooded_by_default(contact, point) .and. contact%is_even()) grid%border = "flooded"
+      domain = needed_domain(contact, point, grid%border == "flooded")
+      if (.not. given(2)) grid%x_inlet = domain%inlet
+      if (.not. given(3)) grid%x_outlet = domain%outlet
+      if (.not. given(4)) grid%y_extent = domain%side
+      if (smooth .and. .not. given(5) .and. .not. grid%target_error > 0.0_dp) then
+         errors = relative_errors(contact, point, (grid%x_outlet - grid%x_inlet)/(grid%points - 1))
+         if (errors(1) > most_missed) grid%points = 2*grid%points - 1
+      end if
+      if (.not. grid%points_y > 0) grid%points_y = rows(contact, grid)
+   end subroutine fill_grid
+
+   !> Nodes along Y: as many as along X in a round contact, else as many as make cells of the shape wanted
+   pure integer function rows(contact, grid)
+      class(contact_t), intent(in) :: contact
+      type(grid_case_t), intent(in) :: grid
+      integer :: levels, intervals(2), halved, multiple
+      real(dp) :: wanted
+
+      rows = grid%points
+      if (contact%is_round()) return
+      call find_levels(rows, rows, levels, intervals)
+      if (levels == 0) return
+      halved = (rows - 1)/intervals(1)
+      wanted = 2.0_dp*grid%y_extent*intervals(1)/(cell_ratio(contact%reach(2)/contact%reach(1))*(grid%x_outlet - grid%x_inlet))
+      ! many rows are halved further, until they are few
+      multiple = 2
+      do while (wanted > 0.5_dp*multiple*few_rows)
+         multiple = 2*multiple
+      end do
+      rows = max(fewest_rows, multiple*nint(wanted/multiple))*halved + 1
+   end function rows
+
+   !> Side of a cell along Y over that along X: cells longer along the longer axis reach the same error with fewer nodes, as
+   !> long as multigrid converges as on square ones
+   pure real(dp) function cell_ratio(elongation)
+      real(dp), intent(in) :: elongation
+      cell_ratio = min(largest_ratio, max(least_ratio, elongation))
+   end function cell_ratio
+end module ehl_case_grid

@@ -1,0 +1,261 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The namelist groups of a case: every key, read into its place and written from there by the intrinsic read and write
+module ehl_case_groups
+   use ehl_case, only: bodies_case_t, case_t, contact_case_t, grid_case_t, output_case_t, path_length, psd_case_t, &
+                       solver_case_t, time_case_t, word_length
+   use ehl_large_groups, only: line_length, lubricant_group, surface_group
+   use ehl_kinds, only: dp
+   use ehl_namelist_pieces, only: name_length
+   use ehl_text, only: lower_case, to_text
+   implicit none (type, external)
+   private
+   public :: group_names, read_group, write_group
+
+   character(len=name_length), parameter :: group_names(*) = [character(len=name_length) :: "contact", "bodies", "lubricant", &
+      "grid", "surface", "second_surface", "time", "solver", "psd", "output"]
+   !> Most keys of a group, and its beginning and end
+   integer, parameter :: most_lines = 80
+
+contains
+
+   !> Read the text of a group, `&group ... /`; not good where the runtime refuses it
+   subroutine read_group(group, text, input, good)
+      character(len=*), intent(in) :: group, text
+      type(case_t), intent(inout) :: input
+      logical, intent(out) :: good
+      character(len=line_length) :: lines(0)
+
+      call pass_group(group, input, text, lines, good)
+   end subroutine read_group
+
+   !> Keys and values of a group, in order; '' is the value of a list
+   subroutine write_group(group, input, keys, values)
+      character(len=*), intent(in) :: group
+      type(case_t), intent(inout) :: input
+      character(len=name_length), allocatable, intent(out) :: keys(:)
+      character(len=path_length + 2), allocatable, intent(out) :: values(:)
+      character(len=line_length), allocatable :: lines(:)
+      logical :: good
+      integer :: k, equals
+
+      allocate (lines(most_lines))
+      lines = ""
+      call pass_group(group, input, "", lines, good)
+      lines = pack(lines, index(lines, "=") > 0)
+      allocate (keys(size(lines)), values(size(lines)))
+      do k = 1, size(lines)
+         equals = index(lines(k), "=")
+         keys(k) = lower_case(adjustl(lines(k)(:equals - 1)))
+         values(k) = plain(adjustl(lines(k)(equals + 1:)))
+      end do
+   end subroutine write_group
+
+   !> A value as the intrinsic write gives it, in its shortest form
+   function plain(written) result(text)
+      character(len=*), intent(in) :: written
+      character(len=:), allocatable :: text
+      real(dp) :: number
+
+      text = written(:len_trim(written) - 1)
+      if (index(text, "'") == 1) then
+         text = "'"//trim(text(2:len_trim(text) - 1))//"'"
+      else if (text == "T" .or. text == "F") then
+         text = to_text(text == "T")
+      else if (index(text, ".") > 0) then
+         read (text, *) number
+         text = to_text(number)
+      end if
+   end function plain
+
+   !> A group by its name: read where there is a text of it, else written
+   subroutine pass_group(group, input, text, lines, good)
+      character(len=*), intent(in) :: group, text
+      type(case_t), intent(inout) :: input
+      character(len=line_length), intent(inout) :: lines(:)
+      logical, intent(out) :: good
+
+      select case (group)
+      case ("contact")
+         call contact_group(input%contact, text, lines, good)
+      case ("bodies")
+         call bodies_group(input%bodies, text, lines, good)
+      case ("lubricant")
+         call lubricant_group(input%lubricant, text, lines, good)
+      case ("grid")
+         call grid_group(input%grid, text, lines, good)
+      case ("surface")
+         call surface_group(input%surface, text, lines, good)
+      case ("second_surface")
+         call surface_group(input%second_surface, text, lines, good)
+      case ("time")
+         call time_group(input%time, text, lines, good)
+      case ("solver")
+         call solver_group(input%solver, text, lines, good)
+      case ("psd")
+         call psd_group(input%psd, text, lines, good)
+      case default
+         call output_group(input%output, text, lines, good)
+      end select
+   end subroutine pass_group
+
+   !> &contact
+   subroutine contact_group(v, text, lines, good)
+      type(contact_case_t), intent(inout), target :: v
+      character(len=*), intent(in) :: text
+      character(len=line_length), intent(inout) :: lines(:)
+      logical, intent(out) :: good
+      integer :: stat
+      real(dp), pointer :: moes_m, moes_l, radius_ratio, load, mean_velocity, radius, radius_x, radius_y, reduced_modulus, &
+         hardness, angle, slide_to_roll, thermal_conductivity, thermal_diffusivity, thermal_conductivity_2, &
+         thermal_diffusivity_2
+      integer, pointer :: rough_surface
+      namelist /contact/ moes_m, moes_l, radius_ratio, load, mean_velocity, radius, radius_x, radius_y, reduced_modulus, &
+         hardness, angle, slide_to_roll, rough_surface, thermal_conductivity, thermal_diffusivity, thermal_conductivity_2, &
+         thermal_diffusivity_2
+
+      moes_m => v%moes_m; moes_l => v%moes_l; radius_ratio => v%radius_ratio; load => v%load
+      mean_velocity => v%mean_velocity; radius => v%radius; radius_x => v%radius_x; radius_y => v%radius_y
+      reduced_modulus => v%reduced_modulus; hardness => v%hardness; angle => v%angle; slide_to_roll => v%slide_to_roll
+      rough_surface => v%rough_surface; thermal_conductivity => v%thermal_conductivity
+      thermal_diffusivity => v%thermal_diffusivity; thermal_conductivity_2 => v%thermal_conductivity_2
+      thermal_diffusivity_2 => v%thermal_diffusivity_2
+      if (len(text) == 0) then
+         write (lines, nml=contact, iostat=stat, delim="apostrophe")
+      else
+         read (text, nml=contact, iostat=stat)
+      end if
+      good = stat == 0
+   end subroutine contact_group
+
+   !> &bodies
+   subroutine bodies_group(v, text, lines, good)
+      type(bodies_case_t), intent(inout), target :: v
+      character(len=*), intent(in) :: text
+      character(len=line_length), intent(inout) :: lines(:)
+      logical, intent(out) :: good
+      integer :: stat
+      real(dp), pointer :: radius_x1, radius_y1, radius_x2, radius_y2, modulus_1, modulus_2, poisson_1, poisson_2
+      namelist /bodies/ radius_x1, radius_y1, radius_x2, radius_y2, modulus_1, modulus_2, poisson_1, poisson_2
+
+      radius_x1 => v%radius_x1; radius_y1 => v%radius_y1; radius_x2 => v%radius_x2; radius_y2 => v%radius_y2
+      modulus_1 => v%modulus_1; modulus_2 => v%modulus_2; poisson_1 => v%poisson_1; poisson_2 => v%poisson_2
+      if (len(text) == 0) then
+         write (lines, nml=bodies, iostat=stat, delim="apostrophe")
+      else
+         read (text, nml=bodies, iostat=stat)
+      end if
+      good = stat == 0
+   end subroutine bodies_group
+
+   !> &grid
+   subroutine grid_group(v, text, lines, good)
+      type(grid_case_t), intent(inout), target :: v
+      character(len=*), intent(in) :: text
+      character(len=line_length), intent(inout) :: lines(:)
+      logical, intent(out) :: good
+      integer :: stat
+      real(dp), pointer :: x_inlet, x_outlet, y_extent, target_error
+      integer, pointer :: points, points_y, max_points
+      character(len=word_length), pointer :: border
+      namelist /grid/ points, points_y, x_inlet, x_outlet, y_extent, border, target_error, max_points
+
+      points => v%points; points_y => v%points_y; x_inlet => v%x_inlet; x_outlet => v%x_outlet; y_extent => v%y_extent
+      border => v%border; target_error => v%target_error; max_points => v%max_points
+      if (len(text) == 0) then
+         write (lines, nml=grid, iostat=stat, delim="apostrophe")
+      else
+         read (text, nml=grid, iostat=stat)
+      end if
+      good = stat == 0
+   end subroutine grid_group
+
+   !> &time
+   subroutine time_group(v, text, lines, good)
+      type(time_case_t), intent(inout), target :: v
+      character(len=*), intent(in) :: text
+      character(len=line_length), intent(inout) :: lines(:)
+      logical, intent(out) :: good
+      integer :: stat
+      real(dp), pointer :: tolerance
+      integer, pointer :: max_periods, steps
+      logical, pointer :: skip_start, estimate_error
+      character(len=word_length), pointer :: scheme, start
+      namelist /time/ scheme, tolerance, max_periods, start, skip_start, estimate_error, steps
+
+      scheme => v%scheme; tolerance => v%tolerance; max_periods => v%max_periods; start => v%start
+      skip_start => v%skip_start; estimate_error => v%estimate_error; steps => v%steps
+      if (len(text) == 0) then
+         write (lines, nml=time, iostat=stat, delim="apostrophe")
+      else
+         read (text, nml=time, iostat=stat)
+      end if
+      good = stat == 0
+   end subroutine time_group
+
+   !> &solver
+   subroutine solver_group(v, text, lines, good)
+      type(solver_case_t), intent(inout), target :: v
+      character(len=*), intent(in) :: text
+      character(len=line_length), intent(inout) :: lines(:)
+      logical, intent(out) :: good
+      integer :: stat
+      real(dp), pointer :: accuracy
+      integer, pointer :: max_cycles, threads
+      character(len=word_length), pointer :: deflection, coarsening, symmetry, cycle
+      namelist /solver/ deflection, coarsening, symmetry, cycle, accuracy, max_cycles, threads
+
+      deflection => v%deflection; coarsening => v%coarsening; symmetry => v%symmetry; cycle => v%cycle
+      accuracy => v%accuracy; max_cycles => v%max_cycles; threads => v%threads
+      if (len(text) == 0) then
+         write (lines, nml=solver, iostat=stat, delim="apostrophe")
+      else
+         read (text, nml=solver, iostat=stat)
+      end if
+      good = stat == 0
+   end subroutine solver_group
+
+   !> &psd
+   subroutine psd_group(v, text, lines, good)
+      type(psd_case_t), intent(inout), target :: v
+      character(len=*), intent(in) :: text
+      character(len=line_length), intent(inout) :: lines(:)
+      logical, intent(out) :: good
+      integer :: stat
+      real(dp), pointer :: film_thickness, film_limit
+      integer, pointer :: positions
+      logical, pointer :: load_balance
+      character(len=word_length), pointer :: reduction, smooth, wavelength_convention, stiffness, viscosity_law
+      namelist /psd/ reduction, smooth, film_thickness, film_limit, wavelength_convention, stiffness, viscosity_law, &
+         load_balance, positions
+
+      reduction => v%reduction; smooth => v%smooth; film_thickness => v%film_thickness; film_limit => v%film_limit
+      wavelength_convention => v%wavelength_convention; stiffness => v%stiffness; viscosity_law => v%viscosity_law
+      load_balance => v%load_balance; positions => v%positions
+      if (len(text) == 0) then
+         write (lines, nml=psd, iostat=stat, delim="apostrophe")
+      else
+         read (text, nml=psd, iostat=stat)
+      end if
+      good = stat == 0
+   end subroutine psd_group
+
+   !> &output
+   subroutine output_group(v, text, lines, good)
+      type(output_case_t), intent(inout), target :: v
+      character(len=*), intent(in) :: text
+      character(len=line_length), intent(inout) :: lines(:)
+      logical, intent(out) :: good
+      integer :: stat
+      real(dp), pointer :: frame_interval, checkpoint_interval
+      logical, pointer :: fields
+      namelist /output/ fields, frame_interval, checkpoint_interval
+
+      fields => v%fields; frame_interval => v%frame_interval; checkpoint_interval => v%checkpoint_interval
+      if (len(text) == 0) then
+         write (lines, nml=output, iostat=stat, delim="apostrophe")
+      else
+         read (text, nml=output, iostat=stat)
+      end if
+      good = stat == 0
+   end subroutine output_group
+end module ehl_case_groups

@@ -1,0 +1,125 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Which keys of a case were given, and refusals that name one
+module ehl_case_source
+   use ehl_case_ranges, only: allows, range_of
+   use ehl_kinds, only: dp
+   use ehl_namelist_pieces, only: piece_t
+   use ehl_status, only: ehl_bad_input, status_t
+   use ehl_text, only: newline, short, to_text
+   implicit none (type, external)
+   private
+   public :: case_source_t
+
+   type :: case_source_t
+      !> Name of the text, for messages and for relative file names
+      character(len=:), allocatable :: origin
+      !> All keys that were given, each once
+      type(piece_t), allocatable :: pieces(:)
+   contains
+      procedure :: find
+      procedure :: given
+      procedure :: first_given
+      procedure :: value_of
+      procedure :: refuse
+      procedure :: contradict
+      procedure :: check_range
+   end type case_source_t
+
+contains
+
+   !> Position of the piece of group.key; 0: the key was not given
+   pure integer function find(self, name)
+      class(case_source_t), intent(in) :: self
+      character(len=*), intent(in) :: name
+
+      do find = size(self%pieces), 1, -1
+         if (self%pieces(find)%name() == name) return
+      end do
+   end function find
+
+   !> Whether group.key was given
+   pure logical function given(self, name)
+      class(case_source_t), intent(in) :: self
+      character(len=*), intent(in) :: name
+      given = self%find(trim(name)) > 0
+   end function given
+
+   !> Of some keys of a group the given one that stands first; '' when none is given
+   pure function first_given(self, group, keys) result(name)
+      class(case_source_t), intent(in) :: self
+      character(len=*), intent(in) :: group, keys(:)
+      character(len=:), allocatable :: name
+      integer :: k
+
+      name = ""
+      do k = size(self%pieces), 1, -1
+         if (self%pieces(k)%group == group .and. any(self%pieces(k)%key == keys)) name = self%pieces(k)%name()
+      end do
+   end function first_given
+
+   !> What was given for a key
+   pure function value_of(self, name) result(value)
+      class(case_source_t), intent(in) :: self
+      character(len=*), intent(in) :: name
+      character(len=:), allocatable :: value
+
+      value = "the default"
+      if (self%given(name)) value = self%pieces(self%find(name))%value
+   end function value_of
+
+   !> Refuse a case at a key
+   subroutine refuse(self, name, what, expected, status)
+      class(case_source_t), intent(in) :: self
+      !> group.key
+      character(len=*), intent(in) :: name
+      character(len=*), intent(in) :: what, expected
+      type(status_t), intent(inout) :: status
+      character(len=:), allocatable :: place
+      integer :: k
+
+      place = self%origin
+      k = self%find(trim(name))
+      if (k > 0) then
+         place = place//":"//to_text(self%pieces(k)%line)
+         if (allocated(self%pieces(k)%option)) place = self%pieces(k)%option
+      end if
+      call status%fail(ehl_bad_input, place//": error: "//what//newline//"expected: "//expected, trim(name))
+   end subroutine refuse
+
+   !> Refuse two keys that exclude each other, at the one that stands later
+   subroutine contradict(self, one, other, expected, status, why)
+      class(case_source_t), intent(in) :: self
+      !> group.key of both
+      character(len=*), intent(in) :: one, other, expected
+      type(status_t), intent(inout) :: status
+      !> What contradicts, in values
+      character(len=*), intent(in), optional :: why
+      character(len=:), allocatable :: what
+
+      if (self%find(trim(one)) < self%find(trim(other))) then
+         what = trim(other)//" contradicts "//trim(one)
+      else
+         what = trim(one)//" contradicts "//trim(other)
+      end if
+      if (present(why)) what = what//": "//why
+      call self%refuse(what(:index(what, " ") - 1), what, expected, status)
+   end subroutine contradict
+
+   !> Refuse a value of a key that nobody gave, and that its range does not allow, at the key that it follows from
+   subroutine check_range(self, name, value, culprit, from, status)
+      class(case_source_t), intent(in) :: self
+      !> group.key of both
+      character(len=*), intent(in) :: name, culprit
+      real(dp), intent(in) :: value
+      !> What it follows from, in words
+      character(len=*), intent(in) :: from
+      type(status_t), intent(inout) :: status
+      character(len=:), allocatable :: range
+      integer :: dot
+
+      dot = index(name, ".")
+      range = range_of(name(:dot - 1), name(dot + 1:))
+      if (.not. allows(range, value)) call self%refuse(culprit, name//" = "//short(value)//" follows from "//from, &
+                                                       "a number in "//range, status)
+   end subroutine check_range
+end module ehl_case_source

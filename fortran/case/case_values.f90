@@ -1,0 +1,190 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Pieces of namelist text checked one by one, and each group read by one intrinsic read
+module ehl_case_values
+   use ehl_case, only: case_t, path_length
+   use ehl_case_groups, only: group_names, read_group, write_group
+   use ehl_case_ranges, only: allows, range_of, words_of
+   use ehl_case_source, only: case_source_t
+   use ehl_files, only: absolute_path, folder_of
+   use ehl_kinds, only: dp
+   use ehl_namelist_pieces, only: keep_pieces, name_length, piece_t
+   use ehl_status, only: status_t
+   use ehl_text, only: lower_case, nearest_word, quoted
+   implicit none (type, external)
+   private
+   public :: check_pieces, is_one_of, read_pieces
+
+contains
+
+   !> Whether the key of a piece is one of those of others
+   pure logical function is_one_of(piece, others)
+      type(piece_t), intent(in) :: piece, others(:)
+      is_one_of = any(others%group == piece%group .and. others%key == piece%key)
+   end function is_one_of
+
+   !> Refuse pieces with unknown names, names that stand twice, and values that their keys do not take
+   subroutine check_pieces(source, status, replacing)
+      type(case_source_t), intent(inout) :: source
+      type(status_t), intent(inout) :: status
+      !> Pieces that will replace some: a value that is not acceptable is left out then
+      type(piece_t), intent(in), optional :: replacing(:)
+      type(status_t) :: ignored
+      logical, allocatable :: good(:)
+      type(case_t) :: usual
+      character(len=name_length), allocatable :: keys(:)
+      character(len=path_length + 2), allocatable :: values(:)
+      character(len=name_length) :: group
+      integer :: k, place
+
+      group = ""
+      allocate (good(size(source%pieces)), source=.true.)
+      do k = 1, size(source%pieces)
+         if (status%failed()) return
+         associate (piece => source%pieces(k))
+            if (all(group_names /= piece%group)) then
+               call source%refuse(piece%name(), "unknown group '"//trim(piece%group)//"'", one_of(piece%group, group_names), status)
+               return
+            end if
+            if (piece%group /= group) call write_group(trim(piece%group), usual, keys, values)
+            group = piece%group
+            place = findloc(keys, piece%key, dim=1)
+            if (place == 0) then
+               call source%refuse(piece%name(), "unknown key '"//trim(piece%key)//"' in &"//trim(piece%group), &
+                                  one_of(piece%key, keys), status)
+            else if (source%find(piece%name()) /= k) then
+               call source%refuse(piece%name(), "key "//piece%name()//" is set twice", "every key once", status)
+            else
+               ignored = status_t()
+               call check_value(source, piece, trim(values(place)), ignored)
+               good(k) = .not. ignored%failed()
+               if (present(replacing)) then
+                  if (is_one_of(piece, replacing)) cycle
+               end if
+               if (.not. good(k)) status = ignored
+            end if
+         end associate
+      end do
+      call keep_pieces(source%pieces, good)
+   end subroutine check_pieces
+
+   !> What a name could have been
+   pure function one_of(name, names) result(expected)
+      character(len=*), intent(in) :: name, names(:)
+      character(len=:), allocatable :: expected
+      integer :: k
+
+      expected = nearest_word(trim(name), names)
+      if (expected /= "") then
+         expected = "'"//expected//"'"
+         return
+      end if
+      expected = "one of "//trim(names(1))
+      do k = 2, size(names)
+         expected = expected//", "//trim(names(k))
+      end do
+   end function one_of
+
+   !> Refuse a value that its key does not take, and make it one that the intrinsic read takes; names of files become absolute
+   subroutine check_value(source, piece, usual, status)
+      type(case_source_t), intent(in) :: source
+      type(piece_t), intent(inout) :: piece
+      !> The default as namelist text, by its kind; '': a list of numbers
+      character(len=*), intent(in) :: usual
+      type(status_t), intent(inout) :: status
+      character(len=:), allocatable :: range, value, expected
+      character(len=name_length), allocatable :: words(:)
+      real(dp) :: number
+      integer :: stat, whole, place
+
+      value = piece%value
+      range = range_of(trim(piece%group), trim(piece%key))
+      stat = merge(0, 1, piece%values == 1)
+      if (usual == "") then
+         expected = "numbers with commas between them"
+         stat = verify(value, "0123456789+-.eEdD, ")
+      else if (index(usual, "'") == 1) then
+         expected = "a text between quotes"
+         if (range /= "") expected = "one of '"//replaced(range, "|", "', '")//"'"
+         if (scan(value, "'""") == 1 .and. len(value) > 1) then
+            value = replaced(value(2:len(value) - 1), value(1:1)//value(1:1), value(1:1))
+         else if (.not. allocated(piece%option)) then
+            stat = 1
+         end if
+         if (len(value) > path_length) stat = 1
+         if (range /= "") then
+            words = words_of(range)
+            place = 0
+            do whole = 1, size(words)
+               if (lower_case(trim(words(whole))) == lower_case(value)) place = whole
+            end do
+            if (place == 0) stat = 1
+            if (place > 0) value = trim(words(place))
+         else if (piece%key == "file" .or. piece%key == "table") then
+            if (value /= "" .and. index(value, "/") /= 1 .and. .not. allocated(piece%option)) then
+              value = folder_of(source%origin)//value
+            end if
+            if (value /= "") value = absolute_path(value)
+         end if
+         value = quoted(value)
+      else if (index(usual, ".t") + index(usual, ".f") == 1) then
+         expected = ".true. or .false."
+         if (all(lower_case(value) /= [character(len=7) :: ".true.", ".false.", "true", "false", "t", "f"])) stat = 1
+      else
+         expected = "a number in "//range
+         if (scan(usual, ".e") == 0) expected = "a whole number in "//range
+         if (verify(value, "0123456789+-.eEdD") > 0) stat = 1
+         if (stat == 0 .and. scan(usual, ".e") == 0) read (value, *, iostat=stat) whole
+         if (stat == 0) read (value, *, iostat=stat) number
+         if (stat == 0) stat = merge(0, 1, allows(range, number))
+         ! smaller than any number
+         if (stat == 0 .and. scan(value, "123456789") > 0 .and. .not. abs(number) > 0.0_dp) stat = 1
+      end if
+      if (piece%values == 0) then
+         call source%refuse(piece%name(), "no value for "//piece%name(), expected, status)
+      else if (stat /= 0) then
+         call source%refuse(piece%name(), piece%name()//" = "//piece%value, expected, status)
+      end if
+      piece%value = value
+   end subroutine check_value
+
+   !> A text with all of its parts `old` as `new`
+   pure function replaced(text, old, new) result(answer)
+      character(len=*), intent(in) :: text, old, new
+      character(len=:), allocatable :: answer
+      integer :: first, n
+
+      answer = ""
+      first = 1
+      do
+         n = index(text(first:), old)
+         if (n == 0) exit
+         answer = answer//text(first:first + n - 2)//new
+         first = first + n - 1 + len(old)
+      end do
+      answer = answer//text(first:)
+   end function replaced
+
+   !> Read every group by one intrinsic read
+   subroutine read_pieces(source, input, status)
+      type(case_source_t), intent(in) :: source
+      type(case_t), intent(inout) :: input
+      type(status_t), intent(inout) :: status
+      character(len=:), allocatable :: text, name
+      logical :: good
+      integer :: k, n
+
+      do n = 1, size(group_names)
+         name = trim(group_names(n))
+         text = ""
+         do k = 1, size(source%pieces)
+            associate (piece => source%pieces(k))
+               if (piece%group == name) text = text//" "//trim(piece%key)//" = "//piece%value
+            end associate
+         end do
+         if (text == "") cycle
+         ! both surfaces are one group
+         call read_group(name, "&"//name(index(name, "_") + 1:)//text//" /", input, good)
+         if (.not. good) call source%refuse(name, "&"//name//" cannot be read", "values of its keys", status)
+      end do
+   end subroutine read_pieces
+end module ehl_case_values

@@ -1,0 +1,160 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> A case from a plain namelist: the one reader of the program and of the extension. Pieces of the text are checked one by one,
+!> then each group is read by one intrinsic read, completed by what the numerics knows, and checked as a whole.
+module ehl_read_case
+   use ehl_case, only: case_t, lubricant_case_t, path_length
+   use ehl_case_check_lubricant, only: check_constants
+   use ehl_case_checks, only: check_complete, check_given
+   use ehl_case_defaults, only: complete, make_isotherms
+   use ehl_case_groups, only: write_group
+   use ehl_case_source, only: case_source_t
+   use ehl_case_values, only: check_pieces, is_one_of, read_pieces
+   use ehl_namelist_pieces, only: keep_pieces, name_length, piece_t, split_text
+   use ehl_status, only: ehl_bad_input, status_t
+   use ehl_text, only: lower_case, newline
+   use ehl_whole_file, only: read_text
+   use ehl_write_case, only: write_case
+   implicit none (type, external)
+   private
+   public :: read_case, read_case_file, read_lubricant
+
+   !> Largest case file; anything longer is not one
+   integer, parameter :: largest_file = 1000000
+   !> What pyehl makes of an oil, a data sheet, two bodies or a finish, and no routine here
+   character(len=name_length), parameter :: made_by_pyehl(*) = [character(len=name_length) :: "radius_x", "radius_y", &
+      "reduced_modulus", "viscosity", "pressure_viscosity", "temperature_viscosity", "viscosity_law", "inlet_law", &
+      "alpha_origin", "kind", "table_temperature", "table_pressure", "table_viscosity"], &
+      groups_by_pyehl(*) = [character(len=name_length) :: "contact", "lubricant", "surface", "second_surface"]
+   !> Begins an option that a person typed in a shell
+   character(len=*), parameter :: typed = "--set "
+
+contains
+
+   !> Read, check and complete the case in a file; see read_case
+   subroutine read_case_file(path, options, input, status)
+      character(len=*), intent(in) :: path, options
+      type(case_t), intent(out) :: input
+      type(status_t), intent(inout) :: status
+      character(len=:), allocatable :: text
+
+      call read_text(path, largest_file, text, status)
+      if (status%failed()) then
+         status%code = ehl_bad_input
+         status%message = status%message//newline//"expected: the name of a case file"
+         return
+      end if
+      call read_case(text, path, options, input, status)
+   end subroutine read_case_file
+
+   !> Read, check and complete a case
+   subroutine read_case(text, origin, options, input, status)
+      !> Namelist text
+      character(len=*), intent(in) :: text
+      !> Name of the file it came from, for messages and for relative file names
+      character(len=*), intent(in) :: origin
+      !> Options group.key=value that replace values of the text, one a line, behind '--set ' where a person typed them so
+      character(len=*), intent(in) :: options
+      type(case_t), intent(out) :: input
+      type(status_t), intent(inout) :: status
+      type(case_source_t) :: source
+      type(piece_t), allocatable :: replacing(:)
+      integer :: k, first, last
+
+      source%origin = origin
+      call split_text(origin, text, source%pieces, status)
+      allocate (replacing(0))
+      first = 1
+      do while (first <= len(options) .and. .not. status%failed())
+         last = first + index(options(first:)//newline, newline) - 2
+         if (last >= first) call keep_pieces(replacing, [(.true., k=1, size(replacing))], [option_piece(options(first:last))])
+         first = last + 2
+      end do
+      if (.not. status%failed()) call check_pieces(source, status, replacing)
+      if (.not. status%failed()) call drop_marked(source)
+      if (size(replacing) > 0 .and. .not. status%failed()) then
+         call keep_pieces(source%pieces, [(.not. is_one_of(source%pieces(k), replacing), k=1, size(source%pieces))], replacing)
+         call check_pieces(source, status)
+      end if
+      if (.not. status%failed()) call read_pieces(source, input, status)
+      if (.not. status%failed()) call check_given(source, input, status)
+      if (.not. status%failed()) call check_constants(source, input, status)
+      if (.not. status%failed()) call complete(source, input, status)
+      if (.not. status%failed()) call check_complete(source, input, status)
+      if (.not. status%failed()) call write_case(input, input%text, source)
+   end subroutine read_case
+
+   !> The group &lubricant alone, of a resolved case
+   subroutine read_lubricant(text, lubricant, status)
+      character(len=*), intent(in) :: text
+      type(lubricant_case_t), intent(out) :: lubricant
+      type(status_t), intent(inout) :: status
+      type(case_source_t) :: source
+      type(case_t) :: input
+      character(len=:), allocatable :: why
+
+      source%origin = "the lubricant"
+      call split_text(source%origin, text, source%pieces, status)
+      if (.not. status%failed()) call check_pieces(source, status)
+      if (.not. status%failed()) call read_pieces(source, input, status)
+      if (status%failed()) return
+      lubricant = input%lubricant
+      call make_isotherms(lubricant, why)
+      if (why /= "") call source%refuse("lubricant.table_viscosity", "a table of viscosities "//why, "one of isotherms", status)
+   end subroutine read_lubricant
+
+   !> An option as a piece
+   pure function option_piece(option) result(piece)
+      character(len=*), intent(in) :: option
+      type(piece_t) :: piece
+      character(len=:), allocatable :: text
+      integer :: dot, equals
+
+      text = option
+      if (index(text, typed) == 1) text = text(len(typed) + 1:)
+      equals = index(text//"=", "=")
+      dot = index(text(:equals - 1), ".")
+      piece%group = lower_case(adjustl(text(:dot - 1)))
+      piece%key = lower_case(adjustl(text(dot + 1:equals - 1)))
+      piece%value = trim(adjustl(text(min(len(text), equals) + 1:)))
+      piece%values = merge(1, 0, piece%value /= "")
+      piece%option = option
+   end function option_piece
+
+   !> Drop marked values that are what follows from the others: so an option on a resolved case does the same as on the case
+   !> that it was made of. A value that somebody has changed, or that pyehl alone can make, counts as given.
+   subroutine drop_marked(source)
+      type(case_source_t), intent(inout) :: source
+      type(case_source_t) :: given
+      type(case_t) :: trial, usual
+      type(status_t) :: ignored
+      character(len=name_length), allocatable :: keys(:)
+      character(len=path_length + 2), allocatable :: values(:)
+      character(len=name_length) :: group
+      logical, allocatable :: follows(:)
+      integer :: k
+
+      allocate (follows(size(source%pieces)))
+      follows = source%pieces%marked
+      if (.not. any(follows)) return
+      group = ""
+      do k = 1, size(follows)
+         if (.not. (follows(k) .and. any(made_by_pyehl == source%pieces(k)%key) .and. &
+                   any(groups_by_pyehl == source%pieces(k)%group))) cycle
+         if (source%pieces(k)%group /= group) call write_group(trim(source%pieces(k)%group), usual, keys, values)
+         group = source%pieces(k)%group
+         follows(k) = values(findloc(keys, source%pieces(k)%key, dim=1)) == source%pieces(k)%value
+      end do
+      given = source
+      call keep_pieces(given%pieces, .not. follows)
+      call read_pieces(given, trial, ignored)
+      call complete(given, trial, ignored)
+      group = ""
+      do k = 1, size(follows)
+         if (.not. follows(k)) cycle
+         if (source%pieces(k)%group /= group) call write_group(trim(source%pieces(k)%group), trial, keys, values)
+         group = source%pieces(k)%group
+         follows(k) = values(findloc(keys, source%pieces(k)%key, dim=1)) == source%pieces(k)%value
+      end do
+      call keep_pieces(source%pieces, .not. follows)
+   end subroutine drop_marked
+end module ehl_read_case

@@ -1,0 +1,119 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> A complete case as namelist text, and the list of keys with their defaults
+module ehl_write_case
+   use ehl_case, only: case_t, path_length
+   use ehl_case_groups, only: group_names, write_group
+   use ehl_case_ranges, only: range_of
+   use ehl_case_source, only: case_source_t
+   use ehl_kinds, only: dp
+   use ehl_namelist_pieces, only: mark_default, mark_derived, name_length
+   use ehl_text, only: newline, to_text
+   implicit none (type, external)
+   private
+   public :: defaults_text, write_case
+
+contains
+
+   !> A complete case as namelist text. Of keys that exclude each other only the one that holds is written; with a source,
+   !> values that were not given are marked.
+   subroutine write_case(input, text, source)
+      type(case_t), intent(in) :: input
+      character(len=:), allocatable, intent(out) :: text
+      type(case_source_t), intent(in), optional :: source
+      type(case_t) :: case, usual
+      character(len=name_length), allocatable :: keys(:)
+      character(len=path_length + 2), allocatable :: values(:), defaults(:)
+      character(len=:), allocatable :: line
+      integer :: k, n
+
+      case = input
+      text = ""
+      do n = 1, size(group_names)
+         call write_group(trim(group_names(n)), case, keys, values)
+         call write_group(trim(group_names(n)), usual, keys, defaults)
+         if (group_names(n) == "bodies" .and. .not. input%bodies%given) cycle
+         text = text//"&"//trim(group_names(n))//newline
+         do k = 1, size(keys)
+            if (.not. holds(trim(group_names(n))//"."//trim(keys(k)), input)) cycle
+            line = "   "//trim(keys(k))//" = "//trim(values(k))
+            if (values(k) == "") then
+               call list_text(keys(k), input, line)
+               if (line == "") cycle
+            else if (present(source)) then
+               if (.not. source%given(trim(group_names(n))//"."//keys(k))) then
+                 line = line//" "//merge(mark_default, mark_derived, values(k) == defaults(k))
+               end if
+            end if
+            text = text//line//newline
+         end do
+         text = text//"/"//newline
+      end do
+   end subroutine write_case
+
+   !> Numbers of the table of viscosities by their key; '' where there is none
+   pure subroutine list_text(key, input, line)
+      character(len=*), intent(in) :: key
+      type(case_t), intent(in) :: input
+      character(len=:), allocatable, intent(out) :: line
+      real(dp), allocatable :: numbers(:)
+      integer :: k
+
+      line = ""
+      if (.not. allocated(input%lubricant%table_viscosity)) return
+      associate (l => input%lubricant)
+         numbers = l%table_viscosity
+         if (key == "table_temperature") numbers = l%table_temperature
+         if (key == "table_pressure") numbers = l%table_pressure
+      end associate
+      if (size(numbers) == 0) return
+      line = "   "//trim(key)//" = "//to_text(numbers(1))
+      do k = 2, size(numbers)
+         line = line//", "//to_text(numbers(k))
+      end do
+   end subroutine list_text
+
+   !> Whether a key carries a value, and its rival does not
+   pure logical function holds(name, input)
+      character(len=*), intent(in) :: name
+      type(case_t), intent(in) :: input
+
+      holds = .true.
+      associate (c => input%contact)
+         select case (name)
+         case ("contact.moes_m", "contact.moes_l", "contact.radius_ratio")
+            holds = .not. c%si
+         case ("contact.load", "contact.mean_velocity", "contact.reduced_modulus")
+            holds = c%si
+         case ("contact.radius")
+            holds = c%si .and. c%round
+         case ("contact.radius_x", "contact.radius_y")
+            holds = c%si .and. .not. c%round
+         case ("surface.amplitude", "surface.amplitude_over_film")
+            holds = input%surface%amplitude_given .eqv. index(name, "film") == 0
+         case ("second_surface.amplitude", "second_surface.amplitude_over_film")
+            holds = input%second_surface%amplitude_given .eqv. index(name, "film") == 0
+         case default
+            continue
+         end select
+      end associate
+   end function holds
+
+   !> All keys with default and range, one a line with tabs between
+   subroutine defaults_text(text)
+      character(len=:), allocatable, intent(out) :: text
+      type(case_t) :: usual
+      character(len=name_length), allocatable :: keys(:)
+      character(len=path_length + 2), allocatable :: values(:)
+      character(len=1), parameter :: tab = achar(9)
+      integer :: k, n
+
+      text = ""
+      do n = 1, size(group_names)
+         call write_group(trim(group_names(n)), usual, keys, values)
+         do k = 1, size(keys)
+            text = text//trim(group_names(n))//"."//trim(keys(k))//tab//trim(values(k))//tab// &
+                   range_of(trim(group_names(n)), trim(keys(k)))//newline
+         end do
+      end do
+   end subroutine defaults_text
+end module ehl_write_case

@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A case: what a namelist file says, checked and completed."""
+
+from __future__ import annotations
+
+import os
+import reprlib
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from types import EllipsisType
+from typing import Any, Self
+
+from pyehl import display, namelist
+from pyehl.case.resolve import resolve
+from pyehl.errors import InputError
+from pyehl.given import Option, options_of, path_of
+from pyehl.types import Settings
+
+
+@dataclass(frozen=True, slots=True, repr=False, init=False)
+class Case:
+    """A case that can be solved: checked, with every value spelled out.
+
+    Options are everywhere the same: dicts ``{"grid": {"points": 65}}`` or ``{"grid.points": 65}``,
+    or texts ``"grid.points=65"``; a whole number may be a float, as 65.0.
+
+    Parameters
+    ----------
+    case
+        Path of a case file, or another case; without it the case of all defaults. Text of a case
+        has `from_text`.
+    *options
+        Values that replace those of `case`.
+    **groups
+        Such values by key of their groups.
+
+    Attributes
+    ----------
+    text
+        Resolved namelist text: every value spelled out, names of maps made absolute.
+
+    Raises
+    ------
+    InputError
+        With file, line and column, what was expected, and the nearest name.
+
+    Examples
+    --------
+    >>> import pyehl
+    >>> case = pyehl.Case("cases/quick.nml", {"grid.points": 65})
+    >>> case
+    Case(M=200, L=10, smooth, 65 points)
+    >>> case["grid"]["points"]
+    65
+    >>> case == pyehl.Case(contact={"moes_m": 200.0, "moes_l": 10.0}, grid={"points": 65})
+    True
+    """
+
+    text: str
+
+    def __init__(
+        self,
+        case: Case | str | os.PathLike[str] | EllipsisType = ...,
+        *options: Option,
+        **groups: Mapping[str, Any],
+    ) -> None:
+        given = options_of([options, groups])
+        if isinstance(case, Case):
+            text = resolve(case.text, "resolved case", given) if given else case.text
+        elif case is ...:
+            text = resolve("", "case", given)
+        else:
+            path = path_of(case, "case")
+            if "\n" in path or path.lstrip().startswith("&"):
+                raise InputError(
+                    f"case = {reprlib.repr(path)}: expected the path of a case file; text of a "
+                    "case has pyehl.Case.from_text"
+                )
+            text = resolve("", path, given, from_file=True)
+        object.__setattr__(self, "text", text)
+
+    @classmethod
+    def read(cls, path: str | os.PathLike[str], *options: Option) -> Self:
+        """Read a case file, as ``Case(path, *options)``."""
+        return cls(path_of(path, "case"), *options)
+
+    @staticmethod
+    def from_text(text: str, *options: Option, origin: str = "text of the case") -> Case:
+        """Read a case from namelist text; '' is the case of all defaults.
+
+        Raises
+        ------
+        InputError
+            With `origin` in place of a file.
+        """
+        return trusted(resolve(text, origin, options))
+
+    def __getitem__(self, group: str) -> dict[str, Any]:
+        """Values of a group by key, as `resolve` gives them: ``case["grid"]["points"]``."""
+        return self.resolve()[group]
+
+    def __iter__(self) -> Iterator[str]:
+        """Names of the groups."""
+        return iter(self.resolve())
+
+    def with_options(self, *options: Option) -> Case:
+        """Replace some values: ``case.with_options("grid.points=257")`` is another case.
+
+        Defaults that follow from other values (the Roelands exponent, for one) follow the new ones.
+
+        Raises
+        ------
+        InputError
+            If an option is not acceptable.
+        """
+        return type(self)(self, *options)
+
+    def smooth(self) -> Case:
+        """Give the case of the smooth contact: everything but its rough surfaces."""
+        rough = [name for name in ("second_surface", "surface") if name in self.resolve()]
+        return self.with_options({f"{name}.kind": "smooth" for name in rough})
+
+    def __repr__(self) -> str:
+        """Operating point, surface and grid in one line."""
+        groups = self.resolve()
+        contact = groups["contact"]
+        names = {"moes_m": "M", "moes_l": "L", "load": "load_N", "mean_velocity": "velocity_m_s"}
+        facts = [f"{names[key]}={contact[key]:g}" for key in names if key in contact]
+        kinds = (groups[name]["kind"] for name in ("surface", "second_surface") if name in groups)
+        facts += [" and ".join(kinds), f"{groups['grid']['points']} points"]
+        return f"Case({', '.join(facts)})"
+
+    def _repr_html_(self) -> str:
+        """Draw all groups and their values, for notebooks."""
+        groups = self.resolve()
+        rows = {
+            f"{group}.{key}": value for group, keys in groups.items() for key, value in keys.items()
+        }
+        return display.table(repr(self), rows)
+
+    def resolve(self) -> dict[str, dict[str, Any]]:
+        """Give all groups and values.
+
+        Of keys that exclude each other only the one that holds is there: moes_m, moes_l or the SI
+        values; amplitude or amplitude_over_film.
+        """
+        return namelist.values(self.text)
+
+
+def trusted(text: str) -> Case:
+    """Give the case of text that a case has resolved before, without reading it anew."""
+    case = object.__new__(Case)
+    object.__setattr__(case, "text", text)
+    return case
+
+
+def files_of(settings: Settings) -> list[str]:
+    """Give the files that a resolved case reads: height maps, a table of viscosities."""
+    maps = [group["file"] for group in settings.values() if group.get("kind") == "map"]
+    return [str(name) for name in (*maps, settings["lubricant"].get("table")) if name]
+
+
+def exchanged(case: Case) -> Case:
+    """Give a case with its surfaces, and their bodies, exchanged."""
+    groups = case.resolve()
+    contact = {**groups["contact"], "rough_surface": 3 - groups["contact"]["rough_surface"]}
+    second = groups.get("second_surface", {"kind": "smooth"})
+    groups |= {"contact": contact, "surface": second, "second_surface": groups["surface"]}
+    return Case.from_text(namelist.text_of(groups), origin="case with its surfaces exchanged")
