@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from pyehl.commands.arguments import add_overrides
-from pyehl.commands.watching import Terminal, add_worker_arguments, jobs_of, tell_lost
+from pyehl.commands.watching import Terminal, add_worker_arguments, jobs_of, report_lost
 from pyehl.errors import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, InputError
 from pyehl.studies.gather import Outcome
 from pyehl.studies.plan import MOST, duration, plan
@@ -121,5 +121,5 @@ def execute(args: argparse.Namespace) -> int:
         if outcome.rows[point.number]["status"] not in FINDINGS
         and (why := why_none(outcome.rows[point.number]))
     ]
-    tell_lost(lost, folder / CSV)
+    report_lost(lost, folder / CSV)
     return EXIT_FAILED if lost else EXIT_OK

@@ -16,6 +16,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from pyehl.plots import style
+from pyehl.studies.transition import Curve
 from pyehl.theory import stribeck
 from pyehl.types import Array
 
@@ -41,29 +42,6 @@ class Points:
         style.points(ax, self.places[abscissa], self.friction, self.error, **how)
 
 
-@dataclass(frozen=True, slots=True)
-class Curve:
-    """One curve; a number of its table that does not exist is NaN."""
-
-    label: str  # its name in the legend; '' for the only one
-    rows: Sequence[Mapping[str, Any]]  # of its table
-    ends: str  # where full film ends, in words
-    broken: tuple[int, ...]  # rows where the film breaks down
-    absolute: bool  # whether friction is a coefficient, else a ratio
-
-    def column(self, name: str) -> Array:
-        """Give a column (n,)."""
-        return np.array([np.nan if r[name] is None else r[name] for r in self.rows], dtype=float)
-
-    def friction(self, name: str = "mu_ratio") -> Array:
-        """Give a column of ratios (n,), as coefficients where these are drawn."""
-        if not self.absolute:
-            return self.column(name)
-        # where bodies touch and the heat counts there is no mu_smooth
-        smooth, own = self.column("mu_smooth"), self.column("mu") / self.column("mu_ratio")
-        return self.column(name) * np.where(np.isfinite(smooth), smooth, own)
-
-
 def draw_stribeck(
     curves: Sequence[Curve], surface: str, measured: Points | None = None, law: str = ""
 ) -> Figure:
@@ -81,7 +59,7 @@ def draw_stribeck(
     }
     # none of two surfaces without full simulations
     shares = ("contact_load_share", "contact_load_share_ehl")
-    touching = any(r.get(name) is not None for c in curves for r in c.rows for name in shares)
+    touching = any(_known(curve, name) for curve in curves for name in shares)
     # none where bodies touch and the friction there is not known
     rubbing = not touching or any(_has_friction(curve) for curve in curves)
     rows = rubbing + 2 * touching
@@ -117,11 +95,14 @@ def draw_stribeck(
     return figure
 
 
+def _known(curve: Curve, name: str) -> bool:
+    """Whether a curve has a column with a number in it."""
+    return name in curve.table and bool(curve.table[name].notna().any())
+
+
 def _has_friction(curve: Curve) -> bool:
-    names = ["mu_ratio", "mu_ratio_ehl"]
-    if curve.absolute and "mu_empirical" in curve.rows[0]:
-        names.append("mu_empirical")
-    return any(np.isfinite(curve.column(name)).any() for name in names)
+    empirical = curve.absolute and _known(curve, "mu_empirical")
+    return empirical or _known(curve, "mu_ratio") or _known(curve, "mu_ratio_ehl")
 
 
 def _draw_curve(ax: Axes, curve: Curve, name: str, colour: str) -> None:
@@ -134,7 +115,7 @@ def _draw_curve(ax: Axes, curve: Curve, name: str, colour: str) -> None:
         (curve.friction("mu_ratio_model_error"), 0.35, "error of the model"),
     ):
         style.band(ax, x, y, width, color=colour, alpha=alpha, label=label)
-    if curve.absolute and "mu_empirical" in curve.rows[0]:
+    if curve.absolute and "mu_empirical" in curve.table:
         empirical = curve.column("mu_empirical")
         there = np.isfinite(x) & np.isfinite(empirical)
         ax.plot(x[there], empirical[there], "--", lw=1.2, color=colour, label=f"empirical{tail}")
@@ -220,29 +201,28 @@ def _error(name: str) -> str:
 
 def draw_traction(
     curves: Sequence[Curve],
-    slips: Sequence[Array],
     surface: str,
     measured: Points | None = None,
     law: str = "",
 ) -> Figure:
     """Draw coefficients of friction, and the greatest temperature rise where it was computed.
 
-    `slips` are the slide-to-roll ratios of each curve; without sliding there is no friction of
-    sliding. `surface` says what the surface is; measured friction is laid over; `law` says what an
-    empirical curve is.
+    Without sliding there is no friction of sliding. `surface` says what the surface is; measured
+    friction is laid over; `law` says what an empirical curve is.
     """
     warm = any(np.isfinite(curve.column("temperature_rise_max_K")).any() for curve in curves)
     figure = style.new_figure(10.0 if warm else 6.0, 4.4)
     axes = figure.subplots(1, 2 if warm else 1, squeeze=False)[0]
-    for curve, slip, colour in zip(curves, slips, COLOURS * 9, strict=False):
+    for curve, colour in zip(curves, COLOURS * 9, strict=False):
         tail = f" ({curve.label})" if curve.label else ""
+        slip = curve.places
         resting = slip == 0.0
         for name, line, words in (
             ("mu", "o-", "with heat" if warm else "friction"),
             ("mu_isothermal", ":", "isothermal"),
             ("mu_empirical", "--", "empirical"),
         ):
-            if name not in curve.rows[0] or (name == "mu_isothermal" and not warm):
+            if name not in curve.table or (name == "mu_isothermal" and not warm):
                 continue
             mu = np.where(resting, 0.0, curve.column(name))
             known = np.isfinite(mu)

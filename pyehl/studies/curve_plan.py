@@ -17,7 +17,7 @@ from pyehl.errors import InputError
 from pyehl.prediction.options import turned, unpredictable
 from pyehl.prediction.resolved_inlet import touching_points
 from pyehl.prediction.smooth import CYCLES
-from pyehl.studies.plan import START, TaskList, check_memory, duration, formula_film
+from pyehl.studies.plan import TaskList, check_memory, duration, formula_film, wall_seconds
 from pyehl.studies.study import MAX_CASES, Point, Study, make
 from pyehl.studies.tasks import Task
 from pyehl.studies.vary import Axis
@@ -81,8 +81,7 @@ class CurvePlan:
         if finished:
             lines.append(f"           {len(finished)} of {len(self.tasks)} tasks are done")
         if left:
-            seconds = START + max(sum(left) / min(jobs, len(left)), *left)
-            lines.append(f"time       about {duration(seconds)} by estimate")
+            lines.append(f"time       about {duration(wall_seconds(left, jobs))} by estimate")
         return "\n".join(lines)
 
 

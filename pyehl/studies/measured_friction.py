@@ -5,14 +5,14 @@ import csv
 import io
 import os
 import re
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from pyehl.errors import InputError
 from pyehl.given import text_file
-from pyehl.types import Array, Values
+from pyehl.studies.transition import Curve
+from pyehl.types import Array
 
 LIKE_ERRORS = re.compile(r"err|std|sigma|uncert|dev|\+-|±", re.IGNORECASE)
 """Names of columns that hold errors."""
@@ -29,31 +29,28 @@ class Measured:
     friction: Array
     error: Array
 
-    def outside(self, key: str, places: Array, rows: Sequence[Values]) -> int:
-        """Give the number of its places that the curve does not reach."""
-        column = _column(self.abscissa, key, places, rows)
-        known = column[np.isfinite(column)]
-        low, high = (known.min(), known.max()) if known.size else (np.inf, -np.inf)
-        inside = (self.places >= low) & (self.places <= high)
-        return int(np.count_nonzero(~inside))
+    def outside(self, places: Array) -> int:
+        """Give the number of its places that a curve over `places` (NaN: not known) lacks."""
+        known = places[np.isfinite(places)]
+        inside = (self.places >= known.min()) & (self.places <= known.max()) if known.size else []
+        return self.places.size - int(np.count_nonzero(inside))
 
-    def deviation(self, name: str, key: str, places: Array, rows: Sequence[Values]) -> Array:
+    def deviation(self, name: str, curve: Curve) -> Array:
         """Give a column of the curve over the measured friction less 1 (n,); NaN outside of it.
 
         Interpolated along the curve, between places that have the column.
         """
-        source, target = (_column(n, key, places, rows) for n in (self.abscissa, name))
+        source, target = curve.column(self.abscissa), curve.column(name)
         return _along(self.places, source, target) / self.friction - 1.0
 
-    def over(self, name: str, key: str, places: Array, rows: Sequence[Values]) -> Array:
-        """Give the places in another column of the curve, (n,); NaN outside of the curve.
+    def over(self, name: str, curve: Curve) -> Array:
+        """Give the places in another column of a curve, (n,); NaN outside of the curve.
 
-        Interpolated along the curve, in logarithms. `key` and `places` are what the curve goes
-        over.
+        Interpolated along the curve, in logarithms.
         """
         if name == self.abscissa:
             return self.places
-        columns = (_column(n, key, places, rows) for n in (self.abscissa, name))
+        columns = curve.column(self.abscissa), curve.column(name)
         source, target = (np.log(np.where(v > 0.0, v, np.nan)) for v in columns)
         return np.asarray(np.exp(_along(np.log(self.places), source, target)))
 
@@ -66,12 +63,6 @@ def _along(at: Array, source: Array, target: Array) -> Array:
     order = np.argsort(source[known])
     x, y = source[known][order], target[known][order]
     return np.interp(at, x, y, left=np.nan, right=np.nan)
-
-
-def _column(name: str, key: str, places: Array, rows: Sequence[Values]) -> Array:
-    if name == key:
-        return places
-    return np.array([np.nan if row[name] is None else row[name] for row in rows], dtype=float)
 
 
 def read_measured(path: str | os.PathLike[str], key: str) -> Measured:

@@ -9,6 +9,7 @@ runs.
 import json
 import os
 import time
+from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,6 +23,7 @@ from pyehl.prediction.options import unpredictable
 from pyehl.prediction.smooth import POINTS
 from pyehl.prediction.smooth_case import smooth_case
 from pyehl.solver import Solver
+from pyehl.studies.pool import processors
 from pyehl.studies.study import Point, Study
 from pyehl.studies.tasks import Task
 from pyehl.surfaces import FEATURES, rough_groups
@@ -29,7 +31,7 @@ from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.shear import ShearLaw
-from pyehl.types import Settings
+from pyehl.types import Row, Settings
 
 PREDICTION, PREDICTION_PIXEL = 0.1, 1.4e-6
 """Seconds of a prediction, and per pixel of its tile, without the smooth contact under it."""
@@ -184,13 +186,12 @@ class Plan:
             lines.append(f"           {len(finished)} of them are done")
         if not left:
             return "\n".join(lines)
-        total = sum(t.seconds for t in left) * size / checked
-        longest = max(t.seconds for t in left)
+        seconds = [t.seconds for t in left]
         workers = min(jobs, len(left))
         words = "1 worker process" if workers == 1 else f"{workers} worker processes"
         lines.append(
-            f"time       about {duration(START + max(total / workers, longest))} by estimate, "
-            f"{words} of one thread each; the longest case {duration(longest)}"
+            f"time       about {duration(wall_seconds(seconds, jobs, size / checked))} by "
+            f"estimate, {words} of one thread each; the longest case {duration(max(seconds))}"
         )
         return "\n".join(lines)
 
@@ -202,6 +203,63 @@ def duration(seconds: float) -> str:
     if seconds < 90.0:
         return f"{seconds:.0f} s"
     return f"{seconds / 60.0:.0f} min" if seconds < 5400.0 else f"{seconds / 3600.0:.1f} h"
+
+
+class Remaining:
+    """The time that the tasks of a study still take, corrected by what the finished ones took."""
+
+    def __init__(self, tasks: Sequence[Task], workers: int) -> None:
+        self._tasks = {task.number: task for task in tasks}
+        self._workers = workers
+        self._began = time.monotonic()
+        # Seconds by kind of task: estimates of those left and of those finished, and measured
+        self._left: defaultdict[str, float] = defaultdict(float)
+        self._estimated, self._measured = self._left.copy(), self._left.copy()
+        for task in tasks:
+            self._left[task.run] += task.seconds
+        self.total = self.estimate
+
+    @property
+    def count(self) -> int:
+        """Number of tasks left."""
+        return len(self._tasks)
+
+    @property
+    def estimate(self) -> float:
+        """Seconds of the tasks left as they were estimated."""
+        return sum(self._left.values())
+
+    def remove(self, rows: Sequence[tuple[int, Row]]) -> None:
+        """Take finished tasks out."""
+        for number, row in rows:
+            task = self._tasks.pop(number)
+            self._left[task.run] -= task.seconds
+            if row["seconds"] is not None:
+                self._estimated[task.run] += task.seconds
+                self._measured[task.run] += row["seconds"]
+
+    @property
+    def seconds(self) -> float:
+        """Wall time left [s]: each kind of task by how long the finished ones of it took."""
+        done, estimated = sum(self._measured.values()), sum(self._estimated.values())
+        mean = done / estimated if estimated else 1.0
+        left = sum(
+            seconds * (self._measured[run] / self._estimated[run] if self._estimated[run] else mean)
+            for run, seconds in self._left.items()
+        )
+        if self._workers:
+            return left / self._workers
+        return left * (time.monotonic() - self._began) / done if done else left
+
+
+def wall_seconds(seconds: Sequence[float], jobs: int, repeat: float = 1.0) -> float:
+    """Wall time [s] of tasks in `jobs` worker processes beside what else the machine does now.
+
+    Each of the `seconds` stands for `repeat` tasks.
+    """
+    workers = min(jobs, len(seconds))
+    slower = max(1.0, (os.getloadavg()[0] + workers) / processors())
+    return START + slower * max(repeat * sum(seconds) / workers, *seconds)
 
 
 def check_memory(cases: int) -> None:

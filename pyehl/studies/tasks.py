@@ -9,7 +9,7 @@ import math
 import time
 import traceback
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -43,10 +43,6 @@ class Task:
     shares: str = ""  # what it has in common with others; those go to one worker where possible
     # A prediction with its tracks, bands and what would carry; else mu_r/mu_s and its errors
     full: bool = False
-
-    def message(self) -> dict[str, Any]:
-        """Give the task as values of JSON."""
-        return asdict(self)
 
 
 def why_none(row: Mapping[str, Any]) -> str:

@@ -9,12 +9,13 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 from records import Read, Row, Said, largest, missing, of, span
 
 from pyehl.prediction import errors
 from pyehl.prediction.partial import FILM
-from pyehl.studies.curve_contact import lift_off
+from pyehl.studies.transition import lift_off
 from pyehl.theory.operating import OperatingPoint
 
 
@@ -200,9 +201,8 @@ def curve(read: Read) -> Iterator[str]:
     yield f"20 N (M from {max(moes_m):.0f} to {min(moes_m):.0f})"
     names = ("contact_load_share", "contact_load_share_error", "lambda_ratio")
     found = lift_off(
-        "contact.mean_velocity",
-        speeds,
-        [{n: float(row[n]) for n in names} | {"theta_2": 1.0} for row in rows],
+        np.array(speeds),
+        pd.DataFrame([{n: float(row[n]) for n in names} | {"theta_2": 1.0} for row in rows]),
     )
     assert found is not None
     yield f"at {found.speed:.3g} ± {found.error:.2g} m/s (Λ = {found.lambda_ratio:.2f})"

@@ -11,13 +11,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from journals import rows_in
 
 import pyehl
 from pyehl.cli import main
 from pyehl.commands.sweep import report
 from pyehl.studies import plan as plan_module
 from pyehl.studies.gather import Outcome
-from pyehl.studies.journal import NAME
 from pyehl.studies.plan import plan, seconds_of
 from pyehl.studies.study import make
 from pyehl.studies.vary import parse_axis
@@ -88,22 +88,22 @@ def test_the_plan_and_the_end_are_told(done: tuple[Path, str]):
 
 
 def test_started_again_it_runs_nothing_twice(done: tuple[Path, str], cases: Path):
-    before = (done[0] / NAME).read_bytes()
+    before = rows_in(done[0])
     words = ("--set", "grid.points=65", "--vary", "contact.moes_m=50:200:4log")
     words += ("--vary", "contact.moes_l=5,10")
     again, _ = sweep(done[0], str(cases / "quick.nml"), *words)
-    assert (done[0] / NAME).read_bytes() == before
+    assert rows_in(done[0]) == before
     assert "8 of them are done" in again
     assert "ran now" not in again
 
 
 def test_another_study_in_the_same_folder_is_refused(done: tuple[Path, str], cases: Path):
-    before = (done[0] / NAME).read_bytes()
+    before = rows_in(done[0])
     words = ("--set", "grid.points=129", "--vary", "contact.moes_m=50:200:4log")
     _, refused = sweep(done[0], str(cases / "quick.nml"), *words, expect=2)
     assert "set: there ['grid.points=65'], here ['grid.points=129']" in refused
     assert "vary.contact.moes_l: there [5, 10], here nothing" in refused
-    assert (done[0] / NAME).read_bytes() == before
+    assert rows_in(done[0]) == before
 
 
 @pytest.mark.parametrize(
