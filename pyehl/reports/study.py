@@ -17,6 +17,7 @@ from pyehl.reports import page
 from pyehl.reports.answer import WELL_KNOWN, Judgement
 from pyehl.reports.asked import conditions, numbers
 from pyehl.reports.limits import limits
+from pyehl.reports.page import Block
 from pyehl.studies.journal import read_header
 from pyehl.theory.operating import OperatingPoint
 
@@ -39,7 +40,7 @@ DRAWN = ("h_c_m", "H_c", "h_min_m", "H_min", "mu_ratio")
 MOST_ROWS, MOST_LINES, MOST_PANELS = 200, 7, 3
 
 
-def study_parts(folder: Path) -> tuple[str, Judgement, list[str]]:
+def study_parts(folder: Path) -> tuple[str, Judgement, list[Block]]:
     """Give title, judgement and parts of the page of a study.
 
     InputError if the folder has no journal that can be read, or no table.
@@ -78,7 +79,7 @@ def study_parts(folder: Path) -> tuple[str, Judgement, list[str]]:
         f"$p_h$ = {point.hertz_pressure * 1e-9:.3g} GPa"
     )
     parts += _pictures(folder, rows, keys, units, about)
-    parts.append(_table(rows, keys))
+    parts += _table(rows, keys)
     told = [f"{text}" for text in dict.fromkeys(rows["message"].dropna()) if str(text).strip()]
     if told:
         parts += [page.heading("Warnings"), page.bullets(told[:20])]
@@ -146,22 +147,22 @@ def _cell(value: Any) -> str:  # noqa: ANN401 (of a table)
     return "" if pd.isna(value) else f"{value:.5g}"
 
 
-def _table(rows: pd.DataFrame, keys: Sequence[str]) -> str:
+def _table(rows: pd.DataFrame, keys: Sequence[str]) -> list[Block]:
     names = [*keys]
     for name, errors in COLUMNS.items():
         names += [n for n in (name, *errors) if n in rows and rows[n].notna().any()]
     names.append("status")
     shown = rows[names].head(MOST_ROWS)
     kinds = ["pass" if word in GOOD else "care" for word in shown["status"]]
-    text = page.table(names, [[_cell(v) for v in row] for row in shown.values.tolist()], kinds)
+    parts = [page.table(names, [[_cell(v) for v in row] for row in shown.values.tolist()], kinds)]
     if len(rows) > MOST_ROWS:
-        text += page.paragraph(f"The first {MOST_ROWS} of {len(rows)} rows.")
-    return text
+        parts.append(page.paragraph(f"The first {MOST_ROWS} of {len(rows)} rows."))
+    return parts
 
 
 def _pictures(
     folder: Path, rows: pd.DataFrame, keys: Sequence[str], units: Mapping[str, str], title: str
-) -> list[str]:
+) -> list[Block]:
     """Give the picture of a curve as it was drawn, else the results over the first key."""
     drawn = folder / "stribeck.png"
     if drawn.is_file():

@@ -7,23 +7,28 @@ does that, and gives a task up when several workers were lost with it
 (``distributed.scheduler.allowed-failures``).
 """
 
+from __future__ import annotations
+
 import os
 import re
 import threading
 import time
 import uuid
 from collections import Counter, deque
-from collections.abc import Generator, Sequence
+from collections.abc import Generator, Iterable, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Future, wait
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from pyehl.errors import EhlError, InputError, InternalError
 from pyehl.given import check_kind
-from pyehl.studies.tasks import FAILED, Task, execute
+from pyehl.studies.tasks import FAILED, Task, execute, execute_all
 from pyehl.types import Row
 
-# A worker has the next task waiting where tasks are shorter than this [s]
-SHORT = 0.5
+if TYPE_CHECKING:
+    from loky import ProcessPoolExecutor
+
+# A worker gets so many tasks at once, as long as they take less than this together [s]
+MAX_TASKS, SHORT = 64, 0.1
 # How often a task may end its worker before it has failed
 TRIES = 2
 ENVIRONMENT = {
@@ -59,27 +64,27 @@ class Queue:
         self._free = deque(self._groups)
         self._again: deque[Task] = deque()
 
-    def take(self, last: str) -> Task | None:
-        """Give the next task to a worker whose last one was of a group; None when none is left."""
+    def take(self, last: str) -> list[Task]:
+        """Give a task, or some short ones, to a worker whose last one was of a group."""
         if self._again:
-            return self._again.popleft()
-        if not self._groups:
-            return None
-        if last not in self._groups:
-            # a new group, or a part of the longest one
-            last = (
-                self._free.popleft()
-                if self._free
-                else max(self._groups, key=lambda key: len(self._groups[key]))
-            )
-        task = self._groups[last].popleft()
-        if not self._groups[last]:
-            del self._groups[last]
-        return task
+            return [self._again.popleft()]
+        found: list[Task] = []
+        while self._groups and len(found) < MAX_TASKS and sum(t.seconds for t in found) < SHORT:
+            if last not in self._groups:
+                # a new group, or a part of the longest one
+                last = (
+                    self._free.popleft()
+                    if self._free
+                    else max(self._groups, key=lambda key: len(self._groups[key]))
+                )
+            found.append(self._groups[last].popleft())
+            if not self._groups[last]:
+                del self._groups[last]
+        return found
 
-    def put_back(self, task: Task) -> None:
-        """Return a task that its worker has not done."""
-        self._again.append(task)
+    def put_back(self, tasks: Iterable[Task]) -> None:
+        """Return tasks that their worker has not done; from now on each is given alone."""
+        self._again += tasks
 
 
 def group_of(task: Task) -> str:
@@ -101,52 +106,6 @@ def _end_without(parent: int) -> None:
     os._exit(0)
 
 
-class Worker:
-    """A worker process and what it has to do."""
-
-    def __init__(self) -> None:
-        # it takes long to import
-        from loky import ProcessPoolExecutor  # noqa: PLC0415
-
-        self._executor = ProcessPoolExecutor(
-            1, initializer=_begin, initargs=(os.getpid(),), env=ENVIRONMENT
-        )
-        self.tasks: dict[Future[Row], Task] = {}  # in the order in which they are done
-        self.works = False  # whether it has finished a task
-        self._last = ""
-
-    def feed(self, queue: Queue) -> None:
-        """Take the next task, where the ones at hand are short the one behind it too."""
-        while len(self.tasks) < 2 and all(task.seconds < SHORT for task in self.tasks.values()):
-            task = queue.take(self._last)
-            if task is None:
-                return
-            self._last = group_of(task)
-            try:
-                self.tasks[self._executor.submit(execute, task)] = task
-            except BrokenExecutor as error:
-                # it died without a task; `collect` finds out
-                broken: Future[Row] = Future()
-                broken.set_exception(error)
-                self.tasks[broken] = task
-
-    def collect(self) -> tuple[list[tuple[int, Row]], BrokenExecutor | None]:
-        """Give the rows that are finished, and why the process has ended if it has."""
-        found: list[tuple[int, Row]] = []
-        for future in [future for future in self.tasks if future.done()]:
-            error = future.exception()
-            if isinstance(error, BrokenExecutor):
-                return found, error
-            task = self.tasks.pop(future)
-            found.append((task.number, _failed(error) if error else future.result()))
-            self.works = True
-        return found, None
-
-    def end(self) -> None:
-        """End the process, whatever it does."""
-        self._executor.shutdown(kill_workers=True)
-
-
 def rows(tasks: Sequence[Task], jobs: int) -> Generator[list[tuple[int, Row]]]:
     """Do tasks in `jobs` worker processes; yields rows as they come.
 
@@ -154,42 +113,63 @@ def rows(tasks: Sequence[Task], jobs: int) -> Generator[list[tuple[int, Row]]]:
     caller stops early, or an exception is raised in it, the workers end at once. InternalError if
     no worker comes as far as its first row.
     """
-    queue, left = Queue(tasks), len(tasks)
+    queue = Queue(tasks)
     died: Counter[int] = Counter()
-    workers: list[Worker] = []
-    works = False
+    deaths, works = 0, False
+    executors: list[ProcessPoolExecutor] = []
+    running: dict[Future[list[Row]], tuple[int, list[Task]]] = {}
+    groups, idle = [""] * jobs, list(range(jobs))
     try:
-        workers += [Worker() for _ in range(jobs)]
-        while left:
-            for worker in workers:
-                worker.feed(queue)
-            wait([f for worker in workers for f in worker.tasks], return_when=FIRST_COMPLETED)
-            finished = []
-            for k, worker in enumerate(workers):
-                found, error = worker.collect()
-                finished += found
-                works = works or worker.works
+        executors += [_executor() for _ in range(jobs)]
+        while True:
+            while idle and (some := queue.take(groups[idle[-1]])):
+                k = idle.pop()
+                groups[k] = group_of(some[-1])
+                running[_submit(executors[k], some)] = k, some
+            if not running:
+                return
+            finished: list[tuple[int, Row]] = []
+            for future in wait(running, return_when=FIRST_COMPLETED).done:
+                k, some = running.pop(future)
+                idle.append(k)
+                error = future.exception()
                 if error is None:
-                    continue
-                # the first of its tasks was running
-                lost, *waiting = worker.tasks.values()
-                died[lost.number] += 1
-                if not works and died.total() > 2 * jobs:
-                    raise InternalError("the worker processes end before they begin") from error
-                if died[lost.number] < TRIES:
-                    queue.put_back(lost)
+                    works = True
+                    finished += zip((t.number for t in some), future.result(), strict=True)
+                elif isinstance(error, BrokenExecutor):
+                    deaths += 1
+                    if not works and deaths > 2 * jobs:
+                        raise InternalError("the worker processes end before they begin") from error
+                    executors[k].shutdown(kill_workers=True)
+                    executors[k] = _executor()
+                    # of several tasks the one that did it is found when each is given alone
+                    died.update(t.number for t in some if len(some) == 1)
+                    lost = [t for t in some if died[t.number] >= TRIES]
+                    finished += [(t.number, _failed(error)) for t in lost]
+                    queue.put_back(t for t in some if t not in lost)
                 else:
-                    finished.append((lost.number, _failed(error)))
-                for task in waiting:
-                    queue.put_back(task)
-                worker.end()
-                workers[k] = Worker()
-            left -= len(finished)
+                    finished += [(t.number, _failed(error)) for t in some]
             if finished:
                 yield finished
     finally:
-        for worker in workers:
-            worker.end()
+        for executor in executors:
+            executor.shutdown(kill_workers=True)
+
+
+def _executor() -> ProcessPoolExecutor:
+    from loky import ProcessPoolExecutor  # noqa: PLC0415 (it takes long to import)
+
+    return ProcessPoolExecutor(1, initializer=_begin, initargs=(os.getpid(),), env=ENVIRONMENT)
+
+
+def _submit(executor: ProcessPoolExecutor, tasks: list[Task]) -> Future[list[Row]]:
+    try:
+        future: Future[list[Row]] = executor.submit(execute_all, tasks)
+    except BrokenExecutor as error:
+        # it died without a task
+        future = Future()
+        future.set_exception(error)
+    return future
 
 
 def _failed(error: BaseException) -> Row:

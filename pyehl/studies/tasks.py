@@ -8,7 +8,7 @@ import json
 import math
 import time
 import traceback
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -71,6 +71,11 @@ def execute(task: Task) -> Row:
             row["traceback"] = traceback.format_exc()
     row["seconds"] = round(time.perf_counter() - began, 6)
     return row
+
+
+def execute_all(tasks: Sequence[Task]) -> list[Row]:
+    """Do several tasks, one after the other."""
+    return [execute(task) for task in tasks]
 
 
 def _solve(task: Task) -> Row:

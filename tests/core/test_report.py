@@ -2,6 +2,7 @@
 """``pyehl report``: one page about any result, which needs nothing but itself."""
 
 import base64
+import html
 import io
 import json
 import re
@@ -133,7 +134,7 @@ def test_the_case_in_it_can_be_run(folders, tmp_path, root):
     """The short case of the page is the case that was run."""
     text = pyehl.report(folders / "smooth", tmp_path / "page.html").read_text(encoding="utf-8")
     short = re.search(r"<pre>(&amp;.*?)</pre>", text, re.DOTALL)[1]
-    (tmp_path / "case.nml").write_text(short.replace("&amp;", "&").replace("&#x27;", "'"))
+    (tmp_path / "case.nml").write_text(html.unescape(short))
     again = pyehl.Case(tmp_path / "case.nml").resolve()
     asked = ("grid.points=129", "surface.kind=smooth")
     assert again == pyehl.Case(root / "cases/table1.nml", *asked).resolve()

@@ -55,14 +55,14 @@ def test_a_fault_of_the_program_keeps_where_it_was(monkeypatch: pytest.MonkeyPat
 
 def test_a_task_that_ends_its_worker_is_a_row(monkeypatch: pytest.MonkeyPatch):
     """The worker dies on it, on another one again, and all other tasks are done."""
-    real = pool.execute
+    real = pool.execute_all
 
-    def deadly(task: Task) -> dict[str, object]:
-        if task.number == 1:
+    def deadly(tasks: list[Task]) -> list[dict[str, object]]:
+        if any(task.number == 1 for task in tasks):
             os.abort()
-        return real(task)
+        return real(tasks)
 
-    monkeypatch.setattr(pool, "execute", deadly)
+    monkeypatch.setattr(pool, "execute_all", deadly)
     text = pyehl.Case.from_text("").text
     tasks = [Task(n, text, "film") for n in range(5)]
     rows = dict(row for some in pool.rows(tasks, 2) for row in some)
@@ -75,18 +75,24 @@ def test_a_task_that_ends_its_worker_is_a_row(monkeypatch: pytest.MonkeyPatch):
 def test_long_tasks_first_and_sharing_tasks_together():
     tasks = [Task(n, "", "solve", seconds=float(n % 3), shares=f"s{n % 3}") for n in range(9)]
     waiting = pool.Queue(tasks)
-    one, other = waiting.take(""), waiting.take("")
-    assert one is not None
-    assert other is not None
+    (one,), (other,) = waiting.take(""), waiting.take("")
     assert (one.seconds, other.seconds) == (2.0, 1.0)
-    same = waiting.take(one.shares)
-    assert same is not None
+    (same,) = waiting.take(one.shares)
     assert same.shares == one.shares
-    waiting.put_back(one)
+    waiting.put_back([one])
     left = []
-    while (task := waiting.take("")) is not None:
-        left.append(task.number)
+    while some := waiting.take(""):
+        left += [task.number for task in some]
     assert sorted(left) == sorted({*range(9)} - {other.number, same.number})
+
+
+def test_short_tasks_go_together_and_alone_after_a_death():
+    waiting = pool.Queue([Task(n, "", "film", seconds=0.03) for n in range(9)])
+    some = waiting.take("")
+    assert [task.number for task in some] == [0, 1, 2, 3]
+    waiting.put_back(some)
+    assert [len(waiting.take("")) for _ in range(6)] == [1, 1, 1, 1, 4, 1]
+    assert waiting.take("") == []
 
 
 def begin(folder: Path, case: Path) -> subprocess.Popen[str]:
