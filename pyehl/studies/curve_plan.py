@@ -17,7 +17,8 @@ from pyehl.errors import InputError
 from pyehl.prediction.options import turned, unpredictable
 from pyehl.prediction.resolved_inlet import touching_points
 from pyehl.prediction.smooth import CYCLES
-from pyehl.studies.plan import TaskList, check_memory, duration, formula_film, wall_seconds
+from pyehl.studies.estimate import duration, wall_seconds
+from pyehl.studies.plan import TaskList, check_memory, formula_film
 from pyehl.studies.study import MAX_CASES, Point, Study, make
 from pyehl.studies.tasks import Task
 from pyehl.studies.vary import Axis

@@ -17,9 +17,11 @@ import pyehl
 from pyehl.cli import main
 from pyehl.commands.sweep import report
 from pyehl.studies import plan as plan_module
+from pyehl.studies.estimate import Remaining, seconds_of
 from pyehl.studies.gather import Outcome
-from pyehl.studies.plan import plan, seconds_of
+from pyehl.studies.plan import plan
 from pyehl.studies.study import make
+from pyehl.studies.tasks import Task
 from pyehl.studies.vary import parse_axis
 
 
@@ -278,6 +280,20 @@ def test_estimates_of_predictions(cases: Path):
         settings = pyehl.Case(cases / case, options).resolve()
         ratio = seconds_of(settings, "predict") / measured
         assert 0.4 < ratio < 2.5, (case, options, ratio)
+
+
+def test_the_time_left_follows_from_what_the_first_cases_took():
+    """Each kind of task by its own: a machine that is ten times as slow, and film sheets."""
+    tasks = [Task(n, "", "solve" if n < 8 else "film", seconds=1.0) for n in range(10)]
+    left = Remaining(tasks, 2)
+    assert (left.count, left.total, left.seconds) == (10, 10.0, 5.0)
+    left.remove([(0, {"seconds": 10.0}), (1, {"seconds": 10.0}), (2, {"seconds": None})])
+    # five cases of 10 s, and two of which nothing else is known
+    assert left.seconds == pytest.approx(70.0 / 2.0)
+    left.remove([(8, {"seconds": 0.5})])
+    assert left.seconds == pytest.approx((5 * 10.0 + 0.5) / 2.0)
+    left.remove([(n, {"seconds": 10.0}) for n in (3, 4, 5, 6, 7)] + [(9, {"seconds": 0.5})])
+    assert (left.count, left.estimate, left.seconds) == (0, 0.0, 0.0)
 
 
 @pytest.mark.long
