@@ -184,7 +184,7 @@ def _curve(args: argparse.Namespace, plan: CurvePlan, jobs: int, measured: Measu
             watcher=watcher,
         )
     if outcome.interrupted:
-        watcher.goes_on(folder)
+        watcher.interrupted(folder)
         return EXIT_INTERRUPTED
     written = [CSV, NETCDF]
     drawn = [name for name in DRAWN if name in table and table[name].notna().any()]

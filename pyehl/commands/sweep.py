@@ -21,7 +21,7 @@ from pyehl.studies.vary import parse_axis
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.description = (
         "Run a case with many values, in worker processes; started again it runs what is missing. "
-        "Exit status: 0 all cases have an answer, of which film breakdown is one, 1 at least one "
+        "Exit status: 0 all cases have a result, of which film breakdown is one, 1 at least one "
         "has none, 2 bad input (nothing has run), 130 interrupted."
     )
     parser.add_argument("case", metavar="CASE.nml|STUDY.toml", help="case file or study file")
@@ -40,7 +40,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=lambda text: text.split(","),
         metavar="NAME,...",
         help="columns of the table, by their names in summary.json (default: all numbers but those "
-        "over the tracks of a prediction, and the judgement)",
+        "over the tracks of a prediction, and the assessment `judgement`)",
     )
     parser.add_argument("--zip", action="store_true", help="all varied keys move together")
     parser.add_argument("--keep", action="store_true", help="a result folder for each case")
@@ -92,7 +92,7 @@ def execute(args: argparse.Namespace) -> int:
     try:
         study = make(**_arguments(args))
     except InputError as error:
-        # what a study file says is told with its place
+        # what a study file says is reported with its place
         if args.case.endswith(".toml") and args.case not in str(error):
             raise InputError(f"{args.case}: error: {error}") from error
         raise
@@ -113,7 +113,7 @@ def execute(args: argparse.Namespace) -> int:
     if not args.quiet:
         print(report(outcome, folder, max(1, min(jobs, outcome.ran))))
     if outcome.interrupted:
-        watcher.goes_on(folder)
+        watcher.interrupted(folder)
         return EXIT_INTERRUPTED
     size = todo.study.size
     lost = [

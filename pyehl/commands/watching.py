@@ -17,7 +17,7 @@ from pyehl.studies.pool import processors
 from pyehl.studies.tasks import FAILED, Task
 from pyehl.types import Row
 
-MOST_MESSAGES = 100
+MAX_MESSAGES = 100
 # Seconds between lines where the output is not a terminal
 LINE_INTERVAL = 5.0
 
@@ -52,8 +52,8 @@ class Bar:
 class Terminal(Watcher):
     """Prints the plan, then shows a bar of estimated seconds."""
 
-    def __init__(self, told: Callable[[Sequence[int]], str], *, quiet: bool = False) -> None:
-        self._plan, self._quiet = told, quiet
+    def __init__(self, plan: Callable[[Sequence[int]], str], *, quiet: bool = False) -> None:
+        self._plan, self._quiet = plan, quiet
         self._size = self._failed = 0
         self._bar: Bar | None = None
         self._remaining = Remaining((), 1)
@@ -83,7 +83,7 @@ class Terminal(Watcher):
         if self._bar is not None:
             self._bar.close()
 
-    def goes_on(self, folder: Path) -> None:
+    def interrupted(self, folder: Path) -> None:
         """Say how an interrupted study is resumed."""
         print(f"interrupted; the same command resumes it in {folder}", file=sys.stderr)
 
@@ -106,10 +106,10 @@ def add_worker_arguments(parser: argparse.ArgumentParser) -> None:
 
 def report_lost(lost: Sequence[str], table: Path) -> None:
     """Print a message for each case without a result; of very many the first."""
-    for text in lost[:MOST_MESSAGES]:
+    for text in lost[:MAX_MESSAGES]:
         print(" ".join(text.split()), file=sys.stderr)
-    if len(lost) > MOST_MESSAGES:
-        print(f"and {len(lost) - MOST_MESSAGES} more: see status in {table}", file=sys.stderr)
+    if len(lost) > MAX_MESSAGES:
+        print(f"and {len(lost) - MAX_MESSAGES} more: see status in {table}", file=sys.stderr)
 
 
 def jobs_of(args: argparse.Namespace) -> int:

@@ -59,29 +59,29 @@ def draw_stribeck(
     }
     # none of two surfaces without full simulations
     shares = ("contact_load_share", "contact_load_share_ehl")
-    touching = any(_known(curve, name) for curve in curves for name in shares)
-    # none where bodies touch and the friction there is not known
-    rubbing = not touching or any(_has_friction(curve) for curve in curves)
-    rows = rubbing + 2 * touching
+    contact = any(_known(curve, name) for curve in curves for name in shares)
+    # none with solid contact whose friction is not known
+    friction = not contact or any(_has_friction(curve) for curve in curves)
+    rows = friction + 2 * contact
     figure = style.new_figure(11.5 if len(shown) > 1 else 7.0, 2.9 + 1.5 * rows)
     panels = figure.subplots(rows, len(shown), sharex="col", sharey="row", squeeze=False)
     axes = panels[0]
-    if touching:
-        draw_contact(panels[rubbing:], list(shown), list(zip(curves, COLOURS * 9, strict=False)))
+    if contact:
+        draw_contact(panels[friction:], list(shown), list(zip(curves, COLOURS * 9, strict=False)))
     for ax, (name, label) in zip(axes, shown.items(), strict=True):
-        for curve, colour in zip(curves if rubbing else [], COLOURS * 9, strict=False):
+        for curve, colour in zip(curves if friction else [], COLOURS * 9, strict=False):
             _draw_curve(ax, curve, name, colour)
         _shade(ax, curves, name)
         if measured is not None:
             measured.draw(ax, name)
-        if name == "theta_2" and rubbing and not absolute:
+        if name == "theta_2" and friction and not absolute:
             _draw_eq_16(ax)
         ax.set_xscale("log")
         style.label_log_ticks(ax.xaxis)
         panels[-1, list(axes).index(ax)].set_xlabel(label)
         ax.grid(visible=True, which="major", color="0.92", lw=0.6)
         ax.set_axisbelow(True)
-    if rubbing:
+    if friction:
         axes[0].set_ylabel(r"$\mu$" if absolute else r"$\mu_r/\mu_s$")
     style.letter(axes)
     # the last panel has all that the others have
@@ -157,7 +157,7 @@ def _draw_eq_16(ax: Axes) -> None:
 def draw_contact(
     panels: NDArray[Any], abscissae: Sequence[str], curves: Sequence[tuple[Curve, str]]
 ) -> None:
-    """Draw shares of load and area on the first row of panels (2, n), least film on the second.
+    """Draw shares of load and area on the first row of panels (2, n), minimum film on the second.
 
     Lines are predictions, squares and diamonds full simulations.
     """
@@ -176,7 +176,7 @@ def draw_contact(
             ax.grid(visible=True, which="major", color="0.92", lw=0.6)
             ax.set_axisbelow(True)
     panels[0, 0].set_ylabel("load, area (dashed)")
-    panels[1, 0].set_ylabel("least film [nm]")
+    panels[1, 0].set_ylabel("minimum film [nm]")
 
 
 def _band(ax: Axes, x: Array, curve: Curve, name: str, colour: str, factor: float = 1.0) -> None:
@@ -205,7 +205,7 @@ def draw_traction(
     measured: Points | None = None,
     law: str = "",
 ) -> Figure:
-    """Draw coefficients of friction, and the greatest temperature rise where it was computed.
+    """Draw coefficients of friction, and the maximum temperature increase where it was computed.
 
     Without sliding there is no friction of sliding. `surface` says what the surface is; measured
     friction is laid over; `law` says what an empirical curve is.
@@ -242,7 +242,7 @@ def draw_traction(
         ax.set_ylim(bottom=0.0)
     axes[0].set_ylabel(r"$\mu$")
     if warm:
-        axes[1].set_ylabel("greatest rise of temperature in the film [K]")
+        axes[1].set_ylabel("maximum temperature increase of the film [K]")
         style.letter(axes)
     axes[0].legend(fontsize="small")
     words = "; ".join(f"{c.label + ': ' if c.label else ''}{c.ends}" for c in curves if c.ends)

@@ -16,8 +16,8 @@ from pyehl.given import path_of
 from pyehl.plots.folder import plot
 from pyehl.plots.style import png
 from pyehl.reports import browser, page
-from pyehl.reports.answer import Judgement, answer, judge
-from pyehl.reports.asked import conditions, numbers
+from pyehl.reports.assessment import Assessment, assess, numbers_of
+from pyehl.reports.conditions import conditions, numbers
 from pyehl.reports.limits import limits, warnings
 from pyehl.reports.page import Block
 from pyehl.reports.study import study_parts
@@ -37,7 +37,7 @@ PICTURES = {
     "deformed_roughness": "Roughness before and in the contact",
     "rough_and_smooth": "Pressure and film of the rough contact beside those of the smooth one",
     "friction": "μ_r/μ_s over the time of the run",
-    "extremes": "Largest pressure and least film over the time of the run",
+    "extremes": "Maximum pressure and minimum film over the time of the run",
     "surface_spectrum": "The surface, its spectrum, and what is left of it in the contact",
     "roughness": "Roughness before and in the contact",
     "passage": "μ_r/μ_s over the passage of the surface, and what each octave of wavelengths adds",
@@ -59,8 +59,8 @@ def report(
 ) -> Path:
     """Write one HTML page about a result, which needs neither network nor pyehl.
 
-    The page has what was asked (in SI units and in Moes numbers), the answer with its errors and a
-    judgement, pictures, tables, warnings, limits that apply, the case file, versions, and how to
+    The page has the conditions (in SI units and in Moes numbers), results with errors and an
+    assessment, pictures, tables, warnings, limits that apply, the case file, versions, and how to
     cite. Folders of files on this machine are left out.
 
     Parameters
@@ -105,8 +105,8 @@ def report(
         browser.browser()
     files = _files(source)
     for dpi in DOTS:
-        title, judgement, parts = _content(source, dpi)
-        parts = [page.verdict(*judgement), *parts, *_versions()]
+        title, assessment, parts = _content(source, dpi)
+        parts = [page.verdict(*assessment), *parts, *_versions()]
         text = page.render(title, parts, "report", lambda value: _nameless(value, files))
         if len(text) < LARGEST:
             break
@@ -116,8 +116,8 @@ def report(
     return path
 
 
-def _content(folder: Path, dpi: int) -> tuple[str, Judgement, list[Block]]:
-    """Give title, judgement and parts of the page of any result folder."""
+def _content(folder: Path, dpi: int) -> tuple[str, Assessment, list[Block]]:
+    """Give title, assessment and parts of the page of any result folder."""
     if (folder / NAME).is_file():
         return study_parts(folder)
     try:
@@ -137,15 +137,15 @@ def _content(folder: Path, dpi: int) -> tuple[str, Judgement, list[Block]]:
 
 def _single(
     folder: Path, summary: Mapping[str, Any], dpi: int
-) -> tuple[str, Judgement, list[Block]]:
+) -> tuple[str, Assessment, list[Block]]:
     data = load(folder)
     settings, case = settings_of(data), str(data.attrs["case"])
-    told = judge(summary)
-    parts = [page.heading("What was asked")]
+    assessment = assess(summary)
+    parts = [page.heading("Conditions")]
     parts += [page.facts(conditions(settings)), page.facts(numbers(settings))]
-    parts.append(page.heading("The answer"))
-    found = answer(summary)
-    parts.append(page.facts(found) if found else page.paragraph(told.why, "fail"))
+    parts.append(page.heading("Results"))
+    found = numbers_of(summary)
+    parts.append(page.facts(found) if found else page.paragraph(assessment.why, "fail"))
     if summary.get("film_breakdown"):
         parts.append(page.facts({k: str(v) for k, v in summary["film_breakdown"].items()}))
     parts += _pictures(data, summary, dpi)
@@ -163,7 +163,7 @@ def _single(
     title = "Rough contact" if rough else "Contact"
     if summary["kind"] == "prediction":
         title = "Prediction of a rough contact"
-    return title, told, parts
+    return title, assessment, parts
 
 
 def _files(folder: Path) -> set[str]:
@@ -201,7 +201,7 @@ def _pictures(data: Any, summary: Mapping[str, Any], dpi: int) -> list[Block]:  
     if summary["kind"] == "solution" and "P" not in data:
         return [page.paragraph("There are no pictures: the case has output.fields = .false.")]
     parts = [page.heading("Pictures")]
-    facts = "; ".join(f"{name}: {value}" for name, value in answer(summary).items())
+    facts = "; ".join(f"{name}: {value}" for name, value in numbers_of(summary).items())
     for name, figure in plot(data).items():
         words = PICTURES.get(name, name)
         parts.append(page.picture(png(figure, dpi), f"{words}. {facts}", f"{words}."))
@@ -229,27 +229,27 @@ def _all_numbers(summary: Mapping[str, Any]) -> Block:
     return page.table(("name", "value", "unit", "meaning"), rows)
 
 
-def _response(folder: Path, summary: Mapping[str, Any]) -> tuple[str, Judgement, list[Block]]:
+def _response(folder: Path, summary: Mapping[str, Any]) -> tuple[str, Assessment, list[Block]]:
     case = _text(folder / "case.nml")
     settings = namelist.values(case)
     words = "Amplitude and lag of small waves over their length, beside the shipped response"
     within = bool(summary["within_fitted_range"])
     rms, most = summary["shipped_difference_rms"], summary["shipped_difference_max"]
-    told = Judgement(
+    assessment = Assessment(
         "Holds" if within else "Take with care",
         f"{summary['waves']} waves; they differ from the shipped response by {rms:.2g} (rms) and "
         f"{most:.2g} at most" + ("." if within else ", which was not fitted at such a point."),
         "pass" if within else "care",
     )
-    parts = [page.heading("What was asked"), page.facts(conditions(settings))]
-    parts += [page.facts(numbers(settings)), page.heading("The answer")]
+    parts = [page.heading("Conditions"), page.facts(conditions(settings))]
+    parts += [page.facts(numbers(settings)), page.heading("Results")]
     if (folder / "response.png").is_file():
-        parts.append(page.picture((folder / "response.png").read_bytes(), told.why, words))
+        parts.append(page.picture((folder / "response.png").read_bytes(), assessment.why, words))
     tiers = summary["tiers"]
     parts.append(page.table(list(tiers[0]), [[_value(v) for v in t.values()] for t in tiers]))
     parts.append(page.heading("Limits that apply"))
     parts.append(page.bullets(limits(settings, {"kind": "response"})))
-    return "Measured response", told, [*parts, *_case_parts(case)]
+    return "Measured response", assessment, [*parts, *_case_parts(case)]
 
 
 def _versions() -> list[Block]:

@@ -3,7 +3,7 @@
 
 At each point the smooth contact is solved, the friction of one or several surfaces is predicted,
 and at some points the passage of the surface is solved in full. All of these are tasks of one
-study, so that a curve that was interrupted goes on.
+study, so that an interrupted curve is resumed.
 """
 
 import os
@@ -67,7 +67,7 @@ class CurvePlan:
         return found | {"run": "stribeck", "surfaces": self.surfaces, "ehl": full}
 
     def text(self, jobs: int, done: Sequence[int] = ()) -> str:
-        """Tell the plan in a few lines, for `jobs` worker processes and the tasks left."""
+        """Report the plan in a few lines, for `jobs` worker processes and the tasks left."""
         finished = set(done)
         left = [t.seconds for t in self.tasks if t.number not in finished]
         full = sum(p.full is not None for p in self.points)

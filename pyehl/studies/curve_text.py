@@ -22,7 +22,7 @@ COLUMNS = {
     "mu_ratio_model_error": "+- model",
     "mu": "mu",
     "mu_isothermal": "isothermal",
-    "temperature_rise_max_K": "rise [K]",
+    "temperature_rise_max_K": "dT [K]",
     "contact_load_share": "contact",
     "contact_load_share_error": "+- contact",
     "contact_area_share": "area",
@@ -62,7 +62,7 @@ def report(plan: CurvePlan, table: pd.DataFrame) -> str:
 
 
 def last_lines(plan: CurvePlan, table: pd.DataFrame) -> str:
-    """Report the point with the smallest film in full, and count the assessments of all."""
+    """Report the point with the minimum film in full, and count the assessments of all."""
     film = table["h_min_rough_m"].fillna(table["h_min_m"]).astype(float)
     film = film[table["h_min_m"].notna()]
     if film.empty:
@@ -71,7 +71,7 @@ def last_lines(plan: CurvePlan, table: pd.DataFrame) -> str:
     words = table["judgement"].str.partition(":")[0].where(table["status"] != OUTSIDE, OUTSIDE)
     counts = ", ".join(f"{word} at {n}" for word, n in Counter(words).items())
     return (
-        f"the thinnest film is at {plan.points[thinnest].point}:\n"
+        f"the film is thinnest at {plan.points[thinnest].point}:\n"
         f"{table[CONCLUSION][thinnest]}\n"
         f"curve      {counts} of {len(table)} points"
     )

@@ -111,11 +111,11 @@ def read_measured(path: str | os.PathLike[str], key: str) -> Measured:
             except ValueError:
                 value = np.nan
             if not np.isfinite(value) or value <= 0.0:
-                told, other = given.get(word, "nothing"), ""
+                found, other = given.get(word, "nothing"), ""
                 if word == "error":
                     other = ", or no column 'error' where the errors are not known"
                 raise InputError(
-                    f"{name}:{number}: error: {word} = '{told}'\nexpected: a number above 0{other}"
+                    f"{name}:{number}: error: {word} = '{found}'\nexpected: a number above 0{other}"
                 )
         rows.append([float(given[word]) for word in wanted])
     if not rows:

@@ -26,7 +26,7 @@ from pyehl.types import Settings
 
 THREADS = "solver.threads"
 MOST, PATIENCE = 5000, 5.0
-"""Cases that a plan without a run checks at most, and seconds that it takes for them."""
+"""Maximum number of cases that a plan without a run checks, and seconds that it takes for them."""
 CASE_BYTES = 12_000
 """Memory of a case that waits, most of it its resolved text."""
 # What may make a case that can be read one that cannot be solved
@@ -55,7 +55,7 @@ class TaskList:
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """Cases of a study, checked, with what can be told before they run."""
+    """Cases of a study, checked, with what is known before they run."""
 
     study: Study
     # Its cases in the order of the table; of a large study that is not to run, some of them
@@ -69,7 +69,7 @@ class Plan:
         return self.study.identity(self.tasks[0].text, self.files)
 
     def text(self, jobs: int, done: Sequence[int] = ()) -> str:
-        """Tell the plan in a few lines, for `jobs` worker processes and the cases left."""
+        """Report the plan in a few lines, for `jobs` worker processes and the cases left."""
         finished = set(done)
         left = [t for t in self.tasks if t.number not in finished]
         names = " x ".join(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Run a study: many cases, one table, and nothing lost."""
+"""Run a study: many cases, one table; what is finished is kept."""
 
 import os
 from collections.abc import Mapping, Sequence
@@ -78,8 +78,9 @@ def sweep(
     run
         'solve', 'predict' or 'film'.
     outputs
-        Names of results wanted; none: all numbers and the judgement. Mean and spread over the
-        tracks of a prediction, which take twice the time, are made only where they are named.
+        Names of results wanted; none: all numbers and the assessment (``judgement``). Mean and
+        spread over the tracks of a prediction, which take twice the time, are made only where they
+        are named.
     output
         Folder for the journal and the table, from which an interrupted study is resumed; None:
         nothing is kept on disk.

@@ -28,7 +28,7 @@ INSIDE, OUTSIDE = "inside all ranges", "outside the range of a formula"
 RESULTS = frozenset({"converged", "predicted", INSIDE, OUTSIDE})
 """Statuses of cases that have a result."""
 FINDINGS = RESULTS | {"film breakdown", BEYOND}
-"""Statuses of cases that are answered: with a result, or with what keeps the case from one."""
+"""Statuses of finished cases: with a result, or with what keeps the case from one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +41,7 @@ class Task:
     folder: str = ""  # where its results go; '' for nowhere
     seconds: float = 0.0  # how long it may take, by estimate
     shares: str = ""  # what it has in common with others; those go to one worker where possible
-    # A prediction with its tracks, bands and what would carry; else mu_r/mu_s and its errors
+    # A prediction with its tracks, bands and suggested cut-off; else mu_r/mu_s and its errors
     full: bool = False
 
 
@@ -104,10 +104,10 @@ def _film(task: Task) -> Row:
     row = _scalars(values)
     row["h_c_m"] = values["formulas"][0]["h_c_m"]
     for formula in values["formulas"]:
-        central, least = film_columns(formula["name"])
+        central, minimum = film_columns(formula["name"])
         row[central] = formula["h_c_m"]
         if formula["h_min_m"] is not None:
-            row[least] = formula["h_min_m"]
+            row[minimum] = formula["h_min_m"]
     outside = [f["name"] for f in values["formulas"] if f["applies"] and f["outside"]]
     row["status"] = OUTSIDE if outside else INSIDE
     row["message"] = ", ".join(outside)

@@ -69,11 +69,11 @@ def full_film_ends(key: str, places: Sequence[float] | Array, statuses: Sequence
     broken = [k for k, status in enumerate(statuses) if status in (BREAKDOWN, MIXED)]
     known = [k for k, status in enumerate(statuses) if status in (FULL_FILM, OUTSIDE)]
     lost = len(statuses) - len(known) - len(broken)
-    rest = f" with an answer; {lost} have none" if lost else ""
+    rest = f" with a result; {lost} have none" if lost else ""
     far = statuses.count(OUTSIDE)
     beyond = f"; {far} of them outside the range of the prediction" if far else ""
     if not known and not broken:
-        return "no point has an answer"
+        return "no point has a result"
     if not broken:
         return f"full film at all points{beyond}{rest}"
     if not known:

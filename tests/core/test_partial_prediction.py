@@ -142,7 +142,7 @@ def test_picture_of_a_curve_without_friction():
     none = dict.fromkeys(("mu_ratio", "mu", "mu_ratio_ehl", "mu_empirical"))
     figure = draw_stribeck([curve_of(BREAKDOWN, contact_load_share=0.4, **none)], "contact")
     labels = [ax.get_ylabel() for ax in figure.axes]
-    assert [label for label in labels if label] == ["load, area (dashed)", "least film [nm]"]
+    assert [label for label in labels if label] == ["load, area (dashed)", "minimum film [nm]"]
 
 
 def test_curve_says_why_it_has_no_friction(tmp_path, capsys):

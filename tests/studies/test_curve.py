@@ -259,7 +259,7 @@ def test_pattern_of_a_map_of_one_wave_is_that_wave(tmp_path: Path):
         ([BREAKDOWN, BREAKDOWN, BREAKDOWN], "no full film"),
         (["not solved", FULL_FILM, FULL_FILM], "1 have none"),
         ([BREAKDOWN, BREAKDOWN, "not solved"], "no full film at any point with"),
-        (["not solved", "not solved", "not solved"], "no point has an answer"),
+        (["not solved", "not solved", "not solved"], "no point has a result"),
     ],
 )
 def test_where_full_film_ends(statuses: list[str], says: str):
@@ -297,7 +297,7 @@ def test_ends_of_a_curve_say_why(cases: Path, tmp_path: Path):
     assert lost["status"] == "not solved"
     assert "did not converge on 1025 x 1025 nodes" in lost["message"]
     assert "point 1 of 2 (contact.mean_velocity=0.005): not solved: failed: " in complaint
-    assert "full film at all points with an answer; 1 have none" in told
+    assert "full film at all points with a result; 1 have none" in told
     assert found["status"] == FULL_FILM
     words = ("--set", "surface.pixels=256", "--set", "grid.points=257", "--set")
     words += ("surface.rms_height=7e-8", "-o", str(tmp_path / "2"))
@@ -330,7 +330,7 @@ def test_nothing_solved_is_no_full_film(cases: Path, tmp_path: Path):
     """Neither words nor pictures speak of a film that no point has."""
     words = ("--set", "surface.kind=smooth", "--set", "grid.points=65", "--speed", "0.003,0.005")
     told, complaint = run(str(cases / "table1.nml"), *words, "-o", str(tmp_path / "out"), expect=1)
-    assert "no point has an answer" in told
+    assert "no point has a result" in told
     assert "full film" not in told
     assert complaint.count(": not solved: ") == 2
     assert "there is no picture" in complaint
