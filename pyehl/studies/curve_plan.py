@@ -18,7 +18,7 @@ from pyehl.prediction.options import turned, unpredictable
 from pyehl.prediction.resolved_inlet import touching_points
 from pyehl.prediction.smooth import CYCLES
 from pyehl.studies.estimate import duration, wall_seconds
-from pyehl.studies.plan import TaskList, check_memory, formula_film
+from pyehl.studies.plan import TaskList, check_maps, check_memory
 from pyehl.studies.study import MAX_CASES, Point, Study, make
 from pyehl.studies.tasks import Task
 from pyehl.studies.vary import Axis
@@ -173,12 +173,9 @@ def _check(settings: Settings, seeds: int, ehl: int) -> None:
         raise InputError(f"surfaces = {seeds}: {kinds} has no seed")
     if "load" not in settings["contact"]:
         raise InputError("a Stribeck curve needs a contact in SI units (load, mean_velocity)")
-    film = formula_film(settings)
     if turned(settings):
         raise InputError(turned(settings))
-    for group in groups:
-        if settings[group]["kind"] == "map":
-            surfaces.from_settings({**settings, "surface": settings[group]}, *film)
+    check_maps(settings)
 
 
 def _fractal(settings: Settings) -> list[str]:

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Do what is missing of some tasks, and keep what is finished."""
 
+import signal
 import time
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import closing, contextmanager, nullcontext
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import closing, nullcontext
 from dataclasses import dataclass
-from types import FrameType
 from typing import Any
 
 from pyehl.destination import Destination
@@ -45,30 +45,6 @@ class Outcome:
         return dict(Counter(str(row.get("status")) for row in self.rows.values()))
 
 
-class _Stop:
-    """SIGINT and SIGTERM as KeyboardInterrupt, but not between a row and its journal."""
-
-    def __init__(self) -> None:
-        self._held = self._wanted = False
-
-    def take(self, number: int, frame: FrameType | None) -> None:
-        """Take a signal."""
-        if not self._held:
-            raise KeyboardInterrupt
-        self._wanted = True
-
-    @contextmanager
-    def held(self) -> Iterator[None]:
-        """Take signals at the end only."""
-        self._held = True
-        try:
-            yield
-        finally:
-            self._held = False
-        if self._wanted:
-            raise KeyboardInterrupt
-
-
 def gather(
     tasks: Sequence[Task],
     identity: Mapping[str, Any],
@@ -98,22 +74,21 @@ def gather(
         jobs = min(jobs or pool.processors(), len(left))
         watcher.began(tasks, sorted(rows), 0 if scheduler else jobs)
         outcome = Outcome(rows)
-        stop = _Stop()
         began = written = time.monotonic()
         workers = pool.cluster_rows(left, scheduler) if scheduler else pool.rows(left, jobs)
         try:
-            with signals_to(stop.take), closing(workers) as source:
+            # a transaction of the journal that is interrupted is whole, or not there
+            with signals_to(signal.default_int_handler), closing(workers) as source:
                 for found in source:
-                    with stop.held():
-                        if journal is not None:
-                            journal.append(found)
-                        rows.update(found)
-                        outcome.ran += len(found)
-                        outcome.busy += sum(row.get("seconds") or 0.0 for _, row in found)
-                        watcher.finished(found)
-                        if write is not None and time.monotonic() - written > TABLE_INTERVAL:
-                            write(rows)
-                            written = time.monotonic()
+                    if journal is not None:
+                        journal.append(found)
+                    rows.update(found)
+                    outcome.ran += len(found)
+                    outcome.busy += sum(row.get("seconds") or 0.0 for _, row in found)
+                    watcher.finished(found)
+                    if write is not None and time.monotonic() - written > TABLE_INTERVAL:
+                        write(rows)
+                        written = time.monotonic()
         except KeyboardInterrupt:
             outcome.interrupted = True
         outcome.wall = time.monotonic() - began

@@ -156,13 +156,18 @@ def _check(study: Study, case: Case, settings: Settings, checked: set[str]) -> N
     why = unpredictable(settings)
     if study.run == "predict" and why:
         raise InputError(why)
-    film = formula_film(settings)
-    for group in surfaces.rough_groups(settings):
-        if settings[group]["kind"] == "map" and not known:
-            surfaces.from_settings({**settings, "surface": settings[group]}, *film)
+    check_maps(settings, read=not known)
 
 
 def formula_film(settings: Settings) -> tuple[OperatingPoint, float]:
     """Give the operating point of a resolved case and its central film by formula [m]."""
     operating = OperatingPoint.from_settings(settings)
     return operating, central_film(operating, Lubricant.from_settings(settings))
+
+
+def check_maps(settings: Settings, *, read: bool = True) -> None:
+    """Refuse a resolved case without a film by formula, or whose height maps cannot be prepared."""
+    film = formula_film(settings)
+    for group in surfaces.rough_groups(settings):
+        if read and settings[group]["kind"] == "map":
+            surfaces.from_settings({**settings, "surface": settings[group]}, *film)
