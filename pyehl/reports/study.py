@@ -19,11 +19,16 @@ from pyehl.reports.conditions import conditions, numbers
 from pyehl.reports.limits import limits
 from pyehl.reports.page import Block
 from pyehl.studies.journal import read_header
+from pyehl.studies.tasks import INSIDE
+from pyehl.studies.tasks import OUTSIDE as OUTSIDE_FORMULA
+from pyehl.studies.transition import FULL_FILM, MIXED, OUTSIDE
 from pyehl.theory.operating import OperatingPoint
 
 STUDY_DPI = 110
 TABLES = {"stribeck": "stribeck.csv"}
-GOOD = ("converged", "predicted", "computed", "full film")
+GOOD = ("converged", "predicted", INSIDE, FULL_FILM)
+RESULTS = (*GOOD, OUTSIDE_FORMULA, OUTSIDE, MIXED)
+"""Statuses of rows with a result; of the last ones it is to be taken with care."""
 # Columns shown where they are there, each with the columns that may hold its error
 COLUMNS: dict[str, tuple[str, ...]] = {
     "h_c_m": ("h_c_error_m",),
@@ -105,19 +110,21 @@ def _with_unit(key: str, units: Mapping[str, str]) -> str:
 def _assess(rows: pd.DataFrame, size: int) -> Assessment:
     """Assess a study by status, assessment and errors of its rows."""
     counts = rows["status"].fillna("none").value_counts()
-    good = int(sum(counts.get(word, 0) for word in GOOD))
-    others = ", ".join(f"{n} '{word}'" for word, n in counts.items() if word not in GOOD)
+    known = int(counts[counts.index.isin(RESULTS)].sum())
+    with_care = counts[counts.index.isin(RESULTS) & ~counts.index.isin(GOOD)]
+    others = counts[~counts.index.isin(RESULTS)]
     missing = size - len(rows)
     left = f"; {missing} are not done" if missing > 0 else ""
-    why = f"{good} of {len(rows)} cases have a result{left}."
-    if others:
-        why += f" The others: {others}."
+    why = f"{known} of {len(rows)} cases have a result{left}."
+    for words, those in (("Of these", with_care), ("The others", others)):
+        if len(those):
+            why += f" {words}: {', '.join(f'{n} {word!r}' for word, n in those.items())}."
     thin = False
     if "judgement" in rows:
         words = rows["judgement"].dropna().str.partition(":")[0].value_counts()
         why += f" By their assessments: {', '.join(f'{n} {word}' for word, n in words.items())}."
         thin = any(word != "full film" for word in words.index)
-    if good == 0:
+    if known == 0:
         return Assessment("No result", why, "fail")
     shares = _errors(rows)
     if shares:
@@ -125,7 +132,7 @@ def _assess(rows: pd.DataFrame, size: int) -> Assessment:
     doubtful = any(share > WELL_KNOWN for share in shares.values())
     if doubtful:
         why += f" Above {100.0 * WELL_KNOWN:g} % a finer grid is recommended."
-    if others or left or doubtful or thin:
+    if len(others) or len(with_care) or left or doubtful or thin:
         return Assessment("Take with care", why, "care")
     return Assessment("Holds", why, "pass")
 

@@ -140,6 +140,20 @@ def test_the_case_in_it_can_be_run(folders, tmp_path, root):
     assert again == pyehl.Case(root / "cases/table1.nml", *asked).resolve()
 
 
+@pytest.mark.parametrize(
+    ("load", "verdict"),
+    [
+        ("50,51", "Holds. 2 of 2 cases have a result."),
+        ("50,300", "2 of 2 cases have a result. Of these: 1 'outside the range of a formula'."),
+    ],
+)
+def test_films_by_formula_are_results(tmp_path, root, load, verdict):
+    vary = {"contact.load": [float(word) for word in load.split(",")]}
+    folder = tmp_path / "films"
+    pyehl.sweep(root / "cases/table1.nml", vary, run="film", output=folder, jobs=1)
+    assert verdict in read(pyehl.report(folder)).text
+
+
 def test_no_answer_is_said(tmp_path, root):
     with pytest.raises(pyehl.NotConverged):
         pyehl.solve(root / "cases/quick.nml", SMALL, "solver.max_cycles=1", output=tmp_path / "run")
