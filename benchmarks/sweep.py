@@ -68,7 +68,7 @@ class _FirstRow(Watcher):
     def __init__(self) -> None:
         self.began_at = self.started = 0.0
 
-    def began(self, tasks: Sequence[Task], done: Sequence[int], damaged: int) -> None:
+    def began(self, tasks: Sequence[Task], done: Sequence[int], workers: int) -> None:
         self.began_at = time.monotonic()
 
     def finished(self, rows: Sequence[tuple[int, Mapping[str, Any]]]) -> None:

@@ -267,7 +267,7 @@ def load(folder: str | os.PathLike[str]) -> xr.Dataset:
     folder = Path(path_of(folder, "folder"))
     for name in ("summary.json", "case.nml"):
         if not (folder / name).is_file():
-            study = (folder / "journal.jsonl").is_file()
+            study = (folder / "journal.sqlite").is_file()
             raise InputError(_no_case(folder, "of a study" if study else f"no {name}"))
     try:
         summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))

@@ -6,11 +6,12 @@ from __future__ import annotations
 from collections import defaultdict
 
 import numpy as np
+import pandas as pd
 from records import Row, Values, largest, of, read, span
 
 from pyehl.prediction import errors
 from pyehl.prediction.mixed_lubrication import TOUCHING_FILM_ERROR
-from pyehl.studies.curve_contact import lift_off
+from pyehl.studies.transition import lift_off
 from pyehl.theory.operating import OperatingPoint
 
 NOW, BEFORE = "deviation_percent", "deviation_before_percent"
@@ -178,9 +179,8 @@ def curve() -> Values:
     moes_m = [OperatingPoint(load=20.0, mean_velocity=u).moes_m for u in speeds]
     names = ("contact_load_share", "contact_load_share_error", "lambda_ratio")
     found = lift_off(
-        "contact.mean_velocity",
-        speeds,
-        [{n: float(row[n]) for n in names} | {"theta_2": 1.0} for row in rows],
+        np.array(speeds),
+        pd.DataFrame([{n: float(row[n]) for n in names} | {"theta_2": 1.0} for row in rows]),
     )
     assert found is not None
     assert abs(OperatingPoint(load=20.0, mean_velocity=0.195).moes_m - 100.0) < 1.0

@@ -129,8 +129,8 @@ def _kind(result: Result) -> str:
     return {"pass": "pass", "FAIL": "fail"}.get(result.verdict, "care")
 
 
-def _piece(folder: Path, r: Result) -> list[str]:
-    out = [
+def _piece(folder: Path, r: Result) -> list[page.Part]:
+    out: list[page.Part] = [
         page.heading(f"{r.name.capitalize()}: {r.title}", r.folder.name),
         page.paragraph(r.line(), _kind(r)),
     ]
@@ -158,7 +158,7 @@ def write_report(
 
     `machine` names versions, machine and settings. FileError if it cannot be written.
     """
-    parts = [page.paragraph(text) for text in (PAPER, *_head(results, level))]
+    parts: list[page.Part] = [page.paragraph(text) for text in (PAPER, *_head(results, level))]
     parts.append(page.preformatted("\n".join(machine)))
     links = "".join(
         f"<tr><td><a href='#{escape(r.folder.name)}'>{escape(r.name)}</a></td>"

@@ -3,25 +3,26 @@
 
 import argparse
 import sys
-from collections.abc import Sequence
 from contextlib import closing
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 
 from pyehl.commands.arguments import add_case_arguments
-from pyehl.commands.watching import Terminal, add_worker_arguments, jobs_of, tell_lost
+from pyehl.commands.watching import Terminal, add_worker_arguments, jobs_of, report_lost
 from pyehl.errors import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, InputError
-from pyehl.studies.curve import UNSOLVED, full_film_ends, no_coefficient
+from pyehl.studies.curve import curves_of, no_coefficient
 from pyehl.studies.curve_plan import KEYS, CurvePlan, plan_curve
 from pyehl.studies.curve_run import CSV, NETCDF, PICTURE, curve_axes, perform
-from pyehl.studies.curve_text import absolute_friction, curves_of, deviation, last_lines, report
+from pyehl.studies.curve_text import absolute_friction, deviation, last_lines, report
 from pyehl.studies.measured_friction import Measured, read_measured
+from pyehl.studies.transition import UNSOLVED
 from pyehl.surfaces import rough_groups
 from pyehl.theory.load_share import AIHARA, LoadShare
-from pyehl.types import Values
 
 SLIP = KEYS["slide-to-roll"]
+DRAWN = ("mu_ratio", "contact_load_share", "contact_load_share_ehl")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -96,7 +97,7 @@ def _measured(path: str, plan: CurvePlan) -> Measured:
             f"({why or 'with lubricant.shear_law = newtonian it has mu_ratio'})"
         )
     places = np.array([float(p.point.values[keys[0]]) for p in plan.points])
-    if measured.abscissa == keys[0] and (beyond := measured.outside(keys[0], places, [])):
+    if measured.abscissa == keys[0] and (beyond := measured.outside(places)):
         raise InputError(
             f"{path}: --measured: {beyond} of {len(measured.places)} values of {keys[0]} are "
             f"beyond the curve, which goes from {places.min():g} to {places.max():g}\nexpected: a "
@@ -106,12 +107,11 @@ def _measured(path: str, plan: CurvePlan) -> Measured:
 
 
 def draw(
-    plan: CurvePlan, rows: Sequence[Values], measured: Measured | None, path: Path, dpi: int
+    plan: CurvePlan, table: pd.DataFrame, measured: Measured | None, path: Path, dpi: int
 ) -> None:
     """Draw the curves of a table."""
     from pyehl.plots.stribeck import (  # noqa: PLC0415 (matplotlib takes long to import)
         ABSCISSAE,
-        Curve,
         Points,
         draw_stribeck,
         draw_traction,
@@ -119,30 +119,26 @@ def draw(
     from pyehl.plots.style import save  # noqa: PLC0415
 
     key = plan.study.keys[0]
-    absolute = absolute_friction(plan, rows)
+    absolute = absolute_friction(plan, table)
     if measured is not None and measured.ordinate != ("mu" if absolute else "mu_ratio"):
         print(f"note: --measured: there is no {measured.ordinate} to draw it over", file=sys.stderr)
         measured = None
-    curves = []
+    curves = curves_of(plan, table, absolute=absolute)
     overlay = None
-    for label, places, those in curves_of(plan, rows):
-        curves.append(Curve(label, those, *full_film_ends(key, places, those), absolute))
-        if measured is not None:
-            if beyond := measured.outside(key, places, those):
-                words = f"{beyond} of {len(measured.places)} measured points are beyond the curve"
-                print(f"note: {words}", file=sys.stderr)
-            over = {name: measured.over(name, key, places, those) for name in (*ABSCISSAE, key)}
-            overlay = Points(over, measured.friction, measured.error)
+    if measured is not None:
+        (curve,) = curves
+        if beyond := measured.outside(curve.column(measured.abscissa)):
+            words = f"{beyond} of {len(measured.places)} measured points are beyond the curve"
+            print(f"note: {words}", file=sys.stderr)
+        over = {name: measured.over(name, curve) for name in (*ABSCISSAE, key)}
+        overlay = Points(over, measured.friction, measured.error)
     settings = plan.points[0].settings
     kinds = [f"'{settings[group]['kind']}'" for group in rough_groups(settings)] or ["'smooth'"]
     count = f", {plan.surfaces} surfaces" if plan.surfaces > 1 else ""
     words = f"surface {' and '.join(kinds)}{count}; {_conditions(plan)}"
     law = "" if plan.load_share is None else plan.load_share.words
-    if absolute and key == SLIP:
-        slips = [places for _, places, _ in curves_of(plan, rows)]
-        save(draw_traction(curves, slips, words, overlay, law), path, dpi)
-        return
-    save(draw_stribeck(curves, words, overlay, law), path, dpi)
+    drawn = draw_traction if absolute and key == SLIP else draw_stribeck
+    save(drawn(curves, words, overlay, law), path, dpi)
 
 
 def _conditions(plan: CurvePlan) -> str:
@@ -174,11 +170,11 @@ def execute(args: argparse.Namespace) -> int:
 
 
 def _curve(args: argparse.Namespace, plan: CurvePlan, jobs: int, measured: Measured | None) -> int:
-    """Run a curve that is planned, draw and tell it."""
+    """Run a curve that is planned, draw and report it."""
     folder = Path(args.output)
     inputs = tuple(word for word in (args.case, args.measured) if word is not None)
     with closing(Terminal(lambda done: plan.text(jobs, done), quiet=args.quiet)) as watcher:
-        outcome, rows = perform(
+        outcome, table = perform(
             plan,
             folder,
             inputs=inputs,
@@ -188,27 +184,31 @@ def _curve(args: argparse.Namespace, plan: CurvePlan, jobs: int, measured: Measu
             watcher=watcher,
         )
     if outcome.interrupted:
-        watcher.goes_on(folder)
+        watcher.interrupted(folder)
         return EXIT_INTERRUPTED
     written = [CSV, NETCDF]
-    drawn = "mu_ratio", "contact_load_share", "contact_load_share_ehl"
-    if any(row.get(name) is not None for row in rows for name in drawn):
-        draw(plan, rows, measured, folder / PICTURE, args.dpi)
+    drawn = [name for name in DRAWN if name in table and table[name].notna().any()]
+    if drawn:
+        draw(plan, table, measured, folder / PICTURE, args.dpi)
         written.append(PICTURE)
     else:
         print("note: no point has a friction or a load share; there is no picture", file=sys.stderr)
     if not args.quiet:
-        print(report(plan, rows))
+        print(report(plan, table))
         if measured is not None:
-            print("\n".join(deviation(plan, rows, measured)))
-        print(last_lines(plan, rows))
+            print("\n".join(deviation(curves_of(plan, table)[0], measured)))
+        print(last_lines(plan, table))
         print(f"results    {', '.join(str(folder / name) for name in written)}")
+    full = np.array([p.full is not None for p in plan.points])
+    missing = (
+        (table["status"] == UNSOLVED)
+        | table["h_c_m"].isna()
+        | (full & table["mu_ratio_ehl"].isna())
+    )
     lost = [
-        f"point {p.point.number + 1} of {len(rows)} ({p.point}): {row['status']}: {row['message']}"
-        for p, row in zip(plan.points, rows, strict=True)
-        if row["status"] == UNSOLVED
-        or row["h_c_m"] is None
-        or (p.full is not None and row["mu_ratio_ehl"] is None)
+        f"point {k + 1} of {len(table)} ({plan.points[k].point}): "
+        f"{table['status'][k]}: {table['message'][k]}"
+        for k in np.flatnonzero(missing)
     ]
-    tell_lost(lost, folder / CSV)
-    return EXIT_OK if PICTURE in written and not lost else EXIT_FAILED
+    report_lost(lost, folder / CSV)
+    return EXIT_OK if drawn and not lost else EXIT_FAILED

@@ -7,10 +7,11 @@ from pathlib import Path
 from typing import Any
 
 from pyehl.commands.arguments import add_overrides
-from pyehl.commands.watching import Terminal, add_worker_arguments, jobs_of, tell_lost
+from pyehl.commands.watching import Terminal, add_worker_arguments, jobs_of, report_lost
 from pyehl.errors import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, InputError
+from pyehl.studies.estimate import duration
 from pyehl.studies.gather import Outcome
-from pyehl.studies.plan import MOST, duration, plan
+from pyehl.studies.plan import MOST, plan
 from pyehl.studies.study import RUNS, make, read_study
 from pyehl.studies.sweep import CASES, CSV, NETCDF, perform
 from pyehl.studies.tasks import FAILED, FINDINGS, why_none
@@ -20,7 +21,7 @@ from pyehl.studies.vary import parse_axis
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.description = (
         "Run a case with many values, in worker processes; started again it runs what is missing. "
-        "Exit status: 0 all cases have an answer, of which film breakdown is one, 1 at least one "
+        "Exit status: 0 all cases have a result, of which film breakdown is one, 1 at least one "
         "has none, 2 bad input (nothing has run), 130 interrupted."
     )
     parser.add_argument("case", metavar="CASE.nml|STUDY.toml", help="case file or study file")
@@ -39,7 +40,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=lambda text: text.split(","),
         metavar="NAME,...",
         help="columns of the table, by their names in summary.json (default: all numbers but those "
-        "over the tracks of a prediction, and the judgement)",
+        "over the tracks of a prediction, and the assessment `judgement`)",
     )
     parser.add_argument("--zip", action="store_true", help="all varied keys move together")
     parser.add_argument("--keep", action="store_true", help="a result folder for each case")
@@ -91,7 +92,7 @@ def execute(args: argparse.Namespace) -> int:
     try:
         study = make(**_arguments(args))
     except InputError as error:
-        # what a study file says is told with its place
+        # what a study file says is reported with its place
         if args.case.endswith(".toml") and args.case not in str(error):
             raise InputError(f"{args.case}: error: {error}") from error
         raise
@@ -112,7 +113,7 @@ def execute(args: argparse.Namespace) -> int:
     if not args.quiet:
         print(report(outcome, folder, max(1, min(jobs, outcome.ran))))
     if outcome.interrupted:
-        watcher.goes_on(folder)
+        watcher.interrupted(folder)
         return EXIT_INTERRUPTED
     size = todo.study.size
     lost = [
@@ -121,5 +122,5 @@ def execute(args: argparse.Namespace) -> int:
         if outcome.rows[point.number]["status"] not in FINDINGS
         and (why := why_none(outcome.rows[point.number]))
     ]
-    tell_lost(lost, folder / CSV)
+    report_lost(lost, folder / CSV)
     return EXIT_FAILED if lost else EXIT_OK

@@ -6,40 +6,43 @@ import sys
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any
 
 from tqdm import tqdm
 
 from pyehl.commands.arguments import add_force
 from pyehl.errors import InputError
+from pyehl.studies.estimate import Remaining, duration
 from pyehl.studies.gather import Watcher
-from pyehl.studies.plan import duration
 from pyehl.studies.pool import processors
 from pyehl.studies.tasks import FAILED, Task
+from pyehl.types import Row
 
-MOST_MESSAGES = 100
+MAX_MESSAGES = 100
 # Seconds between lines where the output is not a terminal
 LINE_INTERVAL = 5.0
 
 
 class Bar:
-    """A bar that counts estimated costs; lines now and then where there is no terminal."""
+    """A bar that counts estimated seconds; lines now and then where there is no terminal."""
 
     def __init__(self, total: float) -> None:
-        self._total, self._last = total, time.monotonic()
-        self._start = self._last
-        form = "{percentage:3.0f}%|{bar}|{desc} [{elapsed}, left {remaining}]"
+        self._start = self._last = time.monotonic()
+        form = "{percentage:3.0f}%|{bar}|{desc} [{elapsed}]"
         self._bar = tqdm(total=total or None, bar_format=form, disable=not sys.stderr.isatty())
+        self._total = total
 
-    def show(self, done: float, text: str) -> None:
-        """Show how much is done, and a text about it."""
+    def show(self, done: float, text: str, left: float | None = None) -> None:
+        """Show how much is done, a text about it, and the seconds left (by default from both)."""
+        now = time.monotonic()
+        if left is None and 0.0 < done:
+            left = (now - self._start) * (self._total / done - 1.0)
+        if left is not None and done < self._total:
+            text = f"{text}, about {duration(left)} left"
         self._bar.set_description_str(f" {text}", refresh=False)
         self._bar.update(done - self._bar.n)
-        now = time.monotonic()
         if self._bar.disable and now - self._last > LINE_INTERVAL and 0.0 < done < self._total:
             self._last = now
-            left = (now - self._start) * (self._total / done - 1.0)
-            print(f"{text}, about {duration(left)} left", flush=True)
+            print(text, flush=True)
 
     def close(self) -> None:
         """End the bar."""
@@ -49,41 +52,38 @@ class Bar:
 class Terminal(Watcher):
     """Prints the plan, then shows a bar of estimated seconds."""
 
-    def __init__(self, told: Callable[[Sequence[int]], str], *, quiet: bool = False) -> None:
-        self._plan, self._quiet = told, quiet
-        self._seconds: dict[int, float] = {}
-        self._count = self._failed = self._size = 0
+    def __init__(self, plan: Callable[[Sequence[int]], str], *, quiet: bool = False) -> None:
+        self._plan, self._quiet = plan, quiet
+        self._size = self._failed = 0
         self._bar: Bar | None = None
-        self._done = 0.0
+        self._remaining = Remaining((), 1)
 
-    def began(self, tasks: Sequence[Task], done: Sequence[int], damaged: int) -> None:
+    def began(self, tasks: Sequence[Task], done: Sequence[int], workers: int) -> None:
         """Print the plan."""
         self._size = len(tasks)
-        self._count = len(done)
         finished = set(done)
-        self._seconds = {t.number: t.seconds for t in tasks if t.number not in finished}
-        if self._quiet:
-            return
-        if damaged:
-            print(f"note       {damaged} damaged rows of the journal run again", file=sys.stderr)
-        print(self._plan(done), flush=True)
-        self._bar = Bar(sum(self._seconds.values()))
+        self._remaining = Remaining([t for t in tasks if t.number not in finished], workers)
+        if not self._quiet:
+            print(self._plan(done), flush=True)
+            self._bar = Bar(self._remaining.total)
 
-    def finished(self, rows: Sequence[tuple[int, dict[str, Any]]]) -> None:
+    def finished(self, rows: Sequence[tuple[int, Row]]) -> None:
         """Show how far it is."""
-        self._count += len(rows)
         self._failed += sum(row.get("status") == FAILED for _, row in rows)
-        self._done += sum(self._seconds[number] for number, _ in rows)
+        self._remaining.remove(rows)
         if self._bar is not None:
+            count = self._size - self._remaining.count
             failed = f", {self._failed} failed" if self._failed else ""
-            self._bar.show(self._done, f"{self._count} of {self._size} cases{failed}")
+            done = self._remaining.total - self._remaining.estimate
+            left = self._remaining.seconds
+            self._bar.show(done, f"{count} of {self._size} cases{failed}", left)
 
     def close(self) -> None:
         """End the bar."""
         if self._bar is not None:
             self._bar.close()
 
-    def goes_on(self, folder: Path) -> None:
+    def interrupted(self, folder: Path) -> None:
         """Say how an interrupted study is resumed."""
         print(f"interrupted; the same command resumes it in {folder}", file=sys.stderr)
 
@@ -104,12 +104,12 @@ def add_worker_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
 
 
-def tell_lost(lost: Sequence[str], table: Path) -> None:
+def report_lost(lost: Sequence[str], table: Path) -> None:
     """Print a message for each case without a result; of very many the first."""
-    for text in lost[:MOST_MESSAGES]:
+    for text in lost[:MAX_MESSAGES]:
         print(" ".join(text.split()), file=sys.stderr)
-    if len(lost) > MOST_MESSAGES:
-        print(f"and {len(lost) - MOST_MESSAGES} more: see status in {table}", file=sys.stderr)
+    if len(lost) > MAX_MESSAGES:
+        print(f"and {len(lost) - MAX_MESSAGES} more: see status in {table}", file=sys.stderr)
 
 
 def jobs_of(args: argparse.Namespace) -> int:

@@ -16,6 +16,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from pyehl.plots import style
+from pyehl.studies.transition import Curve
 from pyehl.theory import stribeck
 from pyehl.types import Array
 
@@ -41,29 +42,6 @@ class Points:
         style.points(ax, self.places[abscissa], self.friction, self.error, **how)
 
 
-@dataclass(frozen=True, slots=True)
-class Curve:
-    """One curve; a number of its table that does not exist is NaN."""
-
-    label: str  # its name in the legend; '' for the only one
-    rows: Sequence[Mapping[str, Any]]  # of its table
-    ends: str  # where full film ends, in words
-    broken: tuple[int, ...]  # rows where the film breaks down
-    absolute: bool  # whether friction is a coefficient, else a ratio
-
-    def column(self, name: str) -> Array:
-        """Give a column (n,)."""
-        return np.array([np.nan if r[name] is None else r[name] for r in self.rows], dtype=float)
-
-    def friction(self, name: str = "mu_ratio") -> Array:
-        """Give a column of ratios (n,), as coefficients where these are drawn."""
-        if not self.absolute:
-            return self.column(name)
-        # where bodies touch and the heat counts there is no mu_smooth
-        smooth, own = self.column("mu_smooth"), self.column("mu") / self.column("mu_ratio")
-        return self.column(name) * np.where(np.isfinite(smooth), smooth, own)
-
-
 def draw_stribeck(
     curves: Sequence[Curve], surface: str, measured: Points | None = None, law: str = ""
 ) -> Figure:
@@ -81,29 +59,29 @@ def draw_stribeck(
     }
     # none of two surfaces without full simulations
     shares = ("contact_load_share", "contact_load_share_ehl")
-    touching = any(r.get(name) is not None for c in curves for r in c.rows for name in shares)
-    # none where bodies touch and the friction there is not known
-    rubbing = not touching or any(_has_friction(curve) for curve in curves)
-    rows = rubbing + 2 * touching
+    contact = any(_known(curve, name) for curve in curves for name in shares)
+    # none with solid contact whose friction is not known
+    friction = not contact or any(_has_friction(curve) for curve in curves)
+    rows = friction + 2 * contact
     figure = style.new_figure(11.5 if len(shown) > 1 else 7.0, 2.9 + 1.5 * rows)
     panels = figure.subplots(rows, len(shown), sharex="col", sharey="row", squeeze=False)
     axes = panels[0]
-    if touching:
-        draw_contact(panels[rubbing:], list(shown), list(zip(curves, COLOURS * 9, strict=False)))
+    if contact:
+        draw_contact(panels[friction:], list(shown), list(zip(curves, COLOURS * 9, strict=False)))
     for ax, (name, label) in zip(axes, shown.items(), strict=True):
-        for curve, colour in zip(curves if rubbing else [], COLOURS * 9, strict=False):
+        for curve, colour in zip(curves if friction else [], COLOURS * 9, strict=False):
             _draw_curve(ax, curve, name, colour)
         _shade(ax, curves, name)
         if measured is not None:
             measured.draw(ax, name)
-        if name == "theta_2" and rubbing and not absolute:
+        if name == "theta_2" and friction and not absolute:
             _draw_eq_16(ax)
         ax.set_xscale("log")
         style.label_log_ticks(ax.xaxis)
         panels[-1, list(axes).index(ax)].set_xlabel(label)
         ax.grid(visible=True, which="major", color="0.92", lw=0.6)
         ax.set_axisbelow(True)
-    if rubbing:
+    if friction:
         axes[0].set_ylabel(r"$\mu$" if absolute else r"$\mu_r/\mu_s$")
     style.letter(axes)
     # the last panel has all that the others have
@@ -117,11 +95,14 @@ def draw_stribeck(
     return figure
 
 
+def _known(curve: Curve, name: str) -> bool:
+    """Whether a curve has a column with a number in it."""
+    return name in curve.table and bool(curve.table[name].notna().any())
+
+
 def _has_friction(curve: Curve) -> bool:
-    names = ["mu_ratio", "mu_ratio_ehl"]
-    if curve.absolute and "mu_empirical" in curve.rows[0]:
-        names.append("mu_empirical")
-    return any(np.isfinite(curve.column(name)).any() for name in names)
+    empirical = curve.absolute and _known(curve, "mu_empirical")
+    return empirical or _known(curve, "mu_ratio") or _known(curve, "mu_ratio_ehl")
 
 
 def _draw_curve(ax: Axes, curve: Curve, name: str, colour: str) -> None:
@@ -134,7 +115,7 @@ def _draw_curve(ax: Axes, curve: Curve, name: str, colour: str) -> None:
         (curve.friction("mu_ratio_model_error"), 0.35, "error of the model"),
     ):
         style.band(ax, x, y, width, color=colour, alpha=alpha, label=label)
-    if curve.absolute and "mu_empirical" in curve.rows[0]:
+    if curve.absolute and "mu_empirical" in curve.table:
         empirical = curve.column("mu_empirical")
         there = np.isfinite(x) & np.isfinite(empirical)
         ax.plot(x[there], empirical[there], "--", lw=1.2, color=colour, label=f"empirical{tail}")
@@ -176,7 +157,7 @@ def _draw_eq_16(ax: Axes) -> None:
 def draw_contact(
     panels: NDArray[Any], abscissae: Sequence[str], curves: Sequence[tuple[Curve, str]]
 ) -> None:
-    """Draw shares of load and area on the first row of panels (2, n), least film on the second.
+    """Draw shares of load and area on the first row of panels (2, n), minimum film on the second.
 
     Lines are predictions, squares and diamonds full simulations.
     """
@@ -195,7 +176,7 @@ def draw_contact(
             ax.grid(visible=True, which="major", color="0.92", lw=0.6)
             ax.set_axisbelow(True)
     panels[0, 0].set_ylabel("load, area (dashed)")
-    panels[1, 0].set_ylabel("least film [nm]")
+    panels[1, 0].set_ylabel("minimum film [nm]")
 
 
 def _band(ax: Axes, x: Array, curve: Curve, name: str, colour: str, factor: float = 1.0) -> None:
@@ -220,29 +201,28 @@ def _error(name: str) -> str:
 
 def draw_traction(
     curves: Sequence[Curve],
-    slips: Sequence[Array],
     surface: str,
     measured: Points | None = None,
     law: str = "",
 ) -> Figure:
-    """Draw coefficients of friction, and the greatest temperature rise where it was computed.
+    """Draw coefficients of friction, and the maximum temperature increase where it was computed.
 
-    `slips` are the slide-to-roll ratios of each curve; without sliding there is no friction of
-    sliding. `surface` says what the surface is; measured friction is laid over; `law` says what an
-    empirical curve is.
+    Without sliding there is no friction of sliding. `surface` says what the surface is; measured
+    friction is laid over; `law` says what an empirical curve is.
     """
     warm = any(np.isfinite(curve.column("temperature_rise_max_K")).any() for curve in curves)
     figure = style.new_figure(10.0 if warm else 6.0, 4.4)
     axes = figure.subplots(1, 2 if warm else 1, squeeze=False)[0]
-    for curve, slip, colour in zip(curves, slips, COLOURS * 9, strict=False):
+    for curve, colour in zip(curves, COLOURS * 9, strict=False):
         tail = f" ({curve.label})" if curve.label else ""
+        slip = curve.places
         resting = slip == 0.0
         for name, line, words in (
             ("mu", "o-", "with heat" if warm else "friction"),
             ("mu_isothermal", ":", "isothermal"),
             ("mu_empirical", "--", "empirical"),
         ):
-            if name not in curve.rows[0] or (name == "mu_isothermal" and not warm):
+            if name not in curve.table or (name == "mu_isothermal" and not warm):
                 continue
             mu = np.where(resting, 0.0, curve.column(name))
             known = np.isfinite(mu)
@@ -262,7 +242,7 @@ def draw_traction(
         ax.set_ylim(bottom=0.0)
     axes[0].set_ylabel(r"$\mu$")
     if warm:
-        axes[1].set_ylabel("greatest rise of temperature in the film [K]")
+        axes[1].set_ylabel("maximum temperature increase of the film [K]")
         style.letter(axes)
     axes[0].legend(fontsize="small")
     words = "; ".join(f"{c.label + ': ' if c.label else ''}{c.ends}" for c in curves if c.ends)

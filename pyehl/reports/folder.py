@@ -5,7 +5,6 @@ import json
 import os
 import platform
 from collections.abc import Mapping
-from html import escape
 from importlib import metadata
 from pathlib import Path
 from typing import Any
@@ -17,9 +16,10 @@ from pyehl.given import path_of
 from pyehl.plots.folder import plot
 from pyehl.plots.style import png
 from pyehl.reports import browser, page
-from pyehl.reports.answer import Judgement, answer, judge
-from pyehl.reports.asked import conditions, numbers
+from pyehl.reports.assessment import Assessment, assess, numbers_of
+from pyehl.reports.conditions import conditions, numbers
 from pyehl.reports.limits import limits, warnings
+from pyehl.reports.page import Block
 from pyehl.reports.study import study_parts
 from pyehl.results import load, settings_of
 from pyehl.schema import QUANTITIES
@@ -37,7 +37,7 @@ PICTURES = {
     "deformed_roughness": "Roughness before and in the contact",
     "rough_and_smooth": "Pressure and film of the rough contact beside those of the smooth one",
     "friction": "μ_r/μ_s over the time of the run",
-    "extremes": "Largest pressure and least film over the time of the run",
+    "extremes": "Maximum pressure and minimum film over the time of the run",
     "surface_spectrum": "The surface, its spectrum, and what is left of it in the contact",
     "roughness": "Roughness before and in the contact",
     "passage": "μ_r/μ_s over the passage of the surface, and what each octave of wavelengths adds",
@@ -59,8 +59,8 @@ def report(
 ) -> Path:
     """Write one HTML page about a result, which needs neither network nor pyehl.
 
-    The page has what was asked (in SI units and in Moes numbers), the answer with its errors and a
-    judgement, pictures, tables, warnings, limits that apply, the case file, versions, and how to
+    The page has the conditions (in SI units and in Moes numbers), results with errors and an
+    assessment, pictures, tables, warnings, limits that apply, the case file, versions, and how to
     cite. Folders of files on this machine are left out.
 
     Parameters
@@ -103,18 +103,21 @@ def report(
     check_files([path, printed] if pdf else [path], "report", inside if output else ())
     if pdf:
         browser.browser()
-    title, judgement, parts = _content(source)
-    parts = [page.verdict(*judgement), *parts, *_versions()]
     files = _files(source)
-    parts = [_nameless(text, files) for text in parts]
-    page.write_page(path, title, parts, "report")
+    for dpi in DOTS:
+        title, assessment, parts = _content(source, dpi)
+        parts = [page.verdict(*assessment), *parts, *_versions()]
+        text = page.render(title, parts, "report", lambda value: _nameless(value, files))
+        if len(text) < LARGEST:
+            break
+    page.write_text(path, text)
     if pdf:
         browser.write_pdf(path, printed)
     return path
 
 
-def _content(folder: Path) -> tuple[str, Judgement, list[str]]:
-    """Give title, judgement and parts of the page of any result folder."""
+def _content(folder: Path, dpi: int) -> tuple[str, Assessment, list[Block]]:
+    """Give title, assessment and parts of the page of any result folder."""
     if (folder / NAME).is_file():
         return study_parts(folder)
     try:
@@ -129,40 +132,38 @@ def _content(folder: Path) -> tuple[str, Judgement, list[str]]:
         return _response(folder, summary)
     if summary.get("kind") not in ("solution", "prediction"):
         raise InputError(f"{folder}: a result of '{summary.get('kind')}' has no report\n{EXPECTED}")
-    return _single(folder, summary)
+    return _single(folder, summary, dpi)
 
 
-def _single(folder: Path, summary: Mapping[str, Any]) -> tuple[str, Judgement, list[str]]:
+def _single(
+    folder: Path, summary: Mapping[str, Any], dpi: int
+) -> tuple[str, Assessment, list[Block]]:
     data = load(folder)
     settings, case = settings_of(data), str(data.attrs["case"])
-    told = judge(summary)
-    parts = [page.heading("What was asked")]
+    assessment = assess(summary)
+    parts = [page.heading("Conditions")]
     parts += [page.facts(conditions(settings)), page.facts(numbers(settings))]
-    parts.append(page.heading("The answer"))
-    found = answer(summary)
-    parts.append(page.facts(found) if found else page.paragraph(told.why, "fail"))
+    parts.append(page.heading("Results"))
+    found = numbers_of(summary)
+    parts.append(page.facts(found) if found else page.paragraph(assessment.why, "fail"))
     if summary.get("film_breakdown"):
         parts.append(page.facts({k: str(v) for k, v in summary["film_breakdown"].items()}))
-    behind = []
+    parts += _pictures(data, summary, dpi)
     if summary.get("bands"):
         names = list(summary["bands"][0])
         rows = [[_value(band[name]) for name in names] for band in summary["bands"]]
-        behind += [page.heading("Octaves of wavelengths"), page.table(names, rows)]
+        parts += [page.heading("Octaves of wavelengths"), page.table(names, rows)]
     noted = warnings(summary)
-    behind.append(page.heading("Warnings"))
-    behind.append(page.bullets(noted) if noted else page.paragraph("None."))
-    behind += [page.heading("Limits that apply"), page.bullets(limits(settings, summary))]
-    behind += _case_parts(case)
-    behind.append(page.folded("All numbers", _all_numbers(summary)))
+    parts.append(page.heading("Warnings"))
+    parts.append(page.bullets(noted) if noted else page.paragraph("None."))
+    parts += [page.heading("Limits that apply"), page.bullets(limits(settings, summary))]
+    parts += _case_parts(case)
+    parts.append(page.folded("All numbers", _all_numbers(summary)))
     rough = "mu_ratio_min" in summary or "H_c_rough" in summary
     title = "Rough contact" if rough else "Contact"
     if summary["kind"] == "prediction":
         title = "Prediction of a rough contact"
-    for dpi in DOTS:
-        pictures = _pictures(data, summary, dpi)
-        if sum(map(len, [*parts, *pictures, *behind])) < LARGEST:
-            break
-    return title, told, [*parts, *pictures, *behind]
+    return title, assessment, parts
 
 
 def _files(folder: Path) -> set[str]:
@@ -179,14 +180,15 @@ def _files(folder: Path) -> set[str]:
     return found
 
 
-def _nameless(text: str, files: set[str]) -> str:
-    """Leave out of HTML where files lie on this machine, however they are quoted in it."""
+def _nameless(value: object, files: set[str]) -> object:
+    """Leave out of a text where files lie on this machine, however they are quoted in it."""
+    if type(value) is not str:
+        return value
     # the longest first: one may be the beginning of another
     for name in sorted(files, key=len, reverse=True):
-        forms = (name, name.replace("'", "''"), repr(name)[1:-1])
-        for form in dict.fromkeys(forms):
-            text = text.replace(escape(form), escape(Path(name).name))
-    return text
+        for form in (name, name.replace("'", "''"), repr(name)[1:-1]):
+            value = value.replace(form, Path(name).name)
+    return value
 
 
 def _text(path: Path) -> str:
@@ -194,19 +196,19 @@ def _text(path: Path) -> str:
         return path.read_text(encoding="utf-8")
 
 
-def _pictures(data: Any, summary: Mapping[str, Any], dpi: int) -> list[str]:  # noqa: ANN401
+def _pictures(data: Any, summary: Mapping[str, Any], dpi: int) -> list[Block]:  # noqa: ANN401
     """Draw the pictures of a Dataset, each with its words."""
     if summary["kind"] == "solution" and "P" not in data:
         return [page.paragraph("There are no pictures: the case has output.fields = .false.")]
     parts = [page.heading("Pictures")]
-    facts = "; ".join(f"{name}: {value}" for name, value in answer(summary).items())
+    facts = "; ".join(f"{name}: {value}" for name, value in numbers_of(summary).items())
     for name, figure in plot(data).items():
         words = PICTURES.get(name, name)
         parts.append(page.picture(png(figure, dpi), f"{words}. {facts}", f"{words}."))
     return parts
 
 
-def _case_parts(case: str) -> list[str]:
+def _case_parts(case: str) -> list[Block]:
     short = namelist.given(case) or "! every value is the default\n"
     whole = page.folded("Every value of it", page.preformatted(case))
     return [page.heading("The case"), page.preformatted(short), whole]
@@ -216,7 +218,7 @@ def _value(value: object) -> str:
     return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
-def _all_numbers(summary: Mapping[str, Any]) -> str:
+def _all_numbers(summary: Mapping[str, Any]) -> Block:
     """Give the summary with units and meanings."""
     known = {q.name: q for q in QUANTITIES}
     rows = [
@@ -227,30 +229,30 @@ def _all_numbers(summary: Mapping[str, Any]) -> str:
     return page.table(("name", "value", "unit", "meaning"), rows)
 
 
-def _response(folder: Path, summary: Mapping[str, Any]) -> tuple[str, Judgement, list[str]]:
+def _response(folder: Path, summary: Mapping[str, Any]) -> tuple[str, Assessment, list[Block]]:
     case = _text(folder / "case.nml")
     settings = namelist.values(case)
     words = "Amplitude and lag of small waves over their length, beside the shipped response"
     within = bool(summary["within_fitted_range"])
     rms, most = summary["shipped_difference_rms"], summary["shipped_difference_max"]
-    told = Judgement(
+    assessment = Assessment(
         "Holds" if within else "Take with care",
         f"{summary['waves']} waves; they differ from the shipped response by {rms:.2g} (rms) and "
         f"{most:.2g} at most" + ("." if within else ", which was not fitted at such a point."),
         "pass" if within else "care",
     )
-    parts = [page.heading("What was asked"), page.facts(conditions(settings))]
-    parts += [page.facts(numbers(settings)), page.heading("The answer")]
+    parts = [page.heading("Conditions"), page.facts(conditions(settings))]
+    parts += [page.facts(numbers(settings)), page.heading("Results")]
     if (folder / "response.png").is_file():
-        parts.append(page.picture((folder / "response.png").read_bytes(), told.why, words))
+        parts.append(page.picture((folder / "response.png").read_bytes(), assessment.why, words))
     tiers = summary["tiers"]
     parts.append(page.table(list(tiers[0]), [[_value(v) for v in t.values()] for t in tiers]))
     parts.append(page.heading("Limits that apply"))
     parts.append(page.bullets(limits(settings, {"kind": "response"})))
-    return "Measured response", told, [*parts, *_case_parts(case)]
+    return "Measured response", assessment, [*parts, *_case_parts(case)]
 
 
-def _versions() -> list[str]:
+def _versions() -> list[Block]:
     version = metadata.version("pyehl")
     names = ("numpy", "scipy", "matplotlib", "xarray")
     rows = {

@@ -69,7 +69,7 @@ def limits(settings: Settings, summary: Values) -> list[str]:
     if predicted:
         found.append(
             "It is a prediction from the spectrum: of second order in the height of the waves, for "
-            "waves that the film carries."
+            "waves that the film sustains."
         )
     return found
 
@@ -81,13 +81,13 @@ def _contact(settings: Settings, summary: Values) -> str:
     broken = summary.get("status") in ("film breakdown", "negative film")
     if share:
         return (
-            f"Mixed lubrication: {100.0 * share:.2g} % of the load is carried at the boundary film "
+            f"Mixed lubrication: {100.0 * share:.2g} % of the load is on the boundary film "
             f"of {layer * 1e9:.3g} nm, whose thickness and friction are given, not computed."
         )
     if layer > 0.0 and share is None:
-        return "Whether the bodies touch at the boundary film is not known."
+        return "Whether there is solid contact at the boundary film is not known."
     if layer > 0.0:
-        return "The bodies touch nowhere at the boundary film: the film is full."
+        return "There is no solid contact at the boundary film: the film is full."
     if broken:
         return (
             "The film ends, and without lubricant.boundary_film contact of the bodies is not "

@@ -1,123 +1,91 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The writer of pages: HTML in one file, with its style and its pictures in it.
+"""Pages: HTML in one file, with its style and its pictures in it.
 
-Functions take plain text and escape it; what they return is HTML. A page may not load anything: it
-tells the browser so, too.
+A page is a list of blocks of plain text and numbers; the template ``page.html`` shows and escapes
+them. A page may not load anything: it tells the browser so, too.
 """
 
 import base64
-from collections.abc import Iterable, Mapping, Sequence
-from html import escape
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from importlib import resources
+from itertools import repeat
 from pathlib import Path
+from typing import Any
 
 from pyehl.destination import mark, new_file
 
-STYLE = """
-body{font-family:system-ui,sans-serif;max-width:62em;margin:2em auto;padding:0 1em;
-line-height:1.45;color:#111;background:#fff}
-h1{font-size:1.6em}h2{font-size:1.25em;border-bottom:1px solid #ccc;margin-top:1.8em}
-figure{margin:1em 0}figcaption{font-size:.9em;color:#333}img{max-width:100%;height:auto}
-.wide{overflow-x:auto}table{border-collapse:collapse;font-size:.9em;margin:.6em 0}
-td,th{border:1px solid #ccc;padding:.2em .5em;text-align:left;vertical-align:top}
-th{background:#f2f2f2}.verdict{padding:.6em .8em;border-left:.4em solid;background:#f7f7f7}
-.pass{color:#006e4e}.care{color:#8a5a00}.fail{color:#b00020;font-weight:bold}
-.verdict span{color:#111;font-weight:normal}
-pre{background:#f5f5f5;padding:.6em;overflow-x:auto;font-size:.85em}
-@media (max-width:40em){body{margin:.5em auto}h1{font-size:1.3em}table{font-size:.8em}}
-@media print{body{max-width:none;margin:0;font-size:10pt}figure,tr{break-inside:avoid}
-h2{break-after:avoid}pre{white-space:pre-wrap}.wide{overflow:visible}}
-"""
-# Nothing is loaded, whatever stands in the page
-POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
+Block = dict[str, Any]
+"""A part of a page: its ``form``, and what the template needs for it."""
+Part = Block | str
+"""A block, or HTML as it stands."""
 
 
-def heading(text: str, anchor: str = "") -> str:
+def heading(text: str, anchor: str = "") -> Block:
     """Begin a section; `anchor` is its name in links."""
-    name = f' id="{escape(anchor)}"' if anchor else ""
-    return f"<h2{name}>{escape(text)}</h2>"
+    return {"form": "heading", "text": text, "anchor": anchor}
 
 
-def paragraph(text: str, kind: str = "") -> str:
+def paragraph(text: str, kind: str = "") -> Block:
     """Give a paragraph, of the class 'pass', 'care' or 'fail' or of none."""
-    return f"<p{_kind(kind)}>{escape(text)}</p>"
+    return {"form": "paragraph", "text": text, "kind": kind}
 
 
-def _kind(kind: str) -> str:
-    return f' class="{escape(kind)}"' if kind else ""
+def verdict(word: str, text: str, kind: str) -> Block:
+    """Give an assessment: a word, and why; 'pass', 'care' or 'fail'."""
+    return {"form": "verdict", "word": word, "text": text, "kind": kind}
 
 
-def verdict(word: str, text: str, kind: str) -> str:
-    """Give a judgement: a word, and why; 'pass', 'care' or 'fail'."""
-    return (
-        f'<p class="verdict {escape(kind)}"><b>{escape(word)}.</b> <span>{escape(text)}</span></p>'
-    )
-
-
-def bullets(texts: Iterable[str]) -> str:
+def bullets(texts: Iterable[str]) -> Block:
     """Give a list."""
-    return "<ul>" + "".join(f"<li>{escape(text)}</li>" for text in texts) + "</ul>"
+    return {"form": "bullets", "texts": list(texts)}
 
 
-def preformatted(text: str) -> str:
+def preformatted(text: str) -> Block:
     """Give text as it stands, as of a file."""
-    return f"<pre>{escape(text)}</pre>"
+    return {"form": "preformatted", "text": text}
 
 
-def folded(title: str, inner: str) -> str:
-    """Hide HTML behind a title."""
-    return f"<details><summary>{escape(title)}</summary>{inner}</details>"
+def folded(title: str, inner: Block) -> Block:
+    """Hide a block behind a title."""
+    return {"form": "folded", "title": title, "inner": inner}
 
 
-def facts(rows: Mapping[str, str]) -> str:
+def facts(rows: Mapping[str, str]) -> Block:
     """Give a table of names and values."""
-    cells = (f"<tr><th>{escape(k)}</th><td>{escape(v)}</td></tr>" for k, v in rows.items())
-    return f'<div class="wide"><table>{"".join(cells)}</table></div>'
+    return {"form": "table", "rows": [(row, "") for row in rows.items()]}
 
 
 def table(
-    names: Sequence[str], rows: Iterable[Sequence[str]], kinds: Iterable[str] | None = None
-) -> str:
+    names: Sequence[str], rows: Iterable[Sequence[str]], kinds: Iterable[str] = repeat("")
+) -> Block:
     """Give a table with a head; `kinds` is the class of the last cell of each row."""
-    head = "".join(f"<th>{escape(name)}</th>" for name in names)
-    body = []
-    marks = iter(kinds or ())
-    for row in rows:
-        *cells, last = row
-        inner = "".join(f"<td>{escape(cell)}</td>" for cell in cells)
-        body.append(f"<tr>{inner}<td{_kind(next(marks, ''))}>{escape(last)}</td></tr>")
-    return (
-        f'<div class="wide"><table><thead><tr>{head}</tr></thead>'
-        f"<tbody>{''.join(body)}</tbody></table></div>"
-    )
+    return {"form": "table", "names": names, "rows": list(zip(rows, kinds, strict=False))}
 
 
-def picture(png: bytes, alternative: str, caption: str) -> str:
+def picture(png: bytes, alternative: str, caption: str) -> Block:
     """Put a PNG into the page; `alternative` says in words what it shows."""
     data = base64.b64encode(png).decode()
-    return (
-        f'<figure><img alt="{escape(alternative)}" src="data:image/png;base64,{data}">'
-        f"<figcaption>{escape(caption)}</figcaption></figure>"
-    )
+    return {"form": "picture", "data": data, "alternative": alternative, "caption": caption}
 
 
-def page(title: str, parts: Iterable[str], command: str) -> str:
-    """Give a whole page of HTML `parts`, which says which command made it."""
-    return "\n".join(
-        [
-            '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">',
-            f'<meta name="generator" content="{escape(mark(command))}">',
-            '<meta name="viewport" content="width=device-width, initial-scale=1">',
-            f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">',
-            f"<title>{escape(title)}</title><style>{STYLE}</style></head><body>",
-            f"<h1>{escape(title)}</h1>",
-            *parts,
-            "</body></html>\n",
-        ]
-    )
+def render(
+    title: str, parts: Iterable[Part], command: str, hide: Callable[[Any], Any] | None = None
+) -> str:
+    """Give a whole page, which says which command made it; `hide` is applied to what it shows."""
+    from jinja2 import Environment  # noqa: PLC0415 (it takes long to import)
+
+    text = resources.files("pyehl").joinpath("reports", "page.html").read_text(encoding="utf-8")
+    template = Environment(autoescape=True, finalize=hide).from_string(text)
+    return template.render(title=title, parts=parts, generator=mark(command)) + "\n"
 
 
-def write_page(path: Path, title: str, parts: Iterable[str], command: str) -> Path:
+def write_page(path: Path, title: str, parts: Iterable[Part], command: str) -> Path:
     """Write a page, whole or not at all; returns its path. FileError if it cannot be written."""
+    return write_text(path, render(title, parts, command))
+
+
+def write_text(path: Path, text: str) -> Path:
+    """Write a page that is rendered, as `write_page`."""
     with new_file(path) as partial:
-        partial.write_text(page(title, parts, command), encoding="utf-8")
+        partial.write_text(text, encoding="utf-8")
     return path

@@ -15,15 +15,21 @@ from pyehl.errors import InputError
 from pyehl.plots.study import Line, study_figure
 from pyehl.plots.style import png
 from pyehl.reports import page
-from pyehl.reports.answer import WELL_KNOWN, Judgement
-from pyehl.reports.asked import conditions, numbers
+from pyehl.reports.assessment import WELL_KNOWN, Assessment
+from pyehl.reports.conditions import conditions, numbers
 from pyehl.reports.limits import limits
+from pyehl.reports.page import Block
 from pyehl.studies.journal import read_header
+from pyehl.studies.tasks import INSIDE
+from pyehl.studies.tasks import OUTSIDE as OUTSIDE_FORMULA
+from pyehl.studies.transition import FULL_FILM, MIXED, OUTSIDE
 from pyehl.theory.operating import OperatingPoint
 
 STUDY_DPI = 110
 TABLES = {"stribeck": "stribeck.csv"}
-GOOD = ("converged", "predicted", "computed", "full film")
+GOOD = ("converged", "predicted", INSIDE, FULL_FILM)
+RESULTS = (*GOOD, OUTSIDE_FORMULA, OUTSIDE, MIXED)
+"""Statuses of rows with a result; of the last ones it is to be taken with care."""
 # Columns shown where they are there, each with the columns that may hold its error
 COLUMNS: dict[str, tuple[str, ...]] = {
     "h_c_m": ("h_c_error_m",),
@@ -37,11 +43,11 @@ COLUMNS: dict[str, tuple[str, ...]] = {
     "mu": (),
 }
 DRAWN = ("h_c_m", "H_c", "h_min_m", "H_min", "mu_ratio")
-MOST_ROWS, MOST_LINES, MOST_PANELS = 200, 7, 3
+MAX_ROWS, MAX_LINES, MAX_PANELS, MAX_MESSAGES = 200, 7, 3, 20
 
 
-def study_parts(folder: Path) -> tuple[str, Judgement, list[str]]:
-    """Give title, judgement and parts of the page of a study.
+def study_parts(folder: Path) -> tuple[str, Assessment, list[Block]]:
+    """Give title, assessment and parts of the page of a study.
 
     InputError if the folder has no journal that can be read, or no table.
     """
@@ -60,7 +66,7 @@ def study_parts(folder: Path) -> tuple[str, Judgement, list[str]]:
     led = {key for group in header["zip"] for key in group[1:]}
     size = math.prod(len(values) for key, values in header["vary"].items() if key not in led)
     settings = namelist.values(str(header["case"]))
-    parts = [page.heading("What was asked")]
+    parts = [page.heading("Conditions")]
     units = {key.name: key.unit for key in KEYS.values()}
     parts.append(
         page.facts(
@@ -72,24 +78,24 @@ def study_parts(folder: Path) -> tuple[str, Judgement, list[str]]:
     )
     parts.append(page.paragraph("The first case has:"))
     parts += [page.facts(conditions(settings)), page.facts(numbers(settings))]
-    parts.append(page.heading("The answer"))
+    parts.append(page.heading("Results"))
     point = OperatingPoint.from_settings(settings)
     about = (
         f"{title}; first case $M$ = {point.moes_m:.4g}, $L$ = {point.moes_l:.4g}, "
         f"$p_h$ = {point.hertz_pressure * 1e-9:.3g} GPa"
     )
     parts += _pictures(folder, rows, keys, units, about)
-    parts.append(_table(rows, keys))
-    told = [f"{text}" for text in dict.fromkeys(rows["message"].dropna()) if str(text).strip()]
-    if told:
-        parts += [page.heading("Warnings"), page.bullets(told[:20])]
+    parts += _table(rows, keys)
+    messages = [text for text in rows["message"].dropna().astype(str).unique() if text.strip()]
+    if messages:
+        parts += [page.heading("Warnings"), page.bullets(messages[:MAX_MESSAGES])]
     parts.append(page.heading("Limits that apply"))
     kind = "prediction" if run in ("predict", "stribeck") else "solution"
     of_all = {"kind": kind, "contact_load_share": _most_contact(rows)}
     parts.append(page.bullets(limits(settings, of_all)))
     parts.append(page.heading("The first case"))
     parts.append(page.preformatted(namelist.given(str(header["case"]))))
-    return title, _judge(rows, size), parts
+    return title, _assess(rows, size), parts
 
 
 def _most_contact(rows: pd.DataFrame) -> float | None:
@@ -102,32 +108,34 @@ def _with_unit(key: str, units: Mapping[str, str]) -> str:
     return f"{key} [{units[key]}]" if units.get(key, "-") != "-" else key
 
 
-def _judge(rows: pd.DataFrame, size: int) -> Judgement:
-    """Judge a study by what its rows say of themselves."""
+def _assess(rows: pd.DataFrame, size: int) -> Assessment:
+    """Assess a study by status, assessment and errors of its rows."""
     counts = rows["status"].fillna("none").value_counts()
-    good = int(sum(counts.get(word, 0) for word in GOOD))
-    others = ", ".join(f"{n} '{word}'" for word, n in counts.items() if word not in GOOD)
+    known = int(counts[counts.index.isin(RESULTS)].sum())
+    with_care = counts[counts.index.isin(RESULTS) & ~counts.index.isin(GOOD)]
+    others = counts[~counts.index.isin(RESULTS)]
     missing = size - len(rows)
     left = f"; {missing} are not done" if missing > 0 else ""
-    why = f"{good} of {len(rows)} cases have an answer{left}."
-    if others:
-        why += f" The others: {others}."
+    why = f"{known} of {len(rows)} cases have a result{left}."
+    for words, those in (("Of these", with_care), ("The others", others)):
+        if len(those):
+            why += f" {words}: {', '.join(f'{n} {word!r}' for word, n in those.items())}."
     thin = False
     if "judgement" in rows:
         words = rows["judgement"].dropna().str.partition(":")[0].value_counts()
-        why += f" By their judgements: {', '.join(f'{n} {word}' for word, n in words.items())}."
+        why += f" By their assessments: {', '.join(f'{n} {word}' for word, n in words.items())}."
         thin = any(word != "full film" for word in words.index)
-    if good == 0:
-        return Judgement("No answer", why, "fail")
+    if known == 0:
+        return Assessment("No result", why, "fail")
     shares = _errors(rows)
     if shares:
         why += f" Largest errors: {', '.join(f'{n} {100.0 * v:.2g} %' for n, v in shares.items())}."
     doubtful = any(share > WELL_KNOWN for share in shares.values())
     if doubtful:
-        why += f" Above {100.0 * WELL_KNOWN:g} % a finer grid is worth its time."
-    if others or left or doubtful or thin:
-        return Judgement("Take with care", why, "care")
-    return Judgement("Holds", why, "pass")
+        why += f" Above {100.0 * WELL_KNOWN:g} % a finer grid is recommended."
+    if len(others) or len(with_care) or left or doubtful or thin:
+        return Assessment("Take with care", why, "care")
+    return Assessment("Holds", why, "pass")
 
 
 def _errors(rows: pd.DataFrame) -> dict[str, float]:
@@ -147,22 +155,22 @@ def _cell(value: Any) -> str:  # noqa: ANN401 (of a table)
     return "" if pd.isna(value) else f"{value:.5g}"
 
 
-def _table(rows: pd.DataFrame, keys: Sequence[str]) -> str:
+def _table(rows: pd.DataFrame, keys: Sequence[str]) -> list[Block]:
     names = [*keys]
     for name, errors in COLUMNS.items():
         names += [n for n in (name, *errors) if n in rows and rows[n].notna().any()]
     names.append("status")
-    shown = rows[names].head(MOST_ROWS)
+    shown = rows[names].head(MAX_ROWS)
     kinds = ["pass" if word in GOOD else "care" for word in shown["status"]]
-    text = page.table(names, [[_cell(v) for v in row] for row in shown.values.tolist()], kinds)
-    if len(rows) > MOST_ROWS:
-        text += page.paragraph(f"The first {MOST_ROWS} of {len(rows)} rows.")
-    return text
+    parts = [page.table(names, [[_cell(v) for v in row] for row in shown.values.tolist()], kinds)]
+    if len(rows) > MAX_ROWS:
+        parts.append(page.paragraph(f"The first {MAX_ROWS} of {len(rows)} rows."))
+    return parts
 
 
 def _pictures(
     folder: Path, rows: pd.DataFrame, keys: Sequence[str], units: Mapping[str, str], title: str
-) -> list[str]:
+) -> list[Block]:
     """Give the picture of a curve as it was drawn, else the results over the first key."""
     drawn = folder / "stribeck.png"
     if drawn.is_file():
@@ -172,7 +180,7 @@ def _pictures(
         return []
     panels: list[tuple[str, list[Line]]] = []
     for name in DRAWN:
-        if name in rows and rows[name].notna().any() and len(panels) < MOST_PANELS:
+        if name in rows and rows[name].notna().any() and len(panels) < MAX_PANELS:
             label = f"{name.removesuffix('_m')} [m]" if name.endswith("_m") else name
             panels.append((label, _lines(rows, keys, name)))
     if not panels:
@@ -201,4 +209,4 @@ def _lines(rows: pd.DataFrame, keys: Sequence[str], name: str) -> list[Line]:
         lines.append(
             Line(label, those[keys[0]].to_numpy(float), those[name].to_numpy(float), errors)
         )
-    return lines[:MOST_LINES]
+    return lines[:MAX_LINES]

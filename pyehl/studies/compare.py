@@ -175,8 +175,10 @@ def compare(results: Results, table: ReferenceTable) -> Comparison:
 
 
 def _deviations(reference: ReferenceRow, row: Values) -> list[Deviation]:
-    told = (f"{k}={v:g}" if isinstance(v, float) else f"{k}={v}" for k, v in reference.keys.items())
-    case, found = ", ".join(told), []
+    words = (
+        f"{k}={v:g}" if isinstance(v, float) else f"{k}={v}" for k, v in reference.keys.items()
+    )
+    case, found = ", ".join(words), []
     for name, expected in reference.expected.items():
         value, why = row.get(name), ""
         if (

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A Stribeck curve from the rows of its tasks: its columns, and where full film ends."""
+"""The table of a Stribeck curve, from the rows of its tasks."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from statistics import fmean
 from typing import Any
 
 import numpy as np
+import pandas as pd
 
 from pyehl import library
 from pyehl.prediction.deformed import deformed_surfaces
@@ -14,22 +16,18 @@ from pyehl.prediction.friction import BEYOND
 from pyehl.prediction.mixed_lubrication import NO_FRICTION
 from pyehl.prediction.smooth import film_of
 from pyehl.results import unit_of
-from pyehl.studies.curve_contact import contact_columns, touches
-from pyehl.studies.curve_pattern import SMOOTH, Pattern, kept_pattern
+from pyehl.studies.curve_pattern import Pattern, kept_pattern
 from pyehl.studies.curve_plan import CurvePlan, CurvePoint
 from pyehl.studies.tasks import FAILED, why_none
+from pyehl.studies.transition import BREAKDOWN, FULL_FILM, MIXED, OUTSIDE, UNSOLVED, Curve
 from pyehl.theory import stribeck
 from pyehl.theory.film import central_film
 from pyehl.theory.friction import OF_ROUGH, absolute_friction
-from pyehl.theory.load_share import LoadShare
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-from pyehl.types import Array, Settings, Values
+from pyehl.types import Settings, Values
 
-STATUSES = ("full film", "mixed film", "film breakdown", "outside the range", "not solved")
-"""What a point of a curve can be."""
-FULL_FILM, MIXED, BREAKDOWN, OUTSIDE, UNSOLVED = STATUSES
-# How a run begins to say that bodies may touch because of their grid
+# How a run begins to report that its grid is the reason for contact
 NO_INLET = "the grid does not resolve the inlet"
 _NUMBERS = """
 h_c_m h_c_error_m h_min_m h_min_error_m lambda_ratio lambda_ratio_central lambda_ratio_deformed
@@ -42,103 +40,127 @@ mu_ratio_spread mu_ratio_model_error mu_ratio_ehl mu_ratio_ehl_error moes_m moes
 UNITS = {name: unit_of(name) for name in _NUMBERS.split()}
 """Columns that are numbers, and their units; behind them come `WORDS`."""
 WORDS = ("status", "message", "judgement")
-EMPIRICAL = {"asperity_load_share_empirical": "1", "mu_empirical": "1"}
-"""More of them where an empirical law of a thin film is asked for."""
+CONTACT: dict[str, Callable[[Iterable[float]], float]] = {
+    "contact_load_share": fmean,
+    "contact_load_share_error": max,
+    "contact_area_share": fmean,
+    "contact_area_share_error": max,
+}
+"""More columns of a case with a boundary film: means and largest errors over surfaces."""
+CONTACT_EHL = {
+    "contact_load_share_ehl": "contact_load_share",
+    "contact_load_share_ehl_error": "contact_load_share_error",
+    "contact_area_share_ehl": "contact_area_share",
+    "h_min_rough_ehl_m": "h_min_rough_m",
+}
+"""And results of its full simulation."""
+EMPIRICAL = ("asperity_load_share_empirical", "mu_empirical")
+"""More columns where an empirical law of a thin film is asked for."""
+CONCLUSION = "conclusion"
+"""In the rows, and in no file: the last lines of a point."""
+NOT_DONE: Values = {"status": FAILED, "message": "not done"}
 
 
-def curve_rows(plan: CurvePlan, rows: Mapping[int, Values]) -> list[dict[str, Any]]:
-    """Give the columns of a curve at all points, in the order of the table.
+def units_of(plan: CurvePlan) -> dict[str, str]:
+    """Give the columns of a curve that are numbers, and their units."""
+    units = dict(UNITS)
+    if any(p.settings["lubricant"]["boundary_film"] for p in plan.points):
+        units |= dict.fromkeys(CONTACT, "1") | {name: unit_of(name) for name in CONTACT_EHL}
+    return units | (dict.fromkeys(EMPIRICAL, "1") if plan.load_share is not None else {})
 
-    Names and units are those of `UNITS` and, where the plan has an empirical law, `EMPIRICAL`; None
-    for a number that does not exist.
+
+def curve_table(plan: CurvePlan, rows: Mapping[int, Values]) -> pd.DataFrame:
+    """Give what is varied and the columns of a curve at all points, in the order of the table.
+
+    Names and units are those of `units_of`, behind them `WORDS` and `CONCLUSION`; None for a number
+    that does not exist.
     """
-    kept: dict[str, Pattern] = {}
-    return [_at(point, rows, kept, plan.load_share) for point in plan.points]
+    patterns: dict[str, Pattern] = {}
+    found = [p.point.values | _row(plan, p, rows, patterns) for p in plan.points]
+    columns = [*plan.study.keys, *units_of(plan), *WORDS, CONCLUSION]
+    return pd.DataFrame(found, columns=columns, dtype=object)
 
 
-def _empirical(values: Values, smooth: float | None, law: LoadShare) -> dict[str, Any]:
-    """Give what the law says; the film has the friction of the smooth contact where it ends."""
-    ratio = values["lambda_ratio_central"]
-    film = smooth if values["mu"] is None else values["mu"]
-    if ratio is None:
-        return dict.fromkeys(EMPIRICAL)
-    mu = None if film is None else law.friction(ratio, film)
-    return {"asperity_load_share_empirical": law.share(ratio), "mu_empirical": mu}
+def curves_of(plan: CurvePlan, table: pd.DataFrame, *, absolute: bool = False) -> list[Curve]:
+    """Split a table into curves over the first key."""
+    first, *others = plan.study.keys
+    groups = table.groupby(others, sort=False) if others else [((), table)]
+    return [
+        Curve(
+            ", ".join(f"{key} = {value}" for key, value in zip(others, values, strict=True)),
+            first,
+            rows,
+            absolute,
+        )
+        for values, rows in groups
+    ]
 
 
-def _at(
-    point: CurvePoint, rows: Mapping[int, Values], kept: dict[str, Pattern], law: LoadShare | None
+def _row(
+    plan: CurvePlan, point: CurvePoint, rows: Mapping[int, Values], patterns: dict[str, Pattern]
 ) -> dict[str, Any]:
+    """Give the columns of a point."""
     operating = OperatingPoint.from_settings(point.settings)
-    nothing = {"status": FAILED, "message": "not done"}
-    smooth = rows.get(point.smooth, nothing)
-    found = [rows.get(number, nothing) for number in point.predictions]
-    values: dict[str, Any] = dict.fromkeys(UNITS)
-    values |= _film(smooth, operating)
-    for name in ("temperature_rise_max_K", "flash_temperature_K", "p_max_Pa"):
-        values[name] = smooth.get(name)
-    h_c, h_min = values["h_c_m"], values["h_min_m"]
-    film = h_c or central_film(operating, Lubricant.from_settings(point.settings))
-    values |= {
-        "hersey": float(point.settings["lubricant"]["viscosity"])
-        * operating.mean_velocity
-        * operating.radius
-        / operating.load,
+    smooth = rows.get(point.smooth, NOT_DONE)
+    found = [rows.get(number, NOT_DONE) for number in point.predictions]
+    full = None if point.full is None else rows.get(point.full, NOT_DONE)
+    viscosity = float(point.settings["lubricant"]["viscosity"])
+    values: dict[str, Any] = dict.fromkeys(units_of(plan)) | {
+        **_film(smooth, operating),
+        **{n: smooth.get(n) for n in ("temperature_rise_max_K", "flash_temperature_K", "p_max_Pa")},
+        "hersey": viscosity * operating.mean_velocity * operating.radius / operating.load,
         "moes_m": operating.moes_m,
         "moes_l": operating.moes_l,
         "surfaces": len(found),
     }
-    likeness = kept_pattern(point.settings, operating, film, kept) if found else SMOOTH
-    if h_c is not None and likeness.rms_height > 0.0:
-        wavelength = likeness.wavelength / operating.hertz_radius
-        ratio = h_c / (2.0 * likeness.rms_height)
-        place = (operating.moes_m, operating.moes_l, wavelength, ratio)
-        # eq. 16 is for circular contacts
-        known = operating.moes_l > 0.0 and operating.radius_ratio == 1.0
-        values["lambda_ratio"] = h_min / likeness.rms_height
-        values["lambda_ratio_central"] = h_c / likeness.rms_height
-        values["theta_2"] = float(stribeck.theta_2(*place)) if known else None
-        values["theta_2_wavelength_m"] = likeness.wavelength
-    values |= _friction(found, smooth) if found else _smooth_friction(smooth)
-    if law is not None:
-        values |= _empirical(values, smooth.get("mu_smooth"), law)
-    full = nothing if point.full is None else rows.get(point.full, nothing)
+    if found:
+        values |= _film_ratios(point.settings, operating, values, patterns)
+    values |= _rough_friction(found, smooth) if found else _smooth_friction(smooth)
+    if (law := plan.load_share) is not None and values["lambda_ratio_central"] is not None:
+        # where the film ends it has the friction of the smooth contact
+        ratio = values["lambda_ratio_central"]
+        film = smooth.get("mu_smooth") if values["mu"] is None else values["mu"]
+        mu = None if film is None else law.friction(ratio, film)
+        values |= dict(zip(EMPIRICAL, (law.share(ratio), mu), strict=True))
     if point.settings["lubricant"]["boundary_film"]:
-        values |= contact_columns(found or [smooth], full)
-    if point.full is not None:
-        if full["status"] == "converged":
-            values["mu_ratio_ehl"] = full["mu_ratio"]
-            values["mu_ratio_ehl_error"] = full["mu_ratio_error"]
-        else:
-            values["message"] = _joined(values, f"full simulation: {full['status']}")
+        for name, over_all in CONTACT.items():
+            values[name] = _over(found or [smooth], name, over_all)
+        if full is not None and full["status"] == "converged":
+            values |= {name: full.get(source) for name, source in CONTACT_EHL.items()}
+    notes = [values["message"]]
+    if full is not None and full["status"] == "converged":
+        values["mu_ratio_ehl"] = full["mu_ratio"]
+        values["mu_ratio_ehl_error"] = full["mu_ratio_error"]
+    elif full is not None:
+        notes.append(f"full simulation: {full['status']}")
     if smooth["status"] == "converged" and smooth["H_c_extrapolated"] is None:
         n = int(point.settings["grid"]["points"])
-        told = f"film of {n} x {n} nodes, not extrapolated: grid.points = {2 * n - 1} may do better"
-        values["message"] = _joined(values, told)
+        notes.append(
+            f"film of {n} x {n} nodes, not extrapolated: grid.points = {2 * n - 1} may do better"
+        )
     if values["mu_smooth"] is None and smooth.get("F_error_note", "").startswith(NO_INLET):
-        values["message"] = _joined(values, f"smooth contact: {smooth['F_error_note']}")
+        notes.append(f"smooth contact: {smooth['F_error_note']}")
     if smooth["status"] != "converged":
-        values["message"] = _joined(values, f"smooth contact: {why_none(smooth)}")
+        notes.append(f"smooth contact: {why_none(smooth)}")
         if values["status"] in (FULL_FILM, MIXED, OUTSIDE):
             values["status"] = UNSOLVED
-    values["judgement"] = conclude(point, values).judgement
-    return values
+    values["message"] = "; ".join(filter(None, notes))
+    values[CONCLUSION] = _conclude(point.settings, values)
+    return values | {"judgement": values[CONCLUSION].judgement}
 
 
-def conclude(point: CurvePoint, row: Values) -> library.Conclusion:
-    """Judge a point of a curve by its columns, and give its last lines."""
-    status = "predicted" if row["status"] in (FULL_FILM, MIXED, OUTSIDE) else row["status"]
-    if row["status"] == OUTSIDE and BEYOND in str(row["message"]):
-        status = BEYOND
-    message = str(row["message"]).removeprefix(f"{status}: ")
-    note = "" if row["mu_ratio_model_error"] is not None else message
-    law = point.settings["lubricant"]["shear_law"]
+def _conclude(settings: Settings, values: Values) -> library.Conclusion:
+    """Give the last lines of a point, from its columns."""
+    status = values["status"]
+    if status in (FULL_FILM, MIXED, OUTSIDE):
+        status = values.get("prediction_status", "predicted")
+    message = values["message"].removeprefix(f"{status}: ")
+    note = "" if values["mu_ratio_model_error"] is not None else message
+    law = settings["lubricant"]["shear_law"]
     more = {"status": status, "message": message, "mu_ratio_error_note": note, "shear_law": law}
-    if NO_FRICTION in message:
-        more["mu_note"] = NO_FRICTION
     # the ratio of smooth surfaces is no finding
-    known = row if row["surfaces"] else {k: v for k, v in row.items() if k != "mu_ratio"}
-    return library.conclude({**known, **more})
+    left_out = () if values["surfaces"] else ("mu_ratio",)
+    return library.conclude({k: v for k, v in values.items() if k not in left_out} | more)
 
 
 def _film(smooth: Values, operating: OperatingPoint) -> dict[str, Any]:
@@ -153,93 +175,118 @@ def _film(smooth: Values, operating: OperatingPoint) -> dict[str, Any]:
     return values
 
 
+def _film_ratios(
+    settings: Settings, operating: OperatingPoint, values: Values, patterns: dict[str, Pattern]
+) -> dict[str, Any]:
+    """Film over roughness, and theta_2 of the pattern that stands for it."""
+    h_c = values["h_c_m"]
+    if h_c is None:
+        return {}
+    pattern = kept_pattern(settings, operating, h_c, patterns)
+    if not pattern.rms_height > 0.0:
+        return {}
+    place = (
+        operating.moes_m,
+        operating.moes_l,
+        pattern.wavelength / operating.hertz_radius,
+        h_c / (2.0 * pattern.rms_height),
+    )
+    # eq. 16 is for circular contacts
+    known = operating.moes_l > 0.0 and operating.radius_ratio == 1.0
+    return {
+        "lambda_ratio": values["h_min_m"] / pattern.rms_height,
+        "lambda_ratio_central": h_c / pattern.rms_height,
+        "theta_2": float(stribeck.theta_2(*place)) if known else None,
+        "theta_2_wavelength_m": pattern.wavelength,
+    }
+
+
+def _in_contact(found: Sequence[Values]) -> bool:
+    """Whether the bodies are in contact, by the summaries of a point."""
+    return any((row.get("contact_load_share") or 0.0) > 0.0 for row in found)
+
+
 def _smooth_friction(smooth: Values) -> dict[str, Any]:
     """Friction of smooth surfaces: their ratio is 1 by definition."""
     if smooth["status"] != "converged":
         return {"status": UNSOLVED, "message": ""}
-    coefficient, isothermal = smooth.get("mu_smooth"), smooth.get("mu_smooth_isothermal")
+    values: dict[str, Any] = {"mu_ratio": 1.0, "mu_ratio_model_error": 0.0, "message": ""}
+    for name in ("mu", "mu_isothermal"):
+        of_smooth = name.replace("mu", "mu_smooth")
+        values[name] = values[of_smooth] = smooth.get(of_smooth)
     unresolved = str(smooth.get("contact_load_share_error_note", "")).startswith(NO_INLET)
-    return {
-        "mu_smooth": coefficient,
-        "mu_smooth_isothermal": isothermal,
-        "mu": coefficient,
-        "mu_isothermal": isothermal,
-        "mu_ratio": 1.0,
-        "mu_ratio_model_error": 0.0,
-        "status": UNSOLVED if unresolved else MIXED if touches([smooth]) else FULL_FILM,
-        "message": "",
-    }
+    status = MIXED if _in_contact([smooth]) else FULL_FILM
+    return values | {"status": UNSOLVED if unresolved else status}
 
 
-def _friction(found: Sequence[Values], smooth: Values) -> dict[str, Any]:
+def _rough_friction(found: Sequence[Values], smooth: Values) -> dict[str, Any]:
     """Mean and spread over the surfaces; no mean where one of them has no ratio.
 
-    The coefficient of the smooth contact is that of its solution, which has the inlet too. Where
-    bodies touch both coefficients are as predicted, so that they belong together.
+    The coefficient of the smooth contact is that of its solution, which has the inlet too. In
+    contact both coefficients are as predicted, so that they belong together.
     """
-    lost = [row for row in found if row["status"] != "predicted"]
-    if lost:
-        broken = sum(row["status"] == BREAKDOWN for row in lost)
-        status = BREAKDOWN if broken else UNSOLVED
-        if all(row["status"] == BEYOND for row in lost):
-            # of which the film is known
-            status = OUTSIDE
-        share = f"{broken or len(lost)} of {len(found)} surfaces: " if len(found) > 1 else ""
-        row = next(row for row in lost if not broken or row["status"] == BREAKDOWN)
-        message = f"{share}{why_none(row)}"
-        known = {name: smooth.get(name) for name in ("mu_smooth", "mu_smooth_isothermal")}
-        return {**known, "status": status, "message": message}
+    values: dict[str, Any] = {n: smooth.get(n) for n in ("mu_smooth", "mu_smooth_isothermal")}
+    if lost := [row for row in found if row["status"] != "predicted"]:
+        return values | _lost(lost, len(found))
     outside = sorted({row["outside_range"] for row in found if row.get("outside_range")})
     if any((row["mu_ratio"] or 0.0) > KNOWN_RATIO for row in found):
         outside.append(f"mu_ratio above {KNOWN_RATIO:g}")
-    told = [f"outside the range of the prediction: {'; '.join(outside)}"] if outside else []
-    if touches(found) and any(row["mu_ratio"] is None for row in found):
-        told.append(NO_FRICTION)
-    coefficient, isothermal = smooth.get("mu_smooth"), smooth.get("mu_smooth_isothermal")
-    absolute: list[Values] = [
+    notes = [f"outside the range of the prediction: {'; '.join(outside)}"] if outside else []
+    contact = _in_contact(found)
+    if contact and any(row["mu_ratio"] is None for row in found):
+        notes.append(NO_FRICTION)
+        values["mu_note"] = NO_FRICTION
+    coefficients = [
         {
             name: row[name]
-            if touches([row]) or None in (row.get("mu"), number)
-            else row["mu_ratio"] * number
-            for name, number in (("mu", coefficient), ("mu_isothermal", isothermal))
+            if _in_contact([row]) or None in (row.get("mu"), values[of_smooth])
+            else row["mu_ratio"] * values[of_smooth]
+            for name, of_smooth in (("mu", "mu_smooth"), ("mu_isothermal", "mu_smooth_isothermal"))
         }
         for row in found
     ]
-    values = {**_mean(found, "mu_ratio"), **_mean(absolute, "mu")}
-    values["mu_isothermal"] = _mean(absolute, "mu_isothermal")["mu_isothermal"]
-    values |= {"mu_smooth": coefficient, "mu_smooth_isothermal": isothermal}
-    if touches(found):
+    for name, rows in (("mu_ratio", found), ("mu", coefficients)):
+        values |= {name: _over(rows, name, np.mean), f"{name}_spread": _over(rows, name, _spread)}
+    values["mu_isothermal"] = _over(coefficients, "mu_isothermal", np.mean)
+    if contact:
         own = all(row.get("mu_smooth") is not None for row in found)
         for name, mean in (("mu_smooth", "mu"), ("mu_smooth_isothermal", "mu_isothermal")):
-            mu, ratio = values[mean], values["mu_ratio"]
-            told_of = own or name != "mu_smooth"
-            values[name] = mu / ratio if told_of and mu is not None and ratio is not None else None
+            numbers = values[mean], values["mu_ratio"]
+            known = None not in numbers and (own or name != "mu_smooth")
+            values[name] = numbers[0] / numbers[1] if known else None
         if values["mu"] is not None and not own:
-            told.append(OF_ROUGH)
+            notes.append(OF_ROUGH)
         for name in ("temperature_rise_max_K", "flash_temperature_K"):
-            values[name] = _largest(found, name)
-    return {
-        **values,
-        **deformed_surfaces(found),
-        "p_max_rough_Pa": _largest(found, "p_max_rough_Pa"),
-        "mu_ratio_model_error": _largest(found, "mu_ratio_model_error"),
-        "status": MIXED if touches(found) else OUTSIDE if outside else FULL_FILM,
-        "message": "; ".join(told),
+            values[name] = _over(found, name, max)
+    for name in ("p_max_rough_Pa", "mu_ratio_model_error"):
+        values[name] = _over(found, name, max)
+    status = MIXED if contact else OUTSIDE if outside else FULL_FILM
+    return values | deformed_surfaces(found) | {"status": status, "message": "; ".join(notes)}
+
+
+def _lost(lost: Sequence[Values], count: int) -> dict[str, Any]:
+    """Status and message of a point where some of its surfaces have no ratio."""
+    broken = [row for row in lost if row["status"] == BREAKDOWN]
+    share = f"{len(broken or lost)} of {count} surfaces: " if count > 1 else ""
+    values = {
+        "status": BREAKDOWN if broken else UNSOLVED,
+        "message": f"{share}{why_none((broken or lost)[0])}",
     }
+    if all(row["status"] == BEYOND for row in lost):
+        # of which the film is known
+        values |= {"status": OUTSIDE, "prediction_status": BEYOND}
+    return values
 
 
-def _mean(found: Sequence[Values], name: str) -> dict[str, float | None]:
-    numbers = [row.get(name) for row in found]
-    if any(number is None for number in numbers):
-        return {name: None, f"{name}_spread": None}
+def _spread(numbers: Iterable[float]) -> float | None:
     values = np.array(numbers, dtype=float)
-    spread = float(values.std(ddof=1)) if values.size > 1 else None
-    return {name: float(values.mean()), f"{name}_spread": spread}
+    return float(values.std(ddof=1)) if values.size > 1 else None
 
 
-def _largest(found: Sequence[Values], name: str) -> float | None:
+def _over(found: Sequence[Values], name: str, over_all: Callable[..., Any]) -> Any:  # noqa: ANN401
+    """Give a function of the values of several surfaces; None where one of them has none."""
     numbers = [row.get(name) for row in found]
-    return max(numbers) if all(number is not None for number in numbers) else None  # type: ignore[type-var]
+    return None if None in numbers else over_all(numbers)
 
 
 def no_coefficient(settings: Settings) -> str:
@@ -248,34 +295,3 @@ def no_coefficient(settings: Settings) -> str:
     film = central_film(operating, lubricant)
     found = absolute_friction(operating, lubricant, film=film, mu_smooth=1.0, mu_ratio=1.0)
     return "" if math.isfinite(found["mu"]) else str(found["mu_note"])
-
-
-def _joined(values: Values, text: str) -> str:
-    return f"{values['message']}; {text}" if values.get("message") else text
-
-
-def full_film_ends(
-    key: str, places: Sequence[float] | Array, rows: Sequence[Values]
-) -> tuple[str, tuple[int, ...]]:
-    """Say where full film ends along a curve over `key`, and give the points without it.
-
-    `places` are its values, ascending or descending, with the columns of the curve at these.
-    """
-    broken = tuple(k for k, row in enumerate(rows) if row["status"] in (BREAKDOWN, MIXED))
-    known = [k for k, row in enumerate(rows) if row["status"] in (FULL_FILM, OUTSIDE)]
-    lost = len(rows) - len(known) - len(broken)
-    rest = f" with an answer; {lost} have none" if lost else ""
-    far = sum(row["status"] == OUTSIDE for row in rows)
-    beyond = f"; {far} of them outside the range of the prediction" if far else ""
-    if not known and not broken:
-        return "no point has an answer", broken
-    if not broken:
-        return f"full film at all points{beyond}{rest}", broken
-    if not known:
-        return f"no full film at any point{rest}", broken
-    pairs = [
-        (k, j) for k in broken for j in known if not any(min(k, j) < m < max(k, j) for m in known)
-    ]
-    edge = min(pairs, key=lambda pair: abs(pair[0] - pair[1]))
-    low, high = sorted((places[edge[0]], places[edge[1]]))
-    return f"full film ends between {key} = {low:.4g} and {high:.4g}", broken

@@ -3,7 +3,7 @@
 
 At each point the smooth contact is solved, the friction of one or several surfaces is predicted,
 and at some points the passage of the surface is solved in full. All of these are tasks of one
-study, so that a curve that was interrupted goes on.
+study, so that an interrupted curve is resumed.
 """
 
 import os
@@ -17,7 +17,8 @@ from pyehl.errors import InputError
 from pyehl.prediction.options import turned, unpredictable
 from pyehl.prediction.smooth import CYCLES
 from pyehl.prediction.smooth_case import touching_points
-from pyehl.studies.plan import START, TaskList, check_memory, duration, formula_film
+from pyehl.studies.estimate import duration, wall_seconds
+from pyehl.studies.plan import TaskList, check_maps, check_memory
 from pyehl.studies.study import MAX_CASES, Point, Study, make
 from pyehl.studies.tasks import Task
 from pyehl.studies.vary import Axis
@@ -66,7 +67,7 @@ class CurvePlan:
         return found | {"run": "stribeck", "surfaces": self.surfaces, "ehl": full}
 
     def text(self, jobs: int, done: Sequence[int] = ()) -> str:
-        """Tell the plan in a few lines, for `jobs` worker processes and the tasks left."""
+        """Report the plan in a few lines, for `jobs` worker processes and the tasks left."""
         finished = set(done)
         left = [t.seconds for t in self.tasks if t.number not in finished]
         full = sum(p.full is not None for p in self.points)
@@ -81,8 +82,7 @@ class CurvePlan:
         if finished:
             lines.append(f"           {len(finished)} of {len(self.tasks)} tasks are done")
         if left:
-            seconds = START + max(sum(left) / min(jobs, len(left)), *left)
-            lines.append(f"time       about {duration(seconds)} by estimate")
+            lines.append(f"time       about {duration(wall_seconds(left, jobs))} by estimate")
         return "\n".join(lines)
 
 
@@ -173,12 +173,9 @@ def _check(settings: Settings, seeds: int, ehl: int) -> None:
         raise InputError(f"surfaces = {seeds}: {kinds} has no seed")
     if "load" not in settings["contact"]:
         raise InputError("a Stribeck curve needs a contact in SI units (load, mean_velocity)")
-    film = formula_film(settings)
     if turned(settings):
         raise InputError(turned(settings))
-    for group in groups:
-        if settings[group]["kind"] == "map":
-            surfaces.from_settings({**settings, "surface": settings[group]}, *film)
+    check_maps(settings)
 
 
 def _fractal(settings: Settings) -> list[str]:

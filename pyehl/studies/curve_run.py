@@ -2,37 +2,30 @@
 """Run the tasks of a Stribeck curve and write its table."""
 
 import os
-import tempfile
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-import numpy as np
+import pandas as pd
 import xarray as xr
 
 from pyehl.case import Case
-from pyehl.destination import Destination
+from pyehl.destination import AnyPath, Destination
 from pyehl.errors import InputError, did_you_mean
 from pyehl.given import Option, check_kind, options_of, path_of
 from pyehl.netcdf import write_netcdf
 from pyehl.studies import table
-from pyehl.studies.curve import EMPIRICAL, UNITS, WORDS, curve_rows
-from pyehl.studies.curve_contact import CONTACT, lift_off
+from pyehl.studies.curve import CONCLUSION, curve_table, curves_of, units_of
 from pyehl.studies.curve_plan import KEYS, CurvePlan, plan_curve
-from pyehl.studies.gather import Outcome, Watcher, gather
-from pyehl.studies.journal import NAME
+from pyehl.studies.gather import Outcome, gather
+from pyehl.studies.journal import FILES as JOURNAL
+from pyehl.studies.pool import check_jobs
 from pyehl.studies.vary import Axis, axes_of
 from pyehl.theory.load_share import AIHARA, LoadShare
+from pyehl.types import Row
 
 CSV, NETCDF, PICTURE = "stribeck.csv", "stribeck.nc", "stribeck.png"
 FILES = (CSV, NETCDF, PICTURE)
-
-
-def units_of(plan: CurvePlan) -> dict[str, str]:
-    """Give the columns of a curve that are numbers, and their units."""
-    layer = any(p.settings["lubricant"]["boundary_film"] for p in plan.points)
-    contact = CONTACT if layer else {}
-    return UNITS | contact | (EMPIRICAL if plan.load_share is not None else {})
 
 
 def curve_axes(vary: Mapping[str, Any]) -> list[Axis]:
@@ -56,61 +49,47 @@ def expected_keys() -> str:
 
 def perform(
     plan: CurvePlan,
-    folder: str | os.PathLike[str],
+    folder: AnyPath | None,
     *,
-    inputs: Iterable[str | os.PathLike[str]] = (),
-    jobs: int = 0,
-    scheduler: str = "",
+    inputs: Iterable[AnyPath] = (),
     force: bool = False,
-    watcher: Watcher | None = None,
-) -> tuple[Outcome, list[dict[str, Any]]]:
-    """Run what is missing of a curve, and write its table; returns its rows, too.
+    **how: Any,  # noqa: ANN401 (as of `gather`)
+) -> tuple[Outcome, pd.DataFrame]:
+    """Run what is missing of a curve; returns its table, too.
 
-    The folder gets ``journal.jsonl``, ``stribeck.csv`` and ``stribeck.nc``; `inputs` are files
-    that must not be replaced; the rest is as of `gather`. InputError if the folder holds another
-    curve or something else, or is in use; FileError if it cannot be written.
+    A folder gets the journal, ``stribeck.csv`` and ``stribeck.nc``; `inputs` are files that must
+    not be replaced. InputError if the folder holds another curve or something else, or is in use;
+    FileError if it cannot be written.
     """
+    if folder is None:
+        outcome = gather(plan.tasks, plan.identity(), **how)
+        return outcome, curve_table(plan, outcome.rows)
     folder, inputs = Path(folder), tuple(inputs)
     if {os.path.realpath(folder / name) for name in FILES} & set(map(os.path.realpath, inputs)):
         raise InputError(
             f"{folder}: error: this command reads a file of it\nexpected: another folder"
         )
 
-    def write(done: Mapping[int, dict[str, Any]]) -> None:
-        rows = dict(enumerate(curve_rows(plan, done)))
-        points = (p.point for p in plan.points)
-        columns = (*units_of(plan), *WORDS)
-        table.write_csv(folder / CSV, plan.study, points, rows, columns)
+    def write(done: Mapping[int, Row]) -> None:
+        table.write_csv(folder / CSV, curve_table(plan, done).drop(columns=CONCLUSION))
 
-    outcome = gather(
-        plan.tasks,
-        folder,
-        plan.identity(),
-        jobs=jobs,
-        scheduler=scheduler,
-        place=Destination(folder, "stribeck", (NAME, *FILES), inputs, force=force),
-        watcher=watcher,
-        write=write,
-    )
-    rows = curve_rows(plan, outcome.rows)
-    write_netcdf(folder / NETCDF, _dataset(plan, rows))
-    return outcome, rows
+    place = Destination(folder, "stribeck", (*JOURNAL, *FILES), inputs, force=force)
+    outcome = gather(plan.tasks, plan.identity(), place, write=write, **how)
+    found = curve_table(plan, outcome.rows)
+    write_netcdf(folder / NETCDF, dataset(plan, found))
+    return outcome, found
 
 
-def _dataset(plan: CurvePlan, rows: Sequence[Mapping[str, Any]]) -> xr.Dataset:
+def dataset(plan: CurvePlan, found: pd.DataFrame) -> xr.Dataset:
     """Give a curve as a Dataset whose dimensions are what was varied."""
-    units = units_of(plan)
-    found = {name: [row[name] for row in rows] for name in (*units, *WORDS)}
     attributes, ended = {"title": "Stribeck curve of pyehl"}, {}
-    if len(plan.study.keys) == 1:
-        key = plan.study.keys[0]
-        places = np.array([float(p.point.values[key]) for p in plan.points])
-        if ends := lift_off(key, places, rows):
-            speeds = {"transition_speed_m_s": ends.speed, "transition_speed_error_m_s": ends.error}
-            ended = {name: ((), value, {"units": "m/s"}) for name, value in speeds.items()}
+    if len(plan.study.keys) == 1 and (ends := curves_of(plan, found)[0].lift_off):
+        speeds = {"transition_speed_m_s": ends.speed, "transition_speed_error_m_s": ends.error}
+        ended = {name: ((), value, {"units": "m/s"}) for name, value in speeds.items()}
     if plan.load_share is not None:
         attributes["empirical"] = plan.load_share.words
-    return table.over(plan.study, found, units, attributes, float).assign(ended)
+    columns = found.drop(columns=CONCLUSION)
+    return table.over(plan.study, columns, units_of(plan), attributes, float).assign(ended)
 
 
 def stribeck(
@@ -183,20 +162,26 @@ def stribeck(
     >>> bool(ds.h_c_m[0] < ds.h_c_m[1]), ds.h_c_m.attrs["units"]
     (True, 'm')
     """
-    for name, count in (("ehl", ehl), ("surfaces", surfaces), ("jobs", jobs)):
+    for name, count in (("ehl", ehl), ("surfaces", surfaces)):
         check_kind(count, int, name, "a whole number")
-    if jobs < 0:
-        raise InputError(f"jobs = {jobs}: expected a number of worker processes")
-    given = options_of(options)
+    check_jobs(jobs)
     law = None if boundary_friction is None else LoadShare(boundary_friction, *load_share)
-    axes = curve_axes(vary)
-    plan = plan_curve(case, axes, options=given, ehl=ehl, seeds=surfaces, load_share=law)
-    inputs = () if isinstance(case, Case) else (path_of(case, "case"),)
-    with tempfile.TemporaryDirectory(prefix="pyehl-") as place:
-        folder = place if output is None else path_of(output, "output")
-        outcome, rows = perform(
-            plan, folder, inputs=inputs, jobs=jobs, scheduler=scheduler, force=force
-        )
+    plan = plan_curve(
+        case,
+        curve_axes(vary),
+        options=options_of(options),
+        ehl=ehl,
+        seeds=surfaces,
+        load_share=law,
+    )
+    outcome, found = perform(
+        plan,
+        None if output is None else path_of(output, "output"),
+        inputs=() if isinstance(case, Case) else (path_of(case, "case"),),
+        force=force,
+        jobs=jobs,
+        scheduler=scheduler,
+    )
     if outcome.interrupted:
         raise KeyboardInterrupt
-    return _dataset(plan, rows)
+    return dataset(plan, found)

@@ -1,18 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Measured friction, to lay over a Stribeck curve."""
 
-import csv
-import io
 import os
 import re
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from pyehl.errors import InputError
 from pyehl.given import text_file
-from pyehl.types import Array, Values
+from pyehl.studies.csv_rows import csv_rows, number_in
+from pyehl.studies.transition import Curve
+from pyehl.types import Array
 
 LIKE_ERRORS = re.compile(r"err|std|sigma|uncert|dev|\+-|±", re.IGNORECASE)
 """Names of columns that hold errors."""
@@ -29,31 +28,28 @@ class Measured:
     friction: Array
     error: Array
 
-    def outside(self, key: str, places: Array, rows: Sequence[Values]) -> int:
-        """Give the number of its places that the curve does not reach."""
-        column = _column(self.abscissa, key, places, rows)
-        known = column[np.isfinite(column)]
-        low, high = (known.min(), known.max()) if known.size else (np.inf, -np.inf)
-        inside = (self.places >= low) & (self.places <= high)
-        return int(np.count_nonzero(~inside))
+    def outside(self, places: Array) -> int:
+        """Give the number of its places that a curve over `places` (NaN: not known) lacks."""
+        known = places[np.isfinite(places)]
+        inside = (self.places >= known.min()) & (self.places <= known.max()) if known.size else []
+        return self.places.size - int(np.count_nonzero(inside))
 
-    def deviation(self, name: str, key: str, places: Array, rows: Sequence[Values]) -> Array:
+    def deviation(self, name: str, curve: Curve) -> Array:
         """Give a column of the curve over the measured friction less 1 (n,); NaN outside of it.
 
         Interpolated along the curve, between places that have the column.
         """
-        source, target = (_column(n, key, places, rows) for n in (self.abscissa, name))
+        source, target = curve.column(self.abscissa), curve.column(name)
         return _along(self.places, source, target) / self.friction - 1.0
 
-    def over(self, name: str, key: str, places: Array, rows: Sequence[Values]) -> Array:
-        """Give the places in another column of the curve, (n,); NaN outside of the curve.
+    def over(self, name: str, curve: Curve) -> Array:
+        """Give the places in another column of a curve, (n,); NaN outside of the curve.
 
-        Interpolated along the curve, in logarithms. `key` and `places` are what the curve goes
-        over.
+        Interpolated along the curve, in logarithms.
         """
         if name == self.abscissa:
             return self.places
-        columns = (_column(n, key, places, rows) for n in (self.abscissa, name))
+        columns = curve.column(self.abscissa), curve.column(name)
         source, target = (np.log(np.where(v > 0.0, v, np.nan)) for v in columns)
         return np.asarray(np.exp(_along(np.log(self.places), source, target)))
 
@@ -68,12 +64,6 @@ def _along(at: Array, source: Array, target: Array) -> Array:
     return np.interp(at, x, y, left=np.nan, right=np.nan)
 
 
-def _column(name: str, key: str, places: Array, rows: Sequence[Values]) -> Array:
-    if name == key:
-        return places
-    return np.array([np.nan if row[name] is None else row[name] for row in rows], dtype=float)
-
-
 def read_measured(path: str | os.PathLike[str], key: str) -> Measured:
     """Read measured friction over a curve that goes over `key`: CSV with a line of names.
 
@@ -82,8 +72,7 @@ def read_measured(path: str | os.PathLike[str], key: str) -> Measured:
     and what was expected.
     """
     name = os.fspath(path)
-    lines = list(csv.reader(io.StringIO(text_file(path))))
-    head = [word.strip() for word in lines[0]] if lines else []
+    where, head, lines = csv_rows(name, text_file(path))
     known = (key, "hersey", "lambda_ratio", "theta_2")
     abscissae = [word for word in head if word in known]
     ordinates = [word for word in head if word in ("mu", "mu_ratio")]
@@ -91,7 +80,7 @@ def read_measured(path: str | os.PathLike[str], key: str) -> Measured:
         other = next((sign for sign in ";\t" if len(head) == 1 and sign in head[0]), "")
         hint = f"; with commas between columns, not {other!r}" if other else ""
         raise InputError(
-            f"{name}:1: error: the columns are {', '.join(head) or 'none'}\nexpected: one of "
+            f"{where} the columns are {', '.join(head) or 'none'}\nexpected: one of "
             f"{', '.join(known)}; one of mu, mu_ratio; and error, which may be missing{hint}"
         )
     abscissa, ordinate = abscissae[0], ordinates[0]
@@ -100,35 +89,20 @@ def read_measured(path: str | os.PathLike[str], key: str) -> Measured:
     like = [word for word in unused if LIKE_ERRORS.search(word)]
     if like or head.count("error") > 1:
         raise InputError(
-            f"{name}:1: error: {f'the column {like[0]!r}' if like else 'two columns error'}\n"
+            f"{where} {f'the column {like[0]!r}' if like else 'two columns error'}\n"
             "expected: errors of the friction in one column 'error'"
         )
     wanted = [abscissa, ordinate, *(["error"] if "error" in head else [])]
-    rows = []
-    for number, line in enumerate(lines[1:], start=2):
-        if not any(word.strip() for word in line):
-            continue
-        if len(line) != len(head):
-            raise InputError(
-                f"{name}:{number}: error: {len(line)} values for {len(head)} columns\nexpected: "
-                "one value for each, with decimal points, not commas"
-            )
-        given = dict(zip(head, line, strict=True))
+    for number, row in lines:
         for word in wanted:
-            try:
-                value = float(given.get(word, "nothing"))
-            except ValueError:
-                value = np.nan
-            if not np.isfinite(value) or value <= 0.0:
-                told, other = given.get(word, "nothing"), ""
-                if word == "error":
-                    other = ", or no column 'error' where the errors are not known"
+            if not number_in(row[word]) > 0.0:
+                other = ", or no column 'error' where the errors are not known"
                 raise InputError(
-                    f"{name}:{number}: error: {word} = '{told}'\nexpected: a number above 0{other}"
+                    f"{name}:{number}: error: {word} = '{row[word]}'\nexpected: a number above 0"
+                    f"{other if word == 'error' else ''}"
                 )
-        rows.append([float(given[word]) for word in wanted])
-    if not rows:
+    if not lines:
         raise InputError(f"{name}: error: there are no rows")
-    table = np.array(rows)
+    table = np.array([[float(row[word]) for word in wanted] for _, row in lines])
     error = table[:, 2] if "error" in head else np.zeros(len(table))
     return Measured(abscissa, table[:, 0], ordinate, table[:, 1], error)

@@ -1,15 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The plan of a study: its cases resolved and checked, how long, and what is shared.
-
-Times are of one thread of the machine that they were measured on, good to a factor of two or so:
-what matters is that long cases begin first, and that the order of magnitude is known before a study
-runs.
-"""
+"""The plan of a study: its cases resolved and checked, how long, and what is shared."""
 
 import json
 import os
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -19,115 +14,23 @@ from pyehl.case import Case, files_of
 from pyehl.errors import InputError
 from pyehl.given import key_of
 from pyehl.prediction.options import unpredictable
-from pyehl.prediction.smooth import POINTS
 from pyehl.prediction.smooth_case import smooth_case
 from pyehl.solver import Solver
+from pyehl.studies.estimate import duration, seconds_of, wall_seconds
 from pyehl.studies.study import Point, Study
 from pyehl.studies.tasks import Task
-from pyehl.surfaces import FEATURES, rough_groups
 from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-from pyehl.theory.shear import ShearLaw
 from pyehl.types import Settings
 
-PREDICTION, PREDICTION_PIXEL = 0.1, 1.4e-6
-"""Seconds of a prediction, and per pixel of its tile, without the smooth contact under it."""
-FULL = 2.8
-"""How many times as long one with tracks and bands takes."""
-PAIR, THINS, WIDER = 3.5, 2.0, 1.2
-"""How many times as long two rough surfaces take as both alone, and a flow that thins; power of
-b/a, or of a/b, with which it grows."""
-CONTACT = 1.0
-"""Seconds of the contact at a boundary film."""
-HEAVY = (2500.0, 5000.0)
-"""M above which the smooth contact under a prediction has no limit on POINTS, and on twice as many
-nodes a side."""
-START = 0.7
-"""Seconds until a worker process has begun."""
-FILM = 2e-3
-SMOOTH_LINE, SMOOTH_NODE = 5e-4, 5e-7
-"""Seconds of a smooth contact per line and per node of its finest grid."""
-STEP_NODE, MANY_WAVES = 2.7e-7, 1.25
-"""Seconds of a time step of a waviness per node; how much longer surfaces of many waves take."""
 THREADS = "solver.threads"
 MOST, PATIENCE = 5000, 5.0
-"""Cases that a plan without a run checks at most, and seconds that it takes for them."""
+"""Maximum number of cases that a plan without a run checks, and seconds that it takes for them."""
 CASE_BYTES = 12_000
 """Memory of a case that waits, most of it its resolved text."""
 # What may make a case that can be read one that cannot be solved
 GROUPS = ("grid", *surfaces.GROUPS, "time", "solver")
-
-
-def smooth_seconds(points: int, aspect: float = 1.0) -> float:
-    """Seconds of a smooth contact on points x points nodes, or so many times as many across."""
-    return aspect * (SMOOTH_LINE * points + SMOOTH_NODE * points**2)
-
-
-def seconds_of(settings: Settings, run: str, *, shared: bool = False, full: bool = False) -> float:
-    """Seconds of a resolved case on one thread of the machine that was measured on.
-
-    `shared`: the smooth contact under a prediction is there already; `full`: with tracks and bands.
-    """
-    if run == "film":
-        return FILM
-    rough = [settings[group] for group in rough_groups(settings)]
-    grid = settings["grid"]
-    points = int(grid["points"])
-    aspect = (int(grid["points_y"]) - 1) / (points - 1)
-    if run == "predict":
-        return _predict_seconds(settings, aspect, shared=shared, full=full)
-    smooth = smooth_seconds(points, aspect)
-    moving = [surface for surface in rough if float(surface["velocity_ratio"]) > 0.0]
-    if not moving:
-        return smooth
-    mesh = (float(grid["x_outlet"]) - float(grid["x_inlet"])) / (points - 1)
-    # of two surfaces, whose common period may be longer, as of the slower one
-    longest = max(_time_to_settle(surface, settings) for surface in moving)
-    steps = int(settings["time"]["steps"]) or longest / mesh
-    hard = 1.0 if all(surface["kind"] == "harmonic" for surface in moving) else MANY_WAVES
-    coarser = 9.0 / 8.0 if settings["time"]["estimate_error"] else 1.0
-    return smooth + hard * coarser * STEP_NODE * points**2 * aspect * steps
-
-
-def _predict_seconds(settings: Settings, aspect: float, *, shared: bool, full: bool) -> float:
-    rough = [settings[group] for group in rough_groups(settings)]
-    point = OperatingPoint.from_settings(settings)
-    thins = ShearLaw.from_settings(settings).in_flow
-    sides = [int(s["pixels"]) if s["kind"] == "fractal" else 256 for s in rough]
-    alone = sum(PREDICTION + PREDICTION_PIXEL * side**2 for side in sides)
-    alone *= (FULL if full else 1.0) * (PAIR if len(rough) > 1 else 1.0) * (THINS if thins else 1.0)
-    kappa = point.ellipse.ellipticity
-    alone *= max(kappa, 1.0 / kappa) ** WIDER
-    if settings["lubricant"]["boundary_film"] > 0.0:
-        alone += CONTACT
-    if settings["psd"]["smooth"] != "solved" or shared:
-        return alone
-    grids = 1 + sum(point.moes_m > limit for limit in HEAVY)
-    smooth = sum(smooth_seconds(2**k * (POINTS - 1) + 1, aspect) for k in range(grids))
-    return alone + smooth * (THINS if thins else 1.0)
-
-
-def _time_to_settle(surface: Mapping[str, Any], settings: Settings) -> float:
-    """Time in a/u until the friction is known: the way into the contact and three periods.
-
-    Of a single feature its way through it.
-    """
-    if surface["kind"] in FEATURES:
-        # from where it matters until it has left
-        width = surface.get("width")
-        if width is None:
-            point = OperatingPoint.from_settings(settings)
-            width = float(surface["width_m"]) / point.hertz_radius
-        return (2.3 + 1.2 * float(width)) / float(surface["velocity_ratio"])
-    if surface["kind"] == "harmonic":
-        period = float(surface["wavelength_x"])
-    elif settings["contact"].get("moes_l") == 0.0:
-        period = 2.0  # no length follows from M alone
-    else:
-        period = float(surface["length_x"]) / OperatingPoint.from_settings(settings).hertz_radius
-    way = 1.05 - max(-1.5, float(surface["x_start"]))
-    return (way + 3.0 * period) / float(surface["velocity_ratio"])
 
 
 class TaskList:
@@ -152,7 +55,7 @@ class TaskList:
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """Cases of a study, checked, with what can be told before they run."""
+    """Cases of a study, checked, with what is known before they run."""
 
     study: Study
     # Its cases in the order of the table; of a large study that is not to run, some of them
@@ -166,7 +69,7 @@ class Plan:
         return self.study.identity(self.tasks[0].text, self.files)
 
     def text(self, jobs: int, done: Sequence[int] = ()) -> str:
-        """Tell the plan in a few lines, for `jobs` worker processes and the cases left."""
+        """Report the plan in a few lines, for `jobs` worker processes and the cases left."""
         finished = set(done)
         left = [t for t in self.tasks if t.number not in finished]
         names = " x ".join(
@@ -184,24 +87,14 @@ class Plan:
             lines.append(f"           {len(finished)} of them are done")
         if not left:
             return "\n".join(lines)
-        total = sum(t.seconds for t in left) * size / checked
-        longest = max(t.seconds for t in left)
+        seconds = [t.seconds for t in left]
         workers = min(jobs, len(left))
         words = "1 worker process" if workers == 1 else f"{workers} worker processes"
         lines.append(
-            f"time       about {duration(START + max(total / workers, longest))} by estimate, "
-            f"{words} of one thread each; the longest case {duration(longest)}"
+            f"time       about {duration(wall_seconds(seconds, jobs, size / checked))} by "
+            f"estimate, {words} of one thread each; the longest case {duration(max(seconds))}"
         )
         return "\n".join(lines)
-
-
-def duration(seconds: float) -> str:
-    """Give a time in words: '8 s', '3 min', '2.5 h'."""
-    if seconds < 0.95:
-        return f"{seconds:.1g} s"
-    if seconds < 90.0:
-        return f"{seconds:.0f} s"
-    return f"{seconds / 60.0:.0f} min" if seconds < 5400.0 else f"{seconds / 3600.0:.1f} h"
 
 
 def check_memory(cases: int) -> None:
@@ -263,13 +156,18 @@ def _check(study: Study, case: Case, settings: Settings, checked: set[str]) -> N
     why = unpredictable(settings)
     if study.run == "predict" and why:
         raise InputError(why)
-    film = formula_film(settings)
-    for group in surfaces.rough_groups(settings):
-        if settings[group]["kind"] == "map" and not known:
-            surfaces.from_settings({**settings, "surface": settings[group]}, *film)
+    check_maps(settings, read=not known)
 
 
 def formula_film(settings: Settings) -> tuple[OperatingPoint, float]:
     """Give the operating point of a resolved case and its central film by formula [m]."""
     operating = OperatingPoint.from_settings(settings)
     return operating, central_film(operating, Lubricant.from_settings(settings))
+
+
+def check_maps(settings: Settings, *, read: bool = True) -> None:
+    """Refuse a resolved case without a film by formula, or whose height maps cannot be prepared."""
+    film = formula_film(settings)
+    for group in surfaces.rough_groups(settings):
+        if read and settings[group]["kind"] == "map":
+            surfaces.from_settings({**settings, "surface": settings[group]}, *film)

@@ -1,32 +1,45 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Worker processes, of this machine or of a dask scheduler: tasks to rows, as they are finished.
 
-A task whose worker of dask is lost goes to another one: dask does that, and gives a task up when
-several workers were lost with it (``distributed.scheduler.allowed-failures``).
+On this machine each worker is an executor of loky of its own: a worker that crashes or is killed
+takes its own tasks with it alone. A task whose worker of dask is lost goes to another one: dask
+does that, and gives a task up when several workers were lost with it
+(``distributed.scheduler.allowed-failures``).
 """
 
-import json
+from __future__ import annotations
+
 import os
-import selectors
-import signal
-import subprocess
-import sys
+import re
+import threading
+import time
 import uuid
-from collections import deque
-from collections.abc import Generator, Sequence
-from typing import Any
+from collections import Counter, deque
+from collections.abc import Generator, Iterable, Sequence
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Future, wait
+from typing import TYPE_CHECKING, Any
 
 from pyehl.errors import EhlError, InputError, InternalError
-from pyehl.studies.tasks import FAILED, Task, execute
+from pyehl.given import check_kind
+from pyehl.studies.tasks import FAILED, Task, execute, execute_all
 from pyehl.types import Row
 
-# A worker has the next task waiting where tasks are shorter than this [s]
-SHORT = 0.5
+if TYPE_CHECKING:
+    from loky import ProcessPoolExecutor
+
+# A worker gets so many tasks at once, as long as they take less than this together [s]
+MAX_TASKS, SHORT = 64, 0.1
 # How often a task may end its worker before it has failed
 TRIES = 2
-ONE_THREAD = {name: "1" for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")}
-# Seconds to wait for the scheduler
-PATIENCE = 20
+ENVIRONMENT = {
+    "OMP_NUM_THREADS": "1",
+    "OPENBLAS_NUM_THREADS": "1",
+    "MKL_NUM_THREADS": "1",
+    # a module in the current folder is not taken for one of a library
+    "PYTHONSAFEPATH": "1",
+}
+# Seconds to wait for the scheduler; seconds between looks for the parent of a worker
+PATIENCE, LOOK = 20, 0.2
 
 
 def processors() -> int:
@@ -34,207 +47,139 @@ def processors() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
+def check_jobs(jobs: int) -> None:
+    """Refuse what is no number of worker processes."""
+    check_kind(jobs, int, "jobs", "a number of worker processes")
+    if jobs < 0:
+        raise InputError(f"jobs = {jobs}: expected a number of worker processes")
+
+
 class Queue:
     """Tasks that wait, the longest first; those that share something stay with one worker."""
 
     def __init__(self, tasks: Sequence[Task]) -> None:
-        groups: dict[str, deque[Task]] = {}
+        self._groups: dict[str, deque[Task]] = {}
         for task in sorted(tasks, key=lambda t: (-t.seconds, t.number)):
-            groups.setdefault(task.shares or str(task.number), deque()).append(task)
-        self._free = deque(groups)
-        self._groups = groups
+            self._groups.setdefault(group_of(task), deque()).append(task)
+        self._free = deque(self._groups)
         self._again: deque[Task] = deque()
 
-    def take(self, last: str) -> Task | None:
-        """Give the next task to a worker whose last one shared `last`; None when none is left."""
+    def take(self, last: str) -> list[Task]:
+        """Give a task, or some short ones, to a worker whose last one was of a group."""
         if self._again:
-            return self._again.popleft()
-        if last not in self._groups:
-            if self._free:
-                last = self._free.popleft()
-            elif self._groups:
-                # all groups are begun: help with the longest
-                last = max(self._groups, key=lambda key: len(self._groups[key]))
-            else:
-                return None
-        group = self._groups[last]
-        task = group.popleft()
-        if not group:
-            del self._groups[last]
-        return task
+            return [self._again.popleft()]
+        found: list[Task] = []
+        while self._groups and len(found) < MAX_TASKS and sum(t.seconds for t in found) < SHORT:
+            if last not in self._groups:
+                # a new group, or a part of the longest one
+                last = (
+                    self._free.popleft()
+                    if self._free
+                    else max(self._groups, key=lambda key: len(self._groups[key]))
+                )
+            found.append(self._groups[last].popleft())
+            if not self._groups[last]:
+                del self._groups[last]
+        return found
 
-    def put_back(self, task: Task) -> None:
-        """Give a task back that its worker has not done."""
-        self._again.append(task)
+    def put_back(self, tasks: Iterable[Task]) -> None:
+        """Return tasks that their worker has not done; from now on each is given alone."""
+        self._again += tasks
 
 
-class Worker:
-    """A worker process and what it has to do."""
+def group_of(task: Task) -> str:
+    """Name what a task shares with others."""
+    return task.shares or str(task.number)
 
-    def __init__(self) -> None:
-        # A session of its own: Ctrl-C is for the parent alone, which then ends its workers
-        self.process = subprocess.Popen(
-            [sys.executable, "-P", "-m", "pyehl.studies.worker"],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            env=os.environ | ONE_THREAD,
-            start_new_session=True,
-        )
-        assert self.process.stdin is not None
-        assert self.process.stdout is not None
-        self.stdin, self.stdout = self.process.stdin, self.process.stdout
-        os.set_blocking(self.stdout.fileno(), False)
-        self.tasks: deque[Task] = deque()
-        self.last = ""
-        self._rest = b""
 
-    def give(self, task: Task) -> None:
-        """Send a task."""
-        self.tasks.append(task)
-        self.last = task.shares or str(task.number)
-        try:
-            self.stdin.write(json.dumps(task.message()).encode() + b"\n")
-            self.stdin.flush()
-        except BrokenPipeError:
-            pass  # its end is seen when its output ends
+def _begin(parent: int) -> None:
+    """Make a process a worker: Ctrl-C is for its parent alone, without which it ends at once."""
+    os.setsid()
+    # what a library prints goes to standard error
+    os.dup2(2, 1)
+    threading.Thread(target=_end_without, args=(parent,), daemon=True).start()
 
-    def wants(self) -> bool:
-        """Whether it should be given another task."""
-        return not self.tasks or (len(self.tasks) == 1 and self.tasks[0].seconds < SHORT)
 
-    def read(self) -> tuple[list[tuple[int, Row]], bool]:
-        """Give the rows that have come, and whether the process has ended."""
-        ended = False
-        while True:
-            part = self.stdout.read(1 << 16)
-            if part is None:
-                break
-            if not part:
-                ended = True
-                break
-            self._rest += part
-        *lines, self._rest = self._rest.split(b"\n")
-        found = []
-        for line in lines:
-            number, row = json.loads(line)
-            self.tasks.popleft()
-            found.append((int(number), row))
-        return found, ended
-
-    def end(self) -> int:
-        """End the process, whatever it does; returns its exit status."""
-        self.process.kill()
-        status = self.process.wait()
-        self.stdout.close()
-        try:
-            self.stdin.close()
-        except BrokenPipeError:
-            pass
-        return status
+def _end_without(parent: int) -> None:
+    while os.getppid() == parent:
+        time.sleep(LOOK)
+    os._exit(0)
 
 
 def rows(tasks: Sequence[Task], jobs: int) -> Generator[list[tuple[int, Row]]]:
-    """Do tasks in `jobs` worker processes (0: as many as processors); yields rows as they come.
+    """Do tasks in `jobs` worker processes; yields rows as they come.
 
-    A task whose worker dies is given to another one once more; then its row says so. When the
+    A task whose worker dies is given to another one once more; then its row reports it. When the
     caller stops early, or an exception is raised in it, the workers end at once. InternalError if
     no worker comes as far as its first row.
     """
-    jobs = jobs or processors()
-    crew = _Crew(tasks, jobs)
-    left = len(tasks)
+    queue = Queue(tasks)
+    died: Counter[int] = Counter()
+    deaths, works = 0, False
+    executors: list[ProcessPoolExecutor] = []
+    running: dict[Future[list[Row]], tuple[int, list[Task]]] = {}
+    groups, idle = [""] * jobs, list(range(jobs))
     try:
-        crew.begin(min(jobs, left))
-        while left:
-            finished = crew.wait()
-            left -= len(finished)
+        executors += [_executor() for _ in range(jobs)]
+        while True:
+            while idle and (some := queue.take(groups[idle[-1]])):
+                k = idle.pop()
+                groups[k] = group_of(some[-1])
+                running[_submit(executors[k], some)] = k, some
+            if not running:
+                return
+            finished: list[tuple[int, Row]] = []
+            for future in wait(running, return_when=FIRST_COMPLETED).done:
+                k, some = running.pop(future)
+                idle.append(k)
+                error = future.exception()
+                if error is None:
+                    works = True
+                    finished += zip((t.number for t in some), future.result(), strict=True)
+                elif isinstance(error, BrokenExecutor):
+                    deaths += 1
+                    if not works and deaths > 2 * jobs:
+                        raise InternalError("the worker processes end before they begin") from error
+                    executors[k].shutdown(kill_workers=True)
+                    executors[k] = _executor()
+                    # of several tasks the one that did it is found when each is given alone
+                    died.update(t.number for t in some if len(some) == 1)
+                    lost = [t for t in some if died[t.number] >= TRIES]
+                    finished += [(t.number, _failed(error)) for t in lost]
+                    queue.put_back(t for t in some if t not in lost)
+                else:
+                    finished += [(t.number, _failed(error)) for t in some]
             if finished:
                 yield finished
     finally:
-        crew.end()
+        for executor in executors:
+            executor.shutdown(kill_workers=True)
 
 
-class _Crew:
-    """The workers and the tasks that wait for them."""
+def _executor() -> ProcessPoolExecutor:
+    from loky import ProcessPoolExecutor  # noqa: PLC0415 (it takes long to import)
 
-    def __init__(self, tasks: Sequence[Task], jobs: int) -> None:
-        self.waiting = Queue(tasks)
-        self.workers: list[Worker] = []
-        self.selector = selectors.DefaultSelector()
-        self.died: dict[int, int] = {}
-        self.most = 2 * jobs
-        self.works = False
-
-    def begin(self, count: int) -> None:
-        """Start the workers and give each two short tasks or one long."""
-        for _ in range(count):
-            self._start()
-        for _ in range(2):
-            for worker in self.workers:
-                self._feed(worker)
-
-    def wait(self) -> list[tuple[int, Row]]:
-        """Wait for rows; those that have come."""
-        finished: list[tuple[int, Row]] = []
-        for key, _ in self.selector.select():
-            worker: Worker = key.data
-            found, ended = worker.read()
-            self.works = self.works or bool(found)
-            finished += found
-            if ended:
-                finished += self._bury(worker)
-                self._start()
-            else:
-                while self._feed(worker):
-                    pass
-        for worker in self.workers:
-            if not worker.tasks:
-                self._feed(worker)
-        return finished
-
-    def end(self) -> None:
-        """End all workers, whatever they do."""
-        for worker in self.workers:
-            worker.end()
-        self.selector.close()
-
-    def _start(self) -> None:
-        worker = Worker()
-        self.workers.append(worker)
-        self.selector.register(worker.stdout, selectors.EVENT_READ, worker)
-
-    def _feed(self, worker: Worker) -> bool:
-        """Give a worker a task if it wants one; whether it got one."""
-        task = self.waiting.take(worker.last) if worker.wants() else None
-        if task is not None:
-            worker.give(task)
-        return task is not None
-
-    def _bury(self, worker: Worker) -> list[tuple[int, Row]]:
-        """Give back the tasks of a worker that has died; the row of one it died of too often."""
-        self.selector.unregister(worker.stdout)
-        self.workers.remove(worker)
-        left = list(worker.tasks)
-        status = worker.end()
-        failed: list[tuple[int, Row]] = []
-        if left:
-            first = left.pop(0)
-            died = self.died[first.number] = self.died.get(first.number, 0) + 1
-            if not self.works and sum(self.died.values()) > self.most:
-                raise InternalError("the worker processes end before they begin")
-            if died < TRIES:
-                left.insert(0, first)
-            else:
-                cause = signal.Signals(-status).name if status < 0 else f"exit status {status}"
-                message = f"its worker process died {TRIES} times, at last by {cause}"
-                failed = [(first.number, {"status": FAILED, "message": message, "seconds": None})]
-        for task in left:
-            self.waiting.put_back(task)
-        return failed
+    return ProcessPoolExecutor(1, initializer=_begin, initargs=(os.getpid(),), env=ENVIRONMENT)
 
 
-def _execute(message: dict[str, Any]) -> Row:
-    return execute(Task(**message))
+def _submit(executor: ProcessPoolExecutor, tasks: list[Task]) -> Future[list[Row]]:
+    try:
+        future: Future[list[Row]] = executor.submit(execute_all, tasks)
+    except BrokenExecutor as error:
+        # it died without a task
+        future = Future()
+        future.set_exception(error)
+    return future
+
+
+def _failed(error: BaseException) -> Row:
+    """Give the row of a task that has none."""
+    message = f"{type(error).__name__}: {error}"
+    if isinstance(error, BrokenExecutor):
+        found = re.search(r"exit codes of the workers are \{(.*)\}", message)
+        cause = f", at last by {found[1]}" if found else f": {message}"
+        message = f"its worker process died {TRIES} times{cause}"
+    return {"status": FAILED, "message": message, "seconds": None}
 
 
 def cluster_rows(tasks: Sequence[Task], address: str) -> Generator[list[tuple[int, Row]]]:
@@ -255,12 +200,8 @@ def cluster_rows(tasks: Sequence[Task], address: str) -> Generator[list[tuple[in
     # dask begins with what comes first
     ordered = sorted(tasks, key=lambda task: (-task.seconds, task.shares, task.number))
     with client:
-        futures = client.map(
-            _execute,
-            [task.message() for task in ordered],
-            key=[f"pyehl-{study}-{task.number}" for task in ordered],
-            pure=False,
-        )
+        keys = [f"pyehl-{study}-{task.number}" for task in ordered]
+        futures = client.map(execute, ordered, key=keys, pure=False)
         numbers = {future.key: task.number for future, task in zip(futures, ordered, strict=True)}
         try:
             done = as_completed(futures, loop=client.loop, with_results=True, raise_errors=False)
@@ -271,10 +212,9 @@ def cluster_rows(tasks: Sequence[Task], address: str) -> Generator[list[tuple[in
 
 
 def _row(future: Any, result: Any) -> Row:  # noqa: ANN401 (types of an optional extra)
-    """Give the row of a future; what dask gave up is a row too."""
+    """Give the row of a future of dask; what dask gave up is a row too."""
     if future.status == "finished":
         row: Row = result
         return row
     error = future.exception() if future.status == "error" else None
-    message = f"{type(error).__name__}: {error}" if error else f"the task is {future.status}"
-    return {"status": FAILED, "message": message, "seconds": None}
+    return _failed(error or EhlError(f"the task is {future.status}"))

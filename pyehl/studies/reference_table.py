@@ -8,7 +8,6 @@ tolerance, rtol times the value plus atol, and ``note`` is a remark. An empty ce
 compared.
 """
 
-import csv
 import math
 import os
 from collections.abc import Sequence
@@ -19,6 +18,7 @@ from pathlib import Path
 from pyehl.case import KEYS
 from pyehl.errors import InputError, did_you_mean
 from pyehl.given import text_file
+from pyehl.studies.csv_rows import csv_rows, number_in
 from pyehl.studies.vary import LOGICAL
 
 SHIPPED = ("smooth", "waviness")
@@ -69,23 +69,17 @@ def read_reference(path: str | os.PathLike[str]) -> ReferenceTable:
         name, text = f"{name}.csv", file.read_text(encoding="utf-8")
     else:
         text = text_file(path, f"a CSV file, or one of {', '.join(SHIPPED)}")
-    lines = text.splitlines()
-    numbers = [n for n, line in enumerate(lines, 1) if line.strip() and line[0] != "#"]
-    if len(numbers) < 2:
+    where, head, lines = csv_rows(name, text)
+    if not lines:
         raise InputError(f"{name}: error: there are no rows\nexpected: a line of names, and rows")
-    table = [[word.strip() for word in row] for row in csv.reader(lines[n - 1] for n in numbers)]
-    head = table[0]
-    keys, values = _columns(f"{name}:{numbers[0]}: error:", head)
+    keys, values = _columns(where, head)
     rows = []
-    for number, row in zip(numbers[1:], table[1:], strict=True):
+    for number, row in lines:
         where = f"{name}:{number}: error:"
-        if len(row) != len(head):
-            raise InputError(f"{where} {len(row)} cells\nexpected: {len(head)}, as the names")
-        found = dict(zip(head, row, strict=True))
-        given = {key: _key(where, key, found[key]) for key in keys}
-        expected = {value: _expected(where, value, found) for value in values if found[value]}
+        given = {key: _key(where, key, row[key]) for key in keys}
+        expected = {value: _expected(where, value, row) for value in values if row[value]}
         rows.append(ReferenceRow(number, given, expected))
-    notes = tuple(line.lstrip("# ") for line in lines if line.startswith("#"))
+    notes = tuple(line.lstrip("# ") for line in text.splitlines() if line.startswith("#"))
     return ReferenceTable(name, notes, tuple(keys), tuple(values), tuple(rows))
 
 
@@ -142,10 +136,7 @@ def _expected(where: str, name: str, found: dict[str, str]) -> Expected:
 
 
 def _number(where: str, name: str, cell: str) -> float:
-    try:
-        value = float(cell)
-    except ValueError:
-        value = math.nan
-    if not math.isfinite(value):
+    value = number_in(cell)
+    if math.isnan(value):
         raise InputError(f"{where} {name} = '{cell}'\nexpected: a number")
     return value

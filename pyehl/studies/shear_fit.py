@@ -139,10 +139,10 @@ def fit_law(settings: Settings, law: str, measured: Measured, points: int) -> Fi
     found = settled.x
     values = _to_values(keys, found)
     if settled.active_mask.any():
-        told = ", ".join(f"{k} = {v:.4g}" for k, v in zip(keys, values, strict=True))
+        listed = ", ".join(f"{k} = {v:.4g}" for k, v in zip(keys, values, strict=True))
         raise EhlError(
-            f"the fit of '{law}' ends at {told}, where the range of the key ends: the data do not "
-            "tell it"
+            f"the fit of '{law}' ends at {listed}, where the range of the key ends: the data do "
+            "not determine it"
         )
     ends = _intervals(keys, settled.jac, settled.fun, found)
     units = {key.name.partition(".")[2]: key.unit for key in KEYS.values()}
@@ -187,7 +187,7 @@ def _to_values(keys: tuple[str, ...], found: Array) -> Array:
 def _intervals(
     keys: tuple[str, ...], jacobian: Array, residuals: Array, found: Array
 ) -> list[tuple[float, float]]:
-    """Find the ends of the confidence intervals; infinite where the data tell nothing."""
+    """Find the ends of the confidence intervals; infinite where the data determine nothing."""
     from scipy.stats import t  # noqa: PLC0415
 
     free = residuals.size - found.size
@@ -249,9 +249,9 @@ def _friction(
         solver.run()
         summary = solver.summary
     if summary["status"] != "converged" or summary["mu"] is None:
-        told = ", ".join(f"{k} = {v:.4g}" for k, v in zip(keys, values, strict=True))
+        listed = ", ".join(f"{k} = {v:.4g}" for k, v in zip(keys, values, strict=True))
         raise EhlError(
-            f"the smooth contact at a slide-to-roll ratio of {slide_to_roll:g} with {told}: "
+            f"the smooth contact at a slide-to-roll ratio of {slide_to_roll:g} with {listed}: "
             f"{summary['status']}"
         )
     return float(summary["mu"])

@@ -224,42 +224,33 @@ def make(
 
 def _refuse_twice(together: Sequence[Axis]) -> None:
     """Refuse a dimension of a study in which a case is there twice."""
-    seen = set()
-    for values in zip(*(a.values for a in together), strict=True):
-        if values in seen:
+    for values, count in Counter(zip(*(a.values for a in together), strict=True)).items():
+        if count > 1:
             names = ", ".join(a.key for a in together)
-            told = repr(values[0]) if len(values) == 1 else ", ".join(map(repr, values))
-            raise InputError(f"{names}: the value {told} is there twice")
-        seen.add(values)
+            listed = repr(values[0]) if len(values) == 1 else ", ".join(map(repr, values))
+            raise InputError(f"{names}: the value {listed} is there twice")
 
 
 def _dimensions(
     axes: Sequence[Axis], groups: Sequence[Sequence[str]]
 ) -> tuple[tuple[Axis, ...], ...]:
+    """Put keys that move together into one dimension, at the place of the first of them."""
     known = {a.key: a for a in axes}
-    home: dict[str, int] = {}
-    for number, group in enumerate(groups):
-        for key in group:
-            if key not in known:
-                raise InputError(
-                    f"keys that move together: '{key}' is not varied{did_you_mean(key, known)}"
-                )
-            if key in home:
-                raise InputError(f"keys that move together: '{key}' is there twice")
-            home[key] = number
+    for key, count in Counter(key for group in groups for key in group).items():
+        if key not in known:
+            raise InputError(
+                f"keys that move together: '{key}' is not varied{did_you_mean(key, known)}"
+            )
+        if count > 1:
+            raise InputError(f"keys that move together: '{key}' is there twice")
+    for group in groups:
         sizes = {key: len(known[key].values) for key in group}
         if len(set(sizes.values())) > 1:
-            told = ", ".join(f"{key} {size}" for key, size in sizes.items())
-            raise InputError(f"keys that move together need as many values each: {told}")
-    dimensions: list[tuple[Axis, ...]] = []
-    done: set[int] = set()
-    for a in axes:
-        if a.key not in home:
-            dimensions.append((a,))
-        elif home[a.key] not in done:
-            done.add(home[a.key])
-            dimensions.append(tuple(known[key] for key in groups[home[a.key]]))
-    return tuple(dimensions)
+            listed = ", ".join(f"{key} {size}" for key, size in sizes.items())
+            raise InputError(f"keys that move together need as many values each: {listed}")
+    group_of = {key: tuple(group) for group in groups for key in group}
+    dimensions = dict.fromkeys(group_of.get(key, (key,)) for key in known)
+    return tuple(tuple(known[key] for key in group) for group in dimensions)
 
 
 def read_study(path: str | os.PathLike[str]) -> dict[str, Any]:

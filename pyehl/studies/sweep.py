@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Run a study: many cases, one table, and nothing lost."""
+"""Run a study: many cases, one table; what is finished is kept."""
 
 import os
-import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -10,14 +9,14 @@ from typing import Any
 import xarray as xr
 
 from pyehl.case import Case
-from pyehl.destination import Destination
-from pyehl.errors import InputError
+from pyehl.destination import AnyPath, Destination
 from pyehl.given import Option, check_kind, options_of, path_of
 from pyehl.netcdf import write_netcdf
 from pyehl.studies import table
-from pyehl.studies.gather import Outcome, Watcher, gather
-from pyehl.studies.journal import NAME
+from pyehl.studies.gather import Outcome, gather
+from pyehl.studies.journal import FILES as JOURNAL
 from pyehl.studies.plan import Plan, plan
+from pyehl.studies.pool import check_jobs
 from pyehl.studies.study import make
 from pyehl.studies.vary import axes_of
 from pyehl.types import Row
@@ -27,36 +26,25 @@ CSV, NETCDF, CASES = "results.csv", "results.nc", "cases"
 
 def perform(
     todo: Plan,
-    folder: str | os.PathLike[str],
+    folder: AnyPath | None,
     *,
-    jobs: int = 0,
-    scheduler: str = "",
-    retry: bool = False,
     force: bool = False,
-    watcher: Watcher | None = None,
+    **how: Any,  # noqa: ANN401 (as of `gather`)
 ) -> Outcome:
-    """Run what is missing of a study, and write its table.
+    """Run what is missing of a study.
 
-    The folder gets ``journal.jsonl``, ``results.csv`` and ``results.nc``; the rest is as of
-    `gather`. InputError if the folder holds another study or something else, or is in use;
-    FileError if it cannot be written.
+    A folder gets the journal, ``results.csv`` and ``results.nc``. InputError if it holds another
+    study or something else, or is in use; FileError if it cannot be written.
     """
+    if folder is None:
+        return gather(todo.tasks, todo.identity(), **how)
     folder = Path(folder)
 
     def write(rows: Mapping[int, Row]) -> None:
-        table.write_csv(folder / CSV, todo.study, todo.points, rows)
+        table.write_csv(folder / CSV, table.results(todo.study, todo.points, rows))
 
-    outcome = gather(
-        todo.tasks,
-        folder,
-        todo.identity(),
-        jobs=jobs,
-        scheduler=scheduler,
-        retry=retry,
-        place=Destination(folder, "sweep", (NAME, CSV, NETCDF, CASES), force=force),
-        watcher=watcher,
-        write=write,
-    )
+    place = Destination(folder, "sweep", (*JOURNAL, CSV, NETCDF, CASES), force=force)
+    outcome = gather(todo.tasks, todo.identity(), place, write=write, **how)
     write_netcdf(folder / NETCDF, table.dataset(todo.study, todo.points, outcome.rows))
     return outcome
 
@@ -90,8 +78,9 @@ def sweep(
     run
         'solve', 'predict' or 'film'.
     outputs
-        Names of results wanted; none: all numbers and the judgement. Mean and spread over the
-        tracks of a prediction, which take twice the time, are made only where they are named.
+        Names of results wanted; none: all numbers and the assessment (``judgement``). Mean and
+        spread over the tracks of a prediction, which take twice the time, are made only where they
+        are named.
     output
         Folder for the journal and the table, from which an interrupted study is resumed; None:
         nothing is kept on disk.
@@ -128,7 +117,7 @@ def sweep(
     """
     check_kind(run, str, "run", "'solve', 'predict' or 'film'")
     check_kind(outputs, Sequence, "outputs", "names of results")
-    check_kind(jobs, int, "jobs", "a number of worker processes")
+    check_jobs(jobs)
     check_kind(zipped, (bool, Sequence), "zipped", "True, False or lists of keys")
     study = make(
         case,
@@ -138,12 +127,9 @@ def sweep(
         run=run,
         outputs=[outputs] if isinstance(outputs, str) else outputs,
     )
-    if jobs < 0:
-        raise InputError(f"jobs = {jobs}: expected a number of worker processes")
     todo = plan(study)
-    with tempfile.TemporaryDirectory(prefix="pyehl-") as place:
-        folder = place if output is None else path_of(output, "output")
-        outcome = perform(todo, folder, jobs=jobs, scheduler=scheduler, force=force)
+    folder = None if output is None else path_of(output, "output")
+    outcome = perform(todo, folder, jobs=jobs, scheduler=scheduler, force=force)
     if outcome.interrupted:
         raise KeyboardInterrupt
     return table.dataset(todo.study, todo.points, outcome.rows)

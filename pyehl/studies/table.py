@@ -3,9 +3,9 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 
 from pyehl import arrays
@@ -17,6 +17,7 @@ from pyehl.studies.study import Point, Study
 from pyehl.types import Values
 
 # Words that are always in the table; other words only where they are asked for
+TEXTS = ("status", "message")
 WORDS = ("flags", "outside_range", "judgement")
 
 
@@ -35,50 +36,40 @@ def columns(study: Study, rows: Mapping[int, Values]) -> list[str]:
     return [*(name for name in found if name not in skipped), *LAST]
 
 
-def write_csv(
-    path: Path,
-    study: Study,
-    points: Iterable[Point],
-    rows: Mapping[int, Values],
-    names: Sequence[str] = (),
-) -> None:
-    """Write the table of all finished cases, whole or not at all; `names`: of these columns.
-
-    FileError if it cannot be written.
-    """
-    names = names or columns(study, rows)
-    arrays.write_csv(
-        path,
-        [*study.keys, *names],
-        (
-            [*point.values.values(), *(rows[point.number].get(name) for name in names)]
-            for point in points
-            if point.number in rows
-        ),
+def results(study: Study, points: Iterable[Point], rows: Mapping[int, Values]) -> pd.DataFrame:
+    """Give what was varied and the results of all finished cases."""
+    names = columns(study, rows)
+    found = (
+        [*point.values.values(), *map(rows[point.number].get, names)]
+        for point in points
+        if point.number in rows
     )
+    return pd.DataFrame(found, columns=[*study.keys, *names], dtype=object)
+
+
+def write_csv(path: Path, table: pd.DataFrame) -> None:
+    """Write a table, whole or not at all. FileError if it cannot be written."""
+    arrays.write_csv(path, list(table.columns), table.itertuples(index=False, name=None))
 
 
 def dataset(study: Study, points: Sequence[Point], rows: Mapping[int, Values]) -> xr.Dataset:
     """Give the results over what was varied."""
-    found = {
-        name: [rows.get(point.number, {}).get(name) for point in points]
-        for name in columns(study, rows)
-    }
+    table = results(study, points, {number: rows.get(number, {}) for number in range(study.size)})
     films = ("h_c_m_", "h_min_m_")
-    units = {name: "m" if name.startswith(films) else unit_of(name) for name in found}
+    units = {name: "m" if name.startswith(films) else unit_of(name) for name in table}
     attributes = {"title": "study of pyehl", "run": study.run}
     attributes |= {"set": "\n".join(map(bare, study.options))} if study.options else {}
-    return over(study, found, units, attributes)
+    return over(study, table, units, attributes)
 
 
 def over(
     study: Study,
-    found: Mapping[str, Sequence[Any]],
+    table: pd.DataFrame,
     units: Mapping[str, str],
     attributes: Mapping[str, str],
     kind: type | None = None,
 ) -> xr.Dataset:
-    """Give columns in the order of the table as a Dataset over what was varied.
+    """Give a table of all cases as a Dataset over what was varied.
 
     Dimensions have the names of `Study.names`, and their keys as attributes; keys that move
     together are coordinates of the dimension of the first of them, of a `kind` if it is given.
@@ -96,15 +87,14 @@ def over(
                     about["units"] = known.unit
             coords[called[a.key]] = xr.Variable((name,), np.array(a.values, dtype=kind), about)
     variables = {}
-    for name, column in found.items():
+    for name in table.columns.drop(study.keys):
         if name in coords:
             # the value that was given, see `ECHOED`
             continue
-        if any(isinstance(value, str) for value in column) or name in ("status", "message"):
-            values = np.array(["" if v is None else str(v) for v in column])
-            unit = {}
+        column = table[name]
+        if name in TEXTS or column.map(type).eq(str).any():
+            values, about = column.fillna("").astype(str).to_numpy(str), {}
         else:
-            values = np.array([np.nan if v is None else float(v) for v in column])
-            unit = {"units": units[name]}
-        variables[name] = xr.Variable(names, values.reshape(study.shape), unit)
+            values, about = column.to_numpy(float), {"units": units[name]}
+        variables[name] = xr.Variable(names, values.reshape(study.shape), about)
     return xr.Dataset(variables, coords, attributes)

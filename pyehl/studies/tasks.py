@@ -8,8 +8,8 @@ import json
 import math
 import time
 import traceback
-from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -29,7 +29,7 @@ INSIDE, OUTSIDE = "inside all ranges", "outside the range of a formula"
 RESULTS = frozenset({"converged", "predicted", INSIDE, OUTSIDE})
 """Statuses of cases that have a result."""
 FINDINGS = RESULTS | {"film breakdown", BEYOND}
-"""Statuses of cases that are answered: with a result, or with what keeps the case from one."""
+"""Statuses of finished cases: with a result, or with what keeps the case from one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,10 +44,6 @@ class Task:
     shares: str = ""  # what it has in common with others; those go to one worker where possible
     # A prediction with its tracks, bands and a suggested cut-off; else mu_r/mu_s and its errors
     full: bool = False
-
-    def message(self) -> dict[str, Any]:
-        """Give the task as values of JSON."""
-        return asdict(self)
 
 
 def why_none(row: Mapping[str, Any]) -> str:
@@ -78,6 +74,11 @@ def execute(task: Task) -> Row:
     return row
 
 
+def execute_all(tasks: Sequence[Task]) -> list[Row]:
+    """Do several tasks, one after the other."""
+    return [execute(task) for task in tasks]
+
+
 def _solve(task: Task) -> Row:
     case = trusted(task.text)
     if task.folder:
@@ -104,10 +105,10 @@ def _film(task: Task) -> Row:
     row = _scalars(values)
     row["h_c_m"] = values["formulas"][0]["h_c_m"]
     for formula in values["formulas"]:
-        central, least = film_columns(formula["name"])
+        central, minimum = film_columns(formula["name"])
         row[central] = formula["h_c_m"]
         if formula["h_min_m"] is not None:
-            row[least] = formula["h_min_m"]
+            row[minimum] = formula["h_min_m"]
     outside = [f["name"] for f in values["formulas"] if f["applies"] and f["outside"]]
     row["status"] = OUTSIDE if outside else INSIDE
     row["message"] = ", ".join(outside)

@@ -100,13 +100,12 @@ def _spaced(text: str) -> list[Value]:
     start, stop = float(parts[0]), float(parts[1])
     if not np.isfinite([start, stop]).all():
         raise ValueError("a number is not finite")
-    if geometric:
-        if not (start > 0.0 and stop > 0.0):
-            raise ValueError("geometric spacing needs two positive numbers")
-        # round off what the last digits of a power miss: 0.1 and not 0.10000000000000002
-        spaced = [float(f"{v:.12g}") for v in np.geomspace(start, stop, count)]
-    else:
-        spaced = [float(f"{v:.12g}") for v in np.linspace(start, stop, count)]
+    if geometric and not (start > 0.0 and stop > 0.0):
+        raise ValueError("geometric spacing needs two positive numbers")
+    # round off what the last digits of a power miss: 0.1 and not 0.10000000000000002
+    spaced = [
+        float(f"{v:.12g}") for v in (np.geomspace if geometric else np.linspace)(start, stop, count)
+    ]
     spaced[0] = start
     if count > 1:
         spaced[-1] = stop

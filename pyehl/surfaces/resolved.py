@@ -8,8 +8,8 @@ import numpy as np
 
 from pyehl.case import Case, files_of
 from pyehl.destination import check_files, made_by, mark, new_file
-from pyehl.surfaces.in_memory import as_map
 from pyehl.surfaces.from_case import GROUPS
+from pyehl.surfaces.in_memory import as_map
 from pyehl.surfaces.solver_surface import for_solver
 from pyehl.surfaces.tile import Topography
 

@@ -187,7 +187,7 @@ def test_report_is_given(tab, downloads):
     saved = downloads / "report.html"
     tab.until(saved.exists)
     tab.until(lambda: "</html>" in saved.read_text())
-    assert "What was asked" in saved.read_text()
+    assert "Conditions" in saved.read_text()
 
 
 def test_curve_is_drawn_on_demand(tab):

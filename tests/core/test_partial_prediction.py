@@ -1,22 +1,22 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Prediction of contact at a boundary film."""
 
-from collections import defaultdict
-
 import numpy as np
+import pandas as pd
 import pytest
 
 import pyehl
 from pyehl import cli
 from pyehl.commands.predict import report
 from pyehl.plots import surface
-from pyehl.plots.stribeck import Curve, draw_stribeck
+from pyehl.plots.stribeck import draw_stribeck
 from pyehl.prediction import smooth
 from pyehl.prediction.contact_solver import Compliance, lifted
 from pyehl.prediction.predict import predict
 from pyehl.prediction.smooth_case import touching_points
 from pyehl.schema import summary_of as scalars_of
-from pyehl.studies.curve_contact import lift_off
+from pyehl.studies.curve import CONTACT, CONTACT_EHL, EMPIRICAL, UNITS
+from pyehl.studies.transition import BREAKDOWN, FULL_FILM, Curve, lift_off
 from pyehl.theory.friction import OF_ROUGH
 
 SCENE = """
@@ -124,20 +124,26 @@ def test_picture_of_friction_that_is_not_known(ratio, texts, labels):
     assert ax.get_legend_handles_labels()[1] == labels
 
 
+def curve_of(status: str, **columns: float | None) -> Curve:
+    """A curve of two equal points, whose columns are 1 where nothing else is given."""
+    names = [*UNITS, *CONTACT, *CONTACT_EHL, *EMPIRICAL]
+    row = {"contact.mean_velocity": 1.0, "status": status} | dict.fromkeys(names, 1.0) | columns
+    return Curve("", "contact.mean_velocity", pd.DataFrame([row, row], dtype=object))
+
+
 @pytest.mark.parametrize(("share", "rows"), [(None, 1), (0.0, 3)])
 def test_picture_of_a_curve_whose_contact_is_not_known(share, rows):
     """As of two surfaces: no panels without a line."""
-    row = defaultdict(lambda: 1.0, contact_load_share=share)
-    figure = draw_stribeck([Curve("", [row, row], "", (), absolute=False)], "two surfaces")
+    shares = {"contact_load_share": share, "contact_load_share_ehl": share}
+    figure = draw_stribeck([curve_of(FULL_FILM, **shares)], "two surfaces")
     assert {ax.get_subplotspec().get_gridspec().nrows for ax in figure.axes} == {rows}
 
 
 def test_picture_of_a_curve_without_friction():
-    row = defaultdict(lambda: 1.0, contact_load_share=0.4, mu_ratio=None, mu=None)
-    row |= {"mu_ratio_ehl": None, "mu_empirical": None}
-    figure = draw_stribeck([Curve("", [row, row], "", (0, 1), absolute=False)], "contact")
+    none = dict.fromkeys(("mu_ratio", "mu", "mu_ratio_ehl", "mu_empirical"))
+    figure = draw_stribeck([curve_of(BREAKDOWN, contact_load_share=0.4, **none)], "contact")
     labels = [ax.get_ylabel() for ax in figure.axes]
-    assert [label for label in labels if label] == ["load, area (dashed)", "least film [nm]"]
+    assert [label for label in labels if label] == ["load, area (dashed)", "minimum film [nm]"]
 
 
 def test_curve_says_why_it_has_no_friction(tmp_path, capsys):
@@ -337,7 +343,7 @@ def test_lift_off_with_its_error():
             speeds, (0.0, 0.005, 0.05, 0.5), (0.0, 0.004, 0.03, 0.1), strict=True
         )
     ]
-    found = lift_off("contact.mean_velocity", speeds, rows)
+    found = lift_off(speeds, pd.DataFrame(rows))
     assert found is not None
     part = (0.05 - 0.01) / (0.05 - 0.005)
     assert found.speed == pytest.approx(0.2 * 2.0**part)
@@ -349,12 +355,12 @@ def test_lift_off_with_its_error():
     # no speed where its error is not known: beyond the curve, or by a point without one
     for error in (1.0, None):
         unknown = [row | {"contact_load_share_error": error} for row in rows]
-        lost = lift_off("contact.mean_velocity", speeds, unknown)
+        lost = lift_off(speeds, pd.DataFrame(unknown))
         assert lost is not None
         assert np.isnan([lost.speed, lost.error, lost.lambda_ratio]).all()
         assert lost.words.startswith("lift-off   not known: 1% of the load")
-    assert lift_off("contact.load", speeds, rows) is None
-    assert lift_off("contact.mean_velocity", speeds[:2], rows[:2]) is None
+    assert Curve("", "contact.load", pd.DataFrame(rows)).lift_off is None
+    assert lift_off(speeds[:2], pd.DataFrame(rows[:2])) is None
 
 
 @pytest.mark.long

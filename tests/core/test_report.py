@@ -2,6 +2,7 @@
 """``pyehl report``: one page about any result, which needs nothing but itself."""
 
 import base64
+import html
 import io
 import json
 import re
@@ -16,7 +17,7 @@ from PIL import Image
 import pyehl
 from pyehl.cli import main
 from pyehl.display import with_error
-from pyehl.reports.answer import judge
+from pyehl.reports.assessment import assess
 from pyehl.reports.limits import limits, warnings
 
 LARGEST = 2_000_000
@@ -72,7 +73,7 @@ def read(path: Path) -> Page:
     for _, data in page.pictures:
         pixels = np.asarray(Image.open(io.BytesIO(data)).convert("L"))
         assert pixels.std() > 5.0
-    for part in ("What was asked", "The answer", "Limits that apply", "Versions", "How to cite"):
+    for part in ("Conditions", "Results", "Limits that apply", "Versions", "How to cite"):
         assert part in page.text
     return page
 
@@ -133,17 +134,31 @@ def test_the_case_in_it_can_be_run(folders, tmp_path, root):
     """The short case of the page is the case that was run."""
     text = pyehl.report(folders / "smooth", tmp_path / "page.html").read_text(encoding="utf-8")
     short = re.search(r"<pre>(&amp;.*?)</pre>", text, re.DOTALL)[1]
-    (tmp_path / "case.nml").write_text(short.replace("&amp;", "&").replace("&#x27;", "'"))
+    (tmp_path / "case.nml").write_text(html.unescape(short))
     again = pyehl.Case(tmp_path / "case.nml").resolve()
     asked = ("grid.points=129", "surface.kind=smooth")
     assert again == pyehl.Case(root / "cases/table1.nml", *asked).resolve()
+
+
+@pytest.mark.parametrize(
+    ("load", "verdict"),
+    [
+        ("50,51", "Holds. 2 of 2 cases have a result."),
+        ("50,300", "2 of 2 cases have a result. Of these: 1 'outside the range of a formula'."),
+    ],
+)
+def test_films_by_formula_are_results(tmp_path, root, load, verdict):
+    vary = {"contact.load": [float(word) for word in load.split(",")]}
+    folder = tmp_path / "films"
+    pyehl.sweep(root / "cases/table1.nml", vary, run="film", output=folder, jobs=1)
+    assert verdict in read(pyehl.report(folder)).text
 
 
 def test_no_answer_is_said(tmp_path, root):
     with pytest.raises(pyehl.NotConverged):
         pyehl.solve(root / "cases/quick.nml", SMALL, "solver.max_cycles=1", output=tmp_path / "run")
     page = read(pyehl.report(tmp_path / "run", tmp_path / "page.html"))
-    assert "No answer. The status is 'cycle limit'" in page.text
+    assert "No result. The status is 'cycle limit'" in page.text
     assert "H_c =" not in page.text
 
 
@@ -165,7 +180,7 @@ def test_a_failed_case_of_a_study_is_said(folders, tmp_path):
     rows[1] = rows[1].replace(",converged,", ",cycle limit,")
     (folder / "results.csv").write_text("\n".join(rows) + "\n")
     page = read(pyehl.report(folder, tmp_path / "page.html"))
-    assert "Take with care. 2 of 3 cases have an answer. The others: 1 'cycle limit'" in page.text
+    assert "Take with care. 2 of 3 cases have a result. The others: 1 'cycle limit'" in page.text
 
 
 def test_heat_that_the_friction_has_is_no_warning(root):
@@ -211,10 +226,10 @@ def test_a_zipped_study_that_is_not_done_is_said(tmp_path, root):
     vary = {"contact.moes_m": [50.0, 100.0, 200.0], "contact.moes_l": [8.0, 9.0, 10.0]}
     folder = tmp_path / "sweep"
     pyehl.sweep(root / "cases/quick.nml", vary, SMALL, zipped=True, output=folder, jobs=1)
-    assert "3 of 3 cases have an answer." in read(pyehl.report(folder)).text
+    assert "3 of 3 cases have a result." in read(pyehl.report(folder)).text
     rows = (folder / "results.csv").read_text().splitlines()
     (folder / "results.csv").write_text("\n".join(rows[:-1]) + "\n")
-    assert "2 of 2 cases have an answer; 1 are not done" in read(pyehl.report(folder)).text
+    assert "2 of 2 cases have a result; 1 are not done" in read(pyehl.report(folder)).text
 
 
 def test_where_the_maps_of_a_study_lie_is_left_out(tmp_path, root):
@@ -339,11 +354,11 @@ GOOD = {
             "pass",
         ),
         ({"h_min_m": 5e-9}, "Thin film", "The least film is 5.00 nm", "care"),
-        ({"status": "diverged"}, "No answer", "'diverged'", "fail"),
+        ({"status": "diverged"}, "No result", "'diverged'", "fail"),
     ],
 )
-def test_judgement(changed, word, why, kind):
-    found = judge(GOOD | changed)
+def test_assessment(changed, word, why, kind):
+    found = assess(GOOD | changed)
     assert (found.word, found.kind) == (word, kind)
     assert why in found.why
 
@@ -367,10 +382,10 @@ def test_limits_that_apply(root):
         (
             layer,
             touching,
-            "Mixed lubrication: 14 % of the load is carried at the boundary film of 40",
+            "Mixed lubrication: 14 % of the load is on the boundary film of 40",
         ),
-        (layer, touching | {"contact_load_share": 0.0}, "The bodies touch nowhere"),
-        (layer, touching | {"contact_load_share": None}, "Whether the bodies touch"),
+        (layer, touching | {"contact_load_share": 0.0}, "There is no solid contact"),
+        (layer, touching | {"contact_load_share": None}, "Whether there is solid contact"),
         (thinning, {"kind": "prediction", "status": "film breakdown"}, "The film ends"),
         (thinning, {"kind": "solution", "status": "converged"}, "there is no mixed lubrication"),
     ):

@@ -13,8 +13,8 @@ from matplotlib.image import imread
 
 import pyehl
 from pyehl.cli import main
-from pyehl.studies.curve import BREAKDOWN, FULL_FILM, OUTSIDE, full_film_ends
 from pyehl.studies.curve_pattern import pattern
+from pyehl.studies.transition import BREAKDOWN, FULL_FILM, OUTSIDE, full_film_ends
 from pyehl.surfaces import harmonic
 from pyehl.theory import stribeck
 from pyehl.theory.operating import OperatingPoint
@@ -245,32 +245,25 @@ def test_pattern_of_a_map_of_one_wave_is_that_wave(tmp_path: Path):
     assert found.rms_height == pytest.approx(1.5e-8, rel=1e-9)
 
 
-def statuses(*words: str) -> list[dict[str, str]]:
-    return [{"status": word} for word in words]
-
-
 @pytest.mark.parametrize(
-    ("rows", "says", "broken"),
+    ("statuses", "says"),
     [
-        (statuses(FULL_FILM, FULL_FILM, FULL_FILM), "full film at all points", ()),
+        ([FULL_FILM, FULL_FILM, FULL_FILM], "full film at all points"),
         (
-            statuses(FULL_FILM, OUTSIDE, FULL_FILM),
+            [FULL_FILM, OUTSIDE, FULL_FILM],
             "full film at all points; 1 of them outside the range of the prediction",
-            (),
         ),
-        (statuses(BREAKDOWN, BREAKDOWN, FULL_FILM), "between u = 2 and 3", (0, 1)),
-        (statuses(BREAKDOWN, "not solved", FULL_FILM), "between u = 1 and 3", (0,)),
-        (statuses(FULL_FILM, BREAKDOWN, BREAKDOWN), "between u = 1 and 2", (1, 2)),
-        (statuses(BREAKDOWN, BREAKDOWN, BREAKDOWN), "no full film", (0, 1, 2)),
-        (statuses("not solved", FULL_FILM, FULL_FILM), "1 have none", ()),
-        (statuses(BREAKDOWN, BREAKDOWN, "not solved"), "no full film at any point with", (0, 1)),
-        (statuses("not solved", "not solved", "not solved"), "no point has an answer", ()),
+        ([BREAKDOWN, BREAKDOWN, FULL_FILM], "between u = 2 and 3"),
+        ([BREAKDOWN, "not solved", FULL_FILM], "between u = 1 and 3"),
+        ([FULL_FILM, BREAKDOWN, BREAKDOWN], "between u = 1 and 2"),
+        ([BREAKDOWN, BREAKDOWN, BREAKDOWN], "no full film"),
+        (["not solved", FULL_FILM, FULL_FILM], "1 have none"),
+        ([BREAKDOWN, BREAKDOWN, "not solved"], "no full film at any point with"),
+        (["not solved", "not solved", "not solved"], "no point has a result"),
     ],
 )
-def test_where_full_film_ends(rows: list[dict[str, str]], says: str, broken: tuple[int, ...]):
-    words, found = full_film_ends("u", [1.0, 2.0, 3.0], rows)
-    assert says in words
-    assert found == broken
+def test_where_full_film_ends(statuses: list[str], says: str):
+    assert says in full_film_ends("u", [1.0, 2.0, 3.0], statuses)
 
 
 @pytest.mark.parametrize(
@@ -304,7 +297,7 @@ def test_ends_of_a_curve_say_why(cases: Path, tmp_path: Path):
     assert lost["status"] == "not solved"
     assert "did not converge on 1025 x 1025 nodes" in lost["message"]
     assert "point 1 of 2 (contact.mean_velocity=0.005): not solved: failed: " in complaint
-    assert "full film at all points with an answer; 1 have none" in told
+    assert "full film at all points with a result; 1 have none" in told
     assert found["status"] == FULL_FILM
     words = ("--set", "surface.pixels=256", "--set", "grid.points=257", "--set")
     words += ("surface.rms_height=7e-8", "-o", str(tmp_path / "2"))
@@ -337,7 +330,7 @@ def test_nothing_solved_is_no_full_film(cases: Path, tmp_path: Path):
     """Neither words nor pictures speak of a film that no point has."""
     words = ("--set", "surface.kind=smooth", "--set", "grid.points=65", "--speed", "0.003,0.005")
     told, complaint = run(str(cases / "table1.nml"), *words, "-o", str(tmp_path / "out"), expect=1)
-    assert "no point has an answer" in told
+    assert "no point has a result" in told
     assert "full film" not in told
     assert complaint.count(": not solved: ") == 2
     assert "there is no picture" in complaint

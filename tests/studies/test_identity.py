@@ -7,10 +7,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from journals import rows_in
 
 from pyehl.cli import main
 from pyehl.studies import study as study_module
-from pyehl.studies.journal import NAME
 
 
 def pyehl_(command: str, folder: Path, *words: str, expect: int = 0) -> str:
@@ -40,12 +40,12 @@ def mapped(tmp_path: Path) -> tuple[Path, list[str]]:
 
 def test_a_study_whose_map_has_changed_is_refused(mapped: tuple[Path, list[str]]):
     folder, words = mapped
-    before = (folder / "out" / NAME).read_bytes()
+    before = rows_in(folder / "out")
     np.save(folder / "in" / "scan.npy", heights(1))
     refused = pyehl_("sweep", folder / "out", str(folder / "in" / "case.nml"), *words, expect=2)
     assert "file.scan.npy: there sha256 " in refused
     assert "lubricant" not in refused
-    assert (folder / "out" / NAME).read_bytes() == before
+    assert rows_in(folder / "out") == before
 
 
 def test_a_study_goes_on_where_its_map_has_moved(mapped: tuple[Path, list[str]]):

@@ -1,18 +1,23 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The journal of a study: what is in it stays in it, whatever happens to process or file."""
 
+import re
 import shutil
+import sqlite3
+import subprocess
+import sys
 import threading
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import closing
 from pathlib import Path
 
 import pytest
 
 from pyehl import Case, FileError, InputError
 from pyehl.results import load
-from pyehl.studies import journal as journal_module
-from pyehl.studies.journal import NAME, Journal, difference
+from pyehl.studies.journal import FILES, NAME, Journal, difference, read_header
 
+WAL = FILES[1]
 STUDY = {"run": "film", "vary": {"contact.load": [1.0, 2.0]}}
 
 
@@ -30,19 +35,21 @@ def test_rows_come_back(tmp_path: Path):
     assert told[0]["x"] == 0.1 + 0.2
 
 
-def test_cut_anywhere_it_has_all_rows_before_the_cut(tmp_path: Path):
-    """A kill leaves some first part of the bytes that were to be written."""
+def test_killed_anywhere_it_has_all_rows_before(tmp_path: Path):
+    """A kill leaves some first part of what was to be written behind the last transaction."""
     whole = tmp_path / "whole"
     with Journal(whole, STUDY) as journal:
+        sizes = []
         for number in range(4):
             journal.append([(number, {"x": float(number)})])
-    data = (whole / NAME).read_bytes()
-    first = data.index(b"\n") + 1
-    for length in range(first, len(data) + 1):
+            sizes.append((whole / WAL).stat().st_size)
+        shutil.copytree(whole, tmp_path / "killed")
+    data = (tmp_path / "killed" / WAL).read_bytes()
+    for length in range(0, len(data) + 1, 509):
         cut = tmp_path / "cut"
-        cut.mkdir()
-        (cut / NAME).write_bytes(data[:length])
-        complete = data[:length].count(b"\n") - 1
+        shutil.copytree(tmp_path / "killed", cut)
+        (cut / WAL).write_bytes(data[:length])
+        complete = sum(size <= length for size in sizes)
         assert rows_of(cut) == {n: {"x": float(n)} for n in range(complete)}
         # and it can be resumed
         with Journal(cut, STUDY) as journal:
@@ -51,25 +58,21 @@ def test_cut_anywhere_it_has_all_rows_before_the_cut(tmp_path: Path):
         shutil.rmtree(cut)
 
 
-def test_a_damaged_row_is_left_out(tmp_path: Path):
-    with Journal(tmp_path, STUDY) as journal:
-        journal.append([(n, {"x": float(n)}) for n in range(3)])
+@pytest.mark.parametrize("damage", [b"all of my thesis\n" * 300, None])
+def test_what_is_no_journal_is_refused_and_left_alone(tmp_path: Path, damage: bytes | None):
+    """A text, or a database of another program, of the same name."""
     path = tmp_path / NAME
-    data = bytearray(path.read_bytes())
-    place = data.index(b'"x":1.0') + 4
-    data[place] = ord("7")
-    path.write_bytes(data)
-    with Journal(tmp_path, STUDY) as journal:
-        assert list(journal.rows) == [0, 2]
-        assert journal.damaged == 1
-
-
-def test_a_damaged_first_line_is_refused(tmp_path: Path):
-    Journal(tmp_path, STUDY).close()
-    path = tmp_path / NAME
-    path.write_bytes(b"0" + path.read_bytes()[1:])
-    with pytest.raises(InputError, match="first line is damaged"):
+    if damage is None:
+        with closing(sqlite3.connect(path)) as base:
+            base.execute("CREATE TABLE songs (name TEXT)")
+    else:
+        path.write_bytes(damage)
+    before = path.read_bytes()
+    with pytest.raises(InputError, match=r"journal\.sqlite: (no journal|not a journal)"):
         Journal(tmp_path, STUDY)
+    assert path.read_bytes() == before
+    assert [p.name for p in tmp_path.iterdir()] == [NAME]
+    assert read_header(tmp_path) is None
 
 
 def test_another_study_is_refused_with_the_difference(tmp_path: Path):
@@ -103,8 +106,22 @@ def test_difference_of_the_same_is_nothing():
 
 
 def test_two_processes_do_not_write_one_journal(tmp_path: Path):
-    with Journal(tmp_path, STUDY), pytest.raises(InputError, match="another process"):
-        Journal(tmp_path, STUDY)
+    """The second one is told which process works on it; what the study is can be read."""
+    code = (
+        "import sys, json; from pyehl.studies.journal import Journal\n"
+        f"with Journal({str(tmp_path)!r}, {STUDY!r}) as journal:\n"
+        "    print('begun', flush=True); sys.stdin.read()"
+    )
+    words = [sys.executable, "-P", "-c", code]
+    with subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as other:
+        assert other.stdout is not None
+        assert other.stdout.readline() == b"begun\n"
+        with pytest.raises(InputError, match=f"process {other.pid} on .* works on this study"):
+            Journal(tmp_path, STUDY)
+        assert read_header(tmp_path) == STUDY
+        other.kill()
+    # a lock ends with its process, whatever ended that
+    assert rows_of(tmp_path) == {}
 
 
 def test_other_folders_are_left_alone(tmp_path: Path):
@@ -135,58 +152,22 @@ def test_first_starts_at_once_lose_nothing(tmp_path: Path):
 
             found = list(pool.map(start, range(starts)))
             words = {text for text in found if isinstance(text, str)}
-            assert words <= {f"{folder}: another process works on this study"}
+            assert all(re.fullmatch(f"{folder}: .*process.* works on this study", w) for w in words)
             refused += len(words)
             lost += sorted({k for k in found if isinstance(k, int)} - set(rows_of(folder)))
-            assert [p.name for p in folder.iterdir()] == [NAME]
+            assert {p.name for p in folder.iterdir()} <= set(FILES)
     assert lost == []
     assert refused
 
 
-def test_a_journal_that_was_removed_meanwhile_is_not_written(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-):
-    """Between opening and locking: the rows would go to a file that nobody can find."""
-    real = journal_module.fcntl.flock
-    left = [1, 1]
-
-    def flock(*arguments: object) -> None:
-        if left:
-            left.pop()
-            (tmp_path / NAME).unlink()
-        real(*arguments)
-
-    monkeypatch.setattr(journal_module.fcntl, "flock", flock)
+def test_without_room_no_row_is_taken_for_kept(tmp_path: Path):
     with Journal(tmp_path, STUDY) as journal:
-        journal.append([(0, {"x": 1.0})])
-    assert rows_of(tmp_path) == {0: {"x": 1.0}}
-
-
-def test_a_first_line_that_was_cut_is_written_again(tmp_path: Path):
-    """It has no rows yet; that of another study is not touched."""
-    Journal(tmp_path, STUDY).close()
-    path = tmp_path / NAME
-    first = path.read_bytes()
-    for length in (0, 5, len(first) - 1):
-        path.write_bytes(first[:length])
-        Journal(tmp_path, STUDY).close()
-        assert path.read_bytes() == first
-    path.write_bytes(first[:-1])
-    with pytest.raises(InputError, match="first line is damaged"):
-        Journal(tmp_path, {"run": "solve"})
-    assert path.read_bytes() == first[:-1]
-
-
-def test_without_room_for_its_first_line_there_is_no_journal(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-):
-    def full(number: int) -> None:
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(journal_module.os, "fsync", full)
-    with pytest.raises(FileError, match="No space left"):
-        Journal(tmp_path / "new", STUDY)
-    assert list((tmp_path / "new").iterdir()) == []
+        pages = journal._base.execute("PRAGMA page_count").fetchone()[0]
+        journal._base.execute(f"PRAGMA max_page_count = {pages}")
+        with pytest.raises(FileError, match="cannot write: database or disk is full"):
+            journal.append([(0, {"x": "long" * 5000})])
+        assert journal.rows == {}
+    assert rows_of(tmp_path) == {}
 
 
 def test_cases_differ_by_their_keys():

@@ -2,22 +2,20 @@
 """Workers and studies that are stopped or killed: no finished case is ever lost."""
 
 import csv
-import json
 import os
 import random
 import signal
 import subprocess
 import sys
 import time
-from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
+from journals import rows_in
 
 import pyehl
 from pyehl.studies import pool
 from pyehl.studies import tasks as tasks_module
-from pyehl.studies.journal import NAME
 from pyehl.studies.tasks import FAILED, Task, execute
 
 SWEEP = [sys.executable, "-P", "-m", "pyehl", "sweep"]
@@ -27,11 +25,6 @@ FAST = ("--set", "grid.points=33", "--vary", "contact.moes_m=20:60:10")
 def table(folder: Path) -> list[dict[str, str]]:
     with (folder / "results.csv").open(newline="") as stream:
         return list(csv.DictReader(stream))
-
-
-def cases_in_journal(folder: Path) -> list[int]:
-    lines = (folder / NAME).read_text().splitlines()[1:]
-    return [json.loads(line.partition(" ")[2])["case"] for line in lines]
 
 
 def test_a_failing_case_does_not_stop_the_rest():
@@ -62,17 +55,14 @@ def test_a_fault_of_the_program_keeps_where_it_was(monkeypatch: pytest.MonkeyPat
 
 def test_a_task_that_ends_its_worker_is_a_row(monkeypatch: pytest.MonkeyPatch):
     """The worker dies on it, on another one again, and all other tasks are done."""
-    code = (
-        "import os, sys, json; import pyehl.studies.worker as w; real = w.execute\n"
-        "w.execute = lambda t: os.abort() if t.number == 1 else real(t)\n"
-        "w.main()"
-    )
-    real = subprocess.Popen
+    real = pool.execute_all
 
-    def popen(words: Sequence[str], **more):
-        return real([sys.executable, "-P", "-c", code], stderr=subprocess.DEVNULL, **more)
+    def deadly(tasks: list[Task]) -> list[dict[str, object]]:
+        if any(task.number == 1 for task in tasks):
+            os.abort()
+        return real(tasks)
 
-    monkeypatch.setattr(pool.subprocess, "Popen", popen)
+    monkeypatch.setattr(pool, "execute_all", deadly)
     text = pyehl.Case.from_text("").text
     tasks = [Task(n, text, "film") for n in range(5)]
     rows = dict(row for some in pool.rows(tasks, 2) for row in some)
@@ -85,18 +75,24 @@ def test_a_task_that_ends_its_worker_is_a_row(monkeypatch: pytest.MonkeyPatch):
 def test_long_tasks_first_and_sharing_tasks_together():
     tasks = [Task(n, "", "solve", seconds=float(n % 3), shares=f"s{n % 3}") for n in range(9)]
     waiting = pool.Queue(tasks)
-    one, other = waiting.take(""), waiting.take("")
-    assert one is not None
-    assert other is not None
+    (one,), (other,) = waiting.take(""), waiting.take("")
     assert (one.seconds, other.seconds) == (2.0, 1.0)
-    same = waiting.take(one.shares)
-    assert same is not None
+    (same,) = waiting.take(one.shares)
     assert same.shares == one.shares
-    waiting.put_back(one)
+    waiting.put_back([one])
     left = []
-    while (task := waiting.take("")) is not None:
-        left.append(task.number)
+    while some := waiting.take(""):
+        left += [task.number for task in some]
     assert sorted(left) == sorted({*range(9)} - {other.number, same.number})
+
+
+def test_short_tasks_go_together_and_alone_after_a_death():
+    waiting = pool.Queue([Task(n, "", "film", seconds=0.03) for n in range(9)])
+    some = waiting.take("")
+    assert [task.number for task in some] == [0, 1, 2, 3]
+    waiting.put_back(some)
+    assert [len(waiting.take("")) for _ in range(6)] == [1, 1, 1, 1, 4, 1]
+    assert waiting.take("") == []
 
 
 def begin(folder: Path, case: Path) -> subprocess.Popen[str]:
@@ -122,8 +118,7 @@ def children(process: subprocess.Popen[str]) -> list[int]:
 def wait_for_rows(folder: Path, count: int) -> None:
     end = time.monotonic() + 60.0
     while time.monotonic() < end:
-        path = folder / NAME
-        if path.is_file() and path.read_bytes().count(b"\n") > count:
+        if len(rows_in(folder)) >= count:
             return
         time.sleep(0.01)
     raise AssertionError(f"there are no {count} rows")
@@ -131,7 +126,7 @@ def wait_for_rows(folder: Path, count: int) -> None:
 
 def check_whole(folder: Path, unbroken: Path) -> None:
     """Every case once, with the numbers of a study that nobody stopped."""
-    assert sorted(cases_in_journal(folder)) == list(range(200))
+    assert list(rows_in(folder)) == list(range(200))
     for a, b in zip(table(folder), table(unbroken), strict=True):
         assert {k: v for k, v in a.items() if k != "seconds"} == {
             k: v for k, v in b.items() if k != "seconds"
@@ -154,7 +149,7 @@ def test_ctrl_c_keeps_everything(cases: Path, tmp_path: Path, unbroken: Path):
     told, complaint = process.communicate(timeout=60)
     assert process.returncode == 130, told + complaint
     assert "the same command resumes it" in complaint
-    finished = cases_in_journal(folder)
+    finished = rows_in(folder)
     assert 3 <= len(finished) < 200
     assert len(table(folder)) == len(finished)
     finish(folder, cases / "quick.nml")
@@ -189,7 +184,7 @@ def test_killed_at_random_it_has_every_finished_row(cases: Path, tmp_path: Path,
     folder = tmp_path / "out"
     draw = random.Random(5)
     kills = 0
-    before: list[int] = []
+    before: dict[int, dict[str, object]] = {}
     while kills < 24:
         process = begin(folder, cases / "quick.nml")
         # most kills while rows are written; the others wherever the time falls
@@ -201,12 +196,8 @@ def test_killed_at_random_it_has_every_finished_row(cases: Path, tmp_path: Path,
         if process.returncode != -signal.SIGKILL:
             break
         kills += 1
-        text = (folder / NAME).read_text() if (folder / NAME).is_file() else "\n"
-        now = [
-            json.loads(line.partition(" ")[2])["case"]
-            for line in text.rpartition("\n")[0].splitlines()[1:]
-        ]
-        assert now[: len(before)] == before
+        now = rows_in(folder)
+        assert {number: now[number] for number in before} == before
         before = now
     assert kills >= 20
     assert len(before) >= 50

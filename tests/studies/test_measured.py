@@ -6,11 +6,13 @@ from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from pyehl.cli import main
 from pyehl.errors import InputError
 from pyehl.studies.measured_friction import Measured, read_measured
+from pyehl.studies.transition import Curve
 
 KEY = "contact.mean_velocity"
 
@@ -27,15 +29,15 @@ def run(*words: str, expect: int = 0) -> str:
 def test_measured_data_over_other_abscissae(tmp_path: Path):
     (tmp_path / "m.csv").write_text("u,mu\n2.0,0.05\n8.0,0.04\n99.0,0.03\n")
     measured = read_measured(tmp_path / "m.csv", "u")
-    places = np.array([1.0, 4.0, 16.0])
     # lambda goes as u^2 on this curve
-    rows = [{"lambda_ratio": u**2} for u in places]
-    assert measured.over("u", "u", places, rows) == pytest.approx([2.0, 8.0, 99.0])
-    found = measured.over("lambda_ratio", "u", places, rows)
+    table = {"u": [1.0, 4.0, 16.0], "lambda_ratio": [1.0, 16.0, 256.0]}
+    curve = Curve("", "u", pd.DataFrame(table))
+    assert measured.over("u", curve) == pytest.approx([2.0, 8.0, 99.0])
+    found = measured.over("lambda_ratio", curve)
     assert found[:2] == pytest.approx([4.0, 64.0])
     assert np.isnan(found[2])
     back = Measured("lambda_ratio", np.array([9.0]), "mu", np.array([0.1]), np.zeros(1))
-    assert back.over("u", "u", places, rows) == pytest.approx([3.0])
+    assert back.over("u", curve) == pytest.approx([3.0])
 
 
 @pytest.mark.parametrize(

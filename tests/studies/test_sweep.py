@@ -10,15 +10,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from journals import rows_in
 
 import pyehl
 from pyehl.cli import main
 from pyehl.commands.sweep import report
 from pyehl.studies import plan as plan_module
+from pyehl.studies.estimate import Remaining, seconds_of
 from pyehl.studies.gather import Outcome
-from pyehl.studies.journal import NAME
-from pyehl.studies.plan import plan, seconds_of
+from pyehl.studies.plan import plan
 from pyehl.studies.study import make
+from pyehl.studies.tasks import Task
 from pyehl.studies.vary import parse_axis
 
 
@@ -87,22 +89,22 @@ def test_the_plan_and_the_end_are_told(done: tuple[Path, str]):
 
 
 def test_started_again_it_runs_nothing_twice(done: tuple[Path, str], cases: Path):
-    before = (done[0] / NAME).read_bytes()
+    before = rows_in(done[0])
     words = ("--set", "grid.points=65", "--vary", "contact.moes_m=50:200:4log")
     words += ("--vary", "contact.moes_l=5,10")
     again, _ = sweep(done[0], str(cases / "quick.nml"), *words)
-    assert (done[0] / NAME).read_bytes() == before
+    assert rows_in(done[0]) == before
     assert "8 of them are done" in again
     assert "ran now" not in again
 
 
 def test_another_study_in_the_same_folder_is_refused(done: tuple[Path, str], cases: Path):
-    before = (done[0] / NAME).read_bytes()
+    before = rows_in(done[0])
     words = ("--set", "grid.points=129", "--vary", "contact.moes_m=50:200:4log")
     _, refused = sweep(done[0], str(cases / "quick.nml"), *words, expect=2)
     assert "set: there ['grid.points=65'], here ['grid.points=129']" in refused
     assert "vary.contact.moes_l: there [5, 10], here nothing" in refused
-    assert (done[0] / NAME).read_bytes() == before
+    assert rows_in(done[0]) == before
 
 
 @pytest.mark.parametrize(
@@ -260,6 +262,20 @@ def test_estimates_of_predictions(cases: Path):
         settings = pyehl.Case(cases / case, options).resolve()
         ratio = seconds_of(settings, "predict") / measured
         assert 0.4 < ratio < 2.5, (case, options, ratio)
+
+
+def test_the_time_left_follows_from_what_the_first_cases_took():
+    """Each kind of task by its own: a machine that is ten times as slow, and film sheets."""
+    tasks = [Task(n, "", "solve" if n < 8 else "film", seconds=1.0) for n in range(10)]
+    left = Remaining(tasks, 2)
+    assert (left.count, left.total, left.seconds) == (10, 10.0, 5.0)
+    left.remove([(0, {"seconds": 10.0}), (1, {"seconds": 10.0}), (2, {"seconds": None})])
+    # five cases of 10 s, and two of which nothing else is known
+    assert left.seconds == pytest.approx(70.0 / 2.0)
+    left.remove([(8, {"seconds": 0.5})])
+    assert left.seconds == pytest.approx((5 * 10.0 + 0.5) / 2.0)
+    left.remove([(n, {"seconds": 10.0}) for n in (3, 4, 5, 6, 7)] + [(9, {"seconds": 0.5})])
+    assert (left.count, left.estimate, left.seconds) == (0, 0.0, 0.0)
 
 
 @pytest.mark.long

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What was asked: the conditions of a case in SI units and in the numbers of Moes and Hertz."""
+"""The conditions of a case in SI units and in the numbers of Moes and Hertz."""
 
 from collections.abc import Mapping
 from typing import Any

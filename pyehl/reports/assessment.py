@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The answer of a result in rows with errors, and a judgement of it."""
+"""The numbers of a result with their errors, and an assessment of it."""
 
 from typing import NamedTuple
 
@@ -17,36 +17,36 @@ WORDS = {
     "h_c": "central film",
     "H_min": "minimum film",
     "h_min": "minimum film",
-    "p_max": "largest pressure",
+    "p_max": "maximum pressure",
     "p_h": "Hertz pressure",
     "Lambda": "film ratio Λ",
     "mu_r/mu_s": "μ_r/μ_s",
     "mu": "coefficient of friction",
-    "heat": "rise of temperature",
+    "heat": "temperature increase",
 }
 
 
-class Judgement(NamedTuple):
-    """What a result is worth: a word, why, and 'pass', 'care' or 'fail'."""
+class Assessment(NamedTuple):
+    """An assessment of a result: a word, why, and 'pass', 'care' or 'fail'."""
 
     word: str
     why: str
     kind: str
 
 
-def answer(summary: Values) -> dict[str, str]:
-    """Give names and values of what was found; nothing where there is no answer."""
-    told = library.conclude(summary)
-    if told.worth == "no answer":
+def numbers_of(summary: Values) -> dict[str, str]:
+    """Give names and values of what was found; nothing where there is no result."""
+    conclusion = library.conclude(summary)
+    if conclusion.worth == "no answer":
         return {}
     found = {
         WORDS[name]: f"{name} = {_signs(text)}" if name in ("H_c", "H_min") else _signs(text)
-        for name, text in told.lines.items()
+        for name, text in conclusion.lines.items()
         if name in WORDS
     }
     if summary.get("mu_ratio_min") is not None:
-        least, most = summary["mu_ratio_min"], summary["mu_ratio_max"]
-        found["μ_r/μ_s"] += f"; between {least:.4g} and {most:.4g} over the passage"
+        low, high = summary["mu_ratio_min"], summary["mu_ratio_max"]
+        found["μ_r/μ_s"] += f"; between {low:.4g} and {high:.4g} over the passage"
     return found | (_predicted(summary) if summary["kind"] == "prediction" else _solved(summary))
 
 
@@ -75,11 +75,15 @@ def _predicted(s: Values) -> dict[str, str]:
     }
 
 
-def judge(summary: Values) -> Judgement:
-    """Judge a result as its last lines do."""
-    told = library.conclude(summary)
-    word, _, why = _signs(told.judgement).partition(": ")
+def assess(summary: Values) -> Assessment:
+    """Assess a result as its last lines do."""
+    conclusion = library.conclude(summary)
+    word, _, why = _signs(conclusion.judgement).partition(": ")
     hint = ""
     if summary.get("film_breakdown"):
-        hint = " No number is a result. What would leave a full film stands below."
-    return Judgement(word.capitalize(), f"{why[:1].upper()}{why[1:]}.{hint}", KINDS[told.worth])
+        hint = " No number is a result. What leaves a full film is listed below."
+    return Assessment(
+        word.replace("no answer", "no result").capitalize(),
+        f"{why[:1].upper()}{why[1:]}.{hint}",
+        KINDS[conclusion.worth],
+    )

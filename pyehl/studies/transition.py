@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Where full film ends along a Stribeck curve, and the speed at which contact ends."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+
+from pyehl.types import Array
+
+STATUSES = ("full film", "mixed film", "film breakdown", "outside the range", "not solved")
+"""What a point of a curve can be."""
+FULL_FILM, MIXED, BREAKDOWN, OUTSIDE, UNSOLVED = STATUSES
+LIFT_OFF = 0.01
+"""Share of the load at the boundary film to which it falls at the transition speed."""
+SPEED = "contact.mean_velocity"
+
+
+@dataclass(frozen=True, slots=True)
+class Curve:
+    """One curve of a table."""
+
+    label: str  # its name in a legend; '' for the only one
+    key: str  # what it goes over
+    table: pd.DataFrame  # its rows
+    absolute: bool = False  # whether friction is drawn as a coefficient, else as a ratio
+
+    @property
+    def places(self) -> Array:
+        """Values of the key (n,)."""
+        return self.column(self.key)
+
+    def column(self, name: str) -> Array:
+        """Give a column (n,); a number that does not exist is NaN."""
+        return self.table[name].to_numpy(float)
+
+    def friction(self, name: str = "mu_ratio") -> Array:
+        """Give a column of ratios (n,), as coefficients where these are drawn."""
+        if not self.absolute:
+            return self.column(name)
+        # in contact with frictional heating there is no mu_smooth
+        smooth, own = self.column("mu_smooth"), self.column("mu") / self.column("mu_ratio")
+        return self.column(name) * np.where(np.isfinite(smooth), smooth, own)
+
+    @property
+    def broken(self) -> tuple[int, ...]:
+        """Places of the rows without a full film."""
+        return tuple(np.flatnonzero(self.table["status"].isin((BREAKDOWN, MIXED))).tolist())
+
+    @property
+    def ends(self) -> str:
+        """Where full film ends, in words."""
+        return full_film_ends(self.key, self.places, self.table["status"].tolist())
+
+    @property
+    def lift_off(self) -> "LiftOff | None":
+        """Where contact ends; None where that is not on the curve."""
+        known = self.key == SPEED and "contact_load_share" in self.table
+        return lift_off(self.places, self.table) if known else None
+
+
+def full_film_ends(key: str, places: Sequence[float] | Array, statuses: Sequence[str]) -> str:
+    """Report where full film ends along a curve over `key`.
+
+    `places` are its values, ascending or descending, with the status of the curve at these.
+    """
+    broken = [k for k, status in enumerate(statuses) if status in (BREAKDOWN, MIXED)]
+    known = [k for k, status in enumerate(statuses) if status in (FULL_FILM, OUTSIDE)]
+    lost = len(statuses) - len(known) - len(broken)
+    rest = f" with a result; {lost} have none" if lost else ""
+    far = statuses.count(OUTSIDE)
+    beyond = f"; {far} of them outside the range of the prediction" if far else ""
+    if not known and not broken:
+        return "no point has a result"
+    if not broken:
+        return f"full film at all points{beyond}{rest}"
+    if not known:
+        return f"no full film at any point{rest}"
+    k, j = min(((k, j) for k in broken for j in known), key=lambda pair: abs(pair[0] - pair[1]))
+    low, high = sorted((places[k], places[j]))
+    return f"full film ends between {key} = {low:.4g} and {high:.4g}"
+
+
+@dataclass(frozen=True, slots=True)
+class LiftOff:
+    """Where contact ends along a curve over the speed; NaN for what is not known.
+
+    Without an error there is no speed.
+    """
+
+    speed: float = math.nan  # transition speed [m/s]
+    error: float = math.nan  # by the error of the load share [m/s]
+    lambda_ratio: float = math.nan  # [-]
+    theta_2: float = math.nan  # [-]
+
+    @property
+    def words(self) -> str:
+        """The transition speed in a line."""
+        if not math.isfinite(self.speed):
+            return (
+                f"lift-off   not known: {LIFT_OFF:.0%} of the load lies within the error of the "
+                "load share where the curve ends, or where a point has none"
+            )
+        beside = [
+            f", {name} = {value:.3g}"
+            for name, value in (("Lambda", self.lambda_ratio), ("theta_2", self.theta_2))
+            if math.isfinite(value)
+        ]
+        return (
+            f"lift-off   {LIFT_OFF:.0%} of the load at the boundary film at "
+            f"{self.speed:.3g} +- {self.error:.2g} m/s{''.join(beside)}"
+        )
+
+
+def lift_off(speeds: Array, table: pd.DataFrame) -> LiftOff | None:
+    """Find the transition speed of a curve over speeds [m/s]; None where it is not on the curve."""
+    order = np.argsort(speeds)
+    speeds = speeds[order]
+
+    def column(name: str) -> Array:
+        return table[name].to_numpy(float)[order]
+
+    share, error = column("contact_load_share"), column("contact_load_share_error")
+    found = _crossing(speeds, share)
+    if found is None:
+        return None
+    ends = [_crossing(speeds, share + sign * error) for sign in (1.0, -1.0)]
+    if None in ends:
+        return LiftOff()
+    beside = [float(np.interp(found, speeds, column(n))) for n in ("lambda_ratio", "theta_2")]
+    return LiftOff(found, max(abs(end - found) for end in ends if end is not None), *beside)
+
+
+def _crossing(speeds: Array, share: Array) -> float | None:
+    """Highest speed at which a load share falls to `LIFT_OFF`, by the logarithm of the speed."""
+    falls = np.flatnonzero((share[:-1] > LIFT_OFF) & (share[1:] <= LIFT_OFF))
+    if not falls.size:
+        return None
+    k = int(falls[-1])
+    part = (share[k] - LIFT_OFF) / (share[k] - share[k + 1])
+    return float(speeds[k] * (speeds[k + 1] / speeds[k]) ** part)

@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Rows of the journal of a study, also while another process writes it."""
+
+import json
+import shutil
+import sqlite3
+import tempfile
+from contextlib import closing
+from pathlib import Path
+
+from pyehl.studies.journal import FILES, NAME
+
+
+def rows_in(folder: Path) -> dict[int, dict[str, object]]:
+    """Rows by number, in the order of the numbers; none where there is no journal yet."""
+    with tempfile.TemporaryDirectory() as place:
+        # as a kill at this instant would leave it
+        for name in FILES:
+            if (folder / name).is_file():
+                shutil.copy(folder / name, place)
+        if not (Path(place) / NAME).is_file():
+            return {}
+        try:
+            with closing(sqlite3.connect(Path(place) / NAME)) as base:
+                return {n: json.loads(row) for n, row in base.execute("SELECT * FROM rows")}
+        except sqlite3.DatabaseError:
+            # copied while it was begun
+            return {}
