@@ -8,7 +8,7 @@ module ehl_coarsest
    use ehl_grid, only: grid_t
    use ehl_kernel, only: fill_kernel
    use ehl_kinds, only: dp
-   use ehl_level, only: film_of_flow, level_t, touches_at
+   use ehl_level, only: level_t
    use ehl_node_state, only: cavitate, cavity_pressure
    use ehl_poiseuille, only: most_neighbours
    use ehl_reynolds, only: reynolds_operator
@@ -177,8 +177,7 @@ contains
    !> Whether the lubricant has a film to flow through; above a boundary film it always has
    pure logical function is_positive(level)
       type(level_t), intent(in) :: level
-      is_positive = allocated(level%boundary)
-      if (.not. is_positive) is_positive = minval(level%h) > 0.0_dp
+      is_positive = level%boundary%active .or. minval(level%h) > 0.0_dp
    end function is_positive
 
    !> Right-hand side of the Newton step, and its norm; cavitated nodes count only when they
@@ -195,9 +194,7 @@ contains
          weight = merge(2.0_dp, 1.0_dp, level%grid%mirror .and. j > 1)
          call reynolds_operator(level, j, row)
          row = level%rhs(:, j) - row
-         if (allocated(level%boundary)) then
-            call level%boundary%residual_row(level%rhs(:, j), level%mass_content(:, j), j, row)
-         end if
+         call level%boundary%residual_row(level%rhs(:, j), level%mass_content(:, j), j, row)
          do i = 2, level%grid%nx - 1
             u = unknown(self, level%grid%nx, i, j)
             self%residual(u) = row(i)
@@ -234,7 +231,7 @@ contains
                cycle
             end if
             at = i + (j - 1)*nx
-            if (touches_at(level, i, j)) then
+            if (level%boundary%touches(i, j)) then
                call add_film(i, j, -level%boundary%rate*level%rho(i, j))
                call add_pressure(i, j, -level%boundary%rate*level%h_drho_dp(i, j))
                cycle
@@ -248,10 +245,11 @@ contains
                   ! a Galerkin operator does not change
                   if (level%poiseuille%frozen) cycle
                   part = rate(m)*(level%p(ii, jj) - level%p(i, j))
-                  own = own + flow%film_power(i, j, d)*flow%eps(i, j, d)/film_of_flow(level, i, j)*part
+                  own = own + flow%film_power(i, j, d)*flow%eps(i, j, d)/level%boundary%film_at(level%h, i, j)*part
                   call add_pressure(ii, jj, flow%eps(ii, jj, d)*flow%dlneps_dp(ii, jj, d)*part)
                   call add_pressure(i, j, flow%eps(i, j, d)*flow%dlneps_dp(i, j, d)*part)
-                  call add_film(ii, jj, flow%film_power(ii, jj, d)*flow%eps(ii, jj, d)/film_of_flow(level, ii, jj)*part)
+                  call add_film(ii, jj, flow%film_power(ii, jj, d)*flow%eps(ii, jj, d) &
+                                /level%boundary%film_at(level%h, ii, jj)*part)
                end associate
             end do
             c = level%wedge%weights(i)

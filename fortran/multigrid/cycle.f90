@@ -178,11 +178,11 @@ contains
       integer :: j
 
       call refine(coarse%p, coarse%grid%mirror, fine%p)
-      call refine(coarse%h - coarse%h00 - coarse%geometry, coarse%grid%mirror, fine%h)
+      call refine(coarse%h - coarse%h00 - coarse%film_rhs, coarse%grid%mirror, fine%h)
       fine%h00 = coarse%h00
       do j = 1, fine%grid%ny
          call cavitate(fine%p(:, j))
-         fine%h(:, j) = fine%h00 + fine%geometry(:, j) + fine%h(:, j)
+         fine%h(:, j) = fine%h00 + fine%film_rhs(:, j) + fine%h(:, j)
       end do
       call update_coefficients(fine)
    end subroutine prolong_solution

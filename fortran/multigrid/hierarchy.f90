@@ -116,7 +116,7 @@ contains
          end if
          level%threads = threads_that_pay(level%grid, self%threads)
          call level%setup(status)
-         call self%spaces(k)%setup(level%grid, level%kernel_factor, level%threads, allocated(level%boundary), status)
+         call self%spaces(k)%setup(level%grid, level%kernel_factor, level%threads, status)
          call new_deflection(self%engine, level%engine, status)
          if (status%failed()) return
          call level%engine%setup(level%grid, level%kernel_factor, deflection_accuracy(level%grid), level%threads, status)

@@ -9,9 +9,10 @@
 module ehl_relaxation
    use ehl_kinds, only: dp
    use ehl_flow, only: along
-   use ehl_level, only: level_t, yields
-   use ehl_line_system, only: last_awake, solve_lines
-   use ehl_node_state, only: cavitate, cavity_pressure, change_flowing, flowing_around
+   use ehl_level, only: level_t
+   use ehl_line_system, only: last_active, solve_lines
+   use ehl_node_state, only: cavitate, change_flowing, flowing_around
+   use ehl_touching_nodes, only: mark_touching_dipoles, max_flowing_conductance, max_flowing_conductance_row
    use ehl_workspace, only: line_width, workspace_t
    !$ use omp_lib, only: omp_get_thread_num
    implicit none (type, external)
@@ -89,26 +90,20 @@ contains
       type(level_t), intent(in) :: level
       type(workspace_t), intent(inout) :: space
       integer, intent(in) :: first, last
-      real(dp) :: limit, greatest(level%grid%nx)
+      real(dp) :: limit, largest(level%grid%nx)
       integer :: i, j, below
 
       limit = merge(switch_thinning, switch, level%flow%bends)*level%grid%hy**2
-      !$omp parallel do default(none) shared(level, space, first, last, limit) private(i, below, greatest) &
+      !$omp parallel do default(none) shared(level, space, first, last, limit) private(i, below, largest) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = first, last
          below = level%grid%south(j)
-         if (allocated(level%boundary)) then
-            call level%boundary%greatest_flowing(level%p, level%flow%eps(:, :, level%flow%across), j, below, greatest)
-         else
-            call level%flow%greatest_around(j, below, greatest)
-         end if
+         call level%flow%max_neighbour_conductance(j, below, largest)
+         call max_flowing_conductance(level%boundary, level%p, level%flow%eps(:, :, level%flow%across), j, below, largest)
          call flowing_around(level%p(:, below), level%p(:, j), level%p(:, j + 1), space%dipole(:, j))
-         if (allocated(level%boundary)) then
-            ! the change of a touching node is a dipole beside a cavity, too
-            where (level%p(:, j) > cavity_pressure) space%dipole(:, j) = max(space%dipole(:, j), level%boundary%touching(:, j))
-         end if
+         call mark_touching_dipoles(level%boundary, level%p(:, j), j, space%dipole(:, j))
          do i = 2, level%grid%nx - 1
-            space%dipole(i, j) = merge(space%dipole(i, j), 0.0_dp, greatest(i) < limit)
+            space%dipole(i, j) = merge(space%dipole(i, j), 0.0_dp, largest(i) < limit)
          end do
       end do
       !$omp end parallel do
@@ -132,14 +127,7 @@ contains
       do j = first, last
          below = level%grid%south(j)
          largest = max(level%flow%eps(:, below, across), level%flow%eps(:, j, across), level%flow%eps(:, j + 1, across))
-         if (allocated(level%boundary)) then
-            ! the layer holds a node as if nothing could flow there
-            associate (touching => level%boundary%touching)
-               largest = max(level%flow%eps(:, below, across)*(1.0_dp - touching(:, below)), &
-                             level%flow%eps(:, j, across)*(1.0_dp - touching(:, j)), &
-                             level%flow%eps(:, j + 1, across)*(1.0_dp - touching(:, j + 1)))
-            end associate
-         end if
+         call max_flowing_conductance_row(level%boundary, level%flow%eps(:, :, across), j, below, largest)
          do i = 1 + around, nx - around
             share = largest(i)
             do k = 1, around
@@ -178,7 +166,7 @@ contains
       associate (work => space%lines(thread))
          furthest = 2
          do l = 1, lines
-            furthest = max(furthest, last_awake(level, rows(l)))
+            furthest = max(furthest, last_active(level, rows(l)))
          end do
          call solve_lines(level, space%dipole, space%shares, space%near, space%near_dipole, rows, furthest, work)
          do l = 1, lines
@@ -189,10 +177,7 @@ contains
             change(2:furthest) = part*work%change(l, 2:furthest)
             if (limited) then
                slope(2:furthest) = level%flow%dlneps_dp(2:furthest, j, across)
-               ! the equation of a touching node has no conductance
-               if (time_step .and. allocated(level%boundary)) then
-                  slope(2:furthest) = slope(2:furthest)*(1.0_dp - level%boundary%touching(2:furthest, j))
-               end if
+               if (time_step) call level%boundary%without_touching(2, j, slope(2:furthest))
                call limit_changes(slope(2:furthest), trust, change(2:furthest))
             end if
             do i = 2, furthest
@@ -200,7 +185,7 @@ contains
                after(i) = level%p(i, j) + (1.0_dp - space%dipole(i, j))*(omega + t(i))/(1.0_dp + t(i))*change(i)
             end do
             call cavitate(after(2:furthest))
-            if (yields(level)) call level%boundary%bound(level%p(2:furthest, j), 2, j, after(2:furthest))
+            call level%boundary%limit_pressure(level%p(2:furthest, j), 2, j, after(2:furthest))
             if (time_step) then
                do i = 2, furthest
                   space%rough(i, j) = (after(i) - level%p(i, j))*space%share(i, j)
@@ -264,7 +249,7 @@ contains
          do i = from(j), to(j)
             smooth(i) = level%p(i, j) - space%share(i, j)*smooth(i)
          end do
-         if (yields(level)) call level%boundary%bound(level%p(from(j):to(j), j), from(j), j, smooth(from(j):to(j)))
+         call level%boundary%limit_pressure(level%p(from(j):to(j), j), from(j), j, smooth(from(j):to(j)))
          call change_flowing(smooth(from(j):to(j)), level%p(from(j):to(j), j))
       end do
       !$omp end parallel do
@@ -284,7 +269,7 @@ contains
       do j = first, last
          call apply_row(space%shares, space%change(:, level%grid%south(j)), space%change(:, j), &
                         space%change(:, j + 1), level%p(:, j), after)
-         if (yields(level)) call level%boundary%bound(level%p(2:nx - 1, j), 2, j, after(2:nx - 1))
+         call level%boundary%limit_pressure(level%p(2:nx - 1, j), 2, j, after(2:nx - 1))
          call change_flowing(after(2:nx - 1), level%p(2:nx - 1, j))
       end do
       !$omp end parallel do

@@ -40,7 +40,7 @@ module ehl_flow
       procedure(find_row), deferred :: find_row
       procedure(film_power), deferred :: film_power
       procedure(stress_row), deferred :: stress_row
-      procedure :: greatest_around
+      procedure :: max_neighbour_conductance
       procedure :: bytes
    end type flow_t
 
@@ -101,7 +101,7 @@ contains
    end subroutine setup
 
    !> Largest conductance across of each node of row j and its four neighbours, in columns 2 to nx-1
-   pure subroutine greatest_around(self, j, south, values)
+   pure subroutine max_neighbour_conductance(self, j, south, values)
       class(flow_t), intent(in) :: self
       !> The row, and the one below it
       integer, intent(in) :: j, south
@@ -113,7 +113,7 @@ contains
          values(i) = max(self%eps(i, j, self%across), self%eps(i - 1, j, self%across), self%eps(i + 1, j, self%across), &
                          self%eps(i, j + 1, self%across), self%eps(i, south, self%across))
       end do
-   end subroutine greatest_around
+   end subroutine max_neighbour_conductance
 
    !> Allocated bytes
    pure integer(int64) function bytes(self)

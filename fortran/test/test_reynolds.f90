@@ -215,7 +215,7 @@ contains
       do j = 1, level%grid%ny
          do i = 1, level%grid%nx
             associate (x => level%grid%x(i), y => level%grid%y(j))
-               level%geometry(i, j) = 0.5_dp*(x**2 + y**2)
+               level%film_rhs(i, j) = 0.5_dp*(x**2 + y**2)
                level%p(i, j) = max(0.0_dp, 1.2_dp*exp(-x**2 - y**2) - 0.1_dp*max(0.0_dp, x + 0.3_dp*sin(5.0_dp*y)**2))
                if (level%grid%is_border(j) .or. i == 1 .or. i == level%grid%nx) level%p(i, j) = 0.0_dp
             end associate
