@@ -186,7 +186,7 @@ contains
       if (self%careful) call hierarchy%forget()
       associate (level => hierarchy%levels(self%n), grid => hierarchy%levels(self%n)%grid)
          do j = 1, grid%ny
-            call self%contact%gap_row(grid%columns(), grid%y(j), level%geometry(:, j))
+            call self%contact%gap_row(grid%columns(), grid%y(j), level%film_rhs(:, j))
          end do
          level%rhs = 0.0_dp
          level%load = self%contact%load

@@ -28,8 +28,8 @@ contains
       !$omp parallel do default(none) shared(level, contact, rr, x) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = 1, level%grid%ny
-         call contact%gap_row(x, level%grid%y(j), level%geometry(:, j))
-         level%geometry(:, j) = level%geometry(:, j) - rr(:, j)
+         call contact%gap_row(x, level%grid%y(j), level%film_rhs(:, j))
+         level%film_rhs(:, j) = level%film_rhs(:, j) - rr(:, j)
       end do
       !$omp end parallel do
    end subroutine set_geometry
