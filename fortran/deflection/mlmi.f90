@@ -42,7 +42,7 @@ module ehl_mlmi
    real(dp), parameter :: loose = 2.4e-3_dp
    !> Corrections left out on the finest grid, in units of the accuracy, and their ratio from
    !> one grid to the next, the kernel and the sources being those of that grid
-   real(dp), parameter :: share = 2.5_dp, ratio = 0.5_dp**1.5_dp
+   real(dp), parameter :: truncation = 2.5_dp, ratio = 0.5_dp**1.5_dp
 
    !> Multilevel multi-integration
    type, extends(deflection_t) :: mlmi_deflection_t
@@ -77,7 +77,7 @@ contains
 
       self%threads = max(1, threads)
       goal = min(accuracy, coarse_limit)
-      tolerance = share*goal*max(1.0_dp, accuracy/loose)
+      tolerance = truncation*goal*max(1.0_dp, accuracy/loose)
       self%omega = transfer_weights(half_points(goal))
       n = count_halvings(grid)
       if (allocated(self%stages)) deallocate (self%stages, self%stencils)

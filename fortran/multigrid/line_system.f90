@@ -27,10 +27,10 @@
 !> The systems are assembled and eliminated in one pass along X for `line_width` lines side by side.
 module ehl_line_system
    use ehl_kinds, only: dp
-   use ehl_flow, only: along
+   use ehl_flow, only: dir_x
    use ehl_level, only: level_t
    use ehl_node_state, only: cavity_pressure, last_flowing
-   use ehl_poiseuille, only: line_terms_t, stretch
+   use ehl_poiseuille, only: block_size, line_terms_t
    use ehl_touching_nodes, only: last_touching, touching_lines
    use ehl_wedge, only: line_reach
    use ehl_workspace, only: line_fields, line_width, line_work_t, near_reach
@@ -40,7 +40,7 @@ module ehl_line_system
 
    integer, parameter :: nr = near_reach
    !> Smaller pivots are none: those of nodes that may change are of the order of the wedge term's factor
-   real(dp), parameter :: least_pivot = 1.0e-100_dp
+   real(dp), parameter :: min_pivot = 1.0e-100_dp
    !> What is known of a node: pressure, density, H d rho/dP, the change of the conductance with pressure, 1 if
    !> distributive, the residual; and of the Poiseuille term, see line_terms_t
    integer, parameter :: f_p = 1, f_rho = 2, f_h_drho_dp = 3, f_gain = 4, f_dipole = 5, f_residual = 6, &
@@ -85,7 +85,7 @@ contains
       i = max(i, last_touching(level%boundary, level%mass_content(:, j), j))
    end function last_active
 
-   !> Bring the lines side by side, a stretch at a time so that it stays in the cache
+   !> Bring the lines side by side, a block at a time so that it stays in the cache
    subroutine gather(level, dipole, rows, furthest, g)
       type(level_t), intent(in) :: level
       real(dp), contiguous, intent(in) :: dipole(:, :)
@@ -96,8 +96,8 @@ contains
       type(line_terms_t) :: terms
       integer :: first, last, i, j, k, l
 
-      do first = 1, furthest, stretch
-         last = min(first + stretch - 1, furthest)
+      do first = 1, furthest, block_size
+         last = min(first + block_size - 1, furthest)
          do l = 1, line_width
             j = rows(l)
             call level%poiseuille%line_row(level%p, level%flow, level%rhs(:, j), j, first, last, terms)
@@ -109,7 +109,7 @@ contains
                g(l, f_p, i) = level%p(i, j)
                g(l, f_rho, i) = level%rho(i, j)
                g(l, f_h_drho_dp, i) = level%h_drho_dp(i, j)
-               g(l, f_gain, i) = (1.0_dp - dipole(i, j))*level%flow%eps(i, j, along)*level%flow%dlneps_dp(i, j, along)
+               g(l, f_gain, i) = (1.0_dp - dipole(i, j))*level%flow%eps(i, j, dir_x)*level%flow%dlneps_dp(i, j, dir_x)
                g(l, f_dipole, i) = dipole(i, j)
                g(l, f_residual, i) = terms%rest(k)
                g(l, f_other, i) = terms%other(k)
@@ -142,7 +142,7 @@ contains
       integer :: i, l, now, last, former
       logical :: uneven
 
-      uneven = level%flow%across > along
+      uneven = level%flow%dir_y > dir_x
       ! nothing where cells are square
       apart = shares - 0.25_dp
       call level%wedge%line_weights(c_first, c_interior)
@@ -212,9 +212,9 @@ contains
                                - em1*change(l, i - 1))*t
             end do
             ! without a pivot the node keeps its pressure in this sweep
-            if (minval(abs(pivot)) < least_pivot) then
-               where (abs(pivot) < least_pivot) change(:, i) = 0.0_dp
-               where (spread(abs(pivot) < least_pivot, 2, 2)) upper(:, :, i) = 0.0_dp
+            if (minval(abs(pivot)) < min_pivot) then
+               where (abs(pivot) < min_pivot) change(:, i) = 0.0_dp
+               where (spread(abs(pivot) < min_pivot, 2, 2)) upper(:, :, i) = 0.0_dp
             end if
          end if
          l = former

@@ -31,7 +31,7 @@ module ehl_workspace
       real(dp), allocatable :: dipole(:, :), change(:, :)
       !> For time steps only: the share of a node's change that is to be free of its smooth part, these
       !> changes in a sweep, and their smooth part after its first pass
-      real(dp), allocatable :: share(:, :), rough(:, :), smooth(:, :)
+      real(dp), allocatable :: smoothing_weight(:, :), raw_change(:, :), mean_change(:, :)
       !> A distributive change takes from the nodes beside it along X and along Y these shares of what it gives to its own.
       !> On cells that are longer across the lines less goes to their far neighbours: a quarter to each would leave a
       !> deflection that falls off slowly along them. Measured on cells of 1 to 1/4, 1.5 and 2.
@@ -103,15 +103,15 @@ contains
       type(status_t), intent(inout) :: status
       integer :: stat
 
-      if (status%failed() .or. allocated(self%rough)) return
-      allocate (self%share, self%rough, self%smooth, mold=self%change, stat=stat)
+      if (status%failed() .or. allocated(self%raw_change)) return
+      allocate (self%smoothing_weight, self%raw_change, self%mean_change, mold=self%change, stat=stat)
       if (stat /= 0) then
          call status%fail(ehl_no_memory, "no memory for the time steps of a grid level")
          return
       end if
-      self%share = 0.0_dp
-      self%rough = 0.0_dp
-      self%smooth = 0.0_dp
+      self%smoothing_weight = 0.0_dp
+      self%raw_change = 0.0_dp
+      self%mean_change = 0.0_dp
    end subroutine prepare_steps
 
    !> Allocated bytes
@@ -123,7 +123,7 @@ contains
       numbers = 0
       if (allocated(self%dipole)) numbers = 2*size(self%dipole, kind=int64)
       if (allocated(self%p_start)) numbers = numbers + 4*size(self%p_start, kind=int64)
-      if (allocated(self%rough)) numbers = numbers + 3*size(self%rough, kind=int64)
+      if (allocated(self%raw_change)) numbers = numbers + 3*size(self%raw_change, kind=int64)
       if (allocated(self%lines)) then
          do k = 1, size(self%lines)
             numbers = numbers + size(self%lines(k)%fields) + size(self%lines(k)%upper) + size(self%lines(k)%change) &

@@ -49,7 +49,7 @@ contains
       logical :: thins
       integer :: j
 
-      thins = level%flow%bends .or. level%lubricant%shear%thins() .or. level%boundary%active
+      thins = level%flow%depends_on_gradient .or. level%lubricant%shear%thins() .or. level%boundary%active
       !$omp parallel do default(none) shared(level, smallest, largest, friction, newtonian, thins) private(viscous, stress) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = 1, level%grid%ny

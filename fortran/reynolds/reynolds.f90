@@ -26,7 +26,7 @@
 !>
 !> Zhang et al. 2019, eqs. 1, 7 and 8; the narrow scheme: Venner & Lubrecht 2000.
 module ehl_reynolds
-   use ehl_flow, only: along
+   use ehl_flow, only: dir_x
    use ehl_kernel, only: kernel_coefficient
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
@@ -89,7 +89,7 @@ contains
          call flow_operator(level, j, row)
          do i = 1, level%grid%nx
             row(i) = level%rhs(i, j) - row(i)
-            share(i) = stored/(stored + flow*level%flow%eps(i, j, along))
+            share(i) = stored/(stored + flow*level%flow%eps(i, j, dir_x))
          end do
          elastic = level%rho(:, j)*level%h(:, j)
          call level%boundary%find_yielding(level%p(:, j), weights, j, row, level%mass_content(:, j))
@@ -139,7 +139,7 @@ contains
          !$omp parallel do default(none) shared(level, sums, wedge, poiseuille) private(eps) &
          !$omp num_threads(level%threads) if(level%parallel) schedule(static)
          do j = 1, grid%ny
-            eps = level%flow%eps(:, j, along)
+            eps = level%flow%eps(:, j, dir_x)
             call level%boundary%without_touching(1, j, eps)
             sums(j) = sum((level%residual(:, j)*wedge/(wedge + poiseuille*eps))**2) &
                       *level%grid%weight(j)/(level%grid%hx*level%grid%hy)

@@ -4,7 +4,7 @@
 module ehl_stationary_roughness
    use ehl_contact, only: contact_t
    use ehl_contact_results, only: contact_results_t, load_tolerance, measure
-   use ehl_cycle, only: careful_cycle, cycle_options_t
+   use ehl_cycle, only: cycle_options_t, damped_cycle
    use ehl_film, only: refresh
    use ehl_hierarchy, only: hierarchy_t
    use ehl_iteration, only: iteration_t, reduction
@@ -116,7 +116,7 @@ contains
          if (self%due) call grow(self, level)
          if (self%outcome /= outcome_running) return
          self%options = self%cycle
-         if (level%boundary%touches()) self%options = careful_cycle(self%cycle)
+         if (level%boundary%touches()) self%options = damped_cycle(self%cycle)
          call self%improve(hierarchy)
          self%total_cycles = self%total_cycles + 1
          if (self%state == outcome_running .and. level%boundary%active .and. self%cycles > lost_after) then

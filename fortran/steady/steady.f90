@@ -3,7 +3,7 @@
 module ehl_steady
    use ehl_contact, only: contact_t
    use ehl_contact_results, only: contact_results_t, load_tolerance, measure
-   use ehl_cycle, only: careful_cycle, cycle_options_t, damped_cycle, most_damping, prolong_solution
+   use ehl_cycle, only: cycle_options_t, damped_cycle, most_damping, prolong_solution
    use ehl_far_field, only: far_field_t
    use ehl_film, only: refresh
    use ehl_hierarchy, only: hierarchy_t
@@ -282,7 +282,7 @@ contains
       logical :: first
 
       options = self%how%cycle
-      if (self%careful) options = careful_cycle(options)
+      if (self%careful) options = damped_cycle(options)
       if (self%guard%damping > 0) options = damped_cycle(self%how%cycle, self%guard%damping)
       if (self%careful .or. self%guard%damping > 0) return
       if (self%how%second_cycle%full .eqv. self%how%cycle%full) return

@@ -10,50 +10,50 @@
 !>
 !> grad P by central differences; each node with the factors that it needs (physics/factor_rows.f90), or those that it had
 !> (physics/kept_factors.f90).
-module ehl_thinning_flow
-   use ehl_flow, only: along, flow_t
+module ehl_shear_thinning_flow
+   use ehl_flow, only: dir_x, flow_t
    use ehl_factor_rows, only: factor_rows_t
    use ehl_kinds, only: dp
    use ehl_lubricant, only: lubricant_t
    use ehl_thinning, only: most, thinning_t
    implicit none (type, external)
    private
-   public :: thinning_flow_t, new_thinning_flow
+   public :: shear_thinning_flow_t, new_shear_thinning_flow
 
    !> Place of what concerns the flow along Y
-   integer, parameter :: sideways = 2
+   integer, parameter :: dir_y = 2
 
-   type, extends(flow_t) :: thinning_flow_t
+   type, extends(flow_t) :: shear_thinning_flow_t
       private
       !> b0, s0
       real(dp) :: sliding = 0.0_dp, gradient = 0.0_dp
    contains
       procedure :: find_row
-      procedure :: film_power
+      procedure :: film_exponent
       procedure :: stress_row
       procedure, private :: gradients
-   end type thinning_flow_t
+   end type shear_thinning_flow_t
 
 contains
 
    !> A flow by its law; b0 and s0 as above
-   pure function new_thinning_flow(law, sliding, gradient) result(flow)
+   pure function new_shear_thinning_flow(law, sliding, gradient) result(flow)
       type(thinning_t), intent(in) :: law
       real(dp), intent(in) :: sliding, gradient
-      type(thinning_flow_t) :: flow
+      type(shear_thinning_flow_t) :: flow
 
       flow%kept%law = law
       flow%sliding = sliding
       ! how the stress of a vanishing sliding changes is not known
       flow%kept%follows = sliding > 0.0_dp
       flow%gradient = gradient
-      flow%across = sideways
-      flow%bends = .true.
-   end function new_thinning_flow
+      flow%dir_y = dir_y
+      flow%depends_on_gradient = .true.
+   end function new_shear_thinning_flow
 
    !> Conductances of row j and their changes
    pure subroutine find_row(self, lubricant, p, h, rho, drho_dp, j, last)
-      class(thinning_flow_t), intent(inout) :: self
+      class(shear_thinning_flow_t), intent(inout) :: self
       type(lubricant_t), intent(in) :: lubricant
       !> Pressure and film, shape (nx, ny)
       real(dp), contiguous, intent(in) :: p(:, :), h(:, :)
@@ -84,7 +84,7 @@ contains
             by_density(k) = drho_dp(i)/rho(i)
          end do
          call self%kept%find(b(:n), s, stretch, j, factors, without)
-         do k = along, sideways
+         do k = dir_x, dir_y
             if (without) then
                do i = first, first + n - 1
                   self%eps(i, j, k) = newtonian(i - first + 1)
@@ -106,7 +106,7 @@ contains
 
    !> S at n nodes of row j from column `first` on; at the border along Y without its part along Y
    pure subroutine gradients(self, p, h, j, first, n, s)
-      class(thinning_flow_t), intent(in) :: self
+      class(shear_thinning_flow_t), intent(in) :: self
       !> Shape (nx, ny)
       real(dp), contiguous, intent(in) :: p(:, :), h(:, :)
       integer, intent(in) :: j, first, n
@@ -133,15 +133,15 @@ contains
    end subroutine gradients
 
    !> d ln(eps)/d ln(H)
-   pure real(dp) function film_power(self, i, j, direction)
-      class(thinning_flow_t), intent(in) :: self
+   pure real(dp) function film_exponent(self, i, j, direction)
+      class(shear_thinning_flow_t), intent(in) :: self
       integer, intent(in) :: i, j, direction
-      film_power = self%kept%film_power(i, j, direction)
-   end function film_power
+      film_exponent = self%kept%film_exponent(i, j, direction)
+   end function film_exponent
 
    !> Newtonian and real shear stress of row j, the latter by the factors that find_row left
    pure subroutine stress_row(self, lubricant, p, h, rho, j, newtonian, stress)
-      class(thinning_flow_t), intent(in) :: self
+      class(shear_thinning_flow_t), intent(in) :: self
       type(lubricant_t), intent(in) :: lubricant
       !> Pressure and film, shape (nx, ny)
       real(dp), contiguous, intent(in) :: p(:, :), h(:, :)
@@ -173,4 +173,4 @@ contains
          end associate
       end do
    end subroutine stress_row
-end module ehl_thinning_flow
+end module ehl_shear_thinning_flow
