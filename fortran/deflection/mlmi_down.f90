@@ -361,6 +361,8 @@ contains
          do i = 1, n
             y(i) = y(i) + c(k)*(a(r + i) + a(l + i))
          end do
+      case default
+         continue
       end select
    end subroutine add_pairs
 

@@ -24,10 +24,8 @@
 !> Every level has one. Without setup, or with H_b = 0, it is inactive: no node touches, and its procedures change nothing.
 module ehl_boundary_film
    use, intrinsic :: iso_fortran_env, only: int64
-   use ehl_flow, only: flow_t
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
-   use ehl_lubricant, only: lubricant_t
    use ehl_status, only: ehl_no_memory, status_t
    implicit none (type, external)
    private
@@ -66,9 +64,8 @@ module ehl_boundary_film
    contains
       procedure :: setup
       procedure :: find_film
+      procedure :: film_row
       procedure :: film_at
-      procedure :: conductance_row
-      procedure :: stress_row
       procedure :: follows_state
       procedure :: find_row
       procedure :: find_yielding
@@ -123,7 +120,19 @@ contains
       if (self%yields) self%film(:, j) = merge(self%yield_mass(:, j)/rho, self%film(:, j), self%yield_mass(:, j) > 0.0_dp)
    end subroutine find_film
 
-   !> Film that the lubricant flows through at node (i, j)
+   !> Row j of the film that the lubricant flows through
+   pure function film_row(self, h, j) result(film)
+      class(boundary_film_t), intent(in) :: self
+      !> Shape (nx)
+      real(dp), contiguous, intent(in) :: h(:)
+      integer, intent(in) :: j
+      real(dp) :: film(size(h))
+
+      film = h
+      if (self%active) film = self%film(:, j)
+   end function film_row
+
+   !> Node (i, j) of it
    pure real(dp) function film_at(self, h, i, j)
       class(boundary_film_t), intent(in) :: self
       !> Shape (nx, ny)
@@ -133,37 +142,6 @@ contains
       film_at = h(i, j)
       if (self%active) film_at = self%film(i, j)
    end function film_at
-
-   !> Row j of the conductances, as find_row of the flow has them, with the film that the lubricant flows through
-   pure subroutine conductance_row(self, flow, lubricant, p, h, rho, drho_dp, j, last)
-      class(boundary_film_t), intent(in) :: self
-      class(flow_t), intent(inout) :: flow
-      type(lubricant_t), intent(in) :: lubricant
-      real(dp), contiguous, intent(in) :: p(:, :), h(:, :), rho(:), drho_dp(:)
-      integer, intent(in) :: j, last
-
-      if (self%active) then
-         call flow%find_row(lubricant, p, self%film, rho, drho_dp, j, last)
-      else
-         call flow%find_row(lubricant, p, h, rho, drho_dp, j, last)
-      end if
-   end subroutine conductance_row
-
-   !> Row j of the shear stress, as stress_row of the flow has it, with the film that the lubricant flows through
-   pure subroutine stress_row(self, flow, lubricant, p, h, rho, j, newtonian, stress)
-      class(boundary_film_t), intent(in) :: self
-      class(flow_t), intent(in) :: flow
-      type(lubricant_t), intent(in) :: lubricant
-      real(dp), contiguous, intent(in) :: p(:, :), h(:, :), rho(:)
-      integer, intent(in) :: j
-      real(dp), contiguous, intent(out) :: newtonian(:), stress(:)
-
-      if (self%active) then
-         call flow%stress_row(lubricant, p, self%film, rho, j, newtonian, stress)
-      else
-         call flow%stress_row(lubricant, p, h, rho, j, newtonian, stress)
-      end if
-   end subroutine stress_row
 
    !> Whether the states of nodes follow from pressure and film
    pure logical function follows_state(self)

@@ -55,7 +55,8 @@ contains
       do j = 1, level%grid%ny
          smallest(j) = minval(gap_row(level, j))
          largest(j) = maxval(level%p(:, j))
-         call level%boundary%stress_row(level%flow, level%lubricant, level%p, level%h, level%rho(:, j), j, viscous, stress)
+         call level%flow%stress_row(level%lubricant, level%p, level%boundary%film_row(level%h(:, j), j), level%rho(:, j), j, &
+                                    viscous, stress)
          call take_boundary(level, j, viscous, stress)
          newtonian(j) = sum(viscous)*level%grid%weight(j)
          friction(j) = newtonian(j)

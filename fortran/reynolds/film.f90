@@ -54,8 +54,8 @@ contains
          level%rho(last + 1:, j) = rest_rho(1)
          level%h_drho_dp(last + 1:, j) = rest_slope(1)
          call level%boundary%find_film(level%h(:, j), level%rho(:, j), j)
-         if (.not. level%poiseuille%frozen) call level%boundary%conductance_row(level%flow, level%lubricant, level%p, level%h, &
-                                                                                level%rho(:, j), level%h_drho_dp(:, j), j, last)
+         if (.not. level%poiseuille%frozen) call level%flow%find_row( &
+            level%lubricant, level%p, level%boundary%film_row(level%h(:, j), j), level%rho(:, j), level%h_drho_dp(:, j), j, last)
          level%mass_content(:, j) = level%rho(:, j)*level%h(:, j)
          level%h_drho_dp(:, j) = level%h_drho_dp(:, j)*level%h(:, j)
       end do

@@ -51,10 +51,10 @@ module ehl_flow
          implicit none (type, external)
          class(flow_t), intent(inout) :: self
          type(lubricant_t), intent(in) :: lubricant
-         !> Pressure and film, shape (nx, ny)
-         real(dp), contiguous, intent(in) :: p(:, :), h(:, :)
-         !> Density of the row and its change with P, shape (nx)
-         real(dp), contiguous, intent(in) :: rho(:), drho_dp(:)
+         !> Pressure, shape (nx, ny)
+         real(dp), contiguous, intent(in) :: p(:, :)
+         !> Of the row: film, density and its change with P, shape (nx)
+         real(dp), contiguous, intent(in) :: h(:), rho(:), drho_dp(:)
          integer, intent(in) :: j, last
       end subroutine find_row
 
@@ -73,10 +73,10 @@ module ehl_flow
          implicit none (type, external)
          class(flow_t), intent(in) :: self
          type(lubricant_t), intent(in) :: lubricant
-         !> Pressure and film, shape (nx, ny)
-         real(dp), contiguous, intent(in) :: p(:, :), h(:, :)
-         !> Density of the row, shape (nx)
-         real(dp), contiguous, intent(in) :: rho(:)
+         !> Pressure, shape (nx, ny)
+         real(dp), contiguous, intent(in) :: p(:, :)
+         !> Film and density of the row, shape (nx)
+         real(dp), contiguous, intent(in) :: h(:), rho(:)
          integer, intent(in) :: j
          real(dp), contiguous, intent(out) :: newtonian(:), stress(:)
       end subroutine stress_row

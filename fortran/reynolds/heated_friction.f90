@@ -92,7 +92,7 @@ contains
       !$omp num_threads(threads) if(threads > 1) schedule(dynamic)
       do j = 1, grid%ny
          if (present(flow)) then
-            call flow%stress_row(lubricant, p, h, rho(:, j), j, newtonian, stress)
+            call flow%stress_row(lubricant, p, h(:, j), rho(:, j), j, newtonian, stress)
          else
             stress = law_stress(lubricant, p(:, j), h(:, j), spread(0.0_dp, 1, grid%nx))
          end if

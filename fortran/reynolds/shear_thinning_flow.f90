@@ -55,10 +55,10 @@ contains
    pure subroutine find_row(self, lubricant, p, h, rho, drho_dp, j, last)
       class(shear_thinning_flow_t), intent(inout) :: self
       type(lubricant_t), intent(in) :: lubricant
-      !> Pressure and film, shape (nx, ny)
-      real(dp), contiguous, intent(in) :: p(:, :), h(:, :)
-      !> Density of the row and its change with P, shape (nx)
-      real(dp), contiguous, intent(in) :: rho(:), drho_dp(:)
+      !> Pressure, shape (nx, ny)
+      real(dp), contiguous, intent(in) :: p(:, :)
+      !> Of the row: film, density and its change with P, shape (nx)
+      real(dp), contiguous, intent(in) :: h(:), rho(:), drho_dp(:)
       integer, intent(in) :: j, last
       type(factor_rows_t) :: factors
       real(dp), dimension(most) :: b, newtonian, by_density
@@ -79,8 +79,8 @@ contains
          do k = 1, n
             i = first + k - 1
             newtonian(k) = exp(log_eta(i))
-            b(k) = abs(self%sliding*newtonian(k)/h(i, j))
-            newtonian(k) = rho(i)*h(i, j)**3/newtonian(k)*self%inverse_speed
+            b(k) = abs(self%sliding*newtonian(k)/h(i))
+            newtonian(k) = rho(i)*h(i)**3/newtonian(k)*self%inverse_speed
             by_density(k) = drho_dp(i)/rho(i)
          end do
          call self%kept%find(b(:n), s, stretch, j, factors, without)
@@ -107,8 +107,8 @@ contains
    !> S at n nodes of row j from column `first` on; at the border along Y without its part along Y
    pure subroutine gradients(self, p, h, j, first, n, s)
       class(shear_thinning_flow_t), intent(in) :: self
-      !> Shape (nx, ny)
-      real(dp), contiguous, intent(in) :: p(:, :), h(:, :)
+      !> Pressure, shape (nx, ny); film of the row
+      real(dp), contiguous, intent(in) :: p(:, :), h(:)
       integer, intent(in) :: j, first, n
       !> Along X and along Y, shape (n or more, 2)
       real(dp), contiguous, intent(inout) :: s(:, :)
@@ -121,14 +121,14 @@ contains
       south = self%grid%south(j)
       north = j + 1
       if (j == size(p, 2)) north = south
-      if (first == 1) s(1, 1) = 2.0_dp*rx*h(1, j)*(p(2, j) - p(1, j))
-      if (last == size(p, 1)) s(n, 1) = 2.0_dp*rx*h(last, j)*(p(last, j) - p(last - 1, j))
+      if (first == 1) s(1, 1) = 2.0_dp*rx*h(1)*(p(2, j) - p(1, j))
+      if (last == size(p, 1)) s(n, 1) = 2.0_dp*rx*h(last)*(p(last, j) - p(last - 1, j))
       do i = max(first, 2), min(last, size(p, 1) - 1)
-         s(i - first + 1, 1) = rx*h(i, j)*(p(i + 1, j) - p(i - 1, j))
+         s(i - first + 1, 1) = rx*h(i)*(p(i + 1, j) - p(i - 1, j))
       end do
       do k = 1, n
          i = first + k - 1
-         s(k, 2) = ry*h(i, j)*(p(i, north) - p(i, south))
+         s(k, 2) = ry*h(i)*(p(i, north) - p(i, south))
       end do
    end subroutine gradients
 
@@ -143,10 +143,10 @@ contains
    pure subroutine stress_row(self, lubricant, p, h, rho, j, newtonian, stress)
       class(shear_thinning_flow_t), intent(in) :: self
       type(lubricant_t), intent(in) :: lubricant
-      !> Pressure and film, shape (nx, ny)
-      real(dp), contiguous, intent(in) :: p(:, :), h(:, :)
-      !> Density of the row, shape (nx)
-      real(dp), contiguous, intent(in) :: rho(:)
+      !> Pressure, shape (nx, ny)
+      real(dp), contiguous, intent(in) :: p(:, :)
+      !> Film and density of the row, shape (nx)
+      real(dp), contiguous, intent(in) :: h(:), rho(:)
       integer, intent(in) :: j
       real(dp), contiguous, intent(out) :: newtonian(:), stress(:)
       real(dp), dimension(size(p, 1)) :: log_eta, slope
@@ -156,7 +156,7 @@ contains
       associate (unused => rho)
       end associate
       call lubricant%log_viscosity(p(:, j), log_eta, slope)
-      newtonian = exp(log_eta)/h(:, j)
+      newtonian = exp(log_eta)/h
       do stretch = 1, (size(p, 1) - 1)/self%kept%width + 1
          first = (stretch - 1)*self%kept%width + 1
          last = min(first + self%kept%width - 1, size(p, 1))

@@ -227,15 +227,15 @@ contains
    pure subroutine find_row(self, lubricant, p, h, rho, drho_dp, j, last)
       class(uneven_flow_t), intent(inout) :: self
       type(lubricant_t), intent(in) :: lubricant
-      real(dp), contiguous, intent(in) :: p(:, :), h(:, :), rho(:), drho_dp(:)
+      real(dp), contiguous, intent(in) :: p(:, :), h(:), rho(:), drho_dp(:)
       integer, intent(in) :: j, last
       real(dp), dimension(size(p, 1)) :: log_eta, slope
 
       associate (unused => last)
       end associate
       call lubricant%log_viscosity(max(p(:, j), 0.0_dp), log_eta, slope)
-      self%eps(:, j, 1) = 2.0_dp*rho*h(:, j)**powers(1)*exp(-0.7_dp*log_eta)*self%inverse_speed
-      self%eps(:, j, 2) = rho*h(:, j)**powers(2)*exp(-0.4_dp*log_eta)*self%inverse_speed
+      self%eps(:, j, 1) = 2.0_dp*rho*h**powers(1)*exp(-0.7_dp*log_eta)*self%inverse_speed
+      self%eps(:, j, 2) = rho*h**powers(2)*exp(-0.4_dp*log_eta)*self%inverse_speed
       self%dlneps_dp(:, j, 1) = drho_dp/rho - 0.7_dp*slope
       self%dlneps_dp(:, j, 2) = drho_dp/rho - 0.4_dp*slope
    end subroutine find_row
@@ -251,13 +251,13 @@ contains
    pure subroutine stress_row(self, lubricant, p, h, rho, j, newtonian, stress)
       class(uneven_flow_t), intent(in) :: self
       type(lubricant_t), intent(in) :: lubricant
-      real(dp), contiguous, intent(in) :: p(:, :), h(:, :), rho(:)
+      real(dp), contiguous, intent(in) :: p(:, :), h(:), rho(:)
       integer, intent(in) :: j
       real(dp), contiguous, intent(out) :: newtonian(:), stress(:)
 
       associate (unused => lubricant, unused_p => p)
       end associate
-      newtonian = self%inverse_speed*rho*h(:, j)**2/self%eps(:, j, dir_x)
+      newtonian = self%inverse_speed*rho*h**2/self%eps(:, j, dir_x)
       stress = newtonian
    end subroutine stress_row
 

@@ -232,7 +232,7 @@ contains
       level%kernel_factor = 2.0_dp/pi**2
       call new_flow(level%lubricant, 1.0e-3_dp, level%flow)
       call level%setup(status)
-      call space%setup(level%grid, level%kernel_factor, 1, .false., status)
+      call space%setup(level%grid, level%kernel_factor, 1, status)
    end subroutine some_level
 
    !> Read a case and run it to its end

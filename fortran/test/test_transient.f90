@@ -6,7 +6,7 @@ module test_transient
    use ehl_case_reader, only: read_case
    use ehl_contact_run, only: contact_run_t
    use ehl_film, only: refresh
-   use ehl_flow, only: along
+   use ehl_flow, only: dir_x
    use ehl_kinds, only: dp
    use ehl_moving_surfaces, only: moving_surfaces_t
    use ehl_outcome, only: outcome_converged, outcome_running
@@ -150,7 +150,7 @@ contains
          level%p = 0.5_dp*level%p
          call refresh(level)
          p = level%p
-         gain = level%flow%dlneps_dp(:, :, along)
+         gain = level%flow%dlneps_dp(:, :, dir_x)
          call relax(level, space, usual_log_change, 1.0_dp)
          largest = 0.0_dp
          do j = 2, level%grid%ny - 1
