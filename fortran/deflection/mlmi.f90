@@ -4,9 +4,9 @@
 !>
 !> Where the kernel is smooth, the sum over many small cells is one over fewer, larger ones:
 !> sources go to the grid of every second node along one axis, and on to the next along the
-!> other axis, down to at most 17 nodes a side, where the sum is done as it stands. The
-!> deflection comes back up by interpolation. Near the sources, where the kernel is not
-!> smooth, it is corrected on every grid. Transfers use 2t points, and grids reach far enough
+!> other axis (mlmi_down.f90), down to at most 17 nodes a side, where the sum is done as it stands (mlmi_coarsest.f90). The
+!> deflection comes back up by interpolation; near the sources, where the kernel is not
+!> smooth, it is corrected on every grid (mlmi_up.f90). Transfers use 2t points, and grids reach far enough
 !> beyond the domain for them to keep their order at the border.
 !>
 !> Sizes of transfers and corrections follow from the accuracy asked for, relative to the largest W, for max W about
@@ -20,22 +20,21 @@ module ehl_mlmi
    use ehl_status, only: status_t, ehl_bad_input, ehl_no_memory
    use ehl_text, only: fixed
    use ehl_deflection, only: deflection_t
-   use ehl_mlmi_stencil, only: transfer_weights
-   use ehl_mlmi_stage, only: stage_t
-   use ehl_mlmi_down, only: take, descend, sum_directly
-   use ehl_mlmi_up, only: ascend
+   use ehl_mlmi_coarsest, only: set_coarsest, sum_directly
+   use ehl_mlmi_down, only: descend, no_memory, stage_t, take
+   use ehl_mlmi_up, only: ascend, stencil_t, transfer_weights
    implicit none (type, external)
    private
    public :: mlmi_deflection_t
 
    !> Grids are halved until they have no more nodes a side than this
-   integer, parameter :: few = 17
+   integer, parameter :: max_coarsest = 17
    !> Grids with fewer nodes are left to one thread
    integer, parameter :: small = 1024
    !> Operations for a node on its grid, roughly; on the coarsest as many as there are nodes
    integer, parameter :: operations = 16
    !> More halvings than any grid that fits into memory has
-   integer, parameter :: most_stages = 64
+   integer, parameter :: max_stages = 64
    !> Accuracies beyond which the estimate of the error holds no more
    real(dp), parameter :: coarse_limit = 2.0e-4_dp, fine_limit = 1.0e-10_dp
    !> Accuracy from which on corrections are left out in proportion to it: that of meshes above a quarter of a, which only
@@ -43,7 +42,7 @@ module ehl_mlmi
    real(dp), parameter :: loose = 2.4e-3_dp
    !> Corrections left out on the finest grid, in units of the accuracy, and their ratio from
    !> one grid to the next, the kernel and the sources being those of that grid
-   real(dp), parameter :: share = 2.5_dp, ratio = 0.5_dp**1.5_dp
+   real(dp), parameter :: truncation = 2.5_dp, ratio = 0.5_dp**1.5_dp
 
    !> Multilevel multi-integration
    type, extends(deflection_t) :: mlmi_deflection_t
@@ -53,6 +52,8 @@ module ehl_mlmi
       real(dp), allocatable :: omega(:)
       !> The grids, finest first
       type(stage_t), allocatable :: stages(:)
+      !> Local corrections of each but the coarsest
+      type(stencil_t), allocatable :: stencils(:)
       !> Row buffers of the threads: (elements, buffers, threads)
       real(dp), allocatable :: work(:, :, :)
    contains
@@ -76,14 +77,14 @@ contains
 
       self%threads = max(1, threads)
       goal = min(accuracy, coarse_limit)
-      tolerance = share*goal*max(1.0_dp, accuracy/loose)
+      tolerance = truncation*goal*max(1.0_dp, accuracy/loose)
       self%omega = transfer_weights(half_points(goal))
       n = count_halvings(grid)
-      if (allocated(self%stages)) deallocate (self%stages)
+      if (allocated(self%stages)) deallocate (self%stages, self%stencils)
       if (allocated(self%work)) deallocate (self%work)
-      allocate (self%stages(n + 1), stat=stat)
+      allocate (self%stages(n + 1), self%stencils(n), stat=stat)
       if (stat /= 0) then
-         call status%fail(ehl_no_memory, "no memory for the mlmi deflection")
+         call status%fail(ehl_no_memory, no_memory)
          return
       end if
       step = 1
@@ -91,16 +92,16 @@ contains
       high = [grid%nx - 1, grid%ny - 1]
       longest = grid%nx + 1
       do s = 1, n
-         associate (stage => self%stages(s))
+         associate (stage => self%stages(s), stencil => self%stencils(s))
             axis = next_axis(grid, step)
             extent = high - low + 2*size(self%omega)
             if (grid%mirror) extent(2) = extent(2) + high(2)
-            call stage%stencil%make(axis, step, extent, factor, grid%hx, grid%hy, self%omega, tolerance*ratio**(s - 1), met)
+            call stencil%make(axis, step, extent, factor, grid%hx, grid%hy, self%omega, tolerance*ratio**(s - 1), met)
             if (goal < fine_limit .or. .not. met) then
                call refuse(accuracy, status)
                return
             end if
-            call stage%halve(low, high, axis, grid%mirror, size(self%omega), status)
+            call stage%halve(low, high, axis, grid%mirror, size(self%omega), stencil%reach(), status)
             if (status%failed()) return
             step(axis) = 2*step(axis)
             low = stage%coarse_low
@@ -108,12 +109,12 @@ contains
             longest = max(longest, high(1) - low(1) + 1 + 2*stage%margin)
          end associate
       end do
-      call self%stages(n + 1)%finish(low, high, grid%mirror, step, factor, grid%hx, grid%hy, status)
+      call set_coarsest(self%stages(n + 1), low, high, grid%mirror, step, factor, grid%hx, grid%hy, status)
       if (status%failed()) return
       longest = max(longest, high(1) - low(1) + 1 + 2*self%stages(n + 1)%margin)
       allocate (self%work(longest, 3, self%threads), stat=stat)
       if (stat /= 0) then
-         call status%fail(ehl_no_memory, "no memory for the mlmi deflection")
+         call status%fail(ehl_no_memory, no_memory)
          return
       end if
       self%work = 0.0_dp
@@ -149,7 +150,7 @@ contains
       integer, intent(in) :: step(2)
       logical :: many(2)
 
-      many = ([grid%nx, grid%full_ny()] - 1)/step + 1 > few
+      many = ([grid%nx, grid%full_ny()] - 1)/step + 1 > max_coarsest
       if (all(many)) then
          next_axis = merge(1, 2, step(1)*grid%hx <= 1.001_dp*step(2)*grid%hy)
       else
@@ -172,7 +173,7 @@ contains
       class(mlmi_deflection_t), intent(inout) :: self
       real(dp), intent(in) :: p(:, :)
       real(dp), intent(out) :: w(:, :)
-      integer :: s, n, nodes(most_stages), threads(most_stages)
+      integer :: s, n, nodes(max_stages), threads(max_stages)
 
       n = size(self%stages)
       do s = 1, n
@@ -190,10 +191,10 @@ contains
       end if
       call sum_directly(self%stages(n), threads(n), self%work, self%stages(n - 1)%coarse)
       do s = n - 1, 2, -1
-         call ascend(self%stages(s), self%omega, threads(s), self%work, &
+         call ascend(self%stages(s), self%stencils(s), self%omega, threads(s), self%work, &
                      self%stages(s - 1)%coarse)
       end do
-      call ascend(self%stages(1), self%omega, threads(1), self%work, w)
+      call ascend(self%stages(1), self%stencils(1), self%omega, threads(1), self%work, w)
    end subroutine apply
 
    !> Allocated bytes

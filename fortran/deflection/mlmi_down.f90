@@ -1,21 +1,121 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The way down of multilevel multi-integration: sources to ever coarser grids, and the
-!> deflection of the coarsest
+!> Multilevel multi-integration, the way down: the grids, and sources from each to the next coarser one. Inner loops take several
+!> terms in one sweep over a row, so that sums stay in registers, and run over contiguous memory.
+!>
+!> Nodes are numbered from 0. Grids reach beyond the domain by as many nodes as the transfers
+!> need to keep their order at the border. On a folded grid row -j is row j. A stage that
+!> halves X keeps its sources split into even and odd columns, so that loops are contiguous.
 ! Rows are passed by their first element
 ! allow(assumed-size)
 module ehl_mlmi_down
+   use, intrinsic :: iso_fortran_env, only: int64
    use ehl_kinds, only: dp
-   use ehl_mlmi_stage, only: stage_t, stored_row, sources_near, rows_near, put, nowhere
-   use ehl_mlmi_rows, only: add_pairs, add_row_pairs, add_taps, find_sources
+   use ehl_status, only: status_t, ehl_no_memory
    !$ use omp_lib, only: omp_get_thread_num
    implicit none (type, external)
    private
-   public :: take, descend, sum_directly
+   public :: add_pairs, add_row_pairs, descend, no_memory, rows_near, sources_near, stage_t, stored_row, take
 
+   !> What is reported where memory does not suffice
+   character(len=*), parameter :: no_memory = "no memory for the mlmi deflection"
    !> Most pairs of rows that a transfer can have
-   integer, parameter :: most = 16
+   integer, parameter :: max_pairs = 16
+   !> No grid has a node this far out: first and last of a row without sources
+   integer, parameter :: nowhere = 2**29
+
+   !> One grid and, unless it is the coarsest, the step to the next
+   type :: stage_t
+      !> Axis that is halved next: 1 X, 2 Y, 0 on the coarsest grid
+      integer :: axis = 0
+      logical :: mirror = .false.
+      !> Node ranges (X, Y) of this grid and of the next, nodes beyond the domain included
+      integer :: low(2) = 0, high(2) = 0, coarse_low(2) = 0, coarse_high(2) = 0
+      !> Zero columns kept at both ends of a row of sources
+      integer :: margin = 0
+      !> Sources: columns low(1)-margin:high(1)+margin, or even and odd columns for themselves,
+      !> coarse_low(1)-margin:coarse_high(1)+margin, column 2i in even(i) and 2i+1 in odd(i).
+      !> Row high(2)+1 is empty and stands for all rows outside.
+      real(dp), allocatable :: source(:, :), even(:, :), odd(:, :)
+      !> Columns of the first and the last source in each row
+      integer, allocatable :: first(:), last(:)
+      !> Deflection on the next grid; on the coarsest grid its kernel (offset X, offset Y)
+      real(dp), allocatable :: coarse(:, :)
+   contains
+      procedure :: halve
+      procedure :: reserve_sources
+      procedure :: bytes
+   end type stage_t
 
 contains
+
+   !> Make this the grid low:high, halved along an axis with 2t-point transfers;
+   !> correction_reach: so many nodes away may a source be that corrects the deflection of a node
+   subroutine halve(self, low, high, axis, mirror, t, correction_reach, status)
+      class(stage_t), intent(inout) :: self
+      integer, intent(in) :: low(2), high(2), axis, t, correction_reach
+      logical, intent(in) :: mirror
+      type(status_t), intent(inout) :: status
+      integer :: stat
+
+      self%axis = axis
+      self%mirror = mirror
+      self%low = low
+      self%high = high
+      self%coarse_low = low
+      self%coarse_high = high
+      ! the outermost odd nodes are interpolated from 2t nodes of the next grid
+      self%coarse_low(axis) = min(-shifta(-low(axis), 1), &
+                                  (low(axis) + 1 - modulo(low(axis), 2) - (2*t - 1))/2)
+      self%coarse_high(axis) = max(shifta(high(axis), 1), &
+                                   (high(axis) - 1 + modulo(high(axis), 2) + 2*t - 1)/2)
+      if (axis == 2 .and. mirror) self%coarse_low(2) = 0
+      self%margin = max(t, correction_reach) + 2
+      call reserve_sources(self, stat)
+      if (stat == 0) allocate (self%coarse(self%coarse_low(1):self%coarse_high(1), &
+                                           self%coarse_low(2):self%coarse_high(2)), stat=stat)
+      if (stat /= 0) call status%fail(ehl_no_memory, no_memory)
+   end subroutine halve
+
+   !> Sources, all zero
+   subroutine reserve_sources(self, stat)
+      class(stage_t), intent(inout) :: self
+      integer, intent(out) :: stat
+      integer :: left, right, below, above
+
+      below = self%low(2)
+      above = self%high(2) + 1
+      if (self%axis == 1) then
+         left = self%coarse_low(1) - self%margin
+         right = self%coarse_high(1) + self%margin
+         allocate (self%even(left:right, below:above), stat=stat)
+         if (stat == 0) allocate (self%odd(left:right, below:above), stat=stat)
+         if (stat /= 0) return
+         self%even = 0.0_dp
+         self%odd = 0.0_dp
+      else
+         left = self%low(1) - self%margin
+         right = self%high(1) + self%margin
+         allocate (self%source(left:right, below:above), stat=stat)
+         if (stat /= 0) return
+         self%source = 0.0_dp
+      end if
+      allocate (self%first(below:above), stat=stat)
+      if (stat == 0) allocate (self%last(below:above), stat=stat)
+      if (stat /= 0) return
+      self%first = nowhere
+      self%last = -nowhere
+   end subroutine reserve_sources
+
+   !> Allocated bytes
+   pure integer(int64) function bytes(self)
+      class(stage_t), intent(in) :: self
+
+      bytes = 0
+      if (allocated(self%source)) bytes = bytes + 8*size(self%source, kind=int64)
+      if (allocated(self%even)) bytes = bytes + 16*size(self%even, kind=int64)
+      if (allocated(self%coarse)) bytes = bytes + 8*size(self%coarse, kind=int64)
+      if (allocated(self%first)) bytes = bytes + 8*size(self%first, kind=int64)
+   end function bytes
 
    !> The pressure p (nx, ny) becomes the sources of the finest grid
    subroutine take(stage, threads, p, work)
@@ -32,14 +132,7 @@ contains
       !$ me = omp_get_thread_num() + 1
       !$omp do schedule(dynamic, 8)
       do j = 0, stage%high(2)
-         call find_sources(n, p(:, j), first, last)
-         if (first <= last) then
-            first = first - 1
-            last = last - 1
-         else
-            first = nowhere
-            last = -nowhere
-         end if
+         call find_sources(p(:, j), first, last)
          if (stage%axis == 1 .and. mod(n, 2) == 1 .and. &
              max(last, stage%last(j)) == n - 1) then
             ! the last column has no odd one beside it
@@ -53,6 +146,21 @@ contains
       !$omp end do
       !$omp end parallel
    end subroutine take
+
+   !> First and last element that is not zero (a NaN is not); nowhere if there is none
+   pure subroutine find_sources(a, first, last)
+      real(dp), contiguous, intent(in) :: a(0:)
+      integer, intent(out) :: first, last
+
+      do first = 0, size(a) - 1
+         if (.not. abs(a(first)) <= 0.0_dp) exit
+      end do
+      do last = size(a) - 1, first, -1
+         if (.not. abs(a(last)) <= 0.0_dp) return
+      end do
+      first = nowhere
+      last = -nowhere
+   end subroutine find_sources
 
    !> Sources of the next grid
    subroutine descend(fine, coarse, omega, threads, work)
@@ -111,8 +219,8 @@ contains
       real(dp), intent(in) :: omega(:)
       real(dp), intent(inout) :: sums(*)
       integer :: t, first, last, a, b, count
-      integer :: upper(most), lower(most), place(most)
-      real(dp) :: c(most)
+      integer :: upper(max_pairs), lower(max_pairs), place(max_pairs)
+      real(dp) :: c(max_pairs)
 
       t = size(omega)
       call sources_near(fine, 2*j, 2*t - 1, first, last)
@@ -121,7 +229,7 @@ contains
       call rows_near(fine, 2*j, 1, t, a, count, upper, lower, place)
       sums(1:b - a + 1) = fine%source(a:b, stored_row(fine, 2*j))
       c(:count) = omega(place(:count))
-      call add_row_pairs(b - a + 1, count, c, fine%source, upper, lower, .false., sums)
+      call add_row_pairs(b - a + 1, count, c, fine%source, upper, lower, sums)
       call put(coarse, j, first, last, a, sums)
    end subroutine descend_row_y
 
@@ -139,53 +247,152 @@ contains
       b = 2*shifta(b, 1) + 1
    end subroutine columns_to_write
 
-   !> Deflection of the coarsest grid
-   subroutine sum_directly(stage, threads, work, w)
-      type(stage_t), intent(in) :: stage
-      integer, intent(in) :: threads
-      real(dp), intent(inout) :: work(:, :, :)
-      real(dp), intent(out) :: w(stage%low(1):stage%high(1), stage%low(2):stage%high(2))
-      integer :: j, me
-
-      !$omp parallel num_threads(threads) default(none) private(j, me) shared(stage, work, w)
-      me = 1
-      !$ me = omp_get_thread_num() + 1
-      !$omp do schedule(static)
-      do j = stage%low(2), stage%high(2)
-         call sum_row(stage, j, work(:, 1, me), work(:, 2, me), w(:, j))
-      end do
-      !$omp end do
-      !$omp end parallel
-   end subroutine sum_directly
-
-   !> One row of it: source rows at the same distance are added first. Sums are taken for a
-   !> multiple of eight columns, so that the compiler's vector loop has no remainder.
-   subroutine sum_row(stage, j, s, sums, w)
+   !> Where row j is stored
+   pure integer function stored_row(stage, j)
       type(stage_t), intent(in) :: stage
       integer, intent(in) :: j
-      real(dp), intent(inout) :: s(stage%low(1):*), sums(*)
-      real(dp), intent(out) :: w(:)
-      integer :: d, i, n, a, b, upper, lower, start
 
-      n = 8*((size(w) + 7)/8)
-      sums(:n) = 0.0_dp
-      start = lbound(stage%coarse, 1)
-      do d = 0, ubound(stage%coarse, 2)
-         upper = stored_row(stage, j + d)
-         lower = stored_row(stage, j - d)
-         a = min(stage%first(upper), stage%first(lower))
-         b = max(stage%last(upper), stage%last(lower))
-         if (a > b) cycle
-         if (d == 0) then
-            s(a:b) = stage%source(a:b, j)
-         else
-            s(a:b) = stage%source(a:b, upper) + stage%source(a:b, lower)
-         end if
-         s(b + 1:b + 7) = 0.0_dp
-         do i = a, b, 8
-            call add_taps(n, s(i:i + 7), stage%coarse(:, d), stage%low(1) - i - start + 1, sums)
+      stored_row = j
+      if (stage%mirror) stored_row = abs(j)
+      if (stored_row < stage%low(2)) stored_row = stage%high(2) + 1
+      stored_row = min(stored_row, stage%high(2) + 1)
+   end function stored_row
+
+   !> Columns of the first and the last source in rows j - reach .. j + reach
+   pure subroutine sources_near(stage, j, reach, first, last)
+      type(stage_t), intent(in) :: stage
+      integer, intent(in) :: j, reach
+      integer, intent(out) :: first, last
+      integer :: k
+
+      first = nowhere
+      last = -nowhere
+      ! rows outside have no sources, mirror images the same as the rows j + 1 .. j + reach
+      do k = max(j - reach, stage%low(2)), min(j + reach, stage%high(2))
+         first = min(first, stage%first(k))
+         last = max(last, stage%last(k))
+      end do
+   end subroutine sources_near
+
+   !> Pairs of rows at distances start, start + 2, ... from row j, as offsets of column a - 1
+   !> in the array of sources. Pairs without sources are left out; place says which of the
+   !> pairs are there. Row j has no partner.
+   pure subroutine rows_near(stage, j, start, pairs, a, count, upper, lower, place)
+      type(stage_t), intent(in) :: stage
+      integer, intent(in) :: j, start, pairs, a
+      integer, intent(out) :: count
+      integer, intent(inout) :: upper(:), lower(:), place(:)
+      integer :: k, width, column, above, below
+
+      width = size(stage%source, 1)
+      column = a - (stage%low(1) - stage%margin)
+      count = 0
+      do k = 1, pairs
+         above = stored_row(stage, j + start + 2*(k - 1))
+         below = stored_row(stage, j - start - 2*(k - 1))
+         if (start == 0 .and. k == 1) below = stage%high(2) + 1
+         if (stage%first(above) > stage%last(above) &
+             .and. stage%first(below) > stage%last(below)) cycle
+         count = count + 1
+         upper(count) = (above - stage%low(2))*width + column
+         lower(count) = (below - stage%low(2))*width + column
+         place(count) = k
+      end do
+   end subroutine rows_near
+
+   !> Store row j of the sources, of which those outside first..last are zero; row(k) belongs
+   !> to column start - 1 + k. What the row held before is overwritten, so row must hold the
+   !> columns of the old sources too, from an even to an odd one.
+   subroutine put(stage, j, first, last, start, row)
+      type(stage_t), intent(inout) :: stage
+      integer, intent(in) :: j, first, last, start
+      real(dp), intent(in) :: row(*)
+      integer :: a, b, i
+
+      a = min(first, stage%first(j))
+      b = max(last, stage%last(j))
+      stage%first(j) = first
+      stage%last(j) = last
+      if (a > b) return
+      if (stage%axis == 1) then
+         a = shifta(a, 1)
+         b = shifta(b, 1)
+         do i = a, b
+            stage%even(i, j) = row(2*i - start + 1)
+            stage%odd(i, j) = row(2*i - start + 2)
+         end do
+      else
+         stage%source(a:b, j) = row(a - start + 1:b - start + 1)
+      end if
+   end subroutine put
+
+   !> y(i) = y(i) + sum over k = 1..m of c(k)*(a(right+i-1 + k-1) + a(left+i-1 - (k-1))):
+   !> pairs within one row, ever further apart
+   pure subroutine add_pairs(n, m, c, a, right, left, y)
+      integer, intent(in) :: n, m, right, left
+      real(dp), intent(in) :: c(*), a(*)
+      real(dp), intent(inout) :: y(n)
+      integer :: i, k, r, l
+
+      do k = 1, m - 3, 4
+         r = right + k - 2
+         l = left - k
+         do i = 1, n
+            y(i) = y(i) &
+                   + (c(k)*(a(r + i) + a(l + i)) + c(k + 1)*(a(r + i + 1) + a(l + i - 1))) &
+                   + (c(k + 2)*(a(r + i + 2) + a(l + i - 2)) + c(k + 3)*(a(r + i + 3) + a(l + i - 3)))
          end do
       end do
-      w = sums(:size(w))
-   end subroutine sum_row
+      k = 4*(m/4) + 1
+      r = right + k - 2
+      l = left - k
+      select case (m - k)
+      case (2)
+         do i = 1, n
+            y(i) = y(i) &
+                   + (c(k)*(a(r + i) + a(l + i)) + c(k + 1)*(a(r + i + 1) + a(l + i - 1))) &
+                   + c(k + 2)*(a(r + i + 2) + a(l + i - 2))
+         end do
+      case (1)
+         do i = 1, n
+            y(i) = y(i) + (c(k)*(a(r + i) + a(l + i)) + c(k + 1)*(a(r + i + 1) + a(l + i - 1)))
+         end do
+      case (0)
+         do i = 1, n
+            y(i) = y(i) + c(k)*(a(r + i) + a(l + i))
+         end do
+      case default
+         continue
+      end select
+   end subroutine add_pairs
+
+   !> y(i) = y(i) + sum over k = 1..m of c(k)*(u(upper(k)+i) + u(lower(k)+i)), u being many rows
+   pure subroutine add_row_pairs(n, m, c, u, upper, lower, y)
+      integer, intent(in) :: n, m, upper(m), lower(m)
+      real(dp), intent(in) :: c(m), u(*)
+      real(dp), intent(inout) :: y(n)
+      integer :: i, k
+
+      do k = 1, m - 3, 4
+         associate (r => upper(k:k + 3), l => lower(k:k + 3))
+            do i = 1, n
+               y(i) = y(i) &
+                      + (c(k)*(u(r(1) + i) + u(l(1) + i)) + c(k + 1)*(u(r(2) + i) + u(l(2) + i))) &
+                      + (c(k + 2)*(u(r(3) + i) + u(l(3) + i)) + c(k + 3)*(u(r(4) + i) + u(l(4) + i)))
+            end do
+         end associate
+      end do
+      k = 4*(m/4) + 1
+      if (k < m) then
+         do i = 1, n
+            y(i) = y(i) + (c(k)*(u(upper(k) + i) + u(lower(k) + i)) + c(k + 1)*(u(upper(k + 1) + i) + u(lower(k + 1) + i)))
+         end do
+         k = k + 2
+      end if
+      if (k == m) then
+         do i = 1, n
+            y(i) = y(i) + c(k)*(u(upper(k) + i) + u(lower(k) + i))
+         end do
+      end if
+   end subroutine add_row_pairs
 end module ehl_mlmi_down

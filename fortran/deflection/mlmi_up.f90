@@ -1,27 +1,187 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The way up of multilevel multi-integration: deflection from ever finer grids, with local
-!> corrections where there are sources
+!> Multilevel multi-integration, the way up: transfer weights, local corrections, and the deflection of ever finer grids,
+!> interpolated and corrected where there are sources
+!>
+!> A kernel value midway between coarse points is interpolated from the 2t nearest ones,
+!>    K(d) = sum over k = 1..t of omega(k)*(K(d + 2k-1) + K(d - (2k-1))) + c(d),
+!> along one axis. The remainder c falls off like the 2t-th derivative of 1/r, and is kept
+!> where it matters: the largest values, until the sum of the magnitudes left out is within
+!> the tolerance. What is left out is added up, for odd and even d along the axis apart, and
+!> spread over the values kept: a smooth pressure then hardly feels the truncation (the
+!> error for the Hertz pressure falls to a half or a seventh).
 ! Rows are passed by their first element
 ! allow(assumed-size)
 module ehl_mlmi_up
+   use ehl_kernel, only: fill_kernel
    use ehl_kinds, only: dp
-   use ehl_mlmi_stencil, only: reach
-   use ehl_mlmi_stage, only: stage_t, stored_row, sources_near, rows_near
-   use ehl_mlmi_rows, only: add_pairs, add_centred, add_row_pairs, add_row_pairs_to_three, &
-      interpolate_and_merge
+   use ehl_mlmi_down, only: add_pairs, add_row_pairs, rows_near, sources_near, stage_t, stored_row
    !$ use omp_lib, only: omp_get_thread_num
    implicit none (type, external)
    private
-   public :: ascend
+   public :: ascend, stencil_t, transfer_weights
 
-   !> Most pairs of rows that a stencil can have
-   integer, parameter :: most = reach + 2
+   !> Corrections are looked for this far from the source, in mesh sizes
+   integer, parameter :: reach = 48
+   !> Fewest values, those at offsets along >= 0 counted, that are kept at an offset across
+   integer, parameter :: min_values = 3
+   !> Most pairs of rows that it can have
+   integer, parameter :: max_pairs = reach + 2
+
+   !> Local corrections of one halving, even in both offsets. "Along" is the axis that is
+   !> halved, "across" the other one.
+   type :: stencil_t
+      !> Largest offset across
+      integer :: width = 0
+      !> For each offset across 0..width: how many pairs of odd (1, 3, ...) and of even
+      !> (2, 4, ...) offsets along
+      integer, allocatable :: n_odd(:), n_even(:)
+      !> odd(k, across): at 2k-1 along, k >= 1; even(k, across): at 2k along, k >= 0
+      real(dp), allocatable :: odd(:, :), even(:, :)
+   contains
+      procedure :: make
+      procedure :: length
+      procedure :: reach => correction_reach
+   end type stencil_t
 
 contains
 
+   !> Weights of 2t-point interpolation midway between two points: omega(k) belongs to the
+   !> two points at distance 2k-1 half meshes
+   pure function transfer_weights(t) result(omega)
+      integer, intent(in) :: t
+      real(dp) :: omega(t)
+      integer :: k, m, node
+
+      do k = 1, t
+         omega(k) = 1.0_dp
+         do m = 1 - t, t
+            if (m == k) cycle
+            node = 2*m - 1
+            omega(k) = omega(k)*node/real(node - (2*k - 1), dp)
+         end do
+      end do
+   end function transfer_weights
+
+   !> Corrections for the kernel K(d) = kernel_coefficient(factor, step(1)*di, step(2)*dj, hx, hy),
+   !> halved along an axis (1: X, 2: Y), on a grid where no two nodes are further apart than
+   !> extent (X, Y). The tolerance is in units of K; it is not met if even all corrections
+   !> within reach leave out more.
+   subroutine make(self, axis, step, extent, factor, hx, hy, omega, tolerance, met)
+      class(stencil_t), intent(inout) :: self
+      integer, intent(in) :: axis, step(2), extent(2)
+      real(dp), intent(in) :: factor, hx, hy, omega(:), tolerance
+      logical, intent(out) :: met
+      real(dp), allocatable :: table(:, :), turned(:, :), c(:, :), copies(:, :)
+      real(dp) :: low, high, middle, spread
+      integer :: a, b, k, along, across, parity, trial
+      logical, allocatable :: kept(:, :)
+
+      along = min(reach, extent(axis))
+      across = min(reach, extent(3 - axis))
+      allocate (table(0:along + 2*size(omega), 0:across), c(0:along, 0:across), &
+                copies(0:along, 0:across), kept(0:along, 0:across))
+      if (axis == 1) then
+         call fill_kernel(table, factor, hx, hy, step)
+      else
+         allocate (turned(0:across, 0:ubound(table, 1)))
+         call fill_kernel(turned, factor, hx, hy, step)
+         table(:, :) = transpose(turned)
+      end if
+      do b = 0, across
+         do a = 0, along
+            copies(a, b) = merge(1.0_dp, 2.0_dp, a == 0)*merge(1.0_dp, 2.0_dp, b == 0)
+            c(a, b) = table(a, b)
+            do k = 1, size(omega)
+               c(a, b) = c(a, b) - omega(k)*(table(a + 2*k - 1, b) + table(abs(a - 2*k + 1), b))
+            end do
+         end do
+      end do
+
+      ! the largest threshold that leaves out no more than the tolerance
+      high = maxval(abs(c))
+      low = 1.0e-20_dp*high
+      do trial = 1, 20
+         middle = sqrt(low*high)
+         call choose(abs(c) >= middle, kept)
+         if (sum(copies*abs(c), mask=.not. kept) <= tolerance) then
+            low = middle
+         else
+            high = middle
+         end if
+      end do
+      call choose(abs(c) >= low, kept)
+      call fit(self, kept)
+      met = self%width < reach .and. self%length() < reach
+
+      do parity = 0, 1
+         spread = sum(copies(parity::2, :)*c(parity::2, :), mask=.not. kept(parity::2, :)) &
+                  /sum(copies(parity::2, :), mask=kept(parity::2, :))
+         where (kept(parity::2, :)) c(parity::2, :) = c(parity::2, :) + spread
+      end do
+      do b = 0, self%width
+         do k = 1, self%n_odd(b)
+            self%odd(k, b) = c(2*k - 1, b)
+         end do
+         do k = 0, self%n_even(b)
+            self%even(k, b) = c(2*k, b)
+         end do
+      end do
+   end subroutine make
+
+   !> The wanted values and those nearer to the axis across: for every offset across all
+   !> even and all odd offsets along up to the largest wanted, as the loops want them. A few
+   !> values at a large offset across are not worth the sum over two more rows.
+   pure subroutine choose(wanted, kept)
+      logical, intent(in) :: wanted(0:, 0:)
+      logical, intent(out) :: kept(0:, 0:)
+      integer :: b, width, parity
+
+      kept = .false.
+      width = findloc(count(wanted, dim=1) >= min_values, .true., dim=1, back=.true.) - 1
+      do b = 0, width
+         do parity = 0, 1
+            kept(parity:parity + 2*(findloc(wanted(parity::2, b), .true., dim=1, back=.true.) &
+                                    - 1):2, b) = .true.
+         end do
+      end do
+      ! the middle of every row, and one value of each kind, to carry what is left out
+      kept(0, 0:max(0, width)) = .true.
+      kept(1, 0) = .true.
+   end subroutine choose
+
+   !> Room for the values kept
+   subroutine fit(self, kept)
+      class(stencil_t), intent(inout) :: self
+      logical, intent(in) :: kept(0:, 0:)
+      integer :: b
+
+      if (allocated(self%n_odd)) deallocate (self%n_odd, self%n_even, self%odd, self%even)
+      self%width = count(kept(0, :)) - 1
+      allocate (self%n_odd(0:self%width), self%n_even(0:self%width))
+      do b = 0, self%width
+         self%n_odd(b) = count(kept(1::2, b))
+         self%n_even(b) = count(kept(0::2, b)) - 1
+      end do
+      allocate (self%odd(maxval(self%n_odd), 0:self%width), source=0.0_dp)
+      allocate (self%even(0:maxval(self%n_even), 0:self%width), source=0.0_dp)
+   end subroutine fit
+
+   !> Largest offset along the axis
+   pure integer function length(self)
+      class(stencil_t), intent(in) :: self
+      length = max(2*maxval(self%n_odd) - 1, 2*maxval(self%n_even))
+   end function length
+
+   !> Nodes of the next grid that a correction reaches over along the axis, or of this one across it
+   pure integer function correction_reach(self)
+      class(stencil_t), intent(in) :: self
+      correction_reach = max(self%length()/2 + 1, self%width)
+   end function correction_reach
+
    !> Deflection w of a grid from that of the next coarser one, which is used up
-   subroutine ascend(stage, omega, threads, work, w)
+   subroutine ascend(stage, stencil, omega, threads, work, w)
       type(stage_t), intent(inout) :: stage
+      type(stencil_t), intent(in) :: stencil
       real(dp), intent(in) :: omega(:)
       integer, intent(in) :: threads
       real(dp), intent(inout) :: work(:, :, :)
@@ -29,13 +189,13 @@ contains
       integer :: j, me
 
       !$omp parallel num_threads(threads) default(none) private(j, me) &
-      !$omp shared(stage, omega, work, w)
+      !$omp shared(stage, stencil, omega, work, w)
       me = 1
       !$ me = omp_get_thread_num() + 1
       if (stage%axis == 1) then
          !$omp do schedule(dynamic, 8)
          do j = stage%low(2), stage%high(2)
-            call ascend_row_x(stage, j, omega, work(:, 1, me), work(:, 2, me), work(:, 3, me), &
+            call ascend_row_x(stage, stencil, j, omega, work(:, 1, me), work(:, 2, me), work(:, 3, me), &
                               stage%coarse(:, j), w(:, j))
          end do
          !$omp end do
@@ -43,14 +203,14 @@ contains
          ! even rows are corrected, odd ones interpolated from them and corrected
          !$omp do schedule(dynamic, 8)
          do j = stage%coarse_low(2), stage%coarse_high(2)
-            call correct_row_y(stage, 2*j, work(:, :, me), stage%coarse(:, j))
+            call correct_row_y(stage, stencil, 2*j, work(:, :, me), stage%coarse(:, j))
             if (2*j >= stage%low(2) .and. 2*j <= stage%high(2)) w(:, 2*j) = stage%coarse(:, j)
          end do
          !$omp end do
          !$omp do schedule(dynamic, 8)
          do j = stage%low(2) + 1 - modulo(stage%low(2), 2), stage%high(2), 2
             call interpolate_row(stage, j, omega, w(:, j))
-            call correct_row_y(stage, j, work(:, :, me), w(:, j))
+            call correct_row_y(stage, stencil, j, work(:, :, me), w(:, j))
          end do
          !$omp end do
       end if
@@ -59,8 +219,9 @@ contains
 
    !> One row of a grid halved in X: even columns are corrected, odd ones interpolated from them and
    !> corrected. The buffers start at the same column as the sources.
-   subroutine ascend_row_x(stage, j, omega, odd, s_even, s_odd, even, w)
+   subroutine ascend_row_x(stage, stencil, j, omega, odd, s_even, s_odd, even, w)
       type(stage_t), intent(in) :: stage
+      type(stencil_t), intent(in) :: stencil
       integer, intent(in) :: j
       real(dp), intent(in) :: omega(:)
       real(dp), intent(inout) :: odd(stage%coarse_low(1) - stage%margin:*)
@@ -71,25 +232,25 @@ contains
       integer :: a, b, d, l, r, first, last, half, upper, lower
 
       odd(stage%coarse_low(1):stage%coarse_high(1)) = 0.0_dp
-      call sources_near(stage, j, stage%stencil%width, first, last)
+      call sources_near(stage, j, stencil%width, first, last)
       if (first <= last) then
-         half = stage%stencil%length()/2 + 1
+         half = stencil%length()/2 + 1
          a = max(shifta(first, 1) - half, stage%coarse_low(1))
          b = min(shifta(last, 1) + half, stage%coarse_high(1))
          l = a - half
          r = b + half
-         do d = 0, stage%stencil%width
+         do d = 0, stencil%width
             upper = stored_row(stage, j + d)
             lower = stored_row(stage, j - d)
             if (stage%first(upper) > stage%last(upper) &
                 .and. stage%first(lower) > stage%last(lower)) cycle
             if (d == 0) then
-               call correct_row_x(stage, d, a, b, stage%even(:, j), stage%odd(:, j), &
+               call correct_row_x(stage, stencil, d, a, b, stage%even(:, j), stage%odd(:, j), &
                                   even(a:b), odd(a:b))
             else
                s_even(l:r) = stage%even(l:r, upper) + stage%even(l:r, lower)
                s_odd(l:r) = stage%odd(l:r, upper) + stage%odd(l:r, lower)
-               call correct_row_x(stage, d, a, b, s_even, s_odd, even(a:b), odd(a:b))
+               call correct_row_x(stage, stencil, d, a, b, s_even, s_odd, even(a:b), odd(a:b))
             end if
          end do
       end if
@@ -107,8 +268,9 @@ contains
    end subroutine ascend_row_x
 
    !> Corrections from sources at distance d across, columns a..b of the half grids
-   subroutine correct_row_x(stage, d, a, b, s_even, s_odd, even, odd)
+   subroutine correct_row_x(stage, stencil, d, a, b, s_even, s_odd, even, odd)
       type(stage_t), intent(in) :: stage
+      type(stencil_t), intent(in) :: stencil
       integer, intent(in) :: d, a, b
       real(dp), intent(in) :: s_even(*), s_odd(*)
       real(dp), intent(inout) :: even(:), odd(:)
@@ -116,11 +278,9 @@ contains
 
       n = b - a + 1
       column = a - (stage%coarse_low(1) - stage%margin) + 1
-      associate (stencil => stage%stencil)
-         call add_pairs(n, stencil%n_odd(d), stencil%odd(:, d), s_odd, column, column - 1, even)
-         call add_pairs(n, stencil%n_odd(d), stencil%odd(:, d), s_even, column + 1, column, odd)
-         call add_centred(n, stencil%n_even(d), stencil%even(:, d), s_odd, column, odd)
-      end associate
+      call add_pairs(n, stencil%n_odd(d), stencil%odd(:, d), s_odd, column, column - 1, even)
+      call add_pairs(n, stencil%n_odd(d), stencil%odd(:, d), s_even, column + 1, column, odd)
+      call add_centred(n, stencil%n_even(d), stencil%even(:, d), s_odd, column, odd)
    end subroutine correct_row_x
 
    !> Odd row j from the even ones around it
@@ -130,7 +290,7 @@ contains
       real(dp), intent(in) :: omega(:)
       real(dp), intent(inout) :: w(:)
       integer :: k, above, below
-      integer :: upper(most), lower(most)
+      integer :: upper(max_pairs), lower(max_pairs)
 
       do k = 1, size(omega)
          above = shifta(j, 1) + k
@@ -139,58 +299,57 @@ contains
          upper(k) = (above - stage%coarse_low(2))*size(w)
          lower(k) = (below - stage%coarse_low(2))*size(w)
       end do
-      call add_row_pairs(size(w), size(omega), omega, stage%coarse, upper, lower, .true., w)
+      w = 0.0_dp
+      call add_row_pairs(size(w), size(omega), omega, stage%coarse, upper, lower, w)
    end subroutine interpolate_row
 
    !> Corrections of row j of a grid halved in Y: rows at the same distance are added, then
    !> weighted and summed for each column offset, and shifted by that offset at last
-   subroutine correct_row_y(stage, j, sums, w)
+   subroutine correct_row_y(stage, stencil, j, sums, w)
       type(stage_t), intent(in) :: stage
+      type(stencil_t), intent(in) :: stencil
       integer, intent(in) :: j
       real(dp), intent(inout) :: sums(:, :)
       real(dp), intent(inout) :: w(stage%low(1):stage%high(1))
       integer :: a, b, k, m, n, x, x_last, count, count_even, pairs, first, last
-      integer :: upper(most), lower(most), place(most)
-      real(dp) :: c(most, 3)
+      integer :: upper(max_pairs), lower(max_pairs), place(max_pairs)
+      real(dp) :: c(max_pairs, 3)
 
-      associate (stencil => stage%stencil)
-         call sources_near(stage, j, stencil%length(), first, last)
-         if (first > last) return
-         m = stencil%width
-         a = max(first - m, stage%low(1))
-         b = min(last + m, stage%high(1))
-         n = b - a + 1 + 2*m
-         x = 0
-         do while (x <= m)
-            x_last = min(x + 2, m)
-            pairs = maxval(stencil%n_odd(x:x_last))
-            call rows_near(stage, j, 1, pairs, a - m, count, upper, lower, place)
-            do k = x, x_last
-               c(:count, k - x + 1) = stencil%odd(place(:count), k)
-            end do
-            if (modulo(j, 2) == 1) then
-               pairs = maxval(stencil%n_even(x:x_last)) + 1
-               call rows_near(stage, j, 0, pairs, a - m, count_even, upper(count + 1:), &
-                              lower(count + 1:), place(count + 1:))
-               do k = x, x_last
-                  c(count + 1:count + count_even, k - x + 1) = &
-                     stencil%even(place(count + 1:count + count_even) - 1, k)
-               end do
-               count = count + count_even
-            end if
-            if (x_last == x) then
-               call add_row_pairs(n, count, c(:, 1), stage%source, upper, lower, .true., &
-                                  sums(:, 1))
-            else
-               sums(:n, 1:3) = 0.0_dp
-               call add_row_pairs_to_three(n, count, c(:, 1), c(:, 2), c(:, 3), stage%source, &
-                                           upper, lower, x_last == x + 2, &
-                                           sums(:, 1), sums(:, 2), sums(:, 3))
-            end if
-            call add_shifted(b - a + 1, m, x, x_last, size(sums, 1), sums, w(a:b))
-            x = x_last + 1
+      call sources_near(stage, j, stencil%length(), first, last)
+      if (first > last) return
+      m = stencil%width
+      a = max(first - m, stage%low(1))
+      b = min(last + m, stage%high(1))
+      n = b - a + 1 + 2*m
+      x = 0
+      do while (x <= m)
+         x_last = min(x + 2, m)
+         pairs = maxval(stencil%n_odd(x:x_last))
+         call rows_near(stage, j, 1, pairs, a - m, count, upper, lower, place)
+         do k = x, x_last
+            c(:count, k - x + 1) = stencil%odd(place(:count), k)
          end do
-      end associate
+         if (modulo(j, 2) == 1) then
+            pairs = maxval(stencil%n_even(x:x_last)) + 1
+            call rows_near(stage, j, 0, pairs, a - m, count_even, upper(count + 1:), &
+                           lower(count + 1:), place(count + 1:))
+            do k = x, x_last
+               c(count + 1:count + count_even, k - x + 1) = &
+                  stencil%even(place(count + 1:count + count_even) - 1, k)
+            end do
+            count = count + count_even
+         end if
+         sums(:n, 1:3) = 0.0_dp
+         if (x_last == x) then
+            call add_row_pairs(n, count, c(:, 1), stage%source, upper, lower, sums(:, 1))
+         else
+            call add_row_pairs_to_three(n, count, c(:, 1), c(:, 2), c(:, 3), stage%source, &
+                                        upper, lower, x_last == x + 2, &
+                                        sums(:, 1), sums(:, 2), sums(:, 3))
+         end if
+         call add_shifted(b - a + 1, m, x, x_last, size(sums, 1), sums, w(a:b))
+         x = x_last + 1
+      end do
    end subroutine correct_row_y
 
    !> w(i) = w(i) + sum over k = x..x_last of s(i+m - k, k-x+1) + s(i+m + k, k-x+1), the
@@ -222,4 +381,110 @@ contains
          end do
       end if
    end subroutine add_shifted
+
+   !> The same around a middle: y(i) = y(i) + c(0)*a(middle+i-1)
+   !> + sum over k = 1..m of c(k)*(a(middle+i-1 + k) + a(middle+i-1 - k))
+   pure subroutine add_centred(n, m, c, a, middle, y)
+      integer, intent(in) :: n, m, middle
+      real(dp), intent(in) :: c(0:*), a(*)
+      real(dp), intent(inout) :: y(n)
+      integer :: i, s
+
+      s = middle - 1
+      select case (m)
+      case (0)
+         do i = 1, n
+            y(i) = y(i) + c(0)*a(s + i)
+         end do
+      case (1)
+         do i = 1, n
+            y(i) = y(i) + (c(0)*a(s + i) + c(1)*(a(s + i + 1) + a(s + i - 1)))
+         end do
+      case (2)
+         do i = 1, n
+            y(i) = y(i) + (c(0)*a(s + i) + c(1)*(a(s + i + 1) + a(s + i - 1))) &
+                   + c(2)*(a(s + i + 2) + a(s + i - 2))
+         end do
+      case default
+         do i = 1, n
+            y(i) = y(i) + (c(0)*a(s + i) + c(1)*(a(s + i + 1) + a(s + i - 1))) &
+                   + (c(2)*(a(s + i + 2) + a(s + i - 2)) + c(3)*(a(s + i + 3) + a(s + i - 3)))
+         end do
+         if (m > 3) call add_pairs(n, m - 3, c(4), a, middle + 4, middle - 4, y)
+      end select
+   end subroutine add_centred
+
+   !> The same row pairs added to three rows y with weights c1, c2 and c3; to the first two
+   !> only if not three
+   pure subroutine add_row_pairs_to_three(n, m, c1, c2, c3, u, upper, lower, three, y1, y2, y3)
+      integer, intent(in) :: n, m, upper(m), lower(m)
+      real(dp), intent(in) :: c1(m), c2(m), c3(m), u(*)
+      logical, intent(in) :: three
+      real(dp), intent(inout) :: y1(n), y2(n), y3(n)
+      real(dp) :: s, t
+      integer :: i, k, r1, r2, l1, l2
+
+      do k = 1, m - 1, 2
+         r1 = upper(k)
+         r2 = upper(k + 1)
+         l1 = lower(k)
+         l2 = lower(k + 1)
+         if (three) then
+            do i = 1, n
+               s = u(r1 + i) + u(l1 + i)
+               t = u(r2 + i) + u(l2 + i)
+               y1(i) = y1(i) + (c1(k)*s + c1(k + 1)*t)
+               y2(i) = y2(i) + (c2(k)*s + c2(k + 1)*t)
+               y3(i) = y3(i) + (c3(k)*s + c3(k + 1)*t)
+            end do
+         else
+            do i = 1, n
+               s = u(r1 + i) + u(l1 + i)
+               t = u(r2 + i) + u(l2 + i)
+               y1(i) = y1(i) + (c1(k)*s + c1(k + 1)*t)
+               y2(i) = y2(i) + (c2(k)*s + c2(k + 1)*t)
+            end do
+         end if
+      end do
+      if (mod(m, 2) == 0) return
+      r1 = upper(m)
+      l1 = lower(m)
+      do i = 1, n
+         s = u(r1 + i) + u(l1 + i)
+         y1(i) = y1(i) + c1(m)*s
+         y2(i) = y2(i) + c2(m)*s
+      end do
+      if (.not. three) return
+      do i = 1, n
+         y3(i) = y3(i) + c3(m)*(u(r1 + i) + u(l1 + i))
+      end do
+   end subroutine add_row_pairs_to_three
+
+   !> row = even(start), odd(1), even(start + 1), odd(2), ... with the interpolation
+   !> sum over k of c(k)*(even(start+i-1 + k) + even(start+i-1 - (k-1))) added to odd(i)
+   pure subroutine interpolate_and_merge(n, m, c, even, start, odd, row)
+      integer, intent(in) :: n, m, start
+      real(dp), intent(in) :: c(m), even(*)
+      real(dp), intent(inout) :: odd(n)
+      real(dp), intent(out) :: row(2*n)
+      integer :: i, s
+
+      s = start - 1
+      if (m < 4) then
+         call add_pairs(n, m, c, even, start + 1, start, odd)
+         do i = 1, n
+            row(2*i - 1) = even(s + i)
+            row(2*i) = odd(i)
+         end do
+      else
+         if (m > 4) call add_pairs(n, m - 4, c(5), even, start + 5, start - 4, odd)
+         do i = 1, n
+            row(2*i - 1) = even(s + i)
+            row(2*i) = odd(i) + (c(1)*(even(s + i + 1) + even(s + i)) &
+                                 + c(2)*(even(s + i + 2) + even(s + i - 1))) &
+                       + (c(3)*(even(s + i + 3) + even(s + i - 2)) &
+                          + c(4)*(even(s + i + 4) + even(s + i - 3)))
+         end do
+      end if
+   end subroutine interpolate_and_merge
 end module ehl_mlmi_up

@@ -161,21 +161,26 @@ contains
    end subroutine find_weights
 
    !> Row j of the transpose of interpolation applied to fine values, in coarse columns 2 to nx-1;
-   !> j is no border row. On a folded grid the values of fine row 1 are those of half cells.
-   pure subroutine restrict_row(self, fine, j, values)
+   !> j is no border row
+   pure subroutine restrict_row(self, fine, j, values, first_row)
       class(transfer_t), intent(in) :: self
       !> Shape of the fine grid
       real(dp), intent(in) :: fine(:, :)
       integer, intent(in) :: j
       !> Shape (nx)
       real(dp), intent(inout) :: values(:)
+      !> Factor of the values of fine row 1, which of a folded grid is one of half cells; not given: it is in them
+      real(dp), intent(in), optional :: first_row
+      real(dp) :: own
       integer :: i, k, l
 
       l = 2*j - 1
+      own = 1.0_dp
+      if (present(first_row) .and. l == 1) own = first_row
       do i = 2, self%nx - 1
          k = 2*i - 1
-         values(i) = self%free(i, j)*fine(k, l) &
-                     + self%along_x(1, i, j)*fine(k + 1, l) + self%along_x(2, i - 1, j)*fine(k - 1, l) &
+         values(i) = self%free(i, j)*(own*fine(k, l)) &
+                     + self%along_x(1, i, j)*(own*fine(k + 1, l)) + self%along_x(2, i - 1, j)*(own*fine(k - 1, l)) &
                      + self%along_y(1, i, j)*fine(k, l + 1) &
                      + self%centre(1, i, j)*fine(k + 1, l + 1) + self%centre(2, i - 1, j)*fine(k - 1, l + 1)
          if (j > 1) values(i) = values(i) + self%along_y(2, i, j - 1)*fine(k, l - 1) &

@@ -8,9 +8,9 @@ module ehl_coarsest
    use ehl_grid, only: grid_t
    use ehl_kernel, only: fill_kernel
    use ehl_kinds, only: dp
-   use ehl_level, only: film_of_flow, level_t, touches_at
+   use ehl_level, only: level_t
    use ehl_node_state, only: cavitate, cavity_pressure
-   use ehl_poiseuille, only: most_neighbours
+   use ehl_poiseuille, only: max_neighbours
    use ehl_reynolds, only: reynolds_operator
    use ehl_status, only: ehl_no_memory, status_t
    use ehl_wedge, only: wedge_reach
@@ -20,10 +20,10 @@ module ehl_coarsest
 
    !> Residual reduction wanted, and the most Newton steps to get it
    real(dp), parameter :: reduction = 0.05_dp
-   integer, parameter :: most_steps = 12
+   integer, parameter :: max_steps = 12
    !> Factors serve while a step with them brings the residual down to this share
    real(dp), parameter :: slow = 0.3_dp
-   integer, parameter :: most_halvings = 12
+   integer, parameter :: max_halvings = 12
 
    !> Work space of the dense Newton iteration. Unknowns are the pressures of the interior nodes,
    !> column by column of the grid's storage, and H00 as the last one.
@@ -107,7 +107,7 @@ contains
    end function unknown
 
    !> Newton iteration with an active set of cavitated nodes, from the level's present state until
-   !> the residual has fallen to `reduction` of its start, or for `most_steps` steps. The
+   !> the residual has fallen to `reduction` of its start, or for `max_steps` steps. The
    !> factors are kept from step to step and from call to call while they serve.
    subroutine solve(self, level)
       class(coarsest_t), intent(inout) :: self
@@ -119,7 +119,7 @@ contains
       call refresh(level)
       call self%find_residual(level, norm_start)
       norm = norm_start
-      do step = 1, most_steps
+      do step = 1, max_steps
          if (norm <= reduction*norm_start .or. norm <= tiny(1.0_dp)) exit
          fresh = .not. self%factored
          if (fresh) call self%assemble(level)
@@ -156,7 +156,7 @@ contains
       nx = level%grid%nx
       self%held = self%cavitated
       damping = 1.0_dp
-      do half = 1, merge(most_halvings, 1, fresh)
+      do half = 1, merge(max_halvings, 1, fresh)
          do j = self%first, self%last
             do i = 2, nx - 1
                u = unknown(self, nx, i, j)
@@ -177,8 +177,7 @@ contains
    !> Whether the lubricant has a film to flow through; above a boundary film it always has
    pure logical function is_positive(level)
       type(level_t), intent(in) :: level
-      is_positive = allocated(level%boundary)
-      if (.not. is_positive) is_positive = minval(level%h) > 0.0_dp
+      is_positive = level%boundary%active .or. minval(level%h) > 0.0_dp
    end function is_positive
 
    !> Right-hand side of the Newton step, and its norm; cavitated nodes count only when they
@@ -195,9 +194,7 @@ contains
          weight = merge(2.0_dp, 1.0_dp, level%grid%mirror .and. j > 1)
          call reynolds_operator(level, j, row)
          row = level%rhs(:, j) - row
-         if (allocated(level%boundary)) then
-            call level%boundary%residual_row(level%rhs(:, j), level%mass_content(:, j), j, row)
-         end if
+         call level%boundary%residual_row(level%rhs(:, j), level%mass_content(:, j), j, row)
          do i = 2, level%grid%nx - 1
             u = unknown(self, level%grid%nx, i, j)
             self%residual(u) = row(i)
@@ -220,8 +217,8 @@ contains
    subroutine assemble(self, level)
       class(coarsest_t), intent(inout) :: self
       type(level_t), intent(in) :: level
-      real(dp) :: coupling(most_neighbours), rate(most_neighbours), own, part, excess, c(0:wedge_reach)
-      integer :: i, j, m, u, nx, at, nb(2, most_neighbours), direction(most_neighbours), neighbours
+      real(dp) :: coupling(max_neighbours), rate(max_neighbours), own, part, excess, c(0:wedge_reach)
+      integer :: i, j, m, u, nx, at, nb(2, max_neighbours), direction(max_neighbours), neighbours
 
       nx = level%grid%nx
       ! transposed, so that a row is contiguous
@@ -234,7 +231,7 @@ contains
                cycle
             end if
             at = i + (j - 1)*nx
-            if (touches_at(level, i, j)) then
+            if (level%boundary%touches(i, j)) then
                call add_film(i, j, -level%boundary%rate*level%rho(i, j))
                call add_pressure(i, j, -level%boundary%rate*level%h_drho_dp(i, j))
                cycle
@@ -248,10 +245,11 @@ contains
                   ! a Galerkin operator does not change
                   if (level%poiseuille%frozen) cycle
                   part = rate(m)*(level%p(ii, jj) - level%p(i, j))
-                  own = own + flow%film_power(i, j, d)*flow%eps(i, j, d)/film_of_flow(level, i, j)*part
+                  own = own + flow%film_exponent(i, j, d)*flow%eps(i, j, d)/level%boundary%film_at(level%h, i, j)*part
                   call add_pressure(ii, jj, flow%eps(ii, jj, d)*flow%dlneps_dp(ii, jj, d)*part)
                   call add_pressure(i, j, flow%eps(i, j, d)*flow%dlneps_dp(i, j, d)*part)
-                  call add_film(ii, jj, flow%film_power(ii, jj, d)*flow%eps(ii, jj, d)/film_of_flow(level, ii, jj)*part)
+                  call add_film(ii, jj, flow%film_exponent(ii, jj, d)*flow%eps(ii, jj, d) &
+                                /level%boundary%film_at(level%h, ii, jj)*part)
                end associate
             end do
             c = level%wedge%weights(i)

@@ -8,22 +8,19 @@ module ehl_cycle
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
    use ehl_node_state, only: cavitate
-   use ehl_relaxation, only: full_trust, relax
+   use ehl_relaxation, only: usual_log_change, relax
    use ehl_reynolds, only: update_residual
    use ehl_workspace, only: workspace_t
    implicit none (type, external)
    private
-   public :: careful_cycle, cycle_options_t, damped_cycle, finest_cycle, most_damping, prolong_solution
+   public :: cycle_options_t, damped_cycle, finest_cycle, most_damping, prolong_solution
    public :: coarsening_classical, coarsening_alcouffe
 
-   !> A careful cycle: largest change of the logarithm of a node's conductance, shares of the changes that are made. Where
-   !> the pressure spike is a few nodes wide (L = 25 on 513 x 513 nodes) F cycles throw it about; docs/design.md.
-   real(dp), parameter :: careful_trust = full_trust/3.0_dp, careful_share = 0.6_dp
-
-   !> Damped cycles by degree: the same, shares of the changes of a sweep and of a coarse grid. The first degree takes all that
-   !> a coarse grid finds: the film's level and the load come from there.
-   integer, parameter :: most_damping = 4
-   real(dp), parameter :: damped_trust(most_damping) = full_trust/[1.0_dp, 3.0_dp, 3.0_dp, 9.0_dp], &
+   !> Damped cycles by degree: largest change of the logarithm of a node's conductance, relaxation factors of a sweep and of the
+   !> correction by a coarse grid. The first degree makes all of the correction: the film's level and the load come from there.
+   !> Where the pressure spike is a few nodes wide (L = 25 on 513 x 513 nodes) F cycles throw it about; docs/design.md.
+   integer, parameter :: most_damping = 4, usual_damping = 2
+   real(dp), parameter :: damped_log_change(most_damping) = usual_log_change/[1.0_dp, 3.0_dp, 3.0_dp, 9.0_dp], &
                           damped_sweep(most_damping) = [0.6_dp, 0.6_dp, 0.3_dp, 0.15_dp], &
                           damped_correction(most_damping) = [1.0_dp, 0.6_dp, 0.5_dp, 0.25_dp]
 
@@ -36,10 +33,10 @@ module ehl_cycle
       integer :: pre = 2, post = 1
       !> Residual (rms) of the finest level that needs no more of the sweeps after the correction
       real(dp) :: enough = 0.0_dp
-      !> Largest change of the logarithm of a node's conductance in a sweep, for time steps and careful cycles
-      real(dp) :: trust = full_trust
-      !> Shares of the changes of a sweep and of a coarse grid that are made
-      real(dp) :: sweep_share = 1.0_dp, correction_share = 1.0_dp
+      !> Largest change of the logarithm of a node's conductance in a sweep, for time steps and damped cycles
+      real(dp) :: max_log_change = usual_log_change
+      !> Relaxation factors of a sweep and of the correction by a coarse grid
+      real(dp) :: relaxation_factor = 1.0_dp, correction_factor = 1.0_dp
       !> Whether these are those of the finest level alone: where each level takes its share of what a coarser one finds,
       !> next to nothing of the film's level and the load, which the coarsest finds, arrives on fine grids
       logical :: finest_only = .false.
@@ -49,36 +46,29 @@ module ehl_cycle
 
 contains
 
-   !> The W cycle that changes less, for what another one failed on
-   pure function careful_cycle(options) result(careful)
-      type(cycle_options_t), intent(in) :: options
-      type(cycle_options_t) :: careful
-
-      careful = options
-      careful%gamma = 2
-      careful%full = .false.
-      careful%trust = careful_trust
-      careful%sweep_share = careful_share
-      careful%correction_share = careful_share
-   end function careful_cycle
-
-   !> The W cycle whose sweeps and coarse grids make a part of their changes, less with every degree
+   !> The W cycle whose sweeps and coarse grids make a part of their changes, for what another cycle failed on; less with every
+   !> degree
    pure function damped_cycle(options, degree) result(damped)
       type(cycle_options_t), intent(in) :: options
-      integer, intent(in) :: degree
+      integer, intent(in), optional :: degree
       type(cycle_options_t) :: damped
+      integer :: d
 
-      damped = careful_cycle(options)
-      damped%trust = damped_trust(degree)
-      damped%sweep_share = damped_sweep(degree)
-      damped%correction_share = damped_correction(degree)
+      d = usual_damping
+      if (present(degree)) d = degree
+      damped = options
+      damped%gamma = 2
+      damped%full = .false.
+      damped%max_log_change = damped_log_change(d)
+      damped%relaxation_factor = damped_sweep(d)
+      damped%correction_factor = damped_correction(d)
    end function damped_cycle
 
    !> One cycle with level n as the finest. Film and coefficients are up to date before and after.
-   subroutine finest_cycle(levels, spaces, coarsenings, below, n, coarsest, options, residual)
+   subroutine finest_cycle(levels, workspaces, coarsenings, below, n, coarsest, options, residual)
       !> As hierarchy_t has them
       type(level_t), intent(inout) :: levels(:)
-      type(workspace_t), intent(inout) :: spaces(:)
+      type(workspace_t), intent(inout) :: workspaces(:)
       !> Operator-dependent transfer between each level and the next coarser one
       type(coarsening_t), intent(inout) :: coarsenings(:)
       !> The level that each is corrected on; 0: it is solved directly
@@ -95,10 +85,10 @@ contains
          call coarsest(n)%solve(levels(n))
          call update_residual(levels(n), residual)
       else
-         call visit_coarser(levels, spaces, coarsenings, below, n, coarsest, options)
+         call visit_coarser(levels, workspaces, coarsenings, below, n, coarsest, options)
          if (options%post == 0) call update_residual(levels(n), residual)
          do k = 1, options%post
-            call sweep(levels(n), spaces(n), 1, options%trust, options%sweep_share)
+            call sweep(levels(n), workspaces(n), 1, options%max_log_change, options%relaxation_factor)
             call update_residual(levels(n), residual)
             if (residual <= options%enough) exit
          end do
@@ -106,9 +96,9 @@ contains
    end subroutine finest_cycle
 
    !> One cycle on level n
-   recursive subroutine fas_cycle(levels, spaces, coarsenings, below, n, coarsest, options)
+   recursive subroutine fas_cycle(levels, workspaces, coarsenings, below, n, coarsest, options)
       type(level_t), intent(inout) :: levels(:)
-      type(workspace_t), intent(inout) :: spaces(:)
+      type(workspace_t), intent(inout) :: workspaces(:)
       type(coarsening_t), intent(inout) :: coarsenings(:)
       integer, intent(in) :: below(:), n
       type(coarsest_t), intent(inout) :: coarsest(:)
@@ -118,28 +108,28 @@ contains
          call coarsest(n)%solve(levels(n))
          return
       end if
-      call visit_coarser(levels, spaces, coarsenings, below, n, coarsest, options)
-      call sweep(levels(n), spaces(n), options%post, options%trust, options%sweep_share)
+      call visit_coarser(levels, workspaces, coarsenings, below, n, coarsest, options)
+      call sweep(levels(n), workspaces(n), options%post, options%max_log_change, options%relaxation_factor)
    end subroutine fas_cycle
 
    !> Relax so many times
-   subroutine sweep(level, space, times, trust, share)
+   subroutine sweep(level, space, times, max_log_change, relaxation_factor)
       type(level_t), intent(inout) :: level
       type(workspace_t), intent(inout) :: space
       integer, intent(in) :: times
-      real(dp), intent(in) :: trust, share
+      real(dp), intent(in) :: max_log_change, relaxation_factor
       integer :: k
 
       do k = 1, times
-         call relax(level, space, trust, share)
+         call relax(level, space, max_log_change, relaxation_factor)
          call refresh(level)
       end do
    end subroutine sweep
 
    !> Relax level n, solve its problem on the coarser ones and take over the change
-   recursive subroutine visit_coarser(levels, spaces, coarsenings, below, n, coarsest, options)
+   recursive subroutine visit_coarser(levels, workspaces, coarsenings, below, n, coarsest, options)
       type(level_t), intent(inout) :: levels(:)
-      type(workspace_t), intent(inout) :: spaces(:)
+      type(workspace_t), intent(inout) :: workspaces(:)
       type(coarsening_t), intent(inout) :: coarsenings(:)
       integer, intent(in) :: below(:), n
       type(coarsest_t), intent(inout) :: coarsest(:)
@@ -151,23 +141,23 @@ contains
       m = below(n)
       coarser = options
       if (options%finest_only) then
-         coarser%sweep_share = 1.0_dp
-         coarser%correction_share = 1.0_dp
+         coarser%relaxation_factor = 1.0_dp
+         coarser%correction_factor = 1.0_dp
       end if
-      call sweep(levels(n), spaces(n), options%pre, options%trust, options%sweep_share)
+      call sweep(levels(n), workspaces(n), options%pre, options%max_log_change, options%relaxation_factor)
       call update_residual(levels(n), rms)
-      call restrict_problem(levels(n), levels(m), spaces(m), coarsenings(n), options%coarsening)
+      call restrict_problem(levels(n), levels(m), workspaces(m), coarsenings(n), options%coarsening)
       do k = 1, options%gamma
-         call fas_cycle(levels, spaces, coarsenings, below, m, coarsest, coarser)
+         call fas_cycle(levels, workspaces, coarsenings, below, m, coarsest, coarser)
          ! solved directly
          if (below(m) == 0) exit
       end do
       if (options%full .and. below(m) > 0) then
          v = coarser
          v%full = .false.
-         call fas_cycle(levels, spaces, coarsenings, below, m, coarsest, v)
+         call fas_cycle(levels, workspaces, coarsenings, below, m, coarsest, v)
       end if
-      call correct(levels(n), levels(m), spaces(m), coarsenings(n)%transfer, options%coarsening, options%correction_share)
+      call correct(levels(n), levels(m), workspaces(m), coarsenings(n)%transfer, options%coarsening, options%correction_factor)
       call update_coefficients(levels(n))
    end subroutine visit_coarser
 
@@ -178,11 +168,11 @@ contains
       integer :: j
 
       call refine(coarse%p, coarse%grid%mirror, fine%p)
-      call refine(coarse%h - coarse%h00 - coarse%geometry, coarse%grid%mirror, fine%h)
+      call refine(coarse%h - coarse%h00 - coarse%film_rhs, coarse%grid%mirror, fine%h)
       fine%h00 = coarse%h00
       do j = 1, fine%grid%ny
          call cavitate(fine%p(:, j))
-         fine%h(:, j) = fine%h00 + fine%geometry(:, j) + fine%h(:, j)
+         fine%h(:, j) = fine%h00 + fine%film_rhs(:, j) + fine%h(:, j)
       end do
       call update_coefficients(fine)
    end subroutine prolong_solution

@@ -23,7 +23,7 @@ module ehl_hierarchy
 
    type :: hierarchy_t
       type(level_t), allocatable :: levels(:)
-      type(workspace_t), allocatable :: spaces(:)
+      type(workspace_t), allocatable :: workspaces(:)
       !> Operator-dependent coarsening from each level to the next coarser one; set up when first used
       type(coarsening_t), allocatable :: coarsenings(:)
       !> The level that each is corrected on; 0: it is solved directly
@@ -69,9 +69,9 @@ contains
       self%engine = engine
       self%threads = threads
       call find_ladder(coarsest, n, grids, self%below)
-      if (allocated(self%levels)) deallocate (self%levels, self%spaces, self%coarsenings, self%coarsest)
+      if (allocated(self%levels)) deallocate (self%levels, self%workspaces, self%coarsenings, self%coarsest)
       associate (all => size(grids))
-         allocate (self%levels(all), self%spaces(all), self%coarsenings(all), self%coarsest(all), stat=stat)
+         allocate (self%levels(all), self%workspaces(all), self%coarsenings(all), self%coarsest(all), stat=stat)
       end associate
       if (stat /= 0) then
          call status%fail(ehl_no_memory, "no memory for the grid levels")
@@ -110,13 +110,13 @@ contains
          if (status%failed() .or. allocated(level%p)) return
          if (below > 0) then
             call self%set_up(below, status)
-            call self%spaces(below)%prepare_coarse(status)
+            call self%workspaces(below)%prepare_coarse(status)
          else
             call self%coarsest(k)%setup(level%grid, level%kernel_factor, status)
          end if
          level%threads = threads_that_pay(level%grid, self%threads)
          call level%setup(status)
-         call self%spaces(k)%setup(level%grid, level%kernel_factor, level%threads, allocated(level%boundary), status)
+         call self%workspaces(k)%setup(level%grid, level%kernel_factor, level%threads, status)
          call new_deflection(self%engine, level%engine, status)
          if (status%failed()) return
          call level%engine%setup(level%grid, level%kernel_factor, deflection_accuracy(level%grid), level%threads, status)
@@ -134,7 +134,7 @@ contains
 
       do k = 1, size(self%levels)
          if (.not. allocated(self%levels(k)%p)) cycle
-         call self%spaces(k)%prepare_steps(status)
+         call self%workspaces(k)%prepare_steps(status)
          if (status%failed()) return
          call self%levels(k)%wedge%set_step(scheme, self%levels(k)%grid%hx, time_step)
       end do
@@ -179,7 +179,7 @@ contains
       !> What is left (rms)
       real(dp), intent(out) :: residual
 
-      call finest_cycle(self%levels, self%spaces, self%coarsenings, self%below, n, self%coarsest, options, residual)
+      call finest_cycle(self%levels, self%workspaces, self%coarsenings, self%below, n, self%coarsest, options, residual)
    end subroutine run_cycle
 
    !> Drop what one cycle leaves for the next beyond the fields of its finest level
@@ -201,7 +201,7 @@ contains
       bytes = 0
       do k = 1, size(self%levels)
          if (.not. allocated(self%levels(k)%p)) cycle
-         bytes = bytes + self%levels(k)%bytes() + self%levels(k)%engine%bytes() + self%spaces(k)%bytes() &
+         bytes = bytes + self%levels(k)%bytes() + self%levels(k)%engine%bytes() + self%workspaces(k)%bytes() &
                  + self%coarsenings(k)%bytes() + self%coarsest(k)%bytes()
       end do
    end function bytes

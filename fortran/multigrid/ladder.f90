@@ -16,7 +16,7 @@ module ehl_ladder
    !> Cells that are longer than that along one axis are long
    real(dp), parameter :: long = 1.6_dp
    !> Most unknowns of a grid that is solved directly, and fewest intervals along Y
-   integer, parameter :: most_unknowns = 250, fewest_rows = 8
+   integer, parameter :: max_unknowns = 250, fewest_rows = 8
 
 contains
 
@@ -73,7 +73,7 @@ contains
          step(2) = 2
       else if (all(possible)) then
          step = 2
-      else if (possible(2) .and. (grid%nx - 2)*(grid%ny - 1) > most_unknowns) then
+      else if (possible(2) .and. (grid%nx - 2)*(grid%ny - 1) > max_unknowns) then
          step(2) = 2
       end if
    end function next_step

@@ -21,25 +21,26 @@
 !> e, w: couplings to the east and to the west, o: less the sum of those to other rows, e', w', o': their change with the
 !> conductance (poiseuille.f90, line_terms_t); a: the mean of all four over that of e and w, 1 where the lubricant flows
 !> alike along and across; c: wedge.f90; K(l): deflection at a distance of l nodes by the change of one,
-!> nothing beyond |l| = 2. A cavitated node that is content (node_state.f90) has d(i) = 0. A touching node (boundary_film.f90)
+!> nothing beyond |l| = 2. An inactive node (node_state.f90) has d(i) = 0. A touching node (boundary_film.f90)
 !> is not coupled to its line: rate s(i, 0) d(i) = -r(i).
 !>
 !> The systems are assembled and eliminated in one pass along X for `line_width` lines side by side.
 module ehl_line_system
    use ehl_kinds, only: dp
-   use ehl_flow, only: along
+   use ehl_flow, only: dir_x
    use ehl_level, only: level_t
    use ehl_node_state, only: cavity_pressure, last_flowing
-   use ehl_poiseuille, only: line_terms_t, stretch
+   use ehl_poiseuille, only: block_size, line_terms_t
+   use ehl_touching_nodes, only: last_touching, touching_lines
    use ehl_wedge, only: line_reach
    use ehl_workspace, only: line_fields, line_width, line_work_t, near_reach
    implicit none (type, external)
    private
-   public :: last_awake, solve_lines
+   public :: last_active, solve_lines
 
    integer, parameter :: nr = near_reach
    !> Smaller pivots are none: those of nodes that may change are of the order of the wedge term's factor
-   real(dp), parameter :: least_pivot = 1.0e-100_dp
+   real(dp), parameter :: min_pivot = 1.0e-100_dp
    !> What is known of a node: pressure, density, H d rho/dP, the change of the conductance with pressure, 1 if
    !> distributive, the residual; and of the Poiseuille term, see line_terms_t
    integer, parameter :: f_p = 1, f_rho = 2, f_h_drho_dp = 3, f_gain = 4, f_dipole = 5, f_residual = 6, &
@@ -58,19 +59,20 @@ contains
       real(dp), intent(in) :: shares(2), near(-nr:nr), near_dipole(-nr:nr)
       !> Rows of the grid; unused places repeat a row
       integer, intent(in) :: rows(line_width)
-      !> Last node that may change, see last_awake; changes of the nodes behind it are not set
+      !> Last node that may change, see last_active; changes of the nodes behind it are not set
       integer, intent(in) :: last
       type(line_work_t), intent(inout) :: work
 
       call gather(level, dipole, rows, min(last + near_reach, level%grid%nx), work%fields)
-      if (allocated(level%boundary)) call gather_touching(level, rows, last, work)
+      call touching_lines(level%boundary, rows, last, level%rhs, level%mass_content, work%fields(:, f_residual, 1:last), &
+                          work%touching)
       call eliminate(level, shares, near, near_dipole - near, last, work%fields, work%touching, work%upper, work%change)
       call substitute(last, work%upper, work%change)
    end subroutine solve_lines
 
    !> Last node of row j that has pressure, or beside it a node that has, or asks for it; those behind it stay as
    !> they are
-   pure integer function last_awake(level, j) result(i)
+   pure integer function last_active(level, j) result(i)
       type(level_t), intent(in) :: level
       integer, intent(in) :: j
 
@@ -79,11 +81,11 @@ contains
       end associate
       ! 2 where there is no such node
       i = min(i + 1, level%grid%nx - 1)
-      i = level%wedge%last_asking(level%mass_content(:, j), level%rhs(:, j), i)
-      if (allocated(level%boundary)) i = max(i, level%boundary%last_asking(level%mass_content(:, j), j))
-   end function last_awake
+      i = level%wedge%last_active(level%mass_content(:, j), level%rhs(:, j), i)
+      i = max(i, last_touching(level%boundary, level%mass_content(:, j), j))
+   end function last_active
 
-   !> Bring the lines side by side, a stretch at a time so that it stays in the cache
+   !> Bring the lines side by side, a block at a time so that it stays in the cache
    subroutine gather(level, dipole, rows, furthest, g)
       type(level_t), intent(in) :: level
       real(dp), contiguous, intent(in) :: dipole(:, :)
@@ -94,8 +96,8 @@ contains
       type(line_terms_t) :: terms
       integer :: first, last, i, j, k, l
 
-      do first = 1, furthest, stretch
-         last = min(first + stretch - 1, furthest)
+      do first = 1, furthest, block_size
+         last = min(first + block_size - 1, furthest)
          do l = 1, line_width
             j = rows(l)
             call level%poiseuille%line_row(level%p, level%flow, level%rhs(:, j), j, first, last, terms)
@@ -107,7 +109,7 @@ contains
                g(l, f_p, i) = level%p(i, j)
                g(l, f_rho, i) = level%rho(i, j)
                g(l, f_h_drho_dp, i) = level%h_drho_dp(i, j)
-               g(l, f_gain, i) = (1.0_dp - dipole(i, j))*level%flow%eps(i, j, along)*level%flow%dlneps_dp(i, j, along)
+               g(l, f_gain, i) = (1.0_dp - dipole(i, j))*level%flow%eps(i, j, dir_x)*level%flow%dlneps_dp(i, j, dir_x)
                g(l, f_dipole, i) = dipole(i, j)
                g(l, f_residual, i) = terms%rest(k)
                g(l, f_other, i) = terms%other(k)
@@ -119,23 +121,6 @@ contains
       end do
    end subroutine gather
 
-   !> The same of touching nodes: which they are, and their residuals
-   subroutine gather_touching(level, rows, last, work)
-      type(level_t), intent(in) :: level
-      integer, intent(in) :: rows(line_width), last
-      type(line_work_t), intent(inout) :: work
-      real(dp) :: residual(level%grid%nx)
-      integer :: j, l
-
-      do l = 1, line_width
-         j = rows(l)
-         residual(2:last) = work%fields(l, f_residual, 2:last)
-         call level%boundary%residual_row(level%rhs(:, j), level%mass_content(:, j), j, residual)
-         work%fields(l, f_residual, 2:last) = residual(2:last)
-         work%touching(l, :last) = level%boundary%touching(:last, j)
-      end do
-   end subroutine gather_touching
-
    !> Row i of a line couples the changes at nodes i-4 ... i+2; it is eliminated with the rows before
    !> it as soon as it is made, so that only the upper two diagonals are kept. The coefficients: see above.
    pure subroutine eliminate(level, shares, near, delta, furthest, g, touching, upper, change)
@@ -145,8 +130,8 @@ contains
       !> Last node
       integer, intent(in) :: furthest
       real(dp), intent(in) :: g(line_width, line_fields, -1:level%grid%nx + 2)
-      !> 1 where a node touches (line, node); not allocated: none does
-      real(dp), allocatable, intent(in) :: touching(:, :)
+      !> 1 where a node touches (line, node), if the boundary film is active
+      real(dp), intent(in) :: touching(line_width, level%grid%nx)
       !> upper(line, diagonal, node), change(line, node), nodes from -3
       real(dp), intent(inout) :: upper(line_width, 2, -3:level%grid%nx), change(line_width, -3:level%grid%nx + 1)
       !> Response of rho H at nodes i, i-1, i-2 to unit changes at their columns -2..2
@@ -157,7 +142,7 @@ contains
       integer :: i, l, now, last, former
       logical :: uneven
 
-      uneven = level%flow%across > along
+      uneven = level%flow%dir_y > dir_x
       ! nothing where cells are square
       apart = shares - 0.25_dp
       call level%wedge%line_weights(c_first, c_interior)
@@ -181,11 +166,11 @@ contains
          if (i > 1) then
             c = merge(c_first, c_interior, i == 2)
             if (uneven) a = 0.5_dp - 0.5_dp*g(:, f_other, i)/(g(:, f_east, i) + g(:, f_east, i - 1) + tiny(1.0_dp))
-            ! cavitated nodes that are content to stay so do not change; the loop below would not vectorise around this
+            ! inactive nodes do not change; the loop below would not vectorise around this
             changes = merge(0.0_dp, 1.0_dp, g(:, f_p, i) <= cavity_pressure)
             changes = merge(changes, 1.0_dp, g(:, f_residual, i) >= 0.0_dp)
             asked = changes*g(:, f_residual, i)
-            if (allocated(touching)) then
+            if (level%boundary%active) then
                where (touching(:, i) > 0.0_dp .and. changes > 0.0_dp)
                   asked = -g(:, f_residual, i)/(level%boundary%rate*s(:, 0, now))
                   changes = 0.0_dp
@@ -227,9 +212,9 @@ contains
                                - em1*change(l, i - 1))*t
             end do
             ! without a pivot the node keeps its pressure in this sweep
-            if (minval(abs(pivot)) < least_pivot) then
-               where (abs(pivot) < least_pivot) change(:, i) = 0.0_dp
-               where (spread(abs(pivot) < least_pivot, 2, 2)) upper(:, :, i) = 0.0_dp
+            if (minval(abs(pivot)) < min_pivot) then
+               where (abs(pivot) < min_pivot) change(:, i) = 0.0_dp
+               where (spread(abs(pivot) < min_pivot, 2, 2)) upper(:, :, i) = 0.0_dp
             end if
          end if
          l = former

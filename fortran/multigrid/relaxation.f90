@@ -8,15 +8,16 @@
 !> the lines do not see its deflection. Where the values of the constants come from: docs/design.md.
 module ehl_relaxation
    use ehl_kinds, only: dp
-   use ehl_flow, only: along
-   use ehl_level, only: level_t, yields
-   use ehl_line_system, only: last_awake, solve_lines
-   use ehl_node_state, only: cavitate, cavity_pressure, change_flowing, flowing_around
+   use ehl_flow, only: dir_x
+   use ehl_level, only: level_t
+   use ehl_line_system, only: last_active, solve_lines
+   use ehl_node_state, only: cavitate, change_flowing, flowing_around
+   use ehl_touching_nodes, only: mark_touching_dipoles, max_flowing_conductance, max_flowing_conductance_row
    use ehl_workspace, only: line_width, workspace_t
    !$ use omp_lib, only: omp_get_thread_num
    implicit none (type, external)
    private
-   public :: relax, full_trust
+   public :: relax, usual_log_change
 
    !> Largest conductance/mesh-size^2 of a distributive node's neighbourhood, and that of a lubricant that thins. The
    !> conductance across counts: lines along X know what is along them, and a change that is smooth across them is held by
@@ -32,7 +33,7 @@ module ehl_relaxation
    real(dp), parameter :: omega_step = 0.8_dp
    !> Largest change of the logarithm of a node's conductance in a sweep of a time step, to begin with: beyond it the
    !> linearised line says nothing
-   real(dp), parameter :: full_trust = 3.0_dp
+   real(dp), parameter :: usual_log_change = 3.0_dp
    !> Conductance/mesh-size^2 around a node, as a share of the squeeze term's factor, at which half of the change
    !> counts as one to be freed of its smooth part: a change smooth over a length l has a residual of about
    !> squeeze*l*2/pi^2 by its deflection, and overshoots where the line holds less than half of that against
@@ -42,7 +43,7 @@ module ehl_relaxation
    !> What is around a node: so many columns on each side, and a row
    integer, parameter :: around = 2
    !> Smaller shares count as 0
-   real(dp), parameter :: least_share = 0.01_dp
+   real(dp), parameter :: min_weight = 0.01_dp
    !> Weights of the mean that is the smooth part, along X and along Y. Narrower means take away from what
    !> sweeps are there for.
    integer, parameter :: reach = 4
@@ -52,36 +53,36 @@ module ehl_relaxation
 contains
 
    !> One sweep. Needs film and coefficients of the present pressure; leaves them out of date.
-   subroutine relax(level, space, trust, part)
+   subroutine relax(level, space, max_log_change, relaxation_factor)
       type(level_t), intent(inout) :: level
       type(workspace_t), intent(inout) :: space
-      !> Largest change of the logarithm of a node's conductance; for time steps, or where it is below `full_trust`
-      real(dp), intent(in) :: trust
+      !> Largest change of the logarithm of a node's conductance; for time steps, or where it is below `usual_log_change`
+      real(dp), intent(in) :: max_log_change
       !> Share of the changes that is made
-      real(dp), intent(in) :: part
+      real(dp), intent(in) :: relaxation_factor
       integer :: colour, block, blocks, first, last, start, me
 
       first = level%grid%first_inner()
       last = level%grid%ny - 1
       call mark_dipoles(level, space, first, last)
-      if (level%wedge%squeeze > 0.0_dp) call find_shares(level, space, first, last)
+      if (level%wedge%squeeze > 0.0_dp) call find_smoothing_weights(level, space, first, last)
       do colour = 0, 1
          ! the line Y = 0 belongs to the first colour, on half and on whole domains alike
          start = first + colour
          if (.not. level%grid%mirror .and. mod((level%grid%ny + 1)/2, 2) == 1) start = first + 1 - colour
          if (start > last) cycle
          blocks = ((last - start)/2 + line_width)/line_width
-         !$omp parallel do default(none) shared(level, space, trust, part, last, start, blocks) private(me) &
+         !$omp parallel do default(none) shared(level, space, max_log_change, relaxation_factor, last, start, blocks) private(me) &
          !$omp num_threads(level%threads) if(level%parallel) schedule(static, 1)
          do block = 1, blocks
             me = 1
             !$ me = omp_get_thread_num() + 1
-            call relax_lines(level, space, start + 2*line_width*(block - 1), last, trust, part, me)
+            call relax_lines(level, space, start + 2*line_width*(block - 1), last, max_log_change, relaxation_factor, me)
          end do
          !$omp end parallel do
       end do
       call apply_dipoles(level, space, first, last)
-      if (level%wedge%squeeze > 0.0_dp) call take_back_smooth(level, space, first, last)
+      if (level%wedge%squeeze > 0.0_dp) call filter_smooth_change(level, space, first, last)
    end subroutine relax
 
    !> 1 where a node changes distributively, else 0
@@ -89,26 +90,20 @@ contains
       type(level_t), intent(in) :: level
       type(workspace_t), intent(inout) :: space
       integer, intent(in) :: first, last
-      real(dp) :: limit, greatest(level%grid%nx)
+      real(dp) :: limit, largest(level%grid%nx)
       integer :: i, j, below
 
-      limit = merge(switch_thinning, switch, level%flow%bends)*level%grid%hy**2
-      !$omp parallel do default(none) shared(level, space, first, last, limit) private(i, below, greatest) &
+      limit = merge(switch_thinning, switch, level%flow%depends_on_gradient)*level%grid%hy**2
+      !$omp parallel do default(none) shared(level, space, first, last, limit) private(i, below, largest) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = first, last
          below = level%grid%south(j)
-         if (allocated(level%boundary)) then
-            call level%boundary%greatest_flowing(level%p, level%flow%eps(:, :, level%flow%across), j, below, greatest)
-         else
-            call level%flow%greatest_around(j, below, greatest)
-         end if
+         call level%flow%max_neighbour_conductance(j, below, largest)
+         call max_flowing_conductance(level%boundary, level%p, level%flow%eps(:, :, level%flow%dir_y), j, below, largest)
          call flowing_around(level%p(:, below), level%p(:, j), level%p(:, j + 1), space%dipole(:, j))
-         if (allocated(level%boundary)) then
-            ! the change of a touching node is a dipole beside a cavity, too
-            where (level%p(:, j) > cavity_pressure) space%dipole(:, j) = max(space%dipole(:, j), level%boundary%touching(:, j))
-         end if
+         call mark_touching_dipoles(level%boundary, level%p(:, j), j, space%dipole(:, j))
          do i = 2, level%grid%nx - 1
-            space%dipole(i, j) = merge(space%dipole(i, j), 0.0_dp, greatest(i) < limit)
+            space%dipole(i, j) = merge(space%dipole(i, j), 0.0_dp, largest(i) < limit)
          end do
       end do
       !$omp end parallel do
@@ -116,7 +111,7 @@ contains
 
    !> Share of a node's change that is to be free of its smooth part, in time steps: 1 where the conductance
    !> around the node is nothing against the squeeze term, 0 where it is much
-   subroutine find_shares(level, space, first, last)
+   subroutine find_smoothing_weights(level, space, first, last)
       type(level_t), intent(in) :: level
       type(workspace_t), intent(inout) :: space
       integer, intent(in) :: first, last
@@ -124,7 +119,7 @@ contains
       integer :: i, j, k, below, nx, across
 
       nx = level%grid%nx
-      across = level%flow%across
+      across = level%flow%dir_y
       scale = 1.0_dp/(weak*level%wedge%squeeze*min(level%grid%hx, level%grid%hy)**2)
       !$omp parallel do default(none) shared(level, space, first, last, scale, nx, across) &
       !$omp private(i, k, below, share, largest) &
@@ -132,33 +127,26 @@ contains
       do j = first, last
          below = level%grid%south(j)
          largest = max(level%flow%eps(:, below, across), level%flow%eps(:, j, across), level%flow%eps(:, j + 1, across))
-         if (allocated(level%boundary)) then
-            ! the layer holds a node as if nothing could flow there
-            associate (touching => level%boundary%touching)
-               largest = max(level%flow%eps(:, below, across)*(1.0_dp - touching(:, below)), &
-                             level%flow%eps(:, j, across)*(1.0_dp - touching(:, j)), &
-                             level%flow%eps(:, j + 1, across)*(1.0_dp - touching(:, j + 1)))
-            end associate
-         end if
+         call max_flowing_conductance_row(level%boundary, level%flow%eps(:, :, across), j, below, largest)
          do i = 1 + around, nx - around
             share = largest(i)
             do k = 1, around
                share = max(share, largest(i - k), largest(i + k))
             end do
             share = 1.0_dp/(1.0_dp + (scale*share)**2)
-            space%share(i, j) = merge(share, 0.0_dp, share > least_share)
+            space%smoothing_weight(i, j) = merge(share, 0.0_dp, share > min_weight)
          end do
       end do
       !$omp end parallel do
-   end subroutine find_shares
+   end subroutine find_smoothing_weights
 
    !> Solve the lines j0, j0+2, ... (at most `line_width`, up to row `last`): Gauss-Seidel changes are
    !> applied at once, distributive ones are kept for the end of the sweep
-   subroutine relax_lines(level, space, j0, last, trust, part, thread)
+   subroutine relax_lines(level, space, j0, last, max_log_change, relaxation_factor, thread)
       type(level_t), intent(inout) :: level
       type(workspace_t), intent(inout) :: space
       integer, intent(in) :: j0, last, thread
-      real(dp), intent(in) :: trust, part
+      real(dp), intent(in) :: max_log_change, relaxation_factor
       real(dp) :: scale, omega, omega_far
       real(dp), dimension(level%grid%nx) :: t, slope, change, after
       integer :: across
@@ -170,40 +158,37 @@ contains
       scale = 1.0_dp/(strong*min(level%grid%hx, level%grid%hy)**2)
       time_step = level%wedge%squeeze > 0.0_dp
       ! a Galerkin operator does not change with the pressure
-      limited = (time_step .or. trust < full_trust) .and. .not. level%poiseuille%frozen
+      limited = (time_step .or. max_log_change < usual_log_change) .and. .not. level%poiseuille%frozen
       ! across the motion the conductance changes the most with pressure
-      across = level%flow%across
+      across = level%flow%dir_y
       omega = merge(omega_step, merge(omega_soft, omega_line, level%soft), time_step)
       omega_far = merge(omega_step, omega_dipole, time_step)
       associate (work => space%lines(thread))
          furthest = 2
          do l = 1, lines
-            furthest = max(furthest, last_awake(level, rows(l)))
+            furthest = max(furthest, last_active(level, rows(l)))
          end do
          call solve_lines(level, space%dipole, space%shares, space%near, space%near_dipole, rows, furthest, work)
          do l = 1, lines
             j = rows(l)
             space%change(furthest + 1:, j) = 0.0_dp
-            if (time_step) space%rough(furthest + 1:, j) = 0.0_dp
-            t(2:furthest) = level%flow%eps(2:furthest, j, along)*scale
-            change(2:furthest) = part*work%change(l, 2:furthest)
+            if (time_step) space%raw_change(furthest + 1:, j) = 0.0_dp
+            t(2:furthest) = level%flow%eps(2:furthest, j, dir_x)*scale
+            change(2:furthest) = relaxation_factor*work%change(l, 2:furthest)
             if (limited) then
                slope(2:furthest) = level%flow%dlneps_dp(2:furthest, j, across)
-               ! the equation of a touching node has no conductance
-               if (time_step .and. allocated(level%boundary)) then
-                  slope(2:furthest) = slope(2:furthest)*(1.0_dp - level%boundary%touching(2:furthest, j))
-               end if
-               call limit_changes(slope(2:furthest), trust, change(2:furthest))
+               if (time_step) call level%boundary%without_touching(2, j, slope(2:furthest))
+               call limit_changes(slope(2:furthest), max_log_change, change(2:furthest))
             end if
             do i = 2, furthest
                space%change(i, j) = omega_far*space%dipole(i, j)*change(i)
                after(i) = level%p(i, j) + (1.0_dp - space%dipole(i, j))*(omega + t(i))/(1.0_dp + t(i))*change(i)
             end do
             call cavitate(after(2:furthest))
-            if (yields(level)) call level%boundary%bound(level%p(2:furthest, j), 2, j, after(2:furthest))
+            call level%boundary%limit_pressure(level%p(2:furthest, j), 2, j, after(2:furthest))
             if (time_step) then
                do i = 2, furthest
-                  space%rough(i, j) = (after(i) - level%p(i, j))*space%share(i, j)
+                  space%raw_change(i, j) = (after(i) - level%p(i, j))*space%smoothing_weight(i, j)
                end do
             end if
             level%p(2:furthest, j) = after(2:furthest)
@@ -211,21 +196,21 @@ contains
       end associate
    end subroutine relax_lines
 
-   !> Make changes of pressure smaller where the logarithm of the conductance would change by more than `trust`
-   pure subroutine limit_changes(slope, trust, change)
+   !> Make changes of pressure smaller where the logarithm of the conductance would change by more than `max_log_change`
+   pure subroutine limit_changes(slope, max_log_change, change)
       !> Change of that logarithm with the pressure, shape as that of the changes
       real(dp), contiguous, intent(in) :: slope(:)
-      real(dp), intent(in) :: trust
+      real(dp), intent(in) :: max_log_change
       real(dp), contiguous, intent(inout) :: change(:)
       integer :: i
 
       do i = 1, size(change)
-         change(i) = change(i)/max(1.0_dp, abs(slope(i)*change(i))/trust)
+         change(i) = change(i)/max(1.0_dp, abs(slope(i)*change(i))/max_log_change)
       end do
    end subroutine limit_changes
 
    !> Take the smooth part of the changes of nodes with a weak conductance back
-   subroutine take_back_smooth(level, space, first, last)
+   subroutine filter_smooth_change(level, space, first, last)
       type(level_t), intent(inout) :: level
       type(workspace_t), intent(inout) :: space
       integer, intent(in) :: first, last
@@ -236,14 +221,14 @@ contains
       !$omp parallel do default(none) shared(level, space, first, last, from, to) private(i, k) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static, 8)
       do j = first, last
-         from(j) = findloc(space%share(:, j) > 0.0_dp, .true., dim=1)
-         to(j) = findloc(space%share(:, j) > 0.0_dp, .true., dim=1, back=.true.)
-         space%smooth(:, j) = 0.0_dp
+         from(j) = findloc(space%smoothing_weight(:, j) > 0.0_dp, .true., dim=1)
+         to(j) = findloc(space%smoothing_weight(:, j) > 0.0_dp, .true., dim=1, back=.true.)
+         space%mean_change(:, j) = 0.0_dp
          if (from(j) == 0) cycle
          do k = -reach, reach
             ! as far as the changes of this row reach, for rows beside it may have shares further out
             do i = max(from(j) - reach, 1 + reach), min(to(j) + reach, level%grid%nx - reach)
-               space%smooth(i, j) = space%smooth(i, j) + binomial(k)*space%rough(i + k, j)
+               space%mean_change(i, j) = space%mean_change(i, j) + binomial(k)*space%raw_change(i + k, j)
             end do
          end do
       end do
@@ -258,17 +243,17 @@ contains
             if (row < 1 .and. level%grid%mirror) row = 2 - row
             if (row < first .or. row > last) cycle
             do i = from(j), to(j)
-               smooth(i) = smooth(i) + binomial(k)*space%smooth(i, row)
+               smooth(i) = smooth(i) + binomial(k)*space%mean_change(i, row)
             end do
          end do
          do i = from(j), to(j)
-            smooth(i) = level%p(i, j) - space%share(i, j)*smooth(i)
+            smooth(i) = level%p(i, j) - space%smoothing_weight(i, j)*smooth(i)
          end do
-         if (yields(level)) call level%boundary%bound(level%p(from(j):to(j), j), from(j), j, smooth(from(j):to(j)))
+         call level%boundary%limit_pressure(level%p(from(j):to(j), j), from(j), j, smooth(from(j):to(j)))
          call change_flowing(smooth(from(j):to(j)), level%p(from(j):to(j), j))
       end do
       !$omp end parallel do
-   end subroutine take_back_smooth
+   end subroutine filter_smooth_change
 
    !> Add the dipoles to the pressure
    subroutine apply_dipoles(level, space, first, last)
@@ -284,7 +269,7 @@ contains
       do j = first, last
          call apply_row(space%shares, space%change(:, level%grid%south(j)), space%change(:, j), &
                         space%change(:, j + 1), level%p(:, j), after)
-         if (yields(level)) call level%boundary%bound(level%p(2:nx - 1, j), 2, j, after(2:nx - 1))
+         call level%boundary%limit_pressure(level%p(2:nx - 1, j), 2, j, after(2:nx - 1))
          call change_flowing(after(2:nx - 1), level%p(2:nx - 1, j))
       end do
       !$omp end parallel do

@@ -21,7 +21,7 @@ module ehl_workspace
    !> -1; upper diagonals (line, diagonal, node) and changes (line, node), nodes from -3
    type :: line_work_t
       real(dp), allocatable :: fields(:, :, :), upper(:, :, :), change(:, :)
-      !> Contact at a boundary film: 1 where a node touches (line, node); else not allocated
+      !> 1 where a node touches at a boundary film (line, node)
       real(dp), allocatable :: touching(:, :)
    end type line_work_t
 
@@ -31,7 +31,7 @@ module ehl_workspace
       real(dp), allocatable :: dipole(:, :), change(:, :)
       !> For time steps only: the share of a node's change that is to be free of its smooth part, these
       !> changes in a sweep, and their smooth part after its first pass
-      real(dp), allocatable :: share(:, :), rough(:, :), smooth(:, :)
+      real(dp), allocatable :: smoothing_weight(:, :), raw_change(:, :), mean_change(:, :)
       !> A distributive change takes from the nodes beside it along X and along Y these shares of what it gives to its own.
       !> On cells that are longer across the lines less goes to their far neighbours: a quarter to each would leave a
       !> deflection that falls off slowly along them. Measured on cells of 1 to 1/4, 1.5 and 2.
@@ -40,8 +40,8 @@ module ehl_workspace
       real(dp) :: near(-near_reach:near_reach) = 0.0_dp, near_dipole(-near_reach:near_reach) = 0.0_dp
       !> Line systems, one a thread
       type(line_work_t), allocatable :: lines(:)
-      !> For coarse problems only: pressure and film that the problem of this level began from; then their changes
-      real(dp), allocatable :: p_start(:, :), h_start(:, :)
+      !> For coarse problems only: pressure and film that the problem of this level starts from, and their changes by its solution
+      real(dp), allocatable, dimension(:, :) :: p_start, h_start, p_change, h_change
    contains
       procedure :: setup
       procedure :: prepare_coarse
@@ -51,13 +51,12 @@ module ehl_workspace
 
 contains
 
-   !> For a grid, the factor k_b of its deflection and a number of threads, and whether bodies may touch at a boundary film
-   subroutine setup(self, grid, factor, threads, touches, status)
+   !> For a grid, the factor k_b of its deflection and a number of threads
+   subroutine setup(self, grid, factor, threads, status)
       class(workspace_t), intent(inout) :: self
       type(grid_t), intent(in) :: grid
       real(dp), intent(in) :: factor
       integer, intent(in) :: threads
-      logical, intent(in) :: touches
       type(status_t), intent(inout) :: status
       integer :: d, stat
 
@@ -68,8 +67,8 @@ contains
          do d = 1, threads
             if (stat == 0) allocate (self%lines(d)%fields(line_width, line_fields, -1:nx + 2), &
                                      self%lines(d)%upper(line_width, 2, -3:nx), &
-                                     self%lines(d)%change(line_width, -3:nx + 1), source=0.0_dp, stat=stat)
-            if (stat == 0 .and. touches) allocate (self%lines(d)%touching(line_width, nx), source=0.0_dp, stat=stat)
+                                     self%lines(d)%change(line_width, -3:nx + 1), &
+                                     self%lines(d)%touching(line_width, nx), source=0.0_dp, stat=stat)
          end do
       end associate
       if (stat /= 0) then
@@ -94,7 +93,7 @@ contains
       integer :: stat
 
       if (status%failed() .or. allocated(self%p_start)) return
-      allocate (self%p_start, self%h_start, mold=self%change, stat=stat)
+      allocate (self%p_start, self%h_start, self%p_change, self%h_change, mold=self%change, stat=stat)
       if (stat /= 0) call status%fail(ehl_no_memory, "no memory for the coarse problem of a grid level")
    end subroutine prepare_coarse
 
@@ -104,15 +103,15 @@ contains
       type(status_t), intent(inout) :: status
       integer :: stat
 
-      if (status%failed() .or. allocated(self%rough)) return
-      allocate (self%share, self%rough, self%smooth, mold=self%change, stat=stat)
+      if (status%failed() .or. allocated(self%raw_change)) return
+      allocate (self%smoothing_weight, self%raw_change, self%mean_change, mold=self%change, stat=stat)
       if (stat /= 0) then
          call status%fail(ehl_no_memory, "no memory for the time steps of a grid level")
          return
       end if
-      self%share = 0.0_dp
-      self%rough = 0.0_dp
-      self%smooth = 0.0_dp
+      self%smoothing_weight = 0.0_dp
+      self%raw_change = 0.0_dp
+      self%mean_change = 0.0_dp
    end subroutine prepare_steps
 
    !> Allocated bytes
@@ -123,12 +122,12 @@ contains
 
       numbers = 0
       if (allocated(self%dipole)) numbers = 2*size(self%dipole, kind=int64)
-      if (allocated(self%p_start)) numbers = numbers + 2*size(self%p_start, kind=int64)
-      if (allocated(self%rough)) numbers = numbers + 3*size(self%rough, kind=int64)
+      if (allocated(self%p_start)) numbers = numbers + 4*size(self%p_start, kind=int64)
+      if (allocated(self%raw_change)) numbers = numbers + 3*size(self%raw_change, kind=int64)
       if (allocated(self%lines)) then
          do k = 1, size(self%lines)
-            numbers = numbers + size(self%lines(k)%fields) + size(self%lines(k)%upper) + size(self%lines(k)%change)
-            if (allocated(self%lines(k)%touching)) numbers = numbers + size(self%lines(k)%touching)
+            numbers = numbers + size(self%lines(k)%fields) + size(self%lines(k)%upper) + size(self%lines(k)%change) &
+                      + size(self%lines(k)%touching)
          end do
       end if
       bytes = 8*numbers

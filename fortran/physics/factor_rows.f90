@@ -5,7 +5,7 @@
 !> The mean stress of the latter begins with that of the former; Newton steps correct it, and the factors take what is left to
 !> first order, an error of its square. Where that is not small enough flow_factors.f90 iterates.
 module ehl_factor_rows
-   use ehl_flow_factors, only: exact_factors, factors_t, half, least_gradient, upper, weight
+   use ehl_flow_factors, only: exact_factors, factors_t, half, min_gradient, upper, weight
    use ehl_kinds, only: dp
    use ehl_thinning, only: eyring, most, slopes, thinning_t
    implicit none (type, external)
@@ -138,7 +138,7 @@ contains
       n = size(list)
       nodes(:n) = list
       bb(:n) = b(list)
-      ss(:n, :) = sign(max(abs(s(list, :)), least_gradient), s(list, :))
+      ss(:n, :) = sign(max(abs(s(list, :)), min_gradient), s(list, :))
       mean(:n, :) = rows%near(list, :)
       do pass = 1, passes
          call integrate(law, bb(:n), ss, mean, film)

@@ -25,7 +25,7 @@ module ehl_flow_factors
    implicit none (type, external)
    private
    public :: factors_t, exact_factors
-   public :: half, upper, weight, least_gradient
+   public :: half, upper, weight, min_gradient
 
    !> Gauss points through the film, those of one half before their mirror images, and their weights
    integer, parameter :: half = 3, points = 2*half
@@ -34,7 +34,7 @@ module ehl_flow_factors
    real(dp), parameter :: z(points) = [upper, -upper], w(points) = [weight, weight]
    !> Steps of the Newton iteration for the mean stress; relative error of B at which it ends: the next step would leave its
    !> square
-   integer, parameter :: most_steps = 200
+   integer, parameter :: max_steps = 200
    real(dp), parameter :: enough = 1.0e-7_dp
    !> A step is halved where the slope at its end is that of its start times this, the other way round
    real(dp), parameter :: overshoot = 0.5_dp
@@ -44,7 +44,7 @@ module ehl_flow_factors
    real(dp), parameter :: close = 1.0e-4_dp
    !> A smaller part of S counts as one of this size, which the factors notice by its square only, so that their changes are
    !> no quotients of nothing
-   real(dp), parameter :: least_gradient = 1.0e-4_dp
+   real(dp), parameter :: min_gradient = 1.0e-4_dp
 
    !> Stress along X and along Y at the points of a film, its square, F and its slope (thinning.f90)
    type :: film_t
@@ -74,11 +74,11 @@ contains
       real(dp) :: a(3), c(3), d(3), j0, j2, k, s(2), mean(2), off(2), change(2), slope, reduced
       integer :: step
 
-      s = sign(max(abs(gradient), least_gradient), gradient)
+      s = sign(max(abs(gradient), min_gradient), gradient)
       mean = [first_guess(law, b, s), 0.0_dp]
       change = 0.0_dp
       slope = 0.0_dp
-      do step = 1, most_steps
+      do step = 1, max_steps
          call through_film(law, mean, s, film)
          call balance(film, j0, k, a)
          ! without sliding the mean stress is none, by symmetry
@@ -101,7 +101,7 @@ contains
          slope = dot_product(off, change)
          mean = mean + change
       end do
-      if (step > most_steps) then
+      if (step > max_steps) then
          r%phi = ieee_value(b, ieee_quiet_nan)
          r%stress = r%phi(1)
          return

@@ -44,7 +44,7 @@ module ehl_kept_factors
       procedure :: forget
       procedure :: find
       procedure :: stress
-      procedure :: film_power
+      procedure :: film_exponent
       procedure :: bytes
    end type kept_factors_t
 
@@ -88,7 +88,7 @@ contains
       n = size(b)
       newtonian = flows_newtonian(self%law, b, s)
       if (newtonian) then
-         ! what was kept of another state would be taken for that of this one (film_power)
+         ! what was kept of another state would be taken for that of this one (film_exponent)
          if (self%values(1, f_b, stretch, j) > none) self%values(:n, f_b, stretch, j) = none
          return
       end if
@@ -200,13 +200,13 @@ contains
    end subroutine stress
 
    !> d ln(eps)/d ln(H) at node (i, j), as kept
-   pure real(dp) function film_power(self, i, j, direction)
+   pure real(dp) function film_exponent(self, i, j, direction)
       class(kept_factors_t), intent(in) :: self
       integer, intent(in) :: i, j, direction
       real(dp) :: s(2), by_gradient(2)
       integer :: stretch, k
 
-      film_power = 3.0_dp
+      film_exponent = 3.0_dp
       stretch = (i - 1)/self%width + 1
       k = i - (stretch - 1)*self%width
       if (.not. self%values(k, f_b, stretch, j) > none) return
@@ -215,9 +215,9 @@ contains
          ! as keep has them
          s = sign(max(abs(s), real(tiny(1.0_real32), dp)), s)
          by_gradient = [changes(c_by_x + direction - 1), changes(c_by_y + direction - 1)]*(s + faint**2/s)
-         film_power = 3.0_dp - changes(c_by_sliding + direction - 1) + sum(by_gradient)
+         film_exponent = 3.0_dp - changes(c_by_sliding + direction - 1) + sum(by_gradient)
       end associate
-   end function film_power
+   end function film_exponent
 
    !> Allocated bytes
    pure integer(int64) function bytes(self)

@@ -20,7 +20,7 @@ module ehl_thinning
    !> Below this stress the Eyring law is summed as a series
    real(dp), parameter :: series_below = 0.5_dp
    !> Steps of an iteration, and the error before the last one at which it ends: the last leaves its cube
-   integer, parameter :: most_steps = 50
+   integer, parameter :: max_steps = 50
    real(dp), parameter :: enough = 1.0e-4_dp
    !> Films side by side, at the most
    integer, parameter :: most = 64
@@ -208,7 +208,7 @@ contains
       u = wanted
       if (u > 0.0_dp) u = self%exponent*u
       if (abs(wanted) < 10.0_dp) u = wanted + 0.5_dp*(self%exponent - 1.0_dp)*log(1.0_dp + b**2)
-      do k = 1, most_steps
+      do k = 1, max_steps
          t = exp(2.0_dp*u)
          f = u + m*log(1.0_dp + t) - wanted
          t = t/(1.0_dp + t)

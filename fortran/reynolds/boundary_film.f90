@@ -18,13 +18,14 @@
 !> deflection alone, or the deflection and the Poiseuille term.
 !>
 !> Solids with a hardness carry no more than the limit P_Y. A node yields where P = P_Y and it asks for more pressure: the elastic
-!> film H is below the layer, or below what the lubricant needs. The solids give way by what is missing, D >= 0, so that
+!> film H is below the layer, or below what the lubricant needs. The solids yield by what is missing, D >= 0, so that
 !> rho (H + D) is that of the layer, or more where N = 0 then. Such a node keeps its pressure until D would be negative.
+!>
+!> Every level has one. Without setup, or with H_b = 0, it is inactive: no node touches, and its procedures change nothing.
 module ehl_boundary_film
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
-   use ehl_node_state, only: cavity_pressure
    use ehl_status, only: ehl_no_memory, status_t
    implicit none (type, external)
    private
@@ -33,59 +34,72 @@ module ehl_boundary_film
    !> A touching node lifts off where it would by more than a share of the layer: behind a zone of touching nodes the lubricant
    !> has the film of the layer, too, and rounding would decide on their states. What flows on to such a node and not on from it
    !> is lost, so the share is small. Of a steady problem that has not converged the residuals would decide; it is larger there.
-   real(dp), parameter :: least_hold = 1.0e-4_dp, greatest_hold = 1.0e-2_dp
+   real(dp), parameter :: min_lift = 1.0e-4_dp, max_lift = 1.0e-2_dp
    !> The same over the residual (rms) of a steady problem
-   real(dp), parameter :: hold_of_residual = 3.0_dp
+   real(dp), parameter :: lift_of_residual = 3.0_dp
 
    !> Arrays of shape (nx, ny)
    type :: boundary_film_t
+      !> Whether bodies may touch; whether nodes may yield
+      logical :: active = .false.
+      logical :: yields = .false.
       !> H_b [a^2/R]
       real(dp) :: thickness = 0.0_dp
-      !> Greatest pressure [p_h]; 0: there is no limit
-      real(dp) :: limit = 0.0_dp
+      !> Maximum pressure [p_h] of nodes, if they may yield
+      real(dp) :: max_pressure = 0.0_dp
       !> Factor of the equation of touching nodes
       real(dp) :: rate = 0.0_dp
       !> Share of the layer that a touching node may be lifted by, by the present residual
-      real(dp) :: hold = least_hold
+      real(dp), private :: lift = min_lift
       !> Whether the states of the nodes stay, on a coarse level
       logical :: frozen = .false.
       !> 1 where a node is touching, else 0
       real(dp), allocatable :: touching(:, :)
-      !> rho (H + D) where a node yields, else 0; of size 0 where there is no limit
-      real(dp), allocatable :: kept(:, :)
+      !> rho (H + D) where a node yields, else 0; of size 0 where none may
+      real(dp), allocatable :: yield_mass(:, :)
       !> Film that the lubricant flows through: that of an iterate may be below the layer
       real(dp), allocatable :: film(:, :)
+      !> Residuals of touching nodes, else 0, from which those of the coarse level are made
+      real(dp), allocatable :: touching_residual(:, :)
    contains
       procedure :: setup
       procedure :: find_film
+      procedure :: film_row
+      procedure :: film_at
+      procedure :: follows_state
       procedure :: find_row
       procedure :: find_yielding
-      procedure :: bound
+      procedure :: limit_pressure
+      procedure :: add_depth
+      procedure :: yielding
       procedure :: forget
-      procedure :: take_row
+      procedure :: touches
+      procedure :: operator_row
       procedure :: residual_row
-      procedure :: hold_by
-      procedure :: greatest_flowing
-      procedure :: last_asking
+      procedure :: without_touching
+      procedure :: set_lift
+      procedure :: holds
       procedure :: bytes
    end type boundary_film_t
 
 contains
 
-   !> Allocate; thickness: H_b, limit: greatest pressure, or 0
-   subroutine setup(self, grid, thickness, limit, status)
+   !> Allocate, if there is a boundary film; thickness: H_b, max_pressure: that of the solids, or 0
+   subroutine setup(self, grid, thickness, max_pressure, status)
       class(boundary_film_t), intent(inout) :: self
       type(grid_t), intent(in) :: grid
-      real(dp), intent(in) :: thickness, limit
+      real(dp), intent(in) :: thickness, max_pressure
       type(status_t), intent(inout) :: status
       integer :: stat, yielding
 
+      self%active = thickness > 0.0_dp
+      if (status%failed() .or. .not. self%active) return
       self%thickness = thickness
-      self%limit = limit
-      yielding = merge(1, 0, limit > 0.0_dp)
-      self%frozen = .false.
-      allocate (self%touching(grid%nx, grid%ny), self%film(grid%nx, grid%ny), &
-                self%kept(yielding*grid%nx, yielding*grid%ny), source=0.0_dp, stat=stat)
+      self%max_pressure = max_pressure
+      self%yields = max_pressure > 0.0_dp
+      yielding = merge(1, 0, self%yields)
+      allocate (self%touching(grid%nx, grid%ny), self%film(grid%nx, grid%ny), self%touching_residual(grid%nx, grid%ny), &
+                self%yield_mass(yielding*grid%nx, yielding*grid%ny), source=0.0_dp, stat=stat)
       if (stat /= 0) call status%fail(ehl_no_memory, "no memory for the boundary film of a grid level")
    end subroutine setup
 
@@ -97,13 +111,43 @@ contains
       integer, intent(in) :: j
       integer :: i
 
+      if (.not. self%active) return
       do i = 1, size(h)
          ! a NaN stays one
          self%film(i, j) = merge(self%thickness/rho(i), h(i), h(i)*rho(i) < self%thickness)
       end do
       ! by the last update
-      if (self%limit > 0.0_dp) self%film(:, j) = merge(self%kept(:, j)/rho, self%film(:, j), self%kept(:, j) > 0.0_dp)
+      if (self%yields) self%film(:, j) = merge(self%yield_mass(:, j)/rho, self%film(:, j), self%yield_mass(:, j) > 0.0_dp)
    end subroutine find_film
+
+   !> Row j of the film that the lubricant flows through
+   pure function film_row(self, h, j) result(film)
+      class(boundary_film_t), intent(in) :: self
+      !> Shape (nx)
+      real(dp), contiguous, intent(in) :: h(:)
+      integer, intent(in) :: j
+      real(dp) :: film(size(h))
+
+      film = h
+      if (self%active) film = self%film(:, j)
+   end function film_row
+
+   !> Node (i, j) of it
+   pure real(dp) function film_at(self, h, i, j)
+      class(boundary_film_t), intent(in) :: self
+      !> Shape (nx, ny)
+      real(dp), contiguous, intent(in) :: h(:, :)
+      integer, intent(in) :: i, j
+
+      film_at = h(i, j)
+      if (self%active) film_at = self%film(i, j)
+   end function film_at
+
+   !> Whether the states of nodes follow from pressure and film
+   pure logical function follows_state(self)
+      class(boundary_film_t), intent(in) :: self
+      follows_state = self%active .and. .not. self%frozen
+   end function follows_state
 
    !> States of the nodes of row j, by the residual of the Reynolds equation; the border does not touch
    pure subroutine find_row(self, mass_content, residual, share, j)
@@ -114,7 +158,7 @@ contains
       real(dp) :: held
       integer :: i
 
-      held = self%hold*self%rate*self%thickness
+      held = self%lift*self%rate*self%thickness
       self%touching(1, j) = 0.0_dp
       self%touching(size(residual), j) = 0.0_dp
       do i = 2, size(residual) - 1
@@ -122,7 +166,7 @@ contains
                                                      < share(i)*residual(i) + held*self%touching(i, j))
       end do
       ! not coupled to its line
-      if (self%limit > 0.0_dp) self%touching(:, j) = merge(1.0_dp, self%touching(:, j), self%kept(:, j) > 0.0_dp)
+      if (self%yields) self%touching(:, j) = merge(1.0_dp, self%touching(:, j), self%yield_mass(:, j) > 0.0_dp)
    end subroutine find_row
 
    !> Nodes of row j that yield, with their mass content: that at which N = 0, but no less than that of the layer
@@ -136,49 +180,85 @@ contains
       real(dp) :: added(size(p))
       integer :: i, k
 
+      if (.not. self%yields) return
       added = 0.0_dp
       do i = 2, size(p) - 1
          do k = 1, min(ubound(weights, 1), i - 1)
             residual(i) = residual(i) + weights(k, i)*added(i - k)
          end do
-         self%kept(i, j) = max(self%thickness, mass_content(i) - residual(i)/weights(0, i))
-         if (p(i) >= self%limit .and. self%kept(i, j) > mass_content(i)) then
-            added(i) = self%kept(i, j) - mass_content(i)
+         self%yield_mass(i, j) = max(self%thickness, mass_content(i) - residual(i)/weights(0, i))
+         if (p(i) >= self%max_pressure .and. self%yield_mass(i, j) > mass_content(i)) then
+            added(i) = self%yield_mass(i, j) - mass_content(i)
             residual(i) = residual(i) + weights(0, i)*added(i)
-            mass_content(i) = self%kept(i, j)
+            mass_content(i) = self%yield_mass(i, j)
          else
-            self%kept(i, j) = 0.0_dp
+            self%yield_mass(i, j) = 0.0_dp
          end if
       end do
    end subroutine find_yielding
 
-   !> Pressures to come of row j from column `first` on: within the limit, and nodes that yield keep theirs. The pressure of a
-   !> coarse node is a mean, which the limit is not for.
-   pure subroutine bound(self, before, first, j, after)
+   !> Pressures to come of row j from column `first` on: not above the maximum, and nodes that yield keep
+   !> theirs. The pressure of a coarse node is a mean, which the maximum is not for.
+   pure subroutine limit_pressure(self, before, first, j, after)
       class(boundary_film_t), intent(in) :: self
       real(dp), intent(in) :: before(:)
       integer, intent(in) :: first, j
       real(dp), contiguous, intent(inout) :: after(:)
       integer :: i
 
-      if (self%frozen) return
+      if (self%frozen .or. .not. self%yields) return
       do i = 1, size(after)
-         after(i) = merge(before(i), after(i), self%kept(first + i - 1, j) > 0.0_dp)
+         after(i) = merge(before(i), after(i), self%yield_mass(first + i - 1, j) > 0.0_dp)
          ! a NaN stays one
-         after(i) = merge(self%limit, after(i), after(i) > self%limit)
+         after(i) = merge(self%max_pressure, after(i), after(i) > self%max_pressure)
       end do
-   end subroutine bound
+   end subroutine limit_pressure
+
+   !> Add to row j of the film the depth by which the solids yield
+   pure subroutine add_depth(self, rho, j, film)
+      class(boundary_film_t), intent(in) :: self
+      !> Shape (nx)
+      real(dp), contiguous, intent(in) :: rho(:)
+      integer, intent(in) :: j
+      real(dp), contiguous, intent(inout) :: film(:)
+      if (self%yields) film = merge(self%yield_mass(:, j)/rho, film, self%yield_mass(:, j) > 0.0_dp)
+   end subroutine add_depth
+
+   !> Which of the n nodes of row j yield
+   pure function yielding(self, n, j)
+      class(boundary_film_t), intent(in) :: self
+      integer, intent(in) :: n, j
+      logical :: yielding(n)
+
+      yielding = .false.
+      if (self%yields) yielding = self%yield_mass(:, j) > 0.0_dp
+   end function yielding
 
    !> No node touches
    pure subroutine forget(self)
       class(boundary_film_t), intent(inout) :: self
 
+      if (.not. self%active) return
       self%touching = 0.0_dp
-      self%kept = 0.0_dp
+      self%yield_mass = 0.0_dp
    end subroutine forget
 
+   !> Whether node (i, j) touches; without a node: whether any does
+   pure logical function touches(self, i, j)
+      class(boundary_film_t), intent(in) :: self
+      integer, intent(in), optional :: i, j
+
+      touches = self%active
+      if (.not. touches) return
+      if (present(i)) then
+         touches = self%touching(i, j) > 0.0_dp
+      else
+         touches = any(self%touching > 0.0_dp)
+      end if
+   end function touches
+
    !> Put the term of touching nodes into row j of the operator
-   pure subroutine take_row(self, mass_content, j, values)
+   pure subroutine operator_row(self, mass_content, j, values)
       class(boundary_film_t), intent(in) :: self
       !> Shape (nx)
       real(dp), contiguous, intent(in) :: mass_content(:)
@@ -186,10 +266,11 @@ contains
       real(dp), contiguous, intent(inout) :: values(:)
       integer :: i
 
+      if (.not. self%active) return
       do i = 2, size(values) - 1
          values(i) = merge(-self%rate*mass_content(i), values(i), self%touching(i, j) > 0.0_dp)
       end do
-   end subroutine take_row
+   end subroutine operator_row
 
    !> Put the residuals of touching nodes into row j; those that yield have none
    pure subroutine residual_row(self, rhs, mass_content, j, values)
@@ -201,62 +282,46 @@ contains
       real(dp) :: right
       integer :: i
 
+      if (.not. self%active) return
       do i = 2, size(values) - 1
          right = merge(rhs(i), -self%rate*self%thickness, self%frozen)
          values(i) = merge(right + self%rate*mass_content(i), values(i), self%touching(i, j) > 0.0_dp)
       end do
-      if (self%limit > 0.0_dp) values = merge(0.0_dp, values, self%kept(:, j) > 0.0_dp)
+      if (self%yields) values = merge(0.0_dp, values, self%yield_mass(:, j) > 0.0_dp)
    end subroutine residual_row
 
+   !> Set values of row j, from column `first` on, to 0 where a node touches: its equation has no conductance
+   pure subroutine without_touching(self, first, j, values)
+      class(boundary_film_t), intent(in) :: self
+      integer, intent(in) :: first, j
+      real(dp), contiguous, intent(inout) :: values(:)
+      if (self%active) values = values*(1.0_dp - self%touching(first:first + size(values) - 1, j))
+   end subroutine without_touching
+
    !> What a touching node may be lifted by: `residual` is that of a steady problem (rms), or 0
-   pure subroutine hold_by(self, residual)
+   pure subroutine set_lift(self, residual)
       class(boundary_film_t), intent(inout) :: self
       real(dp), intent(in) :: residual
 
-      if (self%frozen) return
-      self%hold = min(greatest_hold, max(least_hold, hold_of_residual*residual/(self%rate*self%thickness)))
-   end subroutine hold_by
+      if (.not. self%follows_state()) return
+      self%lift = min(max_lift, max(min_lift, lift_of_residual*residual/(self%rate*self%thickness)))
+   end subroutine set_lift
 
-   !> Of each node of row j and its four neighbours, in columns 2 to nx-1: the largest conductance of those that flow
-   pure subroutine greatest_flowing(self, p, eps, j, south, values)
+   !> Whether no film of a solution is thinner than the boundary film by more than a share of it
+   pure logical function holds(self, mass_content, tolerance)
       class(boundary_film_t), intent(in) :: self
-      !> Pressure and conductance across, shape (nx, ny)
-      real(dp), contiguous, intent(in) :: p(:, :), eps(:, :)
-      integer, intent(in) :: j, south
-      !> Shape (nx)
-      real(dp), contiguous, intent(inout) :: values(:)
-      integer :: i
+      !> Shape (nx, ny)
+      real(dp), contiguous, intent(in) :: mass_content(:, :)
+      real(dp), intent(in) :: tolerance
 
-      do i = 2, size(values) - 1
-         values(i) = max(of(i, j), of(i - 1, j), of(i + 1, j), of(i, j + 1), of(i, south))
-      end do
-
-   contains
-
-      !> Conductance of a node if it flows, else 0
-      pure real(dp) function of(k, l)
-         integer, intent(in) :: k, l
-         of = merge(eps(k, l)*(1.0_dp - self%touching(k, l)), 0.0_dp, p(k, l) > cavity_pressure)
-      end function of
-   end subroutine greatest_flowing
-
-   !> Last touching node of row j whose film is below the layer; 2 if there is none
-   pure integer function last_asking(self, mass_content, j) result(i)
-      class(boundary_film_t), intent(in) :: self
-      !> Shape (nx)
-      real(dp), contiguous, intent(in) :: mass_content(:)
-      integer, intent(in) :: j
-
-      do i = size(mass_content) - 1, 3, -1
-         if (self%touching(i, j) > 0.0_dp .and. mass_content(i) < self%thickness) return
-      end do
-      i = 2
-   end function last_asking
+      holds = .true.
+      if (self%active) holds = minval(mass_content) >= (1.0_dp - tolerance)*self%thickness
+   end function holds
 
    !> Allocated bytes
    pure integer(int64) function bytes(self)
       class(boundary_film_t), intent(in) :: self
       bytes = 0
-      if (allocated(self%film)) bytes = 16*size(self%film, kind=int64) + 8*size(self%kept, kind=int64)
+      if (self%active) bytes = 8*(3*size(self%film, kind=int64) + size(self%yield_mass, kind=int64))
    end function bytes
 end module ehl_boundary_film

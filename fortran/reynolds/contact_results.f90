@@ -4,7 +4,7 @@ module ehl_contact_results
    use ehl_force_balance, only: load_excess
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
-   use ehl_level, only: gap_row, level_t, yields
+   use ehl_level, only: gap_row, level_t
    use ehl_touching, only: measure_touching, touches, touching_t
    implicit none (type, external)
    private
@@ -49,19 +49,15 @@ contains
       logical :: thins
       integer :: j
 
-      thins = level%flow%bends .or. level%lubricant%shear%thins() .or. allocated(level%boundary)
+      thins = level%flow%depends_on_gradient .or. level%lubricant%shear%thins() .or. level%boundary%active
       !$omp parallel do default(none) shared(level, smallest, largest, friction, newtonian, thins) private(viscous, stress) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = 1, level%grid%ny
-         smallest(j) = minval(level%h(:, j))
-         if (yields(level)) smallest(j) = minval(gap_row(level, j))
+         smallest(j) = minval(gap_row(level, j))
          largest(j) = maxval(level%p(:, j))
-         if (allocated(level%boundary)) then
-            call level%flow%stress_row(level%lubricant, level%p, level%boundary%film, level%rho(:, j), j, viscous, stress)
-         else
-            call level%flow%stress_row(level%lubricant, level%p, level%h, level%rho(:, j), j, viscous, stress)
-         end if
-         if (allocated(level%boundary)) call take_boundary(level, j, viscous, stress)
+         call level%flow%stress_row(level%lubricant, level%p, level%boundary%film_row(level%h(:, j), j), level%rho(:, j), j, &
+                                    viscous, stress)
+         call take_boundary(level, j, viscous, stress)
          newtonian(j) = sum(viscous)*level%grid%weight(j)
          friction(j) = newtonian(j)
          if (thins) friction(j) = sum(stress)*level%grid%weight(j)
@@ -77,12 +73,9 @@ contains
       ! a NaN fails every comparison
       m%finite = abs(m%load_error) < huge(1.0_dp) .and. abs(m%film_central) < huge(1.0_dp) &
                  .and. m%friction < huge(1.0_dp) .and. abs(m%film_minimum) < huge(1.0_dp)
-      m%positive = all(smallest > 0.0_dp)
-      if (allocated(level%boundary)) then
-         m%touching = measure_touching(level)
-         m%positive = .true.
-         m%holds = minval(level%mass_content) >= (1.0_dp - film_tolerance)*level%boundary%thickness
-      end if
+      m%positive = level%boundary%active .or. all(smallest > 0.0_dp)
+      m%holds = level%boundary%holds(level%mass_content, film_tolerance)
+      m%touching = measure_touching(level)
    end function measure
 
    !> Shear stress of row j where the bodies touch: that of the boundary film, of the lubricant none
@@ -92,6 +85,7 @@ contains
       !> As stress_row of ehl_flow has them
       real(dp), contiguous, intent(inout) :: newtonian(:), stress(:)
 
+      if (.not. level%boundary%active) return
       where (touches(level, j))
          newtonian = 0.0_dp
          stress = level%lubricant%boundary_stress*level%p(:, j)

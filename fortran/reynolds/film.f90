@@ -4,7 +4,7 @@
 !>    H(X, Y) = H00 + G(X, Y) + (K P)(X, Y)
 !>
 !> with H00 the rigid separation, G the gap of the undeformed bodies less the roughness (X^2/2 + D Y^2/2 - RR with the ratio
-!> of radii D, 1 for a ball on a flat; on a coarse level it holds the restricted film as well), and K P the elastic deflection
+!> of radii D, 1 for a ball on a flat; on a coarse level what multigrid/coarse_problem.f90 sets), and K P the elastic deflection
 !> k_b iint P dX' dY'/r of the level's engine, k_b = 2/pi^2 in a round contact. Peaks of the roughness are positive and thin
 !> the film.
 module ehl_film
@@ -33,7 +33,7 @@ contains
       call level%engine%apply(level%p, level%h)
       !$omp parallel do default(none) shared(level) num_threads(level%threads) if(level%parallel) schedule(static)
       do j = 1, level%grid%ny
-         level%h(:, j) = level%h00 + level%geometry(:, j) + level%h(:, j)
+         level%h(:, j) = level%h00 + level%film_rhs(:, j) + level%h(:, j)
       end do
       !$omp end parallel do
    end subroutine update_film
@@ -53,19 +53,13 @@ contains
          call level%lubricant%density(level%p(:last, j), level%rho(:last, j), level%h_drho_dp(:last, j))
          level%rho(last + 1:, j) = rest_rho(1)
          level%h_drho_dp(last + 1:, j) = rest_slope(1)
-         if (allocated(level%boundary)) then
-            call level%boundary%find_film(level%h(:, j), level%rho(:, j), j)
-            if (.not. level%poiseuille%frozen) call level%flow%find_row(level%lubricant, level%p, level%boundary%film, &
-                                                                        level%rho(:, j), level%h_drho_dp(:, j), j, last)
-         else if (.not. level%poiseuille%frozen) then
-            call level%flow%find_row(level%lubricant, level%p, level%h, level%rho(:, j), level%h_drho_dp(:, j), j, last)
-         end if
+         call level%boundary%find_film(level%h(:, j), level%rho(:, j), j)
+         if (.not. level%poiseuille%frozen) call level%flow%find_row( &
+            level%lubricant, level%p, level%boundary%film_row(level%h(:, j), j), level%rho(:, j), level%h_drho_dp(:, j), j, last)
          level%mass_content(:, j) = level%rho(:, j)*level%h(:, j)
          level%h_drho_dp(:, j) = level%h_drho_dp(:, j)*level%h(:, j)
       end do
       !$omp end parallel do
-      if (allocated(level%boundary)) then
-         if (.not. level%boundary%frozen) call find_touching(level)
-      end if
+      if (level%boundary%follows_state()) call find_touching(level)
    end subroutine update_coefficients
 end module ehl_film

@@ -4,7 +4,7 @@
 !>    q_x = -eps_x dP/dX,   q_y = -eps_y dP/dY
 !>
 !> with q the Poiseuille part of the mass flow, and how they change with P and H. What a kind of flow has to say is in the
-!> file of that kind (newtonian_flow.f90, thinning_flow.f90); flow_factory.f90 chooses. Everything else asks here.
+!> file of that kind (newtonian_flow.f90, shear_thinning_flow.f90); flow_factory.f90 chooses. Everything else asks here.
 module ehl_flow
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_grid, only: grid_t
@@ -14,23 +14,23 @@ module ehl_flow
    use ehl_status, only: ehl_no_memory, status_t
    implicit none (type, external)
    private
-   public :: flow_t, along
+   public :: flow_t, dir_x
 
-   !> Place of what concerns the flow along X in the arrays of a flow; `across` of the flow is that of Y
-   integer, parameter :: along = 1
+   !> Index of what concerns the flow along X in the arrays of a flow; `dir_y` of the flow is that of Y
+   integer, parameter :: dir_x = 1
 
-   !> Arrays of shape (nx, ny, across)
+   !> Arrays of shape (nx, ny, dir_y)
    type, abstract :: flow_t
       !> 1 where the lubricant flows alike in both directions, so that one array serves for both; else 2. The conductance
       !> along X, the direction of the motion, is then the larger one.
-      integer :: across = along
+      integer :: dir_y = dir_x
       !> 1/lambda_bar: the conductance of unit film, density and viscosity
       real(dp) :: inverse_speed = 0.0_dp
       !> Conductance, and d ln(eps)/dP at constant film
       real(dp), allocatable :: eps(:, :, :), dlneps_dp(:, :, :)
       !> Whether the conductance depends on the gradient of pressure; then -dq/d(grad P), for linear systems; else
       !> not allocated
-      logical :: bends = .false.
+      logical :: depends_on_gradient = .false.
       real(dp), allocatable :: tangent(:, :, :)
       !> Flow factors of the nodes, if there are any
       type(kept_factors_t) :: kept
@@ -38,9 +38,9 @@ module ehl_flow
    contains
       procedure :: setup
       procedure(find_row), deferred :: find_row
-      procedure(film_power), deferred :: film_power
+      procedure(film_exponent), deferred :: film_exponent
       procedure(stress_row), deferred :: stress_row
-      procedure :: greatest_around
+      procedure :: max_neighbour_conductance
       procedure :: bytes
    end type flow_t
 
@@ -51,20 +51,20 @@ module ehl_flow
          implicit none (type, external)
          class(flow_t), intent(inout) :: self
          type(lubricant_t), intent(in) :: lubricant
-         !> Pressure and film, shape (nx, ny)
-         real(dp), contiguous, intent(in) :: p(:, :), h(:, :)
-         !> Density of the row and its change with P, shape (nx)
-         real(dp), contiguous, intent(in) :: rho(:), drho_dp(:)
+         !> Pressure, shape (nx, ny)
+         real(dp), contiguous, intent(in) :: p(:, :)
+         !> Of the row: film, density and its change with P, shape (nx)
+         real(dp), contiguous, intent(in) :: h(:), rho(:), drho_dp(:)
          integer, intent(in) :: j, last
       end subroutine find_row
 
-      !> d ln(eps)/d ln(H) at node (i, j), along X or across
-      pure real(dp) function film_power(self, i, j, direction)
+      !> d ln(eps)/d ln(H) at node (i, j), along X or Y
+      pure real(dp) function film_exponent(self, i, j, direction)
          import :: dp, flow_t
          implicit none (type, external)
          class(flow_t), intent(in) :: self
          integer, intent(in) :: i, j, direction
-      end function film_power
+      end function film_exponent
 
       !> Shear stress of the sliding in row j, over that of a Newtonian lubricant with eta = eta0 and H = 1: of a Newtonian
       !> lubricant with this viscosity, eta/(eta0 H), and the real one
@@ -73,10 +73,10 @@ module ehl_flow
          implicit none (type, external)
          class(flow_t), intent(in) :: self
          type(lubricant_t), intent(in) :: lubricant
-         !> Pressure and film, shape (nx, ny)
-         real(dp), contiguous, intent(in) :: p(:, :), h(:, :)
-         !> Density of the row, shape (nx)
-         real(dp), contiguous, intent(in) :: rho(:)
+         !> Pressure, shape (nx, ny)
+         real(dp), contiguous, intent(in) :: p(:, :)
+         !> Film and density of the row, shape (nx)
+         real(dp), contiguous, intent(in) :: h(:), rho(:)
          integer, intent(in) :: j
          real(dp), contiguous, intent(out) :: newtonian(:), stress(:)
       end subroutine stress_row
@@ -93,15 +93,15 @@ contains
 
       if (status%failed()) return
       self%grid = grid
-      allocate (self%eps(grid%nx, grid%ny, self%across), self%dlneps_dp(grid%nx, grid%ny, self%across), source=0.0_dp, &
+      allocate (self%eps(grid%nx, grid%ny, self%dir_y), self%dlneps_dp(grid%nx, grid%ny, self%dir_y), source=0.0_dp, &
                 stat=stat)
-      if (stat == 0 .and. self%bends) allocate (self%tangent, source=self%eps, stat=stat)
-      if (stat == 0 .and. self%bends) call self%kept%setup(grid%nx, grid%ny, stat)
+      if (stat == 0 .and. self%depends_on_gradient) allocate (self%tangent, source=self%eps, stat=stat)
+      if (stat == 0 .and. self%depends_on_gradient) call self%kept%setup(grid%nx, grid%ny, stat)
       if (stat /= 0) call status%fail(ehl_no_memory, "no memory for the conductances of a grid level")
    end subroutine setup
 
-   !> Largest conductance across of each node of row j and its four neighbours, in columns 2 to nx-1
-   pure subroutine greatest_around(self, j, south, values)
+   !> Largest conductance along Y of each node of row j and its four neighbours, in columns 2 to nx-1
+   pure subroutine max_neighbour_conductance(self, j, south, values)
       class(flow_t), intent(in) :: self
       !> The row, and the one below it
       integer, intent(in) :: j, south
@@ -110,10 +110,10 @@ contains
       integer :: i
 
       do i = 2, size(values) - 1
-         values(i) = max(self%eps(i, j, self%across), self%eps(i - 1, j, self%across), self%eps(i + 1, j, self%across), &
-                         self%eps(i, j + 1, self%across), self%eps(i, south, self%across))
+         values(i) = max(self%eps(i, j, self%dir_y), self%eps(i - 1, j, self%dir_y), self%eps(i + 1, j, self%dir_y), &
+                         self%eps(i, j + 1, self%dir_y), self%eps(i, south, self%dir_y))
       end do
-   end subroutine greatest_around
+   end subroutine max_neighbour_conductance
 
    !> Allocated bytes
    pure integer(int64) function bytes(self)

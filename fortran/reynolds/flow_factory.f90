@@ -5,7 +5,7 @@ module ehl_flow_factory
    use ehl_kinds, only: dp
    use ehl_lubricant, only: lubricant_t
    use ehl_newtonian_flow, only: newtonian_flow_t
-   use ehl_thinning_flow, only: new_thinning_flow
+   use ehl_shear_thinning_flow, only: new_shear_thinning_flow
    implicit none (type, external)
    private
    public :: new_flow
@@ -21,7 +21,7 @@ contains
 
       associate (shear => lubricant%shear)
          if (shear%thins_flow()) then
-            allocate (flow, source=new_thinning_flow(shear%thinning(), shear%scale/shear%stress, &
+            allocate (flow, source=new_shear_thinning_flow(shear%thinning(), shear%scale/shear%stress, &
                                                      shear%gradient_scale/shear%stress))
          else
             allocate (newtonian_flow_t :: flow)

@@ -9,7 +9,7 @@
 module ehl_force_balance
    use ehl_film, only: refresh
    use ehl_kinds, only: dp
-   use ehl_level, only: level_t, yields
+   use ehl_level, only: level_t
    implicit none (type, external)
    private
    public :: balance_load, load_excess, missing_load, pass_load_on
@@ -47,10 +47,10 @@ contains
       !$omp parallel do default(none) shared(level, factor, deflection, nx) private(after) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = 1, level%grid%ny
-         deflection(j) = sum(level%p(:, j)*(level%h(:, j) - level%h00 - level%geometry(:, j)))*level%grid%weight(j)
+         deflection(j) = sum(level%p(:, j)*(level%h(:, j) - level%h00 - level%film_rhs(:, j)))*level%grid%weight(j)
          if (level%grid%is_border(j)) cycle
          after(2:nx - 1) = factor*level%p(2:nx - 1, j)
-         if (yields(level)) call level%boundary%bound(level%p(2:nx - 1, j), 2, j, after(2:nx - 1))
+         call level%boundary%limit_pressure(level%p(2:nx - 1, j), 2, j, after(2:nx - 1))
          level%p(2:nx - 1, j) = after(2:nx - 1)
       end do
       !$omp end parallel do
@@ -69,9 +69,7 @@ contains
             fixed_load = fixed_load + sum(level%p(:, j))*level%grid%weight(j)
          else
             fixed_load = fixed_load + (level%p(1, j) + level%p(level%grid%nx, j))*level%grid%weight(j)
-            if (yields(level)) then
-               fixed_load = fixed_load + sum(level%p(:, j), mask=level%boundary%kept(:, j) > 0.0_dp)*level%grid%weight(j)
-            end if
+            fixed_load = fixed_load + sum(level%p(:, j), mask=level%boundary%yielding(level%grid%nx, j))*level%grid%weight(j)
          end if
       end do
    end function fixed_load

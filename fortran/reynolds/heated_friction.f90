@@ -22,7 +22,7 @@ module ehl_heated_friction
    real(dp), parameter :: negligible = 1.0e-4_dp
    !> Relative error of the heat of a node, and most steps to it, some of them bisections: 27 of these would do
    real(dp), parameter :: tolerance = 1.0e-8_dp
-   integer, parameter :: most_steps = 200, bisect_after = 6
+   integer, parameter :: max_steps = 200, bisect_after = 6
 
    !> What the heat of a contact needs to know
    type :: film_heat_t
@@ -92,7 +92,7 @@ contains
       !$omp num_threads(threads) if(threads > 1) schedule(dynamic)
       do j = 1, grid%ny
          if (present(flow)) then
-            call flow%stress_row(lubricant, p, h, rho(:, j), j, newtonian, stress)
+            call flow%stress_row(lubricant, p, h(:, j), rho(:, j), j, newtonian, stress)
          else
             stress = law_stress(lubricant, p(:, j), h(:, j), spread(0.0_dp, 1, grid%nx))
          end if
@@ -188,7 +188,7 @@ contains
       before = 0.0_dp
       f_before = -most
       q = left*most
-      do k = 1, most_steps
+      do k = 1, max_steps
          f = q - heat_at(q)
          solved = abs(f) <= tolerance*most
          if (solved) exit

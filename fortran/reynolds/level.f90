@@ -13,7 +13,7 @@ module ehl_level
    use ehl_wedge, only: wedge_t
    implicit none (type, external)
    private
-   public :: film_of_flow, gap, gap_row, is_touching, level_t, touches_at, yields
+   public :: gap, gap_row, level_t
 
    !> ln(eta/eta0) at the Hertz pressure, and lambda_bar (M = 640), below which a contact is as those of soft bodies
    real(dp), parameter :: isoviscous_below = 8.0_dp, thin_below = 2.0e-3_dp
@@ -30,14 +30,14 @@ module ehl_level
       class(flow_t), allocatable :: flow
       type(poiseuille_t) :: poiseuille
       type(wedge_t) :: wedge
-      !> Contact at a boundary film; not allocated where there is none
-      type(boundary_film_t), allocatable :: boundary
+      !> Contact at a boundary film; inactive where there is none
+      type(boundary_film_t) :: boundary
       !> Rigid separation H00
       real(dp) :: h00 = 0.0_dp
       !> Value that the pressure sum must take (2 pi/3 on the finest grid)
       real(dp) :: load = 0.0_dp
-      !> Pressure, film, and the film less H00 and deflection
-      real(dp), allocatable :: p(:, :), h(:, :), geometry(:, :)
+      !> Pressure, film, and the right-hand side of the film equation: the film less H00 and deflection
+      real(dp), allocatable :: p(:, :), h(:, :), film_rhs(:, :)
       !> Right-hand side of the Reynolds equation, and the residual
       real(dp), allocatable :: rhs(:, :), residual(:, :)
       !> Density, and H d rho/dP
@@ -67,7 +67,7 @@ contains
       call self%lubricant%log_viscosity([1.0_dp], log_viscosity, slope)
       self%soft = log_viscosity(1) < isoviscous_below .and. self%flow%inverse_speed > 1.0_dp/thin_below
       associate (nx => self%grid%nx, ny => self%grid%ny)
-         allocate (self%p(nx, ny), self%h(nx, ny), self%geometry(nx, ny), &
+         allocate (self%p(nx, ny), self%h(nx, ny), self%film_rhs(nx, ny), &
                    self%rhs(nx, ny), self%residual(nx, ny), self%rho(nx, ny), self%h_drho_dp(nx, ny), &
                    self%mass_content(nx, ny), source=0.0_dp, stat=stat)
       end associate
@@ -78,36 +78,11 @@ contains
       call self%flow%setup(self%grid, status)
       call self%poiseuille%setup(self%grid)
       call self%wedge%set_steady(self%grid%hx)
-      if (self%lubricant%boundary_film > 0.0_dp) then
-         allocate (self%boundary)
-         call self%boundary%setup(self%grid, self%lubricant%boundary_film, self%lubricant%boundary_limit, status)
-      end if
+      call self%boundary%setup(self%grid, self%lubricant%boundary_film, self%lubricant%boundary_limit, status)
       self%parallel = self%threads > 1
    end subroutine setup
 
-   !> Whether bodies touch at a boundary film
-   pure logical function is_touching(level)
-      type(level_t), intent(in) :: level
-      is_touching = allocated(level%boundary)
-      if (is_touching) is_touching = any(level%boundary%touching > 0.0_dp)
-   end function is_touching
-
-   !> Whether they touch at node (i, j)
-   pure logical function touches_at(level, i, j)
-      type(level_t), intent(in) :: level
-      integer, intent(in) :: i, j
-      touches_at = allocated(level%boundary)
-      if (touches_at) touches_at = level%boundary%touching(i, j) > 0.0_dp
-   end function touches_at
-
-   !> Whether the solids yield at some pressure
-   pure logical function yields(level)
-      type(level_t), intent(in) :: level
-      yields = allocated(level%boundary)
-      if (yields) yields = level%boundary%limit > 0.0_dp
-   end function yields
-
-   !> Film with the depth by which the solids give way where they yield
+   !> Film with the depth by which the solids yield
    pure function gap(level)
       type(level_t), intent(in) :: level
       real(dp) :: gap(level%grid%nx, level%grid%ny)
@@ -125,27 +100,14 @@ contains
       real(dp) :: gap_row(level%grid%nx)
 
       gap_row = level%h(:, j)
-      if (yields(level)) gap_row = merge(level%boundary%kept(:, j)/level%rho(:, j), gap_row, level%boundary%kept(:, j) > 0.0_dp)
+      call level%boundary%add_depth(level%rho(:, j), j, gap_row)
    end function gap_row
-
-   !> Film that the lubricant flows through at node (i, j)
-   pure real(dp) function film_of_flow(level, i, j)
-      type(level_t), intent(in) :: level
-      integer, intent(in) :: i, j
-
-      if (allocated(level%boundary)) then
-         film_of_flow = level%boundary%film(i, j)
-      else
-         film_of_flow = level%h(i, j)
-      end if
-   end function film_of_flow
 
    !> Allocated bytes, the engine's apart
    pure integer(int64) function bytes(self)
       class(level_t), intent(in) :: self
 
-      bytes = self%poiseuille%product%bytes()
+      bytes = self%poiseuille%product%bytes() + self%boundary%bytes()
       if (allocated(self%p)) bytes = bytes + self%flow%bytes() + 8*8*size(self%p, kind=int64)
-      if (allocated(self%boundary)) bytes = bytes + self%boundary%bytes()
    end function bytes
 end module ehl_level

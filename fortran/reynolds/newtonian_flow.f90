@@ -5,7 +5,7 @@
 !>
 !> The viscosity itself is not kept: it is needed only where friction is measured, and the conductance holds it.
 module ehl_newtonian_flow
-   use ehl_flow, only: along, flow_t
+   use ehl_flow, only: dir_x, flow_t
    use ehl_kinds, only: dp
    use ehl_lubricant, only: lubricant_t
    implicit none (type, external)
@@ -15,7 +15,7 @@ module ehl_newtonian_flow
    type, extends(flow_t) :: newtonian_flow_t
    contains
       procedure :: find_row
-      procedure :: film_power
+      procedure :: film_exponent
       procedure :: stress_row
    end type newtonian_flow_t
 
@@ -25,48 +25,48 @@ contains
    pure subroutine find_row(self, lubricant, p, h, rho, drho_dp, j, last)
       class(newtonian_flow_t), intent(inout) :: self
       type(lubricant_t), intent(in) :: lubricant
-      !> Pressure and film, shape (nx, ny)
-      real(dp), contiguous, intent(in) :: p(:, :), h(:, :)
-      !> Density of the row and its change with P, shape (nx)
-      real(dp), contiguous, intent(in) :: rho(:), drho_dp(:)
+      !> Pressure, shape (nx, ny)
+      real(dp), contiguous, intent(in) :: p(:, :)
+      !> Of the row: film, density and its change with P, shape (nx)
+      real(dp), contiguous, intent(in) :: h(:), rho(:), drho_dp(:)
       integer, intent(in) :: j, last
       real(dp) :: rest_log(1), rest_slope(1)
       integer :: i
 
       ! until the loop is done eps is ln(eta/eta0)
-      call lubricant%log_viscosity(p(:last, j), self%eps(:last, j, along), self%dlneps_dp(:last, j, along))
+      call lubricant%log_viscosity(p(:last, j), self%eps(:last, j, dir_x), self%dlneps_dp(:last, j, dir_x))
       do i = 1, last
-         self%eps(i, j, along) = rho(i)*h(i, j)**3*exp(-self%eps(i, j, along))*self%inverse_speed
+         self%eps(i, j, dir_x) = rho(i)*h(i)**3*exp(-self%eps(i, j, dir_x))*self%inverse_speed
       end do
       if (last < size(p, 1)) then
          call lubricant%log_viscosity([0.0_dp], rest_log, rest_slope)
-         self%dlneps_dp(last + 1:, j, along) = rest_slope(1)
-         self%eps(last + 1:, j, along) = rho(last + 1)*exp(-rest_log(1))*self%inverse_speed*h(last + 1:, j)**3
+         self%dlneps_dp(last + 1:, j, dir_x) = rest_slope(1)
+         self%eps(last + 1:, j, dir_x) = rho(last + 1)*exp(-rest_log(1))*self%inverse_speed*h(last + 1:)**3
       end if
-      self%dlneps_dp(:, j, along) = drho_dp/rho - self%dlneps_dp(:, j, along)
+      self%dlneps_dp(:, j, dir_x) = drho_dp/rho - self%dlneps_dp(:, j, dir_x)
    end subroutine find_row
 
    !> d ln(eps)/d ln(H)
-   pure real(dp) function film_power(self, i, j, direction)
+   pure real(dp) function film_exponent(self, i, j, direction)
       class(newtonian_flow_t), intent(in) :: self
       integer, intent(in) :: i, j, direction
-      associate (unused => [i, j, direction, self%across])
+      associate (unused => [i, j, direction, self%dir_y])
       end associate
-      film_power = 3.0_dp
-   end function film_power
+      film_exponent = 3.0_dp
+   end function film_exponent
 
    !> Newtonian and real shear stress of row j; the viscosity from the conductance
    pure subroutine stress_row(self, lubricant, p, h, rho, j, newtonian, stress)
       class(newtonian_flow_t), intent(in) :: self
       type(lubricant_t), intent(in) :: lubricant
-      !> Pressure and film, shape (nx, ny)
-      real(dp), contiguous, intent(in) :: p(:, :), h(:, :)
-      !> Density of the row, shape (nx)
-      real(dp), contiguous, intent(in) :: rho(:)
+      !> Pressure, shape (nx, ny)
+      real(dp), contiguous, intent(in) :: p(:, :)
+      !> Film and density of the row, shape (nx)
+      real(dp), contiguous, intent(in) :: h(:), rho(:)
       integer, intent(in) :: j
       real(dp), contiguous, intent(out) :: newtonian(:), stress(:)
 
-      newtonian = self%inverse_speed*rho*h(:, j)**2/self%eps(:, j, along)
+      newtonian = self%inverse_speed*rho*h**2/self%eps(:, j, dir_x)
       stress = newtonian
       if (lubricant%shear%thins()) call lubricant%shear%reduce(p(:, j), stress)
    end subroutine stress_row

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The state of a node. Its pressure tells it: the node is cavitated where P <= 0, elsewhere the lubricant fills the gap and
-!> flows. A cavitated node is content, and stays as it is, unless its residual asks for pressure (residual < 0).
+!> flows. A cavitated node is inactive, and stays as it is, unless its residual asks for pressure (residual < 0).
 !>
 !> A NaN is no state: it fails every comparison, and nothing here makes a number of it. Procedures take rows, since the
 !> loops of other modules would not vectorise around a call.
@@ -9,7 +9,7 @@ module ehl_node_state
    implicit none (type, external)
    private
    public :: cavity_pressure, last_flowing, flowing_around, cavitate, stay_cavitated, change_flowing, &
-             silence_content
+             zero_inactive_residual
 
    !> Pressure in a cavity, over p_h
    real(dp), parameter :: cavity_pressure = 0.0_dp
@@ -82,8 +82,8 @@ contains
       end do
    end subroutine change_flowing
 
-   !> No residual where a cavitated node is content
-   pure subroutine silence_content(p, residual)
+   !> No residual at inactive nodes
+   pure subroutine zero_inactive_residual(p, residual)
       real(dp), contiguous, intent(in) :: p(:)
       real(dp), contiguous, intent(inout) :: residual(:)
       integer :: i
@@ -91,5 +91,5 @@ contains
       do i = 1, size(p)
          residual(i) = merge(0.0_dp, residual(i), p(i) <= cavity_pressure .and. residual(i) > 0.0_dp)
       end do
-   end subroutine silence_content
+   end subroutine zero_inactive_residual
 end module ehl_node_state

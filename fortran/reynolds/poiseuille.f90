@@ -3,19 +3,19 @@
 !> arithmetic means of the conductances between nodes (Zhang et al. 2019, eqs. 7 and 8; reynolds.f90), and the nine-point
 !> Galerkin product of a finer grid's term, frozen while P and H change. No other module knows the stencil.
 module ehl_poiseuille
-   use ehl_flow, only: along, flow_t
+   use ehl_flow, only: dir_x, flow_t
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
    use ehl_nine_point, only: nine_point_t
    use ehl_status, only: status_t
    implicit none (type, external)
    private
-   public :: poiseuille_t, line_terms_t, most_neighbours, stretch
+   public :: poiseuille_t, line_terms_t, max_neighbours, block_size
 
    !> Most neighbours of a node in either form
-   integer, parameter :: most_neighbours = 8
+   integer, parameter :: max_neighbours = 8
    !> Nodes of a row that line systems take at a time, at the most
-   integer, parameter :: stretch = 32
+   integer, parameter :: block_size = 32
 
    !> Fields are arrays of shape (nx, ny); rows are those of the grid. All values are per area.
    type :: poiseuille_t
@@ -35,16 +35,16 @@ module ehl_poiseuille
       procedure :: flow_rate
    end type poiseuille_t
 
-   !> What a line system along X takes from a stretch of a row; nodes are numbered from 1. Zero where the row has a border
+   !> What a line system along X takes from a block of a row; nodes are numbered from 1. Zero where the row has a border
    !> node, which has no equation.
    type :: line_terms_t
       !> Right-hand side less the term
-      real(dp) :: rest(stretch) = 0.0_dp
+      real(dp) :: rest(block_size) = 0.0_dp
       !> Sum of the couplings to other rows with the excess, with a minus; its change with the node's conductance
-      real(dp) :: other(stretch) = 0.0_dp, other_rate(stretch) = 0.0_dp
-      !> Coupling to the next node of the row, from the node before the stretch on; its change with the conductance
+      real(dp) :: other(block_size) = 0.0_dp, other_rate(block_size) = 0.0_dp
+      !> Coupling to the next node of the row, from the node before the block on; its change with the conductance
       !> of either node
-      real(dp) :: east(0:stretch) = 0.0_dp, east_rate(0:stretch) = 0.0_dp
+      real(dp) :: east(0:block_size) = 0.0_dp, east_rate(0:block_size) = 0.0_dp
    end type line_terms_t
 
 contains
@@ -86,7 +86,7 @@ contains
       south = self%grid%south(j)
       rx = 0.5_dp/self%grid%hx**2
       ry = 0.5_dp/self%grid%hy**2
-      associate (ex => flow%eps(:, :, along), ey => flow%eps(:, :, flow%across))
+      associate (ex => flow%eps(:, :, dir_x), ey => flow%eps(:, :, flow%dir_y))
          do i = 2, nx - 1
             values(i) = rx*((ex(i + 1, j) + ex(i, j))*(p(i + 1, j) - p(i, j)) &
                             + (ex(i - 1, j) + ex(i, j))*(p(i - 1, j) - p(i, j))) &
@@ -116,7 +116,7 @@ contains
       below = self%grid%south(j)
       rx = 0.5_dp/self%grid%hx**2
       ry = 0.5_dp/self%grid%hy**2
-      associate (ex => flow%eps(:, :, along), ey => flow%eps(:, :, flow%across))
+      associate (ex => flow%eps(:, :, dir_x), ey => flow%eps(:, :, flow%dir_y))
          do i = max(first - 1, 1), min(last, self%grid%nx - 1)
             k = i - first + 1
             terms%east(k) = rx*(ex(i + 1, j) + ex(i, j))
@@ -134,7 +134,7 @@ contains
             terms%other_rate(k) = ry*(pn + ps)
          end do
       end associate
-      if (flow%bends) call line_of_tangents(self, flow, j, first, last, terms)
+      if (flow%depends_on_gradient) call line_of_tangents(self, flow, j, first, last, terms)
    end subroutine line_row
 
    !> The couplings of a line system where the conductances depend on the gradient of pressure, and those along and across
@@ -147,8 +147,8 @@ contains
       integer :: i, k, below
 
       below = self%grid%south(j)
-      associate (tx => flow%tangent(:, :, along), ty => flow%tangent(:, :, flow%across), &
-                 ey => flow%eps(:, :, flow%across), slope => flow%dlneps_dp(:, :, flow%across))
+      associate (tx => flow%tangent(:, :, dir_x), ty => flow%tangent(:, :, flow%dir_y), &
+                 ey => flow%eps(:, :, flow%dir_y), slope => flow%dlneps_dp(:, :, flow%dir_y))
          do i = max(first - 1, 1), min(last, self%grid%nx - 1)
             terms%east(i - first + 1) = 0.5_dp/self%grid%hx**2*(tx(i + 1, j) + tx(i, j))
          end do
@@ -200,26 +200,26 @@ contains
       class(poiseuille_t), intent(in) :: self
       class(flow_t), intent(in) :: flow
       integer, intent(in) :: i, j
-      integer, intent(out) :: n, neighbour(2, most_neighbours), direction(most_neighbours)
-      real(dp), intent(out) :: coupling(most_neighbours), rate(most_neighbours), excess
+      integer, intent(out) :: n, neighbour(2, max_neighbours), direction(max_neighbours)
+      real(dp), intent(out) :: coupling(max_neighbours), rate(max_neighbours), excess
       real(dp) :: sum_eps
       integer :: m
 
       coupling = 0.0_dp
       rate = 0.0_dp
       excess = 0.0_dp
-      direction = along
+      direction = dir_x
       neighbour(:, 1:4) = reshape([i + 1, j, i - 1, j, i, j + 1, i, self%grid%south(j)], [2, 4])
       neighbour(:, 5:8) = reshape([i - 1, j + 1, i + 1, j + 1, i - 1, j - 1, i + 1, j - 1], [2, 4])
       if (.not. self%frozen) then
          n = 4
-         direction(1:4) = [along, along, flow%across, flow%across]
+         direction(1:4) = [dir_x, dir_x, flow%dir_y, flow%dir_y]
          coupling(1:4) = 0.5_dp/[self%grid%hx**2, self%grid%hx**2, self%grid%hy**2, self%grid%hy**2]
          do m = 1, 4
             sum_eps = flow%eps(i, j, direction(m)) + flow%eps(neighbour(1, m), neighbour(2, m), direction(m))
             coupling(m) = coupling(m)*sum_eps
             rate(m) = coupling(m)/sum_eps
-            if (flow%bends) coupling(m) = rate(m)*(flow%tangent(i, j, direction(m)) &
+            if (flow%depends_on_gradient) coupling(m) = rate(m)*(flow%tangent(i, j, direction(m)) &
                                                                 + flow%tangent(neighbour(1, m), neighbour(2, m), direction(m)))
          end do
          return
@@ -249,16 +249,16 @@ contains
       do j = first, last
          rx = 0.5_dp*self%grid%cell(j)/self%grid%hx**2
          ry = 0.5_dp*self%grid%hx/self%grid%hy
-         if (flow%bends) then
+         if (flow%depends_on_gradient) then
             do i = 1, self%grid%nx - 1
-               a%east(i, j) = rx*(flow%tangent(i, j, along) + flow%tangent(i + 1, j, along))
-               a%north(i, j) = ry*(flow%tangent(i, j, flow%across) + flow%tangent(i, j + 1, flow%across))
+               a%east(i, j) = rx*(flow%tangent(i, j, dir_x) + flow%tangent(i + 1, j, dir_x))
+               a%north(i, j) = ry*(flow%tangent(i, j, flow%dir_y) + flow%tangent(i, j + 1, flow%dir_y))
             end do
             cycle
          end if
          do i = 1, self%grid%nx - 1
-            a%east(i, j) = rx*(flow%eps(i, j, along) + flow%eps(i + 1, j, along))
-            a%north(i, j) = ry*(flow%eps(i, j, flow%across) + flow%eps(i, j + 1, flow%across))
+            a%east(i, j) = rx*(flow%eps(i, j, dir_x) + flow%eps(i + 1, j, dir_x))
+            a%north(i, j) = ry*(flow%eps(i, j, flow%dir_y) + flow%eps(i, j + 1, flow%dir_y))
          end do
       end do
    end subroutine integrate
@@ -279,7 +279,7 @@ contains
       values(1) = 0.0_dp
       values(size(values)) = 0.0_dp
       do i = 2, size(values) - 1
-         values(i) = r*flow%eps(i, j, along)*(2.0_dp*change(i) - change(i - 1) - change(i + 1))
+         values(i) = r*flow%eps(i, j, dir_x)*(2.0_dp*change(i) - change(i - 1) - change(i + 1))
       end do
    end subroutine flow_row
 

@@ -26,11 +26,11 @@
 !>
 !> Zhang et al. 2019, eqs. 1, 7 and 8; the narrow scheme: Venner & Lubrecht 2000.
 module ehl_reynolds
-   use ehl_flow, only: along
+   use ehl_flow, only: dir_x
    use ehl_kernel, only: kernel_coefficient
    use ehl_kinds, only: dp
-   use ehl_level, only: level_t, yields
-   use ehl_node_state, only: silence_content
+   use ehl_level, only: level_t
+   use ehl_node_state, only: zero_inactive_residual
    use ehl_wedge, only: wedge_reach
    implicit none (type, external)
    private
@@ -47,9 +47,7 @@ contains
       real(dp), contiguous, intent(out) :: values(:)
 
       call flow_operator(level, j, values)
-      if (allocated(level%boundary) .and. .not. level%grid%is_border(j)) then
-         call level%boundary%take_row(level%mass_content(:, j), j, values)
-      end if
+      call level%boundary%operator_row(level%mass_content(:, j), j, values)
    end subroutine reynolds_operator
 
    !> The same as if no node touched
@@ -91,10 +89,10 @@ contains
          call flow_operator(level, j, row)
          do i = 1, level%grid%nx
             row(i) = level%rhs(i, j) - row(i)
-            share(i) = stored/(stored + flow*level%flow%eps(i, j, along))
+            share(i) = stored/(stored + flow*level%flow%eps(i, j, dir_x))
          end do
          elastic = level%rho(:, j)*level%h(:, j)
-         if (yields(level)) call level%boundary%find_yielding(level%p(:, j), weights, j, row, level%mass_content(:, j))
+         call level%boundary%find_yielding(level%p(:, j), weights, j, row, level%mass_content(:, j))
          call level%boundary%find_row(elastic, row, share, j)
       end do
       !$omp end parallel do
@@ -117,16 +115,14 @@ contains
          do i = 2, level%grid%nx - 1
             level%residual(i, j) = level%rhs(i, j) - row(i)
          end do
-         if (allocated(level%boundary) .and. .not. level%grid%is_border(j)) then
-            call level%boundary%residual_row(level%rhs(:, j), level%mass_content(:, j), j, level%residual(:, j))
-         end if
-         call silence_content(level%p(:, j), level%residual(:, j))
+         call level%boundary%residual_row(level%rhs(:, j), level%mass_content(:, j), j, level%residual(:, j))
+         call zero_inactive_residual(level%p(:, j), level%residual(:, j))
          if (level%grid%is_border(j)) level%residual(:, j) = 0.0_dp
          sums(j) = sum(level%residual(:, j)**2)*level%grid%weight(j)/(level%grid%hx*level%grid%hy)
       end do
       !$omp end parallel do
       rms = sqrt(sum(sums)/(real(level%grid%nx, dp)*level%grid%full_ny()))
-      if (allocated(level%boundary)) call level%boundary%hold_by(merge(0.0_dp, rms, level%wedge%squeeze > 0.0_dp))
+      call level%boundary%set_lift(merge(0.0_dp, rms, level%wedge%squeeze > 0.0_dp))
    end subroutine update_residual
 
    !> Residual (rms) as far as it concerns the film: each with the share that the deflection by the node's own pressure
@@ -134,22 +130,18 @@ contains
    !> is a pressure of 1e-9. Needs the residual of the present state.
    real(dp) function film_residual(level)
       type(level_t), intent(in) :: level
-      real(dp) :: sums(level%grid%ny), wedge, poiseuille
+      real(dp) :: sums(level%grid%ny), eps(level%grid%nx), wedge, poiseuille
       integer :: j
 
       associate (grid => level%grid)
          wedge = kernel_coefficient(level%kernel_factor, 0, 0, grid%hx, grid%hy)/grid%hx
          poiseuille = level%poiseuille%flow_rate()
-         !$omp parallel do default(none) shared(level, sums, wedge, poiseuille) &
+         !$omp parallel do default(none) shared(level, sums, wedge, poiseuille) private(eps) &
          !$omp num_threads(level%threads) if(level%parallel) schedule(static)
          do j = 1, grid%ny
-            if (allocated(level%boundary)) then
-               sums(j) = sum((level%residual(:, j)*wedge/(wedge + poiseuille*(1.0_dp - level%boundary%touching(:, j)) &
-                                                          *level%flow%eps(:, j, along)))**2) &
-                         *level%grid%weight(j)/(level%grid%hx*level%grid%hy)
-               cycle
-            end if
-            sums(j) = sum((level%residual(:, j)*wedge/(wedge + poiseuille*level%flow%eps(:, j, along)))**2) &
+            eps = level%flow%eps(:, j, dir_x)
+            call level%boundary%without_touching(1, j, eps)
+            sums(j) = sum((level%residual(:, j)*wedge/(wedge + poiseuille*eps))**2) &
                       *level%grid%weight(j)/(level%grid%hx*level%grid%hy)
          end do
          !$omp end parallel do

@@ -4,7 +4,7 @@
 !> is contact as well.
 module ehl_touching
    use ehl_kinds, only: dp
-   use ehl_level, only: gap_row, level_t, yields
+   use ehl_level, only: gap_row, level_t
    use ehl_lubricant, only: lubricant_t
    use ehl_node_state, only: cavity_pressure
    use ehl_reynolds, only: flow_operator
@@ -33,7 +33,7 @@ module ehl_touching
       real(dp) :: load_share = 0.0_dp, area = 0.0_dp
       !> What the layer gives at touching nodes, over what flows along with the surfaces through the line X = 0
       real(dp) :: supply = 0.0_dp
-      !> Share of the load where the solids yield, their area there [a^2], the greatest depth that they give way by [a^2/R], and
+      !> Share of the load where the solids yield, their area there [a^2], the largest depth by which they yield [a^2/R], and
       !> the part of that share where the film is above the layer
       real(dp) :: hard_share = 0.0_dp, hard_area = 0.0_dp, depth = 0.0_dp, flowing_share = 0.0_dp
    contains
@@ -51,23 +51,19 @@ contains
       integer :: j, middle
 
       middle = 1 + nint((0.0_dp - level%grid%x0)/level%grid%hx)
+      if (.not. level%boundary%active) return
       given = 0.0_dp
-      hard = 0.0_dp
-      flowing = 0.0_dp
-      depth = 0.0_dp
       do j = 1, level%grid%ny
          associate (touching => touches(level, j), weight => level%grid%weight(j))
             whole(j) = weight*sum(level%p(:, j))
             load(j) = weight*sum(level%p(:, j), mask=touching)
             area(j) = weight*count(touching)
             flow(j) = merge(weight*level%mass_content(middle, j)/level%grid%hx, 0.0_dp, level%p(middle, j) > cavity_pressure)
-            if (yields(level)) then
-               yield = level%boundary%kept(:, j) > 0.0_dp
-               flowing(j) = weight*sum(level%p(:, j), mask=yield .and. .not. touching)
-               hard(j) = weight*sum(level%p(:, j), mask=yield)
-               m%hard_area = m%hard_area + weight*count(yield)
-               depth(j) = maxval(gap_row(level, j) - level%h(:, j))
-            end if
+            yield = level%boundary%yielding(level%grid%nx, j)
+            flowing(j) = weight*sum(level%p(:, j), mask=yield .and. .not. touching)
+            hard(j) = weight*sum(level%p(:, j), mask=yield)
+            m%hard_area = m%hard_area + weight*count(yield)
+            depth(j) = maxval(gap_row(level, j) - level%h(:, j))
             if (level%grid%is_border(j)) cycle
             call flow_operator(level, j, row)
             row = level%rhs(:, j) - row

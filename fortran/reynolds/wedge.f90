@@ -32,7 +32,7 @@ module ehl_wedge
       procedure :: set_step
       procedure :: subtract_row
       procedure :: line_row
-      procedure :: last_asking
+      procedure :: last_active
       procedure :: weights
       procedure :: rate
       procedure :: line_weights
@@ -108,7 +108,7 @@ contains
 
    !> Last node of a row beyond `from` (at least 2) where the right-hand side and the implicit part alone ask for
    !> pressure; `from` if there is none
-   pure integer function last_asking(self, m, rhs, from) result(i)
+   pure integer function last_active(self, m, rhs, from) result(i)
       class(wedge_t), intent(in) :: self
       real(dp), contiguous, intent(in) :: m(:), rhs(:)
       integer, intent(in) :: from
@@ -119,7 +119,7 @@ contains
          end do
       end associate
       i = from
-   end function last_asking
+   end function last_active
 
    !> Factors of m at column i, at the column before it and so on
    pure function weights(self, i) result(c)

@@ -17,7 +17,7 @@ contains
       integer :: j, stat
 
       associate (level => self%hierarchy%levels(n))
-         if (allocated(level%boundary)) then
+         if (level%boundary%active) then
             allocate (touching(level%grid%nx, level%grid%ny), stat=stat)
             if (stat /= 0) then
                call status%fail(ehl_no_memory, "no memory for the temperatures of film and walls")

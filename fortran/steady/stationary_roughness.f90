@@ -4,12 +4,12 @@
 module ehl_stationary_roughness
    use ehl_contact, only: contact_t
    use ehl_contact_results, only: contact_results_t, load_tolerance, measure
-   use ehl_cycle, only: careful_cycle, cycle_options_t
+   use ehl_cycle, only: cycle_options_t, damped_cycle
    use ehl_film, only: refresh
    use ehl_hierarchy, only: hierarchy_t
    use ehl_iteration, only: iteration_t, reduction
    use ehl_kinds, only: dp
-   use ehl_level, only: is_touching, level_t
+   use ehl_level, only: level_t
    use ehl_moving_surfaces, only: moving_surfaces_t
    use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_negative_film, outcome_running
    use ehl_status, only: ehl_no_memory, status_t
@@ -86,7 +86,7 @@ contains
       self%n = n
       self%cycle = how%cycle
       self%max_cycles = how%max_cycles
-      if (allocated(level%boundary)) self%max_cycles = max(how%max_cycles, int(cycles_a_node*level%grid%nx))
+      if (level%boundary%active) self%max_cycles = max(how%max_cycles, int(cycles_a_node*level%grid%nx))
       self%tolerance = friction_tolerance*how%accuracy
       if (allocated(self%rr)) deallocate (self%rr, self%p_done)
       allocate (self%rr(level%grid%nx, level%grid%ny), self%p_done(level%grid%nx, level%grid%ny), stat=stat)
@@ -116,10 +116,10 @@ contains
          if (self%due) call grow(self, level)
          if (self%outcome /= outcome_running) return
          self%options = self%cycle
-         if (is_touching(level)) self%options = careful_cycle(self%cycle)
+         if (level%boundary%touches()) self%options = damped_cycle(self%cycle)
          call self%improve(hierarchy)
          self%total_cycles = self%total_cycles + 1
-         if (self%state == outcome_running .and. allocated(level%boundary) .and. self%cycles > lost_after) then
+         if (self%state == outcome_running .and. level%boundary%active .and. self%cycles > lost_after) then
             if (abs(self%m%load_error) > lost_load) self%state = outcome_cycle_limit
          end if
          if (self%state == outcome_running) return
@@ -180,7 +180,7 @@ contains
          level%h00 = self%h00_done
          call set_geometry(level, self%contact, self%share*self%rr)
          call refresh(level)
-         if (allocated(level%boundary)) exit
+         if (level%boundary%active) exit
          if (minval(level%h) > 0.0_dp) exit
          self%share_step = 0.5_dp*self%share_step
          if (self%share_step < least_part) then

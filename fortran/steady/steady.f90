@@ -3,7 +3,7 @@
 module ehl_steady
    use ehl_contact, only: contact_t
    use ehl_contact_results, only: contact_results_t, load_tolerance, measure
-   use ehl_cycle, only: careful_cycle, cycle_options_t, damped_cycle, most_damping, prolong_solution
+   use ehl_cycle, only: cycle_options_t, damped_cycle, most_damping, prolong_solution
    use ehl_far_field, only: far_field_t
    use ehl_film, only: refresh
    use ehl_hierarchy, only: hierarchy_t
@@ -193,7 +193,7 @@ contains
       if (self%careful) call hierarchy%forget()
       associate (level => hierarchy%levels(self%n), grid => hierarchy%levels(self%n)%grid)
          do j = 1, grid%ny
-            call self%contact%gap_row(grid%columns(), grid%y(j), level%geometry(:, j))
+            call self%contact%gap_row(grid%columns(), grid%y(j), level%film_rhs(:, j))
          end do
          level%rhs = 0.0_dp
          level%load = self%contact%load
@@ -289,7 +289,7 @@ contains
       logical :: first
 
       options = self%how%cycle
-      if (self%careful) options = careful_cycle(options)
+      if (self%careful) options = damped_cycle(options)
       if (self%guard%damping > 0) options = damped_cycle(self%how%cycle, self%guard%damping)
       if (self%careful .or. self%guard%damping > 0) return
       if (self%how%second_cycle%full .eqv. self%how%cycle%full) return

@@ -6,13 +6,13 @@ module test_reynolds
    use ehl_coarsest, only: coarsest_t
    use ehl_deflection_factory, only: new_deflection
    use ehl_film, only: refresh
-   use ehl_flow, only: along, flow_t
+   use ehl_flow, only: dir_x, flow_t
    use ehl_flow_factory, only: new_flow
    use ehl_grid, only: grid_t, new_grid
    use ehl_kinds, only: dp, pi
    use ehl_level, only: level_t
    use ehl_lubricant, only: density_dowson_higginson, lubricant_t, new_lubricant, viscosity_roelands
-   use ehl_poiseuille, only: line_terms_t, most_neighbours, poiseuille_t
+   use ehl_poiseuille, only: line_terms_t, max_neighbours, poiseuille_t
    use ehl_status, only: status_t
    implicit none (type, external)
    private
@@ -22,7 +22,7 @@ module test_reynolds
    type, extends(flow_t) :: uneven_flow_t
    contains
       procedure :: find_row
-      procedure :: film_power
+      procedure :: film_exponent
       procedure :: stress_row
    end type uneven_flow_t
    !> d ln(eps)/d ln(H) along and across
@@ -46,7 +46,7 @@ contains
       integer :: i, j
 
       grid = grid_t(nx=41, ny=33, x0=-1.2_dp, y0=-0.9_dp, hx=0.05_dp, hy=0.06_dp)
-      flow%across = 2
+      flow%dir_y = 2
       call flow%setup(grid, status)
       call poiseuille%setup(grid)
       do j = 1, grid%ny
@@ -80,8 +80,8 @@ contains
       type(status_t) :: status
       type(line_terms_t) :: terms
       real(dp), dimension(17) :: row, frozen, rhs
-      real(dp) :: p(17, 9), coupling(most_neighbours), rate(most_neighbours), excess, sums, largest(3)
-      integer :: i, j, m, n, kind, neighbour(2, most_neighbours), direction(most_neighbours)
+      real(dp) :: p(17, 9), coupling(max_neighbours), rate(max_neighbours), excess, sums, largest(3)
+      integer :: i, j, m, n, kind, neighbour(2, max_neighbours), direction(max_neighbours)
 
       grid = grid_t(nx=17, ny=9, x0=-1.0_dp, y0=0.0_dp, hx=0.1_dp, hy=0.15_dp, mirror=.true.)
       do kind = 1, 2
@@ -89,10 +89,10 @@ contains
          if (kind == 2) then
             deallocate (flow)
             allocate (uneven_flow_t :: flow)
-            flow%across = 2
+            flow%dir_y = 2
          end if
          call flow%setup(grid, status)
-         call scatter(flow%eps(:, :, along))
+         call scatter(flow%eps(:, :, dir_x))
          if (kind == 2) call scatter(flow%eps(:, :, 2))
          call scatter(p)
          call poiseuille%setup(grid)
@@ -201,7 +201,7 @@ contains
       level%lubricant = new_lubricant(viscosity_roelands, density_dowson_higginson, 6.0_dp, 1.0e9_dp, 0.6_dp, 1.96e8_dp)
       if (uneven) then
          allocate (uneven_flow_t :: level%flow)
-         level%flow%across = 2
+         level%flow%dir_y = 2
          level%flow%inverse_speed = 50.0_dp
       else
          call new_flow(level%lubricant, 0.02_dp, level%flow)
@@ -215,7 +215,7 @@ contains
       do j = 1, level%grid%ny
          do i = 1, level%grid%nx
             associate (x => level%grid%x(i), y => level%grid%y(j))
-               level%geometry(i, j) = 0.5_dp*(x**2 + y**2)
+               level%film_rhs(i, j) = 0.5_dp*(x**2 + y**2)
                level%p(i, j) = max(0.0_dp, 1.2_dp*exp(-x**2 - y**2) - 0.1_dp*max(0.0_dp, x + 0.3_dp*sin(5.0_dp*y)**2))
                if (level%grid%is_border(j) .or. i == 1 .or. i == level%grid%nx) level%p(i, j) = 0.0_dp
             end associate
@@ -227,37 +227,37 @@ contains
    pure subroutine find_row(self, lubricant, p, h, rho, drho_dp, j, last)
       class(uneven_flow_t), intent(inout) :: self
       type(lubricant_t), intent(in) :: lubricant
-      real(dp), contiguous, intent(in) :: p(:, :), h(:, :), rho(:), drho_dp(:)
+      real(dp), contiguous, intent(in) :: p(:, :), h(:), rho(:), drho_dp(:)
       integer, intent(in) :: j, last
       real(dp), dimension(size(p, 1)) :: log_eta, slope
 
       associate (unused => last)
       end associate
       call lubricant%log_viscosity(max(p(:, j), 0.0_dp), log_eta, slope)
-      self%eps(:, j, 1) = 2.0_dp*rho*h(:, j)**powers(1)*exp(-0.7_dp*log_eta)*self%inverse_speed
-      self%eps(:, j, 2) = rho*h(:, j)**powers(2)*exp(-0.4_dp*log_eta)*self%inverse_speed
+      self%eps(:, j, 1) = 2.0_dp*rho*h**powers(1)*exp(-0.7_dp*log_eta)*self%inverse_speed
+      self%eps(:, j, 2) = rho*h**powers(2)*exp(-0.4_dp*log_eta)*self%inverse_speed
       self%dlneps_dp(:, j, 1) = drho_dp/rho - 0.7_dp*slope
       self%dlneps_dp(:, j, 2) = drho_dp/rho - 0.4_dp*slope
    end subroutine find_row
 
-   pure real(dp) function film_power(self, i, j, direction)
+   pure real(dp) function film_exponent(self, i, j, direction)
       class(uneven_flow_t), intent(in) :: self
       integer, intent(in) :: i, j, direction
-      associate (unused => self%across + i + j)
+      associate (unused => self%dir_y + i + j)
       end associate
-      film_power = powers(direction)
-   end function film_power
+      film_exponent = powers(direction)
+   end function film_exponent
 
    pure subroutine stress_row(self, lubricant, p, h, rho, j, newtonian, stress)
       class(uneven_flow_t), intent(in) :: self
       type(lubricant_t), intent(in) :: lubricant
-      real(dp), contiguous, intent(in) :: p(:, :), h(:, :), rho(:)
+      real(dp), contiguous, intent(in) :: p(:, :), h(:), rho(:)
       integer, intent(in) :: j
       real(dp), contiguous, intent(out) :: newtonian(:), stress(:)
 
       associate (unused => lubricant, unused_p => p)
       end associate
-      newtonian = self%inverse_speed*rho*h(:, j)**2/self%eps(:, j, along)
+      newtonian = self%inverse_speed*rho*h**2/self%eps(:, j, dir_x)
       stress = newtonian
    end subroutine stress_row
 

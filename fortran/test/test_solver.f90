@@ -16,10 +16,10 @@ module test_solver
    use ehl_grid, only: grid_t, new_grid
    use ehl_kinds, only: dp, pi
    use ehl_level, only: level_t
-   use ehl_line_system, only: last_awake, solve_lines
+   use ehl_line_system, only: last_active, solve_lines
    use ehl_lubricant, only: density_dowson_higginson, new_lubricant, viscosity_roelands
    use ehl_moes, only: operating_from_si, operating_t
-   use ehl_relaxation, only: full_trust, relax
+   use ehl_relaxation, only: usual_log_change, relax
    use ehl_solver, only: solver_t
    use ehl_scales, only: scales_t
    use ehl_status, only: status_t
@@ -162,7 +162,7 @@ contains
       call is_true(.not. any(abs(p - p_three) > 0.0_dp), "threads change no bit")
    end subroutine threads_change_nothing
 
-   !> Lines solved as far as last_awake and to their end: the same bits, and no change behind it
+   !> Lines solved as far as last_active and to their end: the same bits, and no change behind it
    subroutine sleeping_nodes_do_not_change()
       type(level_t) :: level
       type(workspace_t) :: space
@@ -183,7 +183,7 @@ contains
       asleep = 0
       do k = 2, level%grid%ny - line_width, line_width
          rows = [(k + l - 1, l=1, line_width)]
-         furthest = maxval([(last_awake(level, rows(l)), l=1, line_width)])
+         furthest = maxval([(last_active(level, rows(l)), l=1, line_width)])
          asleep = asleep + level%grid%nx - 1 - furthest
          call solve_lines(level, space%dipole, space%shares, space%near, space%near_dipole, rows, furthest, space%lines(1))
          short = space%lines(1)%change
@@ -214,7 +214,7 @@ contains
          level%rhs = 0.0_dp
          level%rhs(15, 15) = ieee_value(1.0_dp, ieee_quiet_nan)
          call update_coefficients(level)
-         call relax(level, space, full_trust, 1.0_dp)
+         call relax(level, space, usual_log_change, 1.0_dp)
          call is_true(ieee_is_nan(level%p(15, 15)), "not a number stays so")
       end do
       call ieee_set_halting_mode(ieee_invalid, halting)
@@ -232,7 +232,7 @@ contains
       level%kernel_factor = 2.0_dp/pi**2
       call new_flow(level%lubricant, 1.0e-3_dp, level%flow)
       call level%setup(status)
-      call space%setup(level%grid, level%kernel_factor, 1, .false., status)
+      call space%setup(level%grid, level%kernel_factor, 1, status)
    end subroutine some_level
 
    !> Read a case and run it to its end

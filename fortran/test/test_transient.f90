@@ -6,12 +6,12 @@ module test_transient
    use ehl_read_case, only: read_case
    use ehl_contact_run, only: contact_run_t
    use ehl_film, only: refresh
-   use ehl_flow, only: along
+   use ehl_flow, only: dir_x
    use ehl_kinds, only: dp
    use ehl_moving_surfaces, only: moving_surfaces_t
    use ehl_outcome, only: outcome_converged, outcome_running
    use ehl_plan, only: make_plan
-   use ehl_relaxation, only: full_trust, relax
+   use ehl_relaxation, only: usual_log_change, relax
    use ehl_reynolds, only: update_residual
    use ehl_status, only: status_t
    implicit none (type, external)
@@ -50,7 +50,7 @@ contains
          call run%advance(status)
          call is_true(run%transient%state == outcome_converged, "a step converges")
       end do
-      associate (level => run%hierarchy%levels(n), space => run%hierarchy%spaces(n))
+      associate (level => run%hierarchy%levels(n), space => run%hierarchy%workspaces(n))
          p = level%p
          h = level%h
          h00 = level%h00
@@ -121,12 +121,12 @@ contains
 
       call begin(thin, run, n, status)
       call run%advance(status)
-      associate (level => run%hierarchy%levels(n), space => run%hierarchy%spaces(n))
+      associate (level => run%hierarchy%levels(n), space => run%hierarchy%workspaces(n))
          level%p = level%p*(1.0_dp + 1.0e-3_dp*level%p)
          call refresh(level)
          call update_residual(level, first)
          do k = 1, 15
-            call relax(level, space, full_trust, 1.0_dp)
+            call relax(level, space, usual_log_change, 1.0_dp)
             call refresh(level)
          end do
          call update_residual(level, last)
@@ -146,17 +146,17 @@ contains
 
       call begin(heavy, run, n, status)
       call run%advance(status)
-      associate (level => run%hierarchy%levels(n), space => run%hierarchy%spaces(n))
+      associate (level => run%hierarchy%levels(n), space => run%hierarchy%workspaces(n))
          level%p = 0.5_dp*level%p
          call refresh(level)
          p = level%p
-         gain = level%flow%dlneps_dp(:, :, along)
-         call relax(level, space, full_trust, 1.0_dp)
+         gain = level%flow%dlneps_dp(:, :, dir_x)
+         call relax(level, space, usual_log_change, 1.0_dp)
          largest = 0.0_dp
          do j = 2, level%grid%ny - 1
             do i = 2, level%grid%nx - 1
                if (max(space%dipole(i, j), space%dipole(i - 1, j), space%dipole(i + 1, j), space%dipole(i, j - 1), &
-                       space%dipole(i, j + 1), space%share(i, j)) > 0.0_dp) cycle
+                       space%dipole(i, j + 1), space%smoothing_weight(i, j)) > 0.0_dp) cycle
                change = abs(gain(i, j)*(level%p(i, j) - p(i, j)))
                largest = max(largest, change)
             end do
@@ -179,14 +179,14 @@ contains
 
       call begin(heavy, run, n, status)
       call run%advance(status)
-      associate (level => run%hierarchy%levels(n), space => run%hierarchy%spaces(n))
-         call relax(level, space, full_trust, 1.0_dp)
+      associate (level => run%hierarchy%levels(n), space => run%hierarchy%workspaces(n))
+         call relax(level, space, usual_log_change, 1.0_dp)
          difference = 0.0_dp
          largest = 0.0_dp
          do j = 1, level%grid%ny - 1
             do i = 5, level%grid%nx - 4
-               difference = max(difference, abs(sum(weights*space%rough(i - 4:i + 4, j)) - space%smooth(i, j)))
-               largest = max(largest, abs(space%smooth(i, j)))
+               difference = max(difference, abs(sum(weights*space%raw_change(i - 4:i + 4, j)) - space%mean_change(i, j)))
+               largest = max(largest, abs(space%mean_change(i, j)))
             end do
          end do
       end associate

@@ -3,7 +3,7 @@
 module ehl_step_policy
    use ehl_cycle, only: coarsening_alcouffe, coarsening_classical, cycle_options_t
    use ehl_kinds, only: dp
-   use ehl_relaxation, only: full_trust
+   use ehl_relaxation, only: usual_log_change
    implicit none (type, external)
    private
    public :: step_policy_t
@@ -15,7 +15,7 @@ module ehl_step_policy
    !> when the residual does not fall.
    integer, parameter :: attempt_predicted = 1, attempt_last = 2, attempt_careful = 3, attempt_damped = 4
    !> Largest change of the logarithm of a node's conductance in a sweep, by attempt
-   real(dp), parameter :: trust(4) = full_trust/[1.0_dp, 3.0_dp, 9.0_dp, 9.0_dp]
+   real(dp), parameter :: max_log_change(4) = usual_log_change/[1.0_dp, 3.0_dp, 9.0_dp, 9.0_dp]
    !> Shares of the changes of a sweep and of a coarse grid that the damped attempt makes. Sweeps that throw a peak
    !> from node to node, and coarse grids that overshoot it, make cycles that return to where they were.
    real(dp), parameter :: damped_sweep = 0.3_dp, damped_correction = 0.5_dp
@@ -93,14 +93,14 @@ contains
       self%options = self%cycle
       self%options%coarsening = self%coarsening
       self%options%enough = self%tolerance
-      self%options%trust = trust(self%attempt)
+      self%options%max_log_change = max_log_change(self%attempt)
       if (self%attempt == attempt_predicted .and. residual <= close*self%tolerance) then
          self%options%pre = 0
          self%options%post = self%cycle%pre + self%cycle%post
       end if
       if (self%attempt < attempt_damped) return
-      self%options%sweep_share = damped_sweep
-      self%options%correction_share = damped_correction
+      self%options%relaxation_factor = damped_sweep
+      self%options%correction_factor = damped_correction
       self%options%finest_only = self%touching
    end subroutine begin_attempt
 

@@ -2,7 +2,7 @@
 !> What a time step takes from the ones before it, and leaves to the next
 module ehl_time_levels
    use ehl_contact, only: contact_t
-   use ehl_flow, only: along
+   use ehl_flow, only: dir_x
    use ehl_kernel, only: kernel_coefficient
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
@@ -28,8 +28,8 @@ contains
       !$omp parallel do default(none) shared(level, contact, rr, x) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = 1, level%grid%ny
-         call contact%gap_row(x, level%grid%y(j), level%geometry(:, j))
-         level%geometry(:, j) = level%geometry(:, j) - rr(:, j)
+         call contact%gap_row(x, level%grid%y(j), level%film_rhs(:, j))
+         level%film_rhs(:, j) = level%film_rhs(:, j) - rr(:, j)
       end do
       !$omp end parallel do
    end subroutine set_geometry
@@ -71,7 +71,7 @@ contains
             mass_content(i, j, 2) = mass_content(i, j, 1)
             mass_content(i, j, 1) = level%mass_content(i, j) &
                                     - time*level%residual(i, j)*stored &
-                                    /(stored + level%flow%eps(i, j, along)*flow/flows_away)
+                                    /(stored + level%flow%eps(i, j, dir_x)*flow/flows_away)
             p_before(i, j, 3) = p_before(i, j, 2)
             p_before(i, j, 2) = p_before(i, j, 1)
             p_before(i, j, 1) = level%p(i, j)

@@ -10,7 +10,7 @@ module ehl_transient
    use ehl_hierarchy, only: hierarchy_t
    use ehl_iteration, only: iteration_t
    use ehl_kinds, only: dp
-   use ehl_level, only: is_touching, level_t
+   use ehl_level, only: level_t
    use ehl_contact_results, only: central_value, load_tolerance, measure, contact_results_t
    use ehl_moving_surfaces, only: moving_surfaces_t
    use ehl_node_state, only: cavitate
@@ -211,7 +211,7 @@ contains
          if (.not. self%residual < huge(1.0_dp) .and. self%cycles > 0) exit
          before = self%residual
          self%options = self%policy%options
-         self%policy%touching = is_touching(hierarchy%levels(n))
+         self%policy%touching = hierarchy%levels(n)%boundary%touches()
          if (self%policy%touching) self%options%coarsening = coarsening_classical
          call self%improve(hierarchy)
          call self%policy%after_cycle(self%step + 1, self%meets() .and. self%m%holds, before, &
@@ -275,7 +275,7 @@ contains
             level%p = self%p_before(:, :, 1)
             level%h00 = self%h00_before(1)
          end if
-         if (allocated(level%boundary)) call level%boundary%forget()
+         call level%boundary%forget()
          call refresh(level)
          call update_residual(level, self%residual)
       end associate

@@ -46,7 +46,7 @@ def test_pages_have_the_constants_of_the_sources(root: Path):
 
     grids = text_of(root, "theory/coarse-grids.md")
     assert f"more than {constant('multigrid/ladder.f90', 'long'):g} times as long" in grids
-    assert f"more than {constant('multigrid/ladder.f90', 'most_unknowns'):g} unknowns" in grids
+    assert f"more than {constant('multigrid/ladder.f90', 'max_unknowns'):g} unknowns" in grids
     assert f"until {constant('case/case_contact.f90', 'few_rows'):g} intervals or fewer" in grids
     largest = constant("case/case_contact.f90", "largest_ratio")
     assert f"from 1/4 to {largest:g}:" in text_of(root, "theory/discretisation.md")
@@ -71,12 +71,12 @@ def test_damping_is_that_of_the_sources(root: Path):
     source = (root / "fortran/multigrid/cycle.f90").read_text(encoding="utf-8")
     page = text_of(root, "theory/full-multigrid.md")
     columns = []
-    for name in ("trust", "sweep", "correction"):
-        found = re.search(rf"damped_{name}\(most_damping\) = (?:full_trust/)?\[([^]]*)\]", source)
+    for name in ("log_change", "sweep", "correction"):
+        found = re.search(rf"damped_{name}\(most_damping\) = (?:usual_log_change/)?\[([^]]*)\]", source)
         assert found, name
         columns.append([float(word.removesuffix("_dp")) for word in found[1].split(", ")])
-    for degree, (trust, sweep, correction) in enumerate(zip(*columns, strict=True), 1):
-        change = "1" if trust == 1.0 else f"1/{trust:g}"
+    for degree, (limit, sweep, correction) in enumerate(zip(*columns, strict=True), 1):
+        change = "1" if limit == 1.0 else f"1/{limit:g}"
         assert f"| {degree} | {change} | {sweep:g} | {correction:g} |" in page
 
 

@@ -30,7 +30,7 @@ POINTS = (65, 129, 257, 513, 1025)
 ACCURACIES = (2e-4, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10)
 KEYS = ("points", "accuracy")
 NAMES = ("order", "along", "across", "values", "error", "discretisation", "inside")
-# Constants of fortran/deflection/mlmi.f90 and mlmi_stencil.f90
+# Constants of fortran/deflection/mlmi.f90 and mlmi_up.f90
 LIMITS = (1e-4, 1e-6, 1e-7, 1e-8, 1e-9)
 LOOSEST, SHARE, REACH, FEW = 2e-4, 2.5, 48, 3
 
@@ -73,7 +73,7 @@ def chosen(wanted: NDArray[np.bool_]) -> NDArray[np.bool_]:
 
 
 def patch(h: float, accuracy: float) -> Row:
-    """Order of the transfers, and the patch of the first halving, as mlmi_stencil.f90 finds it."""
+    """Order of the transfers, and the patch of the first halving, as mlmi_up.f90 finds it."""
     goal = min(accuracy, LOOSEST)
     t = 3 + sum(goal < 0.999 * limit for limit in LIMITS)
     table = kernel(h, REACH + 2 * t, REACH)

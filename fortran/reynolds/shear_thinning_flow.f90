@@ -10,55 +10,55 @@
 !>
 !> grad P by central differences; each node with the factors that it needs (physics/factor_rows.f90), or those that it had
 !> (physics/kept_factors.f90).
-module ehl_thinning_flow
-   use ehl_flow, only: along, flow_t
+module ehl_shear_thinning_flow
+   use ehl_flow, only: dir_x, flow_t
    use ehl_factor_rows, only: factor_rows_t
    use ehl_kinds, only: dp
    use ehl_lubricant, only: lubricant_t
    use ehl_thinning, only: most, thinning_t
    implicit none (type, external)
    private
-   public :: thinning_flow_t, new_thinning_flow
+   public :: shear_thinning_flow_t, new_shear_thinning_flow
 
    !> Place of what concerns the flow along Y
-   integer, parameter :: sideways = 2
+   integer, parameter :: dir_y = 2
 
-   type, extends(flow_t) :: thinning_flow_t
+   type, extends(flow_t) :: shear_thinning_flow_t
       private
       !> b0, s0
       real(dp) :: sliding = 0.0_dp, gradient = 0.0_dp
    contains
       procedure :: find_row
-      procedure :: film_power
+      procedure :: film_exponent
       procedure :: stress_row
       procedure, private :: gradients
-   end type thinning_flow_t
+   end type shear_thinning_flow_t
 
 contains
 
    !> A flow by its law; b0 and s0 as above
-   pure function new_thinning_flow(law, sliding, gradient) result(flow)
+   pure function new_shear_thinning_flow(law, sliding, gradient) result(flow)
       type(thinning_t), intent(in) :: law
       real(dp), intent(in) :: sliding, gradient
-      type(thinning_flow_t) :: flow
+      type(shear_thinning_flow_t) :: flow
 
       flow%kept%law = law
       flow%sliding = sliding
       ! how the stress of a vanishing sliding changes is not known
       flow%kept%follows = sliding > 0.0_dp
       flow%gradient = gradient
-      flow%across = sideways
-      flow%bends = .true.
-   end function new_thinning_flow
+      flow%dir_y = dir_y
+      flow%depends_on_gradient = .true.
+   end function new_shear_thinning_flow
 
    !> Conductances of row j and their changes
    pure subroutine find_row(self, lubricant, p, h, rho, drho_dp, j, last)
-      class(thinning_flow_t), intent(inout) :: self
+      class(shear_thinning_flow_t), intent(inout) :: self
       type(lubricant_t), intent(in) :: lubricant
-      !> Pressure and film, shape (nx, ny)
-      real(dp), contiguous, intent(in) :: p(:, :), h(:, :)
-      !> Density of the row and its change with P, shape (nx)
-      real(dp), contiguous, intent(in) :: rho(:), drho_dp(:)
+      !> Pressure, shape (nx, ny)
+      real(dp), contiguous, intent(in) :: p(:, :)
+      !> Of the row: film, density and its change with P, shape (nx)
+      real(dp), contiguous, intent(in) :: h(:), rho(:), drho_dp(:)
       integer, intent(in) :: j, last
       type(factor_rows_t) :: factors
       real(dp), dimension(most) :: b, newtonian, by_density
@@ -79,12 +79,12 @@ contains
          do k = 1, n
             i = first + k - 1
             newtonian(k) = exp(log_eta(i))
-            b(k) = abs(self%sliding*newtonian(k)/h(i, j))
-            newtonian(k) = rho(i)*h(i, j)**3/newtonian(k)*self%inverse_speed
+            b(k) = abs(self%sliding*newtonian(k)/h(i))
+            newtonian(k) = rho(i)*h(i)**3/newtonian(k)*self%inverse_speed
             by_density(k) = drho_dp(i)/rho(i)
          end do
          call self%kept%find(b(:n), s, stretch, j, factors, without)
-         do k = along, sideways
+         do k = dir_x, dir_y
             if (without) then
                do i = first, first + n - 1
                   self%eps(i, j, k) = newtonian(i - first + 1)
@@ -106,9 +106,9 @@ contains
 
    !> S at n nodes of row j from column `first` on; at the border along Y without its part along Y
    pure subroutine gradients(self, p, h, j, first, n, s)
-      class(thinning_flow_t), intent(in) :: self
-      !> Shape (nx, ny)
-      real(dp), contiguous, intent(in) :: p(:, :), h(:, :)
+      class(shear_thinning_flow_t), intent(in) :: self
+      !> Pressure, shape (nx, ny); film of the row
+      real(dp), contiguous, intent(in) :: p(:, :), h(:)
       integer, intent(in) :: j, first, n
       !> Along X and along Y, shape (n or more, 2)
       real(dp), contiguous, intent(inout) :: s(:, :)
@@ -121,32 +121,32 @@ contains
       south = self%grid%south(j)
       north = j + 1
       if (j == size(p, 2)) north = south
-      if (first == 1) s(1, 1) = 2.0_dp*rx*h(1, j)*(p(2, j) - p(1, j))
-      if (last == size(p, 1)) s(n, 1) = 2.0_dp*rx*h(last, j)*(p(last, j) - p(last - 1, j))
+      if (first == 1) s(1, 1) = 2.0_dp*rx*h(1)*(p(2, j) - p(1, j))
+      if (last == size(p, 1)) s(n, 1) = 2.0_dp*rx*h(last)*(p(last, j) - p(last - 1, j))
       do i = max(first, 2), min(last, size(p, 1) - 1)
-         s(i - first + 1, 1) = rx*h(i, j)*(p(i + 1, j) - p(i - 1, j))
+         s(i - first + 1, 1) = rx*h(i)*(p(i + 1, j) - p(i - 1, j))
       end do
       do k = 1, n
          i = first + k - 1
-         s(k, 2) = ry*h(i, j)*(p(i, north) - p(i, south))
+         s(k, 2) = ry*h(i)*(p(i, north) - p(i, south))
       end do
    end subroutine gradients
 
    !> d ln(eps)/d ln(H)
-   pure real(dp) function film_power(self, i, j, direction)
-      class(thinning_flow_t), intent(in) :: self
+   pure real(dp) function film_exponent(self, i, j, direction)
+      class(shear_thinning_flow_t), intent(in) :: self
       integer, intent(in) :: i, j, direction
-      film_power = self%kept%film_power(i, j, direction)
-   end function film_power
+      film_exponent = self%kept%film_exponent(i, j, direction)
+   end function film_exponent
 
    !> Newtonian and real shear stress of row j, the latter by the factors that find_row left
    pure subroutine stress_row(self, lubricant, p, h, rho, j, newtonian, stress)
-      class(thinning_flow_t), intent(in) :: self
+      class(shear_thinning_flow_t), intent(in) :: self
       type(lubricant_t), intent(in) :: lubricant
-      !> Pressure and film, shape (nx, ny)
-      real(dp), contiguous, intent(in) :: p(:, :), h(:, :)
-      !> Density of the row, shape (nx)
-      real(dp), contiguous, intent(in) :: rho(:)
+      !> Pressure, shape (nx, ny)
+      real(dp), contiguous, intent(in) :: p(:, :)
+      !> Film and density of the row, shape (nx)
+      real(dp), contiguous, intent(in) :: h(:), rho(:)
       integer, intent(in) :: j
       real(dp), contiguous, intent(out) :: newtonian(:), stress(:)
       real(dp), dimension(size(p, 1)) :: log_eta, slope
@@ -156,7 +156,7 @@ contains
       associate (unused => rho)
       end associate
       call lubricant%log_viscosity(p(:, j), log_eta, slope)
-      newtonian = exp(log_eta)/h(:, j)
+      newtonian = exp(log_eta)/h
       do stretch = 1, (size(p, 1) - 1)/self%kept%width + 1
          first = (stretch - 1)*self%kept%width + 1
          last = min(first + self%kept%width - 1, size(p, 1))
@@ -173,4 +173,4 @@ contains
          end associate
       end do
    end subroutine stress_row
-end module ehl_thinning_flow
+end module ehl_shear_thinning_flow
