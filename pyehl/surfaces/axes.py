@@ -41,6 +41,12 @@ def is_axis(values: Array) -> bool:
     return bool(step) and bool(np.abs(values - line).max() <= OFF * abs(step))
 
 
+def _is_sorted(values: Array) -> bool:
+    """Whether at least a few numbers rise, or fall, from each to the next."""
+    steps = np.diff(values)
+    return values.size >= LEAST_PLACES and bool((steps > 0.0).all() or (steps < 0.0).all())
+
+
 def _is_numbering(values: Array) -> bool:
     """Whether an axis counts pixels from 0 or 1."""
     return values[0] in (0.0, 1.0) and bool((np.diff(values) == 1.0).all())
@@ -69,6 +75,7 @@ def without_axes(rows: Array, header: Sequence[str], cells: Cells) -> tuple[Arra
     the last line of the header. ValueError if such a line is there, and its steps are not equal.
     """
     across = along = None
+    heading = _heading(header[-1], cells, rows.shape[1]) if header else None
     if min(rows.shape) > LEAST_PLACES:
         # an index of the lines stands before the x, y and z of a list as well
         if is_axis(rows[1:, 0]) and not is_axis(rows[1:, 1]):
@@ -77,8 +84,8 @@ def without_axes(rows: Array, header: Sequence[str], cells: Cells) -> tuple[Arra
             along = rows[0]
     elif rows.shape[1] == LEAST_PLACES - 1 and is_axis(rows[:, 0]) and not is_axis(rows[:, 1]):
         return rows[:, 1:], Axes(None, "the first column numbers the lines")
-    if along is None and across is not None and header:
-        along = _heading(header[-1], cells, rows.shape[1])
+    if along is None and across is not None and heading is not None and is_axis(heading):
+        along = heading
     elif along is not None:
         rows = rows[1:]
         across = across[1:] if across is not None else None
@@ -86,7 +93,8 @@ def without_axes(rows: Array, header: Sequence[str], cells: Cells) -> tuple[Arra
         along = along[-(rows.shape[1] - (across is not None)) :]
     if across is not None:
         rows = rows[:, 1:]
-    if across is None and _grows(rows):
+    rounded = heading is not None and _is_sorted(heading) and _is_sorted(rows[:, 0])
+    if across is None and (_grows(rows) or (rounded and not _is_sorted(rows[:, 1]))):
         name = "column"
     elif along is None and _grows(rows.T):
         name = "line"
@@ -95,22 +103,21 @@ def without_axes(rows: Array, header: Sequence[str], cells: Cells) -> tuple[Arra
     else:
         return _rising(rows, along, across)
     raise ValueError(
-        f"the first {name} grows as an axis does, far beyond all other numbers, and not in equal "
-        "steps: a map needs equal steps, and heights alone"
+        f"the first {name} grows as an axis does, and not in equal steps: a map needs equal steps "
+        "(places with more digits), and heights alone"
     )
 
 
 def _heading(line: str, cells: Cells, columns: int) -> Array | None:
-    """Places of a line whose first cell is a word, or left out; None if they are none."""
+    """Numbers of a line whose first cell is a word, or left out; None if they are none."""
     words = cells.split(line.lstrip("#"))
     if len(words) not in (columns, columns - 1):
         return None
     words = words[len(words) - columns + 1 :]
     try:
-        values = Cells(cells.separator).numbers(cells.separator.join(words))
+        return Cells(cells.separator).numbers(cells.separator.join(words))
     except BadCellError:
         return None
-    return values if values is not None and is_axis(values) else None
 
 
 def _rising(rows: Array, along: Array | None, across: Array | None) -> tuple[Array, Axes]:

@@ -24,8 +24,9 @@ from pyehl.types import Array
 
 PIXEL_BAND = (1e-10, 1e-3)
 """Pixels outside of it [m] are mistakes of units."""
-SMALL_PIXEL = 2e-8
-"""Pixels below it [m] are asked for, where x and y are in the unit of the heights by default."""
+CLEAR_BAND = (2e-8, 1e-4)
+"""Pixels outside of it [m] are asked for, where x and y are in the unit of the heights by default:
+heights in m beside places in mm would be a map of the size of a table."""
 SAME = "same"
 """The unit of places is that of the heights."""
 
@@ -193,7 +194,7 @@ def _own_size(
     named = height_unit if lateral_unit == SAME else lateral_unit
     own = x and x * UNITS[named], y and y * UNITS[named]
     pixel = min(s / n for s, n in zip(own, found.heights.shape, strict=True) if s)
-    clear = found.height_unit is None and SMALL_PIXEL <= pixel <= PIXEL_BAND[1]
+    clear = found.height_unit is None and CLEAR_BAND[0] <= pixel <= CLEAR_BAND[1]
     if lateral_unit == SAME and not clear:
         found.no_size = (
             f"it has steps of {pixel / UNITS[named]:.6g}, and the file does not name their unit"

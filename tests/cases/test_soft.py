@@ -36,7 +36,6 @@ def test_soft_formula_is_that_of_textbooks(load_number: float, ellipticity: floa
     assert found == pytest.approx(textbook, rel=0.012)
 
 
-
 @pytest.mark.parametrize("moes_m", [0.2, 1.0, 2.0])
 def test_rigid_bodies(moes_m):
     """Brewe, Hamrock & Taylor: as much below the solver as the notes say."""

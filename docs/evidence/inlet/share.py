@@ -98,7 +98,7 @@ def read() -> list[Row]:
 
 
 def compared(which: str) -> list[Row]:
-    """Rows of contacts whose load share and its error are known, before or now, beside a strict solution."""
+    """Rows whose load share and its error are known, before or now, beside a strict solution."""
     return [
         row
         for row in read()
