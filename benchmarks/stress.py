@@ -7,39 +7,29 @@ their fields and on a finer grid as well.
 """
 
 import argparse
-import math
 import sys
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 from common import add_number, columns, header, parser, say, show, verdict
 from figures import draw_outcomes
 from stress_cases import FAMILIES, GRIDS, LAWS, StressCase, draw, study_of
+from stress_checks import ENDED, broken, judge, judge_share
 
 from pyehl.cli import status_of
 from pyehl.commands.arguments import add_force
 from pyehl.destination import Destination, write_json
 from pyehl.errors import InputError
-from pyehl.results import load, settings_of
 from pyehl.studies.plan import Plan, plan
 from pyehl.studies.sweep import CASES, perform
-from pyehl.theory.lubricant import Lubricant
-from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Row
 
 STRICT = {"solver.accuracy": 0.005, "solver.max_cycles": 200}
 """Settings of the stricter run."""
-ENDED = "ended at its number of steps"
-"""Status of a run that was to end after so many steps, all of which converged."""
 HIGHEST = 1.0
 """Largest surface.amplitude that a case may have [a^2/R]."""
-UNKNOWN_ERROR = 0.03
-"""Difference allowed where a result comes without an estimate of its error."""
-# What a result is, by the kind of scene, and the estimate of its error
-RESULTS = {"smooth": ("H_c", "H_c_error_grid")}
 KEPT = (
     *("status", "points", "restarts", "steps", "cycles_per_step", "cycles", "rough_cycles"),
     *("amplitude", "H_c", "H_c_error_grid", "H_min", "mu_ratio", "mu_ratio_error", "last_mu_ratio"),
@@ -55,12 +45,6 @@ MEANING = (
     "algebraic error;\nwrong: differs by more than the error it states; cycles: of a step, or all"
 )
 """What the columns are."""
-HELD = 0.01
-"""Share of the layer by which the film of a touching node may differ from it."""
-LOAD = 1e-4
-"""Error of the load and of the load share as summed here; these are sums over the same nodes."""
-LEAST = 1e-3
-"""Share of the load that any load share may be off by."""
 
 
 def campaign(
@@ -175,30 +159,6 @@ def _check(
         judge_share(row, name, told)
 
 
-def judge(row: Row, strict: Mapping[str, Any]) -> None:
-    """Compare a result with that of the stricter run; wrong if they differ by more than its error.
-
-    Where the mean has no estimate of its error, or there is no mean yet, the allowed difference is
-    `UNKNOWN_ERROR`.
-    """
-    name, error = RESULTS.get(row["family"], ("mu_ratio", "mu_ratio_error"))
-    value, other = row[name], strict.get(name)
-    if row["outcome"] == ENDED:
-        value, other = row["last_mu_ratio"], strict.get("last_mu_ratio")
-    row["strict_status"] = strict.get("status")
-    if value is None:
-        return
-    estimate = row[error]
-    row["allowed"] = UNKNOWN_ERROR if not estimate else max(estimate / abs(value), 1e-3)
-    if other is None and name == "mu_ratio":
-        # the same steps, solved more strictly: the mean may just not have settled
-        other = strict.get("last_mu_ratio_mean")
-    if other is None:
-        return
-    row["difference"] = abs(value / other - 1.0) if other else math.inf
-    row["wrong"] = row.get("wrong", False) or row["difference"] > row["allowed"]
-
-
 def summary(rows: Sequence[Row]) -> list[Row]:
     """Count outcomes by family."""
     table = []
@@ -223,49 +183,6 @@ def summary(rows: Sequence[Row]) -> list[Row]:
             }
         )
     return table
-
-
-def broken(folder: Path) -> str:
-    """Say what conditions of contact the last fields of a result folder break; '' if none.
-
-    Film and pressure are those of the folder, the density is that of the Python side.
-    """
-    data = load(folder)
-    settings = settings_of(data)
-    point = OperatingPoint.from_settings(settings)
-    pressure, film = data["P"].to_numpy(), data["H"].to_numpy()
-    oil = Lubricant.from_settings(settings)
-    layer = settings["lubricant"]["boundary_film"] / point.film_scale
-    mass = oil.density_ratio(pressure * point.hertz_pressure) * film / layer
-    touching = (pressure > 0.0) & (mass <= 1.0 + HELD)
-    cell = float(data["X"][1] - data["X"][0]) * float(data["Y"][1] - data["Y"][0])
-    last = "history_" if "history_load_share" in data else "contact_"
-    share = pressure[touching].sum() / pressure.sum()
-    told = float(data[f"{last}load_share"].to_numpy().flat[-1])
-    given = data[f"{last.removeprefix('contact_')}layer_supply"].to_numpy().flat[-1]
-    carried = pressure.sum() * cell / (2.0 * np.pi / 3.0) + float(data["load_beyond"])
-    conditions = {
-        "P >= 0": pressure.min() >= 0.0,
-        "film of the layer": mass.min() >= 1.0 - HELD,
-        "load": abs(carried - 1.0) <= LOAD,
-        "load share": abs(share - told) <= LOAD,
-        "N <= 0": given >= -HELD,
-    }
-    return ", ".join(name for name, holds in conditions.items() if not holds)
-
-
-def judge_share(row: dict[str, Any], name: str, told: Mapping[str, Any]) -> None:
-    """Set `name` of a row to the load share of another run, and `wrong` if its error is exceeded.
-
-    Where no error is stated, `UNKNOWN_ERROR` is allowed.
-    """
-    value, other = row["contact_load_share"], told.get("contact_load_share")
-    row[name] = other
-    if None in (value, other):
-        return
-    stated = row["contact_load_share_error"]
-    allowed = UNKNOWN_ERROR if stated is None else max(stated, LEAST)
-    row["wrong"] = row["wrong"] or abs(value - other) > allowed
 
 
 def work(args: argparse.Namespace) -> int:

@@ -27,7 +27,7 @@ def values(name: str) -> Values:
     """Names of a function, and those of its module."""
     for module in map(import_module, MODULES):
         function = getattr(module, name, None)
-        if getattr(function, "__module__", "") == module.__name__:
+        if callable(function) and function.__module__ == module.__name__:
             return {**vars(records), **vars(module), **function()}
     raise KeyError(f"no function {name}() in {', '.join(MODULES)}")
 

@@ -29,7 +29,7 @@ def machine_ends() -> Values:
         (row, name) for row in rows for name in found if covered(row, name, "error") is not None
     ]
     missed = [(row, name) for row, name in known if not covered(row, name, "error")]
-    lines = {}
+    lines: dict[int, str] = {}
     for row, name in missed:
         wrong = 100.0 * abs(row[f"{name}_fine"] / row[name] - 1.0)
         stated = 100.0 * row[f"{name}_error"] / row[name]

@@ -89,7 +89,7 @@ def ellipse_waves() -> Values:
         cells = [f"{np.sqrt(np.mean(np.square(one))):.3f}" for one in off]
         lines[f"{kappa:g}; {m:g}, {ell:g}; {ratio:g}"] = " | ".join(cells)
         mean = np.mean(of(rows, "circle_pressure") / of(rows, "pressure") - 1.0)
-        worst[kappa == 0.4] = max(worst[kappa == 0.4], abs(100.0 * mean))
+        worst[kappa == 0.4] = max(worst[kappa == 0.4], abs(100.0 * float(mean)))
     return locals()
 
 
@@ -219,13 +219,14 @@ def response() -> Values:
     assert len(far) == len(said)
     fitted = sum(int(r["waves"]) for r in read("response/residuals.csv") if r["moes_m"])
     ridges = len(read("response/ridges.csv"))
-    runs = defaultdict(dict)
+    runs: dict[tuple[str, str], dict[str, float]] = defaultdict(dict)
     for row in read("response/slip.csv"):
         kx, q = float(row["kx"]), np.hypot(float(row["kx"]), float(row["ky"]))
         if float(row["x"]) == 0.0 and 2.0 * np.pi / q * 128.0 >= 10.0 and 2.0 * np.pi / kx < 3.0:
-            off = np.hypot(
-                *(float(row[f"T_{n}"]) - float(row[f"predicted_{n}"]) for n in ("re", "im"))
+            real, imaginary = (
+                float(row[f"T_{n}"]) - float(row[f"predicted_{n}"]) for n in ("re", "im")
             )
+            off = float(np.hypot(real, imaginary))
             there = runs[row["moes_m"], row["moes_l"]]
             there[row["velocity_ratio"]] = max(off, there.get(row["velocity_ratio"], 0.0))
     lines = {}

@@ -97,9 +97,11 @@ def slips() -> Values:
     for row in read("response/slip.csv"):
         kx, ky, x = (float(row[name]) for name in ("kx", "ky", "x"))
         if x == 0.0 and np.hypot(kx, ky) <= 2.0 * np.pi * 12.8 and kx > 2.0 * np.pi / 3.0:
-            parts = (float(row[f"T_{n}"]) - float(row[f"predicted_{n}"]) for n in ("re", "im"))
+            real, imaginary = (
+                float(row[f"T_{n}"]) - float(row[f"predicted_{n}"]) for n in ("re", "im")
+            )
             place = f"{row['moes_m']}, {row['moes_l']}"
-            worst[place] = max(worst.get(place, 0.0), float(np.hypot(*parts)))
+            worst[place] = max(worst.get(place, 0.0), float(np.hypot(real, imaginary)))
     middle = max(v for k, v in worst.items() if 200.0 <= float(k.split(",")[0]) <= 1000.0)
     one, two = (
         max(worst[k] for k in pair) for pair in (("2000, 15", "3000, 3"), ("100, 3", "100, 20"))

@@ -41,6 +41,7 @@ def smooth_errors() -> Values:
     rows = make.numbers("smooth")
     changed = [row for row in rows if row["H_c_doubled"] and row["H_c"]]
     assert {row["status"] for row in rows} == {"converged"}
+    bounds: dict[str, tuple[float, float]]
     bounds = {"0.1 to 1": (0, 1), "1 to 5": (1, 5), "5 to 10": (5, 10), "10 to 500": (10, 500)}
     bounds["from 500 on, P = 0 at the border"] = (500, 1e9)
     lines = {}

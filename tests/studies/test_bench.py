@@ -20,6 +20,7 @@ import smooth
 import step
 import stress
 import stress_cases
+import stress_checks
 import sweep
 import workprec
 from journals import rows_in
@@ -191,8 +192,8 @@ def test_interrupted_throughput_is_none(monkeypatch: pytest.MonkeyPatch):
 def test_wrong_results_are_seen():
     row = {"family": "wave", "outcome": "converged", "mu_ratio": 1.5, "mu_ratio_error": 0.03}
     near, far = dict(row), dict(row)
-    stress.judge(near, {"status": "converged", "mu_ratio": 1.51})
-    stress.judge(far, {"status": "converged", "mu_ratio": 1.56})
+    stress_checks.judge(near, {"status": "converged", "mu_ratio": 1.51})
+    stress_checks.judge(far, {"status": "converged", "mu_ratio": 1.56})
     assert not near["wrong"]
     assert far["wrong"]
     assert far["difference"] == pytest.approx(1.0 - 1.5 / 1.56)
@@ -248,7 +249,7 @@ def test_cases_with_a_boundary_film_are_the_same_scenes():
 )
 def test_wrong_load_shares_are_seen(other: float, error: float | None, *, wrong: bool):
     row = {"contact_load_share": 0.3, "contact_load_share_error": error, "wrong": False}
-    stress.judge_share(row, "share_finer", {"contact_load_share": other})
+    stress_checks.judge_share(row, "share_finer", {"contact_load_share": other})
     assert row["wrong"] is wrong
     assert row["share_finer"] == other
 
@@ -257,10 +258,10 @@ def test_fields_that_break_a_condition_are_seen(tmp_path: Path):
     values = {"contact.load": 20.0, "contact.mean_velocity": 0.1, "grid.points": 65}
     values["lubricant.boundary_film"] = 1e-7
     pyehl.solve(pyehl.Case.from_text("", values), output=tmp_path / "c")
-    assert stress.broken(tmp_path / "c") == ""
+    assert stress_checks.broken(tmp_path / "c") == ""
     film = np.load(tmp_path / "c" / "H.npy")
     np.save(tmp_path / "c" / "H.npy", 0.9 * film)
-    assert stress.broken(tmp_path / "c").startswith("film of the layer")
+    assert stress_checks.broken(tmp_path / "c").startswith("film of the layer")
 
 
 def test_contacts_of_machines(tmp_path: Path, capsys, monkeypatch):
