@@ -153,7 +153,10 @@ class RoughContact(ShearedContact):
         """Friction over that of the smooth contact; NaN where the film is not positive."""
         change = self.change(position)
         smooth = self.smooth_film()
-        self.ended += int(np.count_nonzero((change[..., 0] >= self.ends * smooth) & self.inside))
+        if len(self.tiles) > 1:
+            # under one surface its pixels are counted (:mod:`pyehl.prediction.breakdown`)
+            ended = (change[..., 0] >= self.ends * smooth) & self.inside
+            self.ended += int(np.count_nonzero(ended))
         return self.sheared(change, smooth)
 
     def _expansion(self, contact: SmoothContact) -> Single:
