@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from pyehl.case import Case, files_of, with_surface
+from pyehl.case import Case, files_of
 from pyehl.errors import NotConverged, named
 from pyehl.given import Option, check_kind, path_of
 from pyehl.prediction import folder, of_case
@@ -18,7 +18,7 @@ from pyehl.prediction.result import Prediction
 from pyehl.progress import ProgressBar
 from pyehl.run import run
 from pyehl.solver import Solver
-from pyehl.surfaces import Surface, Topography
+from pyehl.surfaces import Surface, Topography, with_surface
 
 if TYPE_CHECKING:
     import xarray

@@ -9,7 +9,7 @@ Hertz pressure p_h, lengths by the Hertz radius a, films and deflections by a^2/
 
 import json
 import os
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from pyehl.errors import check
 from pyehl.extension import functions, lubricants
-from pyehl.given import Option, options_of, path_of, text_of
+from pyehl.given import text_of
 from pyehl.types import Array
 
 # Bytes for a text at first
@@ -44,26 +44,6 @@ def whole(call: Callable[[NDArray[np.int32]], tuple[Any, ...]], place: int) -> t
         if room <= len(buffer):
             found[place] = buffer[:room].astype(np.uint8).tobytes()
             return tuple(found)
-
-
-def resolve(
-    text: str, origin: str, options: Option | Iterable[Option] = (), *, from_file: bool = False
-) -> str:
-    """Resolve a case: check it, and spell out every value of it as namelist text.
-
-    The text of a file called `origin`, for messages and for names of maps, or `from_file` that
-    file itself; `options` replace values. InputError with file, line and column, what was
-    expected, and the nearest name.
-    """
-    given = (
-        text_of(text, "the text of a case"),
-        os.fsencode(path_of(origin, "the name of a case")),
-        text_of("".join(f"{option}\n" for option in options_of(options)), "options"),
-        int(from_file),
-    )
-    resolved, status, message = whole(lambda room: functions.resolve(*given, room), 0)
-    check(status, message)
-    return returned(resolved) + "\n"
 
 
 def check_memory(what: str, size: float) -> None:
@@ -142,25 +122,6 @@ def conclude(summary: Mapping[str, Any]) -> Conclusion:
     block, judgement = found[:behind], found[behind:]
     lines = {line[:11].rstrip(): line[11:] for line in returned(block).splitlines()}
     return Conclusion(lines, returned(judgement), WORTH[worth])
-
-
-@dataclass(frozen=True, slots=True)
-class Key:
-    """One key of a case file: ``group.name``, unit, default, allowed values, meaning."""
-
-    name: str
-    unit: str
-    default: str
-    allowed: str
-    meaning: str
-
-
-def keys() -> list[Key]:
-    """All keys of a case file, in order."""
-    return [
-        Key(*line.split("\t"))
-        for line in returned(whole(lambda room: (functions.keys(room),), 0)[0]).splitlines()
-    ]
 
 
 def version() -> str:

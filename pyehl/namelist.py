@@ -12,8 +12,9 @@ from typing import Any
 from pyehl.errors import InputError
 
 END = "\n/\n"
-WORD = r"'(?:[^']|'')*'|\.true\.|\.false\.|-?\d+[\d.]*(?:e[+-]?\d+)?"
-LINE = re.compile(rf"\s*(\w+) = ({WORD})\s*(?:!.*)?")
+NUMBER = r"-?\d+[\d.]*(?:e[+-]?\d+)?"
+WORD = rf"'(?:[^']|'')*'|\.true\.|\.false\.|{NUMBER}"
+LINE = re.compile(rf"\s*(\w+) = ({WORD}|{NUMBER}(?:, {NUMBER})+)\s*(?:!.*)?")
 LOGICAL = {".true.": True, ".false.": False}
 
 
@@ -55,10 +56,12 @@ def text_of(groups: Mapping[str, Mapping[str, Any]]) -> str:
     return "".join(blocks)
 
 
-def word(value: bool | int | float | str) -> str:
+def word(value: bool | int | float | str | tuple[float, ...]) -> str:
     """Give a value as namelist text."""
     if isinstance(value, bool):
         return ".true." if value else ".false."
+    if isinstance(value, tuple):
+        return ", ".join(map(repr, value))
     return "'" + value.replace("'", "''") + "'" if isinstance(value, str) else repr(value)
 
 
@@ -81,4 +84,6 @@ def _line(line: str) -> tuple[str, Any]:
         return key, value[1:-1].replace("''", "'")
     if value in LOGICAL:
         return key, LOGICAL[value]
+    if "," in value:
+        return key, tuple(map(float, value.split(",")))
     return key, int(value) if value.lstrip("-").isdigit() else float(value)

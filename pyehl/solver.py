@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 from numpy.typing import ArrayLike
 
 from pyehl import display
-from pyehl.case import Case, with_surface
+from pyehl.case import Case
 from pyehl.destination import Destination, write_json
 from pyehl.given import Option, heights_of, path_of
 from pyehl.handle import SolverHandle, Work
@@ -32,6 +32,7 @@ from pyehl.surfaces import (
     gather,
     keep_beside,
     moved,
+    with_surface,
 )
 from pyehl.types import Array
 

@@ -3,8 +3,6 @@
 module ehl_f2py_functions
    use, intrinsic :: iso_c_binding, only: c_double, c_int
    use ehl_case, only: case_t
-   use ehl_case_reader, only: read_case, read_case_file
-   use ehl_case_writer, only: case_text, options_text
    use ehl_checkpoint_folder, only: find_checkpoint
    use ehl_clock, only: clock_t, start_clock
    use ehl_conclusion, only: conclusion
@@ -19,36 +17,16 @@ module ehl_f2py_functions
    use ehl_lubricant, only: lubricant_t
    use ehl_memory, only: check_memory, free_bytes
    use ehl_plan_heat, only: heat_plan_t, plan_given
+   use ehl_read_case, only: read_case
    use ehl_record, only: record_t
    use ehl_result_folder, only: result_names
    use ehl_status, only: status_t
    use ehl_version, only: build_text, version
    implicit none (type, external)
    private
-   public :: resolve, checkpoint_case, place, needs_memory, memory_left, keys, about, conclude, deflection, heated
+   public :: checkpoint_case, place, needs_memory, memory_left, about, conclude, deflection, heated
 
 contains
-
-   !> Resolved namelist text of a case: of the text, or of the file `origin`
-   subroutine resolve(text, origin, options, from_file, n, bytes, length, stat, message)
-      character(len=*), intent(in) :: text, origin, options
-      integer(c_int), intent(in) :: from_file
-      integer(c_int), intent(in) :: n
-      integer(c_int), intent(inout) :: bytes(n)
-      integer(c_int), intent(out) :: length, stat
-      character(len=4096), intent(out) :: message
-      type(case_t), target :: input
-      type(status_t) :: status
-
-      length = 0
-      if (from_file /= 0) then
-         call read_case_file(origin, options, input, status)
-      else
-         call read_case(text, origin, options, input, status)
-      end if
-      if (.not. status%failed()) call put_text(case_text(input), bytes, length)
-      call reply(status, stat, message)
-   end subroutine resolve
 
    !> Case file of the run with these results, to resume it; its folder holds surface.npy, and second_surface.npy, as well
    !> when these surfaces came from Python
@@ -116,15 +94,6 @@ contains
 
       bytes = free_bytes(root)
    end subroutine memory_left
-
-   !> All keys of a case file, one a line: key, unit, default, allowed values, meaning
-   subroutine keys(n, bytes, length)
-      integer(c_int), intent(in) :: n
-      integer(c_int), intent(inout) :: bytes(n)
-      integer(c_int), intent(out) :: length
-
-      call put_text(options_text(), bytes, length)
-   end subroutine keys
 
    !> Version of the package; compiler and its options
    subroutine about(version_text, compiler_text)
@@ -201,7 +170,7 @@ contains
       real(c_double), intent(out) :: ratio, rises(3)
       character(len=256), intent(out) :: note
       character(len=4096), intent(out) :: message
-      type(case_t), target :: input
+      type(case_t) :: input
       type(heat_plan_t) :: plan
       type(lubricant_t) :: lubricant
       type(heated_t) :: found

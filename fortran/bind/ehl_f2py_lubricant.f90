@@ -4,34 +4,20 @@
 !> `law` is 1 for Eyring and 2 for Carreau with `exponent` n; B and S are those of flow_factors.f90.
 module ehl_f2py_lubricant
    use, intrinsic :: iso_c_binding, only: c_double, c_int
-   use ehl_case, only: case_t
+   use ehl_case, only: case_t, lubricant_case_t
    use ehl_case_law, only: make_lubricant
-   use ehl_case_reader, only: read_case
    use ehl_flow_factors, only: exact_factors, factors_t
-   use ehl_group_reader, only: read_groups
-   use ehl_handles, only: put_text, fitted, reply
-   use ehl_keys, only: bind_keys
+   use ehl_handles, only: fitted, reply
    use ehl_lubricant, only: lubricant_t
-   use ehl_oils, only: oils_text
    use ehl_plan_lubricant, only: alpha_note
-   use ehl_schema, only: schema_t
-   use ehl_source, only: source_t
+   use ehl_read_case, only: read_case, read_lubricant
    use ehl_status, only: status_t
    use ehl_thinning, only: thinning_t
    implicit none (type, external)
    private
-   public :: oils, properties, alpha_origin, flow_factors, sliding_stresses
+   public :: properties, alpha_origin, flow_factors, sliding_stresses
 
 contains
-
-   !> Oils by name, as ehl_oils has them
-   subroutine oils(n, bytes, length)
-      integer(c_int), intent(in) :: n
-      integer(c_int), intent(inout) :: bytes(n)
-      integer(c_int), intent(out) :: length
-
-      call put_text(oils_text(), bytes, length)
-   end subroutine oils
 
    !> ln(eta/eta0) and rho/rho0 of a lubricant at pressures p [Pa] and rises of temperature over that of the inlet [K]; `group`
    !> is &lubricant of a resolved case
@@ -41,16 +27,13 @@ contains
       real(c_double), intent(inout) :: p(n), rise(n), log_viscosity(n), density(n)
       integer(c_int), intent(out) :: stat
       character(len=4096), intent(out) :: message
-      type(case_t), target :: input
-      type(schema_t) :: schema
+      type(lubricant_case_t) :: keys
       type(lubricant_t) :: lubricant
       type(status_t) :: status
 
-      call bind_keys(schema, input)
-      call read_groups(source_t("the lubricant", group//new_line("a")), schema, status)
+      call read_lubricant(group, keys, status)
       ! a pressure of 1 Pa in place of the Hertz pressure
-      if (.not. status%failed()) call make_lubricant(input%lubricant, input%lubricant%pressure_viscosity, 1.0_c_double, &
-                                                     lubricant, status)
+      if (.not. status%failed()) call make_lubricant(keys, keys%pressure_viscosity, 1.0_c_double, lubricant, status)
       if (.not. status%failed()) then
          call lubricant%log_viscosity_at(p, rise, log_viscosity)
          call lubricant%density_at(p, rise, density)
@@ -64,7 +47,7 @@ contains
       character(len=512), intent(out) :: note
       integer(c_int), intent(out) :: stat
       character(len=4096), intent(out) :: message
-      type(case_t), target :: input
+      type(case_t) :: input
       character(len=:), allocatable :: found
       type(status_t) :: status
 

@@ -8,8 +8,7 @@
 module ehl_f2py_solver
    use, intrinsic :: iso_c_binding, only: c_double, c_int
    use ehl_case, only: case_t
-   use ehl_case_reader, only: read_case
-   use ehl_case_writer, only: case_text
+   use ehl_read_case, only: read_case
    use ehl_checkpoint_folder, only: checkpoint_path
    use ehl_conclusion, only: conclusion, resumption
    use ehl_grid, only: grid_t
@@ -33,7 +32,7 @@ contains
       real(c_double), intent(inout) :: heights(nx, ny), second(mx, my)
       integer(c_int), intent(out) :: handle, stat
       character(len=4096), intent(out) :: message
-      type(case_t), target :: input
+      type(case_t) :: input
       type(run_t), pointer :: run
       type(status_t) :: status, closing
 
@@ -42,7 +41,7 @@ contains
       if (.not. status%failed()) call new_handle(handle, run, status)
       if (.not. status%failed()) then
          run%input = input
-         run%input%text = case_text(input)
+         run%input%text = text
          associate (n => merge(nx, 0, has_heights /= 0), m => merge(mx, 0, has_second /= 0))
             call run%solver%start(input, status, heights(:n, :), second(:m, :))
          end associate

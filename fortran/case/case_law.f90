@@ -10,11 +10,9 @@ module ehl_case_law
    use ehl_lubricant, only: density_constant, density_dowson_higginson, lubricant_t, new_lubricant, viscosity_barus, &
                             viscosity_roelands
    use ehl_murnaghan, only: new_murnaghan
-   use ehl_oils, only: oil_named, oil_t
    use ehl_status, only: ehl_bad_input, status_t
    use ehl_tait, only: new_tait, tait_t
    use ehl_text, only: newline, to_text
-   use ehl_viscosity_file, only: read_isotherms
    use ehl_viscosity_law, only: viscosity_law_t
    use ehl_viscosity_table, only: isotherm_t, new_viscosity_table, viscosity_table_t
    use ehl_yasutomi, only: new_yasutomi
@@ -24,24 +22,13 @@ module ehl_case_law
 
 contains
 
-   !> The law that gives viscosity and pressure-viscosity coefficient at the inlet by itself: that of the table, of the oil or
-   !> of the key; '' where these are given
+   !> The law that gives viscosity and pressure-viscosity coefficient at the inlet by itself; '' where these are given
    pure function own_law(l) result(law)
       type(lubricant_case_t), intent(in) :: l
       character(len=len(l%viscosity_law)) :: law
-      type(oil_t) :: oil
 
-      law = ""
-      if (l%inlet_law /= "") then
-         law = l%inlet_law
-      else if (l%table%text() /= "") then
-         law = "table"
-      else if (l%name /= "") then
-         oil = oil_named(trim(l%name))
-         law = oil%viscosity_law
-      else if (l%viscosity_law /= "roelands" .and. l%viscosity_law /= "barus") then
-         law = l%viscosity_law
-      end if
+      law = l%inlet_law
+      if (law == "" .and. l%viscosity_law /= "roelands" .and. l%viscosity_law /= "barus") law = l%viscosity_law
    end function own_law
 
    !> Whether a law tells the viscosity of the inlet, or how it rises with pressure
@@ -99,7 +86,6 @@ contains
       real(dp), intent(in) :: hertz_pressure
       class(viscosity_law_t), allocatable, intent(out) :: law
       type(status_t), intent(inout) :: status
-      type(isotherm_t), allocatable :: isotherms(:)
       type(viscosity_table_t) :: table
 
       select case (name)
@@ -115,14 +101,12 @@ contains
                                              l%doolittle_temperature + freezing, tait_of(l, hertz_pressure), &
                                              l%temperature + freezing))
       case default
-         if (allocated(l%isotherms)) then
-            isotherms = l%isotherms
-         else
-            call read_isotherms(l%table%text(), isotherms, status)
-            if (status%failed()) return
+         if (.not. allocated(l%isotherms)) then
+            call status%fail(ehl_bad_input, "the law 'table' without table_temperature, table_pressure and table_viscosity")
+            return
          end if
-         if (size(isotherms) == 1) call check_single(l, isotherms(1), status)
-         table = new_viscosity_table(isotherms, hertz_pressure, l%temperature + freezing, l%temperature_viscosity)
+         if (size(l%isotherms) == 1) call check_single(l, l%isotherms(1), status)
+         table = new_viscosity_table(l%isotherms, hertz_pressure, l%temperature + freezing, l%temperature_viscosity)
          allocate (law, source=table)
       end select
    end subroutine make_viscosity
@@ -154,7 +138,7 @@ contains
       type(status_t), intent(inout) :: status
 
       if (abs(isotherm%temperature - l%temperature - freezing) <= 0.01_dp) return
-      call status%fail(ehl_bad_input, l%table%text()//": error: the table has the single temperature "// &
+      call status%fail(ehl_bad_input, trim(l%table)//": error: the table has the single temperature "// &
                        to_text(isotherm%temperature - freezing)//" degC, and lubricant.temperature = "// &
                        to_text(l%temperature)//newline//"expected: that temperature, or a table of two or more")
    end subroutine check_single

@@ -5,13 +5,25 @@ import argparse
 
 from pyehl.api import check
 from pyehl.commands.arguments import add_case_arguments
+from pyehl.surfaces.resolved import write_resolved
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.description = "Read and check a case; print it resolved, and the plan. Solve nothing."
     add_case_arguments(parser)
+    parser.add_argument(
+        "--resolved",
+        metavar="FILE.nml",
+        help="write the case that ehl reads instead, every value spelled out, and surfaces that "
+        "have to be prepared as .npy beside it; print the files",
+    )
 
 
 def execute(args: argparse.Namespace) -> int:
-    print(check(args.case, args.overrides))
+    checked = check(args.case, args.overrides)
+    if args.resolved is None:
+        print(checked)
+        return 0
+    for path in write_resolved(checked.case, args.resolved, (args.case,)):
+        print(path)
     return 0

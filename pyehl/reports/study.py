@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from pyehl import library, namelist
+from pyehl import namelist
+from pyehl.case import KEYS
 from pyehl.errors import InputError
 from pyehl.plots.study import Line, study_figure
 from pyehl.plots.style import png
@@ -60,7 +61,7 @@ def study_parts(folder: Path) -> tuple[str, Judgement, list[str]]:
     size = math.prod(len(values) for key, values in header["vary"].items() if key not in led)
     settings = namelist.values(str(header["case"]))
     parts = [page.heading("What was asked")]
-    units = {key.name: key.unit for key in library.keys()}
+    units = {key.name: key.unit for key in KEYS.values()}
     parts.append(
         page.facts(
             {

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
 
-from pyehl import library
+from pyehl.case import KEYS
 from pyehl.errors import InputError, did_you_mean
 from pyehl.given import text_file
 from pyehl.studies.vary import LOGICAL
@@ -94,7 +94,7 @@ def _columns(where: str, head: Sequence[str]) -> tuple[list[str], list[str]]:
     for word in head:
         if not word or head.count(word) > 1:
             raise InputError(f"{where} the name '{word}' is {'there twice' if word else 'empty'}")
-    known = {key.name for key in library.keys()}
+    known = KEYS
     keys = [word for word in head if "." in word]
     for word in keys:
         if word not in known:

@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pyehl import library, namelist, schema
+from pyehl import namelist, schema
+from pyehl.case import KEYS, resolve
 from pyehl.errors import EhlError, InputError
 from pyehl.handle import SolverHandle
 from pyehl.prediction.smooth import SmoothContact, solve_contact
@@ -144,7 +145,7 @@ def fit_law(settings: Settings, law: str, measured: Measured, points: int) -> Fi
             "tell it"
         )
     ends = _intervals(keys, settled.jac, settled.fun, found)
-    units = {key.name.partition(".")[2]: key.unit for key in library.keys()}
+    units = {key.name.partition(".")[2]: key.unit for key in KEYS.values()}
     parameters = tuple(
         Parameter(key, units[key], float(value), *end)
         for key, value, end in zip(keys, values, ends, strict=True)
@@ -169,9 +170,7 @@ def _weights(error: Array) -> Array:
 
 def _limits(key: str) -> tuple[float, float]:
     """Give the ends of what a key allows besides 0."""
-    allowed = next(k.allowed for k in library.keys() if k.name == f"lubricant.{key}")
-    low, high = allowed.partition("[")[2].rstrip("]").split(",")
-    return float(low), float(high)
+    return KEYS[f"lubricant.{key}"].interval[:2]
 
 
 def _to_search(keys: tuple[str, ...], values: Array) -> Array:
@@ -245,7 +244,7 @@ def _friction(
     groups = {name: dict(group) for name, group in base.items()}
     groups["contact"]["slide_to_roll"] = slide_to_roll
     groups["lubricant"] |= {"shear_law": law} | dict(zip(keys, map(float, values), strict=True))
-    text = library.resolve(namelist.text_of(groups), "the contact of the fit")
+    text = resolve(namelist.text_of(groups), "the contact of the fit")
     with SolverHandle(text) as solver:
         solver.run()
         summary = solver.summary

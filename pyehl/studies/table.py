@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from pyehl import arrays, library
+from pyehl import arrays
+from pyehl.case import KEYS
 from pyehl.given import bare
 from pyehl.results import unit_of
 from pyehl.studies.outputs import LAST
@@ -83,13 +84,13 @@ def over(
     together are coordinates of the dimension of the first of them, of a `kind` if it is given.
     Where there is no number there is NaN, where there is no word ''.
     """
-    called, of_keys = study.names, {key.name: key for key in library.keys()}
+    called = study.names
     names = tuple(called[axes[0].key] for axes in study.dimensions)
     coords = {}
     for axes, name in zip(study.dimensions, names, strict=True):
         for a in axes:
             about = {"key": a.key, "units": "1"}
-            if known := of_keys.get(a.key):
+            if known := KEYS.get(a.key):
                 about["long_name"] = known.meaning
                 if known.unit not in ("", "-"):
                     about["units"] = known.unit

@@ -9,7 +9,15 @@ y = j length_y/ny. Spectra are those of Jacobs, Junge & Pastewka 2017, in m^4.
 # ruff: noqa: F401 (names for the rest of the package)
 from pyehl.surfaces.filters import filtered, psd_2d, psd_isotropic, wavenumbers
 from pyehl.surfaces.generators import FEATURES, fractal, harmonic
-from pyehl.surfaces.in_memory import Surface, as_map, given, in_memory, keep_beside, part_of
+from pyehl.surfaces.in_memory import (
+    Surface,
+    as_map,
+    given,
+    in_memory,
+    keep_beside,
+    part_of,
+    with_surface,
+)
 from pyehl.surfaces.interpolation import interpolated, resampled, shifted
 from pyehl.surfaces.of_case import (
     GROUPS,

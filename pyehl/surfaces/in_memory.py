@@ -11,6 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from pyehl.case import Case
+from pyehl.case.surface_group import Surface as Keys
 from pyehl.errors import InputError
 from pyehl.given import heights_of, real_numbers
 from pyehl.surfaces.holes import filled
@@ -61,16 +63,17 @@ def in_memory(surface: Surface, group: Mapping[str, Any], name: str = "surface")
     """
     if not isinstance(surface, Topography):
         numbers = real_numbers(surface, name)
-        size = tuple(float(group.get(f"tile_{k}") or group.get(f"length_{k}") or 0.0) for k in "xy")
-        if group.get("kind", "smooth") == "smooth" or group.get("fill") == "none":
+        s = Keys.of(group)
+        size = s.tile_x or s.length_x, s.tile_y or s.length_y
+        if s.kind == "smooth" or s.fill == "none":
             heights_of(numbers)
-        if group.get("kind") not in ("map", "fractal") or not all(size):
+        if s.kind not in ("map", "fractal") or not all(size):
             raise InputError(
                 "heights are given, and the case does not say their size\n"
                 f"expected: {name}.kind = 'map' or 'fractal' with {name}.length_x and length_y, "
                 "or pyehl.Topography(heights, size)"
             )
-        surface = _whole(numbers, (size[0], size[1]), group, name)
+        surface = _whole(numbers, size, group, name)
     heights = surface.heights - surface.heights.mean()
     return replace(surface, heights=heights, origin=surface.origin or IN_MEMORY[name])
 
@@ -80,7 +83,7 @@ def _whole(
 ) -> Topography:
     """Tile of an array whose missing points are interpolated."""
     missing = int(np.isnan(heights).sum()) if heights.ndim == 2 else 0
-    if not missing or str(group.get("fill", "harmonic")) == "none":
+    if not missing or Keys.of(group).fill == "none":
         return Topography(heights_of(heights), size)
     pixel = (size[0] / heights.shape[0], size[1] / heights.shape[1])
     try:
@@ -143,10 +146,19 @@ def given(heights: Array, surface: Mapping[str, Any]) -> Topography:
 
     Its size is that of the tile in the group ``surface``, or that of the map.
     """
-    x, y = (float(surface[f"tile_{k}"] or surface[f"length_{k}"]) for k in "xy")
-    images = bool(surface["tile_mirrored"])
+    s = Keys.of(surface)
+    x, y, images = s.tile_x or s.length_x, s.tile_y or s.length_y, s.tile_mirrored
     pixel = (x / heights.shape[0], y / heights.shape[1])
     if images:
         pixel = (0.5 * pixel[0], 0.5 * pixel[1])
     part = part_of(heights, pixel, "the heights", images=images)
     return part or Topography(mirrored(heights) if images else heights, (x, y))
+
+
+def with_surface(case: Case, surface: Surface, group: str = "surface") -> tuple[Case, Topography]:
+    """Give a case with a surface in memory in place of that of a group, and it as a tile.
+
+    InputError if it is none of heights, or the case does not say its size.
+    """
+    tile = in_memory(surface, case.resolve().get(group, {}), group)
+    return case.with_options(as_map(tile, group)), tile

@@ -8,6 +8,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
+from pyehl.case.surface_group import Surface as Keys
 from pyehl.errors import FileError, InputError
 from pyehl.surfaces.filters import filtered
 from pyehl.surfaces.generators import fractal, harmonic
@@ -158,24 +159,13 @@ def _fractal(surface: Mapping[str, Any]) -> Topography:
 
 def scan_of(surface: Mapping[str, Any]) -> Scan:
     """Read the map of the group ``surface``, or its profile; a length of 0 is that of the file."""
-    path, how = str(surface["file"]), str(surface.get("profile", "none"))
-    if how != "none":
-        return scan_of_profile(
-            profile_of(surface),
-            how,
-            detrend=str(surface.get("detrend", "auto")),
-            pixels=int(surface.get("pixels", 256)),
-            seed=int(surface.get("seed", 1)),
-        )
+    s = Keys.of(surface)
+    path, lengths = s.file, (s.length_x or None, s.length_y or None)
+    if s.profile != "none":
+        made = profile_of(surface)
+        return scan_of_profile(made, s.profile, detrend=s.detrend, pixels=s.pixels, seed=s.seed)
     try:
-        return read_scan(
-            path,
-            float(surface.get("length_x", 0.0)) or None,
-            float(surface.get("length_y", 0.0)) or None,
-            str(surface.get("channel", "")),
-            str(surface.get("height_unit", "m")),
-            str(surface.get("lateral_unit", "same")),
-        )
+        return read_scan(path, *lengths, s.channel, s.height_unit, s.lateral_unit)
     except InputError as error:
         if not is_profile(path):
             raise
@@ -188,13 +178,10 @@ def scan_of(surface: Mapping[str, Any]) -> Scan:
 
 def profile_of(surface: Mapping[str, Any]) -> Profile:
     """Read the profile of the group ``surface``; a length of 0 is that of the file."""
-    unit = str(surface.get("height_unit", "m"))
-    return read_profile(
-        str(surface["file"]),
-        float(surface.get("length_x", 0.0)) or None,
-        # nobody types m for a profile of micrometres
-        unit if unit != "m" else None,
-    )
+    s = Keys.of(surface)
+    # nobody types m for a profile of micrometres
+    unit = s.height_unit if s.height_unit != "m" else None
+    return read_profile(s.file, s.length_x or None, unit)
 
 
 def tile_of(scan: Scan, options: Options = NEUTRAL) -> Topography:
@@ -205,7 +192,7 @@ def tile_of(scan: Scan, options: Options = NEUTRAL) -> Topography:
 
 def moved(tile: Topography, surface: Mapping[str, Any]) -> Topography:
     """Put a tile on its track: the line at y = `surface.track` [m] passes the centre."""
-    track = float(surface.get("track", 0.0))
+    track = Keys.of(surface).track
     if not track:
         return tile
     heights = tile.heights.copy()
@@ -218,10 +205,8 @@ def finished(tile: Topography, surface: Mapping[str, Any]) -> Topography:
 
     The solver cuts the spectrum of its surfaces itself.
     """
-    shortest = float(surface.get("shortest_wavelength", 0.0))
-    longest = float(surface.get("longest_wavelength", 0.0))
-    cut = filtered(tile, shortest, longest, str(surface.get("filter", "sharp")))
-    return moved(cut, surface)
+    s = Keys.of(surface)
+    return moved(filtered(tile, s.shortest_wavelength, s.longest_wavelength, s.filter), surface)
 
 
 def without_spikes(surface: Topography, threshold: float, group: Mapping[str, Any]) -> Topography:

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any, Self
 
+from pyehl.case.surface_group import Surface as Keys
 from pyehl.surfaces.reading import Scan
 
 
@@ -27,17 +28,9 @@ class Options:
     @classmethod
     def from_settings(cls, surface: Mapping[str, Any]) -> Self:
         """Options of the group ``surface`` of a resolved case; absent keys have their defaults."""
-        bounds = ("crop_x_min", "crop_x_max", "crop_y_min", "crop_y_max")
-        return cls(
-            detrend=str(surface.get("detrend", "auto")),
-            fill=str(surface.get("fill", "harmonic")),
-            outliers=float(surface.get("outliers", 0.0)),
-            align_lines=str(surface.get("align_lines", "none")),
-            edges=str(surface.get("edges", "auto")),
-            crop=tuple(float(surface.get(key, 0.0)) for key in bounds),  # type: ignore[arg-type]
-            rotate=float(surface.get("rotate", 0.0)),
-            sign=int(surface.get("sign", 1)),
-        )
+        s = Keys.of(surface)
+        crop = s.crop_x_min, s.crop_x_max, s.crop_y_min, s.crop_y_max
+        return cls(s.detrend, s.fill, s.outliers, s.align_lines, s.edges, crop, s.rotate, s.sign)
 
 
 NEUTRAL = Options()

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from pyehl.case.surface_group import Surface as Keys
 from pyehl.errors import InputError
 from pyehl.extension import surface_functions
 from pyehl.library import returned
@@ -74,25 +75,23 @@ def for_solver(settings: Settings, group: str = "surface") -> SolverSurface:
     """
     if group not in settings:
         return SolverSurface()
-    surface = settings[group]
-    if surface["kind"] == "fractal" and surface.get("track"):
+    surface, s = settings[group], Keys.of(settings[group])
+    if s.kind == "fractal" and s.track:
         # the film is the scale of harmonic patterns alone
         made = whole(
             {**settings, "surface": surface}, OperatingPoint.from_settings(settings), film=0.0
         )
         return SolverSurface(np.asfortranarray(moved(made, surface).heights))
-    if surface["kind"] == "fractal":
-        need = returned(surface_functions.making(int(surface["pixels"])))
+    if s.kind == "fractal":
+        need = returned(surface_functions.making(s.pixels))
         if need:
             LOG.info(need)
-    if surface["kind"] != "map":
+    if s.kind != "map":
         return SolverSurface()
     scan, options = scan_of(surface), Options.from_settings(surface)
-    sized = surface.get("length_x") and surface.get("length_y")
-    changed = surface.get("track") or not scan.is_array or not sized
-    changed = changed or surface.get("height_unit", "m") != "m"
-    changed = changed or surface.get("profile", "none") != "none"
-    changed = changed or not plain_array(str(surface["file"]), scan.heights.shape)
+    changed = s.track or not scan.is_array or not (s.length_x and s.length_y)
+    changed = changed or s.height_unit != "m" or s.profile != "none"
+    changed = changed or not plain_array(s.file, scan.heights.shape)
     # a large map is in memory once
     heights, record = consume(scan, options)
     del scan
@@ -103,9 +102,9 @@ def for_solver(settings: Settings, group: str = "surface") -> SolverSurface:
     if not changed and options == NEUTRAL and not record.missing:
         return SolverSurface(preparation=record, part=part)
     sizes = [f"{group}.tile_x={x!r}", f"{group}.tile_y={y!r}"]
-    if surface.get("track"):
+    if s.track:
         heights = mirrored(heights) if images else heights
-        shift_across(heights, y, -float(surface["track"]))
+        shift_across(heights, y, -s.track)
     elif images:
         sizes.append(f"{group}.tile_mirrored=.true.")
     return SolverSurface(np.asfortranarray(heights), tuple(sizes), record, part)

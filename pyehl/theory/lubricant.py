@@ -8,10 +8,10 @@ from typing import Self
 import numpy as np
 from numpy.typing import ArrayLike
 
+from pyehl.case import resolve
 from pyehl.errors import InputError, check
 from pyehl.extension import lubricants
 from pyehl.given import positive
-from pyehl.library import resolve
 from pyehl.namelist import text_of, values
 from pyehl.theory.shear import ShearLaw
 from pyehl.types import Array, Settings

@@ -2,14 +2,12 @@
 """Oils by name, and pressure-viscosity coefficients of any lubricant."""
 
 import math
-from dataclasses import dataclass
-from functools import cache
+from dataclasses import dataclass, fields
 
 import numpy as np
 
+from pyehl.case.oils import OILS, Constant, OilConstants
 from pyehl.errors import InputError, did_you_mean
-from pyehl.extension import lubricants as compiled
-from pyehl.library import returned, whole
 from pyehl.theory.lubricant import Lubricant
 
 __all__ = ["Constant", "Oil", "film_forming", "known_oils", "oil", "reciprocal_isoviscous"]
@@ -19,24 +17,8 @@ HIGHEST_PRESSURE, NODES = 1e10, 20001
 
 
 @dataclass(frozen=True, slots=True)
-class Constant:
-    """A constant of an oil: key of ``&lubricant``, value in its unit, place in the source."""
-
-    key: str
-    value: float
-    place: str
-
-
-@dataclass(frozen=True, slots=True)
-class Oil:
+class Oil(OilConstants):
     """An oil whose constants are known: ``lubricant.name`` of a case."""
-
-    name: str
-    viscosity_law: str
-    title: str
-    source: str
-    range: str  # of the measurements behind the constants, in words
-    constants: tuple[Constant, ...]
 
     def constant(self, key: str) -> float | None:
         """Give the value of a constant, None where the source has none."""
@@ -56,22 +38,10 @@ class Oil:
         return Lubricant.from_name(self.name, temperature)
 
 
-@cache
 def known_oils() -> dict[str, Oil]:
     """Give all oils by name."""
-    heads: dict[str, list[str]] = {}
-    constants: dict[str, list[Constant]] = {}
-    for line in returned(whole(lambda room: (compiled.oils(room),), 0)[0]).splitlines():
-        name, *cells = line.split("\t")
-        if name not in heads:
-            heads[name] = cells
-            constants[name] = []
-        else:
-            constants[name].append(Constant(cells[0], float(cells[1]), cells[2]))
-    return {
-        name: Oil(name, law, title, source, told, tuple(constants[name]))
-        for name, (law, title, source, told) in heads.items()
-    }
+    names = [field.name for field in fields(OilConstants)]
+    return {oil.name: Oil(*(getattr(oil, name) for name in names)) for oil in OILS.values()}
 
 
 def oil(name: str) -> Oil:

@@ -9,6 +9,9 @@ import math
 from dataclasses import dataclass, replace
 from typing import Self
 
+from pyehl.case.groups import Contact
+from pyehl.case.key import typed
+from pyehl.case.lubricant_group import Lubricant as LubricantGroup
 from pyehl.errors import InputError
 from pyehl.given import positive
 from pyehl.theory.ellipse import Ellipse, ellipse
@@ -150,46 +153,41 @@ class OperatingPoint:
 
         With ``lubricant.thermal_reduction`` the viscosity is that of the warmer inlet.
         """
-        contact, lubricant = settings["contact"], settings["lubricant"]
-        viscosity = float(lubricant["viscosity"])
-        alpha = float(lubricant["pressure_viscosity"])
-        slide_to_roll = float(contact["slide_to_roll"])
-        if contact.get("moes_m") is not None and contact.get("load") is None:
+        c = typed(Contact, settings["contact"])
+        oil = typed(LubricantGroup, settings["lubricant"])
+        if "load" not in settings["contact"]:
             return cls.from_moes(
-                float(contact["moes_m"]),
-                float(contact["moes_l"]),
-                viscosity=viscosity,
-                pressure_viscosity=alpha,
-                slide_to_roll=slide_to_roll,
-                radius_ratio=float(contact["radius_ratio"]),
+                c.moes_m,
+                c.moes_l,
+                viscosity=oil.viscosity,
+                pressure_viscosity=oil.pressure_viscosity,
+                slide_to_roll=c.slide_to_roll,
+                radius_ratio=c.radius_ratio,
             )
-        radii = [float(contact.get(f"radius_{k}", contact.get("radius", 0.0))) for k in "xy"]
+        radius_x, radius_y = c.radius_x or c.radius, c.radius_y or c.radius
         point = cls(
-            load=float(contact["load"]),
-            mean_velocity=float(contact["mean_velocity"]),
-            radius=radii[0],
-            reduced_modulus=float(contact["reduced_modulus"]),
-            viscosity=viscosity,
-            pressure_viscosity=alpha,
-            slide_to_roll=slide_to_roll,
-            thermal_conductivity=float(contact["thermal_conductivity"]),
-            thermal_diffusivity=float(contact["thermal_diffusivity"]),
-            thermal_conductivity_2=float(contact.get("thermal_conductivity_2", 0.0)),
-            thermal_diffusivity_2=float(contact.get("thermal_diffusivity_2", 0.0)),
-            radius_ratio=radii[0] / radii[1],
+            load=c.load,
+            mean_velocity=c.mean_velocity,
+            radius=radius_x,
+            reduced_modulus=c.reduced_modulus,
+            viscosity=oil.viscosity,
+            pressure_viscosity=oil.pressure_viscosity,
+            slide_to_roll=c.slide_to_roll,
+            thermal_conductivity=c.thermal_conductivity,
+            thermal_diffusivity=c.thermal_diffusivity,
+            thermal_conductivity_2=c.thermal_conductivity_2,
+            thermal_diffusivity_2=c.thermal_diffusivity_2,
+            radius_ratio=radius_x / radius_y,
         )
-        if not lubricant["thermal_reduction"]:
+        if not oil.thermal_reduction:
             return point
         loading = thermal_loading(
-            float(lubricant["temperature_viscosity"]),
-            viscosity,
-            point.mean_velocity,
-            float(lubricant["thermal_conductivity"]),
+            oil.temperature_viscosity, oil.viscosity, c.mean_velocity, oil.thermal_conductivity
         )
         pressure = point.hertz_pressure / point.reduced_modulus
-        share = thermal_reduction(loading, pressure, slide_to_roll)
+        share = thermal_reduction(loading, pressure, c.slide_to_roll)
         ratio = inlet_viscosity_ratio(point.moes_m, point.moes_l, share, point.ellipse)
-        return replace(point, viscosity=viscosity * ratio, thermal_reduction=share)
+        return replace(point, viscosity=oil.viscosity * ratio, thermal_reduction=share)
 
     @property
     def sliding_speed(self) -> float:

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from pyehl import Case, Solver, errors, library
+from pyehl.case import resolve
 from pyehl.extension import solvers as ehl
 
 SMALL = (
@@ -167,7 +168,7 @@ def test_solvers_in_threads_do_not_disturb_each_other():
 
 def test_text_beyond_ascii_arrives():
     with pytest.raises(errors.InputError, match=r"Höhe µm:1:1: error: unknown group &größe"):
-        library.resolve("&größe /", "Höhe µm")
+        resolve("&größe /", "Höhe µm")
 
 
 def test_deflection_of_the_hertz_pressure():
@@ -189,13 +190,9 @@ def test_deflection_of_the_hertz_pressure():
 
 def test_texts_of_any_length_arrive_whole(monkeypatch: pytest.MonkeyPatch):
     """The library says how long a text is, and is asked again with that much room."""
-    whole = library.keys(), library.resolve("", "a text"), library.conclude({"mu_ratio": 1.5})
+    whole = library.conclude({"mu_ratio": 1.5})
     monkeypatch.setattr(library, "ROOM", 7)
-    assert (
-        library.keys(),
-        library.resolve("", "a text"),
-        library.conclude({"mu_ratio": 1.5}),
-    ) == whole
+    assert library.conclude({"mu_ratio": 1.5}) == whole
     with Solver(Case.from_text("&grid points = 33 /\n")) as solver:
         solver.run()
         short = solver.summary
@@ -204,7 +201,6 @@ def test_texts_of_any_length_arrive_whole(monkeypatch: pytest.MonkeyPatch):
 
 
 def test_message_that_does_not_fit_says_so():
-    option = "grid.points=" + "9" * 9000
     with pytest.raises(errors.InputError) as caught:
-        library.resolve("", "a text", [option])
+        library.deflection(np.zeros((33, 33)), 0.1, 0.1, "x" * 9000)
     assert str(caught.value).endswith("... (the rest does not fit)")

@@ -21,7 +21,8 @@ import pytest
 from document_text import DOCUMENTS, NUMBER, blocks, commands, fences, is_shown, lines_of
 
 import pyehl
-from pyehl import Case, library
+from pyehl import Case
+from pyehl.case import KEYS
 from pyehl.prediction import friction
 from pyehl.studies import curve
 
@@ -208,7 +209,7 @@ def test_links_lead_somewhere(root: Path, name: str):
 
 @pytest.mark.parametrize("name", DOCUMENTS)
 def test_keys_in_documents_are_keys(root: Path, name: str):
-    known = {key.name for key in library.keys()}
+    known = set(KEYS)
     groups = {name.partition(".")[0] for name in known}
     words = re.findall(r"`(?:--set )?(\w+\.\w+)(?: ?=[^`]*)?`", (root / name).read_text())
     assert not {w for w in words if w.partition(".")[0] in groups} - known - FILES

@@ -30,7 +30,6 @@ COMMANDS: tuple[tuple[tuple[str, ...], str], ...] = (
     (("check", "/dev/random"), "/dev/random"),
     (("check", "/dev/null"), "/dev/null"),
     (("check", "pipe"), "pipe"),
-    (("check", "blank.nml "), "ends with a blank"),
     (("check", "."), "folder"),
     (("check", "binary.nml"), "binary.nml"),
     (("check", "long.nml"), "long.nml"),
@@ -53,9 +52,6 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with what `COMMANDS` read; files with holes take no room on the disk."""
     folder = tmp_path_factory.mktemp("edge")
     os.mkfifo(folder / "pipe")
-    # another file than the one without the blank
-    for name in ("blank.nml", "blank.nml "):
-        (folder / name).write_text(CASE, encoding="utf-8")
     (folder / "binary.nml").write_bytes(bytes(range(256)))
     (folder / "long.nml").write_text("! a line\n" * 200_000, encoding="utf-8")
     for kind in ("npy", "txt"):

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 import pyehl
-from pyehl import library
+from pyehl.case import resolve
 
 DRIVERS = pytest.mark.parametrize("driver", ["ehl", "pyehl"])
 MARK = "! A run writes into the folder beside this file; removed with its end\n"
@@ -148,4 +148,4 @@ def test_byte_order_mark_is_no_text(tmp_path: Path, drive):
     (tmp_path / "bad.nml").write_text("&contact moes_n = 1 /\n", encoding="utf-8-sig")
     done = drive("ehl", "bad.nml", "-o", "out")
     assert "bad.nml:1:10: error" in done.stderr
-    assert library.resolve(text, "a text")
+    assert resolve(text, "a text")

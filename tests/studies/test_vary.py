@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 import pyehl
-from pyehl import InputError, library
+from pyehl import InputError
+from pyehl.case import KEYS
 from pyehl.given import option
 from pyehl.studies.study import ECHOED, RESULTS, Study, make, read_study
 from pyehl.studies.vary import Axis, axis, parse_axis
@@ -205,7 +206,7 @@ def test_dimensions_have_plain_names():
     ):
         axes = [Axis(key, (1.0, 2.0)) for key in keys]
         assert list(make(pyehl.Case(), axes).names.values()) == names
-    for key in library.keys():
+    for key in KEYS.values():
         (name,) = make(pyehl.Case(), [Axis(key.name, (1.0, 2.0))]).names.values()
         assert name.isidentifier()
         assert name not in RESULTS or key.name in ECHOED

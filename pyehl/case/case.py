@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A case: what a namelist file says, checked and completed by the Fortran reader."""
+"""A case: what a namelist file says, checked and completed."""
 
 from __future__ import annotations
 
@@ -8,15 +8,13 @@ import reprlib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from types import EllipsisType
-from typing import TYPE_CHECKING, Any, Self
+from typing import Any, Self
 
-from pyehl import display, library, namelist
+from pyehl import display, namelist
+from pyehl.case.resolve import resolve
 from pyehl.errors import InputError
 from pyehl.given import Option, options_of, path_of
 from pyehl.types import Settings
-
-if TYPE_CHECKING:
-    from pyehl.surfaces import Surface, Topography
 
 
 @dataclass(frozen=True, slots=True, repr=False, init=False)
@@ -68,9 +66,9 @@ class Case:
     ) -> None:
         given = options_of([options, groups])
         if isinstance(case, Case):
-            text = library.resolve(case.text, "resolved case", given) if given else case.text
+            text = resolve(case.text, "resolved case", given) if given else case.text
         elif case is ...:
-            text = library.resolve("", "case", given)
+            text = resolve("", "case", given)
         else:
             path = path_of(case, "case")
             if "\n" in path or path.lstrip().startswith("&"):
@@ -78,7 +76,7 @@ class Case:
                     f"case = {reprlib.repr(path)}: expected the path of a case file; text of a "
                     "case has pyehl.Case.from_text"
                 )
-            text = library.resolve("", path, given, from_file=True)
+            text = resolve("", path, given, from_file=True)
         object.__setattr__(self, "text", text)
 
     @classmethod
@@ -95,7 +93,7 @@ class Case:
         InputError
             With `origin` in place of a file.
         """
-        return trusted(library.resolve(text, origin, options))
+        return trusted(resolve(text, origin, options))
 
     def __getitem__(self, group: str) -> dict[str, Any]:
         """Values of a group by key, as `resolve` gives them: ``case["grid"]["points"]``."""
@@ -160,18 +158,6 @@ def files_of(settings: Settings) -> list[str]:
     """Give the files that a resolved case reads: height maps, a table of viscosities."""
     maps = [group["file"] for group in settings.values() if group.get("kind") == "map"]
     return [str(name) for name in (*maps, settings["lubricant"].get("table")) if name]
-
-
-def with_surface(case: Case, surface: Surface, group: str = "surface") -> tuple[Case, Topography]:
-    """Give a case with a surface in memory in place of that of a group, and it as a tile.
-
-    InputError if it is none of heights, or the case does not say its size.
-    """
-    # surfaces take long to import, and most cases have none in memory
-    from pyehl.surfaces import as_map, in_memory  # noqa: PLC0415
-
-    tile = in_memory(surface, case.resolve().get(group, {}), group)
-    return case.with_options(as_map(tile, group)), tile
 
 
 def exchanged(case: Case) -> Case:

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What one key alone cannot tell: defaults that follow from other keys, and contradictions."""
+
+from collections.abc import Callable
+from contextlib import suppress
+
+from pyehl.case import contact, density, grid, lubricant, radii, surfaces, temperature
+from pyehl.case.draft import Draft
+from pyehl.errors import InputError
+
+Step = Callable[[Draft], None]
+
+
+def check_time(draft: Draft) -> None:
+    """Refuse a number of steps beside a number of periods."""
+    time = draft.settings.time
+    if time.steps != 0 and time.max_periods != 0:
+        what = "time.max_periods contradicts time.steps"
+        draft.refuse("time.max_periods", what, "one of the two, the other 0")
+
+
+COMPLETIONS: tuple[Step, ...] = (
+    contact.check_kind,
+    radii.complete,
+    lubricant.complete_oil,
+    temperature.complete_viscosity,
+    temperature.complete_alpha,
+    lubricant.complete_law,
+    grid.complete,
+    contact.complete_kinematics,
+    lubricant.complete,
+    surfaces.complete,
+)
+STEPS: tuple[Step, ...] = (
+    *COMPLETIONS[:6],
+    contact.check_operating_point,
+    grid.complete,
+    grid.check_extent,
+    contact.complete_kinematics,
+    lubricant.complete,
+    density.check,
+    lubricant.check_law,
+    lubricant.check_shear_law,
+    lubricant.check_boundary_film,
+    temperature.check_heat,
+    grid.check_points,
+    surfaces.complete,
+    surfaces.check,
+    check_time,
+)
+
+
+def complete(draft: Draft, *, strict: bool = True) -> None:
+    """Complete a case whose keys are all good by themselves, and check it.
+
+    Without `strict` whatever follows is given as far as it does, and nothing is refused.
+    """
+    if strict:
+        for step in STEPS:
+            step(draft)
+        return
+    for step in COMPLETIONS:
+        with suppress(InputError):
+            step(draft)

@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The contact of a case: Moes numbers or SI values, operating point, motion of the surfaces."""
+
+import math
+from typing import Any
+
+from pyehl.case import physics
+from pyehl.case.draft import Draft
+from pyehl.case.groups import Contact
+from pyehl.case.number import short, to_text
+from pyehl.case.settings import KEYS
+
+MOES = ("moes_m", "moes_l", "radius_ratio")
+SI = ("load", "mean_velocity", "radius", "reduced_modulus", "radius_x", "radius_y")
+# Largest M of a round contact with the same equations
+MOST_M = 1e5
+# Least p_h/E' of a contact that can be meant: 0.1 MPa between steel bodies
+LEAST_STRAIN = 4e-7
+# Difference of velocity ratios that is none
+ROUNDING = 1e-9
+# Keys that make the operating point, and powers of ten around their defaults that are common;
+# the radii of bodies around that of the ball
+COMMON = {
+    "contact.load": 3.0,
+    "contact.mean_velocity": 2.0,
+    "contact.radius": 1.0,
+    "contact.reduced_modulus": 0.5,
+    "contact.radius_x": 1.0,
+    "contact.radius_y": 1.0,
+    "lubricant.viscosity": 2.0,
+    "lubricant.pressure_viscosity": 0.5,
+    "bodies.radius_x1": 1.0,
+    "bodies.radius_y1": 1.0,
+    "bodies.radius_x2": 1.0,
+    "bodies.radius_y2": 1.0,
+}
+
+
+def check_kind(draft: Draft) -> None:
+    """Find whether a contact is given by Moes numbers or by SI values; not by both."""
+    moes = draft.first_given(f"contact.{key}" for key in MOES)
+    si = draft.first_given(f"contact.{key}" for key in SI)
+    draft.settings.contact.si = not moes
+    if moes and si:
+        expected = (
+            "moes_m, moes_l and radius_ratio, or load, mean_velocity, reduced_modulus and radius "
+            "or radius_x and radius_y"
+        )
+        draft.contradict(moes, si, expected)
+
+
+def check_operating_point(draft: Draft) -> None:
+    """Refuse SI values of a contact that cannot exist; a slip of units mostly makes one."""
+    c, oil = draft.settings.contact, draft.settings.lubricant
+    point = physics.point(draft.settings)
+    too_large = (
+        "the Moes parameter M of the round contact with the same equations is "
+        f"{short(point.round_m)}"
+    )
+    if not c.si:
+        if point.round_m > MOST_M:
+            draft.refuse("contact.moes_m", too_large, "a moes_m that makes it 1e5 at most")
+        if oil.pressure_viscosity <= 0.0 < c.moes_l:
+            expected = "moes_l = 0.0, or a pressure_viscosity above 0"
+            draft.contradict("lubricant.pressure_viscosity", "contact.moes_l", expected)
+        return
+    least = LEAST_STRAIN * c.reduced_modulus
+    if not least <= point.pressure <= 2e10:
+        what = f"the Hertz pressure is {short(point.pressure)} Pa"
+        expected = (
+            f"a Hertz pressure between {short(least)} Pa (4e-7 of reduced_modulus) and 2e10 Pa"
+        )
+    elif point.length > c.radius_x:
+        what = f"the Hertz radius {short(point.length)} m exceeds that of the ball"
+        expected = "a contact much smaller than the ball"
+    elif point.moes_m < 0.1:
+        what = f"the Moes parameter M is {short(point.moes_m)}"
+        expected = "M of 0.1 at least"
+    elif point.round_m > MOST_M:
+        what, expected = too_large, "an M between 0.1 and 1e5"
+    elif point.moes_l > 100.0:
+        what = f"the Moes parameter L is {short(point.moes_l)}"
+        expected = "L of 100 at most"
+    else:
+        return
+    name = _most_unusual(draft)
+    value = to_text(draft.settings.value(KEYS[name]))
+    expected = f"values in SI units with {expected}{KEYS[name].in_millimetres(value)}"
+    draft.refuse(name, f"{what} with {name} = {value}", expected)
+
+
+def _most_unusual(draft: Draft) -> str:
+    """Of the given keys that make the operating point give the one with the least usual value."""
+    found, most = "lubricant.viscosity", -1.0
+    for name, common in COMMON.items():
+        key = KEYS[name]
+        value: Any = draft.settings.value(key)
+        # a radius of 0 is that of a flat body
+        if name not in draft.given or (key.group == "bodies" and value == 0.0):
+            continue
+        usual: Any = Contact().radius if key.key.startswith("radius") else key.default_value
+        unusual = abs(math.log10(abs(value) / usual)) / common if value else math.inf
+        if unusual > most:
+            found, most = name, unusual
+    return found
+
+
+def complete_kinematics(draft: Draft) -> None:
+    """Of slide-to-roll ratio and velocities of the surfaces find the others from one.
+
+    Body 1 moves at 1 + SRR/2, body 2 at 1 - SRR/2 times the mean velocity.
+    """
+    c, first, second = (
+        draft.settings.contact,
+        draft.settings.surface,
+        draft.settings.second_surface,
+    )
+    given = [draft.is_given(name, "velocity_ratio") for name in ("surface", "second_surface")]
+    both = first.velocity_ratio + second.velocity_ratio
+    if all(given) and abs(both - 2.0) > ROUNDING:
+        expected = (
+            "one of the two, or velocity ratios that add up to 2: contact.mean_velocity is the "
+            "mean of both bodies"
+        )
+        why = (
+            f"{to_text(first.velocity_ratio)} and {to_text(second.velocity_ratio)} add up to "
+            f"{to_text(both)}"
+        )
+        draft.contradict("surface.velocity_ratio", "second_surface.velocity_ratio", expected, why)
+    side = 1.0 if c.rough_surface == 1 else -1.0
+    if not draft.is_given("contact", "slide_to_roll"):
+        if given[0]:
+            c.slide_to_roll = _sliding(side, first.velocity_ratio)
+        elif given[1]:
+            c.slide_to_roll = _sliding(-side, second.velocity_ratio)
+    _settle_velocity(draft, "surface", c.rough_surface)
+    _settle_velocity(draft, "second_surface", 3 - c.rough_surface)
+
+
+def _settle_velocity(draft: Draft, group: str, body: int) -> None:
+    """Find the velocity of the surface of a body; one that was given must agree."""
+    surface = getattr(draft.settings, group)
+    slide_to_roll = draft.settings.contact.slide_to_roll
+    side = 1.0 if body == 1 else -1.0
+    follows, ratio = 1.0 + 0.5 * side * slide_to_roll, surface.velocity_ratio
+    if not draft.is_given(group, "velocity_ratio"):
+        surface.velocity_ratio = follows
+    elif draft.is_given("contact", "slide_to_roll") and abs(ratio - follows) > ROUNDING:
+        expected = (
+            f"one of the two, or slide_to_roll = {to_text(_sliding(side, ratio))} with this "
+            "velocity_ratio"
+        )
+        why = (
+            f"with contact.slide_to_roll = {to_text(slide_to_roll)}, &{group}, on body {body}, "
+            f"moves at {to_text(follows)} times the mean velocity, not at {to_text(ratio)}"
+        )
+        draft.contradict(f"{group}.velocity_ratio", "contact.slide_to_roll", expected, why)
+
+
+def _sliding(side: float, ratio: float) -> float:
+    """Slide-to-roll ratio by a velocity, free of the rounding of the difference: 0.02 for 1.01."""
+    return round(side * (ratio - 1.0) * 2e12) / 1e12

@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The grid of a case: border and domain that follow from the contact, nodes that can be halved."""
+
+from pyehl.case import physics
+from pyehl.case.draft import Draft
+from pyehl.case.number import short, to_text
+
+# Least distance of the sides of the domain, in terms of the contact
+BEYOND_CONTACT = 1.05
+# Fewest and most intervals per side of the coarsest grid, as in fortran/grid/grid.f90
+FEWEST, MOST = 16, 32
+ENDS = ("x_inlet", "x_outlet", "y_extent")
+
+
+def complete(draft: Draft) -> None:
+    """Find border, domain and nodes from the operating point, unless they are given."""
+    g = draft.settings.grid
+    find_points = not draft.is_given("grid", "points") and g.target_error <= 0.0
+    found = physics.grid_defaults(
+        draft.settings,
+        g.border if draft.is_given("grid", "border") else "",
+        [getattr(g, end) if draft.is_given("grid", end) else None for end in ENDS],
+        0 if find_points else g.points,
+        g.points_y,
+    )
+    g.border, g.x_inlet, g.x_outlet, g.y_extent, g.points, g.points_y = found
+
+
+def check_extent(draft: Draft) -> None:
+    """Refuse a domain that does not hold the contact."""
+    g, angle = draft.settings.grid, draft.settings.contact.angle
+    if g.border == "flooded" and angle != 0.0 and draft.settings.contact.radius_ratio != 1.0:
+        what = f"grid.border = 'flooded' with contact.angle = {to_text(angle)}"
+        expected = "'zero': the pressure far from a turned contact is not known"
+        draft.refuse("grid.border", what, expected)
+    point = physics.point(draft.settings)
+    reaches = (point.reach_x, point.reach_x, point.reach_y)
+    for end, value, reach in zip(ENDS, (-g.x_inlet, g.x_outlet, g.y_extent), reaches, strict=True):
+        if value < BEYOND_CONTACT * reach:
+            what = (
+                f"grid.{end} is {short(value)} a from the centre, and the contact reaches to "
+                f"{short(reach)} a"
+            )
+            draft.refuse(f"grid.{end}", what, f"at least {short(BEYOND_CONTACT * reach)} a")
+
+
+def check_points(draft: Draft) -> None:
+    """Refuse nodes whose intervals cannot be halved down to those of a coarsest grid."""
+    points = draft.settings.grid.points
+    if _coarsest(points, points):
+        _check_rows(draft)
+        return
+    below = above = points
+    while below > 17 and not _coarsest(below, below):
+        below -= 1
+    while not _coarsest(above, above):
+        above += 1
+    why = "too few grids can be made by halving" if points % 2 else "an even number of points"
+    expected = (
+        f"an odd number with points - 1 halved down to an even number of {MOST} or less; the "
+        f"nearest are {below} and {above}"
+    )
+    draft.refuse("grid.points", f"grid.points = {points}: {why}", expected)
+
+
+def _check_rows(draft: Draft) -> None:
+    nx, ny = draft.settings.grid.points, draft.settings.grid.points_y
+    step = 2 * ((nx - 1) // _coarsest(nx, nx))
+    if (ny - 1) % step == 0 and _coarsest(nx, ny):
+        return
+    below = max(4 * step, ((ny - 1) // step) * step)
+    what = f"grid.points_y = {ny} with {nx} nodes along X"
+    expected = (
+        f"points_y - 1 in multiples of {step}: the nearest are {below + 1} and {below + step + 1}"
+    )
+    draft.refuse("grid.points_y", what, expected)
+
+
+def _coarsest(nx: int, ny: int) -> int:
+    """Intervals along X of the coarsest grid that halving leads to; 0 where there is none."""
+    x, y = nx - 1, ny - 1
+    while x % 4 == y % 4 == 0 and min(x, y) >= 2 * FEWEST:
+        x, y = x // 2, y // 2
+    return 0 if min(x, y) > MOST or x % 2 or y % 2 or min(nx, ny) < 3 else x

@@ -1,0 +1,246 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Groups of a case other than lubricant and surfaces, key by key.
+
+The one place for unit, allowed values, default and meaning of a key. A zero that is allowed there
+stands for "not given". What is no key is set when a case is completed.
+"""
+
+from dataclasses import dataclass
+
+from pyehl.case.key import real, truth, whole, word
+
+
+@dataclass(slots=True)
+class Contact:
+    """``&contact``: the operating point, by its Moes numbers or in SI units."""
+
+    moes_m: float = real(1000.0, "-", "(0, 1e6]", "Moes load parameter M")
+    moes_l: float = real(10.0, "-", "[0, 100]", "Moes material parameter L")
+    radius_ratio: float = real(
+        1.0,
+        "-",
+        "[0.004, 250]",
+        "R_x/R_y of an elliptical contact, whose M and L are by R_x; 1: round",
+    )
+    load: float = real(600.0, "N", "(0, 1e5]", "load")
+    mean_velocity: float = real(0.84, "m/s", "(0, 200]", "mean velocity of the two surfaces")
+    radius: float = real(0.018, "m", "[1e-5, 10]", "reduced radius of a round contact")
+    radius_x: float = real(
+        0.0, "m", "0 or [1e-5, 1000]", "reduced radius in the plane of the motion; 0: radius"
+    )
+    radius_y: float = real(
+        0.0, "m", "0 or [1e-5, 1000]", "reduced radius across the motion; both or none"
+    )
+    reduced_modulus: float = real(
+        2.26e11, "Pa", "[1e4, 2e12]", "E' with 2/E' = sum of (1 - nu^2)/E over the bodies"
+    )
+    hardness: float = real(
+        0.0,
+        "Pa",
+        "0 or [1e5, 1e12]",
+        "greatest pressure of the solids, with boundary_film; 0: no limit",
+    )
+    angle: float = real(
+        0.0,
+        "deg",
+        "[-90, 90]",
+        "an elliptical contact is turned counter-clockwise against the motion",
+    )
+    slide_to_roll: float = real(
+        0.02,
+        "-",
+        "[-2, 2]",
+        "slide-to-roll ratio (u1 - u2)/u; follows from a given velocity_ratio of a surface",
+    )
+    rough_surface: int = whole(1, "[1, 2]", "body with &surface; the other has &second_surface")
+    thermal_conductivity: float = real(
+        46.0,
+        "W/(m K)",
+        "[0.1, 500]",
+        "thermal conductivity of the solids, for the heat of friction",
+    )
+    thermal_diffusivity: float = real(
+        1.25e-5,
+        "m^2/s",
+        "[1e-8, 1e-3]",
+        "thermal diffusivity of the solids, for the heat of friction",
+    )
+    thermal_conductivity_2: float = real(
+        0.0, "W/(m K)", "0 or [0.1, 500]", "that of body 2; 0: thermal_conductivity"
+    )
+    thermal_diffusivity_2: float = real(
+        0.0, "m^2/s", "0 or [1e-8, 1e-3]", "that of body 2; 0: thermal_diffusivity"
+    )
+    si: bool = True
+    """Whether load, mean_velocity, radius and reduced_modulus hold, else moes_m and moes_l."""
+    round: bool = True
+    """Whether `radius` holds, else radius_x and radius_y."""
+
+
+@dataclass(slots=True)
+class Bodies:
+    """``&bodies``: what makes reduced radii and modulus; it rules where a key of it is given."""
+
+    radius_x1: float = real(
+        0.0,
+        "m",
+        "[-1e3, 1e3]",
+        "radius of body 1 in the plane of the motion; negative: concave, 0: flat",
+    )
+    radius_y1: float = real(0.0, "m", "[-1e3, 1e3]", "radius of body 1 across the motion")
+    radius_x2: float = real(0.0, "m", "[-1e3, 1e3]", "radius of body 2 in the plane of the motion")
+    radius_y2: float = real(0.0, "m", "[-1e3, 1e3]", "radius of body 2 across the motion")
+    modulus_1: float = real(2.06e11, "Pa", "[1e3, 2e12]", "Young's modulus of body 1")
+    modulus_2: float = real(2.06e11, "Pa", "[1e3, 2e12]", "Young's modulus of body 2")
+    poisson_1: float = real(0.3, "-", "[-0.5, 0.5]", "Poisson's ratio of body 1")
+    poisson_2: float = real(0.3, "-", "[-0.5, 0.5]", "Poisson's ratio of body 2")
+    given: bool = False
+    """Whether they hold."""
+
+
+@dataclass(slots=True)
+class Grid:
+    """``&grid``: the domain in Hertz radii a and its finest grid."""
+
+    points: int = whole(
+        513,
+        "[17, 4097]",
+        "nodes along X, odd; points - 1 halved stays even to 32; default 1025 if 513 misses 5 % "
+        "of H_c",
+    )
+    points_y: int = whole(
+        0,
+        "0 or [9, 40961]",
+        "nodes along Y, halved as often; default points in a round contact, else by the shape of "
+        "the cells",
+    )
+    x_inlet: float = real(-2.5, "a", "[-1e4, -1.05]", "inlet boundary X; default by M and L")
+    x_outlet: float = real(1.5, "a", "[1.05, 1e4]", "outlet boundary X; default by M and L")
+    y_extent: float = real(
+        2.0,
+        "a",
+        "[0.03, 1e4]",
+        "side boundaries Y = -y_extent and y_extent; default by M, L and the ellipse",
+    )
+    border: str = word(
+        "zero",
+        "flooded|zero",
+        "pressure of a flooded contact, or P = 0; default: the former below M = 500 or above "
+        "kappa = 4",
+    )
+    target_error: float = real(
+        0.0, "-", "0 or [1e-5, 0.1]", "relative error of H_c wanted; 0: solve on points as given"
+    )
+    max_points: int = whole(2049, "[17, 8193]", "most nodes per side that target_error may choose")
+
+
+@dataclass(slots=True)
+class Time:
+    """``&time``: the transient run of a moving surface."""
+
+    scheme: str = word(
+        "narrow", "narrow|paper", "wedge and squeeze: along the characteristic, or each by itself"
+    )
+    tolerance: float = real(
+        0.001, "-", "[1e-8, 0.5]", "stop when the period mean of mu_r/mu_s changes less, relatively"
+    )
+    max_periods: int = whole(
+        0, "[0, 100000]", "most periods, of two surfaces those of the slower one; 0: 36"
+    )
+    start: str = word(
+        "front",
+        "front|prediction",
+        "roughness enters behind a front, or fills the contact as pyehl predicts",
+    )
+    skip_start: bool = truth(True, "solve nothing before the roughness comes near the contact")
+    estimate_error: bool = truth(
+        True, "run on the next coarser grid too, for the grid error of mu_ratio"
+    )
+    steps: int = whole(0, "[0, 10000000]", "exactly so many steps; 0: until the friction is known")
+
+
+@dataclass(slots=True)
+class Solver:
+    """``&solver``: how the equations are solved."""
+
+    deflection: str = word("mlmi", "mlmi|fft", "evaluation of the elastic deflection")
+    coarsening: str = word(
+        "auto",
+        "auto|classical|alcouffe",
+        "transfers in time steps: bilinear, or by the conductance (Galerkin)",
+    )
+    symmetry: str = word(
+        "auto", "auto|full", "auto: half the domain where the scene is symmetric in Y"
+    )
+    cycle: str = word(
+        "auto",
+        "auto|W|V|F",
+        "multigrid cycle, all of a kind; auto: F and a light second one for a smooth contact, V "
+        "for time steps",
+    )
+    accuracy: float = real(
+        0.1, "-", "[1e-6, 1]", "algebraic error wanted as a share of the discretisation error"
+    )
+    max_cycles: int = whole(
+        30,
+        "[1, 10000]",
+        "most cycles per level; ten times as many in a time step that needs damped changes",
+    )
+    threads: int = whole(1, "[1, 256]", "OpenMP threads; the result does not depend on it")
+
+
+@dataclass(slots=True)
+class Psd:
+    """``&psd``: the friction prediction from the spectrum of the surface."""
+
+    reduction: str = word(
+        "response",
+        "response|amplitude",
+        "what is left of a wave: complex response, or the real ratio of the paper",
+    )
+    smooth: str = word(
+        "solved",
+        "solved|hertz",
+        "smooth contact: solved, or semi-ellipse and uniform film as in the paper",
+    )
+    film_thickness: float = real(
+        0.0,
+        "m",
+        "[0, 1e-3]",
+        "central film; 0: solved, or with smooth = 'hertz' from the Nijenbanning-Venner-Moes "
+        "formula",
+    )
+    film_limit: float = real(
+        0.0, "m", "[0, 1e-3]", "film; the share of the contact with less is reported; 0: none"
+    )
+    wavelength_convention: str = word(
+        "components",
+        "components|wavevector|pattern",
+        "what the wavelength of a component is, for reduction = 'amplitude'",
+    )
+    stiffness: str = word("exact", "exact|paper", "stiffness of the half-space")
+    viscosity_law: str = word(
+        "",
+        "roelands|barus|dicke|yasutomi|doolittle|table|",
+        "viscosity under pressure; default as in &lubricant",
+    )
+    load_balance: bool = truth(False, "rebalance the pressure to carry the load")
+    positions: int = whole(
+        0, "[0, 4096]", "positions of the surface over one passage; 0: automatic"
+    )
+
+
+@dataclass(slots=True)
+class Output:
+    """``&output``: what is written."""
+
+    fields: bool = truth(True, "write the fields X, Y, P, H")
+    frame_interval: float = real(
+        0.0,
+        "a/u",
+        "[0, 1000]",
+        "time between frames of P and H that a transient run keeps; 0: none",
+    )
+    checkpoint_interval: float = real(
+        30.0, "s", "[0, 1e6]", "wall time between states of a transient run kept on disk; 0: none"
+    )

@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A key of a case: what it takes, what it means, its default."""
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any, TypeVar
+
+from pyehl.case.number import quoted, to_text
+
+Value = bool | int | float | str | tuple[float, ...]
+
+NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][-+]?\d+)?", re.ASCII)
+TRUTHS = {
+    **dict.fromkeys((".true.", "true", "t", ".t."), True),
+    **dict.fromkeys((".false.", "false", "f", ".f."), False),
+}
+
+
+@dataclass(frozen=True)
+class Key:
+    """One key of a case.
+
+    Attributes
+    ----------
+    group, key
+        Its names in a namelist.
+    kind
+        'real', 'whole', 'truth', 'word', 'path', 'text', or 'numbers', which pyehl writes alone.
+    unit
+        Of a number; '-' for none.
+    allowed
+        Numbers: an interval as '(0, 10]' or '0 or [1, 5]'; words: 'this|that'.
+    meaning
+        In a sentence.
+    default_value
+        What holds where it is not given and does not follow from other keys.
+    """
+
+    group: str
+    key: str
+    kind: str
+    unit: str
+    allowed: str
+    meaning: str
+    default_value: Value
+
+    @cached_property
+    def name(self) -> str:
+        """``group.key``."""
+        return f"{self.group}.{self.key}"
+
+    @cached_property
+    def default(self) -> str:
+        """The default as a namelist has it."""
+        return to_text(self.default_value)
+
+    @cached_property
+    def for_input(self) -> bool:
+        """Whether people give it, and not pyehl alone."""
+        return not self.meaning.endswith("not for input")
+
+    @cached_property
+    def choices(self) -> list[str]:
+        """Words that are allowed."""
+        return self.allowed.split("|")
+
+    @cached_property
+    def by_word(self) -> dict[str, str]:
+        """Words that are allowed, by their small letters."""
+        return {word.lower(): word for word in self.choices}
+
+    @cached_property
+    def interval(self) -> tuple[float, float, bool, bool]:
+        """Ends of what is allowed, whether the lower one is not, and whether 0 is besides."""
+        inner = self.allowed.removeprefix("0 or ")
+        low, high = inner[1:-1].split(",")
+        return float(low), float(high), inner[0] == "(", inner != self.allowed
+
+    def allows(self, value: float) -> bool:
+        """Whether a number lies in the allowed interval."""
+        low, high, is_open, or_zero = self.interval
+        return (low <= value <= high and not (is_open and value == low)) or (
+            or_zero and value == 0.0
+        )
+
+    @cached_property
+    def expected(self) -> str:
+        """What kind of value the key takes, in words, with its range."""
+        if self.kind in ("real", "whole"):
+            kind = "a number" if self.kind == "real" else "a whole number"
+            unit = f" (unit {self.unit}, not written)" if self.unit != "-" else ""
+            return f"{kind}{unit} in {self.allowed}"
+        if self.kind == "word":
+            *words, last = map(quoted, self.choices)
+            return "".join(f"{word}, " for word in words) + f"or {last}"
+        return {
+            "truth": ".true. or .false.",
+            "path": "a file name between quotes",
+            "text": "a text between quotes",
+            "numbers": "what pyehl writes; lubricant.table names measured values",
+        }[self.kind]
+
+    def in_millimetres(self, number: str) -> str:
+        """Give '; 9.525 mm is 9.525e-3' for the number of a radius that will be in mm; else ''."""
+        if not self.key.startswith("radius") or self.unit != "m" or re.search("[eEdD]", number):
+            return ""
+        if not NUMBER.fullmatch(number) or abs(float(number)) < 1.0:
+            return ""
+        return f"; {number} mm is {number}e-3"
+
+
+T = TypeVar("T")
+
+
+def typed(kind: type[T], group: Mapping[str, Any]) -> T:
+    """Give values of a group of a resolved case as attributes; other keys have their defaults."""
+    names = kind.__dataclass_fields__  # type: ignore[attr-defined]
+    return kind(**{key: value for key, value in group.items() if key in names})
+
+
+def real(default: float, unit: str, allowed: str, meaning: str) -> Any:  # noqa: ANN401
+    """Describe a key that takes a number."""
+    return _field("real", default, unit, allowed, meaning)
+
+
+def whole(default: int, allowed: str, meaning: str) -> Any:  # noqa: ANN401
+    """Describe a key that takes a whole number."""
+    return _field("whole", default, "-", allowed, meaning)
+
+
+def truth(default: bool, meaning: str) -> Any:  # noqa: ANN401
+    """Describe a key that takes a truth value."""
+    return _field("truth", default, "-", ".true.|.false.", meaning)
+
+
+def word(default: str, allowed: str, meaning: str) -> Any:  # noqa: ANN401
+    """Describe a key that takes one of some words."""
+    return _field("word", default, "-", allowed, meaning)
+
+
+def path(meaning: str) -> Any:  # noqa: ANN401
+    """Describe a key that takes the name of a file."""
+    return _field("path", "", "-", "", meaning)
+
+
+def text(meaning: str) -> Any:  # noqa: ANN401
+    """Describe a key that takes any text."""
+    return _field("text", "", "-", "", meaning)
+
+
+def numbers(unit: str, meaning: str) -> Any:  # noqa: ANN401
+    """Describe a key that takes numbers, which nobody types."""
+    return _field("numbers", (), unit, "", meaning)
+
+
+def _field(kind: str, default: Value, unit: str, allowed: str, meaning: str) -> Any:  # noqa: ANN401
+    metadata = {"kind": kind, "unit": unit, "allowed": allowed, "meaning": meaning}
+    return field(default=default, metadata=metadata)

@@ -1,0 +1,219 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The group ``&lubricant`` of a case, key by key."""
+
+from dataclasses import dataclass
+
+from pyehl.case.key import numbers, path, real, truth, word
+from pyehl.case.oils import OILS
+
+
+@dataclass(slots=True)
+class Lubricant:
+    """``&lubricant``: viscosity and density under pressure, shear stress, temperature."""
+
+    name: str = word(
+        "",
+        "fva3|n100|pao100|",
+        "an oil whose constants are known ('pyehl lubricants'); keys given beside it rule",
+    )
+    table: str = path("measured viscosities over pressure and temperature: CSV")
+    viscosity: float = real(0.04, "Pa s", "[1e-4, 10]", "viscosity at ambient pressure")
+    pressure_viscosity: float = real(
+        2.2e-8,
+        "1/Pa",
+        "0 or [1e-10, 1e-7]",
+        "pressure-viscosity coefficient; 0: the viscosity does not change with pressure",
+    )
+    viscosity_law: str = word(
+        "roelands",
+        "roelands|barus|dicke|yasutomi|doolittle|table",
+        "viscosity under pressure; default that of name or table",
+    )
+    roelands_z: float = real(
+        0.0,
+        "-",
+        "[0, 1e4]",
+        "Roelands exponent, there 1e-3 to 2; default alpha p0/(ln eta0 + 9.67)",
+    )
+    roelands_p0: float = real(1.96e8, "Pa", "[1e7, 1e10]", "Roelands reference pressure")
+    vogel_viscosity: float = real(
+        0.0, "Pa s", "0 or [1e-9, 1]", "K of eta = K exp(B/(theta + C)), for dicke"
+    )
+    vogel_b: float = real(0.0, "K", "[0, 1e4]", "B of it")
+    vogel_c: float = real(0.0, "degC", "[-100, 300]", "C of it")
+    dicke_a1: float = real(
+        0.0,
+        "Pa",
+        "[-1e10, 1e10]",
+        "a1 of ln(eta/eta0) = p/(a1 + a2 theta + (b1 + b2 theta) p), theta in degC",
+    )
+    dicke_a2: float = real(0.0, "Pa/K", "[-1e8, 1e8]", "a2 of it")
+    dicke_b1: float = real(0.0, "-", "[-1, 1]", "b1 of it")
+    dicke_b2: float = real(0.0, "1/K", "[-0.01, 0.01]", "b2 of it")
+    yasutomi_tg0: float = real(
+        0.0,
+        "degC",
+        "[-200, 100]",
+        "glass temperature at ambient pressure, of the improved Yasutomi correlation",
+    )
+    yasutomi_a1: float = real(0.0, "K", "[0, 1e4]", "A1 of it")
+    yasutomi_a2: float = real(0.0, "1/Pa", "[0, 1e-7]", "A2 of it")
+    yasutomi_b1: float = real(0.0, "1/Pa", "[0, 1e-6]", "b1 of it")
+    yasutomi_b2: float = real(0.0, "-", "[-2, 0]", "b2 of it")
+    yasutomi_c1: float = real(0.0, "-", "0 or [1, 100]", "C1 of it")
+    yasutomi_c2: float = real(0.0, "K", "0 or [1, 500]", "C2 of it")
+    yasutomi_viscosity: float = real(1e12, "Pa s", "[1e3, 1e15]", "viscosity of the glass")
+    doolittle_viscosity: float = real(
+        0.0,
+        "Pa s",
+        "0 or [1e-6, 1e3]",
+        "viscosity eta_R at doolittle_temperature and p = 0, of Doolittle's law; it needs tait_...",
+    )
+    doolittle_temperature: float = real(0.0, "degC", "[-100, 300]", "T_R of it")
+    doolittle_b: float = real(0.0, "-", "0 or [0.1, 50]", "B of it")
+    doolittle_r0: float = real(
+        0.0, "-", "0 or [0.1, 0.99]", "R0 of it: occupied volume at T_R over the whole one"
+    )
+    doolittle_expansion: float = real(
+        0.0, "1/K", "[-0.01, 0.01]", "thermal expansion epsilon of the occupied volume"
+    )
+    density_law: str = word(
+        "dowson-higginson",
+        "dowson-higginson|incompressible|murnaghan|tait",
+        "density under pressure",
+    )
+    murnaghan_modulus: float = real(
+        0.0, "Pa", "0 or [1e8, 1e12]", "K00 of the bulk modulus K0 = K00 exp(-beta_K T), T in K"
+    )
+    murnaghan_rate: float = real(0.0, "-", "0 or [1, 50]", "K0', its rate with pressure")
+    murnaghan_softening: float = real(0.0, "1/K", "[0, 0.1]", "beta_K of it")
+    tait_modulus: float = real(
+        0.0,
+        "Pa",
+        "0 or [1e8, 1e12]",
+        "K00 of the bulk modulus K0 = K00 exp(-beta_K T), T in K, of Tait's law",
+    )
+    tait_rate: float = real(0.0, "-", "0 or [1, 50]", "K0', its rate with pressure")
+    tait_softening: float = real(0.0, "1/K", "[0, 0.1]", "fall beta_K of K0 with temperature")
+    tait_expansion: float = real(
+        0.0,
+        "1/K",
+        "[0, 5e-3]",
+        "expansion a_V of the volume at tait_temperature; thermal_expansion is not used",
+    )
+    tait_temperature: float = real(0.0, "degC", "[-100, 300]", "T_R of it")
+    range_temperature_min: float = real(
+        0.0,
+        "degC",
+        "[-100, 500]",
+        "the constants of the law were measured from there on; both 0: not known",
+    )
+    range_temperature_max: float = real(0.0, "degC", "[-100, 500]", "and up to there")
+    range_pressure_max: float = real(
+        0.0, "Pa", "0 or [1e5, 1e11]", "and up to this pressure; 0: not known"
+    )
+    shear_law: str = word(
+        "newtonian", "newtonian|eyring|limiting|carreau", "shear stress in the contact"
+    )
+    flow: str = word(
+        "consistent",
+        "consistent|newtonian",
+        "whether eyring and carreau thin the flow that makes the film, too, or the friction alone",
+    )
+    eyring_stress: float = real(5000000.0, "Pa", "[1e4, 1e9]", "Eyring stress")
+    limiting_stress: float = real(
+        0.0,
+        "Pa",
+        "0 or [1e5, 1e10]",
+        "limiting shear stress; 0: limiting_coefficient times pressure",
+    )
+    limiting_coefficient: float = real(
+        0.06, "-", "[1e-4, 1]", "limiting shear stress over pressure"
+    )
+    carreau_stress: float = real(
+        0.0, "Pa", "0 or [1e2, 1e10]", "stress G of Carreau at which thinning begins; no default"
+    )
+    carreau_exponent: float = real(
+        0.0, "-", "0 or [0.05, 1]", "power-law exponent n of Carreau; no default"
+    )
+    boundary_film: float = real(
+        0.0,
+        "m",
+        "0 or [1e-11, 1e-5]",
+        "film at ambient pressure that contact does not squeeze out; 0: none, and no contact",
+    )
+    boundary_friction: float = real(
+        0.0,
+        "-",
+        "0 or [1e-3, 2]",
+        "friction coefficient where the bodies touch at the boundary film; 0: not known",
+    )
+    temperature: float = real(
+        40.0,
+        "degC",
+        "[-60, 250]",
+        "temperature of the inlet; needs what tells the viscosity by temperature",
+    )
+    kinematic_viscosity_40: float = real(
+        0.0,
+        "mm^2/s",
+        "0 or [1, 1e5]",
+        "at 40 degC, as on data sheets; viscosity then follows. 0: not known",
+    )
+    kinematic_viscosity_100: float = real(
+        0.0, "mm^2/s", "0 or [0.5, 1e4]", "at 100 degC; both or none"
+    )
+    density_15: float = real(870.0, "kg/m^3", "[500, 2000]", "density at 15 degC")
+    thermal_expansion: float = real(
+        0.00065, "1/K", "[0, 2e-3]", "relative fall of the density with temperature"
+    )
+    thermal_reduction: bool = truth(
+        False, "shear heating of the inlet thins the film (Gupta et al. 1992)"
+    )
+    temperature_viscosity: float = real(
+        0.0,
+        "1/K",
+        "0 or [1e-3, 0.3]",
+        "-(d eta/dT)/eta; default from the kinematic viscosities, 0: not known",
+    )
+    thermal_conductivity: float = real(
+        0.14, "W/(m K)", "[0.01, 2]", "thermal conductivity of the oil, for its heat"
+    )
+    thermal_friction: str = word(
+        "auto",
+        "auto|always|never",
+        "friction with the temperature of the film; auto: where it counts and "
+        "temperature_viscosity is known",
+    )
+    alpha_origin: str = word(
+        "given",
+        "given|estimated|default",
+        "where pressure_viscosity is from; default: from no key; not for input",
+    )
+    inlet_law: str = word(
+        "",
+        "dicke|yasutomi|doolittle|table|",
+        "law of viscosity and pressure_viscosity where it is not viscosity_law; not for input",
+    )
+    table_temperature: tuple[float, ...] = numbers("degC", "what table holds; not for input")
+    table_pressure: tuple[float, ...] = numbers("Pa", "what table holds; not for input")
+    table_viscosity: tuple[float, ...] = numbers("Pa s", "what table holds; not for input")
+
+    @property
+    def own_law(self) -> str:
+        """The law that tells viscosity and alpha of the inlet: table, oil or key; '' for none."""
+        if self.table or self.table_pressure:
+            return "table"
+        if self.name:
+            return OILS[self.name].viscosity_law
+        simple = self.viscosity_law in ("roelands", "barus")
+        return self.inlet_law if simple else self.viscosity_law
+
+    def uses_law(self, law: str) -> bool:
+        """Whether a law tells the viscosity of the inlet, or how it rises with pressure."""
+        return law in (self.own_law, self.viscosity_law)
+
+    @property
+    def knows_temperature(self) -> bool:
+        """Whether a law of viscosity or density tells how the oil changes with temperature."""
+        return self.own_law != "" or self.density_law in ("murnaghan", "tait")

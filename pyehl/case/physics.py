@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the completion of a case takes from the solver, so that it is written once."""
+
+import math
+from collections.abc import Sequence
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+
+from pyehl.case.settings import Settings
+from pyehl.errors import check
+from pyehl.extension import cases, lubricants
+from pyehl.types import Array
+
+BORDERS = ("", "zero", "flooded")
+"""As the extension counts them; '' is to be found."""
+
+
+class Point(NamedTuple):
+    """Hertz pressure [Pa] and radius [m], Moes numbers, half lengths of the contact [a]."""
+
+    pressure: float
+    length: float
+    moes_m: float
+    moes_l: float
+    round_m: float
+    reach_x: float
+    reach_y: float
+
+
+class Domain(NamedTuple):
+    """Border, ends of the domain [a], nodes along X and Y."""
+
+    border: str
+    x_inlet: float
+    x_outlet: float
+    y_extent: float
+    points: int
+    points_y: int
+
+
+def _contact(settings: Settings) -> tuple[float, ...]:
+    """Give what makes the contact, in the order of the extension."""
+    c, oil = settings.contact, settings.lubricant
+    return (
+        *(c.si, c.radius_ratio, c.angle, c.load, c.mean_velocity, c.radius_x, c.reduced_modulus),
+        *(oil.viscosity, oil.pressure_viscosity, c.moes_m, c.moes_l),
+    )
+
+
+def point(settings: Settings) -> Point:
+    """Operating point of a case, without the heat of the inlet."""
+    return _point(_contact(settings))
+
+
+@lru_cache(maxsize=256)
+def _point(values: tuple[float, ...]) -> Point:
+    *numbers, reach, _ = cases.operating(*values)
+    return Point(*numbers, *reach.tolist())
+
+
+def grid_defaults(
+    settings: Settings, border: str, ends: Sequence[float | None], points: int, points_y: int
+) -> Domain:
+    """Border, domain and nodes that a contact needs; '', None and 0 are to be found.
+
+    Nodes along X of smooth surfaces are twice as many where fewer miss much of the film.
+    """
+    smooth = settings.surface.kind == settings.second_surface.kind == "smooth"
+    return _grid(_contact(settings), border, tuple(ends), points, points_y, smooth)
+
+
+@lru_cache(maxsize=256)
+def _grid(
+    values: tuple[float, ...],
+    border: str,
+    ends: tuple[float | None, ...],
+    points: int,
+    points_y: int,
+    smooth: bool,
+) -> Domain:
+    given = [math.nan if end is None else end for end in ends]
+    number = BORDERS.index(border)
+    found, domain, nx, ny = cases.grid_defaults(*values, number, smooth, given, points, points_y)
+    x_inlet, x_outlet, y_extent = domain.tolist()
+    return Domain(BORDERS[found], x_inlet, x_outlet, y_extent, nx, ny)
+
+
+def sheet(
+    temperature: float, viscosities: Sequence[float], density: float, expansion: float
+) -> tuple[float, float]:
+    """Viscosity [Pa s] and -(d eta/dT)/eta [1/K] of an oil by its data sheet."""
+    viscosity, slope = cases.sheet(temperature, viscosities, density, expansion)
+    return viscosity, slope
+
+
+def inlet(group: str) -> tuple[float, float, float]:
+    """Viscosity [Pa s], alpha [1/Pa] and -(d eta/dT)/eta [1/K] by the law of a lubricant.
+
+    `group` is ``&lubricant``. The viscosity is not finite where the law has none.
+    """
+    viscosity, alpha, slope, status, _, message = cases.inlet(group.encode())
+    check(status, message)
+    return viscosity, alpha, slope
+
+
+def under_pressure(group: str, pressure: Array) -> tuple[Array, Array]:
+    """ln(eta/eta0) and rho/rho0 of a lubricant at pressures [Pa]."""
+    viscosity, density = np.empty(pressure.size), np.empty(pressure.size)
+    check(
+        *lubricants.properties(
+            group.encode(), pressure, np.zeros(pressure.size), viscosity, density
+        )
+    )
+    return viscosity, density

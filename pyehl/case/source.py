@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A text with a name, messages that point into it, and its pieces with their positions.
+
+Positions are those of Python: the first character, and the one behind the last.
+"""
+
+import re
+from dataclasses import dataclass
+from typing import NamedTuple, NoReturn
+
+from pyehl.errors import InputError
+
+# Longest part of a line that a message shows
+SHOWN = 100
+CONTROL = re.compile(r"[\x00-\x08\x0a-\x1f\x7f]")
+NO_TEXT = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f]")
+BLANKS = " \t\r\n"
+
+END, GROUP, ATOM, STRING, OPEN_STRING, EQUALS, COMMA, SLASH = (
+    *("end", "group", "atom", "string", "open_string"),
+    *("equals", "comma", "slash"),
+)
+_ATOM = r"[^ \t\r\n,/=!'\"&;]"
+# Blanks and comments, then a piece; a character that can begin no piece is a piece of its own
+PIECE = re.compile(
+    r"(?>(?:[ \t\r\n]+|![^\n]*)*)"
+    rf"(?:(?P<atom>{_ATOM}+)|(?P<equals>=)|(?P<comma>,)|(?P<slash>/)|(?P<group>&{_ATOM}*)"
+    r"|(?P<string>'(?:[^'\n]|'')*'(?!')|\"(?:[^\"\n]|\"\")*\"(?!\"))"
+    r"|(?P<open_string>['\"][^\n]*)|(?P<other>.))"
+)
+
+
+class Piece(NamedTuple):
+    """One piece of a text.
+
+    `text` has the characters of an atom, the name of a group without '&', a string without its
+    quotes.
+    """
+
+    kind: str
+    first: int
+    end: int
+    text: str
+
+
+@dataclass(slots=True)
+class Source:
+    """The text of a case file, or of one option.
+
+    Attributes
+    ----------
+    name
+        What a message calls it: a file name, or the option as it was given.
+    text
+        Ends with a line end.
+    has_lines
+        Whether messages give line and column.
+    """
+
+    name: str
+    text: str
+    has_lines: bool = True
+
+    def scan(self, position: int) -> Piece:
+        """Give the piece at or behind a position; '!' starts a comment."""
+        match = PIECE.match(self.text, position)
+        if match is None:
+            return Piece(END, len(self.text), len(self.text) + 1, "")
+        kind = match.lastgroup or END
+        first, end = match.span(kind)
+        text = match[kind]
+        if kind == STRING:
+            text = text[1:-1].replace(2 * text[0], text[0])
+        elif kind == GROUP:
+            text = text[1:]
+        elif kind == "other":
+            kind = ATOM
+        return Piece(kind, first, end, text)
+
+    @property
+    def length(self) -> int:
+        """Length of the text without blanks and line ends at its end."""
+        return len(self.text.rstrip(BLANKS))
+
+    def line(self, position: int) -> int:
+        """Line of a position, from 1."""
+        return self.text.count("\n", 0, position) + 1
+
+    def check_characters(self) -> None:
+        """Refuse control characters, which have no place in a text."""
+        if (match := NO_TEXT.search(self.text)) is not None:
+            code = ord(match[0])
+            what = f"this is not a text file (byte {code})"
+            self.refuse(match.start(), match.end(), what, "namelist text")
+
+    def refuse(self, first: int, end: int, what: str, expected: str) -> NoReturn:
+        """Refuse what stands at text[first:end]: InputError with a message of four lines.
+
+        ``name:line:column: error: what``; the line; carets under the fault; what was expected.
+        """
+        start = self.text.rfind("\n", 0, first) + 1
+        finish = self.text.find("\n", start)
+        # of a long line only the part around the fault is shown
+        begin = first - SHOWN // 2 if first - start > SHOWN - 20 else start
+        place, margin = self.name, "  "
+        if self.has_lines:
+            number = self.line(first)
+            place += f":{number}:{first - start + 1}"
+            margin += f"{number} "
+        shown = CONTROL.sub(" ", self.text[begin : min(finish, begin + SHOWN)])
+        blanks = re.sub(r"[^\t]", " ", self.text[begin:first])
+        carets = "^" * max(1, min(end, finish) - first)
+        message = (
+            f"{place}: error: {what}\n{margin}| {shown}\n{' ' * len(margin)}| {blanks}{carets}\n"
+            f"expected: {expected}"
+        )
+        # what is no UTF-8 cannot be printed
+        raise InputError(message.encode(errors="surrogateescape").decode(errors="replace"))

@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A resolved case as namelist text that reads back as the same case, every value spelled out."""
+
+from collections.abc import Collection, Iterator, Mapping
+from functools import cache
+
+from pyehl.case.key import Key, Value
+from pyehl.case.number import to_text
+from pyehl.case.settings import GROUPS, Settings
+
+OPTIONAL = (
+    *("name", "table", "inlet_law"),
+    *("table_temperature", "table_pressure", "table_viscosity"),
+)
+"""Keys of the lubricant that are written where they say something."""
+LAWS = {
+    "vogel": "dicke",
+    "dicke": "dicke",
+    "yasutomi": "yasutomi",
+    "doolittle": "doolittle",
+    "tait": "doolittle",
+}
+"""Laws of viscosity by the beginning of the keys of their constants."""
+
+
+def case_text(settings: Settings, given: Collection[str]) -> str:
+    """Give a case as text.
+
+    Of keys that exclude each other only the one that holds is written. Values that are not among
+    those `given` are marked as defaults, or as derived from others. A second surface that nobody
+    asked for is left out.
+    """
+    blocks = []
+    for group, keys in GROUPS.items():
+        if (
+            group == "second_surface"
+            and settings.second_surface.kind == "smooth"
+            and not any(name.startswith("second_surface.") for name in given)
+        ):
+            continue
+        owner, lines = getattr(settings, group), []
+        unwritten = _unwritten(settings, group)
+        for key in keys:
+            if key.key in unwritten:
+                continue
+            value = getattr(owner, key.key)
+            if key.name in given:
+                lines.append(_line(key, value))
+            elif value == key.default_value:
+                lines.append(_default_line(key))
+            else:
+                lines.append(f"{_line(key, value)} ! derived")
+        if lines:
+            blocks.append("\n".join([f"&{group}", *lines, "/\n"]))
+    return "".join(blocks)
+
+
+def group_text(settings: Settings, group: str, other: Mapping[str, Value] | None = None) -> str:
+    """Give a group as text for the solver, with some other values."""
+    owner, unwritten = getattr(settings, group), _unwritten(settings, group)
+    lines = []
+    for key in GROUPS[group]:
+        if key.key not in unwritten:
+            value = (
+                getattr(owner, key.key) if other is None or key.key not in other else other[key.key]
+            )
+            lines.append(f"{key.key} = {to_text(value)}")
+    return "\n".join([f"&{group}", *lines, "/\n"])
+
+
+@cache
+def _ends(key: Key) -> tuple[str, str]:
+    """Give what stands before a value and behind it."""
+    unit = "" if key.unit == "-" else f"[{key.unit}] "
+    return f"   {key.key} = ", f"! {unit}{key.meaning}"
+
+
+def _line(key: Key, value: Value) -> str:
+    before, behind = _ends(key)
+    return f"{before + to_text(value):<43} {behind}"
+
+
+@cache
+def _default_line(key: Key) -> str:
+    return f"{_line(key, key.default_value)} ! default"
+
+
+def _unwritten(settings: Settings, group: str) -> frozenset[str]:
+    """Keys of a group that carry no value, or whose rival does."""
+    if group == "contact":
+        return frozenset(_of_contact(settings))
+    if group == "bodies":
+        keys = () if settings.bodies.given else (key.key for key in GROUPS["bodies"])
+        return frozenset(keys)
+    if group == "lubricant":
+        return frozenset(_of_lubricant(settings))
+    if group in ("surface", "second_surface"):
+        return frozenset(_of_surface(settings, group))
+    return frozenset()
+
+
+def _of_contact(settings: Settings) -> Iterator[str]:
+    c = settings.contact
+    if c.si:
+        yield from ("moes_m", "moes_l", "radius_ratio")
+        yield from ("radius_x", "radius_y") if c.round else ("radius",)
+    else:
+        yield from ("load", "mean_velocity", "reduced_modulus", "radius", "radius_x", "radius_y")
+    for key in ("hardness", "thermal_conductivity_2", "thermal_diffusivity_2"):
+        if getattr(c, key) <= 0.0:
+            yield key
+
+
+def _of_lubricant(settings: Settings) -> Iterator[str]:
+    oil = settings.lubricant
+    optional = (
+        "name",
+        "table",
+        "inlet_law",
+        "table_temperature",
+        "table_pressure",
+        "table_viscosity",
+    )
+    yield from (key for key in optional if not getattr(oil, key))
+    if oil.alpha_origin == "given":
+        yield "alpha_origin"
+    sheet = oil.kinematic_viscosity_40 > 0.0
+    warm = oil.knows_temperature or oil.temperature_viscosity > 0.0
+    if not warm:
+        yield "temperature"
+    if not (sheet if oil.density_law == "tait" else warm):
+        yield "thermal_expansion"
+    if not sheet:
+        yield "density_15"
+    if oil.limiting_stress > 0.0:
+        yield "limiting_coefficient"
+    for key in GROUPS["lubricant"]:
+        law = key.key.partition("_")[0]
+        if (
+            (law in LAWS and not oil.uses_law(LAWS[law]) and law != oil.density_law)
+            or (law == "murnaghan" != oil.density_law)
+            or (law == "range" and not oil.own_law)
+        ):
+            yield key.key
+
+
+def _of_surface(settings: Settings, group: str) -> Iterator[str]:
+    surface = getattr(settings, group)
+    if (
+        surface.amplitude_given
+        or surface.height_m > 0.0
+        or not (surface.kind == "harmonic" or surface.is_feature)
+    ):
+        yield "amplitude_over_film"
+    if not surface.amplitude_given:
+        yield "amplitude"
+    if surface.width_m > 0.0:
+        yield "width"
+    if surface.length_m > 0.0:
+        yield "length"

@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Cases resolve to what the Fortran reader of commit 2e4262cb made of them (golden_cases.json).
+
+The record holds of a resolved case the lines that differ from the case of all defaults, or from the
+one whose key was changed, with what each value is ('given', 'default' or 'derived'), and of a
+refused one the message. Of each key it has a case that takes it, and a refusal where there is one.
+Since then messages list only keys that people give, and the keys ADDED are written for the solver.
+"""
+
+import json
+from pathlib import Path
+
+import pytest
+from golden_cases import made, outcome
+from test_malformed import FAULTS, MARK
+
+RECORD = json.loads(Path(__file__).with_name("golden_cases.json").read_text())
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("golden")
+
+
+def test_cases_resolve_as_recorded(folder: Path):
+    cases = made(folder)
+    for name, text, options, _ in FAULTS:
+        cases[f"fault: {name}"] = (text.replace(MARK, ""), [f"--set {o}" for o in options])
+    assert len(RECORD) > 400
+    bases = {n: outcome(*case, folder) for n, case in cases.items() if n.startswith("base: ")}
+    wrong = []
+    for name, recorded in RECORD.items():
+        found = outcome(*cases[name], folder)
+        if isinstance(found, list):
+            found = differences(found, bases[reference(name)])
+        if found != recorded:
+            wrong.append(f"{name}:\n{recorded}\n{found}")
+    assert not wrong, "\n".join(wrong[:5])
+
+
+def reference(name: str) -> str:
+    """Name of the case that the record of a case is compared with."""
+    base = f"base: {name.partition(': ')[0].removeprefix('written ')}"
+    return base if "=" in name.partition(": ")[2] and base != "base: fault" else "base: defaults"
+
+
+def differences(lines: list[str], others: list[str]) -> list[str]:
+    """Lines that were added, and behind a minus sign those that are gone."""
+    added = [line for line in lines if line not in others]
+    return added + [f"-{line}" for line in others if line not in lines]
