@@ -88,9 +88,13 @@ contains
       subroutine need_height(group, s)
          character(len=*), intent(in) :: group
          type(surface_case_t), intent(in) :: s
-         character(len=10), parameter :: keys(*) = [character(len=10) :: "ra", "rq", "finish"]
-         if (.not. (s%ra > 0.0_dp .or. s%rq > 0.0_dp .or. s%finish /= "none")) return
-         call need(source%first_given(group, keys), group, [character(len=10) :: "kind", "rms_height"], "rms_height alone")
+         character(len=:), allocatable :: key
+
+         key = ""
+         if (s%finish /= "none") key = group//".finish"
+         if (s%rq > 0.0_dp) key = group//".rq"
+         if (s%ra > 0.0_dp) key = group//".ra"
+         call need(key, group, [character(len=10) :: "kind", "rms_height"], "rms_height alone")
       end subroutine need_height
    end subroutine check_given
 

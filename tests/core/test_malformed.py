@@ -5,11 +5,12 @@ In the table a section sign marks the character under which the first caret must
 """
 
 import os
+import re
 from pathlib import Path
 
 import pytest
 
-from pyehl import cli
+from pyehl import Case, InputError, cli
 
 MARK = "§"
 
@@ -348,18 +349,14 @@ def place(marked: str) -> tuple[str, str]:
 
 
 @pytest.mark.parametrize(("name", "marked", "options", "parts"), FAULTS, ids=[f[0] for f in FAULTS])
-def test_malformed_case(drive, tmp_path: Path, capsys, monkeypatch, name, marked, options, parts):
+def test_malformed_case(tmp_path: Path, capsys, monkeypatch, name, marked, options, parts):
     text, where = place(marked)
     (tmp_path / "case.nml").write_bytes(text.encode())
-    words = ["case.nml", "-o", "out", *(word for option in options for word in ("--set", option))]
-    done = drive("ehl", *words)
     monkeypatch.chdir(tmp_path)
-    status = cli.main(["run", *words])
-    python = capsys.readouterr()
-    assert (done.returncode, status) == (2, 2)
-    assert (done.stdout, python.out) == ("", "")
-    assert done.stderr == python.err
-    message = done.stderr.splitlines()
+    assert cli.main(["run", *words_of(options)]) == 2
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    message = printed.err.splitlines()
     if where:
         assert message[0].startswith(f"case.nml{where}: error: ")
     else:
@@ -372,8 +369,43 @@ def test_malformed_case(drive, tmp_path: Path, capsys, monkeypatch, name, marked
     assert message[3].startswith("expected: ")
     assert len(message) == 4
     for part in parts:
-        assert part in done.stderr
+        assert part in printed.err
     assert [path.name for path in tmp_path.iterdir()] == ["case.nml"]
+
+
+# Commas that a namelist may have, and a group in two parts
+TAKEN = ("two commas", "comma first", "group twice")
+# Faults of the text before any name is read, and of the operating point, whose quantity is named
+NAMELESS = (
+    *("open quote", "unit with a slash", "no free volume", "a liquid without a volume"),
+    *("impossible pressure", "radius in mm"),
+)
+
+
+@pytest.mark.parametrize(("name", "marked", "options", "parts"), FAULTS, ids=[f[0] for f in FAULTS])
+def test_program_refuses_it(drive, tmp_path: Path, name, marked, options, parts):
+    """Without line and column, but with the key or the unknown name, and what was expected."""
+    if name in TAKEN:
+        pytest.skip("a namelist may be so")
+    (tmp_path / "case.nml").write_bytes(place(marked)[0].encode())
+    done = drive("ehl", *words_of(options))
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "error: " in done.stderr
+    assert done.stderr.splitlines()[-1].startswith("expected: ")
+    assert [path.name for path in tmp_path.iterdir()] == ["case.nml"]
+    with pytest.raises(InputError) as told:
+        Case.from_text(
+            place(marked)[0], [f"--set {option}" for option in options], origin="case.nml"
+        )
+    what = str(told.value).splitlines()[0].partition("error: ")[2]
+    names = re.findall(r"[a-z]\w+(?=\.)|\b\w+_\w+|&\w+|'\w+'", what)
+    found = any(name.strip("&'").lower() in done.stderr.lower() for name in names)
+    assert found or not names or name in NAMELESS
+
+
+def words_of(options: list[str]) -> list[str]:
+    """Command line behind the name of the driver."""
+    return ["case.nml", "-o", "out", *(word for option in options for word in ("--set", option))]
 
 
 def shown_line(text: str, where: str, options: list[str]) -> str:
@@ -428,9 +460,10 @@ def test_option_replaces_a_value_that_is_not_acceptable(drive, tmp_path: Path):
     options = [word for value in values for word in ("--set", value)]
     for driver in ("ehl", "pyehl"):
         assert drive(driver, "case.nml", "-o", driver, *options).returncode == 0
-    fault = drive("ehl", "case.nml", "-o", "out", *options[2:])
-    assert fault.returncode == 2
-    assert fault.stderr.startswith("case.nml:1:19: error: contact.moes_m = -3")
+    for driver, where in (("ehl", "1"), ("pyehl", "1:19")):
+        fault = drive(driver, "case.nml", "-o", "out", *options[2:])
+        assert fault.returncode == 2
+        assert fault.stderr.startswith(f"case.nml:{where}: error: contact.moes_m = -3")
 
 
 @pytest.mark.parametrize("driver", ["ehl", "pyehl"])
