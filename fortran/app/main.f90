@@ -61,8 +61,8 @@ program ehl
    destination%folder = arguments%folder
    destination%kind = "solution"
    destination%names = result_names
-   destination%inputs = arguments%case_file // newline // input%surface%file%text() // newline // &
-                        input%second_surface%file%text() // newline // input%lubricant%table%text() // newline
+   destination%inputs = arguments%case_file // newline // trim(input%surface%file) // newline // &
+                        trim(input%second_surface%file) // newline // trim(input%lubricant%table) // newline
    destination%kept = ""
    destination%force = arguments%force
    call destination%check(status)

@@ -11,13 +11,13 @@ module ehl_f2py_case
    use ehl_handles, only: put_text, reply
    use ehl_heat, only: dynamic_viscosity, temperature_viscosity
    use ehl_moes, only: operating_t
-   use ehl_read_case, only: read_case, read_lubricant
+   use ehl_read_case, only: read_lubricant
    use ehl_scales, only: scales_t
    use ehl_status, only: status_t
    use ehl_write_case, only: defaults_text
    implicit none (type, external)
    private
-   public :: operating, grid_defaults, inlet, sheet, check_case, defaults
+   public :: operating, grid_defaults, inlet, sheet, defaults
 
 contains
 
@@ -126,21 +126,6 @@ contains
       viscosity = dynamic_viscosity(temperature, viscosities, density_15, expansion)
       slope = temperature_viscosity(temperature, viscosities, density_15, expansion)
    end subroutine sheet
-
-   !> Whether the solver takes a resolved case; group.key of the value that it refuses
-   subroutine check_case(text, origin, stat, key, message)
-      character(len=*), intent(in) :: text, origin
-      integer(c_int), intent(out) :: stat
-      character(len=64), intent(out) :: key
-      character(len=4096), intent(out) :: message
-      type(case_t) :: input
-      type(status_t) :: status
-
-      call read_case(text, origin, "", input, status)
-      key = ""
-      if (allocated(status%key)) key = status%key
-      call reply(status, stat, message)
-   end subroutine check_case
 
    !> All keys with default and range, one a line with tabs between
    subroutine defaults(n, bytes, length)

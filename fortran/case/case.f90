@@ -6,7 +6,7 @@ module ehl_case
    implicit none (type, external)
    private
    public :: bodies_case_t, case_t, contact_case_t, grid_case_t, lubricant_case_t, output_case_t, psd_case_t, solver_case_t, &
-             surface_case_t, text_case_t, time_case_t, is_feature, has_no_height, word_length, &
+             surface_case_t, time_case_t, is_feature, has_no_height, word_length, &
              path_length
 
    !> Longest option word
@@ -14,16 +14,8 @@ module ehl_case
    !> Longest file name
    integer, parameter :: path_length = 1024
 
-   !> A file name or any other text, whose end may be blanks
-   type :: text_case_t
-      character(len=path_length), private :: padded = ""
-      integer, private :: length = 0
-   contains
-      procedure :: set
-      procedure :: text
-   end type text_case_t
-
-   ! Units, allowed values and meaning of the keys are in ehl_keys. A zero that is allowed there stands for "not given".
+   ! Units and meaning of the keys are in pyehl/case, what they take in ehl_case_ranges as well. A zero that is allowed there
+   ! stands for "not given".
 
    !> &contact: the operating point, by its Moes numbers or in SI units
    type :: contact_case_t
@@ -70,7 +62,7 @@ module ehl_case
       !> An oil whose constants are known; they rule where their keys are not given
       character(len=word_length) :: name = ""
       !> Measured viscosities; made absolute by the reader
-      type(text_case_t) :: table
+      character(len=path_length) :: table = ""
       !> What it holds [degC], [Pa], [Pa s]: by temperature, then by pressure
       real(dp), allocatable, dimension(:) :: table_temperature, table_pressure, table_viscosity
       !> The same as isotherms. Not a key; set by the reader.
@@ -144,8 +136,7 @@ module ehl_case
       real(dp) :: velocity_ratio = 1.01_dp
       real(dp) :: x_start = -2.5_dp
       !> Made absolute by the reader. .npy files are read here, the rest by pyehl.
-      type(text_case_t) :: file
-      type(text_case_t) :: channel
+      character(len=path_length) :: file = "", channel = ""
       !> Of a fractal surface set by the reader
       real(dp) :: length_x = 0.0_dp, length_y = 0.0_dp
       real(dp) :: crop_x_min = 0.0_dp, crop_x_max = 0.0_dp, crop_y_min = 0.0_dp, crop_y_max = 0.0_dp
@@ -233,27 +224,9 @@ module ehl_case
       type(output_case_t) :: output
       !> The case as namelist text
       character(len=:), allocatable :: text
-      !> Which keys were given, in the order of the table of keys; not allocated: nobody knows
-      logical, allocatable :: given(:)
    end type case_t
 
 contains
-
-   !> Take a text of at most path_length characters
-   pure subroutine set(self, text)
-      class(text_case_t), intent(inout) :: self
-      character(len=*), intent(in) :: text
-
-      self%padded = text
-      self%length = len(text)
-   end subroutine set
-
-   !> The text as it was given
-   pure function text(self)
-      class(text_case_t), intent(in) :: self
-      character(len=self%length) :: text
-      text = self%padded(:self%length)
-   end function text
 
    !> Whether a kind of surface is a single feature
    pure logical function is_feature(kind)

@@ -2,7 +2,7 @@
 !> What one key of a case alone cannot tell: keys that exclude each other, operating points and domains that cannot be
 !> solved, and values that pyehl has to complete
 module ehl_case_checks
-   use ehl_case, only: case_t
+   use ehl_case, only: case_t, surface_case_t
    use ehl_case_check_lubricant, only: check_lubricant
    use ehl_case_check_surface, only: check_surfaces
    use ehl_case_defaults, only: moes_keys, si_keys, sliding, velocity_ratio
@@ -59,8 +59,8 @@ contains
                 [character(len=21) :: "viscosity", "pressure_viscosity", "temperature_viscosity"], "the viscosity at the inlet")
       call need(if_given("lubricant.table"), "lubricant", [character(len=17) :: "viscosity_law", "table_temperature", &
                                                            "table_pressure", "table_viscosity"], "another law")
-      call need_height("surface")
-      call need_height("second_surface")
+      call need_height("surface", input%surface)
+      call need_height("second_surface", input%second_surface)
 
    contains
 
@@ -85,10 +85,16 @@ contains
          end do
       end subroutine need
 
-      subroutine need_height(group)
+      subroutine need_height(group, s)
          character(len=*), intent(in) :: group
-         character(len=10), parameter :: keys(*) = [character(len=10) :: "ra", "rq", "finish"]
-         call need(source%first_given(group, keys), group, [character(len=10) :: "kind", "rms_height"], "rms_height alone")
+         type(surface_case_t), intent(in) :: s
+         character(len=:), allocatable :: key
+
+         key = ""
+         if (s%finish /= "none") key = group//".finish"
+         if (s%rq > 0.0_dp) key = group//".rq"
+         if (s%ra > 0.0_dp) key = group//".ra"
+         call need(key, group, [character(len=10) :: "kind", "rms_height"], "rms_height alone")
       end subroutine need_height
    end subroutine check_given
 

@@ -138,7 +138,7 @@ contains
       type(status_t), intent(inout) :: status
 
       if (abs(isotherm%temperature - l%temperature - freezing) <= 0.01_dp) return
-      call status%fail(ehl_bad_input, l%table%text()//": error: the table has the single temperature "// &
+      call status%fail(ehl_bad_input, trim(l%table)//": error: the table has the single temperature "// &
                        to_text(isotherm%temperature - freezing)//" degC, and lubricant.temperature = "// &
                        to_text(l%temperature)//newline//"expected: that temperature, or a table of two or more")
    end subroutine check_single

@@ -30,7 +30,7 @@ contains
       logical, pointer :: thermal_reduction
       character(len=word_length), pointer :: name, alpha_origin, viscosity_law, inlet_law, density_law, shear_law, &
          flow, thermal_friction
-      character(len=path_length) :: table
+      character(len=path_length), pointer :: table
       real(dp), allocatable, dimension(:) :: table_temperature, table_pressure, table_viscosity
       namelist /lubricant/ name, table, alpha_origin, viscosity, pressure_viscosity, viscosity_law, inlet_law, &
          roelands_z, roelands_p0, &
@@ -43,7 +43,7 @@ contains
          kinematic_viscosity_100, density_15, thermal_expansion, thermal_reduction, temperature_viscosity, &
          thermal_conductivity, thermal_friction, table_temperature, table_pressure, table_viscosity
 
-      name => v%name; table = v%table%text(); alpha_origin => v%alpha_origin; viscosity => v%viscosity
+      name => v%name; table => v%table; alpha_origin => v%alpha_origin; viscosity => v%viscosity
       pressure_viscosity => v%pressure_viscosity; viscosity_law => v%viscosity_law; inlet_law => v%inlet_law
       roelands_z => v%roelands_z; roelands_p0 => v%roelands_p0; vogel_viscosity => v%vogel_viscosity
       vogel_b => v%vogel_b; vogel_c => v%vogel_c
@@ -78,7 +78,6 @@ contains
          v%table_viscosity = pack(table_viscosity, table_viscosity < huge(1.0_dp))
       end if
       good = stat == 0
-      call v%table%set(trim(table))
    end subroutine lubricant_group
 
    !> &surface or &second_surface, as &surface
@@ -96,7 +95,7 @@ contains
       logical, pointer :: tile_mirrored
       character(len=word_length), pointer :: kind, height_unit, lateral_unit, profile, align_lines, fill, detrend, edges, &
          filter, finish, modulus
-      character(len=path_length) :: file, channel
+      character(len=path_length), pointer :: file, channel
       namelist /surface/ kind, amplitude, amplitude_over_film, wavelength, wavelength_x, wavelength_y, velocity_ratio, &
          x_start, height_m, width, length, width_m, length_m, angle, y_start, file, channel, length_x, length_y, height_unit, &
          lateral_unit, profile, crop_x_min, crop_x_max, crop_y_min, crop_y_max, sign, outliers, align_lines, fill, detrend, &
@@ -106,7 +105,7 @@ contains
       kind => v%kind; amplitude => v%amplitude; amplitude_over_film => v%amplitude_over_film; wavelength => v%wavelength
       wavelength_x => v%wavelength_x; wavelength_y => v%wavelength_y; velocity_ratio => v%velocity_ratio
       x_start => v%x_start; height_m => v%height_m; width => v%width; length => v%length; width_m => v%width_m
-      length_m => v%length_m; angle => v%angle; y_start => v%y_start; file = v%file%text(); channel = v%channel%text()
+      length_m => v%length_m; angle => v%angle; y_start => v%y_start; file => v%file; channel => v%channel
       length_x => v%length_x; length_y => v%length_y; height_unit => v%height_unit; lateral_unit => v%lateral_unit
       profile => v%profile; crop_x_min => v%crop_x_min; crop_x_max => v%crop_x_max; crop_y_min => v%crop_y_min
       crop_y_max => v%crop_y_max; sign => v%sign; outliers => v%outliers; align_lines => v%align_lines; fill => v%fill
@@ -121,7 +120,5 @@ contains
          read (text, nml=surface, iostat=stat)
       end if
       good = stat == 0
-      call v%file%set(trim(file))
-      call v%channel%set(trim(channel))
    end subroutine surface_group
 end module ehl_large_groups

@@ -72,6 +72,7 @@ contains
          case ("&")
             if (group /= "") call refuse("&"//group//" has no end before the next group", "'/' behind its last key")
             group = lower_case(text(token%first + 1:token%last))
+            if (any(pieces(:n)%group == group)) call refuse("&"//group//" stands twice", "every group once")
             if (group == "") call refuse("a group without a name", "&contact, for one")
          case ("/")
             if (group == "") call refuse("'/' without a group", "&group before it")

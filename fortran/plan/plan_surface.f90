@@ -80,7 +80,7 @@ contains
          call check_map(group, s, status)
          if (status%failed()) return
          if (s%kind == "map") then
-            call read_map(s%file%text(), tile, status)
+            call read_map(trim(s%file), tile, status)
          else
             call generate(group, s, tile, status)
          end if
@@ -125,7 +125,7 @@ contains
       character(len=:), allocatable :: why, what
 
       call map_needs(group, s, why)
-      what = s%file%text()
+      what = trim(s%file)
       if (s%kind == "fractal") what = group//".kind = 'fractal'"
       if (why /= "") then
          call status%fail(ehl_bad_input, what//": error: the surface has to be prepared by pyehl: "//why//new_line("a")// &
@@ -172,7 +172,7 @@ contains
          why = group//".lateral_unit"
       else if (abs(s%track) > 0.0_dp) then
          why = group//".track"
-      else if (index(s%file%text(), ".npy", back=.true.) /= len(s%file%text()) - 3) then
+      else if (index(s%file, ".npy", back=.true.) /= len_trim(s%file) - 3) then
          why = "it is no .npy array"
       end if
    end subroutine map_needs

@@ -375,8 +375,11 @@ def test_malformed_case(tmp_path: Path, capsys, monkeypatch, name, marked, optio
 
 # Commas that a namelist may have, and a group in two parts
 TAKEN = ("two commas", "comma first", "group twice")
-# Faults of the text, before any name is read
-NAMELESS = ("open quote", "unit with a slash")
+# Faults of the text before any name is read, and of the operating point, whose quantity is named
+NAMELESS = (
+    *("open quote", "unit with a slash", "no free volume", "a liquid without a volume"),
+    *("impossible pressure", "radius in mm"),
+)
 
 
 @pytest.mark.parametrize(("name", "marked", "options", "parts"), FAULTS, ids=[f[0] for f in FAULTS])
