@@ -15,8 +15,8 @@ from records import Read, Row, Said, largest, missing, of, span
 
 from pyehl.prediction import errors
 from pyehl.prediction.partial import FILM
-from pyehl.studies.transition import lift_off
 from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.transition import lift_off
 
 
 def contact(read: Read) -> Iterator[str]:
