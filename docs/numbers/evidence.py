@@ -11,8 +11,8 @@ from records import Row, Values, largest, of, read, span
 
 from pyehl.prediction import errors
 from pyehl.prediction.mixed_lubrication import TOUCHING_FILM_ERROR
-from pyehl.studies.transition import lift_off
 from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.transition import lift_off
 
 NOW, BEFORE = "deviation_percent", "deviation_before_percent"
 ADDED = ("k040c", "k040d", "k050b", "k350", "k040e", "k060b")

@@ -6,7 +6,7 @@ import os
 import platform
 from importlib import metadata
 
-LIBRARIES = "bokeh numpy scipy matplotlib pandas tqdm xarray SurfaceTopography".split()
+LIBRARIES = "bokeh jinja2 loky numpy scipy matplotlib pandas tqdm xarray SurfaceTopography".split()
 
 
 def _version(name: str) -> str:

@@ -17,9 +17,9 @@ from pyehl.studies.curve_plan import KEYS, CurvePlan, plan_curve
 from pyehl.studies.curve_run import CSV, NETCDF, PICTURE, curve_axes, perform
 from pyehl.studies.curve_text import absolute_friction, deviation, last_lines, report
 from pyehl.studies.measured_friction import Measured, read_measured
-from pyehl.studies.transition import UNSOLVED
 from pyehl.surfaces import rough_groups
 from pyehl.theory.load_share import AIHARA, LoadShare
+from pyehl.theory.transition import UNSOLVED
 
 SLIP = KEYS["slide-to-roll"]
 DRAWN = ("mu_ratio", "contact_load_share", "contact_load_share_ehl")

@@ -16,8 +16,8 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from pyehl.plots import style
-from pyehl.studies.transition import Curve
 from pyehl.theory import stribeck
+from pyehl.theory.transition import Curve
 from pyehl.types import Array
 
 ABSCISSAE = {

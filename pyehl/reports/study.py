@@ -22,8 +22,8 @@ from pyehl.reports.page import Block
 from pyehl.studies.journal import read_header
 from pyehl.studies.tasks import INSIDE
 from pyehl.studies.tasks import OUTSIDE as OUTSIDE_FORMULA
-from pyehl.studies.transition import FULL_FILM, MIXED, OUTSIDE
 from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.transition import FULL_FILM, MIXED, OUTSIDE
 
 STUDY_DPI = 110
 TABLES = {"stribeck": "stribeck.csv"}

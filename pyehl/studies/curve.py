@@ -19,12 +19,12 @@ from pyehl.results import unit_of
 from pyehl.studies.curve_pattern import Pattern, kept_pattern
 from pyehl.studies.curve_plan import CurvePlan, CurvePoint
 from pyehl.studies.tasks import FAILED, why_none
-from pyehl.studies.transition import BREAKDOWN, FULL_FILM, MIXED, OUTSIDE, UNSOLVED, Curve
 from pyehl.theory import stribeck
 from pyehl.theory.film import central_film
 from pyehl.theory.friction import OF_ROUGH, absolute_friction
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.transition import BREAKDOWN, FULL_FILM, MIXED, OUTSIDE, UNSOLVED, Curve
 from pyehl.types import Settings, Values
 
 # How a run begins to report that its grid is the reason for contact

@@ -9,7 +9,7 @@ import pandas as pd
 from pyehl.studies.curve import CONCLUSION, curves_of
 from pyehl.studies.curve_plan import CurvePlan
 from pyehl.studies.measured_friction import Measured
-from pyehl.studies.transition import FULL_FILM, MIXED, OUTSIDE, Curve
+from pyehl.theory.transition import FULL_FILM, MIXED, OUTSIDE, Curve
 
 COLUMNS = {
     "h_c_m": "h_c [m]",

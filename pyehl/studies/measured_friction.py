@@ -10,7 +10,7 @@ import numpy as np
 from pyehl.errors import InputError
 from pyehl.given import text_file
 from pyehl.studies.csv_rows import csv_rows, number_in
-from pyehl.studies.transition import Curve
+from pyehl.theory.transition import Curve
 from pyehl.types import Array
 
 LIKE_ERRORS = re.compile(r"err|std|sigma|uncert|dev|\+-|±", re.IGNORECASE)

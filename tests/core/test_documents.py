@@ -24,7 +24,7 @@ import pyehl
 from pyehl import Case
 from pyehl.case import KEYS
 from pyehl.prediction import friction
-from pyehl.studies import curve
+from pyehl.theory import transition
 
 # Those of `docs/` take half a minute each
 EXECUTED = [
@@ -284,7 +284,7 @@ def test_every_status_has_a_line(root: Path):
     source = (root / "fortran/base/outcome.f90").read_text(encoding="utf-8")
     names = re.findall(r'"([^"]+)"', source[source.index("outcome_names(0:8)") :])
     runs = {name.strip() for name in names} - {"running"}
-    points = set(curve.STATUSES)
+    points = set(transition.STATUSES)
     predictions = set(friction.STATUSES)
     kinds = (("Runs", runs), ("Points of a curve", points), ("Predictions", predictions))
     for head, expected in kinds:

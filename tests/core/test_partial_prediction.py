@@ -16,8 +16,8 @@ from pyehl.prediction.predict import predict
 from pyehl.prediction.smooth_case import touching_points
 from pyehl.schema import summary_of as scalars_of
 from pyehl.studies.curve import CONTACT, CONTACT_EHL, EMPIRICAL, UNITS
-from pyehl.studies.transition import BREAKDOWN, FULL_FILM, Curve, lift_off
 from pyehl.theory.friction import OF_ROUGH
+from pyehl.theory.transition import BREAKDOWN, FULL_FILM, Curve, lift_off
 
 SCENE = """
 &contact load = 20.0 mean_velocity = {} radius = 0.0127 slide_to_roll = 0.1 /

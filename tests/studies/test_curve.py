@@ -14,10 +14,10 @@ from matplotlib.image import imread
 import pyehl
 from pyehl.cli import main
 from pyehl.studies.curve_pattern import pattern
-from pyehl.studies.transition import BREAKDOWN, FULL_FILM, OUTSIDE, full_film_ends
 from pyehl.surfaces import harmonic
 from pyehl.theory import stribeck
 from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.transition import BREAKDOWN, FULL_FILM, OUTSIDE, full_film_ends
 
 WANTED = (
     "h_c_m h_min_m lambda_ratio theta_2 hersey mu_smooth mu mu_ratio mu_ratio_model_error "

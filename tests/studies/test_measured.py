@@ -12,7 +12,7 @@ import pytest
 from pyehl.cli import main
 from pyehl.errors import InputError
 from pyehl.studies.measured_friction import Measured, read_measured
-from pyehl.studies.transition import Curve
+from pyehl.theory.transition import Curve
 
 KEY = "contact.mean_velocity"
 
