@@ -54,7 +54,7 @@ contains
       wall_strength = sqrt(diffusivity/(pi*raised_speed(abs(speed), rest*diffusivity/length, potential)))/conductivity
    end function wall_strength
 
-   !> Speed over kappa/a at which (1) makes the greatest rise of a wall at rest under a semi-ellipse of heat, whose rise is
+   !> Speed over kappa/a at which (1) makes the maximum rise of a wall at rest under a semi-ellipse of heat, whose rise is
    !> a q l/(2 pi k), l = iint P/r in the centre; about 2.47 for a circle
    pure real(dp) function speed_of_rest(contact)
       class(contact_t), intent(in) :: contact

@@ -32,9 +32,9 @@ module ehl_coarse_problem
    !> Interpolation follows the operator where conductance/mesh-size^2 in the neighbourhood is above this;
    !> elsewhere the deflection matters, which is not in the operator, and interpolation is bilinear
    real(dp), parameter :: dependent_from = 10.0_dp
-   !> Slack of a coarse node that neither asks for pressure nor refuses it (the wedge term is of order 1)
+   !> Slack of a coarse node that neither requires pressure nor refuses it (the wedge term is of order 1)
    real(dp), parameter :: min_slack = 1.0e-8_dp
-   !> Right-hand side of nodes that are to stay cavitated on a coarse level: they never ask for pressure
+   !> Right-hand side of nodes that are to stay cavitated on a coarse level: they never require pressure
    real(dp), parameter :: never = 1.0e30_dp
 
 contains

@@ -181,7 +181,7 @@ contains
    end function is_positive
 
    !> Right-hand side of the Newton step, and its norm; cavitated nodes count only when they
-   !> ask for pressure
+   !> require pressure
    subroutine find_residual(self, level, norm)
       class(coarsest_t), intent(inout) :: self
       type(level_t), intent(in) :: level

@@ -2,15 +2,13 @@
 !> The multigrid cycle: full approximation scheme (Brandt 1977; Venner & Lubrecht 2000)
 module ehl_cycle
    use ehl_coarse_problem, only: coarsening_alcouffe, coarsening_classical, correct, restrict_problem
-   use ehl_coarsest, only: coarsest_t
    use ehl_film, only: refresh, update_coefficients
-   use ehl_galerkin, only: coarsening_t
+   use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
    use ehl_node_state, only: cavitate
    use ehl_relaxation, only: usual_log_change, relax
    use ehl_reynolds, only: update_residual
-   use ehl_workspace, only: workspace_t
    implicit none (type, external)
    private
    public :: cycle_options_t, damped_cycle, finest_cycle, most_damping, prolong_solution
@@ -65,101 +63,86 @@ contains
    end function damped_cycle
 
    !> One cycle with level n as the finest. Film and coefficients are up to date before and after.
-   subroutine finest_cycle(levels, workspaces, coarsenings, below, n, coarsest, options, residual)
-      !> As hierarchy_t has them
-      type(level_t), intent(inout) :: levels(:)
-      type(workspace_t), intent(inout) :: workspaces(:)
-      !> Operator-dependent transfer between each level and the next coarser one
-      type(coarsening_t), intent(inout) :: coarsenings(:)
-      !> The level that each is corrected on; 0: it is solved directly
-      integer, intent(in) :: below(:)
+   subroutine finest_cycle(grids, n, options, residual)
+      type(hierarchy_t), intent(inout) :: grids
       integer, intent(in) :: n
-      !> Direct solutions of the levels that need one
-      type(coarsest_t), intent(inout) :: coarsest(:)
       type(cycle_options_t), intent(in) :: options
       !> What is left (rms)
       real(dp), intent(out) :: residual
       integer :: k
 
-      if (below(n) == 0) then
-         call coarsest(n)%solve(levels(n))
-         call update_residual(levels(n), residual)
-      else
-         call visit_coarser(levels, workspaces, coarsenings, below, n, coarsest, options)
-         if (options%post == 0) call update_residual(levels(n), residual)
-         do k = 1, options%post
-            call sweep(levels(n), workspaces(n), 1, options%max_log_change, options%relaxation_factor)
-            call update_residual(levels(n), residual)
-            if (residual <= options%enough) exit
-         end do
-      end if
+      associate (level => grids%levels(n))
+         if (grids%below(n) == 0) then
+            call grids%coarsest(n)%solve(level)
+         else
+            call visit_coarser(grids, n, options)
+            do k = 1, options%post
+               call sweep(grids, n, 1, options)
+               call update_residual(level, residual)
+               if (residual <= options%enough) return
+            end do
+            if (options%post > 0) return
+         end if
+         call update_residual(level, residual)
+      end associate
    end subroutine finest_cycle
 
    !> One cycle on level n
-   recursive subroutine fas_cycle(levels, workspaces, coarsenings, below, n, coarsest, options)
-      type(level_t), intent(inout) :: levels(:)
-      type(workspace_t), intent(inout) :: workspaces(:)
-      type(coarsening_t), intent(inout) :: coarsenings(:)
-      integer, intent(in) :: below(:), n
-      type(coarsest_t), intent(inout) :: coarsest(:)
+   recursive subroutine fas_cycle(grids, n, options)
+      type(hierarchy_t), intent(inout) :: grids
+      integer, intent(in) :: n
       type(cycle_options_t), intent(in) :: options
 
-      if (below(n) == 0) then
-         call coarsest(n)%solve(levels(n))
-         return
+      if (grids%below(n) == 0) then
+         call grids%coarsest(n)%solve(grids%levels(n))
+      else
+         call visit_coarser(grids, n, options)
+         call sweep(grids, n, options%post, options)
       end if
-      call visit_coarser(levels, workspaces, coarsenings, below, n, coarsest, options)
-      call sweep(levels(n), workspaces(n), options%post, options%max_log_change, options%relaxation_factor)
    end subroutine fas_cycle
 
-   !> Relax so many times
-   subroutine sweep(level, space, times, max_log_change, relaxation_factor)
-      type(level_t), intent(inout) :: level
-      type(workspace_t), intent(inout) :: space
-      integer, intent(in) :: times
-      real(dp), intent(in) :: max_log_change, relaxation_factor
-      integer :: k
-
-      do k = 1, times
-         call relax(level, space, max_log_change, relaxation_factor)
-         call refresh(level)
-      end do
-   end subroutine sweep
-
    !> Relax level n, solve its problem on the coarser ones and take over the change
-   recursive subroutine visit_coarser(levels, workspaces, coarsenings, below, n, coarsest, options)
-      type(level_t), intent(inout) :: levels(:)
-      type(workspace_t), intent(inout) :: workspaces(:)
-      type(coarsening_t), intent(inout) :: coarsenings(:)
-      integer, intent(in) :: below(:), n
-      type(coarsest_t), intent(inout) :: coarsest(:)
+   recursive subroutine visit_coarser(grids, n, options)
+      type(hierarchy_t), intent(inout) :: grids
+      integer, intent(in) :: n
       type(cycle_options_t), intent(in) :: options
-      type(cycle_options_t) :: coarser, v
+      type(cycle_options_t) :: coarser
       real(dp) :: rms
       integer :: k, m
 
-      m = below(n)
+      m = grids%below(n)
       coarser = options
       if (options%finest_only) then
          coarser%relaxation_factor = 1.0_dp
          coarser%correction_factor = 1.0_dp
       end if
-      call sweep(levels(n), workspaces(n), options%pre, options%max_log_change, options%relaxation_factor)
-      call update_residual(levels(n), rms)
-      call restrict_problem(levels(n), levels(m), workspaces(m), coarsenings(n), options%coarsening)
-      do k = 1, options%gamma
-         call fas_cycle(levels, workspaces, coarsenings, below, m, coarsest, coarser)
-         ! solved directly
-         if (below(m) == 0) exit
+      call sweep(grids, n, options%pre, options)
+      call update_residual(grids%levels(n), rms)
+      call restrict_problem(grids%levels(n), grids%levels(m), grids%workspaces(m), grids%coarsenings(n), options%coarsening)
+      do k = 1, merge(1, options%gamma, grids%below(m) == 0)
+         call fas_cycle(grids, m, coarser)
       end do
-      if (options%full .and. below(m) > 0) then
-         v = coarser
-         v%full = .false.
-         call fas_cycle(levels, workspaces, coarsenings, below, m, coarsest, v)
+      if (options%full .and. grids%below(m) > 0) then
+         coarser%full = .false.
+         call fas_cycle(grids, m, coarser)
       end if
-      call correct(levels(n), levels(m), workspaces(m), coarsenings(n)%transfer, options%coarsening, options%correction_factor)
-      call update_coefficients(levels(n))
+      call correct(grids%levels(n), grids%levels(m), grids%workspaces(m), grids%coarsenings(n)%transfer, options%coarsening, &
+                   options%correction_factor)
+      call update_coefficients(grids%levels(n))
    end subroutine visit_coarser
+
+   !> Relax level n so many times
+   subroutine sweep(grids, n, times, options)
+      type(hierarchy_t), intent(inout) :: grids
+      integer, intent(in) :: n, times
+      type(cycle_options_t), intent(in) :: options
+      integer :: k
+
+      do k = 1, times
+         call relax(grids%levels(n), grids%workspaces(n), options%max_log_change, options%relaxation_factor)
+         call refresh(grids%levels(n))
+      end do
+   end subroutine sweep
 
    !> First approximation on a finer level: cubic interpolation of the coarse pressure and its deflection
    subroutine prolong_solution(coarse, fine)

@@ -3,7 +3,6 @@
 module ehl_hierarchy
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_coarsest, only: coarsest_t
-   use ehl_cycle, only: cycle_options_t, finest_cycle
    use ehl_deflection_factory, only: new_deflection
    use ehl_flow_factory, only: new_flow
    use ehl_galerkin, only: coarsening_t
@@ -41,7 +40,6 @@ module ehl_hierarchy
       procedure, private :: set_up
       procedure :: prepare_steps
       procedure :: prepare_coarsening
-      procedure :: cycle => run_cycle
       procedure :: forget
       procedure :: bytes
    end type hierarchy_t
@@ -170,17 +168,6 @@ contains
       type(grid_t), intent(in) :: grid
       deflection_accuracy = 2.2e-5_dp*(128.0_dp*max(grid%hx, grid%hy))**1.35_dp
    end function deflection_accuracy
-
-   !> One multigrid cycle with level n as the finest
-   subroutine run_cycle(self, n, options, residual)
-      class(hierarchy_t), intent(inout) :: self
-      integer, intent(in) :: n
-      type(cycle_options_t), intent(in) :: options
-      !> What is left (rms)
-      real(dp), intent(out) :: residual
-
-      call finest_cycle(self%levels, self%workspaces, self%coarsenings, self%below, n, self%coarsest, options, residual)
-   end subroutine run_cycle
 
    !> Drop what one cycle leaves for the next beyond the fields of its finest level
    subroutine forget(self)

@@ -5,7 +5,7 @@
 module ehl_iteration
    use ehl_anderson, only: anderson_t
    use ehl_contact_results, only: contact_results_t, load_tolerance, measure
-   use ehl_cycle, only: cycle_options_t
+   use ehl_cycle, only: cycle_options_t, finest_cycle
    use ehl_force_balance, only: balance_load
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
@@ -73,7 +73,7 @@ contains
       before = self%m
       associate (level => hierarchy%levels(self%n))
          if (self%mixing%on) call self%mixing%remember(level)
-         call hierarchy%cycle(self%n, self%options, residual)
+         call finest_cycle(hierarchy, self%n, self%options, residual)
          self%cycles = self%cycles + 1
          if (self%mixing%on) call self%mixing%mix(level, residual)
          call self%look(level, residual)

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Line systems of the Reynolds equation (reynolds.f90) along X: the changes d(i) of the pressure of a row that its
-!> linearised equation asks for while the other rows stay. A node with D(i) = 1 changes distributively: the share -q of its
+!> linearised equation requires while the other rows stay. A node with D(i) = 1 changes distributively: the share -q of its
 !> change goes to each neighbour along X, -b to each across it (workspace.f90; 1/4 on square cells), else D(i) = 0. With
 !> r(i) the residual,
 !>
@@ -70,7 +70,7 @@ contains
       call substitute(last, work%upper, work%change)
    end subroutine solve_lines
 
-   !> Last node of row j that has pressure, or beside it a node that has, or asks for it; those behind it stay as
+   !> Last node of row j that has pressure, or beside it a node that has, or requires it; those behind it stay as
    !> they are
    pure integer function last_active(level, j) result(i)
       type(level_t), intent(in) :: level

@@ -32,7 +32,7 @@ module ehl_relaxation
    !> The same in time steps, where smooth changes are taken back
    real(dp), parameter :: omega_step = 0.8_dp
    !> Largest change of the logarithm of a node's conductance in a sweep of a time step, to begin with: beyond it the
-   !> linearised line says nothing
+   !> linearised line has no meaning
    real(dp), parameter :: usual_log_change = 3.0_dp
    !> Conductance/mesh-size^2 around a node, as a share of the squeeze term's factor, at which half of the change
    !> counts as one to be freed of its smooth part: a change smooth over a length l has a residual of about

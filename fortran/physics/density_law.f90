@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What every law of density under pressure and temperature can tell, row by row
+!> What every law of  under pressure and temperature offers, row by row
 module ehl_density_law
    use ehl_kinds, only: dp
    implicit none (type, external)
@@ -23,7 +23,7 @@ module ehl_density_law
          real(dp), intent(out) :: rho(:), slope(:)
       end subroutine density
 
-      !> rho/rho0 at pressures p over the Hertz pressure and rises of temperature over that of the inlet [K]; without a
+      !> rho/rho0 at pressures p over the Hertz pressure and temperature increases over that of the inlet [K]; without a
       !> rise the values of density, bit by bit
       pure subroutine density_at(self, p, rise, rho)
          import :: density_law_t, dp

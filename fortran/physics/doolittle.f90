@@ -47,7 +47,7 @@ contains
       law%ambient_viscosity = reference_viscosity*exp(law%level)
    end function new_doolittle
 
-   !> Free volume over V_R at a pressure over the Hertz pressure and a rise of temperature over that of the inlet [K]
+   !> Free volume over V_R at a pressure over the Hertz pressure and a temperature increase over that of the inlet [K]
    elemental real(dp) function free_volume(self, p, rise)
       class(doolittle_t), intent(in) :: self
       real(dp), intent(in) :: p, rise
@@ -55,7 +55,7 @@ contains
       free_volume = self%scale*self%state%volume(p, rise) - self%occupied*(1.0_dp + self%growth*(self%above + rise))
    end function free_volume
 
-   !> ln(eta/eta_R) at a pressure and a rise of temperature [K]
+   !> ln(eta/eta_R) at a pressure and a temperature increase [K]
    elemental real(dp) function above_reference(self, p, rise)
       class(doolittle_t), intent(in) :: self
       real(dp), intent(in) :: p, rise
@@ -85,7 +85,7 @@ contains
       end do
    end subroutine log_viscosity
 
-   !> ln(eta/eta0) at rises of temperature [K]
+   !> ln(eta/eta0) at temperature increases [K]
    pure subroutine log_viscosity_at(self, p, rise, values)
       class(doolittle_t), intent(in) :: self
       real(dp), intent(in) :: p(:), rise(:)

@@ -10,7 +10,7 @@ module ehl_heat
    !> 0 degC in kelvin, and the temperatures of data sheets [degC]
    real(dp), parameter :: freezing = 273.15_dp, sheet(2) = [40.0_dp, 100.0_dp], sheet_density = 15.0_dp
    !> Power of the potential of a narrow contact in raised_speed, by integrals over moving sources: within 6 % of their
-   !> greatest rise where the semi-axis across the motion is 1/15 to 30 times that along it, 1 % for a circle
+   !> maximum rise where the semi-axis across the motion is 1/15 to 30 times that along it, 1 % for a circle
    real(dp), parameter :: narrow = 0.38_dp
 
    !> Viscosity of a data sheet over temperature: what the line takes from the sheet, once for many temperatures
@@ -107,7 +107,7 @@ contains
                           /(1.0_dp + 0.213_dp*(1.0_dp + 2.23_dp*abs(slide_to_roll)**0.83_dp)*loading**0.64_dp)
    end function thermal_reduction
 
-   !> Greatest temperature rise [K] of two surfaces that move at `speeds` [m/s] through the heat of a Hertz contact,
+   !> Maximum temperature rise [K] of two surfaces that move at `speeds` [m/s] through the heat of a Hertz contact,
    !> semi-elliptic over its ellipse: Tian & Kennedy 1994, J. Tribol. 116, 167, for one surface and a circle; the heat
    !> is shared so that both become as hot (Blok 1937). On an ellipse a fast surface is as hot as on a circle of the same
    !> length along the motion, and one at rest as the potential of the ellipse says.
@@ -123,7 +123,7 @@ contains
       flash_temperature = 2.32_dp*flux*half/sum(conductivity*sqrt(pi*raised_speed(peclet, 1.234_dp/potential**2, potential)))
    end function flash_temperature
 
-   !> Speed at which heat that flows straight down makes the greatest rise of a surface, from which it flows aside as well:
+   !> Speed at which heat that flows straight down makes the maximum rise of a surface, from which it flows aside as well:
    !> that of the surface and that which one at rest has, together. On a circle and a wide contact they add up; under a
    !> narrow one heat flows across the motion long before it is too slow to flow ahead.
    elemental real(dp) function raised_speed(speed, rest, potential)

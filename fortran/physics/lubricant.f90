@@ -26,7 +26,7 @@ module ehl_lubricant
       real(dp) :: boundary_film = 0.0_dp
       !> Its shear stress at P = 1 over the Newtonian stress of eta = eta0 and H = 1; 0: not known, or there is no sliding
       real(dp) :: boundary_stress = 0.0_dp
-      !> Greatest pressure of the solids that it is on, their hardness; 0: there is no limit
+      !> Maximum pressure of the solids that it is on, their hardness; 0: there is no limit
       real(dp) :: boundary_limit = 0.0_dp
    contains
       procedure :: log_viscosity
@@ -79,7 +79,7 @@ contains
       call self%viscosity%log_viscosity(p, values, slope)
    end subroutine log_viscosity
 
-   !> ln(eta/eta0) at pressures p and rises of temperature over that of the inlet [K]
+   !> ln(eta/eta0) at pressures p and temperature increases over that of the inlet [K]
    pure subroutine log_viscosity_at(self, p, rise, values)
       class(lubricant_t), intent(in) :: self
       real(dp), intent(in) :: p(:), rise(:)
@@ -95,7 +95,7 @@ contains
       call self%compression%density(p, rho, slope)
    end subroutine density
 
-   !> Density rho/rho0 at pressures p and rises of temperature over that of the inlet [K]
+   !> Density rho/rho0 at pressures p and temperature increases over that of the inlet [K]
    pure subroutine density_at(self, p, rise, rho)
       class(lubricant_t), intent(in) :: self
       real(dp), intent(in) :: p(:), rise(:)

@@ -51,7 +51,7 @@ contains
       end do
    end subroutine density
 
-   !> rho/rho0 at rises of temperature [K]
+   !> rho/rho0 at temperature increases [K]
    pure subroutine density_at(self, p, rise, rho)
       class(murnaghan_t), intent(in) :: self
       real(dp), intent(in) :: p(:), rise(:)

@@ -56,7 +56,7 @@ contains
       end do
    end subroutine log_viscosity
 
-   !> ln(eta/eta0) at rises of temperature [K]
+   !> ln(eta/eta0) at temperature increases [K]
    pure subroutine log_viscosity_at(self, p, rise, values)
       class(roelands_t), intent(in) :: self
       real(dp), intent(in) :: p(:), rise(:)

@@ -8,7 +8,7 @@ module ehl_simple_density
    private
    public :: incompressible_t, dowson_higginson_t, new_dowson_higginson
 
-   !> Pressure [Pa] and greatest density under pressure
+   !> Pressure [Pa] and maximum density under pressure
    real(dp), parameter :: dowson_pressure = 5.9e8_dp, dowson_limit = 1.34_dp
 
    type, extends(density_law_t) :: incompressible_t
@@ -56,7 +56,7 @@ contains
       end do
    end subroutine density
 
-   !> rho/rho0 at rises of temperature [K]
+   !> rho/rho0 at temperature increases [K]
    pure subroutine density_at(self, p, rise, rho)
       class(dowson_higginson_t), intent(in) :: self
       real(dp), intent(in) :: p(:), rise(:)

@@ -39,7 +39,7 @@ contains
       law%ambient = 1.0_dp + expansion*law%above
    end function new_tait
 
-   !> V/V_R at a pressure over the Hertz pressure and a rise of temperature over that of the inlet [K]
+   !> V/V_R at a pressure over the Hertz pressure and a temperature increase over that of the inlet [K]
    elemental real(dp) function volume(self, p, rise)
       class(tait_t), intent(in) :: self
       real(dp), intent(in) :: p, rise
@@ -69,7 +69,7 @@ contains
       end do
    end subroutine density
 
-   !> rho/rho0 at rises of temperature [K]
+   !> rho/rho0 at temperature increases [K]
    pure subroutine density_at(self, p, rise, rho)
       class(tait_t), intent(in) :: self
       real(dp), intent(in) :: p(:), rise(:)

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What every law of viscosity under pressure and temperature can tell, row by row: the law is chosen once per row, and
+!> What every law of  under pressure and temperature offers, row by row: the law is chosen once per row, and
 !> the loops of the laws vectorise
 module ehl_viscosity_law
    use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_value
@@ -10,7 +10,7 @@ module ehl_viscosity_law
 
    !> Viscosity over eta0, that at ambient pressure and the temperature of the inlet
    type, abstract :: viscosity_law_t
-      !> [Pa s] eta0, of laws that tell it
+      !> [Pa s] eta0, of laws that have it
       real(dp) :: ambient_viscosity = 0.0_dp
    contains
       procedure(log_viscosity), deferred :: log_viscosity
@@ -27,7 +27,7 @@ module ehl_viscosity_law
          real(dp), intent(out) :: values(:), slope(:)
       end subroutine log_viscosity
 
-      !> ln(eta/eta0) at pressures p over the Hertz pressure and rises of temperature over that of the inlet [K]; without
+      !> ln(eta/eta0) at pressures p over the Hertz pressure and temperature increases over that of the inlet [K]; without
       !> a rise the values of log_viscosity, bit by bit
       pure subroutine log_viscosity_at(self, p, rise, values)
          import :: dp, viscosity_law_t

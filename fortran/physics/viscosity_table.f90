@@ -114,7 +114,7 @@ contains
       end associate
    end subroutine evaluate
 
-   !> ln(eta/Pa s) and its slope at a pressure and a rise of temperature [K]
+   !> ln(eta/Pa s) and its slope at a pressure and a temperature increase [K]
    pure subroutine at(self, p, rise, value, slope)
       class(viscosity_table_t), intent(in) :: self
       real(dp), intent(in) :: p, rise
@@ -153,7 +153,7 @@ contains
       end do
    end subroutine log_viscosity
 
-   !> ln(eta/eta0) at rises of temperature [K]
+   !> ln(eta/eta0) at temperature increases [K]
    pure subroutine log_viscosity_at(self, p, rise, values)
       class(viscosity_table_t), intent(in) :: self
       real(dp), intent(in) :: p(:), rise(:)

@@ -43,7 +43,7 @@ contains
       law%ambient_viscosity = glass*exp(law%level)
    end function new_yasutomi
 
-   !> ln(eta/eta_g) at a pressure and a rise of temperature [K]
+   !> ln(eta/eta_g) at a pressure and a temperature increase [K]
    elemental real(dp) function below_glass(self, p, rise)
       class(yasutomi_t), intent(in) :: self
       real(dp), intent(in) :: p, rise
@@ -72,7 +72,7 @@ contains
       end do
    end subroutine log_viscosity
 
-   !> ln(eta/eta0) at rises of temperature [K]
+   !> ln(eta/eta0) at temperature increases [K]
    pure subroutine log_viscosity_at(self, p, rise, values)
       class(yasutomi_t), intent(in) :: self
       real(dp), intent(in) :: p(:), rise(:)

@@ -14,11 +14,11 @@
 !>    rate (H_b - rho H) = 0
 !>
 !> with the rate of the wedge term, so that its residual is one of the Reynolds equation where the conductance is nothing. Of
-!> two residuals, rhs - N and rate (rho H - H_b), that one holds which asks for more pressure, each with what answers it: the
+!> two residuals, rhs - N and rate (rho H - H_b), that one holds which requires more pressure, each with what answers it: the
 !> deflection alone, or the deflection and the Poiseuille term.
 !>
-!> Solids with a hardness carry no more than the limit P_Y. A node yields where P = P_Y and it asks for more pressure: the elastic
-!> film H is below the layer, or below what the lubricant needs. The solids yield by what is missing, D >= 0, so that
+!> Solids with a hardness sustain no more than the maximum pressure P_Y. A node yields where P = P_Y and it requires more: the
+!> elastic film H is below the layer, or below what the lubricant needs. The solids yield by what is missing, D >= 0, so that
 !> rho (H + D) is that of the layer, or more where N = 0 then. Such a node keeps its pressure until D would be negative.
 !>
 !> Every level has one. Without setup, or with H_b = 0, it is inactive: no node touches, and its procedures change nothing.

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What lies beyond the border of the domain: the pressure of a fully flooded contact, and the load that it carries there.
+!> What lies beyond the border of the domain: the pressure of a fully flooded contact, and the load that it sustains there.
 !>
 !> Far away the bodies are rigid, the lubricant is that at P = 0, and H = r^2 f/2 has no length of its own, with
 !> f = cos^2 + D sin^2 of the angle, which is counted from the inlet, so that P = lambda_bar g(angle)/r^3. The Reynolds
@@ -81,7 +81,7 @@ contains
       end function slope
    end subroutine setup
 
-   !> Give the border the pressure of a flooded contact, and leave to the nodes the load that is not carried beyond it
+   !> Give the border the pressure of a flooded contact, and leave to the nodes the load that is not sustained beyond it
    subroutine set_border(self, level, load)
       class(far_field_t), intent(in) :: self
       type(level_t), intent(inout) :: level

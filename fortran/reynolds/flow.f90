@@ -3,7 +3,7 @@
 !>
 !>    q_x = -eps_x dP/dX,   q_y = -eps_y dP/dY
 !>
-!> with q the Poiseuille part of the mass flow, and how they change with P and H. What a kind of flow has to say is in the
+!> with q the Poiseuille part of the mass flow, and how they change with P and H. What a kind of flow provides is in the
 !> file of that kind (newtonian_flow.f90, shear_thinning_flow.f90); flow_factory.f90 chooses. Everything else asks here.
 module ehl_flow
    use, intrinsic :: iso_fortran_env, only: int64

@@ -4,8 +4,8 @@
 !>    iint P dX dY = load,   discrete: sum over the nodes of P hx hy = load
 !>
 !> (twice for nodes that have a mirror image). On the finest grid the load is that of the contact, 2 pi/3 for a ball on a
-!> flat, less what is carried beyond the border (far_field.f90). On a coarser one it is the finer one's error on top of what
-!> the restricted pressure carries. It is solved for with H00 on the coarsest grid (multigrid/coarsest.f90).
+!> flat, less what is sustained beyond the border (far_field.f90). On a coarser one it is the finer one's error on top of what
+!> the restricted pressure sustains. It is solved for with H00 on the coarsest grid (multigrid/coarsest.f90).
 module ehl_force_balance
    use ehl_film, only: refresh
    use ehl_kinds, only: dp
@@ -16,19 +16,19 @@ module ehl_force_balance
 
 contains
 
-   !> What the pressure of a level carries too little
+   !> Load that the pressure of a level lacks
    real(dp) function missing_load(level)
       type(level_t), intent(in) :: level
       missing_load = level%load - pressure_sum(level)
    end function missing_load
 
-   !> Relative error of the force balance; positive: the pressure carries too much
+   !> Relative error of the force balance; positive: the pressure is too large
    real(dp) function load_excess(level)
       type(level_t), intent(in) :: level
       load_excess = pressure_sum(level)/level%load - 1.0_dp
    end function load_excess
 
-   !> Load of a coarse level: what the fine pressure carries too little is to be added to the restricted pressure
+   !> Load of a coarse level: what the fine pressure lacks, and what the restricted pressure sustains
    subroutine pass_load_on(fine, coarse)
       type(level_t), intent(in) :: fine
       type(level_t), intent(inout) :: coarse
@@ -58,7 +58,7 @@ contains
       call refresh(level)
    end subroutine balance_load
 
-   !> What of the load the pressure at the border and where nodes yield carries
+   !> What of the load the pressure at the border and where nodes yield sustains
    pure real(dp) function fixed_load(level)
       type(level_t), intent(in) :: level
       integer :: j

@@ -38,7 +38,7 @@ module ehl_heated_friction
    type :: heated_t
       !> Friction integral as in contact_results_t, and that without the heat
       real(dp) :: friction = 0.0_dp, isothermal = 0.0_dp
-      !> Greatest rise over the temperature of the inlet [K]: of the mean across the film, of wall 1, of wall 2
+      !> Maximum increase over the temperature of the inlet [K]: of the mean across the film, of wall 1, of wall 2
       real(dp) :: greatest(3) = 0.0_dp
       !> Whether every node was solved
       logical :: solved = .false.
@@ -218,7 +218,7 @@ contains
       end function heat_at
    end subroutine heat_node
 
-   !> Shear stress of the sliding at pressures, films and rises of temperature [K], over the scale of the law
+   !> Shear stress of the sliding at pressures, films and temperature increases [K], over the scale of the law
    pure function law_stress(lubricant, p, h, rise) result(stress)
       type(lubricant_t), intent(in) :: lubricant
       real(dp), intent(in) :: p(:), h(:), rise(:)

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The state of a node. Its pressure tells it: the node is cavitated where P <= 0, elsewhere the lubricant fills the gap and
-!> flows. A cavitated node is inactive, and stays as it is, unless its residual asks for pressure (residual < 0).
+!> The state of a node. It follows from the pressure: the node is cavitated where P <= 0, elsewhere the lubricant fills the gap and
+!> flows. A cavitated node is inactive, and stays as it is, unless its residual requires pressure (residual < 0).
 !>
 !> A NaN is no state: it fails every comparison, and nothing here makes a number of it. Procedures take rows, since the
 !> loops of other modules would not vectorise around a call.

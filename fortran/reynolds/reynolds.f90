@@ -98,7 +98,7 @@ contains
       !$omp end parallel do
    end subroutine find_touching
 
-   !> residual = rhs - operator where P > 0; where P = 0 only the part that asks for pressure
+   !> residual = rhs - operator where P > 0; where P = 0 only the part that requires pressure
    !> (residual < 0). Returns the rms over the grid.
    subroutine update_residual(level, rms)
       type(level_t), intent(inout) :: level

@@ -157,7 +157,7 @@ contains
 
    !> Share of the variance of its profile in waves with fewer nodes a period than that, in the worse of both
    !> directions: the spectrum of exp(-c s^2) cos(k s) is closed. Nothing is left out, but one that is no wider than
-   !> two nodes is not carried at all.
+   !> two nodes is not resolved at all.
    pure real(dp) function unresolved(self, grid, nodes)
       class(feature_t), intent(in) :: self
       type(grid_t), intent(in) :: grid

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> A height map as a periodic tile that is carried through the contact, or lies in it. Of the tile its waves are kept
-!> alone, in the memory of one copy; for a grid, the heights of the waves that the grid carries are summed on the rows
+!> alone, in the memory of one copy; for a grid, the heights of the waves that the grid resolves are summed on the rows
 !> of the grid, exactly, at points along X from which those between them are interpolated.
 module ehl_height_map
    use, intrinsic :: iso_c_binding, only: c_double_complex, c_ptr
@@ -20,7 +20,7 @@ module ehl_height_map
 
    !> The tile is refined along X to so many points for each of its pixels by its Fourier series, and between these
    !> points a polynomial of degree 5 is used: its error is 2e-5 of the amplitude of the shortest wave (two pixels),
-   !> and falls with the sixth power of the wavelength. Where the grid carries fewer waves, so many pixels are enough
+   !> and falls with the sixth power of the wavelength. Where the grid resolves fewer waves, so many pixels are enough
    !> as carry them.
    integer, parameter :: refinement = 8
    integer, parameter :: points = 6

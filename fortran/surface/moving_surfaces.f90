@@ -159,7 +159,7 @@ contains
    end function counts
 
    !> Find the time in which the friction repeats: the least one that holds whole periods of all surfaces. Where none
-   !> with so many periods of the slowest one does, a time after which all are nearly where they began; `mismatch` tells
+   !> with so many periods of the slowest one does, a time after which all are nearly where they began; `mismatch` is
    !> by how much they are not. Of what passes once, the time from when it comes near until it has left, in whole periods
    !> of roughness on the other body.
    pure subroutine find_period(self, most)

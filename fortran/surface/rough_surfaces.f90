@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The rough surfaces of a contact: the sum of their heights, what a grid carries of them, what they are together
+!> The rough surfaces of a contact: the sum of their heights, what a grid resolves of them, what they are together
 module ehl_rough_surfaces
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
@@ -115,7 +115,7 @@ contains
       has_spectrum = any([(self%of(k)%surface%variance > 0.0_dp, k=1, self%count())])
    end function has_spectrum
 
-   !> Whether all are single waves or features, which are the same on every grid that carries them
+   !> Whether all are single waves or features, which are the same on every grid that resolves them
    pure logical function same_on_grids(self)
       class(rough_surfaces_t), intent(in) :: self
       integer :: k
@@ -133,7 +133,7 @@ contains
       end do
    end subroutine use_threads
 
-   !> What of the surfaces a grid carries: `left_out` and `unresolved`
+   !> What of the surfaces a grid resolves: `left_out` and `unresolved`
    subroutine see(self, grid)
       class(rough_surfaces_t), intent(inout) :: self
       type(grid_t), intent(in) :: grid
