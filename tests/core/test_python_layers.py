@@ -25,7 +25,7 @@ LAYERS = [
     ["solver", "progress", "streams"],
     ["run"],
     ["api"],
-    ["studies"],
+    ["studies", "subsurface"],
     ["measured_response"],
     ["reports"],
     ["app", "bench", "reproduce"],
