@@ -15,7 +15,7 @@ LAYERS = [
     ["processor", "namelist", "given"],
     ["extension"],
     ["library", "destination"],
-    ["theory", "arrays"],
+    ["theory", "arrays", "rigs"],
     ["surfaces"],
     ["case"],
     ["handle"],
