@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING
 from pyehl.case import Case, files_of, with_surface
 from pyehl.errors import NotConverged, named
 from pyehl.given import Option, check_kind, path_of
-from pyehl.prediction import folder, of_case
-from pyehl.prediction.film_sheet import FilmThickness, sheet
+from pyehl.prediction import folder
+from pyehl.prediction.film_formulas import FilmThickness, sheet
 from pyehl.prediction.friction import TRACKS
+from pyehl.prediction.predict import predict as predict_resolved
 from pyehl.prediction.result import Prediction
 from pyehl.progress import ProgressBar
 from pyehl.run import run
@@ -188,7 +189,7 @@ def predict(
         place.check()
     settings = case.resolve()
     with named(name):
-        found = of_case.predict(
+        found = predict_resolved(
             settings,
             case.text,
             tracks=tracks,

@@ -221,8 +221,8 @@ s | coarsening_changed_at | - | step in which the coarsening changed; 0: none
 p | outside_range | | what lies outside of the range of the model
 p | note | | what mu_ratio is
 p | tracks | - | tracks of the tile that mu_ratio_tracks is over
-p | film_below_zero_share | - | share of the contact with higher roughness than the film bears
-p | film_breakdown | | where the film ends, and what would carry
+p | film_below_zero_share | - | share of the contact with higher roughness than the film sustains
+p | film_breakdown | | where the film ends, and a suggested cut-off wavelength
 sp | surface_preparation | | what was done to a measured map
 sp | second_surface_preparation | | the same of the second surface
 p | positions | - | positions of the tile over a passage

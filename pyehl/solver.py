@@ -22,7 +22,7 @@ from pyehl.case import Case, with_surface
 from pyehl.destination import Destination, write_json
 from pyehl.given import Option, heights_of, path_of
 from pyehl.handle import SolverHandle, Work
-from pyehl.prediction.of_solver import Predictions
+from pyehl.predictions import Predictions
 from pyehl.surfaces import (
     GROUPS,
     Record,

@@ -106,7 +106,7 @@ def rough_rows(found: Rough, film: Film | None = None) -> list[tuple[str, str]]:
     if p.friction.status == "predicted" and s["h_min_rough_m"] is not None:
         rows.append(("least rough film", f"{s['h_min_rough_m'] * NM:.4g} nm"))
     if p.advice is not None:
-        rows += [("what would carry", line) for line in p.advice.report()]
+        rows += [("suggested cut-off", line) for line in p.advice.report()]
     return rows
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from pyehl.bench.unit import processor_seconds
 from pyehl.case import Case
 from pyehl.handle import SolverHandle
-from pyehl.prediction.start import hand_over
+from pyehl.prediction.initial_condition import hand_over
 from pyehl.types import Row, Values
 
 # Bits cannot be equal where sums are taken in another order; the cycles may make it more

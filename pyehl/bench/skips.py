@@ -25,7 +25,7 @@ from pyehl.bench.comparison import (
 from pyehl.bench.unit import hertz
 from pyehl.case import Case
 from pyehl.prediction import smooth as smooth_contact
-from pyehl.prediction.of_case import predict
+from pyehl.prediction.predict import predict
 
 COLUMNS = (
     ("scene", "s"),

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 from pyehl.bench.unit import processor_seconds, unit_seconds
 from pyehl.case import Case
-from pyehl.prediction.of_case import predict
+from pyehl.prediction.predict import predict
 from pyehl.solver import Solver
 from pyehl.types import Row
 

@@ -19,13 +19,12 @@ from pyehl.surfaces import Topography
 
 def report(prediction: Prediction) -> str:
     """Return the lines that ``pyehl predict`` prints."""
-    f, s, values = prediction.friction, prediction.surface, prediction.summary
-    lines = [*s.preparation.record.report()] if s.preparation else []
-    lines.append(_surface("surface", s))
-    if prediction.second:
-        other = prediction.second.surface
-        lines += other.preparation.record.report() if other.preparation else []
-        lines.append(_surface("second", other))
+    f, values = prediction.friction, prediction.summary
+    lines = []
+    for name, one in zip(("surface", "second"), prediction.surfaces, strict=False):
+        tile = one.topography
+        lines += tile.preparation.record.report() if tile.preparation else []
+        lines.append(_surface(name, tile))
     lines.append(f"model      {_model(prediction)}")
     if f.status == "predicted":
         lines += _deformed(values)
@@ -47,7 +46,7 @@ def report(prediction: Prediction) -> str:
     if prediction.advice:
         lines += prediction.advice.report()
     if f.cavitated_share > 0.0:
-        line = f"rim        p_s + delta p <= 0 on {f.cavitated_share:.2g} of the contact"
+        line = f"edge       p_s + delta p <= 0 on {f.cavitated_share:.2g} of the contact"
         if math.isfinite(f.cavitated_friction):
             line += f", at most {f.cavitated_friction:.1g} of the friction"
         lines.append(line)
@@ -94,8 +93,8 @@ def _model(prediction: Prediction) -> str:
     options = prediction.options
     words = [f"{prediction.lubricant.viscosity_law} viscosity"]
     if options.reduction == "response":
-        second = f" and {prediction.second.velocity_ratio:g}" if prediction.second else ""
-        words.append(f"complex response at velocity ratio {prediction.velocity_ratio:g}{second}")
+        ratios = " and ".join(f"{one.velocity_ratio:g}" for one in prediction.surfaces)
+        words.append(f"complex response at velocity ratio {ratios}")
     else:
         words.append(f"real amplitude ratio, wavelengths by {options.wavelength_convention}")
     words.append(f"smooth contact {prediction.film_source}")

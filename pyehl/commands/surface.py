@@ -18,8 +18,8 @@ from pyehl.errors import FileError, InputError
 from pyehl.given import key_of
 from pyehl.surfaces import FEATURES, Topography, from_settings
 from pyehl.surfaces.areal import AREAL_NAMES, areal_numbers
+from pyehl.surfaces.from_case import profile_of
 from pyehl.surfaces.in_memory import READY
-from pyehl.surfaces.of_case import profile_of
 from pyehl.surfaces.profile import fit
 from pyehl.surfaces.profile_file import is_profile
 from pyehl.surfaces.writing import SUFFIXES, write_map

@@ -17,7 +17,8 @@ from pyehl.given import Option, path_of
 from pyehl.measured_response.measurement import TIERS, measure, with_tiers
 from pyehl.netcdf import write_netcdf
 from pyehl.prediction.errors import outside_range
-from pyehl.prediction.options import Options
+from pyehl.prediction.options import ModelOptions
+from pyehl.prediction.response import STATIONS
 from pyehl.prediction.smooth import circle_of, solve_contact, zone_of
 from pyehl.results import scalars
 from pyehl.theory.lubricant import Lubricant
@@ -30,10 +31,8 @@ PICTURE = "response.png"
 FILES = ("response.csv", "response.nc", "case.nml", PICTURE, "summary.json")
 DIRECTIONS = (0.0, 45.0, 80.0)
 """Of the lines of the shipped response: crests to those across the motion [deg]."""
-STATIONS = np.array([-0.5, 0.0, 0.5])
-"""Where the response is tabulated, on Y = 0 [a]."""
 PLACES = ("upstream", "centre", "downstream")
-"""How the columns of the table call them."""
+"""Columns of the table at the STATIONS, on Y = 0."""
 # Variables over the waves, the second part also over X: meaning and unit
 VARIABLES = {
     "kx": ("wavenumber along the motion", "1/a"),
@@ -154,7 +153,9 @@ def _write(case: Case, found: Mapping[str, Mapping[str, Any]], place: Destinatio
     waves = {name: at_centre[name].values for name in ("nabla_2", "direction", "amplitude", "lag")}
     label = f"M = {operating.moes_m:.4g}, L = {operating.moes_l:.4g}, velocity ratio {ratio:g}"
     summary = _summary(found, at_centre["shipped_difference"].values, data)
-    summary["within_fitted_range"] = not outside_range(operating, ratio, Options(), smooth.thinning)
+    summary["within_fitted_range"] = not outside_range(
+        operating, ratio, ModelOptions(), smooth.thinning
+    )
     with with_tiers(place).fresh() as folder:
         write_table(data, folder / "response.csv")
         write_netcdf(folder / "response.nc", data)

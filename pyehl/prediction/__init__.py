@@ -4,13 +4,14 @@
 Zhang, Biboulet, Venner & Lubrecht 2019 (doi 10.1016/j.triboint.2019.01.028), section 3. Each
 Fourier component of the roughness rr is reduced in the contact to rr_d, which costs a pressure
 delta p. Friction is the integral of the shear stress at p_s + delta p in a film h_s - rr_d
-(eqs 13, 14).
+(eqs 13, 14). :mod:`pyehl.prediction.model` begins with a table of the equations and the functions
+that hold them; :func:`pyehl.prediction.predict.predict` predicts a resolved case.
 
 ``reduction="response"`` (default)
     The complex response of the contact, :mod:`pyehl.theory.response`: a driven wave that moves with
     the roughness and a free wave that the inlet makes and the mean velocity carries, so that the
-    friction depends on the velocity ratio. Put together in :mod:`pyehl.prediction.by_response`;
-    compared with the full simulation in docs/evidence/prediction.
+    friction depends on the velocity ratio. Compared with the full simulation in
+    docs/evidence/prediction.
 ``reduction="amplitude"``
     The real ratio of the paper (eq. 10). With ``smooth="hertz"`` all of it is the model of the
     paper, 4 to 76 % below the full simulation of the same surfaces.
@@ -32,7 +33,7 @@ What happens where the model ends
 * p_s + delta p <= 0: the lubricant cavitates, as P >= 0 demands in the full problem: pressure zero
   and viscosity eta0, and by the response less pressure around, so that the load stays. The points
   are counted (`cavitated_share`) and the share of friction at stake is bounded
-  (`cavitated_friction`); near the rim p_s vanishes, so a few are normal.
+  (`cavitated_friction`); near the edge of the contact p_s vanishes, so a few are normal.
 * A loss of film rr_d of more than 1.6 h_s by the response, of more than h_s in the model of the
   paper: there is no full film and the model has nothing to say: status ``"film breakdown"``, no
   ratio.
@@ -42,14 +43,14 @@ What happens where the model ends
   ``"load lost"``, no ratio.
 
 A passage is one track of a surface. Ridges along the motion stay in their place of the contact
-during a passage: a track under a ridge rubs more, one under a valley less, and the mean over the
-tracks is a property of the spectrum. The absolute friction coefficient of a
-Newtonian lubricant at these pressures has no meaning.
+during a passage: a track under a ridge has more friction, one under a valley less, and the mean
+over the tracks is a property of the spectrum. The absolute friction coefficient of a Newtonian
+lubricant at these pressures has no meaning.
 """
 
 from pyehl.prediction.bands import Band
 from pyehl.prediction.contact import Response
 from pyehl.prediction.friction import RoughFriction
-from pyehl.prediction.options import Options
+from pyehl.prediction.options import ModelOptions
 
-__all__ = ["Band", "Options", "Response", "RoughFriction"]
+__all__ = ["Band", "ModelOptions", "Response", "RoughFriction"]

@@ -12,7 +12,7 @@ from pyehl.types import Array, Mask
 
 # A wave at the end of an octave begins the next one, whatever its last digits
 ROUNDING = 1e-9
-# Share of the largest mean square that counts for none
+# Share of the largest mean square that counts for none: rounding leaves its square, 1e-32
 NOTHING = 1e-20
 
 # Attributes of a band, and what they are called in results

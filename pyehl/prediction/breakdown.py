@@ -1,103 +1,190 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Where the film of a rough surface ends, and what would carry.
+"""Where the film of rough surfaces ends, and with which cut-off or threshold it would not.
 
 With a measured surface some pixel nearly always touches. That is said with its place, its height
-and its share of the contact, and the film is never clipped. What the film bears and what would
-carry are given as functions, so that nothing here depends on the model.
+and its share of the contact, and the film is never clipped.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from pyehl import lengths
-from pyehl.prediction.carrying import Carries, carrying_outliers, carrying_wavelength
-from pyehl.surfaces.cutting import cropped
-from pyehl.surfaces.holes import prominence
-from pyehl.surfaces.prepare import Preparation
+from pyehl.prediction.cutoff_search import choices, spikes_of, suggested_wavelength
+from pyehl.prediction.model import Model
+from pyehl.prediction.passage_friction import known, remedies
+from pyehl.prediction.relative_positions import RelativePositions
+from pyehl.prediction.second_order import FILM_ENDS
 from pyehl.surfaces.tile import Topography
-from pyehl.types import Array
+from pyehl.types import Array, Indices
 
-DeformedOf = Callable[[Topography], Array]
-"""Deformed roughness of a tile on its pixels [m], (nx, ny)."""
+Sustained = Callable[[Array, Array], Array]
+"""Deformed roughness that the smooth film sustains [m] at x (m,) and y (n,) [m] from the centre of
+the contact, (m, n): where it is higher the film ends."""
 
-Borne = Callable[[Array, Array], Array]
-"""Deformed roughness that the smooth film bears [m] at x (m,) and y (n,) [m] from the centre of the
-contact, (m, n): where it is higher the film ends."""
+PLACES = 64
+"""Places along a row at which the smooth film is taken: 1/32 a apart, where its slope makes a
+difference far below the error of the film."""
 
-STATIONS = 64
-"""Places along a row at which the smooth film is taken."""
+
+def sustained_by(model: Model) -> Sustained:
+    """Deformed roughness at which the film of a model ends."""
+    ends = FILM_ENDS if model.options.reduction == "response" else 1.0
+    a, film_unit = model.operating.hertz_radius, model.operating.film_scale
+
+    def sustained(x: Array, y: Array) -> Array:
+        return model.contact.at(x / a, y / a)[1] * film_unit * ends
+
+    return sustained
 
 
 @dataclass(frozen=True, slots=True)
 class BelowZero:
-    """Where the film of a tile ends."""
+    """Where the film of one or two tiles ends."""
 
-    # Mean share of the Hertz area where it has ended, over a whole passage of the tile [-]
+    # Mean share of the Hertz area where it has ended, over a whole passage [-]
     share: float
-    # Least of what the film bears less the deformed roughness [m], not positive where the film ends
+    # Least of what the film sustains less the deformed roughness [m], not positive where it ends
     deepest: float
-    pixel: tuple[int, int]  # (i, j) of the tile where it is
-    pixels: int  # pixels of the tile that pass through the contact and end the film
+    pixels: tuple[tuple[int, int], ...]  # (i, j) of each tile where it is
+    # Pixels of one tile that pass through the contact and end the film; of two: not counted
+    count: int | None = None
 
 
 def below_zero(
-    deformed: Array, pixel: tuple[float, float], semi_axes: tuple[float, float], borne: Borne
+    tiles: Sequence[Topography],
+    deformed: Sequence[Array],
+    semi_axes: tuple[float, float],
+    sustained: Sustained,
 ) -> BelowZero:
-    """Find where the film over a tile ends, in the strip that passes through the contact.
+    """Find the least film over tiles, in the strip that passes through the contact.
 
-    Every pixel of the tile within b of the track passes through the contact at some time, along
-    its row, and meets the thinnest smooth film of that row. The share is the mean over the
-    passage. The deformed roughness (nx, ny) [m], row 0 through the centre, is taken to be that at
-    the centre on the whole way. Pixel size and the semi-axes a and b of the contact in m;
-    `borne` says what the film bears.
+    Every pixel of a tile within b of the track passes through the contact at some time, along its
+    row, and meets the thinnest smooth film of that row, and the highest point of the other tile on
+    it. The deformed roughness (nx, ny) [m], row 0 through the centre, is taken to be that at the
+    centre on the whole way. Semi-axes a and b of the contact in m. The share is that of one tile,
+    NaN of two: it needs the positions of a prediction.
     """
-    ny = deformed.shape[1]
     a, b = semi_axes
-    reach = int(b / pixel[1])
-    row = np.arange(-reach, reach + 1)
-    y = np.asarray(row * pixel[1], dtype=np.float64)
-    x: Array = a * ((2.0 * np.arange(STATIONS) + 1.0) / STATIONS - 1.0)
+    smooth, columns = _strip(tiles, a, b, sustained)
+    tops = [values.max(axis=0)[column] for values, column in zip(deformed, columns, strict=True)]
+    least = smooth.min(axis=0)
+    for top in tops:
+        least = least - top
+    worst = int(np.argmin(least))
+    pixels = tuple(
+        (int(np.argmax(values[:, column[worst]])), int(column[worst]))
+        for values, column in zip(deformed, columns, strict=True)
+    )
+    found = BelowZero(math.nan, float(least[worst]), pixels)
+    if len(tiles) > 1:
+        return found
+    share, count = _beyond(deformed[0], columns[0], smooth, least < 0.0)
+    return replace(found, share=share, count=count)
+
+
+def _strip(
+    tiles: Sequence[Topography], a: float, b: float, sustained: Sustained
+) -> tuple[Array, list[Indices]]:
+    """Give what the smooth film sustains on the rows of the contact (n, m) [m], inf outside of it.
+
+    And the column of each tile (m,) on the rows, which are as far apart as the finest pixels.
+    """
+    pixel = min(tile.pixel[1] for tile in tiles)
+    reach = int(b / pixel)
+    y = np.asarray(np.arange(-reach, reach + 1) * pixel, dtype=float)
+    x: Array = a * ((2.0 * np.arange(PLACES) + 1.0) / PLACES - 1.0)
     inside = np.hypot(x[:, np.newaxis], y[np.newaxis, :] * (a / b)) < a
-    film = np.where(inside, borne(x, y), np.inf)
-    least = film.min(axis=0)
-    top = deformed.max(axis=0)[row % ny]
-    below = 0
+    columns = [np.rint(y / tile.pixel[1]).astype(int) % tile.shape[1] for tile in tiles]
+    return np.where(inside, sustained(x, y), np.inf), columns
+
+
+def _beyond(deformed: Array, column: Indices, smooth: Array, ended: Array) -> tuple[float, int]:
+    """Mean share of the contact in which one tile ends the film, and the pixels that do so."""
+    inside, below = np.isfinite(smooth), 0
     # a pixel may pass through the contact on several rows of a small tile
-    limit = np.full(ny, np.inf)
-    np.minimum.at(limit, row % ny, least)
-    for k in np.nonzero(top > least)[0]:
-        heights = np.sort(deformed[:, row[k] % ny])
-        at = np.searchsorted(heights, film[inside[:, k], k], side="right")
+    limit = np.full(deformed.shape[1], np.inf)
+    np.minimum.at(limit, column, smooth.min(axis=0))
+    for k in np.nonzero(ended)[0]:
+        heights = np.sort(deformed[:, column[k]])
+        at = np.searchsorted(heights, smooth[inside[:, k], k], side="right")
         below += int((heights.size - at).sum())
     share = below / (deformed.shape[0] * int(inside.sum()))
-    worst = int(np.argmin(least - top))
-    j = int(row[worst] % ny)
-    return BelowZero(
-        share,
-        float(least[worst] - top[worst]),
-        (int(np.argmax(deformed[:, j])), j),
-        int(np.count_nonzero(deformed > limit[np.newaxis, :])),
+    return share, int(np.count_nonzero(deformed > limit[np.newaxis, :]))
+
+
+def of_model(model: Model, deformed: Sequence[Array], sustained: Sustained) -> BelowZero:
+    """Find where the film of a model ends; of two surfaces over all their relative positions."""
+    tiles, semi_axes = [one.topography for one in model.surfaces], model.operating.semi_axes
+    found = below_zero(tiles, deformed, semi_axes, sustained)
+    if len(tiles) == 1 or found.deepest > 0.0:
+        return found
+    first, second = model.in_order
+    lengths_of = [one.topography.length_x / semi_axes[0] for one in (first, second)]
+    positions = RelativePositions(
+        (lengths_of[0], lengths_of[1]),
+        (first.velocity_ratio, second.velocity_ratio),
+        (first.front, second.front),
     )
+    if positions.passages is None:
+        return found
+    return _in_common_period(model, positions, deformed, sustained)
+
+
+def _in_common_period(
+    model: Model, positions: RelativePositions, deformed: Sequence[Array], sustained: Sustained
+) -> BelowZero:
+    """Find the least film of two surfaces over a common period, by steps of a pixel."""
+    tiles, (a, b) = [one.topography for one in model.surfaces], model.operating.semi_axes
+    smooth, columns = _strip(tiles, a, b, sustained)
+    x = (2.0 * np.arange(PLACES) + 1.0) / PLACES - 1.0
+    heights = [values[:, column] for values, column in zip(deformed, columns, strict=True)]
+    pixels = [tile.pixel[0] / a for tile in tiles]
+    period = max(
+        passages * length / u
+        for passages, length, u in zip(
+            positions.passages or (), positions.lengths, positions.velocity_ratios, strict=True
+        )
+        if u > 0.0
+    )
+    steps = math.ceil(period * max(positions.velocity_ratios) / min(pixels))
+    found = BelowZero(math.nan, math.inf, ((0, 0), (0, 0)))
+    for k in range(steps):
+        shifts = positions.shifts(k, steps)
+        rows = [
+            np.rint((x - shifts[model.order.index(i)]) / pixels[i]).astype(int)
+            % heights[i].shape[0]
+            for i in (0, 1)
+        ]
+        film = smooth - heights[0][rows[0]] - heights[1][rows[1]]
+        place = int(film.argmin())
+        if film.flat[place] < found.deepest:
+            i, j = divmod(place, film.shape[1])
+            at = tuple(
+                (int(row[i]), int(column[j])) for row, column in zip(rows, columns, strict=True)
+            )
+            found = BelowZero(math.nan, float(film[i, j]), at)
+    return found
 
 
 @dataclass(frozen=True, slots=True)
 class Advice:
-    """Where the film of a surface ends, and what would carry."""
+    """Where the film ends, and with which cut-off or threshold it would be full."""
 
     below: BelowZero
-    # Place of the deepest point on the surface [m]; of a prepared map from the corner of what was
+    groups: tuple[str, ...]  # of the case, one for each surface
+    # x, y of the deepest point on each surface [m]; of a prepared map from the corner of what was
     # left of it after cropping and turning
-    x: float
-    y: float
-    # `surface.shortest_wavelength` [m] with which the film is full, and the error of the predicted
-    # friction known; None: there is none
-    wavelength: float | None
-    # `surface.outliers` with which both hold, and how many points that removes; None: the surface
-    # is no map, or more than a few points would have to go
-    outliers: float | None
-    outlier_points: int | None
+    places: tuple[tuple[float, float], ...]
+    # `shortest_wavelength` [m] of each, then of both, with which the film is full and the error of
+    # the predicted friction known; None: there is none
+    wavelengths: tuple[float | None, ...] = ()
+    # `outliers` of one map with which both hold, and how many points that removes; None: the
+    # surface is no map, or more than a few points would have to go
+    outliers: float | None = None
+    outlier_points: int | None = None
     # Options that take off what is no roughness, see :mod:`pyehl.surfaces.findings`: they come
     # first, and no wave or spike was looked for
     first: tuple[str, ...] = ()
@@ -105,116 +192,98 @@ class Advice:
     @property
     def summary(self) -> dict[str, float | int | None]:
         """Return what ``summary.json`` holds of it."""
-        return {
-            "x_m": self.x,
-            "y_m": self.y,
-            "film_m": self.below.deepest,
-            "pixels": self.below.pixels,
-            "share_of_contact": self.below.share,
-            "carrying_shortest_wavelength_m": self.wavelength,
-            "carrying_outliers": self.outliers,
-            "carrying_outliers_points": self.outlier_points,
-        }
+        two = len(self.places) > 1
+        found: dict[str, float | int | None] = {}
+        for prefix, (x, y) in zip(("", "second_"), self.places, strict=False):
+            found |= {f"{prefix}x_m": x, f"{prefix}y_m": y}
+        found |= {"film_m": self.below.deepest, "share_of_contact": self.below.share}
+        names = ("", "second_", "both_")[: 3 if two else 1]
+        lengths_of = self.wavelengths or (None,) * len(names)
+        for name, length in zip(names, lengths_of, strict=True):
+            found[f"suggested_{name}shortest_wavelength_m"] = length
+        if not two:
+            found["pixels"] = self.below.count
+            found["suggested_outliers"] = self.outliers
+            found["suggested_outliers_points"] = self.outlier_points
+        return found
 
     def report(self) -> list[str]:
         """Return the lines that ``pyehl predict`` prints."""
+        places = [f"x = {lengths.length(x, 4)}, y = {lengths.length(y, 4)}" for x, y in self.places]
+        two = len(places) > 1
+        where = f"at {places[0]} of the surface"
+        if two:
+            where = "where " + " meets ".join(
+                f"{place} of {group}" for place, group in zip(places, self.groups, strict=True)
+            )
+        pixels = "" if two else f"{self.below.count} pixels, "
+        higher = f"{-self.below.deepest * 1e9:.3g} nm higher than the film sustains"
         lines = [
-            f"film ends  at x = {lengths.length(self.x, 4)}, y = {lengths.length(self.y, 4)} "
-            f"of the surface: {-self.below.deepest * 1e9:.3g} nm higher than the film bears; "
-            f"{self.below.pixels} pixels, "
-            f"{100 * self.below.share:.3g} % of the contact in the mean over the passage"
+            f"film ends  {where}: {higher}; {pixels}{100 * self.below.share:.3g} % of the contact "
+            "in the mean over the passage"
         ]
         if self.first:
-            lines += [first_of(option) for option in self.first]
-            return lines
+            return lines + [f"first      {option}: it is no roughness" for option in self.first]
         if self.outliers is not None:
             lines.append(
-                f"full film  with surface.outliers = {self.outliers:.4g}: "
+                f"full film  with {self.groups[0]}.outliers = {self.outliers:.4g}: "
                 f"{self.outlier_points} points count as spikes and are removed"
             )
-        if self.wavelength is not None:
-            lines.append(
-                f"full film  with surface.shortest_wavelength = {self.wavelength:.4g}: without "
-                f"waves shorter than {lengths.length(self.wavelength, most='um')}"
-            )
-        if self.outliers is None and self.wavelength is None:
-            lines.append("full film  with no cut of spikes or short waves alone")
+        for name, length in zip((*self.groups, "both"), self.wavelengths, strict=False):
+            if length is not None:
+                key = f"{name}{' ' if name == 'both' else '.'}shortest_wavelength"
+                lines.append(
+                    f"full film  with {key} = {length:.4g}: without waves shorter than "
+                    f"{lengths.length(length, most='um')}"
+                )
+        if self.outliers is None and not any(self.wavelengths):
+            cut = "short waves alone" if two else "spikes or short waves alone"
+            lines.append(f"full film  with no cut of {cut}")
         return lines
 
 
 def advise(
-    tile: Topography,
-    deformed_of: DeformedOf,
-    semi_axes: tuple[float, float],
-    borne: Borne,
-    without_shorter: Callable[[Topography, float], Topography],
+    model: Model,
+    below: BelowZero,
+    sustained: Sustained,
     without_spikes: Callable[[float], Topography] | None = None,
-    known: Carries | None = None,
 ) -> Advice:
-    """Say where the film of a tile, which is not full, ends, and find what would carry.
+    """Say where the film of a model, which is not full, ends, and with which cut-off it would be.
 
-    `without_shorter` takes a tile and a wavelength [m] and returns the tile without shorter waves,
-    `without_spikes` a threshold of `surface.outliers` and returns the tile without them; None: the
-    surface is no map. `known` tells whether the error of the predicted friction of a tile with a
-    full film is known: what would carry must be worth a prediction, too.
+    With the film full the error of the predicted friction must be known, too. `without_spikes`
+    takes a threshold of `surface.outliers` and returns the one tile without them.
     """
 
-    def film(other: Topography) -> BelowZero:
-        return below_zero(deformed_of(other), other.pixel, semi_axes, borne)
+    def full(other: Model) -> bool:
+        return of_model(other, other.deformed(), sustained).deepest > 0.0 and known(other)
 
-    def carries(other: Topography) -> bool:
-        return film(other).deepest > 0.0 and (known is None or known(other))
+    tiles = [one.topography for one in model.surfaces]
+    groups = tuple(one.groups[0] for one in model.surfaces)
+    places = tuple(place_of(tile, *at) for tile, at in zip(tiles, below.pixels, strict=True))
+    if first := remedies(model):
+        return Advice(below, groups, places, first=tuple(first))
+    wavelengths = []
+    for numbers in choices(len(tiles)):
 
-    below = film(tile)
-    made = tile.preparation
-    x, y = place_of(tile, *below.pixel)
-    if first := remedies_of(tile):
-        return Advice(below, x, y, None, None, None, first)
+        def good(shortest: float, numbers: tuple[int, ...] = numbers) -> bool:
+            return full(model.without_shorter(numbers, shortest))
+
+        shortest = min(min(tiles[k].pixel) for k in numbers)
+        longest = max(max(tiles[k].size) for k in numbers)
+        wavelengths.append(suggested_wavelength(2.0 * shortest, longest, good))
     spikes: tuple[float, int] | None = None
+    made = tiles[0].preparation
     if made is not None and without_spikes is not None and not made.options.outliers > 0.0:
-        spikes = _spikes(made, without_spikes, carries)
-    return Advice(
-        below, x, y,
-        carrying_wavelength(
-            2.0 * min(tile.pixel),
-            max(tile.size),
-            lambda shortest: carries(without_shorter(tile, shortest)),
-        ),
-        *(spikes or (None, None)),
-    )  # fmt: skip
-
-
-def remedies_of(tile: Topography) -> tuple[str, ...]:
-    """Options that take form and line offsets off a map: cuts of waves would take them as well."""
-    if tile.preparation is None:
-        return ()
-    found = tile.preparation.record.findings
-    return tuple(f"{f.remedy} ({f.kind})" for f in found if f.kind in ("form", "line offsets"))
-
-
-def first_of(remedy: str) -> str:
-    """Line with an option that comes before all others."""
-    return f"first      {remedy}: it is no roughness"
+        (one,) = model.surfaces
+        spikes = spikes_of(
+            made,
+            without_spikes,
+            lambda tile: full(replace(model, surfaces=(replace(one, topography=tile),))),
+        )
+    return Advice(below, groups, places, tuple(wavelengths), *(spikes or (None, None)))
 
 
 def place_of(tile: Topography, i: int, j: int) -> tuple[float, float]:
     """Place of a pixel on the surface [m]; of a prepared map on the map."""
     made = tile.preparation
     return made.place(i, j) if made else (i * tile.pixel[0], j * tile.pixel[1])
-
-
-def _spikes(
-    made: Preparation, without_spikes: Callable[[float], Topography], carries: Carries
-) -> tuple[float, int] | None:
-    """Threshold that carries, and the number of points beyond it."""
-    heights = made.scan.heights
-    if any(made.options.crop):
-        nx, ny = heights.shape
-        pixel = (made.scan.length_x / nx, made.scan.length_y / ny)
-        heights = cropped(heights, pixel, made.options.crop)
-    try:
-        away = prominence(heights)
-    except ValueError:
-        # no spread to tell spikes by
-        return None
-    return carrying_outliers(away, without_spikes, carries)

@@ -15,12 +15,12 @@ from pyehl.theory.shear import shear_stress
 from pyehl.types import Array, Indices, Mask, Single
 
 INNER = 0.8
-"""Pressures are told within this distance from the centre: at the rim the roughness moves the edge
-of the contact to and fro [a]."""
+"""Pressures are reported within this distance from the centre: further out the roughness moves the
+edge of the contact to and fro [a]. The errors of docs/evidence/thinning are of this and NEAR."""
 NEAR = 0.5
-"""Their rms is told within this distance [a]."""
-# Fewest points per Hertz radius when not all pixels are visited
+"""Their rms is reported within this distance [a]."""
 MIN_SAMPLES = 128
+"""Fewest points per Hertz radius when not all pixels are visited, in the model of the paper."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,6 +45,7 @@ class ShearedContact:
         self.thins = lubricant.shear.law != "newtonian" and operating.sliding_speed > 0.0
         self.cavitated = 0  # points where the pressure is not positive
         self.count = 0  # positions
+        self.ended = 0  # points where the film has ended
         self.imbalance = 0.0  # greatest share of the load that delta p carries or takes off [-]
         self.lost = False  # whether the roughness takes more pressure than there is
         self.greatest_rise = -math.inf  # of the pressure over the smooth contact within INNER
@@ -141,9 +142,10 @@ class HertzContact(ShearedContact):
         self.inner, self.near = (self.radius_squared < r**2 for r in (INNER, NEAR))
         self.smooth = float(self.stress(self.semi_ellipse, np.array(film)).sum())
 
-    def friction(self, step: int, track: int = 0) -> float:
-        """Integral of the shear stress over that of the smooth contact, some pixels on."""
-        moved = [np.roll(v, (step, track), (0, 1)) for v in (self.pressure, self.deformed)]
+    def friction(self, position: tuple[float, float]) -> float:
+        """Integral of the shear stress over that of the smooth contact, in a position."""
+        pixels = [int(number) for number in position]
+        moved = [np.roll(v, pixels, (0, 1)) for v in (self.pressure, self.deformed)]
         delta, deformed = (values.ravel().take(self.index) for values in moved)
         film = self.film - deformed
         if min(self.thinnest, float(film.min())) <= 0.0:

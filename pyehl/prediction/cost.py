@@ -5,8 +5,8 @@ import logging
 import math
 
 from pyehl import lengths
-from pyehl.prediction.by_response import POINTS
-from pyehl.prediction.passage import RADIUS_PIXELS
+from pyehl.prediction.model import PIXEL_POINTS
+from pyehl.prediction.spectrum import WORKING_PIXELS
 from pyehl.surfaces import Topography
 from pyehl.theory.operating import OperatingPoint
 
@@ -27,10 +27,10 @@ ENOUGH = 3.0
 def seconds_of(tile: Topography, operating: OperatingPoint) -> float:
     """Seconds that the prediction of a tile takes, to a factor of two."""
     sides = list(zip(tile.shape, tile.size, operating.semi_axes, strict=True))
-    pixels = math.prod(max(n, size / a * RADIUS_PIXELS) for n, size, a in sides)
+    pixels = math.prod(max(n, size / a * WORKING_PIXELS) for n, size, a in sides)
     # points in the contact, no fewer than tiles across the motion
     a = operating.hertz_radius
-    points = math.pi * a * operating.semi_axis_y / min(a / POINTS, *tile.size) ** 2
+    points = math.pi * a * operating.semi_axis_y / min(a / PIXEL_POINTS, *tile.size) ** 2
     return PER_PIXEL * pixels + PER_POINT * points
 
 

@@ -13,14 +13,14 @@ from numpy.typing import NDArray
 
 if TYPE_CHECKING:
     from pyehl.prediction.friction import RoughFriction
-    from pyehl.prediction.sides import Together
+    from pyehl.prediction.second_surface import Together
 
 Array = NDArray[np.float64]
 
 # Errors against the full simulation, measured in docs/evidence/thinning: relative, and of a film
 # beside that of the smooth contact by the rms height of the deformed roughness
 RMS_DEFORMED, RISE_RMS, RISE = 0.13, 0.05, 0.15
-FILM = 0.35
+ROUGH_FILM_ERROR = 0.35
 # Slip from which on that of the film is twice as large
 MUCH_SLIP = 0.2
 
@@ -28,7 +28,7 @@ MUCH_SLIP = 0.2
 def film_share(*velocity_ratios: float) -> float:
     """Error of a film over the rms height of the deformed roughness, at velocity ratios [-]."""
     slips = [abs(ratio - 1.0) for ratio in velocity_ratios]
-    return FILM * (2.0 if max(slips) > MUCH_SLIP else 1.0)
+    return ROUGH_FILM_ERROR * (2.0 if max(slips) > MUCH_SLIP else 1.0)
 
 
 def film_levels(
@@ -59,11 +59,9 @@ def deformed_surface(
     the model is one that they were measured of and the case in its range; `together`: the sum of
     two surfaces that move so. NaN for what is not known.
     """
-    deformed = float(np.std(friction.response.deformed))
-    both = [friction.response, *([friction.second.response] if friction.second else [])]
-    of_all = math.hypot(*(float(np.std(response.deformed)) for response in both))
-    if together is not None:
-        of_all = together.deformed_rms
+    of_each = [float(np.std(response.deformed)) for response in friction.responses]
+    deformed = of_each[0]
+    of_all = math.hypot(*of_each) if together is None else together.deformed_rms
     ratio = film_minimum / of_all if of_all > 0.0 else math.nan
     rms, rise = friction.rise_rms, friction.rise_max
     share, share_error = friction.below_limit, friction.below_limit_error

@@ -5,7 +5,7 @@ import math
 from collections.abc import Sequence
 
 from pyehl.prediction.bands import Band
-from pyehl.prediction.options import Options
+from pyehl.prediction.options import ModelOptions
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import fitted_range
 
@@ -46,7 +46,7 @@ def model_error(mu_ratio: float, *, thins: bool = False, ellipticity: float = 1.
 
 
 def why_no_error(
-    mu_ratio: float, outside: Sequence[str], options: Options, *, friction_alone_thins: bool
+    mu_ratio: float, outside: Sequence[str], options: ModelOptions, *, friction_alone_thins: bool
 ) -> str:
     """Say why `model_error` is not known of a prediction; '' where it is.
 
@@ -76,7 +76,7 @@ def cutoff_error(bands: Sequence[Band]) -> float:
 
 
 def outside_range(
-    operating: OperatingPoint, velocity_ratio: float, options: Options, thinning: float = 1.0
+    operating: OperatingPoint, velocity_ratio: float, options: ModelOptions, thinning: float = 1.0
 ) -> list[str]:
     """Names of the numbers that lie outside the range in which the response was measured.
 

@@ -15,7 +15,7 @@ from pyehl.arrays import read_array, write_csv
 from pyehl.destination import Destination, write_json
 from pyehl.errors import InputError
 from pyehl.prediction.result import Prediction
-from pyehl.prediction.sides import SECOND
+from pyehl.prediction.second_surface import SECOND
 from pyehl.prediction.smooth import SmoothContact, contact_of
 from pyehl.prediction.smooth_case import smooth_case
 from pyehl.theory.operating import OperatingPoint

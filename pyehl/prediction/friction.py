@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pyehl.prediction.contact import Response, ShearedContact
+from pyehl.prediction.relative_positions import Passage
 from pyehl.surfaces import interpolated
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -34,18 +35,8 @@ STRESS_NOTE = "ratio of friction coefficients at the given slide-to-roll ratio"
 
 
 @dataclass(frozen=True, slots=True)
-class SecondPassage:
-    """What the passage of a second rough surface adds."""
-
-    response: Response  # delta p and deformed roughness on the grid of its tile
-    shift: Array  # (n,) how far its tile has moved [m]
-    # Mean share of the contact where the film of both is not positive [-]
-    touching: float
-
-
-@dataclass(frozen=True, slots=True)
 class RoughFriction:
-    """Friction over one passage of the tile."""
+    """Friction over one passage of the rough surfaces."""
 
     # ``"predicted"``, ``"film breakdown"``, ``"beyond linear response"``, ``"overflow"`` or ``"load
     # lost"``. Unless ``"predicted"`` the ratios are NaN
@@ -59,9 +50,9 @@ class RoughFriction:
     # What half as many positions would miss at the others, relative to the mean: an upper estimate
     # of what the positions leave undecided. NaN for an odd number of them
     position_error: float
-    # (n,) how far the tile has moved [m], equally spaced over its length. Of two rough surfaces
+    # (n,) how far each tile has moved [m], equally spaced over its length. Of two rough surfaces
     # over their common period; in the order of a lattice where there is none
-    shift: Array
+    shifts: tuple[Array, ...]
     passage: Array  # (n,) mu_r/mu_s there [-]
     # Friction coefficient of the smooth contact at the slide-to-roll ratio [-]; without meaning for
     # a Newtonian lubricant
@@ -80,8 +71,20 @@ class RoughFriction:
     cavitated_friction: float  # bound of the share of the friction that comes from there [-]
     # Greatest |integral of delta p|/w over the passage [-], before any load balance
     load_error: float
-    response: Response  # delta p and deformed roughness on the grid of the given tile
-    second: SecondPassage | None = None  # of the second rough surface
+    # Mean share of the contact where the film has ended, in the positions [-]
+    ended: float
+    # delta p and deformed roughness of each surface on the grid of its tile
+    responses: tuple[Response, ...]
+
+    @property
+    def response(self) -> Response:
+        """Response of the (first) surface."""
+        return self.responses[0]
+
+    @property
+    def shift(self) -> Array:
+        """How far the tile of the (first) surface has moved (n,) [m]."""
+        return self.shifts[0]
 
 
 def thins(lubricant: Lubricant, operating: OperatingPoint) -> bool:
@@ -119,25 +122,23 @@ def outcome(
 def passed(
     contact: ShearedContact,
     outcome: tuple[str, str],
-    passage: tuple[Array, Array, float],
+    passage: Passage,
     *,
     film_unit: float,
-    response: Response,
-    second: SecondPassage | None = None,
-    periodic: bool = True,
+    shifts: tuple[Array, ...],
+    responses: tuple[Response, ...],
 ) -> RoughFriction:
     """Put together what a contact has met in a passage, with its status and message.
 
-    `passage` is what :func:`pyehl.prediction.passage.friction_along` gives with the positions in m,
-    as the unit of films; `periodic`: the positions follow each other and return to the first.
+    `film_unit` [m]; `shifts` and `responses` of the surfaces by number.
     """
-    shift, ratios, error = passage
+    ratios, visited = passage.ratios, max(1, contact.count * contact.points)
     low, share, high = contact.shares() if contact.levels else (math.nan,) * 3
     status, message = outcome
     mean = least = greatest = math.nan
     least_film = math.nan if status == "film breakdown" else contact.least_film()
     if status == "predicted":
-        fine = interpolated(ratios, 8) if periodic else ratios
+        fine = interpolated(ratios, 8) if passage.periodic else ratios
         mean, least, greatest = (float(v) for v in (ratios.mean(), fine.min(), fine.max()))
     return RoughFriction(
         status=status,
@@ -145,8 +146,8 @@ def passed(
         mu_ratio=mean,
         mu_ratio_min=least,
         mu_ratio_max=greatest,
-        position_error=error,
-        shift=shift,
+        position_error=passage.undecided,
+        shifts=shifts,
         passage=ratios,
         mu_smooth=contact.mu_smooth(),
         film_min=least_film * film_unit,
@@ -155,30 +156,29 @@ def passed(
         pressure_max=contact.greatest_pressure * contact.operating.hertz_pressure,
         below_limit=float(share),
         below_limit_error=0.5 * float(high - low),
-        cavitated_share=contact.cavitated / max(1, contact.count * contact.points),
+        cavitated_share=contact.cavitated / visited,
         cavitated_friction=contact.cavitated_bound(least) if status == "predicted" else math.nan,
         load_error=contact.imbalance,
-        response=response,
-        second=second,
+        ended=contact.ended / visited,
+        responses=responses,
     )
 
 
 def too_high(height: float) -> str:
-    """Say that the deformed roughness is higher than the film bears, by a height [m]."""
-    return (
-        f"the deformed roughness is {height * 1e9:.3g} nm higher than the film bears: no full film"
-    )
+    """Say that the deformed roughness is higher than the film sustains, by a height [m]."""
+    much = f"{height * 1e9:.3g} nm"
+    return f"the deformed roughness is {much} higher than the film sustains: no full film"
 
 
-def broken(friction: RoughFriction, borne: float) -> RoughFriction:
+def broken(friction: RoughFriction, sustained: float) -> RoughFriction:
     """Return a prediction whose film ends between its positions: no film, no ratio.
 
-    `borne`: least of what the film bears less the deformed roughness [m].
+    `sustained`: least of what the film sustains less the deformed roughness [m].
     """
     return replace(
         friction,
         status="film breakdown",
-        message=too_high(-borne),
+        message=too_high(-sustained),
         mu_ratio=math.nan,
         mu_ratio_min=math.nan,
         mu_ratio_max=math.nan,

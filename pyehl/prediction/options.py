@@ -9,6 +9,8 @@ from pyehl.surfaces import FEATURES, rough_groups
 from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Settings
 
+FIRST_POSITIONS = 8
+"""Fewest positions of a tile in a passage, and those of a mean over a few."""
 MAX_POSITIONS = 4096
 """Most positions of a passage, as the schema of cases has it."""
 
@@ -45,7 +47,7 @@ def turned(settings: Settings) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class Options:
+class ModelOptions:
     """How the model is read: the group ``psd`` of a case, whose schema has the allowed words."""
 
     # What is left of a wave in the contact: ``"response"``, the complex response of
@@ -75,7 +77,7 @@ class Options:
         return self.reduction == "response" and self.smooth == "solved"
 
     @classmethod
-    def from_settings(cls, settings: Settings) -> Options:
+    def from_settings(cls, settings: Settings) -> ModelOptions:
         """From the group ``psd`` of a resolved case."""
         group = settings["psd"]
         return cls(**{field.name: group[field.name] for field in fields(cls)})

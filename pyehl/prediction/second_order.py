@@ -55,7 +55,8 @@ QUADRATIC = 0.6
 _LEFT = 1.0 - QUADRATIC + INLET_FILM * QUADRATIC**2
 _RATE = (1.0 - 2.0 * INLET_FILM * QUADRATIC) / _LEFT
 
-# How often the table of the response is coarsened for the pairs of its waves
+# How often the table of the response is coarsened for the pairs of its waves: once, in place of
+# twice, changes mu_r/mu_s of Table 1 by 0.01 % and takes 16 times as long
 COARSER = 2
 
 

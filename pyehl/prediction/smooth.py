@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from pyehl.case import Case
 from pyehl.errors import EhlError
 from pyehl.handle import SolverHandle
-from pyehl.prediction.smooth_case import smooth_case
+from pyehl.prediction.smooth_case import FINEST, smooth_case
 from pyehl.theory.film import circle_with_same_inlet
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -25,11 +25,9 @@ from pyehl.types import Array, Settings
 
 POINTS = 257
 """Nodes per side of the solution. Its film is scaled to the extrapolated central film, so that the
-inlet error of the grid (4 % at M = 1000) is not in it."""
-FINEST = 1025
-"""Grids up to this one are tried where there is no solution, or none to extrapolate from: the inlet
-of a contact under a high load is steep (M above 2000 or so)."""
-
+inlet error of the grid (4 % at M = 1000) is not in it. Grids up to FINEST are tried where there is
+no solution, or none to extrapolate from: the inlet of a contact under a high load is steep (M above
+2000 or so)."""
 COARSE = 129
 """With a boundary film this is tried where no finer grid has a solution."""
 CYCLES = 100

@@ -6,13 +6,21 @@ Units: lengths along the surface by a, heights by a^2/R.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field, replace
 from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pyehl.errors import InputError
+from pyehl.prediction.options import FIRST_POSITIONS
+from pyehl.surfaces import MAX_PIXELS, Topography, resampled
+from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Array, Complex, Indices
+
+WORKING_PIXELS = 48
+"""Pixels per semi-axis below which a coarse map is interpolated."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,3 +128,54 @@ class Spectrum:
         # components with 0 < qx < Nyquist stand for two
         power[1 : (self.shape[0] + 1) // 2] *= 2.0
         return cast(Array, power)
+
+
+def _fewer_pixels(pixels: int, length: float, limit: float, semi_axis: float) -> int:
+    """Pixels for waves below a limit [1/a] in a contact, as a mean over a few positions takes them.
+
+    Of a tile of a length [a] that has so many, along a semi-axis of the contact [a].
+    """
+    if math.isinf(limit):
+        return pixels
+    highest = int(limit * length / (2.0 * math.pi))
+    few = max(2 * highest + 2, math.ceil(WORKING_PIXELS * length / semi_axis))
+    few = FIRST_POSITIONS * math.ceil(few / FIRST_POSITIONS)
+    return few if few < pixels else pixels
+
+
+def longer_waves(
+    spectrum: Spectrum, limit: float, ellipticity: float
+) -> tuple[Spectrum, tuple[Indices, Indices]]:
+    """Waves of a tile with |q| below a limit [1/a] on as few pixels as they need.
+
+    And the rows and columns that are left of the spectrum.
+    """
+    axes = 1.0, ellipticity
+    nx, ny = (
+        _fewer_pixels(n, pixel * n, limit, axis)
+        for n, pixel, axis in zip(spectrum.shape, spectrum.pixel, axes, strict=True)
+    )
+    index = spectrum.longest(nx, ny)
+    part = spectrum.kept(index, (nx, ny))
+    part.values[part.q >= limit] = 0.0
+    return part, index
+
+
+def working_grid(topography: Topography, operating: OperatingPoint, positions: int) -> Topography:
+    """Return the tile on a grid that resolves the contact and has room for the positions.
+
+    InputError if that takes too many pixels.
+    """
+    nx, ny = topography.shape
+    finest = operating.hertz_radius / WORKING_PIXELS, operating.semi_axis_y / WORKING_PIXELS
+    want_x = max(nx, math.ceil(topography.length_x / finest[0]))
+    want_y = max(ny, math.ceil(topography.length_y / finest[1]))
+    multiple = positions or FIRST_POSITIONS * 4
+    want_x = multiple * math.ceil(want_x / multiple)
+    if want_x * want_y > MAX_PIXELS:
+        raise InputError(
+            f"{topography.origin}: a tile of {topography.length_x:.3g} x "
+            f"{topography.length_y:.3g} m would need {want_x} x {want_y} pixels to resolve a "
+            f"contact of radius {operating.hertz_radius:.3g} m; cut a part out of it"
+        )
+    return resampled(topography, (want_x, want_y))

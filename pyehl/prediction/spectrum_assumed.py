@@ -66,6 +66,6 @@ def report(rows: Sequence[Mapping[str, Any]]) -> list[str]:
         else:
             what = str(row["status"])
             if (film := row["film_m"]) is not None and film < 0.0:
-                what += f", {lengths.length(-film)} higher than the film bears"
+                what += f", {lengths.length(-film)} higher than the film sustains"
         lines.append(f"           {where + ':':8} {what}")
     return lines

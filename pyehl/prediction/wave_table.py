@@ -72,10 +72,11 @@ class WaveTable:
         kx, ky = (coarsened(values, times) for values in (self.kx, self.ky))
         return kx, ky
 
-    def spread(self, tables: Sequence[Complex]) -> list[Complex]:
-        """Interpolate tables (m,) to all components, linear in log |q| and direction."""
-        values = np.stack(tables, axis=-1).view(np.float64)
-        found = [np.empty((self._shape[0], self._mirror.size), dtype=complex) for _ in tables]
+    def spread(self, **tables: Sequence[Complex]) -> dict[str, list[Complex]]:
+        """Interpolate tables (m,), by names, to all components, linear in log |q| and direction."""
+        in_all = [table for part in tables.values() for table in part]
+        values = np.stack(in_all, axis=-1).view(np.float64)
+        found = [np.empty((self._shape[0], self._mirror.size), dtype=complex) for _ in in_all]
         width = self._shape[1]
         step = max(1, BLOCK // width)
         for first in range(0, self._shape[0], step):
@@ -83,7 +84,8 @@ class WaveTable:
             spread = _between(values, self._rows[part], self._columns[part]).view(np.complex128)
             for k, out in enumerate(found):
                 out[first : first + step] = spread[:, k].reshape(-1, width)[:, self._mirror]
-        return found
+        each = iter(found)
+        return {name: [next(each) for _ in part] for name, part in tables.items()}
 
 
 def _between(values: Array, row: Array, column: Array) -> Array:

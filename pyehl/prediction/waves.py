@@ -16,8 +16,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from pyehl.prediction.response import Transfer
 from pyehl.prediction.spectrum import Spectrum
-from pyehl.prediction.transfer import Transfer
 from pyehl.theory.transport import free_stiffness, stiffness
 from pyehl.types import Array, Complex, Single
 
@@ -28,7 +28,7 @@ REFINEMENT = 4
 
 
 @dataclass(frozen=True, slots=True)
-class Waves:
+class WaveTiles:
     """Film (less by) and pressure (more by) of driven and free waves as tiles, single precision.
 
     On lines of their own in place of the columns of the tile the driven waves are as fine as the
@@ -52,7 +52,7 @@ class Waves:
         velocity_ratio: float,
         stride: int = 1,
         lines: Array | None = None,
-    ) -> Waves:
+    ) -> WaveTiles:
         """Make the tiles of all waves in a contact with a film H_c [a^2/R].
 
         On the columns of the tile, or on lines Y (n,) [a].

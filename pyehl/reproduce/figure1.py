@@ -9,7 +9,7 @@ import scipy.fft
 from pyehl.case import Case
 from pyehl.plots import paper
 from pyehl.plots.paper import Step
-from pyehl.prediction import of_case
+from pyehl.prediction.predict import predict
 from pyehl.prediction.result import Prediction
 from pyehl.reproduce.cases import CASE, MODELS, SEED
 from pyehl.reproduce.piece import Check, Level, References, Result
@@ -41,7 +41,7 @@ class Flow:
 def run(runs: Runs, level: Level) -> Flow:
     """Predict the surface of the seed by both models, and put the steps together."""
     paper, ours = (
-        of_case.predict(case.resolve(), case.text, brief=True)
+        predict(case.resolve(), case.text, brief=True)
         for case in (
             Case.from_text(CASE + MODELS[model], f"surface.seed={SEED}", origin="figure 1")
             for model in ("paper", "response")

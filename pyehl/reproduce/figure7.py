@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pyehl.plots import paper
-from pyehl.prediction.by_response import STIFFER
+from pyehl.prediction.model import PAPER_STIFFNESS
 from pyehl.reproduce.cases import MODELS, SEED, carried, predictions, simulations
 from pyehl.reproduce.piece import Check, Finding, Level, References, Result
 from pyehl.reproduce.runs import Made, Runs, friction_of
@@ -147,7 +147,7 @@ def _findings(
         ),
         Finding(
             "Misprints and readings",
-            f"Eq. 11 with its wavelength read as 2 pi/|q| is {100 * (STIFFER - 1.0):.0f} % "
+            f"Eq. 11 with its wavelength read as 2 pi/|q| is {100 * (PAPER_STIFFNESS - 1.0):.0f} % "
             "stiffer than the half-space, and the viscosity law of the prediction is not stated. "
             "Read literally, with Barus' law of the appendix, "
             f"the paper's model gives a mean of {np.nanmean(data.predicted['literal']):.3f}, with "

@@ -11,8 +11,8 @@ from pyehl import library
 from pyehl.prediction.deformed import deformed_surfaces
 from pyehl.prediction.errors import KNOWN_RATIO
 from pyehl.prediction.friction import BEYOND
+from pyehl.prediction.mixed_lubrication import NO_FRICTION
 from pyehl.prediction.smooth import film_of
-from pyehl.prediction.touching import NO_FRICTION
 from pyehl.results import unit_of
 from pyehl.studies.curve_contact import contact_columns, touches
 from pyehl.studies.curve_pattern import SMOOTH, Pattern, kept_pattern

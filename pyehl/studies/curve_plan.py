@@ -15,8 +15,8 @@ from pyehl import surfaces
 from pyehl.case import Case, files_of
 from pyehl.errors import InputError
 from pyehl.prediction.options import turned, unpredictable
-from pyehl.prediction.resolved_inlet import touching_points
 from pyehl.prediction.smooth import CYCLES
+from pyehl.prediction.smooth_case import touching_points
 from pyehl.studies.plan import START, TaskList, check_memory, duration, formula_film
 from pyehl.studies.study import MAX_CASES, Point, Study, make
 from pyehl.studies.tasks import Task

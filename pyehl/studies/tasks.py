@@ -15,8 +15,9 @@ from typing import Any
 
 from pyehl.case import trusted
 from pyehl.errors import EhlError
-from pyehl.prediction import film_sheet, folder, of_case
+from pyehl.prediction import film_formulas, folder
 from pyehl.prediction.friction import BEYOND
+from pyehl.prediction.predict import predict
 from pyehl.run import run
 from pyehl.solver import Solver
 from pyehl.studies.outputs import NOT_IN_A_TABLE, TRACKS, film_columns
@@ -41,7 +42,7 @@ class Task:
     folder: str = ""  # where its results go; '' for nowhere
     seconds: float = 0.0  # how long it may take, by estimate
     shares: str = ""  # what it has in common with others; those go to one worker where possible
-    # A prediction with its tracks, bands and what would carry; else mu_r/mu_s and its errors
+    # A prediction with its tracks, bands and a suggested cut-off; else mu_r/mu_s and its errors
     full: bool = False
 
     def message(self) -> dict[str, Any]:
@@ -91,7 +92,7 @@ def _solve(task: Task) -> Row:
 def _predict(task: Task) -> Row:
     case = trusted(task.text)
     full = task.full or bool(task.folder)
-    prediction = of_case.predict(case.resolve(), case.text, brief=not full)
+    prediction = predict(case.resolve(), case.text, brief=not full)
     if task.folder:
         folder.write(prediction, folder.destination(task.folder))
     row = _scalars(prediction.summary)
@@ -99,7 +100,7 @@ def _predict(task: Task) -> Row:
 
 
 def _film(task: Task) -> Row:
-    values = film_sheet.sheet(trusted(task.text).resolve())
+    values = film_formulas.sheet(trusted(task.text).resolve())
     row = _scalars(values)
     row["h_c_m"] = values["formulas"][0]["h_c_m"]
     for formula in values["formulas"]:

@@ -8,10 +8,7 @@ y = j length_y/ny. Spectra are those of Jacobs, Junge & Pastewka 2017, in m^4.
 
 # ruff: noqa: F401 (names for the rest of the package)
 from pyehl.surfaces.filters import filtered, psd_2d, psd_isotropic, wavenumbers
-from pyehl.surfaces.generators import FEATURES, fractal, harmonic
-from pyehl.surfaces.in_memory import Surface, as_map, given, in_memory, keep_beside, part_of
-from pyehl.surfaces.interpolation import interpolated, resampled, shifted
-from pyehl.surfaces.of_case import (
+from pyehl.surfaces.from_case import (
     GROUPS,
     finished,
     from_settings,
@@ -23,6 +20,9 @@ from pyehl.surfaces.of_case import (
     track_offsets,
     without_spikes,
 )
+from pyehl.surfaces.generators import FEATURES, fractal, harmonic
+from pyehl.surfaces.in_memory import Surface, as_map, given, in_memory, keep_beside, part_of
+from pyehl.surfaces.interpolation import interpolated, resampled, shifted
 from pyehl.surfaces.options import Options
 from pyehl.surfaces.prepare import Preparation, prepare
 from pyehl.surfaces.reading import Scan, read_scan

@@ -10,9 +10,9 @@ import numpy as np
 from pyehl.errors import InputError
 from pyehl.extension import surface_functions
 from pyehl.library import returned
+from pyehl.surfaces.from_case import GROUPS, moved, scan_of, whole
 from pyehl.surfaces.in_memory import given, part_of
 from pyehl.surfaces.interpolation import shift_across
-from pyehl.surfaces.of_case import GROUPS, moved, scan_of, whole
 from pyehl.surfaces.options import NEUTRAL, Options
 from pyehl.surfaces.prepare import consume
 from pyehl.surfaces.reading import plain_array

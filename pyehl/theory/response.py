@@ -62,8 +62,8 @@ def edge_gain(
     or less, the largest 0.05. At M = 100, where little pressure is left to measure, it is wrong;
     for ridges of a/8 it is 2 % too low.
 
-    On ellipses the pressure is calculated (:mod:`pyehl.prediction.across`), and there is no such
-    factor.
+    On ellipses the pressure is calculated (:mod:`pyehl.prediction.transverse_modes`), and there is
+    no such factor.
 
     Wavenumbers [1/a], H_c [a^2/R]. The constants are factor and power of the film, weight of
     oblique waves, |q| at which it fades [1/a].

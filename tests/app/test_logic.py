@@ -264,7 +264,7 @@ def test_film_that_ends_says_what_would_carry(start):
     position = start.turned("surface", "fractal").turned("rms", 400.0)
     rows = words.rough_rows(answers.rough(position))
     names = [name for name, _ in rows]
-    assert "what would carry" in names
+    assert "suggested cut-off" in names
     assert "least rough film" not in names
     assert not any(name.startswith("μ_r/μ_s") for name, _ in rows)
 

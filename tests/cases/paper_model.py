@@ -3,8 +3,9 @@
 
 from dataclasses import replace
 
-from pyehl.prediction import Band, Options, Response, RoughFriction
-from pyehl.prediction.by_response import RoughPassage
+from pyehl.prediction import Band, ModelOptions, Response, RoughFriction
+from pyehl.prediction.model import Model
+from pyehl.prediction.passage_friction import run
 from pyehl.prediction.smooth import hertz_contact
 from pyehl.surfaces import Topography
 from pyehl.theory.lubricant import Lubricant
@@ -16,12 +17,12 @@ def passage(
     operating: OperatingPoint,
     oil: Lubricant,
     film: float,
-    options: Options | None = None,
-) -> RoughPassage:
+    options: ModelOptions | None = None,
+) -> Model:
     """A tile in a semi-ellipse of pressure and a uniform film [m]."""
-    read = replace(options or Options(), reduction="amplitude", smooth="hertz")
+    read = replace(options or ModelOptions(), reduction="amplitude", smooth="hertz")
     contact = hertz_contact(film / operating.film_scale, "given")
-    return RoughPassage(tile, contact, operating, oil, read, 1.01)
+    return Model.of_one(tile, contact, operating, oil, read, 1.01)
 
 
 def predict_friction(
@@ -29,21 +30,21 @@ def predict_friction(
     operating: OperatingPoint,
     oil: Lubricant,
     film: float,
-    options: Options | None = None,
+    options: ModelOptions | None = None,
 ) -> RoughFriction:
     """Friction over a passage."""
-    return passage(tile, operating, oil, film, options).run(0, brief=True)[0]
+    return run(passage(tile, operating, oil, film, options), 0, brief=True)[0]
 
 
 def contributions(
     tile: Topography, operating: OperatingPoint, oil: Lubricant, film: float
 ) -> list[Band]:
     """What each octave adds."""
-    return passage(tile, operating, oil, film).run(0)[2]
+    return run(passage(tile, operating, oil, film), 0)[2]
 
 
 def response(
-    tile: Topography, operating: OperatingPoint, options: Options | None = None
+    tile: Topography, operating: OperatingPoint, options: ModelOptions | None = None
 ) -> Response:
     """Pressure and deformed roughness of a tile, in a film of a metre."""
     return predict_friction(tile, operating, Lubricant(), 1.0, options).response

@@ -14,7 +14,7 @@ from scipy.special import elliprd
 
 import pyehl
 from pyehl import library
-from pyehl.prediction.film_text import report
+from pyehl.prediction.film_formulas import report
 from pyehl.schema import summary_of
 from pyehl.theory.ellipse import ellipse
 

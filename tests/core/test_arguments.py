@@ -157,13 +157,13 @@ def test_faults_of_the_package_stay_what_they_are(cases: Path, tmp_path: Path, m
     def broken(*_: object, **__: object) -> None:
         raise ValueError("a fault")
 
-    monkeypatch.setattr("pyehl.prediction.of_case.predict", broken)
+    monkeypatch.setattr("pyehl.api.predict_resolved", broken)
     with pytest.raises(ValueError, match="a fault") as caught:
         pyehl.predict(cases / "table1.nml")
     assert not isinstance(caught.value, pyehl.EhlError)
     # neither by a function nor by a command is it called bad input
     for name, words in (
-        ("prediction.of_case.predict", ["predict", "-o", "out"]),
+        ("api.predict_resolved", ["predict", "-o", "out"]),
         ("api.sheet", ["film"]),
         ("studies.plan.central_film", ["stribeck", "--speed", "1", "-o", "out"]),
         ("commands.surface.from_settings", ["surface"]),

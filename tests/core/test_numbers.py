@@ -2,6 +2,8 @@
 """One number has one value: by every driver, in every command, whenever it is read."""
 
 import json
+import subprocess
+import sys
 import threading
 from pathlib import Path
 from typing import Any
@@ -147,7 +149,7 @@ def test_a_prediction_that_fails_makes_no_error_smaller(monkeypatch, tmp_path: P
     def fails(*_: object) -> None:
         raise errors.EhlError("film breakdown: no full film")
 
-    monkeypatch.setattr("pyehl.prediction.of_solver.resolution", fails)
+    monkeypatch.setattr("pyehl.prediction.resolution.resolution", fails)
     with Solver(Case.from_text(LEFT_OUT)) as solver:
         assert "predicted   no mu_r/mu_s: film breakdown: no full film" in solver.describe(
             predict=True
@@ -170,7 +172,7 @@ def test_getters_of_a_solver_compute_nothing(monkeypatch):
     """What the waves left out add is predicted at the end of a run, not where it is read."""
     with Solver(Case.from_text(LEFT_OUT)) as solver:
         solver.run()
-        for name in ("prediction.of_solver.resolution", "handle.SolverHandle.advance"):
+        for name in ("prediction.resolution.resolution", "handle.SolverHandle.advance"):
             monkeypatch.setattr(f"pyehl.{name}", lambda *_: pytest.fail("computed"))
         assert solver.summary["mu_ratio_error_left_out"] > 0.0
         assert solver.summary == solver.summary
@@ -181,13 +183,30 @@ def test_getters_of_a_solver_compute_nothing(monkeypatch):
         assert solver._repr_html_().startswith("<table>")
 
 
+def test_a_solver_loads_no_prediction():
+    """It is loaded when a run needs one; the plan of a rough contact does not."""
+    code = (
+        "import sys, pyehl\n"
+        "rough = '&surface kind = \\'fractal\\' /'\n"
+        "with pyehl.Solver(pyehl.Case.from_text(rough, 'grid.points=33')) as solver:\n"
+        "    assert 'grid' in solver.describe()\n"
+        "smooth = pyehl.Case.from_text('&contact moes_m = 100.0 moes_l = 5.0 /')\n"
+        "with pyehl.Solver(smooth, 'grid.points=65') as solver:\n"
+        "    solver.run()\n"
+        "    assert solver.converged\n"
+        "print([name for name in sys.modules if name.startswith('pyehl.prediction.')])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert (done.stdout.strip(), done.returncode) == ("[]", 0), done.stderr
+
+
 def test_nothing_is_predicted_where_nothing_is_left_out(monkeypatch):
     """Nor before there is a ratio with an error; a prediction takes a second solution."""
 
     def never(*_: object) -> None:
         raise AssertionError
 
-    monkeypatch.setattr("pyehl.prediction.of_solver.solve_contact", never)
+    monkeypatch.setattr("pyehl.prediction.resolution.solve_contact", never)
     with Solver(Case.from_text(LEFT_OUT)) as solver:
         while not solver.advance() and "steps" not in solver.summary:
             pass

@@ -11,9 +11,10 @@ from pyehl import cli
 from pyehl.commands.predict import report
 from pyehl.plots import surface
 from pyehl.plots.stribeck import Curve, draw_stribeck
-from pyehl.prediction import of_case, smooth
-from pyehl.prediction.obstacle import Compliance, lifted
-from pyehl.prediction.resolved_inlet import touching_points
+from pyehl.prediction import smooth
+from pyehl.prediction.contact_solver import Compliance, lifted
+from pyehl.prediction.predict import predict
+from pyehl.prediction.smooth_case import touching_points
 from pyehl.schema import summary_of as scalars_of
 from pyehl.studies.curve_contact import lift_off
 from pyehl.theory.friction import OF_ROUGH
@@ -94,7 +95,7 @@ def test_smooth_contact_with_the_layer_that_does_not_converge(monkeypatch):
     """No films of another contact in place of its own."""
     monkeypatch.setattr(smooth, "_solved_with_layer", lambda *_: (None, "it does not converge"))
     settings = pyehl.Case.from_text(SCENE.format(0.3, 1.2e-7, 0.1)).resolve()
-    prediction = of_case.predict(settings, tracks=1)
+    prediction = predict(settings, tracks=1)
     summary = prediction.summary
     names = "h_c_m", "h_min_m", "h_c_error_m", "p_max_Pa", "lambda_ratio", "lambda_ratio_deformed"
     assert [summary[name] for name in names] == [None] * len(names)

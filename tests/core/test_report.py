@@ -155,7 +155,7 @@ def test_broken_film_is_said(tmp_path, root):
     page = read(pyehl.report(tmp_path / "run", tmp_path / "page.html"))
     assert "Film breakdown. " in page.text
     assert found.summary["message"][1:] in page.text
-    assert "carrying_shortest_wavelength_m" in page.text
+    assert "suggested_shortest_wavelength_m" in page.text
 
 
 def test_a_failed_case_of_a_study_is_said(folders, tmp_path):

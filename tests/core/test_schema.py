@@ -10,7 +10,7 @@ import pytest
 
 import pyehl
 from pyehl import library, schema
-from pyehl.prediction.film_sheet import sheet
+from pyehl.prediction.film_formulas import sheet
 
 UNITS = {"_N_m": "N m", "_Pa_s": "Pa s", "_per_Pa": "1/Pa", "_m_per_s": "m/s", "_per_s": "1/s",
          "_Pa": "Pa", "_seconds": "s", "_N": "N", "_K": "K", "_m": "m"}  # fmt: skip

@@ -11,7 +11,7 @@ import pytest
 from paper_model import predict_friction
 
 from pyehl import surfaces
-from pyehl.prediction import Options
+from pyehl.prediction import ModelOptions
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
@@ -43,7 +43,7 @@ def predicted(**options):
                 OperatingPoint(),
                 Lubricant(),
                 FILM,
-                Options(**options),
+                ModelOptions(**options),
             ).mu_ratio
             for seed in range(1, 11)
         ]
@@ -64,7 +64,7 @@ def test_ten_surfaces(simulated, convention):
 def test_default_convention_is_the_nearest(simulated):
     ratios = {c: predicted(wavelength_convention=c) for c in DOCUMENTED}
     below = {c: (1 - ratios[c] / simulated["narrow"]).mean() for c in DOCUMENTED}
-    assert min(below, key=below.get) == Options().wavelength_convention
+    assert min(below, key=below.get) == ModelOptions().wavelength_convention
 
 
 @pytest.mark.slow

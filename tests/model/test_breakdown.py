@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Where the film ends, what would carry, and many tracks."""
+"""Where the film ends, the suggested cut-off wavelength, and many tracks."""
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from pyehl import surfaces
-from pyehl.prediction.breakdown import advise, below_zero
-from pyehl.prediction.carrying import carrying_outliers, carrying_wavelength
-from pyehl.prediction.of_case import predict
+from pyehl.prediction.breakdown import BelowZero, advise, below_zero
+from pyehl.prediction.cutoff_search import suggested_outliers, suggested_wavelength
+from pyehl.prediction.model import Model
+from pyehl.prediction.predict import predict
 from pyehl.surfaces import Topography, filtered
 
 LENGTH = 8.29e-4
@@ -17,22 +20,28 @@ def flat(film):
     return lambda x, y: np.full((x.size, y.size), film)
 
 
+def ends(deformed, a, film):
+    """Where the film over one tile with pixels of a micrometre ends."""
+    tile = Topography(deformed, (1e-6 * deformed.shape[0], 1e-6 * deformed.shape[1]))
+    return below_zero([tile], [deformed], (a, a), film)
+
+
 def test_share_of_one_pixel_is_its_chord():
     """A pixel on the centre line is inside for 2 a of every tile length, one at y for less."""
     deformed = np.zeros((200, 300))
     deformed[40, 0] = 1.2e-7
-    a, pixel = 1e-4, (1e-6, 1e-6)
-    found = below_zero(deformed, pixel, (a, a), flat(1e-7))
+    a = 1e-4
+    found = ends(deformed, a, flat(1e-7))
     # mean over the passage of the area below zero inside the circle, over that of the circle
     assert found.share == pytest.approx(2 * a * 1e-6 / 200e-6 * 1e-6 / (np.pi * a * a), rel=0.01)
     assert found.deepest == pytest.approx(-2e-8)
-    assert (found.pixel, found.pixels) == ((40, 0), 1)
+    assert (found.pixels, found.count) == (((40, 0),), 1)
     deformed[41, 80] = 1.1e-7
-    both = below_zero(deformed, pixel, (a, a), flat(1e-7))
+    both = ends(deformed, a, flat(1e-7))
     assert both.share / found.share == pytest.approx(1 + np.sqrt(1 - 0.8**2), rel=0.03)
     # a row that never comes near the contact
     deformed[0, 150] = 1.0
-    assert below_zero(deformed, pixel, (a, a), flat(1e-7)) == both
+    assert ends(deformed, a, flat(1e-7)) == both
 
 
 def test_film_that_is_thin_at_the_rim():
@@ -43,17 +52,17 @@ def test_film_that_is_thin_at_the_rim():
     def film(x, y):
         return np.where((np.abs(x)[:, None] > 6e-5) & (np.abs(y)[None, :] > 2e-5), 0.3, 1.0)
 
-    found = below_zero(deformed, (1e-6, 1e-6), (1e-4, 1e-4), film)
-    assert (found.pixel, found.deepest) == ((7, 30), pytest.approx(-0.2))
+    found = ends(deformed, 1e-4, film)
+    assert (found.pixels, found.deepest) == (((7, 30),), pytest.approx(-0.2))
     deformed[7, 30], deformed[7, 0] = 0.0, 0.5
-    assert below_zero(deformed, (1e-6, 1e-6), (1e-4, 1e-4), film).share == 0.0
+    assert ends(deformed, 1e-4, film).share == 0.0
 
 
 def test_share_of_a_tile_smaller_than_the_contact():
     deformed = np.where(np.random.default_rng(1).random((40, 32)) < 0.25, 2.0, 0.0)
-    share = below_zero(deformed, (1e-6, 1e-6), (1e-3, 1e-3), flat(1.0)).share
+    share = ends(deformed, 1e-3, flat(1.0)).share
     assert share == pytest.approx((deformed > 1.0).mean(), rel=1e-2)
-    assert below_zero(np.zeros((8, 8)), (1e-6, 1e-6), (1e-5, 1e-5), flat(1.0)).share == 0.0
+    assert ends(np.zeros((8, 8)), 1e-5, flat(1.0)).share == 0.0
 
 
 def wave(length, amplitude):
@@ -70,11 +79,11 @@ def test_cut_off_that_carries_is_found():
         return np.abs(filtered(tile, shortest).heights).max() < 0.8
 
     limits = 2.0 * LENGTH / 256, LENGTH
-    found = carrying_wavelength(*limits, carries)
+    found = suggested_wavelength(*limits, carries)
     assert carries(found)
     assert not carries(0.9 * found)
     assert short < found < 1.15 * short
-    assert carrying_wavelength(*limits, lambda shortest: False) is None
+    assert suggested_wavelength(*limits, lambda shortest: False) is None
 
 
 def test_threshold_that_carries_is_found():
@@ -84,14 +93,14 @@ def test_threshold_that_carries_is_found():
     def without(threshold):
         return Topography(np.where(away > threshold, 0.0, away), (1e-4, 1e-4))
 
-    found = carrying_outliers(away, without, lambda tile: tile.heights.max() < 100.0)
+    found = suggested_outliers(away, without, lambda tile: tile.heights.max() < 100.0)
     assert found is not None
     threshold, points = found
     assert points == 2
     assert 40.0 < threshold < 300.0
-    assert carrying_outliers(away, without, lambda tile: False) is None
+    assert suggested_outliers(away, without, lambda tile: False) is None
     # no spike stands out
-    assert carrying_outliers(np.ones((9, 9)), without, lambda tile: True) is None
+    assert suggested_outliers(np.ones((9, 9)), without, lambda tile: True) is None
 
 
 @pytest.fixture
@@ -117,7 +126,7 @@ def test_film_breakdown_says_where_and_what_would_carry(scan):
     assert np.isnan(ended.mu_ratio)
     advice = ended.advice
     pixel = LENGTH / 128
-    assert (advice.x, advice.y) == pytest.approx((30 * pixel, 40 * pixel), rel=1e-6)
+    assert advice.places[0] == pytest.approx((30 * pixel, 40 * pixel), rel=1e-6)
     summary = ended.summary
     assert 0.0 < summary["film_below_zero_share"] < 1e-3
     assert summary["film_breakdown"]["film_m"] < 0.0
@@ -135,33 +144,32 @@ def test_film_breakdown_says_where_and_what_would_carry(scan):
     steps = good.summary["surface_preparation"]["steps"]
     assert steps[0]["points_changed"] == 2
     assert good.mu_ratio < 2.5
-    scan["surface"] |= {"outliers": 0.0, "shortest_wavelength": advice.wavelength}
+    scan["surface"] |= {"outliers": 0.0, "shortest_wavelength": advice.wavelengths[0]}
     cut = predict(scan)
     assert cut.friction.status == "predicted"
     assert cut.mu_ratio < 2.5
 
 
-def test_what_would_carry_has_a_known_error():
+def test_suggested_cut_off_has_a_known_error(settings, monkeypatch):
     """A film that is full is not enough, where the friction over it is beyond the model."""
-    z = np.zeros((8, 8))
-    tile = Topography(z, (LENGTH, LENGTH))
-    asked = []
+    model, limit = predict(settings).model, 0.0
+    ended = BelowZero(0.1, -1e-9, ((0, 0),), 1)
 
-    def advice(limit):
-        return advise(
-            tile,
-            lambda other: other.heights - other.length_x,
-            (1e-4, 1e-4),
-            flat(1e-7),
-            lambda other, shortest: Topography(other.heights, (shortest, LENGTH)),
-            known=lambda other: asked.append(other.length_x) or other.length_x > limit,
-        )
+    def without_shorter(_, numbers, shortest):
+        tile = Topography(np.zeros((8, 8)), (shortest, LENGTH))
+        return replace(model, surfaces=(replace(model.surfaces[0], topography=tile),))
 
+    def known(other):
+        return other.surfaces[0].topography.length_x > limit
+
+    monkeypatch.setattr(Model, "without_shorter", without_shorter)
+    monkeypatch.setattr("pyehl.prediction.breakdown.known", known)
     # full at every cut-off, known from a limit on
-    assert advice(0.0).wavelength < 3e-4
-    assert advice(5e-4).wavelength == pytest.approx(5e-4, rel=0.1)
-    assert asked
-    assert advice(1.0).wavelength is None
+    assert advise(model, ended, flat(1e-7)).wavelengths[0] < 3e-4
+    limit = 5e-4
+    assert advise(model, ended, flat(1e-7)).wavelengths[0] == pytest.approx(5e-4, rel=0.1)
+    limit = 1.0
+    assert advise(model, ended, flat(1e-7)).wavelengths == (None,)
 
 
 def test_rough_surfaces_are_not_told_to_remove_spikes(settings):
@@ -171,7 +179,7 @@ def test_rough_surfaces_are_not_told_to_remove_spikes(settings):
     assert ended.friction.status == "film breakdown"
     assert ended.advice.outliers is None
     assert ended.summary["film_below_zero_share"] > 1e-3
-    assert ended.advice.wavelength > 1e-5
+    assert ended.advice.wavelengths[0] > 1e-5
 
 
 def test_tracks(scan):

@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 
 import pyehl
-from pyehl.prediction import wavy_contact
+from pyehl.prediction import rough_contact
 from pyehl.prediction.errors import KNOWN_RATIO, model_error
-from pyehl.prediction.of_solver import resolution
+from pyehl.prediction.resolution import resolution
 from pyehl.prediction.second_order import INLET_FILM
 from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
@@ -64,7 +64,7 @@ def test_load_is_kept_in_rings(root: Path, evidence, table, monkeypatch):
     """One ring over the whole contact would lower the friction by what the theory says."""
     compare, _ = evidence
     rows = {row["name"]: row for row in compare.rows()}
-    monkeypatch.setattr(wavy_contact, "RINGS", np.zeros(1))
+    monkeypatch.setattr(rough_contact, "RINGS", np.zeros(1))
     lower = [
         100.0 * (1.0 - compare.predictions(rows[name])[0] / table[name]["prediction"])
         for name in ("t1s21", "m120l12", "m250l6")

@@ -13,7 +13,7 @@ import pytest
 from records import Read, Row, Said, largest, missing, of, span
 
 from pyehl.prediction import errors
-from pyehl.prediction.partial import FILM
+from pyehl.prediction.mixed_lubrication import TOUCHING_FILM_ERROR
 from pyehl.studies.curve_contact import lift_off
 from pyehl.theory.operating import OperatingPoint
 
@@ -227,7 +227,7 @@ def partial(read: Read) -> Iterator[str]:
         for part in (coarse, ~coarse)
     ]
     yield f"up to {stated[0]:.1f} on 129 nodes and up to {stated[1]:.1f} on 257"
-    yield f"wrong by {FILM:g} of the deformed rms height"
+    yield f"wrong by {TOUCHING_FILM_ERROR:g} of the deformed rms height"
     moes_m, slip = of(rows, "moes_m"), of(rows, "slide_to_roll")
     cases = read("partial/cases.csv")
     yield f"{len(cases)} fractal surfaces in contacts with M from {span(moes_m, 'g')}"

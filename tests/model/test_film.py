@@ -6,8 +6,8 @@ import reference
 
 import pyehl
 from pyehl.case import Case
-from pyehl.prediction import film_sheet
-from pyehl.prediction.film_text import report
+from pyehl.prediction import film_formulas
+from pyehl.prediction.film_formulas import report
 from pyehl.theory import film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -51,7 +51,7 @@ def test_validity_flags():
 def test_sheet_of_the_harmonic_case(settings):
     settings["surface"]["kind"] = "harmonic"
     settings["surface"]["amplitude_over_film"] = 0.4
-    values = film_sheet.sheet(settings)
+    values = film_formulas.sheet(settings)
     # the paper's fig. 2: eq. 16 gives 1.466 at L = 10; here L = 10.024
     assert values["mu_ratio_eq_16"] == pytest.approx(1.468, abs=0.002)
     assert values["theta_2_outside"] == []
@@ -63,14 +63,14 @@ def test_sheet_of_the_harmonic_case(settings):
 
 def test_sheet_names_what_is_outside(settings):
     settings["surface"] |= {"kind": "harmonic", "wavelength_x": 2.0, "wavelength_y": 3.0}
-    outside = film_sheet.sheet(settings)["theta_2_outside"]
+    outside = film_formulas.sheet(settings)["theta_2_outside"]
     assert any("wavelength = 2" in text for text in outside)
     assert any("equal wavelengths" in text for text in outside)
 
 
 def test_sheet_from_moes_numbers_and_smooth():
     case = pyehl.Case(contact={"moes_m": 20.0, "moes_l": 10.0}).resolve()
-    values = film_sheet.sheet(case)
+    values = film_formulas.sheet(case)
     assert values["moes_m"] == pytest.approx(20.0)
     assert "lambda_ratio_central" not in values
     assert "made from M and L" in report(values)
@@ -80,7 +80,7 @@ def test_ellipses():
     """What is known of the formulas is of circles; a turned one has its dry contact alone."""
     ellipse = {"contact.load": 50.0, "contact.radius_x": 0.01, "contact.radius_y": 0.03}
     straight, turned = (
-        film_sheet.sheet(Case.from_text("", ellipse | {"contact.angle": angle}).resolve())
+        film_formulas.sheet(Case.from_text("", ellipse | {"contact.angle": angle}).resolve())
         for angle in (0.0, 30.0)
     )
     page = report(straight)
@@ -100,11 +100,11 @@ def test_says_what_the_formulas_do_not_know():
         "lubricant.shear_law": "eyring",
         "lubricant.boundary_film": 1e-9,
     }
-    values = film_sheet.sheet(Case.from_text("", told).resolve())
+    values = film_formulas.sheet(Case.from_text("", told).resolve())
     keys = [text.split(" = ")[0] for text in values["left_out"]]
     assert keys == ["grid.x_inlet", "lubricant.shear_law", "lubricant.boundary_film"]
     assert "left out: grid.x_inlet = -1.5" in report(values)
-    assert film_sheet.sheet(Case.from_text("").resolve())["left_out"] == []
+    assert film_formulas.sheet(Case.from_text("").resolve())["left_out"] == []
 
 
 def test_refuses():

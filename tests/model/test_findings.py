@@ -209,8 +209,8 @@ def test_findings_are_reported_predicted_and_drawn(tmp_path, capsys):
     assert result.summary["status"] == "beyond linear response"
     assert "; first surface.detrend=curvature (form)" in result.summary["message"]
     assert "shortest_wavelength" not in result.summary["message"]
-    advice = advise(result.surface, lambda t: t.heights, (1e-4, 1e-4), thin_film, None)
-    assert advice.wavelength is None
+    advice = advise(result.model, result.below, thin_film)
+    assert not advice.wavelengths
     assert "first      surface.detrend=curvature (form)" in advice.report()[1]
     assert result.summary["surface_findings"] == "form"
     assert result.summary["surface_preparation"]["findings"][0]["kind"] == "form"
@@ -249,7 +249,7 @@ def test_a_scan_of_many_contacts_says_its_cost_and_offers_a_part(caplog, monkeyp
     caplog.set_level(logging.INFO, "pyehl")
     case = pyehl.Case.from_text("&surface kind='fractal' /")
     # told before the calculation begins
-    monkeypatch.setattr("pyehl.prediction.of_case.RoughPassage", None)
+    monkeypatch.setattr("pyehl.prediction.predict.Model", None)
     with pytest.raises(TypeError):
         pyehl.predict(case, surface=surface)
     assert "the map is 7 x 7 contacts long and wide" in caplog.text

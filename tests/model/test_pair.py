@@ -10,15 +10,16 @@ import pytest
 
 import pyehl
 from pyehl import cli
-from pyehl.prediction import meeting
-from pyehl.prediction.by_response import RoughPassage
-from pyehl.prediction.meeting import Meeting, as_one, common_passages
-from pyehl.prediction.options import Options
-from pyehl.prediction.pair import RoughPair
-from pyehl.prediction.pair_breakdown import pair_below_zero
+from pyehl.prediction import second_surface
+from pyehl.prediction.breakdown import of_model
+from pyehl.prediction.model import Model, RoughSurface
+from pyehl.prediction.options import ModelOptions
+from pyehl.prediction.passage_friction import run
+from pyehl.prediction.relative_positions import RelativePositions, common_passages
+from pyehl.prediction.response import Transfer
+from pyehl.prediction.second_surface import merged
 from pyehl.prediction.smooth import solve_contact, zone_of
 from pyehl.prediction.spectrum import Spectrum
-from pyehl.prediction.transfer import Transfer
 from pyehl.surfaces import Topography, fractal
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -50,13 +51,18 @@ def contact():
     return solve_contact(pyehl.Case.from_text("").resolve())
 
 
-def alone(contact, tile, ratio, **options) -> RoughPassage:
-    return RoughPassage(tile, contact, POINT, OIL, Options(**options), ratio)
+def alone(contact, tile, ratio, **options) -> Model:
+    return Model.of_one(tile, contact, POINT, OIL, ModelOptions(**options), ratio)
 
 
-def pair(contact, tiles, ratios, fronts=(-2.5, -2.5)) -> RoughPair:
-    first, second = (alone(contact, t, u) for t, u in zip(tiles, ratios, strict=True))
-    return RoughPair((first, second), fronts)
+def pair(contact, tiles, ratios, fronts=(-2.5, -2.5)) -> Model:
+    of_each = zip(tiles, ratios, fronts, (("surface",), ("second_surface",)), strict=True)
+    rough = (RoughSurface(tile, u, front, groups=group) for tile, u, front, group in of_each)
+    return Model(tuple(rough), contact, POINT, OIL, ModelOptions())
+
+
+def one_transfer(spectrum, zone, moes, ratio, **options) -> Transfer:
+    return Transfer.of_all([(spectrum, ratio)], zone, moes, **options)[0]
 
 
 @pytest.mark.parametrize(
@@ -93,8 +99,8 @@ def test_smooth_second_surface_changes_nothing():
 @pytest.mark.parametrize("ratio", [pytest.param(1.05, marks=pytest.mark.long), 0.8])
 def test_hardly_rough_second_surface(contact, ratio):
     """The points of a pair are others than those of one surface."""
-    single, _, _ = alone(contact, rough(3), ratio).run(0)
-    both, _, _ = pair(contact, (rough(3), rough(4, 1e-15)), (ratio, 2.0 - ratio)).run(0)
+    single, _, _ = run(alone(contact, rough(3), ratio), 0)
+    both, _, _ = run(pair(contact, (rough(3), rough(4, 1e-15)), (ratio, 2.0 - ratio)), 0)
     # 1e-4 at both; at 0.8 the tiles are back at their start after few passages
     assert both.mu_ratio == pytest.approx(single.mu_ratio, rel=5e-4)
 
@@ -102,14 +108,14 @@ def test_hardly_rough_second_surface(contact, ratio):
 def test_without_sliding_they_are_one_surface(contact):
     one, other = rough(3), rough(4)
     added = Topography(one.heights + other.heights, one.size)
-    single, over, bands = alone(contact, added, 1.0).run(3)
-    both, over_both, bands_both = pair(contact, (one, other), (1.0, 1.0)).run(3)
+    single, over, bands = run(alone(contact, added, 1.0), 3)
+    both, over_both, bands_both = run(pair(contact, (one, other), (1.0, 1.0)), 3)
     assert (both.mu_ratio, over_both, bands_both) == (single.mu_ratio, over, bands)
     # two tiles of one are as long as one of the other
     short = Topography(other.heights, (0.5 * other.length_x, other.length_y))
     doubled = Topography(np.tile(short.heights, (2, 1)), other.size)
-    found, _, _ = pair(contact, (one, short), (1.0, 1.0)).run(0)
-    expected, _, _ = pair(contact, (one, doubled), (1.0, 1.0)).run(0)
+    found, _, _ = run(pair(contact, (one, short), (1.0, 1.0)), 0)
+    expected, _, _ = run(pair(contact, (one, doubled), (1.0, 1.0)), 0)
     assert found.mu_ratio == pytest.approx(expected.mu_ratio, rel=1e-6)
 
 
@@ -119,7 +125,7 @@ def test_small_waves_are_deformed_as_if_alone(contact):
     for found, tile, ratio in zip(
         pair(contact, tiles, ratios).responses(), tiles, ratios, strict=True
     ):
-        expected = alone(contact, tile, ratio).deformed()
+        (expected,) = alone(contact, tile, ratio).deformed()
         assert found.deformed == pytest.approx(expected, abs=1e-6 * np.abs(expected).max())
 
 
@@ -127,8 +133,8 @@ def test_small_waves_are_deformed_as_if_alone(contact):
 def test_rises_of_small_waves_add(contact):
     """Where they meet in all positions, products of waves of different surfaces have no mean."""
     tiles = rough(3, 2e-9), rough(4, 2e-9, 3.1e-4)
-    rise, _, _ = pair(contact, tiles, (1.1, 0.9)).run(0)
-    each = [alone(contact, t, u).run(0)[0] for t, u in zip(tiles, (1.1, 0.9), strict=True)]
+    rise, _, _ = run(pair(contact, tiles, (1.1, 0.9)), 0)
+    each = [run(alone(contact, t, u), 0)[0] for t, u in zip(tiles, (1.1, 0.9), strict=True)]
     sum_of_rises = sum(one.mu_ratio - 1.0 for one in each)
     assert rise.mu_ratio - 1.0 == pytest.approx(sum_of_rises, rel=0.05)
 
@@ -142,7 +148,7 @@ def test_cross_terms_of_second_order(contact):
     of = [s.power for s in spectra]
     first, _ = Transfer.of_all([(s, 1.05) for s in spectra], zone, moes)
     gain, variance = first.second.of(*of)
-    single = Transfer.of(spectra[0], zone, moes, 1.05)
+    single = one_transfer(spectra[0], zone, moes, 1.05)
     gain_of_sum, variance_of_sum = single.second.of(of[0] + of[1])
     assert gain == pytest.approx(gain_of_sum, rel=1e-9)
     assert variance == pytest.approx(variance_of_sum, rel=1e-9)
@@ -164,8 +170,8 @@ def test_both_leak_as_the_amplitude_of_both(contact):
     whole = Spectrum.of(heights, 1.0, 1.0)
     half = Spectrum.of(heights / np.sqrt(2.0), 1.0, 1.0)
     (one, _) = Transfer.of_all([(half, 1.05)] * 2, zone, moes, at_amplitude=True)
-    single = Transfer.of(whole, zone, moes, 1.05, at_amplitude=True)
-    small = Transfer.of(whole, zone, moes, 1.05)
+    single = one_transfer(whole, zone, moes, 1.05, at_amplitude=True)
+    small = one_transfer(whole, zone, moes, 1.05)
     assert one.free[1] == pytest.approx(single.free[1], rel=1e-9)
     assert np.abs(single.free[1] - small.free[1]).max() > 5e-4
 
@@ -179,11 +185,11 @@ def test_positions():
     # along a common period: products that come back have a mean, by where they begin
     q = 2.0 * np.pi
     for ahead in (0.0, 0.2):
-        line = Meeting((1.1, 0.9), (1.1, 0.9), (0.0, ahead))
+        line = RelativePositions((1.1, 0.9), (1.1, 0.9), (0.0, ahead))
         mean = line.short_mean(lambda s: np.cos(q * s[0] / 1.1) * np.cos(q * s[1] / 0.9))
         assert mean == pytest.approx(0.5 * np.cos(q * ahead / 0.9), abs=1e-12)
     # of all positions: products of different tiles have none
-    lattice = Meeting((1.0, 1.0), (1.01, 0.99), (0.0, 0.3))
+    lattice = RelativePositions((1.0, 1.0), (1.01, 0.99), (0.0, 0.3))
     for i, j in ((1, 0), (0, 1), (1, 1), (1, -1), (2, 3), (3, -1)):
         mean = lattice.short_mean(lambda s, i=i, j=j: np.cos(q * (i * s[0] + j * s[1])))
         assert mean == pytest.approx(0.0, abs=1e-12), (i, j)
@@ -194,10 +200,9 @@ def test_positions():
 
 @pytest.mark.long
 def test_what_is_left_undecided(contact):
-    found, _, _ = pair(contact, (rough(3), rough(4, length=3.7e-4)), (1.05, 0.95)).run(0)
+    found, _, _ = run(pair(contact, (rough(3), rough(4, length=3.7e-4)), (1.05, 0.95)), 0)
     more = pair(contact, (rough(3), rough(4, length=3.7e-4)), (1.05, 0.95))
-    of = tuple(replace(one, options=Options(positions=1600)) for one in more.of)
-    finer, _, _ = replace(more, of=of).run(0)
+    finer, _, _ = run(replace(more, options=ModelOptions(positions=1600)), 0)
     assert finer.passage.size == 1680
     error = abs(found.mu_ratio / finer.mu_ratio - 1.0)
     assert error < found.position_error + finer.position_error < 0.01
@@ -234,18 +239,17 @@ def test_film_between_two_tiles(contact):
     heights[0] += 1e-10 * rng.random((64, 64))
     flat = Topography(np.ones((64, 64)), (RADIUS, RADIUS))
     all_positions = pair(contact, (flat, flat), (1.01, 0.99))
-    found = pair_below_zero(all_positions, heights, film)
+    found = of_model(all_positions, heights, film)
     assert found.deepest == pytest.approx(-3e-8, abs=2e-10)
     assert found.pixels == ((10, 3), (40, 3))
     # tiles as long as their velocities are fast: a pixel of one is met by few of the other
     longer = Topography(flat.heights, (1.01 * RADIUS, RADIUS))
     shorter = Topography(flat.heights, (0.99 * RADIUS, RADIUS))
-    few = pair(contact, (longer, shorter), (1.01, 0.99), (-2.5, -2.5))
-    assert few.meeting.passages == (1, 1)
+    assert common_passages((1.01, 0.99), (1.01, 0.99)) == (1, 1)
     deepest = []
     for ahead in np.arange(64) / 64:
-        moved = replace(few, fronts=(-2.5, -2.5 + ahead * 0.99))
-        deepest.append(pair_below_zero(moved, heights, film).deepest)
+        moved = pair(contact, (longer, shorter), (1.01, 0.99), (-2.5, -2.5 + ahead * 0.99))
+        deepest.append(of_model(moved, heights, film).deepest)
     assert min(deepest) == pytest.approx(found.deepest, abs=1e-15)
     # the others pass each other out of reach
     assert sum(d > 5e-9 for d in deepest) > 50
@@ -268,9 +272,9 @@ def test_what_would_carry():
     about = found.summary["film_breakdown"]
     assert about["film_m"] < 0.0
     assert 0.0 < about["share_of_contact"] < 1.0
-    assert about["carrying_shortest_wavelength_m"] is None
-    cut = about["carrying_second_shortest_wavelength_m"]
-    both = about["carrying_both_shortest_wavelength_m"]
+    assert about["suggested_shortest_wavelength_m"] is None
+    cut = about["suggested_second_shortest_wavelength_m"]
+    both = about["suggested_both_shortest_wavelength_m"]
     assert 0.0 < both <= cut
     told = "\n".join(found.advice.report())
     assert "of surface meets x = " in told
@@ -285,7 +289,7 @@ def test_what_would_carry():
 @pytest.mark.long
 def test_beyond_the_linear_response_names_cut_offs(contact):
     tiles = rough(3, 2e-8), rough(4, 9.5e-8)
-    found, over, bands = pair(contact, tiles, (1.1, 0.9)).run()
+    found, over, bands = run(pair(contact, tiles, (1.1, 0.9)))
     assert found.status == "beyond linear response", found
     assert np.isnan(over[0])
     assert not bands
@@ -296,11 +300,9 @@ def test_beyond_the_linear_response_names_cut_offs(contact):
 def test_advice_names_the_surfaces_that_it_cuts(contact):
     """Both where they move as one, the second one where it alone is rough."""
     both = pair(contact, (rough(3, 9e-8), rough(4, 9e-8)), (1.0, 1.0))
-    first, second = both.of
-    named = replace(both, of=(first, replace(second, groups=("second_surface",))))
-    assert named.as_one.groups == ("surface", "second_surface")
-    alone_ = replace(named.of[1], topography=rough(4, 1.2e-7), velocity_ratio=1.1)
-    found, _, _ = alone_.run(0)
+    assert both.merged.surfaces[0].groups == ("surface", "second_surface")
+    second = replace(both.surfaces[1], topography=rough(4, 1.2e-7), velocity_ratio=1.1)
+    found, _, _ = run(replace(both, surfaces=(second,)), 0)
     assert found.status == "beyond linear response", found
     assert "; second_surface.shortest_wavelength = " in found.message
     assert "; surface." not in found.message
@@ -319,15 +321,15 @@ def test_share_of_a_breakdown_where_both_move_as_one():
 
 def test_no_tile_of_too_many_pixels(monkeypatch):
     one, other = rough(3, length=4e-4), rough(4, length=4e-4 * 12 / 11)
-    both = as_one(one, other, 0.0)
+    both = merged(one, other, 0.0)
     assert both.length_x == pytest.approx(12 * one.length_x)
-    monkeypatch.setattr(meeting, "MAX_PIXELS", both.heights.size - 1)
-    assert as_one(one, other, 0.0) is None
+    monkeypatch.setattr(second_surface, "MAX_PIXELS", both.heights.size - 1)
+    assert merged(one, other, 0.0) is None
 
 
 def test_bands_hold_the_waves_of_both(contact):
     tiles = wave(1.1, 2e-3), wave(0.225, 1e-3)
-    found, _, bands = pair(contact, tiles, (1.1, 0.9)).run(0)
+    found, _, bands = run(pair(contact, tiles, (1.1, 0.9)), 0)
     assert len(bands) == 2
     assert bands[0].longest == pytest.approx(1.1 * RADIUS)
     heights = [a * POINT.film_scale / np.sqrt(2.0) for a in (2e-3, 1e-3)]
@@ -364,7 +366,9 @@ def test_surfaces_in_memory():
     given = pyehl.predict(
         pyehl.Case.from_text(text),
         surface=made.surface.heights,
-        second_surface=Topography(made.second.surface.heights, made.second.surface.size),
+        second_surface=Topography(
+            made.surfaces[1].topography.heights, made.surfaces[1].topography.size
+        ),
         tracks=1,
     )
     assert given.mu_ratio == pytest.approx(made.mu_ratio, rel=1e-12)

@@ -16,7 +16,7 @@ from matplotlib.transforms import Bbox
 from pyehl import Case, cli, namelist
 from pyehl.plots import contact, figures, folder, panels, style, surface, transient
 from pyehl.prediction.folder import destination, draw, write
-from pyehl.prediction.of_case import predict
+from pyehl.prediction.predict import predict
 from pyehl.surfaces import Topography
 from pyehl.theory.operating import OperatingPoint
 

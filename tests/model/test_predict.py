@@ -13,7 +13,7 @@ from pyehl import FileError, InputError, namelist
 from pyehl.commands import film as film_command
 from pyehl.commands import predict as predict_command
 from pyehl.prediction.folder import destination, draw, write
-from pyehl.prediction.of_case import predict
+from pyehl.prediction.predict import predict
 from pyehl.results import load
 from pyehl.theory import film
 from pyehl.theory.lubricant import Lubricant

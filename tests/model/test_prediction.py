@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The prediction by the response of the contact: its parts and its limits."""
 
+import importlib
 import re
 from dataclasses import replace
 
@@ -10,18 +11,20 @@ import scipy.interpolate
 import scipy.ndimage
 
 import pyehl
-from pyehl.prediction import of_case, second_order, wavy_contact
-from pyehl.prediction.by_response import RoughPassage
+from pyehl.prediction import model, moving_tile, rough_contact, second_order
 from pyehl.prediction.errors import KNOWN_RATIO
 from pyehl.prediction.folder import read_contact
 from pyehl.prediction.friction import outcome
-from pyehl.prediction.of_solver import resolution
-from pyehl.prediction.options import Options
+from pyehl.prediction.model import Model
+from pyehl.prediction.options import ModelOptions
+from pyehl.prediction.passage_friction import run
+from pyehl.prediction.predict import predict
+from pyehl.prediction.resolution import resolution
+from pyehl.prediction.response import Transfer, _at_amplitude
 from pyehl.prediction.second_order import film_left, loss_at
 from pyehl.prediction.smooth import hertz_contact, solve_contact, zone_of
 from pyehl.prediction.spectrum import Spectrum
-from pyehl.prediction.transfer import Transfer, _at_amplitude
-from pyehl.prediction.waves import Waves
+from pyehl.prediction.waves import WaveTiles
 from pyehl.schema import summary_of
 from pyehl.surfaces import Topography, filtered
 from pyehl.theory.lubricant import Lubricant
@@ -38,8 +41,12 @@ def contact():
     return solve_contact(settings)
 
 
+def one_transfer(spectrum, zone, moes, ratio, **options) -> Transfer:
+    return Transfer.of_all([(spectrum, ratio)], zone, moes, **options)[0]
+
+
 def passage(contact, tile, ratio=1.01, **options):
-    return RoughPassage(tile, contact, POINT, OIL, Options(**options), ratio)
+    return Model.of_one(tile, contact, POINT, OIL, ModelOptions(**options), ratio)
 
 
 def test_smooth_contact_is_that_of_a_fine_grid(contact):
@@ -48,9 +55,28 @@ def test_smooth_contact_is_that_of_a_fine_grid(contact):
     assert contact.pressure.max() == pytest.approx(1.004, abs=0.01)
 
 
+def test_every_function_of_the_table_of_equations_exists(root):
+    """In the head of the model, and in the page of the theory."""
+    page = (root / "docs" / "theory" / "prediction.md").read_text(encoding="utf-8")
+    for kind, name in re.findall(r":(\w+):`([\w.]+)`", model.__doc__):
+        parts = (name if name.startswith("pyehl.") else f"pyehl.prediction.{name}").split(".")
+        module, rest = (parts, []) if kind == "mod" else (parts[:3], parts[3:])
+        found = importlib.import_module(".".join(module))
+        for part in rest:
+            found = getattr(found, part)
+    table = page[page.index("## From equation to code") :]
+    rows = re.findall(r"^\|.*\|(.*)\|$", table, re.M)
+    for path in re.findall(r"`(pyehl/[\w/]+\.py)`", table):
+        text = (root / path).read_text(encoding="utf-8")
+        names = re.findall(rf"((?:`[\w.]+`, )+)`{path}`", table)
+        for name in re.findall(r"`([\w.]+)`", "".join(names)):
+            assert f" {name.split('.')[-1]}(" in text or f"class {name}" in text, (path, name)
+    assert len(rows) > 10
+
+
 def test_no_roughness_no_change(contact, table_1):
     flat = Topography(1e-9 * table_1(pixels=64).heights, (8.29e-4, 8.29e-4))
-    friction, tracks, bands = passage(contact, flat).run()
+    friction, tracks, bands = run(passage(contact, flat))
     assert friction.mu_ratio == pytest.approx(1.0, abs=1e-7)
     assert tracks[0] == pytest.approx(1.0, abs=1e-7)
     assert sum(band.rise for band in bands) == pytest.approx(friction.mu_ratio - 1.0, abs=1e-12)
@@ -64,7 +90,7 @@ def test_a_wave_in_the_contact_is_its_transfer():
     spectrum = Spectrum.of(np.tile(np.cos(q * x)[:, np.newaxis], n), side, side)
     t = np.full(spectrum.values.shape, 0.4 * np.exp(0.6j))
     transfer = Transfer([t] * 3, [0.5 * t] * 3, [0.1 * t] * 8, bent=False)
-    waves = Waves.of(spectrum, transfer, 0.0, 1.2)
+    waves = WaveTiles.of(spectrum, transfer, 0.0, 1.2)
     k = float(stiffness(q))
     film, pressure = np.moveaxis(waves.driven[1], -1, 0)
     assert film[:, 7] == pytest.approx(np.real(0.4 * np.exp(1j * (q * x + 0.6))), abs=1e-6)
@@ -84,9 +110,9 @@ def test_real_ratio_that_moves_with_the_roughness(table_1, settings):
     tile = table_1(seed=4)
     options = {"reduction": "amplitude", "smooth": "hertz"}
     contact = hertz_contact(film / POINT.film_scale, "given")
-    ours = passage(contact, tile, **options).run(tracks=1)[0].mu_ratio
+    ours = run(passage(contact, tile, **options), tracks=1)[0].mu_ratio
     settings["surface"]["seed"] = 4
-    paper = of_case.predict(settings).mu_ratio
+    paper = predict(settings).mu_ratio
     # long waves feel the edge of the contact, which the model of the paper leaves out
     assert ours == pytest.approx(paper, rel=0.02)
 
@@ -94,7 +120,7 @@ def test_real_ratio_that_moves_with_the_roughness(table_1, settings):
 def test_slip_turns_the_free_wave(contact, table_1):
     """One per cent of slip, forward or backward, makes the rise of a Table 1 surface."""
     tile = table_1(seed=21)
-    rise = {u: passage(contact, tile, u).run(tracks=1)[0].mu_ratio for u in (0.99, 1.0, 1.01)}
+    rise = {u: run(passage(contact, tile, u), tracks=1)[0].mu_ratio for u in (0.99, 1.0, 1.01)}
     assert rise[1.0] < 1.0 < min(rise[0.99], rise[1.01])
     assert rise[0.99] == pytest.approx(rise[1.01], rel=0.1)
 
@@ -103,28 +129,28 @@ def test_a_surface_in_motion_and_its_mirror_image(contact, table_1):
     """A contact is symmetric in Y."""
     z = table_1(seed=3).heights
     mirrored = Topography(np.roll(z[:, ::-1], 1, axis=1), (8.29e-4, 8.29e-4))
-    both = [passage(contact, Topography(h, (8.29e-4, 8.29e-4))).run(1)[0].mu_ratio for h in (z,)]
-    both.append(passage(contact, mirrored).run(1)[0].mu_ratio)
+    both = [run(passage(contact, Topography(h, (8.29e-4, 8.29e-4))), 1)[0].mu_ratio for h in (z,)]
+    both.append(run(passage(contact, mirrored), 1)[0].mu_ratio)
     assert both[0] == pytest.approx(both[1], rel=1e-5)
 
 
 def test_table_is_fine_enough(contact, table_1, monkeypatch):
     """Neither the table of responses, nor the stations, nor the points of friction matter."""
     tile = table_1(seed=5)
-    usual = passage(contact, tile).run(tracks=1)[0].mu_ratio
+    usual = run(passage(contact, tile), tracks=1)[0].mu_ratio
     monkeypatch.setattr("pyehl.prediction.wave_table.TABLE", (145, 49))
-    assert passage(contact, tile).run(1)[0].mu_ratio == pytest.approx(usual, rel=5e-4)
-    monkeypatch.setattr("pyehl.prediction.by_response.POINTS", 128)
-    assert passage(contact, tile).run(1)[0].mu_ratio == pytest.approx(usual, rel=1e-3)
+    assert run(passage(contact, tile), 1)[0].mu_ratio == pytest.approx(usual, rel=5e-4)
+    monkeypatch.setattr("pyehl.prediction.model.PIXEL_POINTS", 128)
+    assert run(passage(contact, tile), 1)[0].mu_ratio == pytest.approx(usual, rel=1e-3)
 
 
 def test_film_breakdown_has_no_ratio(contact, table_1):
     high = Topography(12.0 * table_1().heights, (8.29e-4, 8.29e-4))
-    friction, tracks, bands = passage(contact, high).run()
+    friction, tracks, bands = run(passage(contact, high))
     assert friction.status == "film breakdown"
     assert np.isnan(friction.mu_ratio)
     assert np.isnan(tracks[0])
-    assert bands == []
+    assert not bands
 
 
 def test_transfer_is_interpolated_from_its_table(contact):
@@ -132,10 +158,10 @@ def test_transfer_is_interpolated_from_its_table(contact):
     rng = np.random.default_rng(2)
     spectrum = Spectrum.of(rng.standard_normal((40, 36)), 1.7, 1.9)
     zone = zone_of(contact, POINT, OIL)
-    coarse = Transfer.of(spectrum, zone, (1000.0, 10.0), 1.02)
+    coarse = one_transfer(spectrum, zone, (1000.0, 10.0), 1.02)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("pyehl.prediction.wave_table.TABLE", (217, 73))
-        fine = Transfer.of(spectrum, zone, (1000.0, 10.0), 1.02)
+        fine = one_transfer(spectrum, zone, (1000.0, 10.0), 1.02)
     for a, b in zip(coarse.driven + coarse.free, fine.driven + fine.free, strict=True):
         assert np.abs(a - b)[spectrum.q > 0].max() < 2e-3
 
@@ -148,11 +174,11 @@ def test_a_flat_surface_has_no_share_of_short_waves():
 def test_outside_the_range_is_said(settings):
     settings["psd"] |= {"reduction": "response", "smooth": "solved"}
     settings["surface"]["velocity_ratio"] = 1.6
-    summary = of_case.predict(settings).summary
+    summary = predict(settings).summary
     assert summary["outside_range"] == ["velocity_ratio"]
     assert summary["mu_ratio_model_error"] is None
     settings["surface"]["velocity_ratio"] = 1.01
-    summary = of_case.predict(settings).summary
+    summary = predict(settings).summary
     assert summary["outside_range"] == []
     assert 0.0 < summary["mu_ratio_model_error"] < 0.1
 
@@ -160,7 +186,7 @@ def test_outside_the_range_is_said(settings):
 def test_options_of_the_paper_alone(settings):
     settings["psd"] |= {"reduction": "response", "load_balance": True}
     with pytest.raises(ValueError, match="belong to the model of the paper"):
-        of_case.predict(settings)
+        predict(settings)
 
 
 def test_smooth_contact_from_a_result_folder(tmp_path):
@@ -231,12 +257,12 @@ def test_waves_left_out_are_in_the_error():
 def test_beyond_the_linear_response(contact, table_1):
     """Short waves as high as the film: no number, and a cut-off that would bring one."""
     rough = table_1(seed=21, rms_height=8e-8, hurst=0.4)
-    friction, _, _ = passage(contact, rough, 1.03).run()
+    friction, _, _ = run(passage(contact, rough, 1.03))
     assert friction.status == "beyond linear response"
     assert np.isnan(friction.mu_ratio)
     cut = float(re.search(r"shortest_wavelength = (\S+)", friction.message)[1])
     # what it says holds when it is done
-    taken, _, _ = passage(contact, filtered(rough, shortest_wavelength=cut), 1.03).run()
+    taken, _, _ = run(passage(contact, filtered(rough, shortest_wavelength=cut), 1.03))
     assert taken.status == "predicted"
     assert 1.0 < taken.mu_ratio <= KNOWN_RATIO
 
@@ -278,7 +304,7 @@ def test_second_order_keeps_the_mass_of_every_column(contact, monkeypatch):
     for _ in range(40):
         rough = scipy.ndimage.gaussian_filter(rng.standard_normal((n, n)), 1.5, mode="wrap")
         spectrum = Spectrum.of(3e-3 * rough, length, length)
-        transfer = Transfer.of(spectrum, zone, (1000.0, 10.0), ratio)
+        transfer = one_transfer(spectrum, zone, (1000.0, 10.0), ratio)
         gain, variance = transfer.second.of(spectrum.power)
         t, k = transfer.at_centre(spectrum, ratio), stiffness(spectrum.q)
         pressure = spectrum.tile(transfer.pressure_at_centre(spectrum, ratio))
@@ -310,7 +336,7 @@ def test_second_order_of_the_inlet_fades_with_slip(contact, monkeypatch, ratio, 
     heights = np.random.default_rng(5).standard_normal((n, n))
     rough = scipy.ndimage.gaussian_filter(heights, 1.5, mode="wrap")
     spectrum = Spectrum.of(3e-3 * rough, length, length)
-    transfer = Transfer.of(spectrum, zone, (1000.0, 10.0), ratio)
+    transfer = one_transfer(spectrum, zone, (1000.0, 10.0), ratio)
     whole, _ = transfer.second.of(spectrum.power)
     monkeypatch.setattr(second_order, "INLET_PRESSURE", 0.0)
     without, _ = transfer.second.of(spectrum.power)
@@ -326,20 +352,21 @@ def test_second_order_of_the_inlet_fades_with_slip(contact, monkeypatch, ratio, 
 def test_film_of_second_order(contact, table_1):
     """The film regains 0.4 of the square of its loss, and ends at 1.6 of the smooth one."""
     one = passage(contact, table_1(seed=21), 1.01)
-    _, spectrum, transfer, edge = one.parts()
-    points = one._contact(spectrum, transfer, edge)
+    points = one.rough_contact(one.components())
     thinnest = np.where(points.inside, points.film, np.inf)
     change = np.zeros((*points.film.shape, 2), dtype=np.float32)
     change[..., 0] = 0.3 * points.film
-    one_film = points.sheared(change)
+    one_film = points.sheared(change, points.smooth_film())
     lost = 1.0 - 0.3 + 0.4 * 0.3**2
     assert one_film == pytest.approx(1.0 / lost, rel=1e-4)
     missing = contact.minimum_film - contact.film.min()
     assert points.least == pytest.approx(lost * thinnest.min() + missing, abs=0.3 * missing)
     change[..., 0] = 1.5 * points.film
-    assert points.sheared(change) == pytest.approx(1.0 / float(film_left(np.array(1.5))), rel=1e-4)
+    assert points.sheared(change, points.smooth_film()) == pytest.approx(
+        1.0 / float(film_left(np.array(1.5))), rel=1e-4
+    )
     change[..., 0] = 1.7 * points.film
-    assert np.isnan(points.sheared(change))
+    assert np.isnan(points.sheared(change, points.smooth_film()))
 
 
 def test_film_that_a_loss_leaves():
@@ -359,20 +386,18 @@ def test_film_that_a_loss_leaves():
 
 def test_a_ring_that_would_have_to_pull_has_no_load(contact, table_1):
     one = passage(contact, table_1(seed=21), 1.01)
-    _, spectrum, transfer, edge = one.parts()
-    points = one._contact(spectrum, transfer, edge)
+    points = one.rough_contact(one.components())
     change = np.zeros((*points.film.shape, 2), dtype=np.float32)
     # more than the smooth pressure where that is least
     change[..., 1] = np.where(points.radius > 0.7, -1.0, 0.0)
-    assert np.isnan(points.sheared(change))
+    assert np.isnan(points.sheared(change, points.smooth_film()))
     assert outcome(points, np.array([np.nan]))[0] == "load lost"
 
 
 def test_what_cannot_pull_carries_nothing(contact, table_1, monkeypatch):
     """Negative pressures carry nothing, and what is around them in their ring carries less."""
     one = passage(contact, table_1(seed=21), 1.01)
-    _, spectrum, transfer, edge = one.parts()
-    points = one._contact(spectrum, transfer, edge)
+    points = one.rough_contact(one.components())
     found = []
 
     def stress(pressure, film):
@@ -383,7 +408,7 @@ def test_what_cannot_pull_carries_nothing(contact, table_1, monkeypatch):
     change = np.zeros((*points.film.shape, 2), dtype=np.float32)
     pulls = points.inside & (points.radius < 0.1)
     change[..., 1][pulls] = -2.0
-    points.sheared(change)
+    points.sheared(change, points.smooth_film())
     whole = (points.pressure + change[..., 1])[points.inside]
     (left,) = found
     assert left.min() == 0.0
@@ -397,13 +422,12 @@ def test_what_cannot_pull_carries_nothing(contact, table_1, monkeypatch):
 def test_the_smooth_film_moves_with_the_edge(contact, table_1):
     """Beyond OUTER a point has the film of a place that is nearer to the centre, or further."""
     one = passage(contact, table_1(seed=21), 1.01)
-    _, spectrum, transfer, edge = one.parts()
-    points = one._contact(spectrum, transfer, edge)
+    points = one.rough_contact(one.components())
     assert points.smooth_film() == pytest.approx(points.film, rel=1e-12)
     angles = np.linspace(0.0, 2.0 * np.pi, points.moved.size, endpoint=False)
     points.moved[:] = 0.02 * np.cos(angles) - 0.01 * np.sin(2.0 * angles)
     x, y = np.meshgrid(points.x, points.y, indexing="ij")
-    outer = points.inside & (points.radius > wavy_contact.OUTER)
+    outer = points.inside & (points.radius > rough_contact.OUTER)
     angle = np.arctan2(y, x)[outer]
     share = 1.0 - np.interp(angle, angles, points.moved, period=2.0 * np.pi) / points.radius[outer]
     expected = points.film.copy()
@@ -416,13 +440,13 @@ def test_the_smooth_film_moves_with_the_edge(contact, table_1):
 def test_free_waves_beside_the_centre_line(contact, table_1):
     """Each column has those of the two lines that it is between."""
     one = passage(contact, table_1(seed=21), 1.3)
-    _, spectrum, transfer, edge = one.parts()
-    points = one._contact(spectrum, transfer, edge)
-    waves = points.waves
-    columns = (points.columns // waves.stride % waves.driven.shape[2]).astype(np.int32)
-    found = waves.beside(columns, *wavy_contact.two_lines(points.across))
+    points = one.rough_contact(one.components())
+    (tile,) = points.tiles
+    waves = tile.waves
+    columns = (tile.columns // waves.stride % waves.driven.shape[2]).astype(np.int32)
+    found = waves.beside(columns, *moving_tile.two_lines(points.across))
     tiles = np.fft.irfft(waves.off_centre, n=found.shape[0])
-    weights = wavy_contact.line_weights(points.across)
+    weights = moving_tile.line_weights(points.across)
     expected = np.einsum("jl,lpjr->rjp", weights, tiles[:, :, columns])
     assert found == pytest.approx(expected, abs=1e-6 * np.abs(expected).max())
 
@@ -430,8 +454,7 @@ def test_free_waves_beside_the_centre_line(contact, table_1):
 def test_free_waves_swell_where_the_pressure_is_lower(contact, table_1):
     """They carry a mass: beside the centre line they are thicker by the ratio of the densities."""
     one = passage(contact, table_1(seed=21), 1.0)
-    _, spectrum, transfer, edge = one.parts()
-    points = one._contact(spectrum, transfer, edge)
+    points = one.rough_contact(one.components())
     middle, off = points.x.size // 2, int(np.argmin(np.abs(points.y - 0.8)))
     density = OIL.density_ratio(points.pressure[middle] * POINT.hertz_pressure)
     swollen = points.expansion[middle, off]
@@ -449,8 +472,8 @@ def test_small_waves_leak_as_such():
     changes = []
     for rms in (1e-5, 2e-5):
         spectrum = Spectrum.of(rms * heights, 1.0, 1.0)
-        small = Transfer.of(spectrum, zone, (200.0, 10.0), 1.05)
-        found = Transfer.of(spectrum, zone, (200.0, 10.0), 1.05, at_amplitude=True)
+        small = one_transfer(spectrum, zone, (200.0, 10.0), 1.05)
+        found = one_transfer(spectrum, zone, (200.0, 10.0), 1.05, at_amplitude=True)
         changes.append(np.abs(found.free[1] - small.free[1]).max())
     assert 0.0 < changes[0] < 1e-3
     assert changes[1] == pytest.approx(4.0 * changes[0], rel=0.01)

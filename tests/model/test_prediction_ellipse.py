@@ -13,11 +13,11 @@ import pytest
 import pyehl
 from pyehl.errors import InputError
 from pyehl.measured_response.folder import shipped_response
-from pyehl.prediction.across import LINES, harmonics, pressed
 from pyehl.prediction.errors import model_error, outside_range
-from pyehl.prediction.options import Options
+from pyehl.prediction.options import ModelOptions
+from pyehl.prediction.response import AXIS
 from pyehl.prediction.smooth import solve_contact, zone_of
-from pyehl.prediction.transfer import AXIS
+from pyehl.prediction.transverse_modes import LINES, harmonics, pressed
 from pyehl.theory.disc import RADIUS, disc_correction, monomials
 from pyehl.theory.ellipse import Ellipse, ellipse
 from pyehl.theory.ellipse_edge import EllipseEdge, Series
@@ -235,9 +235,9 @@ def test_outside_of_the_range_by_the_same_inlet():
     """An ellipticity that was not measured, and M that is in range by R_x alone."""
     for ratio, names in ((0.03, ["ellipticity"]), (NARROW, ["moes_m"]), (WIDE, []), (1.0, [])):
         point = OperatingPoint.from_moes(2900.0, 10.0, radius_ratio=ratio)
-        assert outside_range(point, 1.02, Options()) == names
+        assert outside_range(point, 1.02, ModelOptions()) == names
         # an oil that thins in the inlet more than one that was measured
-        assert outside_range(point, 1.02, Options(), 18.0) == [*names, "thinning"]
+        assert outside_range(point, 1.02, ModelOptions(), 18.0) == [*names, "thinning"]
 
 
 @pytest.fixture(scope="module")

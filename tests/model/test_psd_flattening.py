@@ -8,8 +8,8 @@ import pytest
 from paper_model import response
 
 from pyehl import surfaces
-from pyehl.prediction import Options
-from pyehl.prediction.by_response import STIFFER
+from pyehl.prediction import ModelOptions
+from pyehl.prediction.model import PAPER_STIFFNESS
 from pyehl.surfaces import Topography
 from pyehl.theory import amplitude
 from pyehl.theory.operating import OperatingPoint
@@ -87,7 +87,7 @@ def test_paper_stiffness_is_too_stiff():
     q = np.array([1e4, 1e5])
     # eq. 11 to the letter, with 2 pi/|q|
     literal = math.pi * POINT.reduced_modulus / (math.sqrt(2) * 2 * math.pi / q)
-    assert STIFFER * half_space(q) == pytest.approx(literal)
+    assert PAPER_STIFFNESS * half_space(q) == pytest.approx(literal)
 
 
 # --- response
@@ -98,7 +98,7 @@ def test_paper_stiffness_is_too_stiff():
 def test_single_component(wave, convention, stiffness):
     wavelength, height = 2e-4, 3e-8
     rough = wave(height, wavelength)
-    options = Options(wavelength_convention=convention, stiffness=stiffness)
+    options = ModelOptions(wavelength_convention=convention, stiffness=stiffness)
     field = response(rough, POINT, options)
     factor = math.sqrt(2) if convention == "pattern" else 1.0
     x = factor * wavelength / POINT.hertz_radius * math.sqrt(POINT.moes_m / POINT.moes_l)
@@ -115,7 +115,7 @@ def test_pattern_is_the_closed_form_of_cos_cos():
     x = 2e-4 / POINT.hertz_radius * math.sqrt(POINT.moes_m / POINT.moes_l)
     ratio = 1 / (1 + 0.15 * x + 0.015 * x * x)
     for convention in ("pattern", "components"):
-        field = response(rough, POINT, Options(wavelength_convention=convention))
+        field = response(rough, POINT, ModelOptions(wavelength_convention=convention))
         assert field.deformed == pytest.approx(ratio * rough.heights, rel=1e-9, abs=1e-20)
         expected = math.pi * POINT.reduced_modulus / (math.sqrt(2) * 2e-4) * (1 - ratio)
         assert field.pressure == pytest.approx(expected * rough.heights, rel=1e-9, abs=1e-4)

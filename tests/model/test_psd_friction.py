@@ -11,7 +11,7 @@ from scipy.integrate import quad
 from scipy.special import j0
 
 from pyehl import surfaces
-from pyehl.prediction import Options
+from pyehl.prediction import ModelOptions
 from pyehl.surfaces import Topography
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -76,10 +76,10 @@ def test_waves_along_the_motion_against_quadrature(wave):
 @pytest.mark.parametrize(
     ("law", "options"),
     [
-        ("newtonian", Options()),
-        ("eyring", Options()),
-        ("limiting", Options()),
-        ("newtonian", Options(load_balance=True)),
+        ("newtonian", ModelOptions()),
+        ("eyring", ModelOptions()),
+        ("limiting", ModelOptions()),
+        ("newtonian", ModelOptions(load_balance=True)),
     ],
     ids=["newtonian", "eyring", "limiting", "balanced"],
 )
@@ -116,7 +116,7 @@ def test_automatic_positions_are_enough(table_1):
     for seed in (1, 2):
         rough = table_1(seed)
         few = predict_friction(rough, POINT, ROELANDS, FILM)
-        all_of_them = predict_friction(rough, POINT, ROELANDS, FILM, Options(positions=256))
+        all_of_them = predict_friction(rough, POINT, ROELANDS, FILM, ModelOptions(positions=256))
         assert few.passage.size < 64
         assert few.mu_ratio == pytest.approx(all_of_them.mu_ratio, rel=1e-7)
         assert few.mu_ratio_min == pytest.approx(all_of_them.passage.min(), rel=1e-3)
@@ -133,7 +133,7 @@ def test_grid_of_the_map_does_not_matter():
     b = predict_friction(fine, POINT, ROELANDS, FILM)
     assert a.mu_ratio == pytest.approx(b.mu_ratio, rel=1e-4)
     assert a.response.pressure.shape == (12, 10)
-    odd = predict_friction(fine, POINT, ROELANDS, FILM, Options(positions=11))
+    odd = predict_friction(fine, POINT, ROELANDS, FILM, ModelOptions(positions=11))
     assert odd.passage.size == 11
     assert odd.mu_ratio == pytest.approx(b.mu_ratio, rel=1e-4)
 
@@ -157,7 +157,7 @@ def test_fine_and_short_tiles_are_visited_at_a_stride(wave):
 def test_load_balance(table_1):
     rough = table_1()
     free = predict_friction(rough, POINT, ROELANDS, FILM)
-    held = predict_friction(rough, POINT, ROELANDS, FILM, Options(load_balance=True))
+    held = predict_friction(rough, POINT, ROELANDS, FILM, ModelOptions(load_balance=True))
     assert free.load_error == pytest.approx(held.load_error, rel=0.05)
     assert 1e-4 < free.load_error < 0.02
     assert 1e-4 < abs(held.mu_ratio / free.mu_ratio - 1) < 0.03
@@ -169,7 +169,7 @@ def test_load_balance_follows_hertz():
     x = np.arange(n) / n
     hill = np.outer(np.cos(2 * np.pi * x), np.cos(2 * np.pi * x)) * 4e-6
     rough = Topography(hill, (side, side))
-    options = Options(load_balance=True, positions=8)
+    options = ModelOptions(load_balance=True, positions=8)
     held = predict_friction(rough, POINT, ROELANDS, FILM, options)
     field = response(rough, POINT, options)
     dp, ad = float(field.pressure[0, 0]), float(field.deformed[0, 0])

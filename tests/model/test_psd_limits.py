@@ -8,7 +8,7 @@ import pytest
 from paper_model import predict_friction
 
 from pyehl import surfaces
-from pyehl.prediction import Options
+from pyehl.prediction import ModelOptions
 from pyehl.surfaces import Topography
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -50,7 +50,7 @@ def test_lost_load_is_said():
     x = np.arange(n) / n
     hill = np.outer(np.cos(2 * np.pi * x), np.cos(2 * np.pi * x)) * 2e-4
     rough = Topography(hill, (side, side))
-    result = predict_friction(rough, POINT, ROELANDS, 1e-3, Options(load_balance=True))
+    result = predict_friction(rough, POINT, ROELANDS, 1e-3, ModelOptions(load_balance=True))
     assert result.status == "load lost"
     assert math.isnan(result.mu_ratio)
 

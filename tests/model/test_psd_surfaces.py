@@ -9,7 +9,8 @@ import pytest
 from paper_model import contributions, passage, predict_friction, response
 
 from pyehl import surfaces
-from pyehl.prediction import Options
+from pyehl.prediction import ModelOptions
+from pyehl.prediction.passage_friction import run
 from pyehl.surfaces import Topography
 from pyehl.theory import stribeck
 from pyehl.theory.lubricant import Lubricant
@@ -28,7 +29,9 @@ def twenty(table_1):
 
     def ratios_of(lubricant, **options):
         values = [
-            predict_friction(table_1(seed), POINT, lubricant, FILM, Options(**options)).mu_ratio
+            predict_friction(
+                table_1(seed), POINT, lubricant, FILM, ModelOptions(**options)
+            ).mu_ratio
             for seed in range(1, 21)
         ]
         return np.array(values)
@@ -79,7 +82,7 @@ def test_below_equation_16():
 
 
 def over_tracks(rough):
-    return passage(rough, POINT, ROELANDS, FILM).run(8)[1]
+    return run(passage(rough, POINT, ROELANDS, FILM), 8)[1]
 
 
 def test_rise_over_all_tracks_is_quadratic_in_the_height(table_1):

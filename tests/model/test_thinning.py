@@ -11,10 +11,10 @@ import pytest
 
 import pyehl
 from pyehl.case import Case
-from pyehl.prediction.of_solver import resolution
+from pyehl.prediction.initial_condition import starting_pressure
+from pyehl.prediction.resolution import resolution
+from pyehl.prediction.response import _at_amplitude
 from pyehl.prediction.smooth import solve_contact, zone_of
-from pyehl.prediction.start import starting_pressure
-from pyehl.prediction.transfer import _at_amplitude
 from pyehl.schema import summary_of
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint

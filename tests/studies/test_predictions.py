@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 
 import pyehl
-from pyehl.prediction import of_case, smooth
+from pyehl.prediction import smooth
+from pyehl.prediction.predict import predict
 from pyehl.studies.outputs import TRACKS
 from pyehl.studies.tasks import Task, execute
-from pyehl.surfaces import of_case as of_case_surface
+from pyehl.surfaces import from_case as from_case_surface
 from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -104,8 +105,8 @@ def test_shared_parts_are_made_once(cases: Path):
 def test_a_map_is_read_once(tmp_path: Path, monkeypatch):
     """For all cases with it, until its file is another or it is prepared in another way."""
     reads = []
-    read = of_case_surface.read_scan
-    monkeypatch.setattr(of_case_surface, "read_scan", lambda *a: reads.append(a) or read(*a))
+    read = from_case_surface.read_scan
+    monkeypatch.setattr(from_case_surface, "read_scan", lambda *a: reads.append(a) or read(*a))
     z = pyehl.surfaces.fractal(32, 1e-4, 1e-4, rms_height=1e-8, hurst=0.8).heights
     np.save(tmp_path / "map.npy", z)
     base = pyehl.Case.from_text(
@@ -131,7 +132,7 @@ def test_a_map_is_read_once(tmp_path: Path, monkeypatch):
 
 def test_brief_predictions_have_no_advice(cases: Path):
     case = pyehl.Case(cases / "table1.nml", *CASES["breakdown"])
-    brief = of_case.predict(case.resolve(), case.text, brief=True)
+    brief = predict(case.resolve(), case.text, brief=True)
     assert brief.advice is None
     assert math.isnan(brief.tracks[0])
     assert brief.below == pyehl.predict(case).below

@@ -6,8 +6,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from pyehl.prediction.across import LINES, harmonics, pressed
-from pyehl.prediction.transfer import AXIS
+from pyehl.prediction.response import AXIS
+from pyehl.prediction.transverse_modes import LINES, harmonics, pressed
 from pyehl.theory.ellipse import Ellipse
 from pyehl.theory.ellipse_edge import EllipseEdge
 from pyehl.theory.response import edge_gain, inlet_transfer

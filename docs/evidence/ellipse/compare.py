@@ -19,9 +19,10 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from cases import HERE, case, read, surface
-from pyehl.prediction.by_response import RoughPassage
 from pyehl.prediction.errors import model_error
-from pyehl.prediction.options import Options
+from pyehl.prediction.model import Model
+from pyehl.prediction.options import ModelOptions
+from pyehl.prediction.passage_friction import run
 from pyehl.prediction.smooth import solve_contact
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -33,10 +34,10 @@ def prediction(row: dict[str, Any]) -> float:
     """mu_r/mu_s of a row."""
     settings = case(row).resolve()
     operating, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
-    passage = RoughPassage(
-        surface(row), solve_contact(settings), operating, oil, Options(), row["velocity_ratio"]
+    model = Model.of_one(
+        surface(row), solve_contact(settings), operating, oil, ModelOptions(), row["velocity_ratio"]
     )
-    return passage.run(0, brief=True)[0].mu_ratio
+    return run(model, 0, brief=True).friction.mu_ratio
 
 
 def _error(run: dict[str, Any]) -> float | None:

@@ -32,12 +32,12 @@ import cases  # noqa: E402
 import pyehl  # noqa: E402
 from pyehl import surfaces  # noqa: E402
 from pyehl.prediction import second_order  # noqa: E402
-from pyehl.prediction.by_response import RoughPassage  # noqa: E402
-from pyehl.prediction.options import Options  # noqa: E402
+from pyehl.prediction.model import Model  # noqa: E402
+from pyehl.prediction.options import ModelOptions  # noqa: E402
+from pyehl.prediction.response import Transfer  # noqa: E402
+from pyehl.prediction.rough_contact import RoughContact  # noqa: E402
 from pyehl.prediction.smooth import solve_contact  # noqa: E402
 from pyehl.prediction.spectrum import Spectrum  # noqa: E402
-from pyehl.prediction.transfer import Transfer  # noqa: E402
-from pyehl.prediction.wavy_contact import WavyContact  # noqa: E402
 from pyehl.solver import solver_on_heights  # noqa: E402
 from pyehl.surfaces import Topography, shifted  # noqa: E402
 from pyehl.theory.lubricant import Lubricant  # noqa: E402
@@ -100,34 +100,36 @@ def simulate(case: pyehl.Case, heights: Array | None = None) -> list[Moment]:
     return [min(found, key=lambda moment: abs(moment.time - end)) for end in ends]
 
 
-def on_points(values: Array, moment: Moment, contact: WavyContact) -> Array:
+def on_points(values: Array, moment: Moment, contact: RoughContact) -> Array:
     """Values on the nodes of a simulation at the points of a contact."""
     spline = RectBivariateSpline(moment.x, moment.y, values)
     return np.asarray(spline(contact.x, contact.y))
 
 
-def passage_of(case: pyehl.Case, tile: Topography) -> RoughPassage:
+def passage_of(case: pyehl.Case, tile: Topography) -> Model:
     """Passage of a tile whose waves leak as on the grid of a case."""
     settings = case.resolve()
     point, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
     ratio = float(settings["surface"]["velocity_ratio"])
     mesh = 4.0 / (settings["grid"]["points"] - 1.0)
-    return RoughPassage(tile, solve_contact(settings), point, oil, Options(), ratio, mesh=mesh)
+    return Model.of_one(tile, solve_contact(settings), point, oil, ModelOptions(), ratio, mesh)
 
 
 def at(
-    moment: Moment, passage: RoughPassage, start: float
-) -> tuple[WavyContact, Array, Transfer, Spectrum]:
+    moment: Moment, passage: Model, start: float
+) -> tuple[RoughContact, Array, Transfer, Spectrum]:
     """Points of a contact at a moment, its film and pressure to first order, and its response.
 
     `start`: where the tile is at the time 0 [a].
     """
-    way = (start + passage.velocity_ratio * moment.time) * passage.operating.hertz_radius
-    moved = replace(passage, topography=shifted(passage.topography, way))
-    _, spectrum, transfer, edge = moved.parts()
-    contact = passage._contact(spectrum, transfer, edge)
+    (one,) = passage.surfaces
+    way = (start + one.velocity_ratio * moment.time) * passage.operating.hertz_radius
+    moved = replace(one, topography=shifted(one.topography, way))
+    (wave,) = waves = replace(passage, surfaces=(moved,)).components()
+    contact = passage.rough_contact(waves)
+    assert isinstance(contact, RoughContact)
     contact.second = None
-    return contact, contact.change(0), transfer, spectrum
+    return contact, contact.change((0, 0)), wave.transfer, wave.spectrum
 
 
 def compare(name: str, points: int, moments: list[Moment]) -> list[dict[str, Any]]:

@@ -15,9 +15,10 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from cases import HERE, case, rows, surface
-from pyehl.prediction.by_response import RoughPassage
 from pyehl.prediction.errors import model_error
-from pyehl.prediction.options import Options
+from pyehl.prediction.model import Model
+from pyehl.prediction.options import ModelOptions
+from pyehl.prediction.passage_friction import run
 from pyehl.prediction.smooth import hertz_contact, solve_contact
 from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
@@ -31,12 +32,14 @@ def predictions(row: dict[str, float]) -> tuple[float, float]:
     tile = surface(row)
     dry = hertz_contact(central_film(operating, oil) / operating.film_scale, "formula")
     ratios = [
-        RoughPassage(tile, contact, operating, oil, options, row["velocity_ratio"])
-        .run(0, brief=True)[0]
-        .mu_ratio
+        run(
+            Model.of_one(tile, contact, operating, oil, options, row["velocity_ratio"]),
+            0,
+            brief=True,
+        ).friction.mu_ratio
         for contact, options in (
-            (solve_contact(settings), Options()),
-            (dry, Options(reduction="amplitude", smooth="hertz")),
+            (solve_contact(settings), ModelOptions()),
+            (dry, ModelOptions(reduction="amplitude", smooth="hertz")),
         )
     ]
     return ratios[0], ratios[1]

@@ -13,9 +13,10 @@ from typing import Any
 import numpy as np
 
 from cases import HERE, case, surface
-from pyehl.prediction.by_response import RoughPassage
 from pyehl.prediction.errors import model_error
-from pyehl.prediction.options import Options
+from pyehl.prediction.model import Model
+from pyehl.prediction.options import ModelOptions
+from pyehl.prediction.passage_friction import run
 from pyehl.prediction.smooth import solve_contact
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -33,8 +34,8 @@ def predicted(row: dict[str, Any]) -> float:
     settings = case(row).resolve()
     operating, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
     contact = solve_contact(settings)
-    track = RoughPassage(surface(row), contact, operating, oil, Options(), row["velocity_ratio"])
-    return float(track.run(0, brief=True)[0].mu_ratio)
+    of = contact, operating, oil, ModelOptions(), row["velocity_ratio"]
+    return float(run(Model.of_one(surface(row), *of), 0, brief=True).friction.mu_ratio)
 
 
 def drawn(number: int, random: np.random.Generator) -> dict[str, Any]:

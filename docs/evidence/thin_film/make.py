@@ -24,8 +24,8 @@ import numpy as np
 
 import pyehl
 from pyehl import surfaces
-from pyehl.prediction.by_response import RoughPassage
-from pyehl.prediction.options import Options
+from pyehl.prediction.model import Model
+from pyehl.prediction.options import ModelOptions
 from pyehl.prediction.second_order import film_left
 from pyehl.prediction.smooth import solve_contact
 from pyehl.schema import summary_of
@@ -103,12 +103,12 @@ def loss(seed: int, speed: float, flow: str) -> float:
     point, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
     tile = surfaces.from_settings(settings, point, None)
     ratio = float(settings["surface"]["velocity_ratio"])
-    passage = RoughPassage(tile, solve_contact(settings), point, oil, Options(), ratio)
-    grid, spectrum, transfer, edge = passage.parts()
-    contact = passage._contact(spectrum, transfer, edge)
+    model = Model.of_one(tile, solve_contact(settings), point, oil, ModelOptions(), ratio)
+    waves = model.components()
+    contact, pixels = model.rough_contact(waves), waves[0].spectrum.shape[0]
     greatest = 0.0
     for step in range(POSITIONS):
-        lost = contact.change(step * grid.shape[0] // POSITIONS)[..., 0] / contact.smooth_film()
+        lost = contact.change((step * pixels // POSITIONS, 0))[..., 0] / contact.smooth_film()
         greatest = max(greatest, float(lost.max(where=contact.inside, initial=0.0)))
     return greatest
 

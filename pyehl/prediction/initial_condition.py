@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The pressure that a rough surface adds where it fills the contact: a start for time steps.
 
-The waves of :mod:`pyehl.prediction.transfer`, those that the grid of the run carries, on its nodes.
+The waves of :mod:`pyehl.prediction.response`, those that the grid of the run carries, on its nodes.
 Units: lengths by a, heights by a^2/R, pressures by p_h.
 """
 
@@ -10,7 +10,6 @@ from __future__ import annotations
 import logging
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 
 import numpy as np
 import scipy
@@ -18,15 +17,20 @@ import scipy
 from pyehl import surfaces
 from pyehl.errors import EhlError, InputError, InternalError
 from pyehl.handle import SolverHandle, start_fronts, take_start
-from pyehl.prediction.by_response import RoughPassage
-from pyehl.prediction.edge import Edge
 from pyehl.prediction.errors import model_error, outside_range
-from pyehl.prediction.options import Options, turned
-from pyehl.prediction.pair import RoughPair
+from pyehl.prediction.model import Model, RoughSurface
+from pyehl.prediction.moving_tile import (
+    REACH,
+    Component,
+    line_weights,
+    slipped,
+    station_weights,
+)
+from pyehl.prediction.options import ModelOptions, turned
+from pyehl.prediction.passage_friction import mean
+from pyehl.prediction.response import Transfer
 from pyehl.prediction.smooth import SmoothContact, solve_contact
 from pyehl.prediction.spectrum import Spectrum
-from pyehl.prediction.transfer import Transfer
-from pyehl.prediction.wavy_contact import REACH, line_weights, slipped, station_weights
 from pyehl.surfaces import Topography
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -66,33 +70,24 @@ def starting_pressure(
     EhlError
         If the smooth contact has no solution.
     """
-    passages = [replace(one, mesh=float(x[1] - x[0])) for one in _passages(settings, tiles)]
-    for one in passages:
-        beyond = outside_range(one.operating, one.velocity_ratio, one.options, one.contact.thinning)
-        if beyond:
+    model = _model(settings, tiles, float(x[1] - x[0]), fronts[0])
+    for one in model.surfaces:
+        ratio, thinning = one.velocity_ratio, model.contact.thinning
+        if beyond := outside_range(model.operating, ratio, model.options, thinning):
             raise InputError(f"{', '.join(beyond)} outside the range of the prediction")
-    if len(passages) > 1:
-        pair = RoughPair((passages[0], passages[1]), (fronts[0, 0], fronts[0, 1]))
-        together = pair.as_one
-        if together is None:
-            error = model_error(pair.mean())
-            both = [
-                _Waves(part, pair.of[k].velocity_ratio, pair.of[k], x, y)
-                for part, k in zip(pair.parts(), pair.order, strict=True)
-            ]
-            return _pressure(both, error, x, y, fronts[:, list(pair.order)])
+    fronts = fronts[:, list(model.order)]
+    if model.merged is not None:
         # the tile of both lies as the first in their order does
-        passages, fronts = [replace(together, mesh=passages[0].mesh)], fronts[:, [pair.order[0]]]
-    parts = passages[0].parts()
-    ratio = passages[0].velocity_ratio
-    # takes the waves that the grid does not carry off the spectrum
-    waves = _Waves(parts[1:], ratio, passages[0], x, y)
-    return _pressure([waves], model_error(passages[0].mean(parts)), x, y, fronts)
-
-
-def _pressure(waves: Sequence[_Waves], error: float, x: Array, y: Array, fronts: Array) -> Array:
-    if not math.isfinite(error):
+        model, fronts = model.merged, fronts[:, :1]
+    waves = model.components()
+    # takes the waves that the grid does not carry off the spectra
+    carried = [_GridWaves(wave, model, x, y) for wave in waves]
+    if not math.isfinite(model_error(mean(model, waves))):
         raise InputError("the pressures are beyond a linear response")
+    return _pressure(carried, x, y, fronts)
+
+
+def _pressure(waves: Sequence[_GridWaves], x: Array, y: Array, fronts: Array) -> Array:
     first = waves[0]
     second = first.second and [
         first.weights @ v for v in first.second.of(*(one.power for one in waves))
@@ -132,44 +127,46 @@ def hand_over(
         take_start(solver, found)
 
 
-def _passages(settings: Settings, tiles: Mapping[str, Topography]) -> list[RoughPassage]:
-    """Each rough surface alone, in the order of their groups."""
+def _model(
+    settings: Settings, tiles: Mapping[str, Topography], mesh: float, fronts: Array
+) -> Model:
+    """Model of a resolved case whose waves leak as on a grid, with tiles at fronts [a]."""
     if turned(settings):
         raise InputError(turned(settings))
     operating = OperatingPoint.from_settings(settings)
-    lubricant = Lubricant.from_settings(settings)
     contact = solve_contact(settings)
     film = contact.central_film * operating.film_scale
     found = []
-    for group in surfaces.rough_groups(settings):
+    for group, front in zip(surfaces.rough_groups(settings), fronts, strict=True):
         keys = settings[group]
         if group in tiles:
             tile = surfaces.finished(tiles[group], {**keys, "track": 0.0})
         else:
             tile = surfaces.from_settings({**settings, "surface": keys}, operating, film)
-        ratio = float(keys["velocity_ratio"])
-        found.append(RoughPassage(tile, contact, operating, lubricant, Options(), ratio))
-    return found
+        found.append(
+            RoughSurface(tile, float(keys["velocity_ratio"]), float(front), groups=(group,))
+        )
+    lubricant = Lubricant.from_settings(settings)
+    return Model(tuple(found), contact, operating, lubricant, ModelOptions(), mesh)
 
 
-class _Waves:
+class _GridWaves:
     """The waves of a tile on the nodes of a grid that lie in the contact."""
 
     def __init__(
         self,
-        parts: tuple[Spectrum, Transfer, Edge],
-        ratio: float,
-        passage: RoughPassage,
+        wave: Component,
+        model: Model,
         x: Array,
         y: Array,
     ) -> None:
-        across = y / passage.operating.ellipse.ellipticity
+        ratio, across = wave.velocity_ratio, y / model.operating.ellipse.ellipticity
         rows, columns = (np.flatnonzero(np.abs(v) < REACH) for v in (x, across))
         # the nodes are the product of these rows and columns of the grid
         self.place = slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
         self.x, self.y = x[rows, np.newaxis], y[np.newaxis, columns]
         across = across[np.newaxis, columns]
-        spectrum, transfer, edge = parts
+        spectrum, transfer, edge = wave.spectrum, wave.transfer, wave.edge
         mesh = (x[1] - x[0]) * max(1.0, ratio), y[1] - y[0]
         limits = math.pi / mesh[0] * BELOW, math.pi / mesh[1] * BELOW
         spectrum.values[spectrum.qx >= limits[0]] = 0.0
@@ -181,7 +178,7 @@ class _Waves:
         self.slipped = self.x + slipped(self.x, across, ratio, bent=transfer.bent)
         self.weights = station_weights(self.x)
         self.off = np.moveaxis(line_weights(across), -1, 0)
-        self._make_tiles(spectrum, transfer, passage.contact, ratio)
+        self._make_tiles(spectrum, transfer, model.contact, ratio)
         radius = np.hypot(self.x, across)
         self.polynomials = self.edge.polynomials(*np.broadcast_arrays(self.x, across))
         self.fade = np.clip((REACH - radius) / EDGE_WIDTH, 0.0, 1.0)

@@ -21,17 +21,17 @@ line; between them it is interpolated."""
 # Waves across the motion: their period and where they have fallen to zero [semi-axis], and how many
 # there are: shorter ones than half a semi-axis the lines do not tell apart
 PERIOD, END, SHORTEST = 4.0, 1.7, 8
-POINTS = 256
+SAMPLES = 256
 
 
 def harmonics(amplitudes: Complex) -> tuple[Array, Complex]:
     """Wavenumbers (n,) [1/semi-axis] and parts (n, ...) of amplitudes on LINES (lines, ...)."""
-    y = PERIOD * (np.arange(POINTS) / POINTS - 0.5)
+    y = PERIOD * (np.arange(SAMPLES) / SAMPLES - 0.5)
     places = np.concatenate([[-END, -1.0], LINES, [1.0, END]])
     held = np.pad(np.pad(np.eye(LINES.size), ((1, 1), (0, 0)), mode="edge"), ((1, 1), (0, 0)))
     hats = np.stack([np.interp(y, places, one) for one in held.T], axis=1)
     k = 2.0 * np.pi / PERIOD * np.arange(-SHORTEST, SHORTEST + 1, dtype=np.float64)
-    parts = np.tensordot(np.exp(-1j * np.outer(k, y)) @ hats / POINTS, amplitudes, 1)
+    parts = np.tensordot(np.exp(-1j * np.outer(k, y)) @ hats / SAMPLES, amplitudes, 1)
     return np.asarray(k, dtype=np.float64), np.asarray(parts, dtype=np.complex128)
 
 

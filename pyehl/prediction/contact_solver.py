@@ -19,8 +19,10 @@ from pyehl.types import Array, Mask
 
 ENOUGH, DEEPEST = 2e-3, 1e-2
 """Error of the film at touching nodes (rms), and depth below the layer elsewhere, over the scale
-that is given, that are small enough."""
+that is given, that are small enough: a quarter of both changes the load share in
+docs/howto/mixed.md by 0.03 % of itself."""
 MOST_STEPS = 300
+"""Of conjugate gradients, before a contact counts as not solved."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is predicted for a run: what it begins with, and what its grid does not resolve."""
+"""What the grid of a run does not resolve, predicted."""
 
 import math
 from collections.abc import Mapping
@@ -7,11 +7,10 @@ from dataclasses import dataclass
 
 from pyehl import lengths, surfaces
 from pyehl.case import Case
-from pyehl.errors import EhlError, InputError, InternalError
-from pyehl.handle import SolverHandle, start_fronts, take_prediction
-from pyehl.prediction.by_response import RoughPassage
-from pyehl.prediction.options import Options, unpredictable
-from pyehl.prediction.pair import RoughPair
+from pyehl.errors import EhlError, InputError
+from pyehl.prediction.model import Model, RoughSurface
+from pyehl.prediction.options import ModelOptions, unpredictable
+from pyehl.prediction.passage_friction import run_and_below
 from pyehl.prediction.smooth import solve_contact
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.surfaces import Topography
@@ -110,15 +109,12 @@ def resolution(case: Case, tiles: Mapping[str, Topography] | None = None) -> Res
     if not any(spectrum.share_below(shortest) > 0.0 for spectrum in spectra):
         return None
     contact = solve_contact(settings)
-    alone = [
-        RoughPassage(tile, contact, operating, lubricant, Options(), float(keys["velocity_ratio"]))
+    rough_tiles = tuple(
+        RoughSurface(tile, float(keys["velocity_ratio"]), float(keys["x_start"]))
         for (tile, _), keys in zip(found, rough, strict=True)
-    ]
-    passage: RoughPassage | RoughPair = alone[0]
-    if len(alone) > 1:
-        fronts = float(rough[0]["x_start"]), float(rough[1]["x_start"])
-        passage = RoughPair((alone[0], alone[1]), fronts)
-    friction, below = passage.run_and_below(NODES * mesh, CARRIED * mesh)
+    )
+    model = Model(rough_tiles, contact, operating, lubricant, ModelOptions())
+    friction, below = run_and_below(model, NODES * mesh, CARRIED * mesh)
     if not math.isfinite(friction.mu_ratio):
         raise EhlError(f"{friction.status}: {friction.message}")
     resolved, carried = below
@@ -136,65 +132,3 @@ def _tile(
     tile = surfaces.from_settings({**settings, "surface": settings[group]}, operating, film)
     middle = surfaces.part_of(tile.heights, tile.pixel, tile.origin)
     return (tile, "") if middle is None else (middle, middle.origin)
-
-
-class Predictions:
-    """The predictions for a run, each made once and when it is asked for.
-
-    Parameters
-    ----------
-    case
-        The case of the run.
-    tiles
-        Its surfaces by group, where they are not made as the case says; of a large one a part.
-    whole
-        Whether none of `tiles` is a part of the surface alone.
-    """
-
-    def __init__(self, case: Case, tiles: Mapping[str, Topography], *, whole: bool) -> None:
-        self._case, self._tiles, self._whole = case, tiles, whole
-        self._resolution: Resolution | str | None = None
-        self._resolved = self._told = False
-
-    def begin(self, solver: SolverHandle) -> None:
-        """Hand a solver the start that it asks for; mostly it asks for none."""
-        if start_fronts(solver).size:
-            from pyehl.prediction.start import hand_over  # noqa: PLC0415
-
-            hand_over(solver, self._case.resolve(), self._tiles, whole=self._whole)
-
-    def _resolution_once(self) -> Resolution | str | None:
-        """Predict what the grid does not resolve; text: why there is no prediction."""
-        if not self._resolved:
-            try:
-                self._resolution = resolution(self._case, self._tiles)
-            except InternalError:
-                raise
-            except (EhlError, MemoryError) as error:
-                why = str(error) or type(error).__name__
-                self._resolution = why.replace(chr(10), " ")
-            self._resolved = True
-        return self._resolution
-
-    def lines(self) -> list[str]:
-        """Lines of the plan: what the grid does not resolve."""
-        found = self._resolution_once()
-        if isinstance(found, str):
-            return [f"predicted   no mu_r/mu_s: {found}"]
-        return found.report() if found else []
-
-    def tell(self, solver: SolverHandle) -> None:
-        """Tell a solver what is predicted, if the error of its mu_ratio asks for it."""
-        summary = {} if self._told else solver.summary
-        if summary.get("mu_ratio") is None or not summary["variance_unresolved"]:
-            return
-        found = self._resolution_once()
-        if isinstance(found, Resolution):
-            take_prediction(solver, found.left_out, found.unresolved, "")
-        elif found is not None:
-            # a status without its message, which the plan has
-            why = found.partition(": ")[0]
-            take_prediction(
-                solver, math.nan, math.nan, f"what the waves left out add is not predicted ({why})"
-            )
-        self._told = True

@@ -1,0 +1,212 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The points of a rough contact with a boundary film, position by position.
+
+See :mod:`pyehl.prediction.mixed_lubrication`. Films by a^2/R, pressures by p_h.
+"""
+
+import math
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+import scipy
+
+from pyehl.prediction.contact_solver import Compliance, lifted
+from pyehl.prediction.model import Components, Model
+from pyehl.prediction.moving_tile import slipped
+from pyehl.prediction.rough_contact import RoughContact, missing
+from pyehl.prediction.second_order import film_left, loss_at
+from pyehl.prediction.spectrum import Spectrum
+from pyehl.prediction.thermal import HeatOf, mean_heat
+from pyehl.surfaces import Topography
+from pyehl.theory.heat import Heat
+from pyehl.theory.transport import stiffness
+from pyehl.types import Array, Indices, Mask, Settings
+
+HOLD = 0.01
+"""Bodies touch where the film exceeds the layer by less than this share, as in the solver
+(``fortran/reynolds/boundary_film.f90``)."""
+OPEN = 1.0
+"""Film outside of the contact [a^2/R]: any, since there is no pressure to make heat."""
+LEAST_LEFT = 0.02
+"""Of waves that the fluid flattens nearly whole, as much is taken to be left: half and twice of it
+change no digit of the contact in docs/howto/mixed.md."""
+GIVEN_TO = 1e-4
+"""Error of the film that the layer gives, over the layer: far below HOLD."""
+BOX = 1.25
+"""Length of the periodic box of pressures over that of the contact: 1.1 and 2 change the load share
+in docs/howto/mixed.md by 2 and 4 % of itself, a tenth of its error."""
+
+
+@dataclass(slots=True)
+class Level:
+    """What the positions have where all films are thicker by a length [a^2/R]."""
+
+    thicker: float
+    least: float = math.inf  # film [a^2/R]
+    # In each position: shares of the load and of the area at the layer, sum of the shear stress
+    load: list[float] = field(default_factory=list)
+    area: list[float] = field(default_factory=list)
+    stress: list[float] = field(default_factory=list)
+
+
+class LayeredContact:
+    """The points of a contact with a layer [m], so many per shorter semi-axis.
+
+    Under one rough surface with heights on a `grid`; `friction` of the layer [-], 0: not known.
+    """
+
+    def __init__(
+        self,
+        model: Model,
+        waves: Components,
+        grid: Topography,
+        points: float,
+        layer: float,
+        friction: float,
+    ) -> None:
+        self.model, o = model, model.operating
+        (wave,) = waves
+        self.velocity_ratio = wave.velocity_ratio
+        self.tile = model.pixel_tile(wave, points)
+        self.stride = self.tile.stride
+        self.rough = RoughContact.on_pixels(model.contact, o, model.lubricant, self.tile)
+        self.layer = layer / o.film_scale
+        # of the stress of the layer over its pressure, as `ShearedContact.stress` has stresses
+        unit = 1.0 if self.rough.thins else model.lubricant.viscosity * o.sliding_speed
+        known = friction > 0.0 and o.sliding_speed > 0.0
+        self.rubbing = friction * o.hertz_pressure / unit if known else math.nan
+        # films that were scaled to the extrapolated central film lack something at the sides
+        self.film = self.rough.film + missing(model.contact, self.rough.film, self.rough.lowest)
+        self.way = self._way()
+        self.load = float(self.rough.pressure.sum(where=self.rough.inside))
+        self.whole_load = o.load / (o.hertz_pressure * self.rough.area)
+        self._bend(self._around(grid))
+        # pressure, film and where bodies touch at each position, of the film itself
+        self.found: dict[int, tuple[Array, Array, Mask]] = {}
+
+    def _way(self) -> Indices:
+        """Points by which peaks have slipped past a column since the inlet (m, n)."""
+        rough = self.rough
+        way = slipped(rough.x[:, np.newaxis], rough.across, self.velocity_ratio, bent=True)
+        return np.rint(way / (self.stride * self.tile.pixel[0])).astype(int)
+
+    def _given(self, lack: Array) -> float:
+        """Film that the layer gives [a^2/R], by what each point lacks of the layer (m, n)."""
+        most = lack.copy()
+        direction = 1 if self.velocity_ratio > 1.0 else -1
+        for step in range(1, int(np.abs(self.way).max()) + 1):
+            # peaks that are faster than the lubricant are ahead of where they met it
+            met = np.full_like(lack, -np.inf)
+            ahead, here = slice(step, None), slice(None, -step)
+            met[here if direction > 0 else ahead] = lack[ahead if direction > 0 else here]
+            passed = np.abs(self.way) >= step
+            most[passed] = np.maximum(most, met)[passed]
+        of_all = most[self.rough.inside]
+        low, high = 0.0, max(0.0, float(of_all.max()))
+        while high - low > GIVEN_TO * self.layer:
+            middle = 0.5 * (low + high)
+            enough = float(np.maximum(of_all - middle, 0.0).mean()) <= middle
+            low, high = (low, middle) if enough else (middle, high)
+        return high
+
+    def _around(self, grid: Topography) -> Spectrum:
+        """Roughness on a box around the contact."""
+        rough, tile, o = self.rough, self.tile, self.model.operating
+        box = [scipy.fft.next_fast_len(math.ceil(BOX * n), real=True) for n in rough.film.shape]
+        firsts = tile.rows[0], tile.columns[0]
+        rows, columns = (
+            (first + self.stride * np.arange(n)) % size
+            for first, n, size in zip(firsts, box, grid.shape, strict=True)
+        )
+        lengths = [n * self.stride * p for n, p in zip(box, tile.pixel, strict=True)]
+        heights = grid.heights[np.ix_(rows, columns)] / o.film_scale
+        return Spectrum.of(heights, lengths[0], lengths[1])
+
+    def _bend(self, around: Spectrum) -> None:
+        """Find what pressures of contact make of film and pressure."""
+        slow = replace(self.model.surfaces[0], velocity_ratio=1.0)
+        (transfer,) = replace(self.model, surfaces=(slow,)).transfers([around])
+        left = np.maximum(np.abs(transfer.at_centre(around, 1.0)), LEAST_LEFT)
+        left[0, 0] = 0.0
+        k = transfer.stiffening * stiffness(around.q)
+        k[0, 0] = math.inf
+        self.lifting = Compliance(left / k, around.shape)
+        self.raising = Compliance(left, around.shape)
+
+    def _floor(self, pressure: Array) -> Array:
+        """Film of the layer under pressures [p_h]."""
+        p = np.maximum(pressure, 0.0) * self.model.operating.hertz_pressure
+        return self.layer / self.model.lubricant.density_ratio(p)
+
+    def add(self, shift: int, levels: list[Level]) -> bool:
+        """Add what a position has to levels; False: it is not solved."""
+        rough, held = self.rough, None
+        change = rough.change((shift, 0)).astype(float)
+        linear = rough.pressure + change[..., 1]
+        floor = self._floor(linear)
+        sustained = self.film * loss_at(floor / self.film)
+        for level in levels:
+            loss = change[..., 0] - level.thicker
+            loss -= self._given(floor - self.film * film_left(loss / self.film))
+            gap = np.where(rough.inside, sustained - loss, np.inf)
+            held = lifted(gap, self.lifting, self.layer, self.load, held)
+            if held is None:
+                return False
+            film = np.maximum(self.film * film_left((loss - held.lift) / self.film), floor)
+            pressure = np.maximum(linear + self.raising(held.pressure), 0.0)
+            touching = self._touching(pressure, film, floor)
+            self.found.setdefault(shift, (pressure, film, touching))
+            carried = float(pressure.sum(where=rough.inside))
+            level.load.append(float(pressure.sum(where=touching)) / carried)
+            level.area.append(np.count_nonzero(touching) / rough.points)
+            level.stress.append(self._stress(pressure, film, touching))
+            level.least = min(level.least, float(film.min(where=rough.inside, initial=math.inf)))
+        return True
+
+    def _touching(self, pressure: Array, film: Array, floor: Array) -> Mask:
+        return self.rough.inside & (film <= (1.0 + HOLD) * floor) & (pressure > 0.0)
+
+    def _stress(self, pressure: Array, film: Array, touching: Mask) -> float:
+        """Sum of the shear stress; NaN where that of the layer is not known.
+
+        The layer rubs by its share of the load, whatever the points of friction carry.
+        """
+        stress, inside = self.rough.stress(pressure, film), self.rough.inside
+        flowing = float(stress.sum(where=inside & ~touching))
+        if not touching.any():
+            return flowing
+        share = float(pressure.sum(where=touching) / pressure.sum(where=inside))
+        return flowing + self.rubbing * self.whole_load * share
+
+    def heat(self, steps: Indices, settings: Settings) -> Heat | None:
+        """Heat of sliding at some positions: of friction a mean, of the rises the greatest.
+
+        None where bodies do not touch, or the friction of the layer is not known.
+        """
+        if not any(touching.any() for _, _, touching in self.found.values()):
+            return None
+        if not math.isfinite(self.rubbing):
+            return None
+        heat_of = HeatOf(settings, self.model.lubricant, self.rough.x, self.rough.y)
+        found = [self.found[int(step)] for step in steps]
+        inside = self.rough.inside
+        # what is outside of the points of friction makes no heat
+        return mean_heat(
+            [heat_of(np.where(inside, p, 0.0), np.where(inside, h, OPEN), t) for p, h, t in found],
+            [self._stress(*state) for state in found],
+        )
+
+    def smooth_friction(self) -> float:
+        """Sum of the shear stress of the smooth contact."""
+        pressure = self.rough.pressure
+        floor = self._floor(pressure)
+        film = np.maximum(self.film, floor)
+        touching = self._touching(pressure, film, floor)
+        return self._stress(pressure, film, touching)
+
+    def coefficient(self, stress: float) -> float:
+        """Coefficient of friction of a sum of shear stress [-]."""
+        o = self.model.operating
+        newtonian = self.model.lubricant.viscosity * o.sliding_speed
+        found = stress * self.rough.area / o.load
+        return found if self.rough.thins else found * newtonian

@@ -1,0 +1,244 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Partial film: where the deformed roughness would come nearer than the layer on the surfaces.
+
+The film of the response, at one position of the tile after another, must not be thinner than the
+layer (``lubricant.boundary_film``; under pressure it is compressed as the lubricant is). A pressure
+p_c of contact lifts it. It bends the surfaces as if the roughness r were r - p_c/K there, K being
+the stiffness of the half-space, and the fluid flattens that as it does any roughness. So the loss
+of film falls by T p_c/K and the pressure rises by T p_c, T by the response for waves that move with
+the lubricant as the films of touching nodes do. For waves as long as the contact T is near zero:
+what contact carries there the fluid no longer does, and the mean film remains that of the inlet.
+
+It is thicker where contact would otherwise carry more than the load, and by what the layer gives. A
+column of lubricant that a peak has passed has the film of the layer at least. So the layer gives
+each the most that it has lacked on the way through the contact, on which peaks that slip pass it
+one after the other, and all films are thicker by the mean s of that:
+
+    s = < max(0, h_b - h_least - s) >,   h_least the least film of the column on its way.
+
+Compared with the full simulation in docs/evidence/partial.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from pyehl.prediction.boundary_film import HOLD, LayeredContact, Level
+from pyehl.prediction.errors import outside_range
+from pyehl.prediction.friction import RoughFriction, broken
+from pyehl.prediction.model import Components, Model
+from pyehl.prediction.passage_friction import Outcome
+from pyehl.prediction.spectrum import Spectrum
+from pyehl.surfaces import interpolated
+from pyehl.theory.heat import Heat
+from pyehl.types import Array, Settings
+
+POSITIONS = 16
+"""Positions of the tile over its passage: 32 and 64 change the load share in docs/howto/mixed.md by
+0.2 % of itself. What every second one changes is in the errors."""
+HEATED_POSITIONS = 4
+"""Of these, in which the temperature is computed: 8 and 16 change mu of such contacts by 0.03 %."""
+TOUCHING_FILM_ERROR = 0.45
+"""Error of the film at which bodies touch, of the rms height of the deformed surface
+(docs/evidence/partial)."""
+WAVE_POINTS, SHORTER, CONTACT_POINTS = 8, 1e-3, (60.0, 128.0)
+"""Points of the shortest waves, as many as a grid needs to resolve them; the share of the variance
+that shorter ones may have; the fewest points per shorter semi-axis, as without a layer, and the
+most: the time grows with their square."""
+
+# Why contact at a boundary film is not predicted, or its errors are not known
+OF_TWO = "contact at a boundary film is predicted of one rough surface"
+OTHER_MODEL = "psd.reduction and psd.smooth are not those that contact is predicted with"
+ELASTIC = "the prediction is of elastic solids: contact.hardness is left out"
+UNRESOLVED = "waves are too short for the points of the prediction"
+UNSOLVED = "the contact of the prediction is not solved"
+BETWEEN = "the film ends between the positions at which contact is looked for"
+NO_FRICTION = (
+    "the bodies touch, and the friction there is not known: lubricant.boundary_friction and "
+    "sliding are needed"
+)
+
+
+@dataclass(frozen=True, slots=True)
+class MixedFilm:
+    """A partial film over the passage of a tile: means, but of the film, and errors; NaN: none."""
+
+    note: str = ""  # why an error or all numbers are not there
+    load_share: float = math.nan  # share of the load where bodies touch [-]
+    load_share_error: float = math.nan
+    area_share: float = math.nan  # their area there over that of the dry contact [-]
+    area_share_error: float = math.nan
+    film_min: float = math.nan  # minimum film [m]
+    film_min_error: float = math.nan
+    # Friction over that of the smooth contact [-], and coefficient of the latter, both with the
+    # layer; NaN where bodies touch and its friction is not known
+    friction: float = math.nan
+    friction_error: float = math.nan
+    mu_smooth: float = math.nan
+    shift: Array = field(default_factory=lambda: np.zeros(0))  # of the tile (n,) [m]
+    passage: Array = field(default_factory=lambda: np.zeros(0))  # (n,) friction there
+    lost: bool = False  # whether bodies touch, and no number of that is known
+    heat: Heat | None = None  # what the heat makes of friction where bodies touch
+
+    @property
+    def touches(self) -> bool:
+        """Whether bodies touch."""
+        return self.load_share > 0.0
+
+    def unknown(self, note: str) -> MixedFilm:
+        """Give the same where its numbers are not known, and why: none where bodies may touch."""
+        if self.load_share == 0.0 == self.load_share_error:
+            return self
+        return MixedFilm(note, mu_smooth=self.mu_smooth, lost=self.lost or self.touches)
+
+    @property
+    def lacks_friction(self) -> bool:
+        """Whether bodies touch and the friction there is not known."""
+        return self.touches and not math.isfinite(self.friction)
+
+
+def mixed_film(model: Model, waves: Components, settings: Settings) -> MixedFilm | None:
+    """Find the partial film of a resolved case under a model; None without a boundary film."""
+    layer = float(settings["lubricant"]["boundary_film"])
+    if not layer > 0.0:
+        return None
+    if len(model.surfaces) > 1:
+        return MixedFilm(OF_TWO)
+    if not model.options.measured:
+        return MixedFilm(OTHER_MODEL)
+    found = partial_film(model, waves, layer, settings)
+    ratio, thinning = model.surfaces[0].velocity_ratio, model.contact.thinning
+    if beyond := outside_range(model.operating, ratio, model.options, thinning):
+        found = found.unknown(f"outside the range of the response by {', '.join(beyond)}")
+    if settings["contact"].get("hardness", 0.0) > 0.0:
+        note = found.note or ELASTIC
+        found = replace(found, load_share_error=math.nan, area_share_error=math.nan, note=note)
+    return found
+
+
+def partial_film(model: Model, waves: Components, layer: float, settings: Settings) -> MixedFilm:
+    """Find the partial film over a passage of one tile, with a layer [m], of a resolved case.
+
+    Its errors are by a film that is thicker and thinner by its error.
+    """
+    (grid,), (wave,), o = model.grids(), waves, model.operating
+    friction = float(settings["lubricant"]["boundary_friction"])
+    power = wave.spectrum.power * np.square(np.abs(wave.at_centre()))
+    points = WAVE_POINTS / _shortest(wave.spectrum, power)
+    within = min(max(points, CONTACT_POINTS[0]), CONTACT_POINTS[1])
+    contact = LayeredContact(model, waves, grid, within, layer, friction)
+    # what the smooth film may be off, where that is more: bodies touch where it is least
+    of_smooth = np.nan_to_num(model.contact.minimum_film_error)
+    margin = max(TOUCHING_FILM_ERROR * math.sqrt(float(power.sum())), float(of_smooth))
+    levels = [Level(film) for film in (0.0, margin, -margin)]
+    steps = np.arange(POSITIONS) * (grid.shape[0] // POSITIONS)
+    with np.errstate(over="ignore", invalid="ignore"):
+        if not all(contact.add(int(step), levels) for step in steps):
+            return MixedFilm(UNSOLVED)
+        smooth = contact.smooth_friction()
+        heat = contact.heat(steps[:: POSITIONS // HEATED_POSITIONS], settings)
+    load, load_error = _mean([level.load for level in levels])
+    area, area_error = _mean([level.area for level in levels])
+    ratio, ratio_error = _mean([[value / smooth for value in level.stress] for level in levels])
+    least = [level.least * o.film_scale for level in levels]
+    found = MixedFilm(
+        load_share=load,
+        load_share_error=load_error,
+        area_share=area,
+        area_share_error=area_error,
+        film_min=least[0],
+        # bodies touch to HOLD
+        film_min_error=max(HOLD * least[0], *(abs(film - least[0]) for film in least[1:])),
+        friction=ratio,
+        friction_error=ratio_error,
+        mu_smooth=contact.coefficient(smooth),
+        shift=np.asarray(steps * grid.pixel[0], dtype=float),
+        passage=np.array(levels[0].stress) / smooth,
+        heat=heat,
+    )
+    return found if points <= 2.0 * CONTACT_POINTS[1] else found.unknown(UNRESOLVED)
+
+
+def _mean(values: list[list[float]]) -> tuple[float, float]:
+    """Mean at the film itself, and its error by the other films and by the positions."""
+    mean, *others = (float(np.mean(part)) for part in values)
+    error = max(abs(other - mean) for other in others) + abs(np.mean(values[0][::2]) - mean)
+    return mean, float(error)
+
+
+def _shortest(spectrum: Spectrum, power: Array) -> float:
+    """Wavelength [a] below which waves have hardly any of a power."""
+    order = np.argsort(spectrum.q, axis=None)[::-1]
+    beyond = np.cumsum(power.ravel()[order]) > SHORTER * power.sum()
+    return 2.0 * math.pi / float(spectrum.q.ravel()[order[int(np.argmax(beyond))]])
+
+
+def with_contact(found: Outcome, mixed: MixedFilm) -> tuple[Outcome, MixedFilm]:
+    """Friction where bodies touch, by that of a full film, and the partial film as it is known.
+
+    A prediction without contact, or whose contact is not known, stays as it is.
+    """
+    friction = found.friction
+    if friction.status == "film breakdown" and not mixed.touches:
+        # contact is not known where the film ends, and none was found there
+        mixed = replace(mixed if mixed.note else MixedFilm(BETWEEN), mu_smooth=mixed.mu_smooth)
+        mixed = replace(mixed, lost=True)
+    if mixed.lost:
+        return Outcome(_lost(friction, mixed), bands=found.bands), mixed
+    if not mixed.touches:
+        return found, mixed
+    fine = interpolated(mixed.passage, 8)
+    known = math.isfinite(mixed.friction)
+    if friction.status != "predicted":
+        # a full film that breaks down has no pressures
+        friction = replace(friction, rise_rms=math.nan, rise_max=math.nan, pressure_max=math.nan)
+        friction = replace(friction, below_limit=math.nan, below_limit_error=math.nan)
+    friction = replace(
+        friction,
+        status="predicted",
+        message="partial film: the bodies touch at the boundary film",
+        mu_ratio=mixed.friction,
+        mu_ratio_min=float(fine.min()) if known else math.nan,
+        mu_ratio_max=float(fine.max()) if known else math.nan,
+        position_error=math.nan,
+        shifts=(mixed.shift,),
+        passage=mixed.passage,
+        mu_smooth=mixed.mu_smooth,
+        film_min=mixed.film_min,
+        cavitated_friction=math.nan,
+    )
+    return Outcome(friction, bands=found.bands), mixed
+
+
+def _lost(friction: RoughFriction, mixed: MixedFilm) -> RoughFriction:
+    """No friction of a full film where bodies touch, and how much is not known."""
+    message = f"the bodies touch at the boundary film, and nothing of that is known: {mixed.note}"
+    if friction.status != "predicted":
+        message = f"{friction.message}; {message}"
+    status = "film breakdown" if friction.status == "predicted" else friction.status
+    smooth = mixed.mu_smooth if math.isfinite(mixed.mu_smooth) else friction.mu_smooth
+    none = broken(friction, math.nan)
+    return replace(none, status=status, message=message, mu_smooth=smooth)
+
+
+def contact_numbers(mixed: MixedFilm | None, layer: float, *, known: bool) -> dict[str, Any]:
+    """Give what a summary says of contact with a layer [a^2/R]; nothing without one.
+
+    `known`: whether the case lies in the range that the response was measured in.
+    """
+    if mixed is None:
+        return {}
+    film = {"h_min_rough_error_m": mixed.film_min_error if known else math.nan}
+    return {
+        **(film if mixed.touches else {}),
+        "boundary_film": layer,
+        "contact_load_share": mixed.load_share,
+        "contact_load_share_error": mixed.load_share_error,
+        "contact_load_share_error_note": mixed.note,
+        "contact_area_share": mixed.area_share,
+        "contact_area_share_error": mixed.area_share_error,
+    }

@@ -1,0 +1,301 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The model of a rough contact: from the heights of one or two surfaces to mu_r/mu_s.
+
+Zhang, Biboulet, Venner & Lubrecht 2019 (doi 10.1016/j.triboint.2019.01.028), section 3, with three
+changes: the complex response in place of the real ratio, pressure and film of the solved smooth
+contact in place of a semi-ellipse and a uniform film, and terms of second order.
+
+======================================= ==========================================================
+equation                                function
+======================================= ==========================================================
+rr(q), components of the surface, eq. 9 :meth:`spectrum.Spectrum.of`
+rr_d = T(q) rr(q), eq. 10               :meth:`response.Transfer.of_all`; real ratio of the paper:
+                                        :func:`pyehl.theory.amplitude.component_amplitude_ratio`
+T = driven + free e^(i (U-1) k_x (X+1)) :func:`pyehl.theory.transport.transport` (driven, decay of
+                                        the free wave), :func:`pyehl.theory.response.inlet_transfer`
+delta p = E'|q|/4 (1 - T) rr(q), eq. 11 :func:`pyehl.theory.transport.wave_pressure`,
+                                        :meth:`response.Transfer.gain` (finite contact)
+sum over all waves, eq. 12              :meth:`waves.WaveTiles.of`, :class:`moving_tile.PixelTile`,
+                                        :class:`moving_tile.LineTile`
+edge of the contact                     :meth:`edge.Edge.of`
+second order: gamma (P^2 - s^2), f(t/H) :meth:`second_order.SecondOrder.of`,
+                                        :func:`second_order.film_left`
+tau(p_s + delta p, h_s - rr_d), eq. 13  :meth:`contact.ShearedContact.stress`
+friction: integral of tau, eq. 14       :meth:`rough_contact.RoughContact.friction`; model of the
+                                        paper: :meth:`contact.HertzContact.friction`
+mean over the passage                   :mod:`relative_positions`
+mu_r/mu_s, tracks, bands                :func:`passage_friction.run`
+p_s, h_s: the smooth contact            :func:`smooth.solve_contact`
+contact at a boundary film              :func:`mixed_lubrication.partial_film`
+heat of sliding                         :func:`thermal.heat_of`
+where the film ends, and a cut-off      :func:`breakdown.below_zero`, :func:`breakdown.advise`
+with which it would not
+errors                                  :func:`errors.model_error`
+======================================= ==========================================================
+
+Two surfaces: to first order each is deformed as if the other one were smooth, at its own velocity
+ratio; film and pressure of both add up. Of second order are products of waves of both, and the
+waves leak as those of the amplitude of both. The result does not depend on which is the first.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from pyehl.errors import InputError
+from pyehl.prediction.contact import HertzContact, Response
+from pyehl.prediction.edge import Edge
+from pyehl.prediction.moving_tile import Component, PixelTile
+from pyehl.prediction.options import ModelOptions
+from pyehl.prediction.relative_positions import Positions, RelativePositions, TilePositions
+from pyehl.prediction.response import Transfer
+from pyehl.prediction.rough_contact import RoughContact
+from pyehl.prediction.second_surface import merged
+from pyehl.prediction.smooth import SmoothContact, circle_of, zone_of
+from pyehl.prediction.spectrum import Spectrum, working_grid
+from pyehl.surfaces import Topography, filtered
+from pyehl.theory.amplitude import component_amplitude_ratio
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
+from pyehl.types import Array
+
+Components = list[Component]
+
+PIXEL_POINTS = 60
+"""Points per shorter semi-axis at which the shear stress under one surface is taken: the tile is
+finer, and its other pixels are met at other positions. 128 change mu_r/mu_s of Table 1 by less than
+0.1 % (tests/model/test_prediction.py)."""
+GRID_POINTS = 60.5
+"""Points per semi-axis under two; half a one more, so that the next semi-axis has other ones. 90.5
+change mu_r/mu_s of 2.31 by 0.15 %."""
+PAPER_STIFFNESS = math.sqrt(2.0)
+"""Eq. 11 with wavelength 2 pi/|q| over E'|q|/4 (see `pyehl.prediction`)."""
+
+
+@dataclass(frozen=True)
+class RoughSurface:
+    """A rough tile on the move; its pixel [0, 0] starts at X = front and moves along x."""
+
+    topography: Topography
+    velocity_ratio: float  # velocity over the mean velocity [-]
+    front: float = 0.0  # [a]
+    filter_kind: str = "sharp"  # how its spectrum is cut
+    groups: tuple[str, ...] = ("surface",)  # of the case that the tile is of
+
+
+@dataclass(frozen=True)
+class Model:
+    """One or two rough surfaces in a contact, and how the model is read."""
+
+    surfaces: tuple[RoughSurface, ...]
+    contact: SmoothContact
+    operating: OperatingPoint
+    lubricant: Lubricant
+    options: ModelOptions
+    mesh: float = 0.0  # mesh size on which the waves leak [a]; 0: as in nature
+
+    @classmethod
+    def of_one(
+        cls,
+        tile: Topography,
+        contact: SmoothContact,
+        operating: OperatingPoint,
+        lubricant: Lubricant,
+        options: ModelOptions,
+        velocity_ratio: float,
+        mesh: float = 0.0,
+    ) -> Model:
+        """Model of one rough surface that begins at the centre."""
+        rough = RoughSurface(tile, velocity_ratio)
+        return cls((rough,), contact, operating, lubricant, options, mesh)
+
+    @cached_property
+    def order(self) -> tuple[int, ...]:
+        """Order in which the surfaces are summed, by their numbers.
+
+        The faster one first, else by where it begins, size and heights.
+        """
+
+        def key(k: int) -> tuple[float, ...] | tuple[object, ...]:
+            one, tile = self.surfaces[k], self.surfaces[k].topography
+            heights = np.ascontiguousarray(tile.heights).tobytes()
+            return (-one.velocity_ratio, one.front, *tile.size, *tile.shape, heights)
+
+        numbers = range(len(self.surfaces))
+        return tuple(sorted(numbers, key=key)) if len(numbers) > 1 else (0,)
+
+    @property
+    def in_order(self) -> list[RoughSurface]:
+        """The surfaces in the order in which they are summed."""
+        return [self.surfaces[k] for k in self.order]
+
+    @cached_property
+    def merged(self) -> Model | None:
+        """Two surfaces that move together as one; None for one, or where they do not."""
+        if len(self.surfaces) == 1:
+            return None
+        first, second = self.in_order
+        if first.velocity_ratio != second.velocity_ratio:
+            return None
+        ahead = (second.front - first.front) * self.operating.hertz_radius
+        tile = merged(first.topography, second.topography, ahead)
+        groups = tuple(group for one in self.surfaces for group in one.groups)
+        one = replace(first, topography=tile or first.topography, groups=groups)
+        return None if tile is None else replace(self, surfaces=(one,))
+
+    # from heights to what the contact makes of them
+
+    def spectrum(self, tile: Topography) -> Spectrum:
+        """Components of a tile, in the units of the contact."""
+        o = self.operating
+        lengths = tile.length_x / o.hertz_radius, tile.length_y / o.hertz_radius
+        return Spectrum.of(tile.heights / o.film_scale, *lengths)
+
+    def transfers(self, spectra: Sequence[Spectrum]) -> list[Transfer]:
+        """Find what the contact makes of components, in order. InputError where alpha is 0."""
+        o, options = self.operating, self.options
+        if o.moes_l == 0.0:
+            raise InputError(
+                "a prediction needs a viscosity that rises with pressure: its response of the "
+                "contact to waves goes by M/L, and L = 0\nexpected: lubricant.pressure_viscosity "
+                "above 0, or a run without a prediction"
+            )
+        if options.reduction == "response":
+            ratios = [one.velocity_ratio for one in self.in_order]
+            return Transfer.of_all(
+                list(zip(spectra, ratios, strict=True)),
+                zone_of(self.contact, o, self.lubricant),
+                circle_of(self.contact, o, self.lubricant),
+                at_amplitude=self.lubricant.shear.weighs_flow,
+                mesh=self.mesh,
+            )
+        moes, convention = (o.moes_m, o.moes_l), options.wavelength_convention
+        stiffening = PAPER_STIFFNESS if options.stiffness == "paper" else 1.0
+        waves = [(s.qx[:, np.newaxis], s.qy[np.newaxis, :]) for s in spectra]
+        return [
+            Transfer.carried(
+                component_amplitude_ratio(*q, 1.0, *moes, convention=convention), stiffening
+            )
+            for q in waves
+        ]
+
+    def components(self, tiles: Sequence[Topography] | None = None) -> Components:
+        """Components of tiles by number, and what becomes of them, in order.
+
+        By default those of the surfaces on the grids that are worked on.
+        """
+        tiles = self.grids() if tiles is None else tiles
+        spectra = [self.spectrum(tiles[k]) for k in self.order]
+        shape = self.operating.ellipse
+        return [
+            Component(s, t, Edge.of(s, t, one.velocity_ratio, shape), one.velocity_ratio)
+            for s, t, one in zip(spectra, self.transfers(spectra), self.in_order, strict=True)
+        ]
+
+    def grids(self) -> list[Topography]:
+        """Put the tiles, by number, on grids that resolve the contact, with room for the positions.
+
+        InputError if that takes too many pixels.
+        """
+        positions = self.options.positions if len(self.surfaces) == 1 else 0
+        return [working_grid(one.topography, self.operating, positions) for one in self.surfaces]
+
+    def stride_of(self, spectrum: Spectrum, points: float) -> int:
+        """Stride of the pixels that leaves so many points per shorter semi-axis.
+
+        1 in the model of the paper, which takes all of them.
+        """
+        if self.options.as_in_paper:
+            return 1
+        short = min(1.0, self.operating.ellipse.ellipticity)
+        stride = max(1, int(short / (points * max(spectrum.pixel))))
+        while spectrum.shape[1] % stride:
+            stride -= 1
+        return stride
+
+    def rough_contact(
+        self,
+        waves: Components,
+        powers: Sequence[Array] | None = None,
+        tracks: Sequence[float] = (0.0, 0.0),
+    ) -> RoughContact | HertzContact:
+        """Contact of components; `powers` of them as the transfers were made for them.
+
+        `tracks`: how far two surfaces are moved across the motion [a].
+        """
+        first, of = waves[0], (self.contact, self.operating, self.lubricant)
+        if len(waves) > 1:
+            return RoughContact.on_grid(*of, waves, GRID_POINTS, powers, tracks)
+        spectrum, transfer, ratio = first.spectrum, first.transfer, first.velocity_ratio
+        if self.options.as_in_paper:
+            return HertzContact(
+                spectrum.tile(transfer.pressure_at_centre(spectrum, ratio)),
+                spectrum.tile(transfer.at_centre(spectrum, ratio)),
+                self.contact.central_film,
+                pixel=spectrum.pixel,
+                operating=self.operating,
+                lubricant=self.lubricant,
+                load_balance=self.options.load_balance,
+            )
+        return RoughContact.on_pixels(*of, self.pixel_tile(first, PIXEL_POINTS), powers)
+
+    def pixel_tile(self, wave: Component, points: float) -> PixelTile:
+        """Give a tile with so many of its pixels per shorter semi-axis, or more."""
+        stride = self.stride_of(wave.spectrum, points)
+        return PixelTile(wave, self.contact.central_film, stride, self.operating)
+
+    def positions(self, waves: Components) -> Positions:
+        """Give the positions of the surfaces, in order."""
+        radius, tiles = self.operating.hertz_radius, [one.topography for one in self.in_order]
+        if len(waves) == 1:
+            pixels = waves[0].spectrum.shape[0]
+            return TilePositions(pixels, tiles[0].length_x / pixels)
+        first, second = self.in_order
+        lengths = tiles[0].length_x / radius, tiles[1].length_x / radius
+        ratios = first.velocity_ratio, second.velocity_ratio
+        return RelativePositions(lengths, ratios, (first.front, second.front), radius)
+
+    def without_shorter(self, numbers: Sequence[int], shortest: float) -> Model:
+        """Return the model without waves shorter than a length [m] of the surfaces so numbered."""
+        cut = (
+            replace(one, topography=filtered(one.topography, shortest, kind=one.filter_kind))
+            if k in numbers
+            else one
+            for k, one in enumerate(self.surfaces)
+        )
+        return replace(self, surfaces=tuple(cut))
+
+    def responses(self, waves: Components | None = None) -> list[Response]:
+        """Pressure [Pa] and deformed roughness [m] of each at the centre, by number, on its pixels.
+
+        By the components that were worked with, if they have these pixels.
+        """
+        o = self.operating
+        return [
+            Response(s.tile(t.pressure_at_centre(s, u)) * o.hertz_pressure, self._deformed(s, t, u))
+            for s, t, u in self._on_pixels(waves)
+        ]
+
+    def deformed(self) -> list[Array]:
+        """Deformed roughness of each surface at the centre of the contact, on its pixels [m]."""
+        return [self._deformed(*wave) for wave in self._on_pixels(None)]
+
+    def _deformed(self, spectrum: Spectrum, transfer: Transfer, velocity_ratio: float) -> Array:
+        left = transfer.at_centre(spectrum, velocity_ratio)
+        return np.asarray(spectrum.tile(left) * self.operating.film_scale)
+
+    def _on_pixels(self, waves: Components | None) -> list[tuple[Spectrum, Transfer, float]]:
+        """Components of the tiles as they are, and velocity ratios, by number."""
+        tiles = [one.topography for one in self.in_order]
+        if waves and [w.spectrum.shape for w in waves] == [tile.shape for tile in tiles]:
+            found = [(w.spectrum, w.transfer) for w in waves]
+        else:
+            spectra = [self.spectrum(tile) for tile in tiles]
+            found = list(zip(spectra, self.transfers(spectra), strict=True))
+        ratios = [one.velocity_ratio for one in self.surfaces]
+        return [(*found[self.order.index(k)], u) for k, u in enumerate(ratios)]

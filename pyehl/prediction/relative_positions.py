@@ -1,0 +1,229 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The positions of one or two rough tiles as they pass a contact, and means over them.
+
+One tile is back at its start after its length. Two move each at its own speed: where they are back
+after a few passages, the friction is that of this common period: a line over all pairs of
+positions. Else they come into all relative positions in the course of time, and a lattice of points
+over these takes the mean: positions k/n of the one and m k/n of the other tile, k = 0 ... n - 1,
+with n = m^2 - 1. As m^2 is 1 modulo n, it is the same for either order of the two.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import Protocol
+
+import numpy as np
+
+from pyehl.prediction.moving_tile import Position
+from pyehl.prediction.options import FIRST_POSITIONS, MAX_POSITIONS
+from pyehl.surfaces import interpolated
+from pyehl.types import Array
+
+Friction = Callable[[Position], float]
+"""mu_r/mu_s in a position."""
+
+POSITION_TOLERANCE = 2e-3
+"""Error that half of the positions may make (relative) for no more to be added: a fifth of the
+least error of the model (:data:`pyehl.prediction.errors.CONSTANT`)."""
+EXTREMES = 32
+"""Positions at which least film and greatest increase of the pressure are looked for: at twice as
+many they differ by 1 % at most (docs/evidence/thinning)."""
+
+MOST_PASSAGES = 12
+"""Passages of a tile in a common period that is followed: products of waves that have a mean over
+a longer one are of that order."""
+SAME = 1e-9
+"""Relative difference of two times that is none."""
+LATTICES = (9, 13, 19, 27)
+"""m of the lattices of a mean over all positions, the next one where one is not enough: each has
+about twice as many positions as the one before."""
+SHORT_LATTICE = 7
+"""m of the lattice of a mean over a few positions: in 48 of them no product of waves, up to the
+third of each of the two tiles, has a mean."""
+PER_PASSAGE = 16
+"""Positions per passage of a mean over a few of them along a line."""
+
+
+@dataclass(frozen=True, slots=True)
+class Passage:
+    """mu_r/mu_s in all positions of a passage."""
+
+    shifts: tuple[Array, ...]  # how far each tile has moved (n,) [m]
+    ratios: Array  # (n,)
+    # What half of the positions would miss of the mean, relative to it; NaN: not known
+    undecided: float
+    periodic: bool = True  # whether the positions follow each other and return to the first
+
+
+class Positions(Protocol):
+    """The positions of rough surfaces in a contact."""
+
+    def short_mean(self, friction: Friction, track: int = 0) -> float:
+        """Mean of mu_r/mu_s over a few positions, on a track of the contact."""
+        ...
+
+    def passage(self, friction: Friction, positions: int, largest: float) -> Passage:
+        """Give mu_r/mu_s in so many positions; 0: as many as it takes.
+
+        No more are added to a mean above `largest`.
+        """
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class TilePositions:
+    """The positions of one tile: whole pixels over its length."""
+
+    pixels: int
+    pixel: float  # [m]
+
+    def short_mean(self, friction: Friction, track: int = 0) -> float:
+        """Mean of mu_r/mu_s over a few positions, on a track some pixels beside the first."""
+        steps = np.arange(FIRST_POSITIONS) * (self.pixels // FIRST_POSITIONS)
+        return float(np.mean([friction((int(step), track)) for step in steps]))
+
+    def passage(self, friction: Friction, positions: int, largest: float) -> Passage:
+        """Give mu_r/mu_s over the length of the tile."""
+        n, error = positions or FIRST_POSITIONS, math.nan
+        steps = np.arange(n) * (self.pixels // n)
+        ratios = np.array([friction((int(step), 0)) for step in steps])
+        while np.all(np.isfinite(ratios)):
+            error = self._undecided(ratios)
+            enough = error <= POSITION_TOLERANCE or float(ratios.mean()) > largest
+            if positions or enough or self.pixels % (2 * n) or 2 * n > MAX_POSITIONS:
+                break
+            between = steps + self.pixels // (2 * n)
+            ratios = np.stack([ratios, [friction((int(step), 0)) for step in between]], 1).ravel()
+            steps, n, error = np.stack([steps, between], 1).ravel(), 2 * n, math.nan
+        if not positions:
+            self._find_extremes(friction, n)
+        return Passage((np.asarray(steps * self.pixel, dtype=float),), ratios, error)
+
+    def _find_extremes(self, friction: Friction, n: int) -> None:
+        """Visit as many positions as the extremes need between those that the friction needed."""
+        spacing = self.pixels // n
+        between = max(1, EXTREMES // n)
+        while spacing % between:
+            between -= 1
+        for part in range(1, between):
+            for k in range(n):
+                friction((k * spacing + part * (spacing // between), 0))
+
+    @staticmethod
+    def _undecided(ratios: Array) -> float:
+        """Return what half of the positions would have missed at the others, relative to the mean.
+
+        The interpolant through every second value against the values between: an upper estimate of
+        what all of them leave undecided, since the interpolant converges faster than any power. NaN
+        for an odd number.
+        """
+        if ratios.size % 2:
+            return math.nan
+        between = interpolated(ratios[::2], 2)[1::2]
+        return float(np.abs(between - ratios[1::2]).max() / ratios.mean())
+
+
+def common_passages(
+    lengths: tuple[float, float], velocity_ratios: tuple[float, float]
+) -> tuple[int, int] | None:
+    """Numbers of passages after which two tiles of these lengths are back; None: of no few."""
+    one, other = (u / length for u, length in zip(velocity_ratios, lengths, strict=True))
+    if one == 0.0 or other == 0.0:
+        return int(one > 0.0), int(other > 0.0)
+    ratio = one / other
+    found = Fraction(ratio).limit_denominator(MOST_PASSAGES)
+    if found.numerator > MOST_PASSAGES or not math.isclose(found, ratio, rel_tol=SAME):
+        return None
+    return found.numerator, found.denominator
+
+
+@dataclass(frozen=True)
+class RelativePositions:
+    """The positions of two tiles: their lengths [a], velocity ratios, and where they begin [a]."""
+
+    lengths: tuple[float, float]
+    velocity_ratios: tuple[float, float]
+    fronts: tuple[float, float]
+    radius: float = 1.0  # a [m]
+
+    @cached_property
+    def passages(self) -> tuple[int, int] | None:
+        """Passages of both in their common period; None: they meet in all positions."""
+        return common_passages(self.lengths, self.velocity_ratios)
+
+    def moved(self, k: int, n: int, m: int = 0) -> tuple[float, float]:
+        """How far the tiles have moved at the k-th of n positions [a].
+
+        Of the common period, or of the lattice of `m`, where it is that within a tile.
+        """
+        one, other = self.lengths
+        if self.passages:
+            return one * (self.passages[0] * k) / n, other * (self.passages[1] * k) / n
+        return one * k / n, other * (m * k % n) / n
+
+    def shifts(self, k: int, n: int, m: int = 0) -> tuple[float, float]:
+        """Where the tiles begin at the k-th of n positions [a], as `moved`."""
+        first, second = self.moved(k, n, m)
+        return self.fronts[0] + first, self.fronts[1] + second
+
+    def short_mean(self, friction: Friction, track: int = 0) -> float:
+        """Mean of mu_r/mu_s over a few positions; the tracks are those of the contact."""
+        passages = self.passages
+        n = PER_PASSAGE * max(passages) if passages else SHORT_LATTICE**2 - 1
+        return float(np.mean([friction(self.shifts(k, n, SHORT_LATTICE)) for k in range(n)]))
+
+    def passage(self, friction: Friction, positions: int, largest: float) -> Passage:
+        """Give mu_r/mu_s over the common period; of a lattice in the next larger number."""
+        n, m, ratios, error = (
+            self._along(friction, positions, largest)
+            if self.passages
+            else self._over_all(friction, positions, largest)
+        )
+        moved = np.array([self.moved(k, n, m) for k in range(n)]) * self.radius
+        return Passage((moved[:, 0], moved[:, 1]), ratios, error, self.passages is not None)
+
+    def _over_all(
+        self, friction: Friction, positions: int, largest: float
+    ) -> tuple[int, int, Array, float]:
+        fewest = math.isqrt(positions) + 1 if positions else 0
+        before = math.nan
+        for m in [fewest] if positions else LATTICES:
+            n = m * m - 1
+            ratios = np.array([friction(self.shifts(k, n, m)) for k in range(n)])
+            mean, error = float(ratios.mean()), _undecided(ratios)
+            if not math.isfinite(mean) or mean > largest:
+                break
+            if not math.isnan(before):
+                error = max(error, abs(mean - before) / mean)
+                if error <= POSITION_TOLERANCE:
+                    break
+            before = mean
+        return n, m, ratios, error
+
+    def _along(
+        self, friction: Friction, positions: int, largest: float
+    ) -> tuple[int, int, Array, float]:
+        n = positions or PER_PASSAGE * max(self.passages or ())
+        ratios = np.array([friction(self.shifts(k, n)) for k in range(n)])
+        error = _undecided(ratios)
+        while not positions and error > POSITION_TOLERANCE and 2 * n <= MAX_POSITIONS:
+            if float(ratios.mean()) > largest:
+                break
+            between = [friction(self.shifts(k, 2 * n)) for k in range(1, 2 * n, 2)]
+            ratios = np.stack([ratios, between], axis=1).ravel()
+            n, error = 2 * n, _undecided(ratios)
+        return n, 0, ratios, error
+
+
+def _undecided(ratios: Array) -> float:
+    """Return what every second position would miss of the mean, relative to it.
+
+    An upper estimate of what all of them leave undecided. NaN where there are not twice as many.
+    """
+    if ratios.size % 2:
+        return math.nan
+    halves = ratios[::2].mean(), ratios[1::2].mean()
+    return float(0.5 * abs(halves[0] - halves[1]) / ratios.mean())

@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is predicted for a run: what it begins with, and what its grid does not resolve."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from pyehl.case import Case
+from pyehl.errors import EhlError, InternalError
+from pyehl.handle import SolverHandle, start_fronts, take_prediction
+from pyehl.surfaces import Topography
+
+if TYPE_CHECKING:
+    from pyehl.prediction.resolution import Resolution
+
+
+class Predictions:
+    """The predictions for a run, each made once and when it is asked for.
+
+    The package of the prediction is loaded then.
+
+    Parameters
+    ----------
+    case
+        The case of the run.
+    tiles
+        Its surfaces by group, where they are not made as the case says; of a large one a part.
+    whole
+        Whether none of `tiles` is a part of the surface alone.
+    """
+
+    def __init__(self, case: Case, tiles: Mapping[str, Topography], *, whole: bool) -> None:
+        self._case, self._tiles, self._whole = case, tiles, whole
+        self._resolution: Resolution | str | None = None
+        self._resolved = self._told = False
+
+    def begin(self, solver: SolverHandle) -> None:
+        """Hand a solver the start that it asks for; mostly it asks for none."""
+        if start_fronts(solver).size:
+            from pyehl.prediction.initial_condition import hand_over  # noqa: PLC0415
+
+            hand_over(solver, self._case.resolve(), self._tiles, whole=self._whole)
+
+    def _resolution_once(self) -> Resolution | str | None:
+        """Predict what the grid does not resolve; text: why there is no prediction."""
+        if not self._resolved:
+            from pyehl.prediction.resolution import resolution  # noqa: PLC0415
+
+            try:
+                self._resolution = resolution(self._case, self._tiles)
+            except InternalError:
+                raise
+            except (EhlError, MemoryError) as error:
+                why = str(error) or type(error).__name__
+                self._resolution = why.replace(chr(10), " ")
+            self._resolved = True
+        return self._resolution
+
+    def lines(self) -> list[str]:
+        """Lines of the plan: what the grid does not resolve."""
+        found = self._resolution_once()
+        if isinstance(found, str):
+            return [f"predicted   no mu_r/mu_s: {found}"]
+        return found.report() if found else []
+
+    def tell(self, solver: SolverHandle) -> None:
+        """Tell a solver what is predicted, if the error of its mu_ratio asks for it."""
+        summary = {} if self._told else solver.summary
+        if summary.get("mu_ratio") is None or not summary["variance_unresolved"]:
+            return
+        found = self._resolution_once()
+        if isinstance(found, str):
+            # a status without its message, which the plan has
+            why = found.partition(": ")[0]
+            take_prediction(
+                solver, math.nan, math.nan, f"what the waves left out add is not predicted ({why})"
+            )
+        elif found is not None:
+            take_prediction(solver, found.left_out, found.unresolved, "")
+        self._told = True
