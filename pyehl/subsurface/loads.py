@@ -45,7 +45,7 @@ class Loads:
     smooth: Load
     times: Array  # (n,) of the rough contact [a/u]; none of a smooth one
     pressures: Callable[[int], Array]
-    films: Callable[[int], Array | None]
+    films: Callable[[int], Array]
     traction: Callable[[Array, Array | None, bool], Array | None]
     body: int
     velocity: float  # of its surface over the mean one
@@ -189,35 +189,63 @@ def loads_of(data: xr.Dataset, *, body: int | None, friction: str | float) -> Lo
     InputError
         If the result has no fields or is none, or for a body or friction that cannot be.
     """
-    settings = settings_of(data)
     if data.attrs.get("status") != "converged":
         raise InputError(f"stress needs a solution; the status is {data.attrs.get('status')!r}")
     if "P" not in data:
         raise InputError(
             "stress needs the fields of pressure and film: the case has output.fields = .false."
         )
-    operating = OperatingPoint.from_settings(settings)
-    number, velocity, poisson = body_of(settings, body)
-    lubricant = Lubricant.from_settings(settings) if "p_Pa" in data else None
     rough, frames = "P_smooth" in data, "frame_P" in data
-    p_smooth = np.asarray(data["P_smooth" if rough else "P"].values)
-    film_scale = operating.film_scale
-    h_smooth = np.asarray(data["H_smooth" if rough else "H"].values) * film_scale
-    x, y = data.X.values, data.Y.values
-    found = friction_of(data, operating, lubricant, friction)
-    area = float((x[1] - x[0]) * (y[1] - y[0]))
-    traction = _Traction((p_smooth, h_smooth), area, operating, lubricant, found, number, friction)
+    scale = OperatingPoint.from_settings(settings_of(data)).film_scale
     times = np.zeros(0)
     if rough:
         times = data.T.values if frames else np.array([float(data.attrs.get("T", math.nan))])
-    error, largest = _value(data, "P_max_error"), _value(data, "P_max")
+    return made_of(
+        data,
+        (data.X.values, data.Y.values),
+        (
+            np.asarray(data["P_smooth" if rough else "P"].values),
+            np.asarray(data["H_smooth" if rough else "H"].values) * scale,
+        ),
+        times,
+        lambda k: data.frame_P.values[..., k] if frames else data.P.values,
+        lambda k: (data.frame_H.values[..., k] if frames else data.H.values) * scale,
+        body=body,
+        friction=friction,
+    )
+
+
+def made_of(
+    data: xr.Dataset,
+    axes: tuple[Array, Array],
+    smooth: tuple[Array, Array],
+    times: Array,
+    pressures: Callable[[int], Array],
+    films: Callable[[int], Array],
+    *,
+    body: int | None,
+    friction: str | float,
+) -> Loads:
+    """Put the loads of a result together.
+
+    Axes (nx,), (ny,) [a]; pressure [p_h] and film [m] of the smooth contact (nx, ny), and those at
+    the times [a/u] of the rough one.
+    """
+    settings = settings_of(data)
+    operating = OperatingPoint.from_settings(settings)
+    number, velocity, poisson = body_of(settings, body)
+    lubricant = Lubricant.from_settings(settings) if operating.si else None
+    found = friction_of(data, operating, lubricant, friction)
+    x, y = axes
+    area = float((x[1] - x[0]) * (y[1] - y[0]))
+    traction = _Traction(smooth, area, operating, lubricant, found, number, friction)
     return Loads(
         x=x,
         y=y,
-        smooth=Load(math.nan, p_smooth, traction(p_smooth, h_smooth, False)),
+        smooth=Load(math.nan, smooth[0], traction(*smooth, False)),
         times=times,
-        pressures=lambda k: data.frame_P.values[..., k] if frames else data.P.values,
-        films=lambda k: (data.frame_H.values[..., k] if frames else data.H.values) * film_scale,
+        pressures=pressures,
+        films=films,
         traction=traction,
         body=number,
         velocity=velocity,
@@ -225,5 +253,5 @@ def loads_of(data: xr.Dataset, *, body: int | None, friction: str | float) -> Lo
         semi_axis_y=operating.ellipse.ellipticity,
         operating=operating,
         friction_note=found[2],
-        pressure_error=error / largest,
+        pressure_error=_value(data, "P_max_error") / _value(data, "P_max"),
     )

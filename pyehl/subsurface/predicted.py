@@ -1,118 +1,136 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The loads of a predicted rough contact: smooth pressure, and what the roughness adds to it.
-
-The pressure of the roughness is that of the prediction at the centre, where the tile passes; it
-acts inside the dry contact.
-"""
+"""The loads of a predicted rough contact: pressure and film of its model at some positions."""
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.interpolate import RectBivariateSpline
-from scipy.signal import resample
 
-from pyehl.api import solve
-from pyehl.case import Case
 from pyehl.errors import InputError
+from pyehl.prediction.model import Model, RoughSurface
+from pyehl.prediction.moving_tile import Component
+from pyehl.prediction.options import ModelOptions
+from pyehl.prediction.rough_contact import RoughContact
+from pyehl.prediction.smooth import solve_contact
 from pyehl.results import settings_of
-from pyehl.subsurface.loads import Load, Loads, loads_of
+from pyehl.subsurface.loads import Loads, made_of
+from pyehl.surfaces import Topography
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Array
 
 if TYPE_CHECKING:
     import xarray as xr
 
-# Positions of a tile over its length
+# Positions over the length of a tile
 POSITIONS = 16
-# Margin around the dry contact [a], and nodes per semi-axis at the most
-MARGIN, MOST_NODES = 0.25, 256
+# Margin around the dry contact [semi-axes]; points per semi-axis under two surfaces
+MARGIN, GRID_POINTS = 0.3, 128.0
 
 
 def predicted_loads(data: xr.Dataset, *, body: int | None, friction: str | float) -> Loads:
-    """Give the loads of a prediction: the smooth contact is solved, a second or so.
-
-    Of two rough surfaces the pressure of both, each at its own position.
+    """Give the loads of a prediction: its smooth contact is solved again, a second or so.
 
     Raises
     ------
     InputError
-        If nothing is predicted, or for a body or friction that cannot be.
+        If nothing is predicted, by the model of the paper, or for a body or friction that cannot
+        be.
     """
     if data.attrs.get("status") != "predicted":
         raise InputError(f"stress needs a prediction; the status is {data.attrs.get('status')!r}")
-    solved = solve(Case.from_text(data.attrs["case"]).smooth())
-    loads = loads_of(solved, body=body, friction=friction)
-    tiles = [_Tile(data, side, loads) for side in ("", "second_") if f"{side}delta_p_Pa" in data]
-    mesh = [min(tile.mesh[k] for tile in tiles) for k in (0, 1)]
-    x, y = (_axis(half, step) for half, step in zip((1.0, loads.semi_axis_y), mesh, strict=True))
-    pressure = _at(loads, loads.smooth.pressure, x, y)
-    film = _at(loads, solved.H.values, x, y) * loads.operating.film_scale
-    smooth = Load(loads.smooth.time, pressure, loads.traction(pressure, film, False))
-    found = replace(loads, x=x, y=y, smooth=smooth)
-    inside = found.contact()
-    # a tile moves by its length in the time over all positions
-    times = np.arange(POSITIONS, dtype=np.float64) * (
-        tiles[0].length / tiles[0].velocity / POSITIONS
+    settings = settings_of(data)
+    if settings["psd"]["reduction"] != "response":
+        raise InputError(
+            "stress needs psd.reduction = 'response': the model of the paper has no pressure at "
+            "places of the contact"
+        )
+    operating = OperatingPoint.from_settings(settings)
+    surfaces = tuple(
+        RoughSurface(
+            _tile(data, side),
+            float(settings[f"{side}surface"]["velocity_ratio"]),
+            float(settings[f"{side}surface"]["x_start"]),
+        )
+        for side in ("", "second_")
+        if f"{side}surface_m" in data
     )
+    smooth, oil = solve_contact(settings), Lubricant.from_settings(settings)
+    model = Model(surfaces, smooth, operating, oil, ModelOptions())
+    # two surfaces that move together are one
+    model = model.merged or model
+    waves = model.components()
+    contact = _contact(model, waves)
+    x, y = _with_margin(contact.x), _with_margin(contact.y)
+    pressure, film = smooth.at(x, y)
+    inner = np.ix_(np.isin(x, contact.x), np.isin(y, contact.y))
+    length = max(one.topography.length_x for one in model.surfaces) / operating.hertz_radius
+    slowest = min(one.velocity_ratio for one in model.surfaces)
+    if not slowest > 0.0:
+        raise InputError("stress of a prediction needs surfaces that move")
+    times = np.linspace(0.0, length / slowest, POSITIONS, endpoint=False)
+    changes: dict[int, Array] = {}
+
+    def change(k: int) -> Array:
+        if k not in changes:
+            changes.clear()
+            changes[k] = np.asarray(contact.change(_position(model, waves, float(times[k]))))
+        return changes[k]
 
     def pressures(k: int) -> Array:
-        added = sum(tile.at(x, y, times[k]) for tile in tiles)
-        # a lubricant bears no tension
-        return np.maximum(pressure + np.where(inside, added, 0.0), 0.0)
+        found = pressure.copy()
+        gained = contact.pressure + np.where(contact.inside, change(k)[..., 1], 0.0)
+        # the lubricant bears no tension
+        found[inner] = np.maximum(gained, 0.0)
+        return found
 
     def films(k: int) -> Array:
-        lost = sum(tile.at(x, y, times[k], film=True) for tile in tiles)
-        return film - np.where(inside, lost, 0.0)
+        found = film.copy()
+        left = contact.smooth_film() - np.where(contact.inside, change(k)[..., 0], 0.0)
+        # where the film ends, the shear stress is that of a hundredth of the smooth film
+        found[inner] = np.maximum(left, 0.01 * contact.film)
+        return found * operating.film_scale
 
-    return replace(found, times=times, pressures=pressures, films=films)
-
-
-class _Tile:
-    """What a rough surface adds to the pressure [p_h] and takes of the film [m]: periodic."""
-
-    def __init__(self, data: xr.Dataset, side: str, loads: Loads) -> None:
-        a, p_h = loads.operating.hertz_radius, loads.operating.hertz_pressure
-        axes = [data[f"{side}{name}_m"].values / a for name in "xy"]
-        self.length, self.width = (axis.size * float(axis[1] - axis[0]) for axis in axes)
-        most = [
-            int(MOST_NODES * length / half)
-            for length, half in ((self.length, 1.0), (self.width, loads.semi_axis_y))
-        ]
-        self.pressure = _coarser(data[f"{side}delta_p_Pa"].values / p_h, most)
-        self.deformed = _coarser(data[f"{side}deformed_m"].values, most)
-        nx, ny = self.pressure.shape
-        self.mesh = self.length / nx, self.width / ny
-        slip = 0.5 * loads.operating.slide_to_roll
-        settings = settings_of(data)
-        body = int(settings["contact"]["rough_surface"])
-        if side:
-            body = 3 - body
-        self.velocity = 1.0 + slip if body == 1 else 1.0 - slip
-
-    def at(self, x: Array, y: Array, time: float, *, film: bool = False) -> Array:
-        """Values at nodes (nx, ny), moved along x by the time, by the nearest pixel."""
-        values = self.deformed if film else self.pressure
-        i = np.rint((x - self.velocity * time) / self.mesh[0]).astype(int) % values.shape[0]
-        j = np.rint(y / self.mesh[1]).astype(int) % values.shape[1]
-        return np.asarray(values[np.ix_(i, j)])
+    return made_of(
+        data,
+        (x, y),
+        (pressure, film * operating.film_scale),
+        times,
+        pressures,
+        films,
+        body=body,
+        friction=friction,
+    )
 
 
-def _coarser(values: Array, most: list[int]) -> Array:
-    """Return a periodic map on so many pixels at the most, by its Fourier components."""
-    for axis, pixels in enumerate(most):
-        if values.shape[axis] > pixels:
-            values = np.asarray(resample(values, pixels, axis=axis))
-    return values
+def _tile(data: xr.Dataset, side: str) -> Topography:
+    """Give the tile of a surface that a prediction holds."""
+    axes = (data[f"{side}{name}_m"].values for name in "xy")
+    length, width = (axis.size * float(axis[1] - axis[0]) for axis in axes)
+    return Topography(data[f"{side}surface_m"].values, size=(length, width))
 
 
-def _axis(half: float, mesh: float) -> Array:
-    """Nodes over the contact and its margins, one of them at 0."""
-    n = int(np.ceil((half + MARGIN) / mesh))
-    return mesh * np.arange(-n, n + 1, dtype=np.float64)
+def _contact(model: Model, waves: list[Component]) -> RoughContact:
+    """Give the contact with as many points as resolve the waves: all pixels of a tile."""
+    of = model.contact, model.operating, model.lubricant
+    if len(waves) > 1:
+        return RoughContact.on_grid(*of, waves, GRID_POINTS)
+    return RoughContact.on_pixels(*of, model.pixel_tile(waves[0], np.inf))
 
 
-def _at(loads: Loads, values: Array, x: Array, y: Array) -> Array:
-    """Interpolate a field of the smooth contact to other nodes."""
-    return np.asarray(RectBivariateSpline(loads.x, loads.y, values, kx=1, ky=1)(x, y))
+def _position(model: Model, waves: list[Component], time: float) -> tuple[float, float]:
+    """Give the position of the surfaces at a time [a/u]."""
+    ways = [one.velocity_ratio * time for one in model.in_order]
+    if len(waves) > 1:
+        return ways[0], ways[1]
+    return float(round(ways[0] / waves[0].spectrum.pixel[0])), 0.0
+
+
+def _with_margin(axis: Array) -> Array:
+    """Give the points with others around them, at the same distance."""
+    step = float(axis[1] - axis[0])
+    more = int(np.ceil(MARGIN * float(axis[-1]) / step))
+    before = axis[0] - step * np.arange(more, 0, -1)
+    behind = axis[-1] + step * np.arange(1, more + 1)
+    return np.concatenate([before, axis, behind])

@@ -37,7 +37,7 @@ COLUMNS = (
 def near(data: xr.Dataset, name: str) -> float:
     """Largest value [p_h] of a profile within the near-surface layer."""
     depth = NEAR * float(data.principal_shear_max_smooth_depth)
-    return float(data[name].where(depth > data.Z).max())
+    return float(np.interp(np.linspace(0.0, depth, 200), data.Z, data[name]).max())
 
 
 def row_of(name: str, points: int) -> dict[str, Any]:
