@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from pyehl.studies.fit_folder import fit_lubricant
     from pyehl.studies.oil_list import lubricants
     from pyehl.studies.sweep import sweep
+    from pyehl.subsurface.result import stress
     from pyehl.surfaces.tile import Topography
     from pyehl.theory.lubricant import Lubricant
     from pyehl.theory.operating import OperatingPoint
@@ -62,6 +63,7 @@ __all__ = [
     "report",
     "response",
     "solve",
+    "stress",
     "stribeck",
     "sweep",
 ]
@@ -87,6 +89,7 @@ _HOMES = {
     "report": "reports.folder",
     "response": "measured_response.folder",
     "solve": "api",
+    "stress": "subsurface.result",
     "stribeck": "studies.curve_run",
     "sweep": "studies.sweep",
 }

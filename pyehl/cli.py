@@ -28,6 +28,7 @@ SUBCOMMANDS = {
     "app": "an interactive contact, in the browser",
     "sweep": "many cases with one table of results",
     "compare": "results against a table of references",
+    "stress": "stress below the surface under a result, smooth or rough",
     "response": "measure what the contact makes of small waves of roughness",
     "surface": "write the surface of a case as a height map",
     "film": "film formulas side by side for a case",

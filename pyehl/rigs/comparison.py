@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Results of a study beside what a rig measured."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from pyehl.errors import InputError
+from pyehl.rigs.repeats import Curve
+from pyehl.types import Array
+
+
+@dataclass(frozen=True, slots=True)
+class Deviation:
+    """Computed over measured values less 1, over one range of the condition."""
+
+    low: float
+    high: float
+    count: int
+    mean: float
+    rms: float
+    largest: float  # by size, with its sign
+    at: float  # where that is
+
+    def __str__(self) -> str:
+        """One line: range, number of points, mean, root mean square, largest and where."""
+        return (
+            f"{self.low:.4g} to {self.high:.4g}: {self.count} points, mean {self.mean:+.1%}, rms "
+            f"{self.rms:.1%}, largest {self.largest:+.1%} at {self.at:.4g}"
+        )
+
+
+def deviations(curve: Curve, places: Array, values: Array) -> list[Deviation]:
+    """Compare per decade of the condition, then over all.
+
+    Parameters
+    ----------
+    curve
+        What was measured.
+    places, values
+        The computed curve (n,), in the units of the measured one; interpolated in logarithms where
+        both are positive, else linearly.
+
+    Raises
+    ------
+    InputError
+        If the computed curve reaches none of the measured points.
+    """
+    known = np.isfinite(places) & np.isfinite(values)
+    order = np.argsort(places[known])
+    x, y = places[known][order], values[known][order]
+    if x.size < 2:
+        raise InputError(f"the results have {x.size} values of {curve.quantity}: two are needed")
+    logs = bool(x[0] > 0.0 and (y > 0.0).all() and (curve.places > 0.0).all())
+    along = np.log if logs else np.asarray
+    computed = np.interp(along(curve.places), along(x), along(y), left=np.nan, right=np.nan)
+    if logs:
+        computed = np.exp(computed)
+    off = computed / curve.values - 1.0
+    reached = np.isfinite(off)
+    if not reached.any():
+        raise InputError(
+            f"the results go from {x[0]:.4g} to {x[-1]:.4g} of {curve.over}, the measured points "
+            f"from {curve.places[0]:.4g} to {curve.places[-1]:.4g}: none is reached"
+        )
+    at, off = curve.places[reached], off[reached]
+    parts = [np.arange(at.size)]
+    if logs and at[-1] > 10.0 * at[0]:
+        decades = np.floor(np.log10(at))
+        parts = [np.flatnonzero(decades == d) for d in np.unique(decades)] + parts
+    return [_deviation(at[part], off[part]) for part in parts]
+
+
+def _deviation(at: Array, off: Array) -> Deviation:
+    k = int(np.abs(off).argmax())
+    return Deviation(
+        low=float(at[0]),
+        high=float(at[-1]),
+        count=at.size,
+        mean=float(off.mean()),
+        rms=float(np.sqrt(np.mean(off**2))),
+        largest=float(off[k]),
+        at=float(at[k]),
+    )

@@ -1,0 +1,188 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Readers of rig files: PCS Instruments EHD and MTM, and plain tables with units.
+
+A reader takes the lines of a file and gives steps, each a table. To add a format, write a function
+and add it to `READERS`. How the files of PCS look is known from the public examples of the package
+`tribology` of M. Ploss (files of an EHD261 and an MTM311).
+"""
+
+from __future__ import annotations
+
+import csv
+import os
+import re
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from pyehl.errors import InputError
+from pyehl.rigs.quantities import MEASURED, QUANTITIES, in_si, quantity_of
+from pyehl.types import Array
+
+PCS = re.compile(r"(EHD|MTM|ETM)\d*\s+Test Data File")
+SLIM = "SLIM Mapper"
+LARGEST = 64 * 1024 * 1024
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """One table of a rig file."""
+
+    title: str
+    columns: dict[str, Array]  # by the names of `QUANTITIES`, (n,) in their units; NaN: no value
+    left_out: tuple[str, ...]  # names of columns that are none of them
+
+
+@dataclass(frozen=True, slots=True)
+class RigFile:
+    """What a rig measured: `format` says which reader took the file."""
+
+    name: str
+    format: str
+    steps: tuple[Step, ...]
+
+
+Lines = Sequence[str]
+
+
+def read_rig(path: str | os.PathLike[str]) -> RigFile:
+    """Read a file of a rig.
+
+    Parameters
+    ----------
+    path
+        A text file of PCS EHD or MTM, or a table with units in its header, columns divided by
+        commas, semicolons or tabs.
+
+    Returns
+    -------
+    RigFile
+        Steps that have something measured: film thickness or friction.
+
+    Raises
+    ------
+    InputError
+        If the file is none of these, or has nothing measured; with the columns that were found.
+    """
+    name = os.fspath(path)
+    lines = _text(path).splitlines()
+    if lines and lines[0].startswith(SLIM):
+        raise InputError(
+            f"{name}: error: an analysis of a SLIM picture is not read\nexpected: films over "
+            "speed, or friction, as a table"
+        )
+    reader = next((reader for reader in READERS if reader[1](lines)), None)
+    if reader is None:
+        raise InputError(f"{name}: error: the file is empty")
+    kind, _, read = reader
+    steps = tuple(read(name, lines))
+    measured = tuple(s for s in steps if any(q.name in s.columns for q in MEASURED))
+    if not measured:
+        found = [cell for step in steps for cell in (*step.columns, *step.left_out)]
+        known = ", ".join(q.known_as[0] for q in QUANTITIES)
+        raise InputError(
+            f"{name}: error: no column of film thickness or friction; columns: "
+            f"{', '.join(dict.fromkeys(found)) or 'none'}\nexpected: names such as {known}, with "
+            "units in brackets"
+        )
+    return RigFile(name, kind, measured)
+
+
+def _text(path: str | os.PathLike[str]) -> str:
+    """Text of a file, whose encoding instruments choose: UTF-8, UTF-16, else Windows."""
+    name = os.fspath(path)
+    try:
+        if Path(path).stat().st_size > LARGEST:
+            raise InputError(f"{name}: error: larger than {LARGEST >> 20} MiB: not a rig file")
+        data = Path(path).read_bytes()
+    except OSError as error:
+        raise InputError(f"{name}: cannot read: {error.strerror or error}") from error
+    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        return data.decode("utf-16", errors="replace")
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return data.decode("cp1252", errors="replace")
+
+
+def _pcs(name: str, lines: Lines) -> Iterator[Step]:
+    """Give the steps of a file of PCS: 'Step 2 ...', lines about it, names of columns, values."""
+    title, number = "", 0
+    while number < len(lines):
+        line = lines[number]
+        if re.match(r"Step \d+", line):
+            title = line.partition(" started at")[0]
+        cells = line.split("\t")
+        # names of columns: at least two of them are known; the step's own lines have no tables
+        if sum(quantity_of(cell) is not None for cell in cells) >= 2:
+            last = number + 1
+            while last < len(lines) and lines[last].strip() and _is_number(lines[last]):
+                last += 1
+            rows = [line.split("\t") for line in lines[number + 1 : last]]
+            yield _step(name, title, cells, rows, number + 1)
+            number = last
+        number += 1
+
+
+def _is_number(line: str) -> bool:
+    try:
+        float(line.partition("\t")[0])
+    except ValueError:
+        return False
+    return True
+
+
+def _table(name: str, lines: Lines) -> Iterator[Step]:
+    """Give one table: comments (#), a line of names, values."""
+    numbers = [n for n, line in enumerate(lines) if line.strip() and not line.startswith("#")]
+    if not numbers:
+        return
+    head = lines[numbers[0]]
+    sign = max(";\t,", key=head.count)
+    rows = list(csv.reader([lines[n] for n in numbers], delimiter=sign))
+    if sign == ";" and any("," in cell for row in rows[1:] for cell in row):
+        rows = [rows[0], *([cell.replace(",", ".") for cell in row] for row in rows[1:])]
+    for n, row in zip(numbers[1:], rows[1:], strict=True):
+        if len(row) != len(rows[0]):
+            raise InputError(f"{name}:{n + 1}: error: {len(row)} values for {len(rows[0])} columns")
+    yield _step(name, "", rows[0], rows[1:], numbers[0] + 1)
+
+
+def _step(
+    name: str, title: str, head: Sequence[str], rows: Sequence[Sequence[str]], line: int
+) -> Step:
+    """Columns that are known, each in its unit; of a column that stands twice the fuller one."""
+    columns: dict[str, Array] = {}
+    left_out: list[str] = []
+    for k, cell in enumerate(head):
+        quantity = quantity_of(cell)
+        if quantity is None:
+            left_out += [cell.strip()] if cell.strip() else []
+            continue
+        values = np.array([_value(row[k]) if k < len(row) else np.nan for row in rows])
+        if not np.isfinite(values).any():
+            continue
+        try:
+            values = in_si(quantity, cell, values)
+        except ValueError as error:
+            raise InputError(f"{name}:{line}: error: column '{cell.strip()}'\n{error}") from None
+        before = columns.get(quantity.name)
+        if before is None or np.isfinite(before).sum() < np.isfinite(values).sum():
+            columns[quantity.name] = values
+    return Step(title, columns, tuple(dict.fromkeys(left_out)))
+
+
+def _value(cell: str) -> float:
+    try:
+        return float(cell)
+    except ValueError:
+        return float("nan")
+
+
+READERS: tuple[tuple[str, Callable[[Lines], bool], Callable[[str, Lines], Iterator[Step]]], ...] = (
+    ("PCS", lambda lines: bool(lines and PCS.match(lines[0])), _pcs),
+    ("table", lambda lines: any(line.strip() for line in lines), _table),
+)
+"""Name, whether a file is of it, and reader of each format; the first that fits reads."""

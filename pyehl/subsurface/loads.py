@@ -1,0 +1,257 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Pressure and shear traction on a body, from a result: one instant, or those of a passage.
+
+Lengths are in the semi-axis a along the motion, stresses in p_h, times in a/u.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pyehl.errors import InputError
+from pyehl.results import settings_of
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.shear import shear_stress
+from pyehl.types import Array, Mask, Settings
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+DEFAULT_POISSON = 0.3
+LARGEST_FRICTION = 2.0
+
+
+@dataclass(frozen=True, slots=True)
+class Load:
+    """What acts on the surface of the body at an instant."""
+
+    time: float  # [a/u]; NaN of a smooth contact
+    pressure: Array  # (nx, ny) [p_h]
+    traction: Array | None  # along x (nx, ny) [p_h]
+
+
+@dataclass(frozen=True, slots=True)
+class Loads:
+    """The loads of a result, and what they act on."""
+
+    x: Array  # (nx,) [a]
+    y: Array  # (ny,) [a]
+    smooth: Load
+    times: Array  # (n,) of the rough contact [a/u]; none of a smooth one
+    pressures: Callable[[int], Array]
+    films: Callable[[int], Array]
+    traction: Callable[[Array, Array | None, bool], Array | None]
+    body: int
+    velocity: float  # of its surface over the mean one
+    poisson: float
+    semi_axis_y: float  # [a]
+    operating: OperatingPoint
+    friction_note: str
+    pressure_error: float  # relative, of the largest pressure; NaN where it is not known
+
+    @property
+    def mesh(self) -> tuple[float, float]:
+        """Mesh sizes [a]."""
+        return float(self.x[1] - self.x[0]), float(self.y[1] - self.y[0])
+
+    @property
+    def short_side(self) -> float:
+        """Half width of the dry contact on its short side [a]."""
+        return min(1.0, self.semi_axis_y)
+
+    def rough(self) -> Iterator[Load]:
+        """Give the loads of the rough contact, one after the other."""
+        for k, time in enumerate(self.times):
+            pressure = self.pressures(k)
+            yield Load(float(time), pressure, self.traction(pressure, self.films(k), True))
+
+    def contact(self) -> Mask:
+        """Tell which nodes (nx, ny) lie in the dry contact."""
+        across = self.y / self.semi_axis_y
+        return np.hypot(self.x[:, np.newaxis], across[np.newaxis, :]) <= 1.0
+
+
+def check_friction(friction: str | float) -> None:
+    """InputError for a friction that is neither 'run', 'none' nor a coefficient."""
+    if isinstance(friction, str) and friction in ("run", "none"):
+        return
+    if isinstance(friction, int | float) and not isinstance(friction, bool):
+        if 0.0 <= friction <= LARGEST_FRICTION:
+            return
+    raise InputError(
+        f"friction = {friction!r}: expected 'run', 'none', or a coefficient of friction 0 ... 2"
+    )
+
+
+def body_of(settings: Settings, body: int | None) -> tuple[int, float, float]:
+    """Give number of the body, velocity ratio of its surface, and its Poisson ratio.
+
+    Without a number it is the one with the surface of the case.
+    """
+    contact = settings["contact"]
+    number = int(contact["rough_surface"]) if body is None else body
+    if number not in (1, 2) or isinstance(body, bool):
+        raise InputError(f"body = {body!r}: expected 1 or 2")
+    slip = 0.5 * float(contact["slide_to_roll"])
+    velocity = 1.0 + slip if number == 1 else 1.0 - slip
+    group = settings.get("bodies")
+    poisson = DEFAULT_POISSON if group is None else float(group[f"poisson_{number}"])
+    return number, velocity, poisson
+
+
+def _value(data: xr.Dataset, name: str) -> float:
+    return float(data[name]) if name in data else math.nan
+
+
+def friction_of(
+    data: xr.Dataset, operating: OperatingPoint, lubricant: Lubricant | None, friction: str | float
+) -> tuple[float, float, str]:
+    """Give the coefficients of friction of the smooth and of the rough contact, and a note.
+
+    The second one is over what the isothermal law gives. NaN: without friction.
+    """
+    if friction == "none" or (friction != "run" and friction == 0.0):
+        return math.nan, math.nan, "without friction, as asked for"
+    if friction != "run":
+        return float(friction), 1.0, f"traction is {friction:g} times the pressure, as asked for"
+    if lubricant is None:
+        return math.nan, math.nan, "without friction: the case has Moes numbers and no oil"
+    if operating.sliding_speed == 0.0:
+        return math.nan, math.nan, "without friction: pure rolling"
+    mu = [_value(data, n) for n in ("mu_smooth", "mu_smooth_isothermal", "mu", "mu_isothermal")]
+    smooth = mu[0] if math.isfinite(mu[0]) else mu[2]
+    if not math.isfinite(smooth):
+        why = data.attrs.get("mu_note", "the result states no coefficient of friction")
+        return math.nan, math.nan, f"without friction: {why}"
+    heat = (mu[2] / mu[3]) / (mu[0] / mu[1]) if all(map(math.isfinite, mu)) else 1.0
+    note = f"traction by the shear law of the oil, in sum mu_smooth = {smooth:.4g}" + (
+        ", scaled for heat" if math.isfinite(mu[1]) and mu[1] != mu[0] else ""
+    )
+    return smooth, heat, note
+
+
+class _Traction:
+    """Traction on the body from pressure [p_h] and film [m]."""
+
+    def __init__(
+        self,
+        smooth: tuple[Array, Array | None],
+        area: float,
+        operating: OperatingPoint,
+        lubricant: Lubricant | None,
+        found: tuple[float, float, str],
+        body: int,
+        friction: str | float,
+    ) -> None:
+        self.operating, self.lubricant, self.coulomb = operating, lubricant, friction != "run"
+        self.mu, self.heat, _ = found
+        # the faster body is held back
+        faster = operating.slide_to_roll >= 0.0
+        self.sign = -1.0 if (body == 1) == faster else 1.0
+        self.scale = 1.0
+        if math.isfinite(self.mu) and not self.coulomb:
+            total = float(self._by_law(*smooth).sum()) * area
+            load = 2.0 * math.pi / 3.0 * operating.ellipse.ellipticity
+            self.scale = self.mu * load / total
+
+    def _by_law(self, pressure: Array, film: Array | None) -> Array:
+        """Shear stress [p_h] of the isothermal film, where there is pressure."""
+        assert self.lubricant is not None
+        assert film is not None
+        p_h = self.operating.hertz_pressure
+        p = np.maximum(pressure, 0.0) * p_h
+        viscosity = self.lubricant.viscosity * self.lubricant.viscosity_ratio(p)
+        newtonian = viscosity * abs(self.operating.sliding_speed) / film
+        return np.where(p > 0.0, shear_stress(newtonian, p, self.lubricant.shear), 0.0) / p_h
+
+    def __call__(self, pressure: Array, film: Array | None, rough: bool) -> Array | None:
+        if not math.isfinite(self.mu):
+            return None
+        if self.coulomb:
+            return self.sign * self.mu * pressure
+        factor = self.sign * self.scale * (self.heat if rough else 1.0)
+        return factor * self._by_law(pressure, film)
+
+
+def loads_of(data: xr.Dataset, *, body: int | None, friction: str | float) -> Loads:
+    """Give the loads of a solution.
+
+    Of a rough contact those of its frames, or without frames of the end of the run.
+
+    Raises
+    ------
+    InputError
+        If the result has no fields or is none, or for a body or friction that cannot be.
+    """
+    if data.attrs.get("status") != "converged":
+        raise InputError(f"stress needs a solution; the status is {data.attrs.get('status')!r}")
+    if "P" not in data:
+        raise InputError(
+            "stress needs the fields of pressure and film: the case has output.fields = .false."
+        )
+    rough, frames = "P_smooth" in data, "frame_P" in data
+    scale = OperatingPoint.from_settings(settings_of(data)).film_scale
+    times = np.zeros(0)
+    if rough:
+        times = data.T.values if frames else np.array([float(data.attrs.get("T", math.nan))])
+    return made_of(
+        data,
+        (data.X.values, data.Y.values),
+        (
+            np.asarray(data["P_smooth" if rough else "P"].values),
+            np.asarray(data["H_smooth" if rough else "H"].values) * scale,
+        ),
+        times,
+        lambda k: data.frame_P.values[..., k] if frames else data.P.values,
+        lambda k: (data.frame_H.values[..., k] if frames else data.H.values) * scale,
+        body=body,
+        friction=friction,
+    )
+
+
+def made_of(
+    data: xr.Dataset,
+    axes: tuple[Array, Array],
+    smooth: tuple[Array, Array],
+    times: Array,
+    pressures: Callable[[int], Array],
+    films: Callable[[int], Array],
+    *,
+    body: int | None,
+    friction: str | float,
+) -> Loads:
+    """Put the loads of a result together.
+
+    Axes (nx,), (ny,) [a]; pressure [p_h] and film [m] of the smooth contact (nx, ny), and those at
+    the times [a/u] of the rough one.
+    """
+    settings = settings_of(data)
+    operating = OperatingPoint.from_settings(settings)
+    number, velocity, poisson = body_of(settings, body)
+    lubricant = Lubricant.from_settings(settings) if operating.si else None
+    found = friction_of(data, operating, lubricant, friction)
+    x, y = axes
+    area = float((x[1] - x[0]) * (y[1] - y[0]))
+    traction = _Traction(smooth, area, operating, lubricant, found, number, friction)
+    return Loads(
+        x=x,
+        y=y,
+        smooth=Load(math.nan, smooth[0], traction(*smooth, False)),
+        times=times,
+        pressures=pressures,
+        films=films,
+        traction=traction,
+        body=number,
+        velocity=velocity,
+        poisson=poisson,
+        semi_axis_y=operating.ellipse.ellipticity,
+        operating=operating,
+        friction_note=found[2],
+        pressure_error=_value(data, "P_max_error") / _value(data, "P_max"),
+    )

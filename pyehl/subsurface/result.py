@@ -1,0 +1,363 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""``pyehl.stress``: stress below the surface as a labelled Dataset, as text and as a folder."""
+
+from __future__ import annotations
+
+import math
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import xarray as xr
+
+from pyehl.destination import Destination, write_json
+from pyehl.errors import InputError
+from pyehl.given import path_of
+from pyehl.netcdf import write_netcdf
+from pyehl.results import load
+from pyehl.schema import VERSION
+from pyehl.subsurface import life
+from pyehl.subsurface.fatigue import Fatigue
+from pyehl.subsurface.half_space import COMPONENTS
+from pyehl.subsurface.loads import Loads, check_friction, loads_of
+from pyehl.subsurface.passage import Peak, Profile, largest, profile, share_above
+
+if TYPE_CHECKING:
+    from pyehl.prediction.result import Prediction
+
+# Depth down to which the near-surface volume reaches, over that of the largest smooth shear
+NEAR = 0.25
+FILES = ("case.nml", "summary.json", "stress.nc", "section.png", "depth.png")
+
+
+def stress(
+    results: xr.Dataset | Prediction | str | os.PathLike[str],
+    *,
+    body: int | None = None,
+    friction: str | float = "run",
+    above: float | None = None,
+    near: float | None = None,
+    fatigue: str | None = None,
+    torsion_limit: float | None = None,
+    bending_limit: float | None = None,
+    contamination: float | None = None,
+    bearing: str = "ball",
+    output: str | os.PathLike[str] | None = None,
+    force: bool = False,
+    progress: bool = False,
+) -> xr.Dataset:
+    """Compute the stress below the surface of a solid under a result.
+
+    Of a smooth contact the steady stress; of a rough one the largest over the frames of its run, or
+    at its end if it kept none (``output.frame_interval``), beside the smooth contact.
+
+    Parameters
+    ----------
+    results
+        What `solve`, `predict` or `load` gives, or a result folder of a solution.
+    body
+        1 or 2; default: the one with the surface of the case.
+    friction
+        'run': shear traction by the shear law of the oil, in sum the friction of the result; none
+        where it states no coefficient. 'none'. Or a coefficient of friction, traction over
+        pressure.
+    above
+        Principal shear stress [Pa] for the share of the near-surface volume that exceeds it.
+    near
+        Depth of the near-surface volume under the dry contact [m]; default: a quarter of the depth
+        of the largest shear of the smooth contact.
+    fatigue
+        'dang-van' or 'crossland', with `torsion_limit` and `bending_limit`, the fatigue limits of
+        the material in fully reversed torsion and bending [Pa].
+    contamination
+        e_C C_u/P [-] for a_ISO of a `bearing`, 'ball' or 'roller' (ISO 281), by the Lambda of the
+        rough contact.
+    output
+        Result folder; None: nothing is kept on disk.
+    force
+        Other files may be in the folder; they stay.
+    progress
+        Show a bar on standard error.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over depth (Z [a], z_m [m]): ``principal_shear``, ``von_mises``, ``octahedral_shear``,
+        ``hydrostatic``, each the largest over x, y and time [p_h], with ``..._Pa``; the same of
+        the smooth contact with ``_smooth``. On y = 0 over x and depth: ``sigma_xx`` to ``sigma_yz``
+        [p_h], tension positive, z into the solid, at the instant of the largest shear, and
+        ``section_shear``, the principal shear, largest over time. Scalars: ``principal_shear_max``
+        with depth, x, y, time and error. Names with _Pa, _m and _s are there if the case is in SI.
+
+    Raises
+    ------
+    InputError
+        If `results` is no solution with fields, or an option cannot be.
+
+    Examples
+    --------
+    >>> import pyehl
+    >>> ds = pyehl.solve("cases/quick.nml", {"grid.points": 65})
+    >>> below = pyehl.stress(ds)
+    >>> round(float(below.principal_shear_max), 2)
+    0.31
+    """
+    check_friction(friction)
+    criterion = _criterion(fatigue, torsion_limit, bending_limit)
+    for name, value in (("above", above), ("near", near), ("contamination", contamination)):
+        if value is not None and not (math.isfinite(value) and value > 0.0):
+            raise InputError(f"{name} = {value!r}: expected a number > 0")
+    if contamination is not None:
+        life.a_iso(1.0, contamination, bearing)
+    place = None
+    if output is not None:
+        inputs = (results,) if isinstance(results, str | os.PathLike) else ()
+        place = Destination(path_of(output, "output"), "stress", FILES, inputs, force=force)
+        place.check()
+    loads, summary = _loads(results, body, friction)
+    case = str(summary.attrs["case"])
+    si = loads.operating.si
+    if not si and (above or near or criterion):
+        raise InputError("above, near and fatigue are in SI units: give the case in SI units")
+    p_h, a = loads.operating.hertz_pressure, loads.operating.hertz_radius
+    found = profile(
+        loads,
+        above=None if above is None else above / p_h,
+        fatigue=criterion,
+        progress=progress,
+    )
+    data = _dataset(loads, found)
+    _add_near(data, found, loads, above, None if near is None else near / a)
+    if criterion:
+        rows = found.rows
+        equivalent = max(row.fatigue for row in rows) * p_h
+        data["fatigue_stress_Pa"] = _scalar(equivalent, "Pa", f"{fatigue}, equivalent stress")
+        ratio = equivalent / criterion.torsion_limit
+        data["fatigue_ratio"] = _scalar(ratio, "1", "it over the fatigue limit in torsion")
+    _add_life(data, summary, contamination, bearing)
+    data.attrs |= {
+        "kind": "stress",
+        "schema_version": VERSION,
+        "body": loads.body,
+        "poisson": loads.poisson,
+        "friction_note": loads.friction_note,
+        "instants": int(loads.times.size) or 1,
+        "short_side": loads.short_side,
+        "case": case,
+    }
+    if place is not None:
+        _write(data, place)
+    return data
+
+
+def _criterion(name: str | None, torsion: float | None, bending: float | None) -> Fatigue | None:
+    if name is None:
+        if torsion is not None or bending is not None:
+            raise InputError(
+                "torsion_limit and bending_limit belong to fatigue, which is not given"
+            )
+        return None
+    if torsion is None or bending is None:
+        raise InputError(
+            f"fatigue = {name!r}: expected torsion_limit and bending_limit, the fatigue limits of "
+            "the material [Pa]"
+        )
+    return Fatigue(name, torsion, bending)
+
+
+def _loads(
+    results: xr.Dataset | Prediction | str | os.PathLike[str],
+    body: int | None,
+    friction: str | float,
+) -> tuple[Loads, xr.Dataset]:
+    data = getattr(results, "data", results) if not isinstance(results, xr.Dataset) else results
+    if isinstance(data, str | bytes | os.PathLike):
+        data = load(path_of(data, "results"))
+    if not isinstance(data, xr.Dataset) or "case" not in data.attrs:
+        raise InputError(
+            f"results of type {type(results).__name__}: expected a result of solve, predict or "
+            "load, or a result folder"
+        )
+    if data.attrs.get("kind") == "prediction":
+        from pyehl.subsurface.predicted import predicted_loads  # noqa: PLC0415 (solves a contact)
+
+        return predicted_loads(data, body=body, friction=friction), data
+    return loads_of(data, body=body, friction=friction), data
+
+
+def _scalar(value: float, unit: str, meaning: str) -> xr.Variable:
+    return xr.Variable((), value, {"units": unit, "long_name": meaning})
+
+
+def _dataset(loads: Loads, found: Profile) -> xr.Dataset:
+    """Profiles, section and peaks, in Hertz units and in SI units."""
+    point = loads.operating
+    p_h, a = point.hertz_pressure, point.hertz_radius
+    z = np.array([row.depth for row in found.rows])
+    data = xr.Dataset(
+        coords={
+            "X": ("X", loads.x, {"units": "1", "long_name": "along the motion, x/a"}),
+            "Z": ("Z", z, {"units": "1", "long_name": "depth, z/a"}),
+        }
+    )
+    if point.si:
+        data = data.assign_coords(
+            x_m=("X", loads.x * a, {"units": "m", "long_name": "along the motion"}),
+            z_m=("Z", z * a, {"units": "m", "long_name": "depth"}),
+        )
+
+    def add(name: str, dims: tuple[str, ...], values: Any, meaning: str) -> None:  # noqa: ANN401
+        data[name] = (dims, values, {"units": "1", "long_name": f"{meaning}, over p_h"})
+        if point.si:
+            data[f"{name}_Pa"] = (dims, values * p_h, {"units": "Pa", "long_name": meaning})
+
+    for rows, end in ((found.rows, ""), (found.smooth if found.rough else [], "_smooth")):
+        if not rows:
+            continue
+        of = " of the smooth contact" if end else ""
+        shear = np.array([row.shear.value for row in rows])
+        mises = np.array([row.mises.value for row in rows])
+        tension = np.array([row.tension for row in rows])
+        add(f"principal_shear{end}", ("Z",), shear, f"largest principal shear stress{of}")
+        add(f"von_mises{end}", ("Z",), mises, f"largest stress of von Mises{of}")
+        octahedral = math.sqrt(2.0) / 3.0 * mises
+        add(f"octahedral_shear{end}", ("Z",), octahedral, f"largest octahedral shear stress{of}")
+        add(f"hydrostatic{end}", ("Z",), tension, f"largest hydrostatic stress{of}")
+        _add_peak(data, loads, f"principal_shear_max{end}", *largest(rows))
+        _add_peak(data, loads, f"von_mises_max{end}", *largest(rows, "mises"))
+    images = max(row.error for row in found.rows)
+    pressure = loads.pressure_error
+    error = images + (pressure * float(data.principal_shear_max) if pressure > 0.0 else 0.0)
+    of = "zeros around the load" + (" and pressure" if pressure > 0.0 else "; pressure: not known")
+    add("principal_shear_max_error", (), error, f"estimate of its error: {of}")
+    if found.rough:
+        ratio = float(data.principal_shear_max) / float(data.principal_shear_max_smooth)
+        data["ratio_to_smooth"] = _scalar(
+            ratio, "1", "largest shear over that of the smooth contact"
+        )
+    section = np.stack([row.section for row in found.rows if row.section is not None], axis=1)
+    add("section_shear", ("X", "Z"), section, "principal shear on y = 0, largest over time")
+    for k, name in enumerate(COMPONENTS):
+        meaning = f"{name} on y = 0 when the shear is largest"
+        add(f"sigma_{name}", ("X", "Z"), found.components[k], meaning)
+    return data
+
+
+def _add_peak(
+    data: xr.Dataset, loads: Loads, name: str, value: float, depth: float, peak: Peak
+) -> None:
+    point = loads.operating
+    rows = [("", value, "Pa", point.hertz_pressure, "its largest value")]
+    for axis, number in (("depth", depth), ("x", peak.x), ("y", peak.y)):
+        rows.append((f"_{axis}", number, "m", point.hertz_radius, f"{axis} of it"))
+    if math.isfinite(peak.time):
+        rows.append(("_time", peak.time, "s", point.time_scale, "time of it"))
+    for end, number, unit, scale, meaning in rows:
+        data[f"{name}{end}"] = _scalar(number, "1", meaning)
+        if point.si:
+            data[f"{name}{end}_{unit}"] = _scalar(number * scale, unit, meaning)
+
+
+def _add_near(
+    data: xr.Dataset, found: Profile, loads: Loads, above: float | None, near: float | None
+) -> None:
+    """Add the share of the near-surface volume above a shear stress."""
+    if above is None:
+        return
+    depth = near or NEAR * largest(found.smooth)[1]
+    a = loads.operating.hertz_radius
+    data["near_surface_depth_m"] = _scalar(depth * a, "m", "depth of the near-surface volume")
+    meaning = f"share of it where the principal shear exceeds {above:g} Pa at some time"
+    data["near_surface_share"] = _scalar(share_above(found.rows, depth), "1", meaning)
+    if found.rough:
+        share = share_above(found.smooth, depth)
+        data["near_surface_share_smooth"] = _scalar(share, "1", f"{meaning}, smooth contact")
+
+
+def _add_life(
+    data: xr.Dataset, summary: xr.Dataset, contamination: float | None, bearing: str
+) -> None:
+    """Add kappa and a_ISO by Lambda; InputError if a_ISO is asked for without one."""
+    ratio = float(summary["lambda_ratio"]) if "lambda_ratio" in summary else math.nan
+    if not math.isfinite(ratio):
+        if contamination is not None:
+            raise InputError("contamination: a_ISO needs Lambda, which a rough contact has")
+        return
+    kappa = life.kappa(ratio)
+    data["kappa"] = _scalar(kappa, "1", "Lambda^1.3, for comparison with ISO 281")
+    if contamination is not None:
+        factor = life.a_iso(kappa, contamination, bearing)
+        meaning = f"life modification factor of ISO 281, radial {bearing} bearing, for comparison"
+        data["a_iso"] = _scalar(factor, "1", meaning)
+
+
+def _write(data: xr.Dataset, place: Destination) -> None:
+    """Write the folder: summary.json, stress.nc, pictures."""
+    from pyehl.plots.style import save  # noqa: PLC0415 (matplotlib is slow to import)
+    from pyehl.plots.subsurface import stress_figures  # noqa: PLC0415
+
+    with place.fresh() as folder:
+        write_netcdf(folder / "stress.nc", data.transpose(*reversed(list(data.dims))))
+        for name, figure in stress_figures(data).items():
+            save(figure, folder / f"{name}.png")
+        (folder / "case.nml").write_text(data.attrs["case"].rstrip() + "\n", encoding="utf-8")
+        write_json(folder / "summary.json", summary_of(data, folder))
+
+
+def summary_of(data: xr.Dataset, folder: Path) -> dict[str, Any]:
+    """Give attributes and scalars, for summary.json."""
+    scalars = {str(k): float(v) for k, v in data.data_vars.items() if v.ndim == 0}
+    known = {k: v for k, v in scalars.items() if math.isfinite(v)}
+    files = sorted(["summary.json", *(path.name for path in folder.iterdir())])
+    words = {k: v for k, v in data.attrs.items() if k != "case"}
+    return {**words, **known, "files": files}
+
+
+def text(data: xr.Dataset) -> str:
+    """Lines that ``pyehl stress`` prints."""
+    si = "principal_shear_max_Pa" in data
+
+    def told(name: str, end: str = "") -> str:
+        if si:
+            stress_text = f"{float(data[f'{name}{end}_Pa']) * 1e-6:.4g} MPa"
+            depth = f"{float(data[f'{name}{end}_depth_m']) * 1e6:.3g} um"
+        else:
+            stress_text = f"{float(data[f'{name}{end}']):.4g} p_h"
+            depth = f"{float(data[f'{name}{end}_depth']):.3g} a"
+        return f"{stress_text} at a depth of {depth}"
+
+    error = float(data.principal_shear_max_error) / float(data.principal_shear_max)
+    lines = [
+        f"body {data.attrs['body']}     Poisson ratio {data.attrs['poisson']:g}; "
+        f"{data.attrs['friction_note']}",
+        f"shear      {told('principal_shear_max')} (principal shear, +- {100.0 * error:.2g} %)",
+        f"von Mises  {told('von_mises_max')}",
+    ]
+    if "ratio_to_smooth" in data:
+        lines.append(
+            f"smooth     {told('principal_shear_max', '_smooth')}; rough over smooth "
+            f"{float(data.ratio_to_smooth):.3f}; {data.attrs['instants']} instants"
+        )
+    if "near_surface_share" in data:
+        lines.append(
+            f"near       {100.0 * float(data.near_surface_share):.3g} % of the volume down to "
+            f"{float(data.near_surface_depth_m) * 1e6:.3g} um is above the given shear"
+            + (
+                f" (smooth: {100.0 * float(data.near_surface_share_smooth):.3g} %)"
+                if "near_surface_share_smooth" in data
+                else ""
+            )
+        )
+    if "fatigue_stress_Pa" in data:
+        lines.append(
+            f"fatigue    {float(data.fatigue_stress_Pa) * 1e-6:.4g} MPa, "
+            f"{float(data.fatigue_ratio):.3f} of the fatigue limit in torsion"
+        )
+    if "kappa" in data:
+        lines.append(f"kappa      {float(data.kappa):.3g} by Lambda^1.3 (ISO 281, for comparison)")
+    if "a_iso" in data:
+        factor = float(data.a_iso)
+        known = f"{factor:.3g}" if math.isfinite(factor) else "not defined below kappa = 0.1"
+        lines.append(f"a_ISO      {known}")
+    return "\n".join(lines)
