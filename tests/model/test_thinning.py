@@ -206,7 +206,8 @@ def test_the_deformed_surface_in_numbers():
     assert s["h_min_rough_m"] < s["h_min_m"]
     for name in ("rms_deformed_error_m", "p_rise_rms_error_Pa", "h_min_rough_error_m"):
         assert s[name] > 0.0
-    outside = replace(found, operating=replace(found.operating, load=1e5)).summary
+    model = replace(found.model, operating=replace(found.operating, load=1e5))
+    outside = replace(found, model=model).summary
     assert outside["outside_range"]
     assert outside["p_rise_rms_error_Pa"] is None
 
