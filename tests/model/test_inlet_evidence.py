@@ -28,6 +28,11 @@ def test_the_page_shows_the_table(text: str, evidence):
     assert f"would cover {good} of {told} central films" in text
 
 
+def test_the_page_shows_when_cycles_end(text: str, script):
+    shares = script("docs/evidence/inlet/share.py")
+    assert "\n".join(shares.lines()) in text
+
+
 def test_stated_errors_cover_the_finest_grid(evidence):
     """At least 95 % of each quantity, and some grid tells the share of every contact."""
     rows = evidence.read()
