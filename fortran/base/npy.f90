@@ -153,14 +153,15 @@ contains
       integer, intent(out) :: stat
       integer :: j
 
-      if (size(short) == 0) then
-         read (lun, iostat=stat) values
-         return
-      end if
+      stat = 0
       do j = 1, size(values, 2)
-         read (lun, iostat=stat) short
-         if (stat /= 0) exit
-         values(:, j) = short
+         if (size(short) == 0) then
+            read (lun, iostat=stat) values(:, j)
+         else
+            read (lun, iostat=stat) short
+            if (stat == 0) values(:, j) = short
+         end if
+         if (stat /= 0) return
       end do
    end subroutine read_values
 

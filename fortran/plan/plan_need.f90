@@ -69,6 +69,9 @@ contains
       if (plan%contact%ellipticity > long .or. plan%contact%ellipticity < 1.0_dp/long) then
          text = text//", up to ten times as long with damped cycles"
       end if
+      if (plan%lubricant%boundary_film > 0.0_dp .and. .not. plan%surfaces%rough()) then
+         text = text//", up to thirty times as long where the bodies touch"
+      end if
       if (plan%target_error > 0.0_dp) text = text//", if it comes to the finest grid"
       if (plan%surfaces%move() .and. plan%steps == 0) text = text//", if it ends as early as it can"
       text = text//new_line("a")

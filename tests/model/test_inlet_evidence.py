@@ -14,6 +14,12 @@ def evidence(script):
     return script("docs/evidence/inlet/make.py")
 
 
+def test_the_page_shows_when_cycles_end(root: Path, script):
+    text = (root / "docs/evidence/inlet/README.md").read_text(encoding="utf-8")
+    shares = script("docs/evidence/inlet/share.py")
+    assert "\n".join(shares.lines()) in text
+
+
 @pytest.mark.parametrize(("number", "points"), [(0, 129), (2, 257)])
 def test_this_build_makes_rows_of_the_table(evidence, number, points):
     """A grid that does not resolve the inlet, and one that does."""
