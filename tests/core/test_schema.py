@@ -152,5 +152,5 @@ def test_sources_name_keys_that_exist(root: Path):
         found = re.findall(r'given\("(\w+)", "(\w+)"\)', text)
         found += re.findall(rf'"({groups})\.(\w+)"', text)
         named |= {f"{group}.{name}" for group, name in found}
-    assert len(named) > 60
+    assert len(named) > 50
     assert named - set(KEYS) == set()
