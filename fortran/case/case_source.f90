@@ -19,7 +19,6 @@ module ehl_case_source
       procedure :: find
       procedure :: given
       procedure :: first_given
-      procedure :: value_of
       procedure :: refuse
       procedure :: contradict
       procedure :: check_range
@@ -61,16 +60,6 @@ contains
          name = self%pieces(k)%name()
       end do
    end function first_given
-
-   !> What was given for a key
-   pure function value_of(self, name) result(value)
-      class(case_source_t), intent(in) :: self
-      character(len=*), intent(in) :: name
-      character(len=:), allocatable :: value
-
-      value = "the default"
-      if (self%given(name)) value = self%pieces(self%find(name))%value
-   end function value_of
 
    !> Refuse a case at a key
    subroutine refuse(self, name, what, expected, status)
