@@ -38,11 +38,12 @@ SUMMARY = {
 
 
 def without_time(folder: Path) -> dict[str, bytes]:
-    """All files of a folder; the one number that may differ is removed."""
+    """All files of a folder; what may differ is removed: a number, and what keys mean."""
     files = {path.name: path.read_bytes() for path in folder.iterdir()}
     pattern = rb'"wall_seconds": [-+.e\d]+'
     files["summary.json"], n = re.subn(pattern, b'"wall_seconds": 0', files["summary.json"])
     assert n == 1
+    files["case.nml"] = pyehl.Case(folder / "case.nml").text.encode()
     return files
 
 

@@ -147,5 +147,5 @@ def test_byte_order_mark_is_no_text(tmp_path: Path, drive):
     assert pyehl.Case(tmp_path / "case.nml").resolve()["contact"]["moes_m"] == 150.0
     (tmp_path / "bad.nml").write_text("&contact moes_n = 1 /\n", encoding="utf-8-sig")
     done = drive("ehl", "bad.nml", "-o", "out")
-    assert "bad.nml:1:10: error" in done.stderr
+    assert "bad.nml:1: error" in done.stderr
     assert resolve(text, "a text")
