@@ -52,7 +52,7 @@ contains
                                "both, or contact.radius of a round contact", status)
          end if
       end associate
-      call need(source%first_given("bodies", source%pieces%key), "contact", si_keys(4:6), "reduced radii and modulus alone")
+      call need(source%first_given("bodies"), "contact", si_keys(4:6), "reduced radii and modulus alone")
       call need(if_given("lubricant.name"), "lubricant", [character(len=18) :: "viscosity", "pressure_viscosity", &
                                                           "viscosity_law"], "the constants of the oil")
       call need(if_given("lubricant.kinematic_viscosity_40"), "lubricant", &

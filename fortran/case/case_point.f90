@@ -9,7 +9,7 @@ module ehl_case_point
    use ehl_scales, only: scales_t
    implicit none (type, external)
    private
-   public :: find_contact, hertz_pressure, operating_point
+   public :: find_contact, operating_point
 
 contains
 
@@ -46,15 +46,4 @@ contains
                                    contact%kernel_factor)
       end associate
    end function operating_point
-
-   !> Hertz pressure of a case [Pa]
-   real(dp) function hertz_pressure(input)
-      type(case_t), intent(in) :: input
-      class(contact_t), allocatable :: contact
-      type(scales_t) :: scales
-      type(operating_t) :: point
-
-      call find_contact(input, contact, scales, point)
-      hertz_pressure = scales%pressure
-   end function hertz_pressure
 end module ehl_case_point

@@ -19,7 +19,6 @@ module ehl_case_source
       procedure :: find
       procedure :: given
       procedure :: first_given
-      procedure :: value_of
       procedure :: refuse
       procedure :: contradict
       procedure :: check_range
@@ -44,28 +43,23 @@ contains
       given = self%find(trim(name)) > 0
    end function given
 
-   !> Of some keys of a group the given one that stands first; '' when none is given
+   !> Of some keys of a group, or of all, the given one that stands first; '' when none is given
    pure function first_given(self, group, keys) result(name)
       class(case_source_t), intent(in) :: self
-      character(len=*), intent(in) :: group, keys(:)
+      character(len=*), intent(in) :: group
+      character(len=*), intent(in), optional :: keys(:)
       character(len=:), allocatable :: name
       integer :: k
 
       name = ""
       do k = size(self%pieces), 1, -1
-         if (self%pieces(k)%group == group .and. any(self%pieces(k)%key == keys)) name = self%pieces(k)%name()
+         if (self%pieces(k)%group /= group) cycle
+         if (present(keys)) then
+            if (all(self%pieces(k)%key /= keys)) cycle
+         end if
+         name = self%pieces(k)%name()
       end do
    end function first_given
-
-   !> What was given for a key
-   pure function value_of(self, name) result(value)
-      class(case_source_t), intent(in) :: self
-      character(len=*), intent(in) :: name
-      character(len=:), allocatable :: value
-
-      value = "the default"
-      if (self%given(name)) value = self%pieces(self%find(name))%value
-   end function value_of
 
    !> Refuse a case at a key
    subroutine refuse(self, name, what, expected, status)

@@ -9,7 +9,7 @@ module ehl_case_values
    use ehl_kinds, only: dp
    use ehl_namelist_pieces, only: keep_pieces, name_length, piece_t
    use ehl_status, only: status_t
-   use ehl_text, only: lower_case, nearest_word, quoted
+   use ehl_text, only: lower_case, nearest_word, quoted, to_text
    implicit none (type, external)
    private
    public :: check_pieces, is_one_of, read_pieces
@@ -132,12 +132,16 @@ contains
       else
          expected = "a number in "//range
          if (scan(usual, ".e") == 0) expected = "a whole number in "//range
-         if (verify(value, "0123456789+-.eEdD") > 0) stat = 1
-         if (stat == 0 .and. scan(usual, ".e") == 0) read (value, *, iostat=stat) whole
+         if (verify(value, "0123456789+-.eEdD") > 0 .or. is_huge(value)) stat = 1
          if (stat == 0) read (value, *, iostat=stat) number
          if (stat == 0) stat = merge(0, 1, allows(range, number))
          ! smaller than any number
          if (stat == 0 .and. scan(value, "123456789") > 0 .and. .not. abs(number) > 0.0_dp) stat = 1
+         if (stat == 0 .and. scan(usual, ".e") == 0 .and. verify(value, "0123456789+-") > 0) then
+            ! an option may be 65.0
+            if (abs(number - anint(number)) > 0.0_dp .or. .not. allocated(piece%option)) stat = 1
+            value = to_text(nint(number))
+         end if
       end if
       if (piece%values == 0) then
          call source%refuse(piece%name(), "no value for "//piece%name(), expected, status)
@@ -146,6 +150,17 @@ contains
       end if
       piece%value = value
    end subroutine check_value
+
+   !> Whether reading a number might overflow: a hundred digits before the point, or three of a positive exponent
+   pure logical function is_huge(number)
+      character(len=*), intent(in) :: number
+      integer :: mark
+
+      mark = scan(number, "eEdD")
+      is_huge = scan(number//".", ".eEdD") > 100
+      if (mark == 0 .or. index(number, "-", back=.true.) > mark) return
+      is_huge = is_huge .or. len(number) - max(mark, index(number, "+", back=.true.)) > 2
+   end function is_huge
 
    !> A text with all of its parts `old` as `new`
    pure function replaced(text, old, new) result(answer)

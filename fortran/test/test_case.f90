@@ -115,7 +115,7 @@ contains
       call read_case("&grid points = 257 /", "text", "grid.points=129" // lf // "surface.kind=fractal" // lf, &
                      input, status)
       call is_true(.not. status%failed(), "options are read")
-      call read_case("&grid points = 64.5 /", "text", "grid.points=129"//lf//"surface.kind=fractal", input, status)
+      call read_case("&grid points = 64.5 /", "text", "grid.points=129.0"//lf//"surface.kind=fractal", input, status)
       call is_true(.not. status%failed(), "an option replaces a value that is not acceptable")
       call is_equal(input%grid%points, 129, "an option replaces the value of the file")
       call is_text(trim(input%surface%kind), "fractal", "an option's word needs no quotes")

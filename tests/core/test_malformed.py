@@ -373,8 +373,8 @@ def test_malformed_case(tmp_path: Path, capsys, monkeypatch, name, marked, optio
     assert [path.name for path in tmp_path.iterdir()] == ["case.nml"]
 
 
-# Commas that a namelist may have, and a group in two parts
-TAKEN = ("two commas", "comma first", "group twice")
+# Commas that a namelist may have
+TAKEN = ("two commas", "comma first")
 # Faults of the text before any name is read, and of the operating point, whose quantity is named
 NAMELESS = (
     *("open quote", "unit with a slash", "no free volume", "a liquid without a volume"),

@@ -11,6 +11,7 @@ import pytest
 import pyehl
 from pyehl import schema
 from pyehl.case import KEYS
+from pyehl.case.settings import GROUPS
 from pyehl.prediction.film_formulas import sheet
 
 UNITS = {"_N_m": "N m", "_Pa_s": "Pa s", "_per_Pa": "1/Pa", "_m_per_s": "m/s", "_per_s": "1/s",
@@ -141,13 +142,15 @@ def test_reference_has_the_table(root: Path):
 
 def test_sources_name_keys_that_exist(root: Path):
     """A misspelt name in `given` or `refuse` would be that of no key."""
-    known = set(KEYS)
+    groups = "|".join(GROUPS)
     named = set()
-    for path in (root / "fortran" / "case").glob("*.f90"):
+    for path in [
+        *(root / "fortran" / "case").glob("*.f90"),
+        *(root / "pyehl" / "case").glob("*.py"),
+    ]:
         text = path.read_text()
-        named |= {
-            f"{group}.{name}" for group, name in re.findall(r'%given\("(\w+)", "(\w+)"\)', text)
-        }
-        named |= set(re.findall(r'schema%\w+\("(\w+\.\w+)"', text))
-    assert len(named) > 30
-    assert named - known == set()
+        found = re.findall(r'given\("(\w+)", "(\w+)"\)', text)
+        found += re.findall(rf'"({groups})\.(\w+)"', text)
+        named |= {f"{group}.{name}" for group, name in found}
+    assert len(named) > 50
+    assert named - set(KEYS) == set()

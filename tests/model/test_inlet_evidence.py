@@ -2,6 +2,7 @@
 """Contacts that touch on grids that do not resolve their inlet: docs/evidence/inlet."""
 
 from itertools import islice
+from pathlib import Path
 
 import pytest
 
