@@ -70,7 +70,7 @@ def fit_lubricant(
     ...     pyehl.fit_lubricant("cases/films.csv", "cases/table1.nml")
     ... except pyehl.InputError as error:
     ...     print(str(error).partition(" error")[0])
-    cases/films.csv:1:
+    cases/films.csv:3:
     """
     path = path_of(data, "data")
     inputs = [path] if isinstance(case, Case) else [path, path_of(case, "case")]
