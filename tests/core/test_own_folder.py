@@ -127,10 +127,11 @@ def test_next_result_removes_locks_of_killed_runs(drive, drivers, case: Path, co
     """The state of the killed run stays, as do locks of others and what no run wrote."""
     folder, words = case.parent, [*drivers["ehl"], "case.nml", "-o", "out", "-q"]
     with subprocess.Popen([*words, "--set", "grid.points=257"], cwd=folder) as first:
-        while not (folder / "out.lock").exists():
+        while not (folder / "out.checkpoint").exists():
             assert first.poll() is None
             time.sleep(0.01)
         first.kill()
+    assert (folder / "out.lock").exists()
     (folder / f"out.partial-{first.pid}").mkdir()
     (folder / f"out.partial-{first.pid}" / "summary.json").write_text("half")
     start = Path("/proc/self/stat").read_text().rpartition(")")[2].split()[19]
