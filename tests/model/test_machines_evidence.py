@@ -47,8 +47,8 @@ def test_pages_have_the_constants_of_the_sources(root: Path):
     grids = text_of(root, "theory/coarse-grids.md")
     assert f"more than {constant('multigrid/ladder.f90', 'long'):g} times as long" in grids
     assert f"more than {constant('multigrid/ladder.f90', 'max_unknowns'):g} unknowns" in grids
-    assert f"until {constant('case/case_contact.f90', 'few_rows'):g} intervals or fewer" in grids
-    largest = constant("case/case_contact.f90", "largest_ratio")
+    assert f"until {constant('case/case_grid.f90', 'few_rows'):g} intervals or fewer" in grids
+    largest = constant("case/case_grid.f90", "largest_ratio")
     assert f"from 1/4 to {largest:g}:" in text_of(root, "theory/discretisation.md")
     assert f"up to {largest:g} times as long" in text_of(root, "theory/relaxation.md")
     cycles = text_of(root, "theory/full-multigrid.md")
