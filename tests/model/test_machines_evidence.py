@@ -162,7 +162,9 @@ def test_damping_is_that_of_the_sources(root: Path):
     page = text_of(root, "theory/full-multigrid.md")
     columns = []
     for name in ("log_change", "sweep", "correction"):
-        found = re.search(rf"damped_{name}\(most_damping\) = (?:usual_log_change/)?\[([^]]*)\]", source)
+        found = re.search(
+            rf"damped_{name}\(most_damping\) = (?:usual_log_change/)?\[([^]]*)\]", source
+        )
         assert found, name
         columns.append([float(word.removesuffix("_dp")) for word in found[1].split(", ")])
     for degree, (limit, sweep, correction) in enumerate(zip(*columns, strict=True), 1):
