@@ -23,7 +23,7 @@ module ehl_plan
    use ehl_status, only: ehl_bad_input, status_t
    use ehl_steady_options, only: steady_options_t
    use ehl_surface, only: aliased_below, resolved_from
-   use ehl_transient, only: steps_needed
+   use ehl_predicted_start, only: steps_needed
    use ehl_text, only: fixed, to_text
    use ehl_wedge, only: wedge_narrow, wedge_separate
    implicit none (type, external)
@@ -80,7 +80,7 @@ module ehl_plan
       !> Begin it with the contact full of roughness, from a prediction
       logical :: predicted_start = .false.
       !> Why it does not, where that was asked for
-      character(len=:), allocatable :: why_front
+      character(len=:), allocatable :: fallback_reason
       !> Repeat the run on the next coarser grid, for the grid error of the friction ratio
       logical :: coarse_run = .false.
       !> Relative change of the mean friction ratio at which to stop, most periods, exact steps
@@ -89,7 +89,7 @@ module ehl_plan
       !> Time between the frames that are kept; 0: none
       real(dp) :: frame_interval = 0.0_dp
    contains
-      procedure :: see_waves
+      procedure :: update_resolved_fraction
    end type plan_t
 
    !> Share of the variance that the coarser of two grids may leave unresolved where friction is extrapolated
@@ -149,7 +149,7 @@ contains
       call plan%surfaces%use_threads(plan%threads)
       call plan%surfaces%find_period(merge(plan%max_periods, automatic_periods, plan%max_periods > 0))
       plan%coarse_run = input%time%estimate_error .and. plan%levels > 2 .and. (plan%surfaces%rest() .or. plan%steps == 0)
-      call plan%see_waves(plan%finest)
+      call plan%update_resolved_fraction(plan%finest)
       call check_carried(plan%surfaces, plan%finest, status)
       if (.not. status%failed()) call check_steps(plan, status)
    end subroutine make_plan
@@ -159,17 +159,17 @@ contains
       type(plan_t), intent(inout) :: plan
 
       if (plan%surfaces%pass_once()) then
-         plan%why_front = "a single feature passes once"
+         plan%fallback_reason = "a single feature passes once"
       else if (plan%surfaces%some_rest()) then
-         plan%why_front = "one of the surfaces is at rest"
+         plan%fallback_reason = "one of the surfaces is at rest"
       else if (plan%target_error > 0.0_dp) then
-         plan%why_front = "the grid of grid.target_error is not known before"
+         plan%fallback_reason = "the grid of grid.target_error is not known before"
       end if
-      plan%predicted_start = .not. allocated(plan%why_front)
+      plan%predicted_start = .not. allocated(plan%fallback_reason)
    end subroutine pick_start
 
    !> What of the surfaces a grid carries
-   subroutine see_waves(self, grid)
+   subroutine update_resolved_fraction(self, grid)
       class(plan_t), intent(inout) :: self
       type(grid_t), intent(in) :: grid
 
@@ -179,7 +179,7 @@ contains
       self%coarse_run = self%surfaces%most_unresolved(grid%coarser(), aliased_below) < 1.0_dp
       self%extrapolates = self%coarse_run .and. .not. self%surfaces%pass_once() .and. &
                           self%surfaces%most_unresolved(grid%coarser(), resolved_from) <= unresolved_most
-   end subroutine see_waves
+   end subroutine update_resolved_fraction
 
    !> Refuse a surface so slow that the friction cannot be known within a sensible number of steps
    subroutine check_steps(plan, status)

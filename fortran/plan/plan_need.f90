@@ -8,7 +8,7 @@ module ehl_plan_need
    use ehl_plan, only: plan_t
    use ehl_status, only: status_t
    use ehl_text, only: fixed, to_text
-   use ehl_transient, only: steps_needed
+   use ehl_predicted_start, only: steps_needed
    implicit none (type, external)
    private
    public :: check_need, need_lines, making_need, most_periods

@@ -12,14 +12,14 @@ module ehl_report
    use ehl_wedge, only: wedge_narrow
    implicit none (type, external)
    private
-   public :: report_passage, report_rest, report_scene, report_transient, report_waves
+   public :: report_passage, report_stationary, report_scene, report_transient, report_waves
 
 contains
 
    !> Operating point, grid and means
    subroutine report_scene(record, run)
       type(record_t), intent(inout) :: record
-      class(contact_run_t), intent(in) :: run
+      type(contact_run_t), intent(in) :: run
 
       associate (plan => run%plan, grid => run%grid)
          call record%set("moes_m", plan%point%moes_m)
@@ -52,7 +52,7 @@ contains
    !> The transient run: results null unless it came to a good end
    subroutine report_transient(record, run, good, known, mean, change)
       type(record_t), intent(inout) :: record
-      class(contact_run_t), intent(in) :: run
+      type(contact_run_t), intent(in) :: run
       !> Whether it did, and whether friction is known where the bodies touch
       logical, intent(in) :: good, known
       !> Mean friction ratio, and its change at the end
@@ -171,11 +171,11 @@ contains
    !> The roughness, smooth film over it, and what of it the grid carries
    subroutine report_waves(record, run)
       type(record_t), intent(inout) :: record
-      class(contact_run_t), intent(in) :: run
+      type(contact_run_t), intent(in) :: run
       real(dp) :: sigma, variance(2)
       integer :: k
 
-      associate (surfaces => run%plan%surfaces, scales => run%plan%scales, smooth => run%steady%results(run%level())%m)
+      associate (surfaces => run%plan%surfaces, scales => run%plan%scales, smooth => run%smooth%results(run%level())%m)
          sigma = surfaces%rms_height()
          if (sigma > 0.0_dp) then
             if (scales%has_size()) then
@@ -196,30 +196,30 @@ contains
       end associate
    end subroutine report_waves
 
-   !> The contact with a rough surface at rest: results null unless there are any
-   subroutine report_rest(record, run, good, known, ratio, algebraic)
+   !> The contact with a stationary rough surface: results null unless there are any
+   subroutine report_stationary(record, run, good, known, ratio, algebraic)
       type(record_t), intent(inout) :: record
-      class(contact_run_t), intent(in) :: run
+      type(contact_run_t), intent(in) :: run
       !> Whether they are, and whether friction is known where the bodies touch
       logical, intent(in) :: good, known
       !> Friction ratio, and its algebraic error
       real(dp), intent(out) :: ratio, algebraic
       integer :: k
 
-      associate (rest => run%rest, surfaces => run%plan%surfaces)
-         ratio = merge(rest%mu_ratio(), not_known, good .and. known)
-         algebraic = merge(2.0_dp*rest%algebraic*rest%mu_ratio(), not_known, good .and. known)
-         if (known .and. .not. good) call record%set("last_mu_ratio", rest%mu_ratio())
-         call record%set("H_c_rough", merge(rest%m%film_central, not_known, good))
-         call report_rough_extremes(record, run%plan, merge(rest%m%film_minimum, not_known, good), &
-                                    merge(rest%m%pressure_maximum, not_known, good))
+      associate (rough => run%stationary, surfaces => run%plan%surfaces)
+         ratio = merge(rough%mu_ratio(), not_known, good .and. known)
+         algebraic = merge(2.0_dp*rough%algebraic*rough%mu_ratio(), not_known, good .and. known)
+         if (known .and. .not. good) call record%set("last_mu_ratio", rough%mu_ratio())
+         call record%set("H_c_rough", merge(rough%m%film_central, not_known, good))
+         call report_rough_extremes(record, run%plan, merge(rough%m%film_minimum, not_known, good), &
+                                    merge(rough%m%pressure_maximum, not_known, good))
          do k = 1, surfaces%count()
             call record%set(named(surfaces, k, "x_start"), surfaces%of(k)%surface%x_start)
          end do
          call report_amplitude(record, surfaces)
-         call record%set("rough_cycles", rest%total_cycles)
-         call record%set("rough_parts", rest%parts)
-         call record%set("rough_residual", rest%residual)
+         call record%set("rough_cycles", rough%total_cycles)
+         call record%set("rough_parts", rough%parts)
+         call record%set("rough_residual", rough%residual)
       end associate
-   end subroutine report_rest
+   end subroutine report_stationary
 end module ehl_report

@@ -23,7 +23,7 @@ contains
    !> mean nothing
    subroutine report_friction(record, run, good, converged, why_none)
       type(record_t), intent(inout) :: record
-      class(contact_run_t), intent(in) :: run
+      type(contact_run_t), intent(in) :: run
       !> Whether the smooth contact is converged, and the run
       logical, intent(in) :: good, converged
       !> Why friction is not known where the bodies touch; empty where it is
@@ -34,9 +34,9 @@ contains
       logical :: rough, known
       character(len=:), allocatable :: note
 
-      rough = run%in_steps .or. run%resting
+      rough = run%is_rough()
       known = why_none == ""
-      friction = merge(run%steady%results(run%level())%m%friction, not_known, good .and. known)
+      friction = merge(run%smooth%results(run%level())%m%friction, not_known, good .and. known)
       ratio = merge(not_known, 1.0_dp, run%plan%surfaces%rough())
       heat_ratio = not_known
       if (rough .and. converged .and. known) then

@@ -6,7 +6,7 @@ module ehl_stopping_criterion
    use ehl_outcome, only: outcome_converged, outcome_running, outcome_unsettled
    use ehl_plan, only: plan_t
    use ehl_plan_need, only: most_periods
-   use ehl_transient, only: transient_t
+   use ehl_transient_state, only: transient_t
    implicit none (type, external)
    private
    public :: transient_outcome, least_periods

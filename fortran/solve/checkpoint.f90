@@ -11,7 +11,7 @@ module ehl_checkpoint
    use ehl_status, only: ehl_bad_input, ehl_file, status_t
    use ehl_table, only: table_t
    use ehl_text, only: newline, to_text
-   use ehl_transient, only: transient_t
+   use ehl_transient_state, only: transient_t
    implicit none (type, external)
    private
    public :: checkpoint_t, coarser, frame_file, state_files, words_t
@@ -105,7 +105,7 @@ contains
          write (lun, iostat=stat, iomsg=reason) magic, t%step, frames%n, len(text), text, &
             t%skipped, t%time, t%time_step, t%residual, t%cycles, t%total_cycles, t%policy%coarsening, &
             t%policy%changed_at, t%h00_before, t%friction_smooth, t%mass_content, t%p_before, t%predictor%weights, &
-            t%accuracy%rise, t%accuracy%sensitivity, t%accuracy%largest, t%film_mark, t%extremes%found, mean%filled, mean%lag, &
+            t%accuracy%rise, t%accuracy%sensitivity, t%accuracy%largest, t%film_checksum, t%extremes%found, mean%filled, mean%lag, &
             mean%transit, numbers, len(first), first, len(second), second, &
             (history%row(k), mean%values(k), mean%film(k), mean%roughness(k), k=1, t%step)
       end associate
@@ -195,7 +195,7 @@ contains
          if (stat == 0) read (lun, iostat=stat, iomsg=reason) &
             t%skipped, t%time, t%time_step, t%residual, t%cycles, t%total_cycles, t%policy%coarsening, &
             t%policy%changed_at, t%h00_before, t%friction_smooth, t%mass_content, t%p_before, t%predictor%weights, &
-            t%accuracy%rise, t%accuracy%sensitivity, t%accuracy%largest, t%film_mark, t%extremes%found, t%mean%filled, &
+            t%accuracy%rise, t%accuracy%sensitivity, t%accuracy%largest, t%film_checksum, t%extremes%found, t%mean%filled, &
             t%mean%lag, t%mean%transit, numbers
          do k = 1, size(words)
             if (stat == 0) call read_words(lun, words(k), stat)
