@@ -28,19 +28,17 @@ contains
       !> Level of the results
       integer, intent(in) :: n
       logical, intent(in) :: good
-      character(len=5), parameter :: of_contact(4) = [character(len=5) :: "H_c", "H_min", "P_max", "F"]
+      character(len=5), parameter :: films(2) = [character(len=5) :: "H_c", "H_min"]
       type(contact_results_t) :: m
       real(dp) :: values(4), error(2), limit(2), domain(2)
       logical :: coarser
       integer :: k
-      character(len=:), allocatable :: why
+      character(len=:), allocatable :: name, why
 
       m = smooth%results(n)%m
       values = [m%films(), m%pressure_maximum, m%friction]
       if (.not. good) then
-         do k = 1, size(values)
-            call record%set("last_"//trim(of_contact(k)), values(k))
-         end do
+         call record%set("last_H_c last_H_min last_P_max last_F", values)
          values = not_known
       end if
       if (.not. knows_friction(plan, smooth, n)) values(4) = not_known
@@ -58,36 +56,27 @@ contains
       end if
       domain = not_known
       where (plan%domain_cost < 1.0_dp) domain = values(:2)*plan%domain_cost/(1.0_dp - plan%domain_cost)
-      do k = 1, size(values)
-         call record%set(trim(of_contact(k)), values(k))
-      end do
+      call record%set("H_c H_min P_max F", values)
       do k = 1, 2
-         call record%set(trim(of_contact(k))//"_extrapolated", limit(k))
-         call record%set(trim(of_contact(k))//"_error", error(k) + domain(k))
-         call record%set(trim(of_contact(k))//"_error_grid", error(k))
-         call record%set(trim(of_contact(k))//"_error_domain", domain(k))
-         if (good .and. .not. plan%domain_cost(k) < 1.0_dp) call record%set(trim(of_contact(k))//"_error_note", too_small)
+         name = trim(films(k))
+         call record%set(name//"_extrapolated "//name//"_error "//name//"_error_grid "//name//"_error_domain", &
+                         [limit(k), error(k) + domain(k), error(k), domain(k)])
+         if (good .and. .not. plan%domain_cost(k) < 1.0_dp) call record%set(name//"_error_note", too_small)
       end do
       if (good .and. touches_for_grid(plan, smooth, n)) then
          do k = 1, 2
-            call record%set(trim(of_contact(k))//"_error_note", unresolved_inlet(plan%inlet, plan%finest))
+            call record%set(trim(films(k))//"_error_note", unresolved_inlet(plan%inlet, plan%finest))
          end do
       end if
       why = better_grid(plan%contact, plan%point, plan%finest)
       if (.not. good .and. why /= "") call record%set("H_c_error_note", why)
       call record%set("error_estimate", trim(merge("two grids", "a priori ", coarser)))
       call report_limits(record, plan, smooth, n, good)
-      call record%set("H_c_algebraic_error", smooth%results(n)%algebraic(1))
-      call record%set("H_min_algebraic_error", smooth%results(n)%algebraic(2))
-      call record%set("load_beyond", 1.0_dp - m%load/plan%contact%load)
-      call record%set("load_error", m%load_error)
-      if (plan%scales%has_size()) then
-         call record%set("h_c_m", values(1)*plan%scales%film)
-         call record%set("h_c_error_m", (error(1) + domain(1))*plan%scales%film)
-         call record%set("h_min_m", values(2)*plan%scales%film)
-         call record%set("h_min_error_m", (error(2) + domain(2))*plan%scales%film)
-         call record%set("p_max_Pa", values(3)*plan%scales%pressure)
-      end if
+      call record%set("H_c_algebraic_error H_min_algebraic_error", smooth%results(n)%algebraic)
+      call record%set("load_beyond load_error", [1.0_dp - m%load/plan%contact%load, m%load_error])
+      if (plan%scales%has_size()) call record%set("h_c_m h_c_error_m h_min_m h_min_error_m p_max_Pa", &
+         [values(1), error(1) + domain(1), values(2), error(2) + domain(2), values(3)]* &
+         [spread(plan%scales%film, 1, 4), plan%scales%pressure])
       call record%set("cycles", smooth%results(n)%cycles)
       call record%set("total_cycles", sum(smooth%results%cycles))
       call record%set("residual", smooth%results(n)%residual)

@@ -81,19 +81,15 @@ contains
             note = "most of the load is at a layer that would have to give much of the flow: the share may change on any grid"
             error = not_known
          end if
-         call record%set("boundary_film", plan%lubricant%boundary_film)
-         call record%set("contact_load_share", numbers(1))
-         call record%set("contact_load_share_error", error + stop_error)
-         call record%set("contact_load_share_error_grid", error)
-         call record%set("contact_load_share_error_stop", stop_error)
+         numbers([2, 5]) = numbers([2, 5])/(pi*plan%contact%ellipticity)
+         call record%set("boundary_film contact_load_share contact_load_share_error contact_load_share_error_grid "// &
+                         "contact_load_share_error_stop", &
+                         [plan%lubricant%boundary_film, numbers(1), error + stop_error, error, stop_error])
          call record%set("contact_load_share_error_note", note)
-         call record%set("contact_area_share", numbers(2)/(pi*plan%contact%ellipticity))
-         call record%set("layer_supply", numbers(3))
+         call record%set("contact_area_share layer_supply", numbers(2:3))
          if (.not. plan%lubricant%boundary_limit > 0.0_dp) return
-         call record%set("load_share_at_hardness", numbers(4))
-         call record%set("area_share_at_hardness", numbers(5)/(pi*plan%contact%ellipticity))
-         call record%set("plastic_depth_max_m", numbers(6)*plan%scales%film)
-         call record%set("flowing_load_share_at_hardness", numbers(7))
+         call record%set("load_share_at_hardness area_share_at_hardness plastic_depth_max_m flowing_load_share_at_hardness", &
+                         [numbers(4:5), numbers(6)*plan%scales%film, numbers(7)])
       end associate
    end subroutine report_touching
 

@@ -2,14 +2,14 @@
 !> Results of a run
 submodule (ehl_solver) ehl_solver_results
    use ehl_domain, only: ratio_cost, too_small
+   use ehl_friction_results, only: find_friction, friction_results_t
    use ehl_judgement, only: judge
    use ehl_kinds, only: not_known
    use ehl_level_result, only: film_errors, spike_grows
    use ehl_no_answer, only: why_no_answer
    use ehl_outcome, only: outcome_names, outcome_target_missed
    use ehl_ratio_error, only: ratio_error_t
-   use ehl_report, only: report_passage, report_stationary, report_scene, report_transient, report_waves
-   use ehl_report_friction, only: report_friction
+   use ehl_report, only: report_friction, report_passage, report_stationary, report_scene, report_transient, report_waves
    use ehl_report_smooth, only: report_smooth
    use ehl_report_touching, only: report_touching, why_no_friction
    use ehl_surface_text, only: window_words
@@ -32,6 +32,7 @@ contains
       logical :: good, converged, known, rough
       real(dp) :: ratio, stop_error
       character(len=:), allocatable :: judgement, why, why_none
+      type(friction_results_t) :: friction
       integer :: worth
 
       converged = self%converged()
@@ -65,7 +66,8 @@ contains
       if (self%run%phase == phase_stationary) call report_stationary(record, self%run, converged, known, ratio, stop_error)
       if (self%run%plan%surfaces%rough()) call report_ratio(self, record, ratio, stop_error, why_none)
       call report_touching(record, self%run, good, converged, why_no_grid_error(self))
-      call report_friction(record, self%run, good, converged, why_none)
+      call find_friction(self%run, good, converged, why_none, friction)
+      call report_friction(record, self%run%plan, friction)
       call record%set("bytes", real(self%run%hierarchy%bytes(), dp) + self%run%plan%surfaces%bytes())
       call judge(record, judgement, worth)
       call record%set("judgement", judgement)
