@@ -4,8 +4,9 @@ module ehl_terminal
    use, intrinsic :: iso_fortran_env, only: error_unit
    use ehl_checkpoint_folder, only: checkpoint_folder_t
    use ehl_clock, only: clock_t, start_clock
-   use ehl_contact_run, only: contact_run_t, observer_t
+   use ehl_contact_run, only: contact_run_t
    use ehl_kinds, only: dp
+   use ehl_observer, only: observer_t
    use ehl_progress, only: progress_line
    use ehl_signals, only: stop_wanted
    use ehl_status, only: status_t

@@ -1,8 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The plan of a run: what this scene needs, decided once. The only reader of option words.
+!> The plan of a run: what a case needs, decided once.
 module ehl_plan
    use ehl_case, only: case_t
-   use ehl_case_contact, only: find_contact, operating_point
    use ehl_contact, only: contact_t
    use ehl_cycle, only: coarsening_alcouffe, coarsening_classical, cycle_options_t
    use ehl_domain, only: domain_cost, domain_t
@@ -14,9 +13,9 @@ module ehl_plan
    use ehl_lubricant, only: lubricant_t
    use ehl_moes, only: operating_t
    use ehl_moving_surfaces, only: moving_surfaces_t
-   use ehl_plan_friction, only: plan_sliding, sliding_t
-   use ehl_plan_heat, only: heat_plan_t, may_touch, plan_heat
-   use ehl_plan_lubricant, only: alpha_note, law_note, plan_lubricant
+   use ehl_plan_friction, only: sliding_t
+   use ehl_plan_heat, only: heat_plan_t, may_touch, plan_contact, plan_heat
+   use ehl_plan_lubricant, only: alpha_note, law_note
    use ehl_plan_surface, only: check_carried, make_surfaces
    use ehl_resolution, only: has_solution
    use ehl_scales, only: scales_t
@@ -34,7 +33,7 @@ module ehl_plan
    integer, parameter :: start_fewest = 33
    !> Lengths of thick films, (2 H_c)^(1/2) [a], and largest mesh of the coarsest grid in terms of them
    real(dp), parameter :: thick_film = 0.8_dp, coarsest_mesh = 0.9_dp
-   !> A-priori error of H_c of grids that resolve the inlet: a smooth contact that fails there begins again with care
+   !> A-priori error of H_c of grids that resolve the inlet: a smooth contact that fails there is restarted with damped cycles
    real(dp), parameter :: resolved_error = 0.1_dp
    !> Most time steps until the friction of a rough surface can be known, and where their number is asked for
    integer, parameter :: most_steps = 100000, most_steps_asked_for = 1000000000
@@ -106,22 +105,17 @@ contains
       type(status_t), intent(inout) :: status
       !> Heights of the maps of both surfaces [m], X first, in place of files; of size 0: none
       real(dp), intent(in), optional :: heights(:, :), second_heights(:, :)
-      real(dp) :: rho(1), slope(1), film
+      real(dp) :: rho, film
 
-      call find_contact(input, plan%contact, plan%scales, plan%point)
-      plan%sliding = plan_sliding(input, plan%contact, plan%scales)
-      if (input%contact%si) plan%point = operating_point(input, plan%contact, plan%scales, plan%sliding%inlet_viscosity)
-      plan%flooded = input%grid%border == "flooded"
-      call plan_lubricant(input, plan%point, plan%scales, plan%lubricant, status)
+      call plan_contact(input, plan%contact, plan%scales, plan%point, plan%sliding, plan%lubricant, rho, film, status)
       if (status%failed()) return
+      plan%flooded = input%grid%border == "flooded"
       call law_note(input, plan%scales, plan%lubricant_note)
       call alpha_note(input, plan%alpha_note)
-      call plan%lubricant%density([1.0_dp], rho, slope)
-      film = plan%contact%film_formula(plan%point%moes_m, plan%point%moes_l)/rho(1)
       plan%heat = plan_heat(input, plan%contact, plan%scales, plan%sliding, plan%lubricant, film)
       film = plan%lubricant%shear%thinned_film(film, plan%point%speed_parameter)
       plan%touches = may_touch(plan%lubricant, film)
-      if (plan%lubricant%boundary_film > 0.0_dp) plan%inlet = inlet_t(film, plan%lubricant%boundary_film/rho(1), &
+      if (plan%lubricant%boundary_film > 0.0_dp) plan%inlet = inlet_t(film, plan%lubricant%boundary_film/rho, &
                                                                          plan%lubricant%boundary_stress)
       plan%film_expected = max(film, plan%lubricant%boundary_film)
       plan%engine = trim(input%solver%deflection)

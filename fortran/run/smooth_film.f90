@@ -2,11 +2,12 @@
 !> Central film of the smooth contact, extrapolated: what the amplitude of a wave is a share of
 module ehl_smooth_film
    use ehl_case, only: case_t
-   use ehl_contact_run, only: contact_run_t, observer_t
+   use ehl_contact_run, only: contact_run_t
    use ehl_fmg, only: full_multigrid
    use ehl_kinds, only: dp
    use ehl_level_result, only: discretisation_error, extrapolated
    use ehl_moving_surfaces, only: moving_surfaces_t
+   use ehl_observer, only: observer_t
    use ehl_outcome, only: outcome_converged
    use ehl_plan, only: make_plan
    use ehl_plan_need, only: check_need

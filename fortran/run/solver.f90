@@ -5,11 +5,12 @@ module ehl_solver
    use ehl_case, only: case_t
    use ehl_case_writer, only: case_text
    use ehl_checkpoint, only: checkpoint_t, coarser
-   use ehl_contact_run, only: contact_run_t, observer_t, phase_smooth, phase_stationary, phase_steps, single_step_t
+   use ehl_contact_run, only: contact_run_t, phase_smooth, phase_stationary, phase_steps
    use ehl_fmg, only: full_multigrid
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
    use ehl_moving_surfaces, only: moving_surfaces_t
+   use ehl_observer, only: observer_t, single_step_t
    use ehl_outcome, only: outcome_converged, outcome_failed, outcome_interrupted, outcome_running
    use ehl_plan, only: make_plan
    use ehl_plan_need, only: check_need, most_periods

@@ -22,7 +22,7 @@ module ehl_contact_run
    use ehl_transient_state, only: transient_t
    implicit none (type, external)
    private
-   public :: contact_run_t, coarser_t, observer_t, single_step_t
+   public :: contact_run_t
    public :: phase_smooth, phase_stationary, phase_steps
 
    !> What is being solved: the smooth contact, that with a stationary rough surface, time steps
@@ -87,18 +87,6 @@ module ehl_contact_run
       procedure :: heat_ratio
       procedure :: save
    end type contact_run_t
-
-   !> Asked after every cycle of a steady contact and after every time step whether to leave; this one watches nothing and stays
-   type :: observer_t
-   contains
-      procedure :: watch => watch_nothing
-   end type observer_t
-
-   !> Leaves after a cycle or a time step
-   type, extends(observer_t) :: single_step_t
-   contains
-      procedure :: watch => watch_one
-   end type single_step_t
 
    ! in contact_start.f90
    interface
@@ -333,26 +321,4 @@ contains
                                  [self%seconds, self%coarser%ratio, real(self%coarser%outcome, dp), self%coarser%load_share], &
                                  words, status)
    end subroutine save
-
-   !> Nothing to watch
-   subroutine watch_nothing(self, run, leave)
-      class(observer_t), intent(inout) :: self
-      type(contact_run_t), intent(inout) :: run
-      logical, intent(out) :: leave
-
-      associate (unused => self, unused_run => run)
-      end associate
-      leave = .false.
-   end subroutine watch_nothing
-
-   !> One cycle or step is enough
-   subroutine watch_one(self, run, leave)
-      class(single_step_t), intent(inout) :: self
-      type(contact_run_t), intent(inout) :: run
-      logical, intent(out) :: leave
-
-      associate (unused => self, unused_run => run)
-      end associate
-      leave = .true.
-   end subroutine watch_one
 end module ehl_contact_run

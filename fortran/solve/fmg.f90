@@ -2,9 +2,10 @@
 !> Full multigrid for the smooth contact (Venner & Lubrecht 2000; docs/theory/full-multigrid.md)
 module ehl_fmg
    use ehl_contact_results, only: contact_results_t
-   use ehl_contact_run, only: contact_run_t, observer_t
+   use ehl_contact_run, only: contact_run_t
    use ehl_hierarchy, only: hierarchy_t
-   use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_running
+   use ehl_observer, only: observer_t
+   use ehl_outcome, only: outcome_running
    use ehl_smooth_contact, only: smooth_contact_t
    use ehl_status, only: status_t
    implicit none (type, external)
@@ -57,14 +58,7 @@ contains
          call smooth%estimate_errors(before)
          if (smooth%may_scale_load()) call smooth%balance(hierarchy)
       end if
-      outcome = smooth%failure_status()
-      if (outcome == outcome_running) then
-         if (smooth%converged()) then
-            outcome = outcome_converged
-         else if (smooth%cycles >= smooth%max_cycles) then
-            outcome = outcome_cycle_limit
-         end if
-      end if
+      outcome = smooth%verdict(smooth%converged())
       call smooth%guard_cycle(hierarchy, outcome, status)
       call smooth%record()
    end subroutine one_cycle

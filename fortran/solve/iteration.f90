@@ -9,7 +9,7 @@ module ehl_iteration
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
-   use ehl_outcome, only: outcome_diverged, outcome_negative_film, outcome_running
+   use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_diverged, outcome_negative_film, outcome_running
    use ehl_reynolds, only: film_residual, update_residual
    implicit none (type, external)
    private
@@ -34,6 +34,7 @@ module ehl_iteration
       procedure, non_overridable :: iterate
       procedure, non_overridable :: balance
       procedure, non_overridable :: failure_status
+      procedure, non_overridable :: verdict
       procedure, non_overridable, private :: evaluate
    end type iteration_t
 
@@ -90,6 +91,18 @@ contains
       failure_status = merge(outcome_running, outcome_negative_film, self%m%positive)
       if (.not. self%m%finite) failure_status = outcome_diverged
    end function failure_status
+
+   !> How the state stands after a cycle; outcome_running: another one is needed
+   pure integer function verdict(self, converged)
+      class(iteration_t), intent(in) :: self
+      !> Whether it meets its tolerances
+      logical, intent(in) :: converged
+
+      verdict = self%failure_status()
+      if (verdict /= outcome_running) return
+      if (self%cycles >= self%max_cycles) verdict = outcome_cycle_limit
+      if (converged) verdict = outcome_converged
+   end function verdict
 
    !> Reduction q of the error per cycle, by the changes of the last two: q/(1 - q) of the last change is left. The first cycle
    !> also makes up for the grid or the problem that the state comes from, so that its change says little of the next.

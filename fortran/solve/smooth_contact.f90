@@ -227,7 +227,9 @@ contains
    !> Whether the level is solved; the load must be right where the solution may end
    pure logical function converged(self)
       class(smooth_contact_t), intent(in) :: self
-      converged = accurate(self) .and. (abs(self%m%load_error) <= load_tolerance .or. .not. is_end(self)) .and. self%m%holds
+      converged = self%failure_status() == outcome_running
+      if (converged) converged = accurate(self) .and. self%m%holds .and. &
+                                 (abs(self%m%load_error) <= load_tolerance .or. .not. is_end(self))
    end function converged
 
    !> The results of level n so far

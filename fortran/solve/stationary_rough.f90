@@ -3,8 +3,9 @@
 module ehl_stationary_rough
    use ehl_clock, only: clock_t, start_clock
    use ehl_contact_results, only: contact_results_t
-   use ehl_contact_run, only: contact_run_t, observer_t
+   use ehl_contact_run, only: contact_run_t
    use ehl_hierarchy, only: hierarchy_t
+   use ehl_observer, only: observer_t
    use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_running
    use ehl_stationary_share, only: stationary_t
    use ehl_status, only: status_t
@@ -63,12 +64,7 @@ contains
          call rough%estimate_error(before)
          if (rough%may_scale_load()) call rough%balance(hierarchy)
       end if
-      outcome = rough%failure_status()
-      if (outcome /= outcome_running) return
-      if (rough%converged()) then
-         outcome = outcome_converged
-      else if (rough%cycles >= rough%max_cycles .or. rough%lost(hierarchy%levels(rough%n))) then
-         outcome = outcome_cycle_limit
-      end if
+      outcome = rough%verdict(rough%converged())
+      if (outcome == outcome_running .and. rough%lost(hierarchy%levels(rough%n))) outcome = outcome_cycle_limit
    end subroutine one_cycle
 end module ehl_stationary_rough

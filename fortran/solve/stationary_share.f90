@@ -142,6 +142,8 @@ contains
       class(stationary_t), intent(in) :: self
       real(dp) :: wanted
 
+      converged = self%failure_status() == outcome_running
+      if (.not. converged) return
       wanted = merge(share_tolerance, self%tolerance, .not. self%smooth .and. self%share < 1.0_dp)
       converged = self%algebraic <= wanted .and. abs(self%m%load_error) <= load_tolerance &
                   .and. self%residual <= residual_tolerance .and. self%cycles > 1 .and. self%m%holds

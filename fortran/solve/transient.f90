@@ -3,10 +3,11 @@
 module ehl_transient
    use ehl_clock, only: clock_t, start_clock
    use ehl_contact_results, only: contact_results_t
-   use ehl_contact_run, only: contact_run_t, observer_t
+   use ehl_contact_run, only: contact_run_t
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
    use ehl_moving_surfaces, only: moving_surfaces_t
+   use ehl_observer, only: observer_t
    use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_running
    use ehl_status, only: status_t
    use ehl_step_policy, only: step_begins_again, step_ends
@@ -70,8 +71,7 @@ contains
             call transient%begin_cycle(hierarchy%levels(n))
             call transient%iterate(hierarchy)
             if (transient%may_scale_load()) call transient%balance(hierarchy)
-            outcome = transient%failure_status()
-            if (outcome == outcome_running .and. transient%converged()) outcome = outcome_converged
+            outcome = transient%verdict(transient%converged())
             call transient%policy%after_cycle(transient%step + 1, transient%converged(), before, transient%residual, next)
             if (next == step_ends) exit attempts
             if (transient%cycles == 1) then

@@ -4,12 +4,13 @@ module test_transient
    use check, only: is_close, is_equal, is_true
    use ehl_case, only: case_t
    use ehl_case_reader, only: read_case
-   use ehl_contact_run, only: contact_run_t, observer_t, single_step_t
+   use ehl_contact_run, only: contact_run_t
    use ehl_film, only: refresh
    use ehl_flow, only: along
    use ehl_fmg, only: full_multigrid
    use ehl_kinds, only: dp
    use ehl_moving_surfaces, only: moving_surfaces_t
+   use ehl_observer, only: observer_t, single_step_t
    use ehl_outcome, only: outcome_running
    use ehl_plan, only: make_plan
    use ehl_relaxation, only: full_trust, relax
