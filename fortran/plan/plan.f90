@@ -36,7 +36,7 @@ module ehl_plan
    !> A-priori error of H_c of grids that resolve the inlet: a smooth contact that fails there is restarted with damped cycles
    real(dp), parameter :: resolved_error = 0.1_dp
    !> Most time steps until the friction of a rough surface can be known, and where their number is asked for
-   integer, parameter :: most_steps = 100000, most_steps_asked_for = 1000000000
+   integer, parameter :: max_steps = 100000, max_steps_asked_for = 1000000000
 
    !> Extent of the dry contact across the motion over that along it from which on it does so on any grid: cycles go to and
    !> fro between two states there
@@ -185,11 +185,11 @@ contains
 
       if (.not. plan%surfaces%move()) return
       associate (slowest => plan%surfaces%of(plan%surfaces%slowest()))
-         most = merge(most_steps_asked_for, most_steps, plan%steps > 0)
+         most = merge(max_steps_asked_for, max_steps, plan%steps > 0)
          steps = steps_needed(plan%surfaces, plan%finest%hx, plan%skip_start, plan%predicted_start)
          if (steps <= most) then
             ! steps that are skipped are counted, too
-            most = most_steps_asked_for
+            most = max_steps_asked_for
             steps = steps_needed(plan%surfaces, plan%finest%hx, .false., plan%predicted_start)
             if (steps <= most) return
          end if

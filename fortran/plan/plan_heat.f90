@@ -20,7 +20,7 @@ module ehl_plan_heat
    public :: heat_plan_t, may_touch, plan_contact, plan_heat, plan_given
 
    !> Relative change of the stress under the Hertz pressure below which heat is left out
-   real(dp), parameter :: least_change = 1.0e-3_dp
+   real(dp), parameter :: min_change = 1.0e-3_dp
 
    !> Boundary film from which on a smooth contact may touch, over its central film by formula
    real(dp), parameter :: contact_from = 0.5_dp
@@ -82,7 +82,7 @@ contains
                                   sliding%conductivity, sliding%diffusivity) &
                 + most*heat%speed*film*scales%film/(12.0_dp*heat%conductivity)
          warm = stress_at(rise)
-         plan%counts = l%thermal_friction == "always" .or. .not. stress - warm < least_change*stress
+         plan%counts = l%thermal_friction == "always" .or. .not. stress - warm < min_change*stress
          if (plan%counts) then
             plan%note = "with the temperature of film and walls; pressure and film thickness are isothermal"
          else

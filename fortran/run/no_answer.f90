@@ -61,7 +61,7 @@ contains
          return
       end if
       text = "no solution with a positive film for "//place(run)
-      if (run%history%n_rows() > 0) text = text//", least film before "//least_before(run)
+      if (run%history%n_rows() > 0) text = text//", least film before "//film_before(run)
       nodes = nodes_of_waves(run)
       text = text//"; the shortest waves have "
       if (nodes < enough_nodes) then
@@ -78,7 +78,7 @@ contains
       end if
    end function of_negative_film
 
-   !> Where the run stands: the smooth contact, a share of the roughness at rest, or a time step
+   !> Where the run stands: the smooth contact, a share of the stationary roughness, or a time step
    function place(run) result(text)
       type(contact_run_t), intent(in) :: run
       character(len=:), allocatable :: text
@@ -121,8 +121,8 @@ contains
       if (run%phase == phase_steps) cycles = run%transient%cycles
    end function cycles
 
-   !> Least film of the last row of the history
-   function least_before(run) result(text)
+   !> Minimum film of the last row of the history
+   function film_before(run) result(text)
       type(contact_run_t), intent(in) :: run
       character(len=:), allocatable :: text
       real(dp), allocatable :: films(:)
@@ -132,7 +132,7 @@ contains
          text = "H_min = "//fixed(film, "es10.3")
          if (scales%has_size()) text = fixed(film*scales%film*1.0e9_dp, "f10.1")//" nm"
       end associate
-   end function least_before
+   end function film_before
 
    !> Nodes that all waves but a little of the variance have at least; no more than enough
    integer function nodes_of_waves(run) result(nodes)

@@ -5,8 +5,8 @@ module ehl_progress
    use ehl_contact_run, only: contact_run_t, phase_stationary, phase_steps
    use ehl_kinds, only: dp
    use ehl_outcome, only: outcome_names
-   use ehl_plan_need, only: most_periods
-   use ehl_stopping_criterion, only: least_periods
+   use ehl_plan_need, only: max_periods
+   use ehl_stopping_criterion, only: min_periods
    use ehl_text, only: fixed, to_text
    implicit none (type, external)
    private
@@ -76,9 +76,9 @@ contains
       most = least
       if (run%phase == phase_steps) then
          done = run%other%done + run%step_cost*run%transient%step
-         least = run%other%done + run%step_cost*end_after(run, least_periods(run%plan, run%transient%mean))
+         least = run%other%done + run%step_cost*end_after(run, min_periods(run%plan, run%transient%mean))
          most = least
-         if (.not. run%is_coarser) most = run%other%done + end_after(run, real(most_periods(run%plan), dp))
+         if (.not. run%is_coarser) most = run%other%done + end_after(run, real(max_periods(run%plan), dp))
       end if
       earliest = run%other%earliest + least
       latest = run%other%latest + most

@@ -111,7 +111,7 @@ contains
    end function why_no_friction
 
    !> What reynolds/touching.f90 reads off the contact of a run that has converged; in time steps means over the time of the mean
-   !> friction ratio, and the greatest depth
+   !> friction ratio, and the maximum depth
    function touching_of(run) result(numbers)
       type(contact_run_t), intent(in) :: run
       real(dp) :: numbers(size(touching_names))

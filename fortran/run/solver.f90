@@ -13,7 +13,7 @@ module ehl_solver
    use ehl_observer, only: observer_t, single_step_t
    use ehl_outcome, only: outcome_converged, outcome_failed, outcome_interrupted, outcome_running
    use ehl_plan, only: make_plan
-   use ehl_plan_need, only: check_need, most_periods
+   use ehl_plan_need, only: check_need, max_periods
    use ehl_progress, only: end_after, progress_line, work_of
    use ehl_ratio_error, only: waves_t
    use ehl_record, only: record_t
@@ -21,7 +21,7 @@ module ehl_solver
    use ehl_smooth_film, only: film_by_finer_grids, known_film
    use ehl_stationary_rough, only: solve_stationary
    use ehl_status, only: status_t
-   use ehl_stopping_criterion, only: least_periods
+   use ehl_stopping_criterion, only: min_periods
    use ehl_transient, only: solve_transient
    implicit none (type, external)
    private
@@ -102,8 +102,9 @@ contains
       call make_plan(input, to_make, self%run%plan, status, heights, second_heights)
       call check_need(self%run%plan, status)
       call self%run%begin(status)
-      self%run%state_text = step_text(input)
+      if (status%failed()) return
       self%run%state_prefix = ""
+      if (self%run%plan%surfaces%move()) self%run%state_text = step_text(input)
    end subroutine start
 
    !> The smooth contact; with what is stationary of the roughness; all that on the next coarser grid; time steps. The observer may
@@ -204,13 +205,13 @@ contains
          coarse%plan%heat%counts = .false.
          call coarse%begin(status)
          coarse%checkpoint = self%coarse_checkpoint
-         coarse%state_text = run%state_text
+         if (allocated(run%state_text)) coarse%state_text = run%state_text
          coarse%state_prefix = coarser
          coarse%is_coarser = .true.
          coarse%step_cost = coarse_step
          if (run%phase == phase_steps) then
-            coarse%other%earliest = end_after(run, least_periods(run%plan, run%transient%mean))
-            coarse%other%latest = end_after(run, real(most_periods(run%plan), dp))
+            coarse%other%earliest = end_after(run, min_periods(run%plan, run%transient%mean))
+            coarse%other%latest = end_after(run, real(max_periods(run%plan), dp))
          end if
          coarse%predicted = run%predicted%coarser()
          if (allocated(run%fallback_reason)) coarse%fallback_reason = run%fallback_reason
@@ -310,8 +311,8 @@ contains
       end if
    end subroutine work
 
-   !> The grid that fields refer to: the finest one of the plan; with a wanted error, which ends on a grid that nobody
-   !> knows before, the finest one so far
+   !> The grid that fields refer to: the finest one of the plan; with a wanted error, which ends on a grid that is not
+   !> known before, the finest one so far
    pure function finest(self) result(grid)
       class(solver_t), intent(in) :: self
       type(grid_t) :: grid
@@ -339,9 +340,9 @@ contains
       character(len=:), allocatable, intent(out) :: note
       type(status_t), intent(inout) :: status
 
-      call self%run%checkpoint%find(folder, self%run%state_text, note, status)
+      call self%run%checkpoint%find(folder, step_text(self%input), note, status)
       if (status%failed() .or. self%run%checkpoint%found()) return
-      call self%coarse_checkpoint%find(folder//coarser, self%run%state_text, note, status)
+      call self%coarse_checkpoint%find(folder//coarser, step_text(self%input), note, status)
    end subroutine resume
 
    !> The case as text, with the defaults of all keys that change no step: when to stop, threads, what to

@@ -21,7 +21,7 @@ submodule (ehl_solver) ehl_solver_results
    real(dp), parameter :: rounding = 1.0e-14_dp
    !> Largest change of mu_ratio from grid to grid, over mu_ratio, that tells of a limit; and largest rise with a single
    !> wave or feature, which is the same on both grids: what rises more are peaks of pressure that no grid yet resolves
-   real(dp), parameter :: most_change = 0.5_dp, most_rise = 0.05_dp
+   real(dp), parameter :: max_change = 0.5_dp, max_rise = 0.05_dp
 
    !> Of the names, units and meanings of results, with `VERSION` of pyehl/schema.py: another one where one of them changes
    integer, parameter :: schema_version = 1
@@ -141,8 +141,8 @@ contains
       real(dp) :: change
 
       change = (ratio - self%run%coarser%ratio)/ratio
-      has_limit = abs(change) <= most_change .and. .not. spike_grows(self%run%smooth%results, self%run%smooth%n)
-      if (self%run%plan%surfaces%same_on_grids()) has_limit = has_limit .and. change <= most_rise
+      has_limit = abs(change) <= max_change .and. .not. spike_grows(self%run%smooth%results, self%run%smooth%n)
+      if (self%run%plan%surfaces%same_on_grids()) has_limit = has_limit .and. change <= max_rise
    end function has_limit
 
    !> Error of the friction ratio by its grid: two grids do not show that they have reached order 2, so that of order 1

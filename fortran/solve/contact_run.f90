@@ -2,7 +2,7 @@
 !> A planned contact on its way: smooth, then with the rough surface, stationary or in time steps. What there is of it after every
 !> cycle and step, and how one phase follows another; the phases themselves are ehl_fmg, ehl_stationary_rough, ehl_transient.
 module ehl_contact_run
-   use ehl_checkpoint, only: checkpoint_t, words_t
+   use ehl_checkpoint, only: checkpoint_t, coarser_t
    use ehl_frames, only: frames_t
    use ehl_grid, only: grid_t
    use ehl_heated_friction, only: heated_t
@@ -27,14 +27,6 @@ module ehl_contact_run
 
    !> What is being solved: the smooth contact, that with a stationary rough surface, time steps
    integer, parameter :: phase_smooth = 1, phase_stationary = 2, phase_steps = 3
-
-   !> What is known of the same contact on the next coarser grid: how it ended (outcome_running: it has not), the error that ended
-   !> it, and if it converged its friction ratio and load share
-   type :: coarser_t
-      integer :: outcome = outcome_running
-      character(len=:), allocatable :: message
-      real(dp) :: ratio = 0.0_dp, load_share = 0.0_dp
-   end type coarser_t
 
    !> Time steps of the finest grid: done, and until the earliest and the latest end; seconds spent on them
    type :: work_t
@@ -312,13 +304,9 @@ contains
       !> With its '/'
       character(len=*), intent(in) :: folder
       type(status_t), intent(inout) :: status
-      type(words_t) :: words(2)
 
       if (self%phase /= phase_steps .or. self%transient%step == 0) return
-      if (allocated(self%coarser%message)) words(1)%text = self%coarser%message
-      if (allocated(self%fallback_reason)) words(2)%text = self%fallback_reason
       call self%checkpoint%write(folder//self%state_prefix, self%state_text, self%transient, self%history, self%frames, &
-                                 [self%seconds, self%coarser%ratio, real(self%coarser%outcome, dp), self%coarser%load_share], &
-                                 words, status)
+                                 self%seconds, self%coarser, self%fallback_reason, status)
    end subroutine save
 end module ehl_contact_run

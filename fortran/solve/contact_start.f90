@@ -28,7 +28,7 @@ contains
       if (self%checkpoint%found()) call take_state(self, status)
    end procedure begin_steps
 
-   !> The predicted start, unless somebody has said why there is none
+   !> The predicted start, unless there is a reason against it
    subroutine begin_filled(self, n, status)
       class(contact_run_t), intent(inout) :: self
       integer, intent(in) :: n
@@ -65,18 +65,11 @@ contains
    subroutine take_state(self, status)
       class(contact_run_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
-      real(dp) :: numbers(4)
-      type(words_t) :: words(2)
       logical :: same
 
-      call self%checkpoint%read(self%transient, self%history, self%frames, self%grid, numbers, words, status)
+      call self%checkpoint%read(self%transient, self%history, self%frames, self%grid, self%seconds, self%coarser, &
+                                self%fallback_reason, status)
       if (status%failed()) return
-      self%seconds = numbers(1)
-      self%coarser%ratio = numbers(2)
-      self%coarser%outcome = nint(numbers(3))
-      self%coarser%load_share = numbers(4)
-      if (allocated(words(1)%text)) self%coarser%message = words(1)%text
-      if (allocated(words(2)%text)) self%fallback_reason = words(2)%text
       call self%transient%restore(self%hierarchy%levels(self%smooth%n), self%plan%surfaces, same)
       if (.not. same) then
          call status%fail(ehl_bad_input, self%checkpoint%path//": error: the film of this state does not follow from "// &

@@ -66,7 +66,7 @@ module ehl_transient_state
 
 contains
 
-   !> Begin from the solution of level n, smooth or with what is at rest, the roughness on the move riding on its film.
+   !> Begin from the solution of level n, smooth or with what is stationary, the roughness on the move riding on its film.
    !> Where the film is thick it changes nothing: solving begins when the front, with half its length, reaches x_matters.
    subroutine start(self, level, n, contact, surfaces, skip, friction_smooth, status)
       class(transient_t), intent(inout) :: self

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Where time steps begin with the contact full of roughness: what somebody expects the roughness to add to the pressure.
+!> Where time steps begin with the contact full of roughness: what the roughness is predicted to add to the pressure.
 !> Whether that is right is decided by the steps: a film that is wrong leaves the contact with the mean velocity.
 module ehl_predicted_start
    use ehl_friction_mean, only: periods_compared
