@@ -9,33 +9,23 @@ module ehl_smooth_contact
    use ehl_hierarchy, only: hierarchy_t
    use ehl_iteration, only: iteration_t, reduction
    use ehl_kinds, only: dp
-   use ehl_level_result, only: film_errors, level_result_t
+   use ehl_level_result, only: level_result_t
+   use ehl_level_tolerance, only: accurate, has_coarser, has_target, is_end, residual_tolerance, wanted
    use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_diverged, outcome_negative_film, outcome_running, &
                           outcome_target_missed
    use ehl_level, only: level_t
    use ehl_status, only: ehl_no_memory, status_t
-   use ehl_steady_options, only: end_rule_t, max_error, rule_of_circles, rule_of_others, steady_options_t
-   use ehl_touching, only: mostly_touching, much_supplied
+   use ehl_steady_options, only: end_rule_t, rule_of_circles, rule_of_others, steady_options_t
    implicit none (type, external)
    private
-   public :: smooth_contact_t, residual_tolerance
+   public :: smooth_contact_t
 
-   !> Relative discretisation errors below this are not believed, as two levels may agree by chance
-   real(dp), parameter :: min_error = 2.0e-5_dp
-   !> Algebraic error of the load share of a boundary film, which ends a level where the films have ended moving
-   real(dp), parameter :: share_tolerance = 1.0e-3_dp
    !> Largest reduction per cycle that is believed of it: where the film is close to the boundary film the edge of a touching
    !> zone moves by a node in several cycles
    real(dp), parameter :: max_share_reduction = 0.99_dp
-   !> Largest residual (rms, as far as it concerns the film; the wedge term is of order 1 in the inlet) of a converged
-   !> solution
-   real(dp), parameter :: residual_tolerance = 2.0e-3_dp
    !> What an error of the load changes the film, per relative error: the deflection by the Hertz pressure differs from its
    !> mean under it by 1/5 at the centre and by 3/10 at the edge [a^2/R]
    real(dp), parameter :: film_per_load = 0.3_dp
-   !> Relative algebraic error wanted on the first grid, where no discretisation error is known yet; and where two finer grids
-   !> follow: the first one then gives a guess, and enters no result
-   real(dp), parameter :: start_tolerance = 1.0e-3_dp, guess_tolerance = 3.0e-2_dp
    !> Relative algebraic error that a light cycle can be trusted with: where less is wanted it costs a cycle
    real(dp), parameter :: light_error = 3.0e-4_dp
    !> A residual that no state on the way to a solution has, unless the one before it was nearly as large
@@ -151,7 +141,7 @@ contains
          end do
          level%rhs = 0.0_dp
          level%load = self%contact%load
-         if (has_coarser(self)) then
+         if (has_coarser(self%results, self%n)) then
             call prolong_solution(hierarchy%levels(self%n - 1), level)
             self%m = self%results(self%n - 1)%m
          else
@@ -197,7 +187,7 @@ contains
       self%stall = self%residual/max(self%residual_before, tiny(1.0_dp))
       call estimate_share_error(self, abs(self%m%touching%load_share - before%touching%load_share))
       self%residual_before = self%residual
-      if (.not. (self%rule%bounded .and. is_end(self))) return
+      if (.not. (self%rule%bounded .and. is_end(self%options, self%n))) return
       self%results(self%n)%algebraic = self%results(self%n)%algebraic + film_per_load*abs(self%m%load_error)
    end subroutine estimate_errors
 
@@ -207,8 +197,10 @@ contains
       real(dp) :: error
 
       error = abs(self%m%load_error)
-      may_scale_load = is_end(self) .and. error <= self%rule%small_load_error .and. accurate(self)
-      if (may_scale_load) may_scale_load = film_per_load*error <= self%rule%share_of_load*minval(wanted(self))
+      may_scale_load = is_end(self%options, self%n) .and. error <= self%rule%small_load_error
+      if (may_scale_load) may_scale_load = accurate(self%options, self%results, self%n, self%m, self%residual)
+      if (may_scale_load) may_scale_load = film_per_load*error <= &
+                                           self%rule%share_of_load*minval(wanted(self%options, self%results, self%n, self%m))
    end function may_scale_load
 
    !> Algebraic error of the load share by its change in a cycle, as that of the films
@@ -228,8 +220,8 @@ contains
    pure logical function converged(self)
       class(smooth_contact_t), intent(in) :: self
       converged = self%failure_status() == outcome_running
-      if (converged) converged = accurate(self) .and. self%m%holds .and. &
-                                 (abs(self%m%load_error) <= load_tolerance .or. .not. is_end(self))
+      if (converged) converged = accurate(self%options, self%results, self%n, self%m, self%residual) .and. self%m%holds .and. &
+                                 (abs(self%m%load_error) <= load_tolerance .or. .not. is_end(self%options, self%n))
    end function converged
 
    !> The results of level n so far
@@ -243,26 +235,6 @@ contains
       end associate
    end subroutine record
 
-   !> Whether the error of H_c is the one that was asked for
-   pure logical function has_target(self)
-      class(smooth_contact_t), intent(in) :: self
-      real(dp) :: errors(2)
-
-      has_target = .false.
-      if (.not. (self%options%target_error > 0.0_dp .and. has_coarser(self))) return
-      errors = grid_errors(self) + self%results(self%n)%algebraic
-      has_target = errors(1) <= self%options%target_error*self%m%film_central .and. &
-                   self%options%inlet%resolves(self%m, self%results(self%n)%mesh)
-   end function has_target
-
-   !> Discretisation errors of H_c and H_min of the present state, by the next coarser level
-   pure function grid_errors(self) result(errors)
-      class(smooth_contact_t), intent(in) :: self
-      real(dp) :: errors(2)
-
-      errors = film_errors(self%m, self%results(self%n - 1)%m, self%results(self%n)%mesh, self%options%inlet)
-   end function grid_errors
-
    !> The cycle to make: on a level that began from a coarser one a light one is the second, if what it leaves is good
    !> enough; with one sweep less at first where the coarser level was solved in few cycles
    pure function cycle_to_make(self) result(options)
@@ -275,63 +247,13 @@ contains
       if (self%guard%damping > 0) options = damped_cycle(self%options%cycle, self%guard%damping)
       if (self%damped .or. self%guard%damping > 0) return
       if (self%options%second_cycle%full .eqv. self%options%cycle%full) return
-      if (.not. has_coarser(self) .or. self%cycles /= 1) return
-      if (any(wanted(self) < light_error*self%m%films())) return
+      if (.not. has_coarser(self%results, self%n) .or. self%cycles /= 1) return
+      if (any(wanted(self%options, self%results, self%n, self%m) < light_error*self%m%films())) return
       options = self%options%second_cycle
       first = self%n == 2
       if (.not. first) first = .not. self%results(self%n - 2)%solved
       if (self%results(self%n - 1)%cycles <= merge(cycles_from_guess, min_cycles, first)) options%pre = options%pre - 1
    end function cycle_to_make
-
-   !> Whether the solution may end on the present level
-   pure logical function is_end(self)
-      class(smooth_contact_t), intent(in) :: self
-      is_end = self%n == self%options%levels .or. self%options%target_error > 0.0_dp
-   end function is_end
-
-   !> Whether the algebraic errors are what the grid deserves, and on a level where the solution may end the residual, too
-   pure logical function accurate(self)
-      class(smooth_contact_t), intent(in) :: self
-      accurate = all(self%results(self%n)%algebraic <= wanted(self)) .and. &
-                 (self%residual <= residual_tolerance .or. .not. is_end(self)) .and. &
-                 (self%results(self%n)%share_algebraic <= share_wanted(self) .or. .not. counts_share(self))
-   end function accurate
-
-   !> Whether the load share of a boundary film is a result, and the contact with it well posed
-   pure logical function counts_share(self)
-      class(smooth_contact_t), intent(in) :: self
-      counts_share = rests_on_layer(self) .or. (self%options%inlet%film > 0.0_dp .and. self%m%touching%load_share > 0.0_dp .and. &
-                                                self%m%touching%supply <= much_supplied)
-   end function counts_share
-
-   !> Algebraic error of that share which the present level deserves
-   pure real(dp) function share_wanted(self)
-      class(smooth_contact_t), intent(in) :: self
-      share_wanted = max(share_tolerance, self%options%accuracy*self%options%inlet%share_error(self%m, self%results(self%n)%mesh))
-   end function share_wanted
-
-   !> Whether a boundary film carries most of the load; where it would have to give much contact is not well posed
-   pure logical function rests_on_layer(self)
-      class(smooth_contact_t), intent(in) :: self
-      rests_on_layer = self%m%touching%load_share > mostly_touching .and. self%m%touching%supply <= much_supplied
-   end function rests_on_layer
-
-   !> Algebraic errors of H_c and H_min that the present level deserves
-   pure function wanted(self)
-      class(smooth_contact_t), intent(in) :: self
-      real(dp) :: wanted(2), values(2), least
-
-      least = merge(start_tolerance, min_error, rests_on_layer(self))
-      values = self%m%films()
-      if (has_coarser(self)) then
-         wanted = self%options%accuracy*max(grid_errors(self), least*values)
-      else
-         wanted = start_tolerance*values
-         if (self%n == self%options%levels) wanted = self%options%accuracy*wanted
-         if (self%n < self%options%levels - 1 .and. .not. is_end(self)) wanted = guess_tolerance*values
-      end if
-      if (is_end(self)) wanted = min(wanted, max_error*values)
-   end function wanted
 
    !> After the last cycle of a level: on to the next one, back to the first one, or to the end. A coarse level that runs out
    !> of cycles is a beginning for the next one still.
@@ -351,7 +273,7 @@ contains
          end if
       end associate
       met = .false.
-      if (outcome == outcome_converged) met = has_target(self)
+      if (outcome == outcome_converged) met = has_target(self%options, self%results, self%n, self%m)
       if (met .or. finest) then
          outcome = merge(outcome_target_missed, outcome_converged, self%options%target_error > 0.0_dp .and. .not. met)
          self%solved = outcome == outcome_converged
@@ -386,10 +308,4 @@ contains
       self%n = merge(self%options%start, self%n + 1, finest)
    end subroutine restart
 
-   !> Whether the level begins from a coarser one
-   pure logical function has_coarser(self)
-      class(smooth_contact_t), intent(in) :: self
-      has_coarser = .false.
-      if (self%n > 1) has_coarser = self%results(self%n - 1)%solved
-   end function has_coarser
 end module ehl_smooth_contact

@@ -13,7 +13,7 @@ module ehl_stationary_share
    use ehl_moving_surfaces, only: moving_surfaces_t
    use ehl_outcome, only: outcome_negative_film, outcome_running
    use ehl_status, only: ehl_no_memory, status_t
-   use ehl_smooth_contact, only: residual_tolerance
+   use ehl_level_tolerance, only: residual_tolerance
    use ehl_steady_options, only: steady_options_t
    use ehl_time_levels, only: set_geometry
    implicit none (type, external)
