@@ -115,16 +115,20 @@ contains
       type(status_t), intent(inout) :: status
       logical :: leave
 
-      leave = .false.
-      do while (.not. (leave .or. self%done()))
+      do while (.not. self%done())
          if (allocated(self%coarse)) then
             call solve_coarse(self, observer, leave)
          else
             call solve_phase(self%run, observer, leave, status)
             if (.not. (leave .or. status%failed())) call next_phase(self, status)
          end if
-         if (status%failed()) return
-         if (.not. (leave .or. self%done())) call observer%watch(self%run, leave)
+         if (leave .or. status%failed() .or. self%done()) return
+         if (allocated(self%coarse)) then
+            call observer%watch(self%coarse, leave)
+         else
+            call observer%watch(self%run, leave)
+         end if
+         if (leave) return
       end do
    end subroutine solve
 
