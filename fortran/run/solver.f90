@@ -11,27 +11,22 @@ module ehl_solver
    use ehl_kinds, only: dp
    use ehl_moving_surfaces, only: moving_surfaces_t
    use ehl_observer, only: observer_t, single_step_t
-   use ehl_outcome, only: outcome_converged, outcome_failed, outcome_interrupted, outcome_running
+   use ehl_outcome, only: outcome_converged, outcome_interrupted, outcome_running
    use ehl_plan, only: make_plan
-   use ehl_plan_need, only: check_need, max_periods
-   use ehl_progress, only: end_after, progress_line, work_of
+   use ehl_plan_need, only: check_need
+   use ehl_progress, only: progress_line, work_of
    use ehl_ratio_error, only: waves_t
    use ehl_record, only: record_t
-   use ehl_report_touching, only: load_share_of
    use ehl_smooth_film, only: film_by_finer_grids, known_film
    use ehl_stationary_rough, only: solve_stationary
    use ehl_status, only: status_t
-   use ehl_stopping_criterion, only: min_periods
    use ehl_transient, only: solve_transient
    implicit none (type, external)
    private
-   public :: solver_t, field_length
+   public :: solver_t, field_length, solve_phase
 
    !> Longest name of a field
    integer, parameter :: field_length = 32
-
-   !> Cost of a step on the next coarser grid, in steps: it has a quarter of the nodes
-   real(dp), parameter :: coarse_step = 0.25_dp
 
    !> The contact of the case, and for the grid error of its friction ratio the same one on the next coarser grid
    type :: solver_t
@@ -59,6 +54,21 @@ module ehl_solver
       procedure :: field
       procedure :: field_names
    end type solver_t
+
+   ! in coarser_run.f90
+   interface
+      !> Start the run on the next coarser grid, with the same roughness
+      module subroutine begin_coarse(self)
+         class(solver_t), intent(inout) :: self
+      end subroutine begin_coarse
+
+      !> The run on the next coarser grid to its end. That it fails is no failure of this one.
+      module subroutine solve_coarse(self, observer, leave)
+         class(solver_t), intent(inout) :: self
+         class(observer_t), intent(inout) :: observer
+         logical, intent(out) :: leave
+      end subroutine solve_coarse
+   end interface
 
    ! in solver_results.f90 and solver_fields.f90
    interface
@@ -185,84 +195,6 @@ contains
       if (.not. film > 0.0_dp) film = film_by_finer_grids(self%input, self%run%plan%surfaces, status)
       call self%run%plan%surfaces%take_film(film)
    end subroutine set_amplitude
-
-   !> Start the run on the next coarser grid, with the same roughness
-   subroutine begin_coarse(self)
-      class(solver_t), intent(inout) :: self
-      type(status_t) :: status
-      type(case_t) :: input
-      type(moving_surfaces_t) :: surfaces
-
-      input = self%input
-      input%output%frame_interval = 0.0_dp
-      input%grid%points = (self%run%grid%nx + 1)/2
-      input%grid%points_y = (self%run%grid%full_ny() + 1)/2
-      input%grid%target_error = 0.0_dp
-      input%time%estimate_error = .false.
-      allocate (self%coarse)
-      associate (run => self%run, coarse => self%coarse)
-         ! the same roughness, not the same share of another film
-         call run%plan%surfaces%hand_over(surfaces)
-         call make_plan(input, surfaces, coarse%plan, status)
-         ! a plan that failed may not have taken them
-         call run%plan%surfaces%take_back(surfaces)
-         coarse%plan%heat%counts = .false.
-         call coarse%begin(status)
-         coarse%checkpoint = self%coarse_checkpoint
-         if (allocated(run%state_text)) coarse%state_text = run%state_text
-         coarse%state_prefix = coarser
-         coarse%is_coarser = .true.
-         coarse%step_cost = coarse_step
-         if (run%phase == phase_steps) then
-            coarse%other%earliest = end_after(run, min_periods(run%plan, run%transient%mean))
-            coarse%other%latest = end_after(run, real(max_periods(run%plan), dp))
-         end if
-         coarse%predicted = run%predicted%coarser()
-         if (allocated(run%fallback_reason)) coarse%fallback_reason = run%fallback_reason
-      end associate
-      if (status%failed()) call end_coarse(self, status)
-   end subroutine begin_coarse
-
-   !> The run on the next coarser grid to its end. That it fails is no failure of this one.
-   subroutine solve_coarse(self, observer, leave)
-      class(solver_t), intent(inout) :: self
-      class(observer_t), intent(inout) :: observer
-      logical, intent(out) :: leave
-      type(status_t) :: status
-
-      do
-         call solve_phase(self%coarse, observer, leave, status)
-         if (leave) return
-         if (self%coarse%outcome == outcome_running .and. .not. status%failed()) call self%coarse%next_phase(status)
-         if (self%coarse%outcome /= outcome_running .or. status%failed()) exit
-         call observer%watch(self%coarse, leave)
-         if (leave) return
-      end do
-      call end_coarse(self, status)
-   end subroutine solve_coarse
-
-   !> Keep how the coarser run ended, and its friction ratio if it converged; without that the grid error is not known
-   subroutine end_coarse(self, status)
-      class(solver_t), intent(inout) :: self
-      type(status_t), intent(in) :: status
-
-      associate (coarse => self%coarse, result => self%run%coarser)
-         result%outcome = coarse%outcome
-         if (status%failed()) then
-            result%outcome = outcome_failed
-            result%message = status%message
-         end if
-         if (result%outcome == outcome_converged) then
-            result%ratio = coarse%mu_ratio()
-            if (self%run%plan%lubricant%boundary_film > 0.0_dp) result%load_share = load_share_of(coarse)
-         end if
-         self%run%other%done = coarse_step*coarse%transient%step
-         self%run%other%seconds = coarse%seconds
-         ! why a film ends is read off the waves
-         call self%run%plan%surfaces%take_back(coarse%plan%surfaces)
-      end associate
-      deallocate (self%coarse)
-   end subroutine end_coarse
 
    !> How the run stands; a stationary surface has not ended before its error is known
    pure integer function outcome(self)
