@@ -20,8 +20,9 @@ module ehl_record
       type(item_t), allocatable :: items(:)
    contains
       !> call record%set(name, value): real(dp), integer, logical or character, or a list of
-      !> real(dp) or character; a name that is there already gets the new value
-      generic :: set => set_real, set_integer, set_logical, set_text, set_texts
+      !> character, or several real(dp) under names with blanks between them; a name that is there already gets the new value
+      generic :: set => set_real, set_reals, set_integer, set_logical, set_text, set_texts
+      procedure, private :: set_reals
       procedure, private :: set_texts
       procedure, private :: set_real
       procedure, private :: set_integer
@@ -51,6 +52,22 @@ contains
          call self%put(name, "null")
       end if
    end subroutine set_real
+
+   !> Set several real values, one for each of the names
+   subroutine set_reals(self, names, values)
+      class(record_t), intent(inout) :: self
+      !> With one blank between two of them
+      character(len=*), intent(in) :: names
+      real(dp), intent(in) :: values(:)
+      integer :: first, next, k
+
+      first = 1
+      do k = 1, size(values)
+         next = first + index(names(first:)//" ", " ")
+         call self%set(names(first:next - 2), values(k))
+         first = next
+      end do
+   end subroutine set_reals
 
    !> Set a list of texts; trailing blanks are dropped
    subroutine set_texts(self, name, values)

@@ -42,7 +42,7 @@ contains
       fronts = 0.0_c_double
       call run_of(handle, run, status)
       if (.not. status%failed()) then
-         associate (plan => run%solver%plan)
+         associate (plan => run%solver%run%plan)
             if (plan%predicted_start) then
                n = plan%surfaces%count()
                fronts(:, :n) = fronts_at_start(plan%surfaces, plan%finest)
@@ -64,16 +64,16 @@ contains
 
       call run_of(handle, run, status)
       if (why == "" .and. .not. status%failed()) then
-         associate (grid => run%solver%plan%finest)
+         associate (grid => run%solver%run%plan%finest)
             if (nx /= grid%nx .or. ny /= grid%full_ny()) call status%fail(ehl_bad_input, "a pressure for another grid")
          end associate
       end if
       if (.not. status%failed()) then
          associate (solver => run%solver)
             if (why /= "") then
-               solver%why_front = why
+               solver%run%fallback_reason = why
             else
-               call solver%predicted%take(solver%plan%surfaces, solver%plan%finest, pressure)
+               call solver%run%predicted%take(solver%run%plan%surfaces, solver%run%plan%finest, pressure)
             end if
          end associate
       end if

@@ -107,7 +107,7 @@ contains
          case ("resume")
             call run%solver%resume(checkpoint_path(path), text, status)
          case ("tick")
-            call run%checkpoints%tick(run%solver, status)
+            if (run%checkpoints%is_due()) call run%checkpoints%save(run%solver, status)
          case ("save")
             call run%checkpoints%save(run%solver, status)
             if (run%checkpoints%has_state()) has_state = 1
@@ -167,7 +167,7 @@ contains
       if (.not. status%failed()) then
          select case (what)
          case ("plan")
-            text = plan_text(run%solver%plan)
+            text = plan_text(run%solver%run%plan)
          case ("progress")
             text = run%solver%progress()
          case ("conclusion")

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The plan of a run: what this scene needs, decided once. The only reader of option words.
+!> The plan of a run: what a case needs, decided once.
 module ehl_plan
    use ehl_case, only: case_t
    use ehl_case_point, only: find_contact, operating_point
@@ -14,16 +14,16 @@ module ehl_plan
    use ehl_lubricant, only: lubricant_t
    use ehl_moes, only: operating_t
    use ehl_moving_surfaces, only: moving_surfaces_t
-   use ehl_plan_friction, only: plan_sliding, sliding_t
-   use ehl_plan_heat, only: heat_plan_t, may_touch, plan_heat
-   use ehl_plan_lubricant, only: alpha_note, law_note, plan_lubricant
+   use ehl_plan_friction, only: sliding_t
+   use ehl_plan_heat, only: heat_plan_t, may_touch, plan_contact, plan_heat
+   use ehl_plan_lubricant, only: alpha_note, law_note
    use ehl_plan_surface, only: check_carried, make_surfaces
    use ehl_resolution, only: has_solution
    use ehl_scales, only: scales_t
    use ehl_status, only: ehl_bad_input, status_t
    use ehl_steady_options, only: steady_options_t
    use ehl_surface, only: aliased_below, resolved_from
-   use ehl_transient, only: steps_needed
+   use ehl_predicted_start, only: steps_needed
    use ehl_text, only: fixed, to_text
    use ehl_wedge, only: wedge_narrow, wedge_separate
    implicit none (type, external)
@@ -34,10 +34,10 @@ module ehl_plan
    integer, parameter :: start_fewest = 33
    !> Lengths of thick films, (2 H_c)^(1/2) [a], and largest mesh of the coarsest grid in terms of them
    real(dp), parameter :: thick_film = 0.8_dp, coarsest_mesh = 0.9_dp
-   !> A-priori error of H_c of grids that resolve the inlet: a smooth contact that fails there begins again with care
+   !> A-priori error of H_c of grids that resolve the inlet: a smooth contact that fails there is restarted with damped cycles
    real(dp), parameter :: resolved_error = 0.1_dp
    !> Most time steps until the friction of a rough surface can be known, and where their number is asked for
-   integer, parameter :: most_steps = 100000, most_steps_asked_for = 1000000000
+   integer, parameter :: max_steps = 100000, max_steps_asked_for = 1000000000
 
    !> Extent of the dry contact across the motion over that along it from which on it does so on any grid: cycles go to and
    !> fro between two states there
@@ -80,7 +80,7 @@ module ehl_plan
       !> Begin it with the contact full of roughness, from a prediction
       logical :: predicted_start = .false.
       !> Why it does not, where that was asked for
-      character(len=:), allocatable :: why_front
+      character(len=:), allocatable :: fallback_reason
       !> Repeat the run on the next coarser grid, for the grid error of the friction ratio
       logical :: coarse_run = .false.
       !> Relative change of the mean friction ratio at which to stop, most periods, exact steps
@@ -89,7 +89,7 @@ module ehl_plan
       !> Time between the frames that are kept; 0: none
       real(dp) :: frame_interval = 0.0_dp
    contains
-      procedure :: see_waves
+      procedure :: update_resolved_fraction
    end type plan_t
 
    !> Share of the variance that the coarser of two grids may leave unresolved where friction is extrapolated
@@ -106,22 +106,17 @@ contains
       type(status_t), intent(inout) :: status
       !> Heights of the maps of both surfaces [m], X first, in place of files; of size 0: none
       real(dp), intent(in), optional :: heights(:, :), second_heights(:, :)
-      real(dp) :: rho(1), slope(1), film
+      real(dp) :: rho, film
 
-      call find_contact(input, plan%contact, plan%scales, plan%point)
-      plan%sliding = plan_sliding(input, plan%contact, plan%scales)
-      if (input%contact%si) plan%point = operating_point(input, plan%contact, plan%scales, plan%sliding%inlet_viscosity)
-      plan%flooded = input%grid%border == "flooded"
-      call plan_lubricant(input, plan%point, plan%scales, plan%lubricant, status)
+      call plan_contact(input, plan%contact, plan%scales, plan%point, plan%sliding, plan%lubricant, rho, film, status)
       if (status%failed()) return
+      plan%flooded = input%grid%border == "flooded"
       call law_note(input, plan%scales, plan%lubricant_note)
       call alpha_note(input, plan%alpha_note)
-      call plan%lubricant%density([1.0_dp], rho, slope)
-      film = plan%contact%film_formula(plan%point%moes_m, plan%point%moes_l)/rho(1)
       plan%heat = plan_heat(input, plan%contact, plan%scales, plan%sliding, plan%lubricant, film)
       film = plan%lubricant%shear%thinned_film(film, plan%point%speed_parameter)
       plan%touches = may_touch(plan%lubricant, film)
-      if (plan%lubricant%boundary_film > 0.0_dp) plan%inlet = inlet_t(film, plan%lubricant%boundary_film/rho(1), &
+      if (plan%lubricant%boundary_film > 0.0_dp) plan%inlet = inlet_t(film, plan%lubricant%boundary_film/rho, &
                                                                          plan%lubricant%boundary_stress)
       plan%film_expected = max(film, plan%lubricant%boundary_film)
       plan%engine = trim(input%solver%deflection)
@@ -149,7 +144,7 @@ contains
       call plan%surfaces%use_threads(plan%threads)
       call plan%surfaces%find_period(merge(plan%max_periods, automatic_periods, plan%max_periods > 0))
       plan%coarse_run = input%time%estimate_error .and. plan%levels > 2 .and. (plan%surfaces%rest() .or. plan%steps == 0)
-      call plan%see_waves(plan%finest)
+      call plan%update_resolved_fraction(plan%finest)
       call check_carried(plan%surfaces, plan%finest, status)
       if (.not. status%failed()) call check_steps(plan, status)
    end subroutine make_plan
@@ -159,17 +154,17 @@ contains
       type(plan_t), intent(inout) :: plan
 
       if (plan%surfaces%pass_once()) then
-         plan%why_front = "a single feature passes once"
+         plan%fallback_reason = "a single feature passes once"
       else if (plan%surfaces%some_rest()) then
-         plan%why_front = "one of the surfaces is at rest"
+         plan%fallback_reason = "one of the surfaces is at rest"
       else if (plan%target_error > 0.0_dp) then
-         plan%why_front = "the grid of grid.target_error is not known before"
+         plan%fallback_reason = "the grid of grid.target_error is not known before"
       end if
-      plan%predicted_start = .not. allocated(plan%why_front)
+      plan%predicted_start = .not. allocated(plan%fallback_reason)
    end subroutine pick_start
 
    !> What of the surfaces a grid carries
-   subroutine see_waves(self, grid)
+   subroutine update_resolved_fraction(self, grid)
       class(plan_t), intent(inout) :: self
       type(grid_t), intent(in) :: grid
 
@@ -179,7 +174,7 @@ contains
       self%coarse_run = self%surfaces%most_unresolved(grid%coarser(), aliased_below) < 1.0_dp
       self%extrapolates = self%coarse_run .and. .not. self%surfaces%pass_once() .and. &
                           self%surfaces%most_unresolved(grid%coarser(), resolved_from) <= unresolved_most
-   end subroutine see_waves
+   end subroutine update_resolved_fraction
 
    !> Refuse a surface so slow that the friction cannot be known within a sensible number of steps
    subroutine check_steps(plan, status)
@@ -191,11 +186,11 @@ contains
 
       if (.not. plan%surfaces%move()) return
       associate (slowest => plan%surfaces%of(plan%surfaces%slowest()))
-         most = merge(most_steps_asked_for, most_steps, plan%steps > 0)
+         most = merge(max_steps_asked_for, max_steps, plan%steps > 0)
          steps = steps_needed(plan%surfaces, plan%finest%hx, plan%skip_start, plan%predicted_start)
          if (steps <= most) then
             ! steps that are skipped are counted, too
-            most = most_steps_asked_for
+            most = max_steps_asked_for
             steps = steps_needed(plan%surfaces, plan%finest%hx, .false., plan%predicted_start)
             if (steps <= most) return
          end if

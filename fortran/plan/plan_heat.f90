@@ -17,10 +17,10 @@ module ehl_plan_heat
    use ehl_wall_heat, only: heat_source, speed_of_rest, wall_strength
    implicit none (type, external)
    private
-   public :: heat_plan_t, may_touch, plan_heat, plan_given
+   public :: heat_plan_t, may_touch, plan_contact, plan_heat, plan_given
 
    !> Relative change of the stress under the Hertz pressure below which heat is left out
-   real(dp), parameter :: least_change = 1.0e-3_dp
+   real(dp), parameter :: min_change = 1.0e-3_dp
 
    !> Boundary film from which on a smooth contact may touch, over its central film by formula
    real(dp), parameter :: contact_from = 0.5_dp
@@ -82,7 +82,7 @@ contains
                                   sliding%conductivity, sliding%diffusivity) &
                 + most*heat%speed*film*scales%film/(12.0_dp*heat%conductivity)
          warm = stress_at(rise)
-         plan%counts = l%thermal_friction == "always" .or. .not. stress - warm < least_change*stress
+         plan%counts = l%thermal_friction == "always" .or. .not. stress - warm < min_change*stress
          if (plan%counts) then
             plan%note = "with the temperature of film and walls; pressure and film thickness are isothermal"
          else
@@ -129,16 +129,36 @@ contains
       type(scales_t) :: scales
       type(operating_t) :: point
       type(sliding_t) :: sliding
-      real(dp) :: rho(1), slope(1)
+      real(dp) :: rho, film
 
+      call plan_contact(input, contact, scales, point, sliding, lubricant, rho, film, status)
+      if (.not. status%failed()) plan = plan_heat(input, contact, scales, sliding, lubricant, film)
+   end subroutine plan_given
+
+   !> Contact, operating point, motion and lubricant of a case
+   subroutine plan_contact(input, contact, scales, point, sliding, lubricant, rho, film, status)
+      type(case_t), intent(in) :: input
+      class(contact_t), allocatable, intent(out) :: contact
+      type(scales_t), intent(out) :: scales
+      type(operating_t), intent(out) :: point
+      type(sliding_t), intent(out) :: sliding
+      type(lubricant_t), intent(out) :: lubricant
+      !> Density at the Hertz pressure; central film by formula [a^2/R]
+      real(dp), intent(out) :: rho, film
+      type(status_t), intent(inout) :: status
+      real(dp) :: density(1), slope(1)
+
+      rho = 0.0_dp
+      film = 0.0_dp
       call find_contact(input, contact, scales, point)
       sliding = plan_sliding(input, contact, scales)
       if (input%contact%si) point = operating_point(input, contact, scales, sliding%inlet_viscosity)
       call plan_lubricant(input, point, scales, lubricant, status)
       if (status%failed()) return
-      call lubricant%density([1.0_dp], rho, slope)
-      plan = plan_heat(input, contact, scales, sliding, lubricant, contact%film_formula(point%moes_m, point%moes_l)/rho(1))
-   end subroutine plan_given
+      call lubricant%density([1.0_dp], density, slope)
+      rho = density(1)
+      film = contact%film_formula(point%moes_m, point%moes_l)/rho
+   end subroutine plan_contact
 
    !> Whether a case tells how the viscosity falls with temperature
    pure logical function knows_temperature(input)

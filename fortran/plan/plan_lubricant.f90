@@ -69,7 +69,7 @@ contains
       end associate
    end subroutine law_note
 
-   !> Where a pressure-viscosity coefficient is from that nobody gave; empty where one was given
+   !> Where a pressure-viscosity coefficient is from that was not given; empty where it was
    subroutine alpha_note(input, note)
       type(case_t), intent(in) :: input
       character(len=:), allocatable, intent(out) :: note

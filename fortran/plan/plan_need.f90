@@ -8,10 +8,10 @@ module ehl_plan_need
    use ehl_plan, only: plan_t
    use ehl_status, only: status_t
    use ehl_text, only: fixed, to_text
-   use ehl_transient, only: steps_needed
+   use ehl_predicted_start, only: steps_needed
    implicit none (type, external)
    private
-   public :: check_need, need_lines, making_need, most_periods
+   public :: check_need, need_lines, making_need, max_periods
 
    !> Bytes per stored node of the finest grid, those of the coarser ones included, as measured on 513 x 513 nodes: the
    !> smooth contact; what the rough one takes besides; what Alcouffe coarsening takes
@@ -33,8 +33,8 @@ module ehl_plan_need
    real(dp), parameter :: direct_seconds = 1.0e-9_dp
    !> Semi-axes over each other from which smooth contacts may be restarted with damped cycles (3 to 9 times as long)
    real(dp), parameter :: long = 1.5_dp
-   !> Cycles of a rough contact at rest
-   real(dp), parameter :: rest_cycles = 20.0_dp
+   !> Cycles of a stationary rough contact
+   real(dp), parameter :: stationary_cycles = 20.0_dp
 
    !> Bytes and seconds per pixel of a fractal surface that is made
    real(dp), parameter :: making_bytes = 16.0_dp, making_seconds = 8.0e-8_dp
@@ -52,7 +52,7 @@ contains
       what = "grid.points = "
       if (plan%target_error > 0.0_dp) what = "grid.max_points, with grid.target_error up to "
       what = what//to_text(plan%finest%nx)
-      if (frames(plan, most_steps(plan)) > 0.0_dp) what = what//" with output.frame_interval = "//to_text(plan%frame_interval)
+      if (frames(plan, max_steps(plan)) > 0.0_dp) what = what//" with output.frame_interval = "//to_text(plan%frame_interval)
       needed = bytes(plan, plan%threads)
       ! what the surfaces hold now is free no more
       needed = needed - plan%surfaces%bytes()
@@ -76,7 +76,7 @@ contains
       if (plan%surfaces%move() .and. plan%steps == 0) text = text//", if it ends as early as it can"
       text = text//new_line("a")
       least = frames(plan, steps(plan))
-      most = frames(plan, most_steps(plan))
+      most = frames(plan, max_steps(plan))
       if (.not. most > 0.0_dp) return
       text = text//"frames     "
       if (plan%frame_interval > plan%finest%hx) then
@@ -127,27 +127,27 @@ contains
    end function steps
 
    !> Time steps until it ends if its mean has not settled
-   real(dp) function most_steps(plan)
+   real(dp) function max_steps(plan)
       type(plan_t), intent(in) :: plan
 
-      most_steps = 0.0_dp
+      max_steps = 0.0_dp
       if (.not. plan%surfaces%move()) return
-      most_steps = plan%steps
-      if (plan%steps == 0) most_steps = steps_needed(plan%surfaces, plan%finest%hx, plan%skip_start, plan%predicted_start, &
-                                                     most_periods(plan))
-   end function most_steps
+      max_steps = plan%steps
+      if (plan%steps == 0) max_steps = steps_needed(plan%surfaces, plan%finest%hx, plan%skip_start, plan%predicted_start, &
+                                                     max_periods(plan))
+   end function max_steps
 
    !> Periods after which a transient run ends at the latest
-   pure real(dp) function most_periods(plan)
+   pure real(dp) function max_periods(plan)
       type(plan_t), intent(in) :: plan
 
       associate (most => merge(plan%max_periods, automatic_periods, plan%max_periods > 0), repeats => plan%surfaces%repeats)
-         most_periods = most
+         max_periods = most
          ! of several surfaces one period of all may be as long as that
-         if (repeats > 1) most_periods = max(real(most, dp)/repeats, periods_compared(repeats))
+         if (repeats > 1) max_periods = max(real(most, dp)/repeats, periods_compared(repeats))
       end associate
-      if (plan%surfaces%pass_once()) most_periods = 1.0_dp
-   end function most_periods
+      if (plan%surfaces%pass_once()) max_periods = 1.0_dp
+   end function max_periods
 
    !> Frames that are kept in so many steps
    pure real(dp) function frames(plan, steps)
@@ -177,7 +177,7 @@ contains
       bytes = bytes*nodes(plan) + line_bytes*plan%finest%nx*threads
       bytes = bytes + plan%surfaces%bytes_on(plan%finest)
       if (plan%coarse_run) bytes = bytes*(1.0_dp + coarser_bytes)
-      bytes = bytes + (written_bytes + 16.0_dp*frames(plan, most_steps(plan)))*plan%finest%nx*plan%finest%full_ny()
+      bytes = bytes + (written_bytes + 16.0_dp*frames(plan, max_steps(plan)))*plan%finest%nx*plan%finest%full_ny()
    end function bytes
 
    !> Seconds on one thread until the run can end
@@ -186,7 +186,7 @@ contains
       real(dp) :: cycles
 
       cycles = steps(plan)
-      if (plan%surfaces%rest()) cycles = rest_cycles
+      if (plan%surfaces%rest()) cycles = stationary_cycles
       if (plan%coarse_run) cycles = cycles*(1.0_dp + coarser_seconds)
       seconds = nodes(plan)*(smooth_seconds + cycles*step_seconds) + direct_seconds*(real(plan%coarsest%nx, dp)*plan%coarsest%ny)**3
    end function seconds

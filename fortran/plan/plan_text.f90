@@ -7,7 +7,7 @@ module ehl_plan_text
    use ehl_plan, only: plan_t
    use ehl_plan_need, only: need_lines
    use ehl_resolution, only: too_coarse, unresolved_inlet
-   use ehl_steady, only: largest_error
+   use ehl_steady_options, only: max_error
    use ehl_surface_text, only: scene_lines, wave_lines
    use ehl_text, only: fixed, newline, to_text
    use ehl_wedge, only: wedge_narrow
@@ -50,7 +50,7 @@ contains
          call add("stop       at the first grid whose relative error of H_c is below "//fixed(plan%target_error, "es8.1"))
       else
          call add("stop       on the finest grid, algebraic error below "//fixed(plan%accuracy, "f5.2")// &
-                  " of the discretisation error and "//fixed(100.0_dp*largest_error, "f4.1")// &
+                  " of the discretisation error and "//fixed(100.0_dp*max_error, "f4.1")// &
                   " % of the film, load error below 1e-6")
       end if
       text = text//newline//need_lines(plan)//"level  points    stored nodes  mesh size   use"
@@ -122,7 +122,7 @@ contains
          call add("time       "//trim(merge("narrow upstream", "as in the paper", plan%scheme == wedge_narrow))// &
                   ", step = mesh size = "//fixed(plan%finest%hx, "f9.6"))
          if (plan%predicted_start) call add("start      with the contact full of roughness, from the prediction")
-         if (allocated(plan%why_front)) call add("start      behind a front, with no prediction: "//plan%why_front)
+         if (allocated(plan%fallback_reason)) call add("start      behind a front, with no prediction: "//plan%fallback_reason)
          if (plan%steps > 0) then
             call add("end        after "//to_text(plan%steps)//" steps")
          else if (plan%surfaces%pass_once()) then

@@ -18,7 +18,7 @@ module ehl_resolution
    real(dp), parameter :: most_unresolved = 0.6_dp
    !> Semi-axis across the motion over that along it from which on cells a quarter as long across can be too long, and a side
    !> of an eighth of the length of the domain is far enough
-   real(dp), parameter :: most_narrow = 0.105_dp
+   real(dp), parameter :: max_narrow = 0.105_dp
 
 contains
 
@@ -73,7 +73,7 @@ contains
       character(len=:), allocatable :: text
 
       text = too_coarse(contact, point, finest)
-      if (text /= "" .or. contact%reach(2) > most_narrow*contact%reach(1) .or. 6.0_dp*finest%hy < finest%hx) return
+      if (text /= "" .or. contact%reach(2) > max_narrow*contact%reach(1) .or. 6.0_dp*finest%hy < finest%hx) return
       text = "the ends of a narrow contact need shorter cells across the motion: grid.y_extent = "// &
              to_text(0.125_dp*finest%hx*(finest%nx - 1))//", grid.points_y = "//to_text(2*finest%nx - 1)// &
              " and solver.max_cycles = 100 may do"

@@ -5,6 +5,7 @@ module ehl_checkpoint_folder
    use ehl_case, only: case_t
    use ehl_checkpoint, only: coarser, frame_file, state_files
    use ehl_clock, only: clock_t, start_clock
+   use ehl_contact_run, only: contact_run_t
    use ehl_files, only: file_exists, make_folder, remove_file, remove_folder, rename_path
    use ehl_folder_lock, only: folder_lock_t
    use ehl_folders, only: full_path, is_there, list_folder, make_parents, move_new, name_t, spare_path
@@ -38,8 +39,9 @@ module ehl_checkpoint_folder
       type(folder_lock_t) :: lock
    contains
       procedure :: open => open_folder
-      procedure :: tick
-      procedure :: save
+      procedure :: is_due
+      generic :: save => save_run, save_solver
+      procedure, private :: save_run, save_solver
       procedure :: close => close_folder
       procedure :: release
       procedure :: has_state
@@ -98,7 +100,7 @@ contains
       note = ""
       call self%lock%take(results, status)
       if (status%failed()) return
-      if (.not. solver%plan%surfaces%move() .or. input%output%checkpoint_interval <= 0.0_dp) return
+      if (.not. solver%run%plan%surfaces%move() .or. input%output%checkpoint_interval <= 0.0_dp) return
       place = checkpoint_path(results)
       call check_ours(place, status)
       if (status%failed()) return
@@ -127,18 +129,26 @@ contains
       if (.not. same) call status%fail(ehl_file, self%folder//": error: cannot make this folder")
    end subroutine open_folder
 
-   !> Save the state if its time has come
-   subroutine tick(self, solver, status)
+   !> Whether the time has come to save the state
+   logical function is_due(self)
+      class(checkpoint_folder_t), intent(in) :: self
+      is_due = .false.
+      if (allocated(self%folder)) is_due = self%since%seconds() >= self%interval
+   end function is_due
+
+   !> Save the state of the run that is under way
+   subroutine save_run(self, run, status)
       class(checkpoint_folder_t), intent(inout) :: self
-      type(solver_t), intent(inout) :: solver
+      type(contact_run_t), intent(inout) :: run
       type(status_t), intent(inout) :: status
 
       if (.not. allocated(self%folder)) return
-      if (self%since%seconds() >= self%interval) call self%save(solver, status)
-   end subroutine tick
+      call run%save(self%folder, status)
+      self%since = start_clock()
+   end subroutine save_run
 
-   !> Save the state
-   subroutine save(self, solver, status)
+   !> Save the state of a case, that on the coarser grid included
+   subroutine save_solver(self, solver, status)
       class(checkpoint_folder_t), intent(inout) :: self
       type(solver_t), intent(inout) :: solver
       type(status_t), intent(inout) :: status
@@ -146,7 +156,7 @@ contains
       if (.not. allocated(self%folder)) return
       call solver%save_state(self%folder, status)
       self%since = start_clock()
-   end subroutine save
+   end subroutine save_solver
 
    !> Whether there is a state to go on with
    logical function has_state(self)

@@ -83,7 +83,7 @@ contains
          end if
       end function rough_film
 
-      !> The greatest pressures of the smooth and the rough contact
+      !> The maximum pressures of the smooth and the rough contact
       function pressure()
          character(len=:), allocatable :: pressure, rise
 

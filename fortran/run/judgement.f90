@@ -65,7 +65,7 @@ contains
          if (doubts /= "") then
             text = doubts(:len(doubts) - 2)
          else
-            text = "full film: "//least_film(summary)
+            text = "full film: "//minimum_film(summary)
             if (rest == "") worth = holds
          end if
          if (rest /= "") text = text//"; but "//rest(:len(rest) - 2)
@@ -125,11 +125,11 @@ contains
       real(dp) :: ratio
 
       text = ""
-      if (larger(molecular, least(summary))) text = "thin film: "//least_film(summary)//", below "// &
+      if (larger(molecular, least(summary))) text = "thin film: "//minimum_film(summary)//", below "// &
          short(molecular*1.0e9_dp, 2)//" nm, where additives and what a scan does not show count, and asperities may touch; "
       ratio = summary%number("lambda_ratio")
       if (text == "" .and. larger(touching, ratio)) text = "thin film: Lambda = "//short(ratio)//" is below "// &
-         short(touching, 1)//" for the undeformed roughness; "//least_film(summary)//"; "
+         short(touching, 1)//" for the undeformed roughness; "//minimum_film(summary)//"; "
    end function of_film
 
    !> Waves that the grid does not resolve
@@ -227,8 +227,8 @@ contains
          "equation is for slender gaps; "
    end function of_slenderness
 
-   !> The least film in words
-   function least_film(summary) result(text)
+   !> The minimum film in words
+   function minimum_film(summary) result(text)
       type(record_t), intent(in) :: summary
       character(len=:), allocatable :: text
       real(dp) :: film, ratio
@@ -245,9 +245,9 @@ contains
          text = "smooth surfaces; the case gives no size in metres"
          if (ieee_is_finite(ratio)) text = "Lambda = "//short(ratio)
       end if
-   end function least_film
+   end function minimum_film
 
-   !> Least film [m]: over the roughness where it is known
+   !> Minimum film [m]: over the roughness where it is known
    real(dp) function least(summary)
       type(record_t), intent(in) :: summary
 

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Why a run has no answer, where it ended, and what to do about it: one line
 module ehl_no_answer
-   use ehl_contact_run, only: contact_run_t
+   use ehl_contact_run, only: contact_run_t, phase_stationary, phase_steps
    use ehl_kinds, only: dp
    use ehl_outcome, only: outcome_cycle_limit, outcome_diverged, outcome_interrupted, outcome_negative_film, outcome_unsettled
    use ehl_resolution, only: better_grid
@@ -18,9 +18,9 @@ contains
 
    !> Empty for a run that has an answer, or is not at its end
    function why_no_answer(run, coarse) result(text)
-      class(contact_run_t), intent(in) :: run
+      type(contact_run_t), intent(in) :: run
       !> The run for the grid error, while it runs
-      class(contact_run_t), intent(in), optional :: coarse
+      type(contact_run_t), intent(in), optional :: coarse
       character(len=:), allocatable :: text
 
       select case (run%outcome)
@@ -38,7 +38,7 @@ contains
          else
             text = text//place(run)
          end if
-         if (run%in_steps) text = text//"; --resume goes on from there"
+         if (run%phase == phase_steps) text = text//"; --resume goes on from there"
       case (outcome_unsettled)
          text = "the mean of mu_r/mu_s has not settled at T = "//fixed(run%transient%time, "f10.4")
          if (run%transient%mean%has_change()) text = text//": its last change is "// &
@@ -52,16 +52,16 @@ contains
 
    !> No positive film: by the grid, or by the roughness
    function of_negative_film(run) result(text)
-      class(contact_run_t), intent(in) :: run
+      type(contact_run_t), intent(in) :: run
       character(len=:), allocatable :: text
       integer :: nodes
 
-      if (.not. is_rough(run)) then
+      if (.not. run%is_rough()) then
          text = place(run)//" has no positive film: "//finer(run)
          return
       end if
       text = "no solution with a positive film for "//place(run)
-      if (run%history%n_rows() > 0) text = text//", least film before "//least_before(run)
+      if (run%history%n_rows() > 0) text = text//", least film before "//film_before(run)
       nodes = nodes_of_waves(run)
       text = text//"; the shortest waves have "
       if (nodes < enough_nodes) then
@@ -78,15 +78,15 @@ contains
       end if
    end function of_negative_film
 
-   !> Where the run stands: the smooth contact, a share of the roughness at rest, or a time step
+   !> Where the run stands: the smooth contact, a share of the stationary roughness, or a time step
    function place(run) result(text)
-      class(contact_run_t), intent(in) :: run
+      type(contact_run_t), intent(in) :: run
       character(len=:), allocatable :: text
 
-      if (run%in_steps) then
+      if (run%phase == phase_steps) then
          text = "the time step to T = "//fixed(run%transient%time + run%transient%time_step, "f10.4")
-      else if (run%resting) then
-         text = "the roughness at rest times "//fixed(run%rest%share, "f5.3")
+      else if (run%phase == phase_stationary) then
+         text = "the roughness at rest times "//fixed(run%stationary%share, "f5.3")
       else
          text = "the smooth contact"
       end if
@@ -95,41 +95,35 @@ contains
 
    !> What may help: another grid
    function finer(run) result(text)
-      class(contact_run_t), intent(in) :: run
+      type(contact_run_t), intent(in) :: run
       character(len=:), allocatable :: text
 
       text = ""
-      if (.not. is_rough(run)) text = better_grid(run%plan%contact, run%plan%point, run%plan%finest)
+      if (.not. run%is_rough()) text = better_grid(run%plan%contact, run%plan%point, run%plan%finest)
       if (text == "") text = "give a finer grid (grid.points = "//to_text(2*run%plan%finest%nx - 1)//")"
    end function finer
 
-   !> Whether the roughness is in
-   pure logical function is_rough(run)
-      class(contact_run_t), intent(in) :: run
-      is_rough = run%in_steps .or. run%resting
-   end function is_rough
-
    !> Residual (rms) at the end
    pure real(dp) function residual(run)
-      class(contact_run_t), intent(in) :: run
+      type(contact_run_t), intent(in) :: run
 
-      residual = run%steady%results(run%level())%residual
-      if (run%resting) residual = run%rest%residual
-      if (run%in_steps) residual = run%transient%residual
+      residual = run%smooth%results(run%level())%residual
+      if (run%phase == phase_stationary) residual = run%stationary%residual
+      if (run%phase == phase_steps) residual = run%transient%residual
    end function residual
 
    !> Cycles of what was solved last
    pure integer function cycles(run)
-      class(contact_run_t), intent(in) :: run
+      type(contact_run_t), intent(in) :: run
 
-      cycles = run%steady%results(run%level())%cycles
-      if (run%resting) cycles = run%rest%cycles
-      if (run%in_steps) cycles = run%transient%cycles
+      cycles = run%smooth%results(run%level())%cycles
+      if (run%phase == phase_stationary) cycles = run%stationary%cycles
+      if (run%phase == phase_steps) cycles = run%transient%cycles
    end function cycles
 
-   !> Least film of the last row of the history
-   function least_before(run) result(text)
-      class(contact_run_t), intent(in) :: run
+   !> Minimum film of the last row of the history
+   function film_before(run) result(text)
+      type(contact_run_t), intent(in) :: run
       character(len=:), allocatable :: text
       real(dp), allocatable :: films(:)
 
@@ -138,11 +132,11 @@ contains
          text = "H_min = "//fixed(film, "es10.3")
          if (scales%has_size()) text = fixed(film*scales%film*1.0e9_dp, "f10.1")//" nm"
       end associate
-   end function least_before
+   end function film_before
 
    !> Nodes that all waves but a little of the variance have at least; no more than enough
    integer function nodes_of_waves(run) result(nodes)
-      class(contact_run_t), intent(in) :: run
+      type(contact_run_t), intent(in) :: run
       integer :: middle, over
 
       nodes = 1

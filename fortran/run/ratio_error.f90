@@ -20,7 +20,7 @@ module ehl_ratio_error
 
    !> What a prediction says of the waves that the grid leaves out, and of those that it does not resolve
    type :: waves_t
-      !> Whether somebody has predicted
+      !> Whether there is a prediction
       logical :: known = .false.
       !> Parts of mu_ratio in these waves; NaN where the prediction gives none
       real(dp) :: left_out = 0.0_dp, unresolved = 0.0_dp

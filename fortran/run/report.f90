@@ -1,9 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Results of a run by name: its scene, the waves of its surfaces, the rough contact in time steps, of a feature that passes, and
-!> at rest
+!> Results of a run by name: its scene, the waves of its surfaces, the rough contact in time steps, of a feature that passes,
+!> and stationary; friction
 module ehl_report
    use ehl_contact_run, only: contact_run_t
    use ehl_extremes, only: extreme_film, extreme_pressure, extremes_t
+   use ehl_friction_results, only: friction_results_t
    use ehl_kinds, only: dp, not_known, pi
    use ehl_moving_surfaces, only: moving_surfaces_t
    use ehl_plan, only: plan_t
@@ -12,37 +13,29 @@ module ehl_report
    use ehl_wedge, only: wedge_narrow
    implicit none (type, external)
    private
-   public :: report_passage, report_rest, report_scene, report_transient, report_waves
+   public :: report_friction, report_passage, report_stationary, report_scene, report_transient, report_waves
 
 contains
 
    !> Operating point, grid and means
    subroutine report_scene(record, run)
       type(record_t), intent(inout) :: record
-      class(contact_run_t), intent(in) :: run
+      type(contact_run_t), intent(in) :: run
 
-      associate (plan => run%plan, grid => run%grid)
-         call record%set("moes_m", plan%point%moes_m)
-         call record%set("moes_l", plan%point%moes_l)
-         call record%set("alpha_bar", plan%point%alpha_bar)
-         call record%set("speed_parameter", plan%point%speed_parameter)
-         call record%set("hertz_pressure_Pa", plan%scales%pressure)
+      associate (plan => run%plan, point => run%plan%point, scales => run%plan%scales, grid => run%grid)
+         call record%set("moes_m moes_l alpha_bar speed_parameter hertz_pressure_Pa", &
+                         [point%moes_m, point%moes_l, point%alpha_bar, point%speed_parameter, scales%pressure])
          if (plan%alpha_note /= "") call record%set("pressure_viscosity_note", plan%alpha_note)
          if (allocated(plan%lubricant_note)) call record%set("lubricant_note", plan%lubricant_note)
-         if (plan%scales%has_size()) then
-            call record%set("hertz_radius_m", plan%scales%length)
-            call record%set("film_scale_m", plan%scales%film)
-         end if
+         if (scales%has_size()) call record%set("hertz_radius_m film_scale_m", [scales%length, scales%film])
          if (.not. plan%contact%is_round()) then
-            call record%set("radius_ratio", plan%contact%radius_ratio)
-            call record%set("angle_deg", plan%contact%angle*180.0_dp/pi)
-            call record%set("ellipticity", plan%contact%ellipticity)
-            if (plan%scales%has_size()) call record%set("semi_axis_y_m", plan%contact%ellipticity*plan%scales%length)
+            call record%set("radius_ratio angle_deg ellipticity", &
+                            [plan%contact%radius_ratio, plan%contact%angle*180.0_dp/pi, plan%contact%ellipticity])
+            if (scales%has_size()) call record%set("semi_axis_y_m", plan%contact%ellipticity*scales%length)
             call record%set("points_y", grid%full_ny())
          end if
          call record%set("points", grid%nx)
-         call record%set("x_mesh", grid%hx)
-         call record%set("y_mesh", grid%hy)
+         call record%set("x_mesh y_mesh", [grid%hx, grid%hy])
          call record%set("half_domain", grid%mirror)
          call record%set("deflection", plan%engine)
          call record%set("threads", plan%threads)
@@ -52,26 +45,24 @@ contains
    !> The transient run: results null unless it came to a good end
    subroutine report_transient(record, run, good, known, mean, change)
       type(record_t), intent(inout) :: record
-      class(contact_run_t), intent(in) :: run
+      type(contact_run_t), intent(in) :: run
       !> Whether it did, and whether friction is known where the bodies touch
       logical, intent(in) :: good, known
       !> Mean friction ratio, and its change at the end
       real(dp), intent(out) :: mean, change
       real(dp), allocatable :: films(:), pressures(:)
-      real(dp) :: range(2), ratio, least, greatest
+      real(dp) :: range(2), ratio, extremes(2)
 
       mean = not_known
       range = not_known
       change = not_known
       ratio = not_known
-      least = not_known
-      greatest = not_known
+      extremes = not_known
       associate (t => run%transient, surfaces => run%plan%surfaces)
          if (good) then
             films = run%history%column("H_min")
             pressures = run%history%column("P_max")
-            least = minval(films(t%mean%first_of_mean():))
-            greatest = maxval(pressures(t%mean%first_of_mean():))
+            extremes = [minval(films(t%mean%first_of_mean():)), maxval(pressures(t%mean%first_of_mean():))]
             if (known) then
                mean = t%mean%mean(0.0_dp)
                range = t%mean%extremes()
@@ -87,22 +78,19 @@ contains
             if (t%mean%has_mean()) call record%set("last_mu_ratio_mean", t%mean%mean(0.0_dp))
             if (t%mean%n > 0) call record%set("last_mu_ratio", t%mean%values(t%mean%n))
          end if
-         call record%set("mu_ratio_min", range(1))
-         call record%set("mu_ratio_max", range(2))
-         if (.not. surfaces%pass_once()) call report_rough_extremes(record, run%plan, least, greatest)
+         call record%set("mu_ratio_min mu_ratio_max", range)
+         if (.not. surfaces%pass_once()) call report_rough_extremes(record, run%plan, extremes)
          call record%set("amplitude_ratio", ratio)
          call report_amplitude(record, surfaces)
          call record%set("scheme", trim(merge("narrow", "paper ", run%plan%scheme == wedge_narrow)))
-         call record%set("T", t%time)
-         call record%set("T_period", t%mean%period)
+         call record%set("T T_period", [t%time, t%mean%period])
          if (surfaces%count() > 1) call record%set("T_mismatch", merge(surfaces%mismatch, not_known, surfaces%meets))
          call record%set("T_mean", merge(t%mean%window(), 0.0_dp, t%mean%has_mean()))
          call record%set("steps", t%step)
          call record%set("steps_skipped", t%skipped)
          call record%set("cycles_per_step", real(t%total_cycles, dp)/max(t%step, 1))
          call record%set("coarsening_changed_at", t%policy%changed_at)
-         call record%set("seconds_per_step", run%seconds/max(t%step, 1))
-         call record%set("step_residual_allowed", t%accuracy%largest)
+         call record%set("seconds_per_step step_residual_allowed", [run%seconds/max(t%step, 1), t%accuracy%largest])
       end associate
    end subroutine report_transient
 
@@ -125,10 +113,8 @@ contains
             call record%set(trim(names(k))//trim(parts(i)), found(i, k))
          end do
       end do
-      if (scales%has_size()) then
-         call record%set("p_max_rough_Pa", found(1, extreme_pressure)*scales%pressure)
-         call record%set("h_min_rough_m", found(1, extreme_film)*scales%film)
-      end if
+      if (scales%has_size()) call record%set("p_max_rough_Pa h_min_rough_m", &
+                                             [found(1, extreme_pressure)*scales%pressure, found(1, extreme_film)*scales%film])
    end subroutine report_passage
 
    !> Amplitudes of waves, heights or depths of features
@@ -155,35 +141,29 @@ contains
       if (surfaces%of(k)%group == "second_surface") named = "second_"//name
    end function named
 
-   !> Least film and greatest pressure of the rough contact
-   subroutine report_rough_extremes(record, plan, film, pressure)
+   !> Minimum film and maximum pressure of the rough contact
+   subroutine report_rough_extremes(record, plan, values)
       type(record_t), intent(inout) :: record
       type(plan_t), intent(in) :: plan
-      real(dp), intent(in) :: film, pressure
+      real(dp), intent(in) :: values(2)
 
-      call record%set("H_min_rough", film)
-      call record%set("P_max_rough", pressure)
-      if (.not. plan%scales%has_size()) return
-      call record%set("h_min_rough_m", film*plan%scales%film)
-      call record%set("p_max_rough_Pa", pressure*plan%scales%pressure)
+      call record%set("H_min_rough P_max_rough", values)
+      if (plan%scales%has_size()) call record%set("h_min_rough_m p_max_rough_Pa", values*[plan%scales%film, plan%scales%pressure])
    end subroutine report_rough_extremes
 
    !> The roughness, smooth film over it, and what of it the grid carries
    subroutine report_waves(record, run)
       type(record_t), intent(inout) :: record
-      class(contact_run_t), intent(in) :: run
+      type(contact_run_t), intent(in) :: run
       real(dp) :: sigma, variance(2)
       integer :: k
 
-      associate (surfaces => run%plan%surfaces, scales => run%plan%scales, smooth => run%steady%results(run%level())%m)
+      associate (surfaces => run%plan%surfaces, scales => run%plan%scales, smooth => run%smooth%results(run%level())%m)
          sigma = surfaces%rms_height()
          if (sigma > 0.0_dp) then
-            if (scales%has_size()) then
-               call record%set("surface_rms_m", sigma*scales%film)
-               call record%set("surface_slope", surfaces%rms_slope()*scales%film/scales%length)
-            end if
-            call record%set("lambda_ratio", smooth%film_minimum/sigma)
-            call record%set("lambda_ratio_central", smooth%film_central/sigma)
+            if (scales%has_size()) call record%set("surface_rms_m surface_slope", &
+                                                   [sigma*scales%film, surfaces%rms_slope()*scales%film/scales%length])
+            call record%set("lambda_ratio lambda_ratio_central", [smooth%film_minimum, smooth%film_central]/sigma)
          end if
          if (surfaces%move_together()) call record%set("surface_correlation", surfaces%correlation(1))
          variance = 0.0_dp
@@ -191,35 +171,55 @@ contains
             variance = variance + [surfaces%of(k)%surface%variance, surfaces%of(k)%surface%variance_whole]
          end do
          if (variance(1) > 0.0_dp) call record%set("variance_cut", max(0.0_dp, 1.0_dp - variance(1)/variance(2)))
-         call record%set("variance_unresolved", surfaces%unresolved)
-         call record%set("variance_left_out", surfaces%left_out)
+         call record%set("variance_unresolved variance_left_out", [surfaces%unresolved, surfaces%left_out])
       end associate
    end subroutine report_waves
 
-   !> The contact with a rough surface at rest: results null unless there are any
-   subroutine report_rest(record, run, good, known, ratio, algebraic)
+   !> The contact with a stationary rough surface: results null unless there are any
+   subroutine report_stationary(record, run, good, known, ratio, algebraic)
       type(record_t), intent(inout) :: record
-      class(contact_run_t), intent(in) :: run
+      type(contact_run_t), intent(in) :: run
       !> Whether they are, and whether friction is known where the bodies touch
       logical, intent(in) :: good, known
       !> Friction ratio, and its algebraic error
       real(dp), intent(out) :: ratio, algebraic
       integer :: k
 
-      associate (rest => run%rest, surfaces => run%plan%surfaces)
-         ratio = merge(rest%mu_ratio(), not_known, good .and. known)
-         algebraic = merge(2.0_dp*rest%algebraic*rest%mu_ratio(), not_known, good .and. known)
-         if (known .and. .not. good) call record%set("last_mu_ratio", rest%mu_ratio())
-         call record%set("H_c_rough", merge(rest%m%film_central, not_known, good))
-         call report_rough_extremes(record, run%plan, merge(rest%m%film_minimum, not_known, good), &
-                                    merge(rest%m%pressure_maximum, not_known, good))
+      associate (rough => run%stationary, surfaces => run%plan%surfaces)
+         ratio = merge(rough%mu_ratio(), not_known, good .and. known)
+         algebraic = merge(2.0_dp*rough%algebraic*rough%mu_ratio(), not_known, good .and. known)
+         if (known .and. .not. good) call record%set("last_mu_ratio", rough%mu_ratio())
+         call record%set("H_c_rough", merge(rough%m%film_central, not_known, good))
+         call report_rough_extremes(record, run%plan, merge([rough%m%film_minimum, rough%m%pressure_maximum], not_known, good))
          do k = 1, surfaces%count()
             call record%set(named(surfaces, k, "x_start"), surfaces%of(k)%surface%x_start)
          end do
          call report_amplitude(record, surfaces)
-         call record%set("rough_cycles", rest%total_cycles)
-         call record%set("rough_parts", rest%parts)
-         call record%set("rough_residual", rest%residual)
+         call record%set("rough_cycles", rough%total_cycles)
+         call record%set("rough_parts", rough%parts)
+         call record%set("rough_residual", rough%residual)
       end associate
-   end subroutine report_rest
+   end subroutine report_stationary
+
+   !> Coefficients of friction, what the smooth contact tells of its shear, temperatures
+   subroutine report_friction(record, plan, friction)
+      type(record_t), intent(inout) :: record
+      type(plan_t), intent(in) :: plan
+      type(friction_results_t), intent(in) :: friction
+
+      associate (scales => plan%scales, s => plan%sliding, f => friction)
+         call record%set("rolling_moment", f%rolling_moment)
+         if (scales%has_size()) call record%set("rolling_moment_N_m", f%rolling_moment*scales%pressure*scales%length**3)
+         call record%set("shear_law", trim(s%law))
+         call record%set("slide_to_roll mu mu_smooth mu_isothermal mu_smooth_isothermal", &
+                         [s%slide_to_roll, f%mu, f%mu_isothermal])
+         if (plan%heat%counts) call record%set("temperature_rise_max_K temperature_rise_wall_1_max_K "// &
+                                               "temperature_rise_wall_2_max_K", f%rises)
+         call record%set("shear_rate_mean_per_s shear_stress_max_Pa flash_temperature_K", &
+                         [f%shear_rate, f%shear_stress, f%flash])
+         call record%set("mu_note", f%note)
+         if (s%loading > 0.0_dp) call record%set("thermal_loading thermal_reduction inlet_viscosity_Pa_s", &
+                                                 [s%loading, s%reduction, s%inlet_viscosity])
+      end associate
+   end subroutine report_friction
 end module ehl_report

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Contact at a boundary film over a run, and in the summary: what of the load it carries, where, and what the layer gives
 module ehl_report_touching
-   use ehl_contact_run, only: contact_run_t
+   use ehl_contact_run, only: contact_run_t, phase_stationary, phase_steps
    use ehl_friction_mean, only: friction_mean_t
    use ehl_kinds, only: dp, not_known, pi
    use ehl_level_result, only: share_error
@@ -25,7 +25,7 @@ contains
    !> That of the rough surfaces where there are any, null unless it is good; nothing where there is no boundary film
    subroutine report_touching(record, run, good, converged, why_no_grid_error)
       type(record_t), intent(inout) :: record
-      class(contact_run_t), intent(in) :: run
+      type(contact_run_t), intent(in) :: run
       !> Whether the smooth contact is converged, and the run
       logical, intent(in) :: good, converged
       !> Why the run on the next coarser grid tells no error of a rough contact
@@ -49,13 +49,13 @@ contains
             numbers = touching_of(run)
             stop_error = share_stop_error(run)
          end if
-         if (run%coarse_outcome == outcome_converged) coarser = run%coarse_load_share
+         if (run%coarser%outcome == outcome_converged) coarser = run%coarser%load_share
          ! of order 1, as the edge of a touching zone lies between two nodes
          error = abs(numbers(1) - coarser)
          why = why_no_grid_error
       else if (good) then
          numbers = touching_of(run)
-         associate (results => run%steady%results)
+         associate (results => run%smooth%results)
             stop_error = max(results(n)%share_algebraic, run%plan%inlet%share_left(results(n)%m, results(n)%residual))
             if (n > 1) then
                if (results(n - 1)%solved) coarser = results(n - 1)%m%touching%load_share
@@ -67,7 +67,7 @@ contains
          dry = plan%inlet%is_dry()
          if (.not. ieee_is_finite(numbers(1))) then
             note = "there is no solution"
-         else if (.not. plan%surfaces%rough() .and. touches_for_grid(run%plan, run%steady, run%level())) then
+         else if (.not. plan%surfaces%rough() .and. touches_for_grid(run%plan, run%smooth, run%level())) then
             note = unresolved_inlet(plan%inlet, run%grid)
             numbers = not_known
             error = not_known
@@ -81,47 +81,43 @@ contains
             note = "most of the load is at a layer that would have to give much of the flow: the share may change on any grid"
             error = not_known
          end if
-         call record%set("boundary_film", plan%lubricant%boundary_film)
-         call record%set("contact_load_share", numbers(1))
-         call record%set("contact_load_share_error", error + stop_error)
-         call record%set("contact_load_share_error_grid", error)
-         call record%set("contact_load_share_error_stop", stop_error)
+         numbers([2, 5]) = numbers([2, 5])/(pi*plan%contact%ellipticity)
+         call record%set("boundary_film contact_load_share contact_load_share_error contact_load_share_error_grid "// &
+                         "contact_load_share_error_stop", &
+                         [plan%lubricant%boundary_film, numbers(1), error + stop_error, error, stop_error])
          call record%set("contact_load_share_error_note", note)
-         call record%set("contact_area_share", numbers(2)/(pi*plan%contact%ellipticity))
-         call record%set("layer_supply", numbers(3))
+         call record%set("contact_area_share layer_supply", numbers(2:3))
          if (.not. plan%lubricant%boundary_limit > 0.0_dp) return
-         call record%set("load_share_at_hardness", numbers(4))
-         call record%set("area_share_at_hardness", numbers(5)/(pi*plan%contact%ellipticity))
-         call record%set("plastic_depth_max_m", numbers(6)*plan%scales%film)
-         call record%set("flowing_load_share_at_hardness", numbers(7))
+         call record%set("load_share_at_hardness area_share_at_hardness plastic_depth_max_m flowing_load_share_at_hardness", &
+                         [numbers(4:5), numbers(6)*plan%scales%film, numbers(7)])
       end associate
    end subroutine report_touching
 
    !> Why there is no friction; empty where it is known: everywhere in the film, or of the boundary film, too
    function why_no_friction(run, converged) result(why)
-      class(contact_run_t), intent(in) :: run
+      type(contact_run_t), intent(in) :: run
       logical, intent(in) :: converged
       character(len=:), allocatable :: why
       real(dp) :: share
 
       why = ""
-      if (touches_for_grid(run%plan, run%steady, run%level())) why = unresolved_inlet(run%plan%inlet, run%grid)
+      if (touches_for_grid(run%plan, run%smooth, run%level())) why = unresolved_inlet(run%plan%inlet, run%grid)
       if (.not. run%plan%lubricant%boundary_film > 0.0_dp .or. run%plan%lubricant%boundary_stress > 0.0_dp) return
       share = 0.0_dp
-      if (run%resting) share = run%rest%m%touching%load_share
-      if (run%in_steps) share = run%transient%m%touching%load_share
-      if (run%in_steps .and. converged) share = load_share_of(run)
-      if (max(share, run%steady%results(run%level())%m%touching%load_share) > 0.0_dp) why = no_boundary_friction
+      if (run%phase == phase_stationary) share = run%stationary%m%touching%load_share
+      if (run%phase == phase_steps) share = run%transient%m%touching%load_share
+      if (run%phase == phase_steps .and. converged) share = load_share_of(run)
+      if (max(share, run%smooth%results(run%level())%m%touching%load_share) > 0.0_dp) why = no_boundary_friction
    end function why_no_friction
 
    !> What reynolds/touching.f90 reads off the contact of a run that has converged; in time steps means over the time of the mean
-   !> friction ratio, and the greatest depth
+   !> friction ratio, and the maximum depth
    function touching_of(run) result(numbers)
-      class(contact_run_t), intent(in) :: run
+      type(contact_run_t), intent(in) :: run
       real(dp) :: numbers(size(touching_names))
       integer :: k, first
 
-      if (run%in_steps) then
+      if (run%phase == phase_steps) then
          first = run%transient%mean%first_of_mean()
          numbers = 0.0_dp
          do k = 1, known_names(run%plan%lubricant)
@@ -130,16 +126,16 @@ contains
                if (k == at_depth) numbers(k) = maxval(values(first:))
             end associate
          end do
-      else if (run%resting) then
-         numbers = run%rest%m%touching%numbers()
+      else if (run%phase == phase_stationary) then
+         numbers = run%stationary%m%touching%numbers()
       else
-         numbers = run%steady%results(run%level())%m%touching%numbers()
+         numbers = run%smooth%results(run%level())%m%touching%numbers()
       end if
    end function touching_of
 
    !> The load share alone
    real(dp) function load_share_of(run)
-      class(contact_run_t), intent(in) :: run
+      type(contact_run_t), intent(in) :: run
       real(dp) :: numbers(size(touching_names))
 
       numbers = touching_of(run)
@@ -148,11 +144,11 @@ contains
 
    !> Error of the load share by the end of the run: that of a mean over time, as of the friction ratio; else 0
    real(dp) function share_stop_error(run)
-      class(contact_run_t), intent(in) :: run
+      type(contact_run_t), intent(in) :: run
       type(friction_mean_t) :: mean
 
       share_stop_error = 0.0_dp
-      if (.not. run%in_steps) return
+      if (.not. run%phase == phase_steps) return
       mean = run%transient%mean
       mean%values = run%history%column(touching_names(1))
       share_stop_error = mean%uncertainty()

@@ -65,8 +65,8 @@ contains
       call summary%set("version", version)
       call summary%set("wall_seconds", wall_seconds)
       call write_text(folder // "case.nml", input%text, status)
-      if (.not. status%failed()) call write_text(folder // "plan.txt", plan_text(solver%plan), status)
-      if (.not. status%failed()) call solver%history%write_csv(folder // "history.csv", status)
+      if (.not. status%failed()) call write_text(folder // "plan.txt", plan_text(solver%run%plan), status)
+      if (.not. status%failed()) call solver%run%history%write_csv(folder // "history.csv", status)
       if (.not. status%failed() .and. input%output%fields) call write_fields(folder, solver, status)
       done = list_folder(folder, names)
       files = [character(len=field_length) :: (names(k)%text, k=1, size(names)), "summary.json"]
@@ -100,7 +100,7 @@ contains
          if (.not. status%failed()) call solver%field(trim(names(k)), values, status)
          if (.not. status%failed()) call write_npy(folder // trim(names(k)) // ".npy", values, status)
       end do
-      associate (frames => solver%frames, n => solver%frames%n)
+      associate (frames => solver%run%frames, n => solver%run%frames%n)
          if (n == 0) return
          if (.not. status%failed()) call write_npy(folder // "frame_T.npy", frames%times(:n), status)
          if (.not. status%failed()) call write_npy(folder // "frame_P.npy", frames%p(:n), status)

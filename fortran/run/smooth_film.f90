@@ -3,14 +3,16 @@
 module ehl_smooth_film
    use ehl_case, only: case_t
    use ehl_contact_run, only: contact_run_t
+   use ehl_fmg, only: full_multigrid
    use ehl_kinds, only: dp
    use ehl_level_result, only: discretisation_error, extrapolated
    use ehl_moving_surfaces, only: moving_surfaces_t
-   use ehl_outcome, only: outcome_converged, outcome_running
+   use ehl_observer, only: observer_t
+   use ehl_outcome, only: outcome_converged
    use ehl_plan, only: make_plan
    use ehl_plan_need, only: check_need
    use ehl_status, only: ehl_bad_input, status_t
-   use ehl_steady, only: steady_t
+   use ehl_smooth_contact, only: smooth_contact_t
    use ehl_text, only: to_text
    implicit none (type, external)
    private
@@ -22,12 +24,12 @@ module ehl_smooth_film
 contains
 
    !> The film by the grids of a solution [a^2/R]; 0 where its grid error is too large
-   pure real(dp) function known_film(steady)
-      type(steady_t), intent(in) :: steady
+   pure real(dp) function known_film(smooth)
+      type(smooth_contact_t), intent(in) :: smooth
       real(dp) :: error(2), limit(2)
 
       known_film = 0.0_dp
-      associate (n => steady%n, results => steady%results)
+      associate (n => smooth%n, results => smooth%results)
          if (n == 1) return
          if (.not. results(n - 1)%solved) return
          error = discretisation_error(results(n)%m, results(n - 1)%m)
@@ -45,6 +47,8 @@ contains
       type(contact_run_t), allocatable :: run
       type(moving_surfaces_t) :: no_surfaces
       type(case_t) :: input
+      type(observer_t) :: unobserved
+      logical :: leave
       integer :: k
 
       film = 0.0_dp
@@ -57,11 +61,9 @@ contains
       call make_plan(input, no_surfaces, run%plan, status)
       call check_need(run%plan, status)
       call run%begin(status)
-      do while (run%outcome == outcome_running .and. .not. status%failed())
-         call run%advance(status)
-      end do
+      if (.not. status%failed()) call full_multigrid(run, unobserved, leave, status)
       if (status%failed()) return
-      if (run%outcome == outcome_converged) film = known_film(run%steady)
+      if (run%outcome == outcome_converged) film = known_film(run%smooth)
       if (film > 0.0_dp) return
       k = findloc(surfaces%of%amplitude_over_film > 0.0_dp, .true., dim=1)
       associate (member => surfaces%of(k))

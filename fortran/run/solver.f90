@@ -5,42 +5,43 @@ module ehl_solver
    use ehl_case, only: case_t
    use ehl_write_case, only: write_case
    use ehl_checkpoint, only: checkpoint_t, coarser
-   use ehl_contact_run, only: contact_run_t
+   use ehl_contact_run, only: contact_run_t, phase_smooth, phase_stationary, phase_steps
+   use ehl_fmg, only: full_multigrid
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
    use ehl_moving_surfaces, only: moving_surfaces_t
-   use ehl_outcome, only: outcome_converged, outcome_failed, outcome_interrupted, outcome_running
+   use ehl_observer, only: observer_t, single_step_t
+   use ehl_outcome, only: outcome_converged, outcome_interrupted, outcome_running
    use ehl_plan, only: make_plan
    use ehl_plan_need, only: check_need
+   use ehl_progress, only: progress_line, work_of
    use ehl_ratio_error, only: waves_t
    use ehl_record, only: record_t
-   use ehl_report_touching, only: load_share_of
    use ehl_smooth_film, only: film_by_finer_grids, known_film
+   use ehl_stationary_rough, only: solve_stationary
    use ehl_status, only: status_t
+   use ehl_transient, only: solve_transient
    implicit none (type, external)
    private
-   public :: solver_t, field_length
+   public :: solver_t, field_length, solve_phase
 
    !> Longest name of a field
    integer, parameter :: field_length = 32
 
-   !> Cost of a step on the next coarser grid, in steps: it has a quarter of the nodes
-   real(dp), parameter :: coarse_step = 0.25_dp
-
-   !> The run of the case, and for the grid error of its friction ratio another one on the next coarser grid
-   type, extends(contact_run_t) :: solver_t
+   !> The contact of the case, and for the grid error of its friction ratio the same one on the next coarser grid
+   type :: solver_t
       type(case_t), private :: input
+      type(contact_run_t) :: run
       !> Allocated while it runs; the state that it is to go on from
       type(contact_run_t), allocatable, private :: coarse
       type(checkpoint_t), private :: coarse_checkpoint
-      !> What it has cost, in time steps of this run and in seconds
-      real(dp), private :: coarse_work = 0.0_dp, coarse_seconds = 0.0_dp
       !> What is predicted of the waves that the grid does not resolve
       type(waves_t) :: waves
    contains
       procedure :: start
+      procedure :: solve
       procedure :: advance
-      procedure :: stand
+      procedure :: outcome
       procedure :: done
       procedure :: converged
       procedure :: interrupt
@@ -54,20 +55,19 @@ module ehl_solver
       procedure :: field_names
    end type solver_t
 
-   ! in solver_progress.f90
+   ! in coarser_run.f90
    interface
-      !> One line about the state, with the time left of a transient run
-      module function progress(self) result(text)
-         class(solver_t), intent(in) :: self
-         character(len=:), allocatable :: text
-      end function progress
+      !> Start the run on the next coarser grid, with the same roughness
+      module subroutine begin_coarse(self)
+         class(solver_t), intent(inout) :: self
+      end subroutine begin_coarse
 
-      !> How much of a transient run is done, in time steps of the finest grid, those on the coarser grid by their cost;
-      !> and how much there is until its earliest and its latest end. Both are 0 before the first step.
-      module subroutine work(self, done, earliest, latest)
-         class(solver_t), intent(in) :: self
-         real(dp), intent(out) :: done, earliest, latest
-      end subroutine work
+      !> The run on the next coarser grid to its end. That it fails is no failure of this one.
+      module subroutine solve_coarse(self, observer, leave)
+         class(solver_t), intent(inout) :: self
+         class(observer_t), intent(inout) :: observer
+         logical, intent(out) :: leave
+      end subroutine solve_coarse
    end interface
 
    ! in solver_results.f90 and solver_fields.f90
@@ -109,39 +109,80 @@ contains
       type(moving_surfaces_t) :: to_make
 
       self%input = input
-      call make_plan(input, to_make, self%plan, status, heights, second_heights)
-      call check_need(self%plan, status)
-      call self%begin(status)
+      call make_plan(input, to_make, self%run%plan, status, heights, second_heights)
+      call check_need(self%run%plan, status)
+      call self%run%begin(status)
+      if (status%failed()) return
+      self%run%state_prefix = ""
+      if (self%run%plan%surfaces%move()) self%run%state_text = step_text(input)
    end subroutine start
 
-   !> One cycle or one time step. All of it is
-   !>
-   !>    the smooth contact
-   !>    at rest:     the rough contact; both on the next coarser grid
-   !>    on the move: with what is at rest, if there is any; all that on the next coarser grid; time steps
+   !> The smooth contact; with what is stationary of the roughness; all that on the next coarser grid; time steps. The observer may
+   !> leave after any cycle or step; another call goes on there.
+   subroutine solve(self, observer, status)
+      class(solver_t), intent(inout) :: self
+      class(observer_t), intent(inout) :: observer
+      type(status_t), intent(inout) :: status
+      logical :: leave
+
+      do while (.not. self%done())
+         if (allocated(self%coarse)) then
+            call solve_coarse(self, observer, leave)
+         else
+            call solve_phase(self%run, observer, leave, status)
+            if (.not. (leave .or. status%failed())) call next_phase(self, status)
+         end if
+         if (leave .or. status%failed() .or. self%done()) return
+         if (allocated(self%coarse)) then
+            call observer%watch(self%coarse, leave)
+         else
+            call observer%watch(self%run, leave)
+         end if
+         if (leave) return
+      end do
+   end subroutine solve
+
+   !> One cycle or one time step
    subroutine advance(self, status)
       class(solver_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
-      logical :: both, in_steps
+      type(single_step_t) :: observer
 
-      if (self%done()) return
-      if (allocated(self%coarse)) then
-         call advance_coarse(self)
+      call self%solve(observer, status)
+   end subroutine advance
+
+   !> The present phase of a contact, to its end
+   subroutine solve_phase(run, observer, leave, status)
+      type(contact_run_t), intent(inout) :: run
+      class(observer_t), intent(inout) :: observer
+      logical, intent(out) :: leave
+      type(status_t), intent(inout) :: status
+
+      select case (run%phase)
+      case (phase_smooth)
+         call full_multigrid(run, observer, leave, status)
+      case (phase_stationary)
+         call solve_stationary(run, observer, leave, status)
+      case default
+         call solve_transient(run, observer, leave, status)
+      end select
+   end subroutine solve_phase
+
+   !> After a phase: the next one, and before time steps, or after all of a stationary surface, the run on the next coarser grid
+   subroutine next_phase(self, status)
+      class(solver_t), intent(inout) :: self
+      type(status_t), intent(inout) :: status
+
+      if (self%run%outcome == outcome_running) then
+         if (self%run%phase == phase_smooth .and. self%run%plan%surfaces%needs_film()) call set_amplitude(self, status)
+         if (.not. status%failed()) call self%run%next_phase(status)
+         if (status%failed() .or. self%run%phase /= phase_steps) return
+      else if (.not. (self%run%phase == phase_stationary .and. self%run%outcome == outcome_converged)) then
          return
       end if
-      in_steps = self%in_steps
-      call self%contact_run_t%advance(status)
-      if (status%failed()) return
-      both = (self%resting .and. self%outcome == outcome_converged) .or. (self%in_steps .and. .not. in_steps)
-      if (self%roughness_is_due()) then
-         if (self%plan%surfaces%needs_film()) call set_amplitude(self, status)
-         if (.not. status%failed()) call self%begin_rough(status)
-         both = self%in_steps
-      end if
-      if (status%failed() .or. .not. both) return
-      if (self%plan%coarse_run .and. self%coarse_outcome == outcome_running) call begin_coarse(self)
-      if (allocated(self%predicted%pressure)) deallocate (self%predicted%pressure)
-   end subroutine advance
+      if (self%run%plan%coarse_run .and. self%run%coarser%outcome == outcome_running) call begin_coarse(self)
+      if (allocated(self%run%predicted%pressure)) deallocate (self%run%predicted%pressure)
+   end subroutine next_phase
 
    !> The amplitude that was given as a share of the film. It belongs to the case and not to the grid: a grid error of
    !> the film would be one of the roughness, and of a sign that extrapolation does not expect.
@@ -150,104 +191,70 @@ contains
       type(status_t), intent(inout) :: status
       real(dp) :: film
 
-      film = known_film(self%steady)
-      if (.not. film > 0.0_dp) film = film_by_finer_grids(self%input, self%plan%surfaces, status)
-      call self%plan%surfaces%take_film(film)
+      film = known_film(self%run%smooth)
+      if (.not. film > 0.0_dp) film = film_by_finer_grids(self%input, self%run%plan%surfaces, status)
+      call self%run%plan%surfaces%take_film(film)
    end subroutine set_amplitude
 
-   !> Start the run on the next coarser grid, with the same roughness
-   subroutine begin_coarse(self)
-      class(solver_t), intent(inout) :: self
-      type(status_t) :: status
-      type(case_t) :: input
-      type(moving_surfaces_t) :: surfaces
-
-      input = self%input
-      input%output%frame_interval = 0.0_dp
-      input%grid%points = (self%grid%nx + 1)/2
-      input%grid%points_y = (self%grid%full_ny() + 1)/2
-      input%grid%target_error = 0.0_dp
-      input%time%estimate_error = .false.
-      allocate (self%coarse)
-      ! the same roughness, not the same share of another film
-      call self%plan%surfaces%hand_over(surfaces)
-      call make_plan(input, surfaces, self%coarse%plan, status)
-      ! a plan that failed may not have taken them
-      call self%plan%surfaces%take_back(surfaces)
-      self%coarse%plan%heat%counts = .false.
-      call self%coarse%begin(status)
-      self%coarse%checkpoint = self%coarse_checkpoint
-      self%coarse%predicted = self%predicted%coarser()
-      if (allocated(self%why_front)) self%coarse%why_front = self%why_front
-      if (status%failed()) call end_coarse(self, status)
-   end subroutine begin_coarse
-
-   !> One cycle or step of the coarser run. That it fails is no failure of this one.
-   subroutine advance_coarse(self)
-      class(solver_t), intent(inout) :: self
-      type(status_t) :: status
-
-      call self%coarse%advance(status)
-      if (self%coarse%roughness_is_due() .and. .not. status%failed()) call self%coarse%begin_rough(status)
-      if (status%failed() .or. self%coarse%outcome /= outcome_running) call end_coarse(self, status)
-   end subroutine advance_coarse
-
-   !> Keep how the coarser run ended, and its friction ratio if it converged; without that the grid error is not known
-   subroutine end_coarse(self, status)
-      class(solver_t), intent(inout) :: self
-      type(status_t), intent(in) :: status
-
-      self%coarse_outcome = self%coarse%outcome
-      if (status%failed()) then
-         self%coarse_outcome = outcome_failed
-         self%coarse_message = status%message
-      end if
-      if (self%coarse_outcome == outcome_converged) then
-         self%coarse_ratio = self%coarse%mu_ratio()
-         if (self%plan%lubricant%boundary_film > 0.0_dp) self%coarse_load_share = load_share_of(self%coarse)
-      end if
-      self%coarse_work = coarse_step*self%coarse%transient%step
-      self%coarse_seconds = self%coarse%seconds
-      ! why a film ends is read off the waves
-      call self%plan%surfaces%take_back(self%coarse%plan%surfaces)
-      deallocate (self%coarse)
-   end subroutine end_coarse
-
-   !> How the run stands; a surface at rest has not ended before its error is known
-   pure integer function stand(self)
+   !> How the run stands; a stationary surface has not ended before its error is known
+   pure integer function outcome(self)
       class(solver_t), intent(in) :: self
-      stand = self%outcome
-      if (stand == outcome_converged .and. allocated(self%coarse)) stand = outcome_running
-   end function stand
+      outcome = self%run%outcome
+      if (outcome == outcome_converged .and. allocated(self%coarse)) outcome = outcome_running
+   end function outcome
 
    !> Whether the run has ended, well or not
    pure logical function done(self)
       class(solver_t), intent(in) :: self
-      done = self%stand() /= outcome_running
+      done = self%outcome() /= outcome_running
    end function done
 
    !> Whether the run has ended well
    pure logical function converged(self)
       class(solver_t), intent(in) :: self
-      converged = self%stand() == outcome_converged
+      converged = self%outcome() == outcome_converged
    end function converged
 
    !> End the run here. A coarser run stays: it is where the run ended, and its state may have to be saved.
    subroutine interrupt(self)
       class(solver_t), intent(inout) :: self
 
-      if (self%done()) return
-      self%outcome = outcome_interrupted
+      if (.not. self%done()) self%run%outcome = outcome_interrupted
    end subroutine interrupt
 
-   !> The grid that fields refer to: the finest one of the plan; with a wanted error, which ends on a grid that nobody
-   !> knows before, the finest one so far
+   !> One line about the state, with the time left of a transient run
+   function progress(self) result(text)
+      class(solver_t), intent(in) :: self
+      character(len=:), allocatable :: text
+
+      if (allocated(self%coarse)) then
+         text = progress_line(self%coarse, self%coarse%outcome, self%done())
+      else
+         text = progress_line(self%run, self%outcome(), self%done())
+      end if
+   end function progress
+
+   !> How much of a transient run is done, in time steps of the finest grid, those on the coarser grid by their cost;
+   !> and how much there is until its earliest and its latest end. All are 0 before the first step.
+   subroutine work(self, done, earliest, latest)
+      class(solver_t), intent(in) :: self
+      real(dp), intent(out) :: done, earliest, latest
+
+      if (allocated(self%coarse)) then
+         call work_of(self%coarse, done, earliest, latest)
+      else
+         call work_of(self%run, done, earliest, latest)
+      end if
+   end subroutine work
+
+   !> The grid that fields refer to: the finest one of the plan; with a wanted error, which ends on a grid that is not
+   !> known before, the finest one so far
    pure function finest(self) result(grid)
       class(solver_t), intent(in) :: self
       type(grid_t) :: grid
 
-      grid = self%plan%finest
-      if (self%plan%target_error > 0.0_dp) grid = self%grid
+      grid = self%run%plan%finest
+      if (self%run%plan%target_error > 0.0_dp) grid = self%run%grid
    end function finest
 
    !> Write the state into a folder (its name ends in '/')
@@ -256,8 +263,8 @@ contains
       character(len=*), intent(in) :: folder
       type(status_t), intent(inout) :: status
 
-      if (allocated(self%coarse)) call self%coarse%save(folder//coarser, step_text(self%input), status)
-      call self%save(folder, step_text(self%input), status)
+      if (allocated(self%coarse)) call self%coarse%save(folder, status)
+      call self%run%save(folder, status)
    end subroutine save_state
 
    !> After start and before the first advance: go on from the newest state in a folder (its name ends in '/').
@@ -269,8 +276,8 @@ contains
       character(len=:), allocatable, intent(out) :: note
       type(status_t), intent(inout) :: status
 
-      call self%checkpoint%find(folder, step_text(self%input), note, status)
-      if (status%failed() .or. self%checkpoint%found()) return
+      call self%run%checkpoint%find(folder, step_text(self%input), note, status)
+      if (status%failed() .or. self%run%checkpoint%found()) return
       call self%coarse_checkpoint%find(folder//coarser, step_text(self%input), note, status)
    end subroutine resume
 

@@ -12,12 +12,12 @@ submodule (ehl_solver) ehl_solver_fields
 contains
 
    module procedure field_names
-      if (self%in_steps .or. self%resting) then
+      if (self%run%is_rough()) then
          names = [character(len=field_length) :: "P", "H", "P_smooth", "H_smooth", "RR", "A_d"]
       else
          names = [character(len=field_length) :: "P", "H"]
       end if
-      if (allocated(self%smooth_heat%rise) .or. allocated(self%rough_heat%rise)) names = [names, temperatures]
+      if (allocated(self%run%smooth_heat%rise) .or. allocated(self%run%rough_heat%rise)) names = [names, temperatures]
    end procedure field_names
 
    module procedure field
@@ -33,7 +33,7 @@ contains
                           trim(temperatures(1))//"', '"//trim(temperatures(2))//"' or '"//trim(temperatures(3))//"'")
          return
       end if
-      associate (level => self%hierarchy%levels(self%level()))
+      associate (level => self%run%hierarchy%levels(self%run%level()))
          allocate (own(level%grid%nx, level%grid%full_ny()), stat=stat)
          if (stat /= 0) then
             call status%fail(ehl_no_memory, "no memory for a field")
@@ -45,23 +45,23 @@ contains
          case ("H")
             call level%grid%unfold(gap(level), own)
          case ("P_smooth")
-            call level%grid%unfold(self%p_smooth, own)
+            call level%grid%unfold(self%run%p_smooth, own)
          case ("H_smooth")
-            call level%grid%unfold(self%h_smooth, own)
+            call level%grid%unfold(self%run%h_smooth, own)
          case ("RR")
-            if (self%resting) then
-               call level%grid%unfold(self%rest%rr, own)
+            if (self%run%phase == phase_stationary) then
+               call level%grid%unfold(self%run%stationary%rr, own)
             else
-               call level%grid%unfold(self%transient%rr, own)
+               call level%grid%unfold(self%run%transient%rr, own)
             end if
          case ("A_d")
-            call level%grid%unfold(self%h_smooth - gap(level), own)
+            call level%grid%unfold(self%run%h_smooth - gap(level), own)
          case default
             k = findloc(temperatures, name, dim=1)
-            if (allocated(self%rough_heat%rise)) then
-               call level%grid%unfold(self%rough_heat%rise(:, :, k), own)
+            if (allocated(self%run%rough_heat%rise)) then
+               call level%grid%unfold(self%run%rough_heat%rise(:, :, k), own)
             else
-               call level%grid%unfold(self%smooth_heat%rise(:, :, k), own)
+               call level%grid%unfold(self%run%smooth_heat%rise(:, :, k), own)
             end if
          end select
       end associate

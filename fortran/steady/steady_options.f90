@@ -6,7 +6,10 @@ module ehl_steady_options
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
-   public :: steady_options_t, end_rule_t, rule_of_circles, rule_of_others
+   public :: steady_options_t, end_rule_t, max_error, rule_of_circles, rule_of_others
+
+   !> Largest relative algebraic error of a result, however coarse its grid
+   real(dp), parameter :: max_error = 2.0e-3_dp
 
    !> How the smooth contact is solved
    type :: steady_options_t
@@ -22,7 +25,7 @@ module ehl_steady_options
       real(dp) :: target_error = 0.0_dp
       !> Whether the border has the pressure of a flooded contact, else 0
       logical :: flooded = .false.
-      !> Whether what fails on the finest level may begin again with care
+      !> Whether what fails on the finest level may begin again with damped cycles
       logical :: may_restart = .false.
       !> Whether cycles that end in no state of the contact are taken back from the beginning on, and not only after all else
       logical :: guarded = .false.

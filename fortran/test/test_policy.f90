@@ -4,7 +4,7 @@ module test_policy
    use check, only: is_equal, is_true
    use ehl_cycle, only: coarsening_alcouffe, cycle_options_t
    use ehl_kinds, only: dp
-   use ehl_step_policy, only: attempt_careful, attempt_damped, attempt_last, attempt_predicted, step_begins_again, step_ends, &
+   use ehl_step_policy, only: attempt_limited, attempt_damped, attempt_last, attempt_predicted, step_begins_again, step_ends, &
                               step_goes_on, step_policy_t
    implicit none (type, external)
    private
@@ -36,7 +36,7 @@ contains
       end do
       call is_equal(next, step_ends, "no more cycles")
       call is_true(all(attempts(:5) == attempt_predicted) .and. all(attempts(6:14) == attempt_last) .and. &
-                   all(attempts(15:23) == attempt_careful) .and. all(attempts(24:) == attempt_damped), "attempts in their order")
+                   all(attempts(15:23) == attempt_limited) .and. all(attempts(24:) == attempt_damped), "attempts in their order")
       call policy%begin(1.0e-4_dp, .false.)
       call policy%begin_attempt(1.0_dp)
       call is_equal(policy%attempt, attempt_predicted, "the next step begins from the predicted pressure")

@@ -39,8 +39,9 @@ contains
       call is_true(record%has("F") .and. .not. record%has("G"), "names of a record")
       call lists%set("b", [character(len=4) :: 'x"', "long"])
       call lists%set("c", [character(len=4) ::])
-      call is_text(lists%to_json(), "{" // lf // '  "b": ["x\"", "long"],' // lf &
-                   // '  "c": []' // lf // "}" // lf, "lists in a record")
+      call lists%set("H_c H_min c F", [0.5_dp, not_known, 2.0_dp, 0.25_dp])
+      call is_text(lists%to_json(), "{" // lf // '  "b": ["x\"", "long"],' // lf // '  "c": 2.0,' // lf // '  "H_c": 0.5,' // lf &
+                   // '  "H_min": null,' // lf // '  "F": 0.25' // lf // "}" // lf, "lists in a record, several values at once")
    end subroutine record_to_json
 
    subroutine table_to_csv()

@@ -106,7 +106,7 @@ contains
       call solve(moderate, mlmi)
       call is_true(mlmi%converged(), "M = 20, L = 10 converges")
       call get(mlmi, "H", h)
-      call is_close(h(1 + nint(4.5_dp/mlmi%grid%hx), 65), 0.42872_dp, 0.002_dp*0.42872_dp, "H_c")
+      call is_close(h(1 + nint(4.5_dp/mlmi%run%grid%hx), 65), 0.42872_dp, 0.002_dp*0.42872_dp, "H_c")
       call is_close(minval(h), 0.29094_dp, 0.002_dp*0.29094_dp, "H_min")
       call solve(moderate//"&solver deflection = 'fft' / ", fft)
       call get(fft, "H", h_fft)
@@ -123,7 +123,7 @@ contains
 
       call solve(moderate//more, half)
       call solve(moderate//more//"&solver symmetry = 'full' / ", whole)
-      call is_true(half%grid%mirror .and. .not. whole%grid%mirror, "half and whole domain")
+      call is_true(half%run%grid%mirror .and. .not. whole%run%grid%mirror, "half and whole domain")
       call get(half, "P", p)
       call get(whole, "P", p_whole)
       call is_close(maxval(abs(p - p_whole)), 0.0_dp, tolerance, "half against whole domain")
@@ -136,9 +136,9 @@ contains
       real(dp), allocatable :: h(:, :), h_smooth(:, :), rr(:, :)
 
       call solve(moderate//wavy//", scheme = '"//scheme//"' / ", solver)
-      call is_equal(solver%history%n_rows(), 6, "steps, scheme "//scheme)
-      call is_close(maxval(abs(solver%history%column("load_error"))), 0.0_dp, 1.0e-6_dp, "load at every step, "//scheme)
-      call is_true(maxval(solver%history%column("residual")) <= loosest*step_tolerance(solver%grid%hx, 0.1_dp), &
+      call is_equal(solver%run%history%n_rows(), 6, "steps, scheme "//scheme)
+      call is_close(maxval(abs(solver%run%history%column("load_error"))), 0.0_dp, 1.0e-6_dp, "load at every step, "//scheme)
+      call is_true(maxval(solver%run%history%column("residual")) <= loosest*step_tolerance(solver%run%grid%hx, 0.1_dp), &
                    "residual of every step, "//scheme)
       call get(solver, "H", h)
       call get(solver, "H_smooth", h_smooth)
@@ -257,7 +257,7 @@ contains
       real(dp), allocatable, intent(out) :: values(:, :)
       type(status_t) :: status
 
-      allocate (values(solver%grid%nx, solver%grid%full_ny()))
+      allocate (values(solver%run%grid%nx, solver%run%grid%full_ny()))
       call solver%field(name, values, status)
       call is_true(.not. status%failed(), "field "//name)
    end subroutine get

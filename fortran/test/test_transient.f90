@@ -7,13 +7,16 @@ module test_transient
    use ehl_contact_run, only: contact_run_t
    use ehl_film, only: refresh
    use ehl_flow, only: dir_x
+   use ehl_fmg, only: full_multigrid
    use ehl_kinds, only: dp
    use ehl_moving_surfaces, only: moving_surfaces_t
-   use ehl_outcome, only: outcome_converged, outcome_running
+   use ehl_observer, only: observer_t, single_step_t
+   use ehl_outcome, only: outcome_running
    use ehl_plan, only: make_plan
    use ehl_relaxation, only: usual_log_change, relax
    use ehl_reynolds, only: update_residual
    use ehl_status, only: status_t
+   use ehl_transient, only: solve_transient
    implicit none (type, external)
    private
    public :: run_transient
@@ -47,8 +50,8 @@ contains
 
       call begin(heavy, run, n, status)
       do k = 1, 3
-         call run%advance(status)
-         call is_true(run%transient%state == outcome_converged, "a step converges")
+         call step(run, status)
+         call is_true(run%outcome == outcome_running, "a step converges")
       end do
       associate (level => run%hierarchy%levels(n), space => run%hierarchy%workspaces(n))
          p = level%p
@@ -57,22 +60,23 @@ contains
          allowed = run%transient%accuracy%strict
          run%transient%policy%max_cycles = 1
          run%transient%accuracy%strict = 1.0e-3_dp*allowed
-         call run%advance(status)
-         call is_true(run%transient%state /= outcome_converged, "one cycle is too few")
+         call step(run, status)
+         call is_true(run%outcome /= outcome_running, "one cycle is too few")
          call is_equal(run%transient%step, 3, "the failed step does not count")
          call is_close(maxval(abs(level%p - p)), 0.0_dp, 0.0_dp, "pressure of the last good step")
          call is_close(maxval(abs(level%h - h)), 0.0_dp, 0.0_dp, "film of the last good step")
          call is_close(level%h00, h00, 0.0_dp, "H00 of the last good step")
+         run%outcome = outcome_running
          run%transient%policy%max_cycles = run%plan%max_cycles
          run%transient%accuracy%strict = allowed
-         call run%advance(status)
-         call is_true(run%transient%state == outcome_converged .and. run%transient%step == 4, "more cycles are enough")
+         call step(run, status)
+         call is_true(run%outcome == outcome_running .and. run%transient%step == 4, "more cycles are enough")
          p_next = level%p
       end associate
 
       call begin(heavy, run, n, status)
       do k = 1, 4
-         call run%advance(status)
+         call step(run, status)
       end do
       call is_close(maxval(abs(run%hierarchy%levels(n)%p - p_next)), 0.0_dp, 0.0_dp, "the failed step left no trace")
       call is_true(.not. status%failed(), "transient run")
@@ -89,7 +93,7 @@ contains
       run%transient%accuracy%strict = 0.003_dp*run%transient%accuracy%strict
       run%transient%accuracy%allowed = 0.0_dp
       do k = 1, 4
-         call run%advance(status)
+         call step(run, status)
       end do
       p = run%hierarchy%levels(n)%p
       cycles = run%transient%cycles
@@ -98,14 +102,14 @@ contains
       run%transient%accuracy%strict = 0.003_dp*run%transient%accuracy%strict
       run%transient%accuracy%allowed = 0.0_dp
       do k = 1, 3
-         call run%advance(status)
+         call step(run, status)
       end do
       ! only the predictor uses the pressure of three steps ago: peaks and valleys side by side
       do j = 1, 33
          run%transient%p_before(:, j, 3) = run%transient%p_before(:, j, 3)*[(merge(3.5_dp, 1.0_dp, mod(k, 2) == 0), k=1, 65)]
       end do
-      call run%advance(status)
-      call is_true(run%transient%state == outcome_converged .and. run%transient%step == 4, "a wrong prediction does no harm")
+      call step(run, status)
+      call is_true(run%outcome == outcome_running .and. run%transient%step == 4, "a wrong prediction does no harm")
       call is_true(run%transient%cycles > cycles, "after more cycles")
       call is_close(maxval(abs(run%hierarchy%levels(n)%p - p)), 0.0_dp, 2.0e-5_dp, "to the same pressure")
       call is_true(.not. status%failed(), "transient run")
@@ -120,7 +124,7 @@ contains
       integer :: n, k
 
       call begin(thin, run, n, status)
-      call run%advance(status)
+      call step(run, status)
       associate (level => run%hierarchy%levels(n), space => run%hierarchy%workspaces(n))
          level%p = level%p*(1.0_dp + 1.0e-3_dp*level%p)
          call refresh(level)
@@ -145,7 +149,7 @@ contains
       integer :: n, i, j
 
       call begin(heavy, run, n, status)
-      call run%advance(status)
+      call step(run, status)
       associate (level => run%hierarchy%levels(n), space => run%hierarchy%workspaces(n))
          level%p = 0.5_dp*level%p
          call refresh(level)
@@ -178,7 +182,7 @@ contains
       integer :: n, i, j
 
       call begin(heavy, run, n, status)
-      call run%advance(status)
+      call step(run, status)
       associate (level => run%hierarchy%levels(n), space => run%hierarchy%workspaces(n))
          call relax(level, space, usual_log_change, 1.0_dp)
          difference = 0.0_dp
@@ -202,7 +206,7 @@ contains
       integer :: n
 
       call begin(heavy, run, n, status)
-      call run%advance(status)
+      call step(run, status)
       call is_true(all(run%hierarchy%coarsenings%transfer%nx == 0), "no transfers for classical coarsening")
       associate (before => run%hierarchy%bytes())
          call run%hierarchy%prepare_coarsening(status)
@@ -211,6 +215,16 @@ contains
       end associate
       call is_true(.not. status%failed(), "transfers")
    end subroutine transfers_when_asked_for
+
+   !> One time step
+   subroutine step(run, status)
+      type(contact_run_t), intent(inout) :: run
+      type(status_t), intent(inout) :: status
+      type(single_step_t) :: observer
+      logical :: leave
+
+      call solve_transient(run, observer, leave, status)
+   end subroutine step
 
    !> Solve the smooth contact of a case and let the roughness in
    subroutine begin(text, run, n, status)
@@ -221,15 +235,15 @@ contains
       type(status_t), intent(inout) :: status
       type(case_t), target :: input
       type(moving_surfaces_t) :: no_surfaces
+      type(observer_t) :: unobserved
+      logical :: leave
 
       call read_case(text, "test", "", input, status)
       call make_plan(input, no_surfaces, run%plan, status)
       call run%begin(status)
-      do while (run%outcome == outcome_running .and. .not. (run%roughness_is_due() .or. status%failed()))
-         call run%advance(status)
-      end do
-      call is_true(run%roughness_is_due(), "the smooth contact converges")
-      call run%begin_rough(status)
-      n = run%steady%n
+      call full_multigrid(run, unobserved, leave, status)
+      call is_true(run%smooth%solved, "the smooth contact converges")
+      call run%next_phase(status)
+      n = run%smooth%n
    end subroutine begin
 end module test_transient

@@ -1,13 +1,14 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Where time steps begin with the contact full of roughness: what somebody expects the roughness to add to the pressure.
+!> Where time steps begin with the contact full of roughness: what the roughness is predicted to add to the pressure.
 !> Whether that is right is decided by the steps: a film that is wrong leaves the contact with the mean velocity.
 module ehl_predicted_start
+   use ehl_friction_mean, only: periods_compared
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
    use ehl_moving_surfaces, only: moving_surfaces_t
    implicit none (type, external)
    private
-   public :: predicted_start_t, start_fronts, first_mean, start_lag, transit
+   public :: predicted_start_t, steps_needed, start_fronts, first_mean, start_lag, transit
 
    !> The times, in steps before the start: the last three of this run and of the one on the next coarser grid
    integer, parameter :: steps_ago(4) = [0, 1, 2, 4]
@@ -26,6 +27,28 @@ module ehl_predicted_start
    end type predicted_start_t
 
 contains
+
+   !> Time steps until the mean friction over a period can be compared with an earlier one, or the passage ends
+   real(dp) function steps_needed(surfaces, time_step, skip, filled, periods)
+      class(moving_surfaces_t), intent(in) :: surfaces
+      real(dp), intent(in) :: time_step
+      !> Whether the steps before the roughness comes near the contact are not made; whether it fills the contact at the start
+      logical, intent(in) :: skip, filled
+      !> Periods after which the run ends if its mean has not settled: the steps until then
+      real(dp), intent(in), optional :: periods
+      real(dp) :: from, time
+
+      if (filled) then
+         time = start_lag + surfaces%period
+         if (present(periods)) time = max(time, periods*surfaces%period)
+         steps_needed = (first_mean + time)/time_step
+         return
+      end if
+      from = merge(surfaces%begin(), 0.0_dp, skip)
+      time = merge(1.0_dp, periods_compared(surfaces%repeats), surfaces%pass_once())*surfaces%period
+      if (present(periods)) time = max(time, periods*surfaces%period)
+      steps_needed = (max(0.0_dp, surfaces%time_to_mean(from)) + time)/time_step
+   end function steps_needed
 
    !> Time at which roughness has filled the domain, and did at the times before; a whole number of steps of the next coarser grid
    pure real(dp) function start_time(surfaces, grid)

@@ -7,13 +7,13 @@ module ehl_step_policy
    implicit none (type, external)
    private
    public :: step_policy_t
-   public :: attempt_predicted, attempt_last, attempt_careful, attempt_damped
+   public :: attempt_predicted, attempt_last, attempt_limited, attempt_damped
    public :: step_ends, step_goes_on, step_begins_again
 
    !> Attempts at a step, in this order: from the predicted pressure; from the pressure of the last step, its sweeps
-   !> trusted less; the same with care; the same, changes of sweeps and of coarse grids damped. The next one is made
+   !> trusted less; the same, trusted even less; the same, changes of sweeps and of coarse grids damped. The next one is made
    !> when the residual does not fall.
-   integer, parameter :: attempt_predicted = 1, attempt_last = 2, attempt_careful = 3, attempt_damped = 4
+   integer, parameter :: attempt_predicted = 1, attempt_last = 2, attempt_limited = 3, attempt_damped = 4
    !> Largest change of the logarithm of a node's conductance in a sweep, by attempt
    real(dp), parameter :: max_log_change(4) = usual_log_change/[1.0_dp, 3.0_dp, 9.0_dp, 9.0_dp]
    !> Shares of the changes of a sweep and of a coarse grid that the damped attempt makes. Sweeps that throw a peak

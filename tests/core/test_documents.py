@@ -312,6 +312,39 @@ def test_modules_named_in_the_equation_table_hold_what_it_says(root: Path):
             assert re.search(rf"(subroutine|function) {name}\b", source), (name, path)
 
 
+def test_theory_names_routines_that_are_there(root: Path):
+    """Routines that a page of the theory names are in the files that it names."""
+    named = [
+        (page.name, name, path)
+        for page in sorted((root / "docs/theory").glob("*.md"))
+        for names, path in re.findall(
+            r"((?:`\w+`(?:, )?)+) in `(fortran/[\w/]+\.f90)`", page.read_text(encoding="utf-8")
+        )
+        for name in re.findall(r"`(\w+)`", names)
+    ]
+    assert {"full_multigrid", "time_step", "solve_stationary"} <= {name for _, name, _ in named}
+    for page, name, path in named:
+        source = (root / path).read_text(encoding="utf-8")
+        assert re.search(rf"(subroutine|function) {name}\b", source), (page, name, path)
+
+
+def test_a_v_cycle_is_read_in_few_files(root: Path):
+    """From the program to the relaxation each file is used by one before it."""
+    text = (root / "fortran/README.md").read_text(encoding="utf-8")
+    part = text.split("## From `ehl` to a V cycle\n")[1].split("\n## ")[0]
+    rows = re.findall(r"^\| `([\w/]+\.f90)` \| (.*) \|$", part, re.MULTILINE)
+    assert len(rows) <= 15
+    used: set[str] = set()
+    for path, routines in rows:
+        source = (root / "fortran" / path).read_text(encoding="utf-8")
+        module = re.search(r"^(?:module|program) (\w+)", source, re.MULTILINE)
+        assert module is not None
+        assert module[1] in used | {"ehl"}, path
+        used |= set(re.findall(r"^   use (\w+)", source, re.MULTILINE))
+        for name in re.findall(r"`(\w+)`", routines):
+            assert re.search(rf"(subroutine|function|type.*::) {name}\b", source), (path, name)
+
+
 def test_citation_names_the_version_and_the_paper(root: Path):
     text = (root / "CITATION.cff").read_text()
     version = re.search(r"^  version: '(.+)'", (root / "meson.build").read_text(), re.M)

@@ -17,6 +17,7 @@ LAYERS = [
     ["transient", "steady"],
     ["case"],
     ["plan"],
+    ["solve"],
     ["run"],
     ["app", "bind", "test"],
 ]

@@ -11,32 +11,31 @@ submodule (ehl_contact_run) ehl_contact_start
 contains
 
    module procedure begin_steps
-      associate (plan => self%plan, transient => self%transient, m => self%steady%results(n)%m)
+      associate (plan => self%plan, transient => self%transient, n => self%smooth%n, m => self%smooth%results(self%smooth%n)%m)
          ! where a feature passes once, the largest pressure and the least film are asked for, not the mean friction alone
          call transient%accuracy%set(self%grid%hx, plan%accuracy, m%friction_newtonian, &
-                                     merge(0.0_dp, friction_error(self%steady%results, n), plan%surfaces%pass_once()))
+                                     merge(0.0_dp, friction_error(self%smooth%results, n), plan%surfaces%pass_once()))
          call transient%policy%set(plan%step_cycle, plan%coarsening_may_change, plan%max_cycles)
-         call transient%start(self%hierarchy%levels(n), plan%contact, plan%surfaces, plan%skip_start, m%friction, status)
+         call transient%start(self%hierarchy%levels(n), n, plan%contact, plan%surfaces, plan%skip_start, m%friction, status)
          if (status%failed()) return
          if (plan%predicted_start) call begin_filled(self, n, status)
          if (status%failed()) return
          call self%hierarchy%prepare_steps(plan%scheme, transient%time_step, status)
       end associate
       if (status%failed()) return
-      self%in_steps = .true.
-      self%resting = .false.
+      self%phase = phase_steps
       call self%frames%start()
       if (self%checkpoint%found()) call take_state(self, status)
    end procedure begin_steps
 
-   !> The predicted start, unless somebody has said why there is none
+   !> The predicted start, unless there is a reason against it
    subroutine begin_filled(self, n, status)
       class(contact_run_t), intent(inout) :: self
       integer, intent(in) :: n
       type(status_t), intent(inout) :: status
       logical :: done
 
-      if (allocated(self%why_front)) return
+      if (allocated(self%fallback_reason)) return
       if (.not. allocated(self%predicted%pressure)) then
          call status%fail(ehl_bad_input, "time.start = 'prediction': this program predicts nothing"//new_line("a")// &
                           "expected: time.start = 'front', or 'pyehl run'")
@@ -44,13 +43,13 @@ contains
       end if
       call self%transient%fill(self%hierarchy%levels(n), self%plan%surfaces, self%predicted, done, status)
       if (status%failed()) return
-      if (.not. done) self%why_front = "the film would be negative"
+      if (.not. done) self%fallback_reason = "the film would be negative"
    end subroutine begin_filled
 
    module procedure begin_again
       call self%checkpoint%forget()
-      self%why_front = "the first steps from it ended with '"//trim(outcome_names(self%transient%state))//"'"
-      associate (level => self%hierarchy%levels(self%steady%n))
+      self%fallback_reason = "the first steps from it ended with '"//trim(outcome_names(outcome))//"'"
+      associate (level => self%hierarchy%levels(self%smooth%n))
          self%transient%rr = 0.0_dp
          call set_geometry(level, self%plan%contact, self%transient%rr)
          level%p = self%p_smooth
@@ -58,7 +57,7 @@ contains
          call refresh(level)
       end associate
       call self%begin_history()
-      call begin_steps(self, self%steady%n, status)
+      call begin_steps(self, status)
       self%outcome = outcome_running
    end procedure begin_again
 
@@ -66,19 +65,12 @@ contains
    subroutine take_state(self, status)
       class(contact_run_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
-      real(dp) :: numbers(4)
-      type(words_t) :: words(2)
       logical :: same
 
-      call self%checkpoint%read(self%transient, self%history, self%frames, self%grid, numbers, words, status)
+      call self%checkpoint%read(self%transient, self%history, self%frames, self%grid, self%seconds, self%coarser, &
+                                self%fallback_reason, status)
       if (status%failed()) return
-      self%seconds = numbers(1)
-      self%coarse_ratio = numbers(2)
-      self%coarse_outcome = nint(numbers(3))
-      self%coarse_load_share = numbers(4)
-      if (allocated(words(1)%text)) self%coarse_message = words(1)%text
-      if (allocated(words(2)%text)) self%why_front = words(2)%text
-      call self%transient%restore(self%hierarchy%levels(self%steady%n), self%plan%surfaces, same)
+      call self%transient%restore(self%hierarchy%levels(self%smooth%n), self%plan%surfaces, same)
       if (.not. same) then
          call status%fail(ehl_bad_input, self%checkpoint%path//": error: the film of this state does not follow from "// &
                           "its pressure"//new_line("a")//"expected: the surface and the program that it was made with")

@@ -5,11 +5,11 @@ module ehl_stopping_criterion
    use ehl_kinds, only: dp
    use ehl_outcome, only: outcome_converged, outcome_running, outcome_unsettled
    use ehl_plan, only: plan_t
-   use ehl_plan_need, only: most_periods
-   use ehl_transient, only: transient_t
+   use ehl_plan_need, only: max_periods
+   use ehl_transient_state, only: transient_t
    implicit none (type, external)
    private
-   public :: transient_outcome, least_periods
+   public :: transient_outcome, min_periods
 
 contains
 
@@ -26,7 +26,7 @@ contains
          else
             settled = mean%settled(plan%time_tolerance)
          end if
-         ends = settled .or. mean%periods() >= most_periods(plan)
+         ends = settled .or. mean%periods() >= max_periods(plan)
          if (plan%steps > 0) ends = transient%step >= plan%steps
       end associate
       outcome = outcome_running
@@ -34,9 +34,9 @@ contains
    end function transient_outcome
 
    !> Periods after which a transient run can end first
-   pure real(dp) function least_periods(plan, mean)
+   pure real(dp) function min_periods(plan, mean)
       type(plan_t), intent(in) :: plan
       type(friction_mean_t), intent(in) :: mean
-      least_periods = merge(1.0_dp, 1.0_dp + mean%lag, plan%surfaces%pass_once())
-   end function least_periods
+      min_periods = merge(1.0_dp, 1.0_dp + mean%lag, plan%surfaces%pass_once())
+   end function min_periods
 end module ehl_stopping_criterion

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Cycles that are taken back, damped and accelerated (docs/theory/full-multigrid.md)
-submodule (ehl_steady) ehl_steady_guard
+submodule (ehl_smooth_contact) ehl_cycle_guard
    implicit none (type, external)
 
    !> Cycles after which the changes of a cycle are made larger again, and those in which the residual must halve
@@ -10,7 +10,7 @@ submodule (ehl_steady) ehl_steady_guard
    integer, parameter :: stalls_after = 5
    !> Residual over that before a cycle from which on it is taken back, above the residual of a solution. Of five hard contacts
    !> with L from 17 to 37 all converge with 1.05 and 1.2; with 2 and 4 one ends at the cycle limit (tests/cases/test_machines.py)
-   real(dp), parameter :: most_growth = 1.2_dp
+   real(dp), parameter :: max_growth = 1.2_dp
 
 contains
 
@@ -34,16 +34,16 @@ contains
    end procedure keep_state
 
    module procedure guard_cycle
-      real(dp) :: most
+      real(dp) :: limit
       logical :: lost
 
-      if (status%failed()) return
+      if (status%failed() .or. .not. self%guarded) return
       associate (guard => self%guard)
          guard%since = guard%since + 1
-         lost = any(self%state == [outcome_diverged, outcome_negative_film])
-         most = most_residual
-         if (guard%residual_kept > 0.0_dp) most = max(residual_tolerance, most_growth*guard%residual_kept)
-         if (self%state == outcome_running) lost = self%residual > most
+         lost = any(outcome == [outcome_diverged, outcome_negative_film])
+         limit = max_residual
+         if (guard%residual_kept > 0.0_dp) limit = max(residual_tolerance, max_growth*guard%residual_kept)
+         if (outcome == outcome_running) lost = self%residual > limit
          if (.not. lost) guard%residual_kept = self%residual
          if (lost) then
             if (guard%damping == most_damping .or. self%cycles >= self%max_cycles) return
@@ -60,12 +60,12 @@ contains
                self%m = measure(level)
             end associate
             self%residual = guard%residual_kept
-            self%state = outcome_running
+            outcome = outcome_running
             call self%mixing%finish()
          else if (guard%damping > guard%lasting .and. guard%since >= undamped_after) then
             guard%damping = guard%damping - 1
             guard%since = 0
-         else if (self%state == outcome_running .and. mod(self%cycles, patience) == 0) then
+         else if (outcome == outcome_running .and. mod(self%cycles, patience) == 0) then
             if (self%residual > 0.5_dp*guard%residual_then .and. guard%damping < most_damping) then
                guard%damping = guard%damping + 1
                guard%lasting = guard%damping
@@ -75,7 +75,7 @@ contains
             guard%residual_then = self%residual
          end if
       end associate
-      if (self%state /= outcome_running .or. self%cycles < stalls_after) return
+      if (outcome /= outcome_running .or. self%cycles < stalls_after) return
       if (self%stall > stalled) call self%mixing%begin(hierarchy%levels(self%n), status)
    end procedure guard_cycle
-end submodule ehl_steady_guard
+end submodule ehl_cycle_guard

@@ -43,7 +43,7 @@ contains
       step_heat = not_known
       if (mod(self%transient%step, interval(self)) > 0) return
       ! of no field: nothing that could fail
-      call add_heat(self, self%steady%n, .false., found, status)
+      call add_heat(self, self%smooth%n, .false., found, status)
       step_heat = found%ratio()
    end procedure step_heat
 
@@ -51,7 +51,7 @@ contains
       real(dp), allocatable :: ratio(:), isothermal(:), step(:)
 
       heat_ratio = not_known
-      if (self%resting) then
+      if (self%phase == phase_stationary) then
          heat_ratio = self%rough_heat%ratio()
          return
       end if

@@ -1,12 +1,13 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The transient run of a rough surface through the contact, one time step at a time
-module ehl_transient
+!> The contact with a rough surface on the move: its state after a time step, and what begins, ends and takes back a step
+!> (the loops: ehl_transient)
+module ehl_transient_state
    use ehl_contact, only: contact_t
    use ehl_cycle, only: coarsening_alcouffe, coarsening_classical
    use ehl_extremes, only: extremes_t
    use ehl_film, only: refresh
    use ehl_force_balance, only: balance_load
-   use ehl_friction_mean, only: friction_mean_t, periods_compared
+   use ehl_friction_mean, only: friction_mean_t
    use ehl_hierarchy, only: hierarchy_t
    use ehl_iteration, only: iteration_t
    use ehl_kinds, only: dp
@@ -14,18 +15,17 @@ module ehl_transient
    use ehl_contact_results, only: central_value, load_tolerance, measure, contact_results_t
    use ehl_moving_surfaces, only: moving_surfaces_t
    use ehl_node_state, only: cavitate
-   use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_running
    use ehl_predicted_start, only: first_mean, predicted_start_t, start_lag, transit
    use ehl_predictor, only: predictor_t
    use ehl_reynolds, only: update_residual
    use ehl_status, only: ehl_no_memory, status_t
    use ehl_step_accuracy, only: step_accuracy_t
-   use ehl_step_policy, only: attempt_predicted, step_begins_again, step_ends, step_policy_t
+   use ehl_step_policy, only: attempt_predicted, step_policy_t
    use ehl_time_levels, only: keep, set_geometry, set_history
    use ehl_wedge, only: old_times
    implicit none (type, external)
    private
-   public :: transient_t, steps_needed
+   public :: transient_t
 
    !> Relative errors of the force balance that a step may have taken away by scaling its pressure
    real(dp), parameter :: small_load_error = 1.0e-5_dp
@@ -49,47 +49,29 @@ module ehl_transient
       real(dp), allocatable :: mass_content(:, :, :), p_before(:, :, :), rr(:, :)
       real(dp) :: h00_before(3) = 0.0_dp
       !> Sum of 1/H after the last step, to know the film by
-      real(dp) :: film_mark = 0.0_dp
+      real(dp) :: film_checksum = 0.0_dp
       type(predictor_t) :: predictor
    contains
       procedure :: start
       procedure :: fill
-      procedure :: advance
+      procedure :: begin_step
+      procedure :: begin_attempt
+      procedure :: begin_cycle
+      procedure :: may_scale_load
+      procedure :: converged
+      procedure :: accept
+      procedure :: step_back
       procedure :: restore
-      procedure, private :: begin_attempt
-      procedure :: may_balance
-      procedure :: meets
    end type transient_t
 
 contains
 
-   !> Time steps until the mean friction over a period can be compared with an earlier one, or the passage ends
-   real(dp) function steps_needed(surfaces, time_step, skip, filled, periods)
-      class(moving_surfaces_t), intent(in) :: surfaces
-      real(dp), intent(in) :: time_step
-      !> Whether the steps before the roughness comes near the contact are not made; whether it fills the contact at the start
-      logical, intent(in) :: skip, filled
-      !> Periods after which the run ends if its mean has not settled: the steps until then
-      real(dp), intent(in), optional :: periods
-      real(dp) :: from, time
-
-      if (filled) then
-         time = start_lag + surfaces%period
-         if (present(periods)) time = max(time, periods*surfaces%period)
-         steps_needed = (first_mean + time)/time_step
-         return
-      end if
-      from = merge(surfaces%begin(), 0.0_dp, skip)
-      time = merge(1.0_dp, periods_compared(surfaces%repeats), surfaces%pass_once())*surfaces%period
-      if (present(periods)) time = max(time, periods*surfaces%period)
-      steps_needed = (max(0.0_dp, surfaces%time_to_mean(from)) + time)/time_step
-   end function steps_needed
-
-   !> Begin from the solution of a level, smooth or with what is at rest, the roughness on the move riding on its film.
+   !> Begin from the solution of level n, smooth or with what is stationary, the roughness on the move riding on its film.
    !> Where the film is thick it changes nothing: solving begins when the front, with half its length, reaches x_matters.
-   subroutine start(self, level, contact, surfaces, skip, friction_smooth, status)
+   subroutine start(self, level, n, contact, surfaces, skip, friction_smooth, status)
       class(transient_t), intent(inout) :: self
       type(level_t), intent(inout) :: level
+      integer, intent(in) :: n
       class(contact_t), intent(in) :: contact
       class(moving_surfaces_t), intent(inout) :: surfaces
       !> Begin when the roughness comes near the contact, not when it enters the domain
@@ -100,6 +82,7 @@ contains
 
       if (status%failed()) return
       self%contact = contact
+      self%n = n
       self%step = 0
       self%total_cycles = 0
       self%time_step = level%grid%hx
@@ -186,78 +169,18 @@ contains
       end if
    end subroutine fill
 
-   !> One time step. Where it does not converge the last good state stands.
-   subroutine advance(self, hierarchy, n, surfaces, status)
+   !> The problem of the next time step: roughness at its place, mass content of the steps before, the residual wanted
+   subroutine begin_step(self, level, surfaces)
       class(transient_t), intent(inout) :: self
-      type(hierarchy_t), intent(inout) :: hierarchy
-      integer, intent(in) :: n
+      type(level_t), intent(inout) :: level
       class(moving_surfaces_t), intent(inout) :: surfaces
-      type(status_t), intent(inout) :: status
-      type(contact_results_t) :: first
-      real(dp) :: before, residual_first
-      integer :: next
 
-      if (status%failed()) return
-      call surfaces%roughness(hierarchy%levels(n)%grid, self%time + self%time_step, self%rr)
-      call set_geometry(hierarchy%levels(n), self%contact, self%rr)
-      call set_history(hierarchy%levels(n), self%mass_content)
+      call surfaces%roughness(level%grid, self%time + self%time_step, self%rr)
+      call set_geometry(level, self%contact, self%rr)
+      call set_history(level, self%mass_content)
       call self%policy%begin(self%accuracy%tolerance(self%mean%n >= self%mean%filled), self%accuracy%measures(self%step + 1))
-      self%n = n
       self%cycles = 0
-      next = step_begins_again
-      do
-         if (next == step_begins_again) call self%begin_attempt(hierarchy, status)
-         if (status%failed()) return
-         if (.not. self%residual < huge(1.0_dp) .and. self%cycles > 0) exit
-         before = self%residual
-         self%options = self%policy%options
-         self%policy%touching = hierarchy%levels(n)%boundary%touches()
-         if (self%policy%touching) self%options%coarsening = coarsening_classical
-         call self%improve(hierarchy)
-         call self%policy%after_cycle(self%step + 1, self%meets() .and. self%m%holds, before, &
-                                        self%residual, next)
-         if (next == step_ends) exit
-         if (self%cycles == 1) then
-            first = self%m
-            residual_first = self%residual
-         end if
-      end do
-      if (self%state == outcome_running) self%state = outcome_cycle_limit
-      associate (level => hierarchy%levels(n))
-         if (self%state /= outcome_converged) then
-            call step_back(self, level, surfaces)
-            return
-         end if
-         if (self%cycles > 1) call self%accuracy%learn(first%friction_newtonian, residual_first, &
-                                                       self%m%friction_newtonian, self%residual)
-         call self%accuracy%follow(self%m%friction_newtonian)
-         self%total_cycles = self%total_cycles + self%cycles
-         self%step = self%step + 1
-         self%time = (self%skipped + self%step)*self%time_step
-         call self%mean%append(self%m%friction/self%friction_smooth, self%m%film_central, &
-                               central_value(level%grid, self%rr))
-         self%h00_before = [level%h00, self%h00_before(1:2)]
-         call self%predictor%learn(self%p_before, level)
-         call keep(level, self%mass_content, self%p_before)
-         self%film_mark = sum(1.0_dp/level%h)
-      end associate
-   end subroutine advance
-
-   !> Whether a small error of the load is all that is left
-   logical function may_balance(self, before)
-      class(transient_t), intent(inout) :: self
-      type(contact_results_t), intent(in) :: before
-
-      associate (unused => before)
-      end associate
-      may_balance = self%residual <= self%policy%tolerance .and. abs(self%m%load_error) <= small_load_error
-   end function may_balance
-
-   !> Whether the step meets its tolerance
-   pure logical function meets(self)
-      class(transient_t), intent(in) :: self
-      meets = self%residual <= self%policy%tolerance .and. abs(self%m%load_error) <= load_tolerance
-   end function meets
+   end subroutine begin_step
 
    !> First approximation of an attempt at a step, and what its cycles need
    subroutine begin_attempt(self, hierarchy, status)
@@ -283,6 +206,49 @@ contains
       if (self%policy%options%coarsening == coarsening_alcouffe) call hierarchy%prepare_coarsening(status)
    end subroutine begin_attempt
 
+   !> The kind of cycle
+   subroutine begin_cycle(self, level)
+      class(transient_t), intent(inout) :: self
+      type(level_t), intent(in) :: level
+
+      self%next_cycle = self%policy%options
+      self%policy%touching = level%boundary%touches()
+      if (self%policy%touching) self%next_cycle%coarsening = coarsening_classical
+   end subroutine begin_cycle
+
+   !> Whether a small error of the load is all that is left
+   pure logical function may_scale_load(self)
+      class(transient_t), intent(in) :: self
+      may_scale_load = self%residual <= self%policy%tolerance .and. abs(self%m%load_error) <= small_load_error
+   end function may_scale_load
+
+   !> Whether the step meets its tolerance
+   pure logical function converged(self)
+      class(transient_t), intent(in) :: self
+      converged = self%residual <= self%policy%tolerance .and. abs(self%m%load_error) <= load_tolerance .and. self%m%holds
+   end function converged
+
+   !> The step is solved: it becomes the last one
+   subroutine accept(self, level, first, residual_first)
+      class(transient_t), intent(inout) :: self
+      type(level_t), intent(in) :: level
+      !> Results and residual after its first cycle
+      type(contact_results_t), intent(in) :: first
+      real(dp), intent(in) :: residual_first
+
+      if (self%cycles > 1) call self%accuracy%learn(first%friction_newtonian, residual_first, self%m%friction_newtonian, &
+                                                    self%residual)
+      call self%accuracy%follow(self%m%friction_newtonian)
+      self%total_cycles = self%total_cycles + self%cycles
+      self%step = self%step + 1
+      self%time = (self%skipped + self%step)*self%time_step
+      call self%mean%append(self%m%friction/self%friction_smooth, self%m%film_central, central_value(level%grid, self%rr))
+      self%h00_before = [level%h00, self%h00_before(1:2)]
+      call self%predictor%learn(self%p_before, level)
+      call keep(level, self%mass_content, self%p_before)
+      self%film_checksum = sum(1.0_dp/level%h)
+   end subroutine accept
+
    !> Go on with a state that was read into this run. `same` tells whether its film follows from its pressure: it does
    !> not when the surface, or the program, is another one.
    subroutine restore(self, level, surfaces, same)
@@ -293,9 +259,9 @@ contains
       !> Rounding of another processor or compiler may pass
       real(dp), parameter :: rounding = 1.0e-9_dp
 
-      call step_back(self, level, surfaces)
+      call self%step_back(level, surfaces)
       self%m = measure(level)
-      same = abs(sum(1.0_dp/level%h) - self%film_mark) <= rounding*self%film_mark
+      same = abs(sum(1.0_dp/level%h) - self%film_checksum) <= rounding*self%film_checksum
    end subroutine restore
 
    !> The last good state again
@@ -310,4 +276,4 @@ contains
       level%h00 = self%h00_before(1)
       call refresh(level)
    end subroutine step_back
-end module ehl_transient
+end module ehl_transient_state

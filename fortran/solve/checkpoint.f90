@@ -7,14 +7,15 @@ module ehl_checkpoint
    use ehl_frames, only: frames_t
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
+   use ehl_outcome, only: outcome_running
    use ehl_sealed_file, only: end_reading, end_sealed, is_sealed, open_sealed
    use ehl_status, only: ehl_bad_input, ehl_file, status_t
    use ehl_table, only: table_t
    use ehl_text, only: newline, to_text
-   use ehl_transient, only: transient_t
+   use ehl_transient_state, only: transient_t
    implicit none (type, external)
    private
-   public :: checkpoint_t, coarser, frame_file, state_files, words_t
+   public :: checkpoint_t, coarser, coarser_t, frame_file, state_files
 
    !> The newest state and the one before it; what names of frames begin with; behind a prefix the states of the run on
    !> the coarser grid
@@ -32,10 +33,13 @@ module ehl_checkpoint
       character(len=:), allocatable :: text
    end type head_t
 
-   !> A text; not allocated: none
-   type :: words_t
-      character(len=:), allocatable :: text
-   end type words_t
+   !> What is known of the same contact on the next coarser grid: how it ended (outcome_running: it has not), the error that ended
+   !> it, and if it converged its friction ratio and load share
+   type :: coarser_t
+      integer :: outcome = outcome_running
+      character(len=:), allocatable :: message
+      real(dp) :: ratio = 0.0_dp, load_share = 0.0_dp
+   end type coarser_t
 
    type :: checkpoint_t
       !> State to go on from
@@ -58,17 +62,17 @@ module ehl_checkpoint
 contains
 
    !> Write the state after a step; the newest so far becomes the one before it
-   subroutine write_state(self, prefix, text, transient, history, frames, numbers, words, status)
+   subroutine write_state(self, prefix, text, transient, history, frames, seconds, coarse, fallback_reason, status)
       class(checkpoint_t), intent(inout) :: self
       !> Folder with its '/', and what the names begin with; the case that the state belongs to
       character(len=*), intent(in) :: prefix, text
       type(transient_t), intent(in) :: transient
       type(table_t), intent(in) :: history
       type(frames_t), intent(in) :: frames
-      !> Seconds spent on the steps, mean friction ratio of the coarser run, how that run ended, its load share
-      real(dp), intent(in) :: numbers(4)
-      !> The error that ended the coarser run; why the steps did not begin from a prediction
-      type(words_t), intent(in) :: words(2)
+      !> Seconds spent on the steps; the same contact on the coarser grid; why the steps did not begin from a prediction
+      real(dp), intent(in) :: seconds
+      type(coarser_t), intent(in) :: coarse
+      character(len=:), allocatable, intent(in) :: fallback_reason
       type(status_t), intent(inout) :: status
       character(len=:), allocatable :: path, first, second
       character(len=256) :: reason
@@ -98,15 +102,16 @@ contains
       if (status%failed()) return
       first = ""
       second = ""
-      if (allocated(words(1)%text)) first = words(1)%text
-      if (allocated(words(2)%text)) second = words(2)%text
+      if (allocated(coarse%message)) first = coarse%message
+      if (allocated(fallback_reason)) second = fallback_reason
       ! as it is read in read_head and read_state
       associate (t => transient, mean => transient%mean)
          write (lun, iostat=stat, iomsg=reason) magic, t%step, frames%n, len(text), text, &
             t%skipped, t%time, t%time_step, t%residual, t%cycles, t%total_cycles, t%policy%coarsening, &
             t%policy%changed_at, t%h00_before, t%friction_smooth, t%mass_content, t%p_before, t%predictor%weights, &
-            t%accuracy%rise, t%accuracy%sensitivity, t%accuracy%largest, t%film_mark, t%extremes%found, mean%filled, mean%lag, &
-            mean%transit, numbers, len(first), first, len(second), second, &
+            t%accuracy%rise, t%accuracy%sensitivity, t%accuracy%largest, t%film_checksum, t%extremes%found, mean%filled, mean%lag, &
+            mean%transit, seconds, coarse%ratio, real(coarse%outcome, dp), coarse%load_share, &
+            len(first), first, len(second), second, &
             (history%row(k), mean%values(k), mean%film(k), mean%roughness(k), k=1, t%step)
       end associate
       call end_sealed(lun, path//".new", stat, reason, status)
@@ -170,23 +175,25 @@ contains
    end function found
 
    !> Read the state that was found into a run that has started
-   subroutine read_state(self, transient, history, frames, grid, numbers, words, status)
+   subroutine read_state(self, transient, history, frames, grid, seconds, coarse, fallback_reason, status)
       class(checkpoint_t), intent(in) :: self
       type(transient_t), intent(inout) :: transient
       type(table_t), intent(inout) :: history
       type(frames_t), intent(inout) :: frames
       type(grid_t), intent(in) :: grid
       !> As write_state has them
-      real(dp), intent(out) :: numbers(4)
-      type(words_t), intent(out) :: words(2)
+      real(dp), intent(out) :: seconds
+      type(coarser_t), intent(out) :: coarse
+      character(len=:), allocatable, intent(inout) :: fallback_reason
       type(status_t), intent(inout) :: status
       type(head_t) :: head
-      real(dp) :: row(history%n_columns()), values(3)
+      real(dp) :: row(history%n_columns()), values(3), outcome
       character(len=:), allocatable :: path
       character(len=256) :: reason
       integer :: lun, stat, k
 
-      numbers = 0.0_dp
+      seconds = 0.0_dp
+      outcome = 0.0_dp
       call open_sealed(self%path, "read", lun, status)
       if (status%failed()) return
       call read_head(lun, head, stat)
@@ -195,11 +202,11 @@ contains
          if (stat == 0) read (lun, iostat=stat, iomsg=reason) &
             t%skipped, t%time, t%time_step, t%residual, t%cycles, t%total_cycles, t%policy%coarsening, &
             t%policy%changed_at, t%h00_before, t%friction_smooth, t%mass_content, t%p_before, t%predictor%weights, &
-            t%accuracy%rise, t%accuracy%sensitivity, t%accuracy%largest, t%film_mark, t%extremes%found, t%mean%filled, &
-            t%mean%lag, t%mean%transit, numbers
-         do k = 1, size(words)
-            if (stat == 0) call read_words(lun, words(k), stat)
-         end do
+            t%accuracy%rise, t%accuracy%sensitivity, t%accuracy%largest, t%film_checksum, t%extremes%found, t%mean%filled, &
+            t%mean%lag, t%mean%transit, seconds, coarse%ratio, outcome, coarse%load_share
+         coarse%outcome = nint(outcome)
+         if (stat == 0) call read_text(lun, coarse%message, stat)
+         if (stat == 0) call read_text(lun, fallback_reason, stat)
          do k = 1, t%step
             if (stat == 0) read (lun, iostat=stat, iomsg=reason) row, values
             if (stat /= 0) exit
@@ -264,19 +271,20 @@ contains
       if (stat /= 0) head%text = ""
    end subroutine read_head
 
-   !> Read a text; of no length: none
-   subroutine read_words(lun, words, stat)
+   !> Read a text; of no length: it stays
+   subroutine read_text(lun, text, stat)
       integer, intent(in) :: lun
-      type(words_t), intent(out) :: words
+      character(len=:), allocatable, intent(inout) :: text
       integer, intent(out) :: stat
       integer :: length
 
       read (lun, iostat=stat) length
       if (stat /= 0 .or. length == 0) return
-      allocate (character(len=length) :: words%text)
-      read (lun, iostat=stat) words%text
-      if (stat /= 0) words%text = ""
-   end subroutine read_words
+      if (allocated(text)) deallocate (text)
+      allocate (character(len=length) :: text)
+      read (lun, iostat=stat) text
+      if (stat /= 0) text = ""
+   end subroutine read_text
 
    !> The run goes on from a state: what it saves from here on is its own
    subroutine end_resuming(self)

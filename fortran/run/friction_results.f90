@@ -1,0 +1,171 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Absolute friction of a run, where it means something, and the heat of it
+module ehl_friction_results
+   use ehl_contact, only: contact_t
+   use ehl_contact_run, only: contact_run_t
+   use ehl_grid, only: grid_t
+   use ehl_heat, only: flash_temperature
+   use ehl_kinds, only: dp, not_known, pi
+   use ehl_level, only: gap
+   use ehl_plan, only: plan_t
+   use ehl_text, only: fixed, to_text
+   use ehl_touching, only: same_film
+   use ehl_wall_heat, only: heat_source
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   implicit none (type, external)
+   private
+   public :: friction_results_t, find_friction
+
+   !> Not a number where it is not known or means nothing
+   type :: friction_results_t
+      !> Coefficients of the contact, and of the smooth one; the same without the heat of friction
+      real(dp) :: mu(2) = not_known, mu_isothermal(2) = not_known
+      !> What the coefficients are, or why there are none
+      character(len=:), allocatable :: note
+      !> Of the smooth contact: rolling moment [p_h a^3], mean shear rate [1/s], maximum shear stress [Pa]
+      real(dp) :: rolling_moment = not_known, shear_rate = not_known, shear_stress = not_known
+      !> Flash temperature [K]; maximum rises of film and walls with the heat of friction [K]
+      real(dp) :: flash = not_known, rises(3) = not_known
+   end type friction_results_t
+
+contains
+
+   !> Friction and heat of a run
+   subroutine find_friction(run, good, converged, why_none, found)
+      type(contact_run_t), intent(in) :: run
+      !> Whether the smooth contact is converged, and the run
+      logical, intent(in) :: good, converged
+      !> Why friction is not known where the bodies touch; empty where it is
+      character(len=*), intent(in) :: why_none
+      type(friction_results_t), intent(out) :: found
+      !> Friction integral of the smooth contact; the friction over it, and that of the contact with heat over it without
+      real(dp) :: friction, ratio, heat_ratio
+      real(dp) :: speed, source(2)
+      logical :: known, rough
+
+      known = why_none == ""
+      rough = run%plan%surfaces%rough()
+      friction = merge(run%smooth%results(run%level())%m%friction, not_known, good .and. known)
+      ratio = merge(not_known, 1.0_dp, rough)
+      heat_ratio = not_known
+      if (run%plan%heat%counts .and. .not. rough) heat_ratio = run%smooth_heat%ratio()
+      if (run%is_rough() .and. converged .and. known) then
+         ratio = run%mu_ratio()
+         if (run%plan%heat%counts) heat_ratio = run%heat_ratio()
+      end if
+      associate (plan => run%plan, s => run%plan%sliding, shear => run%plan%lubricant%shear)
+         speed = abs(s%slide_to_roll)*s%mean_velocity
+         if (ieee_is_finite(friction)) then
+            if (run%is_rough()) then
+               call read_off(run, run%grid, run%p_smooth, run%h_smooth, speed, found)
+            else
+               associate (level => run%hierarchy%levels(run%level()))
+                  call read_off(run, level%grid, level%p, gap(level), speed, found)
+               end associate
+            end if
+         end if
+         if (.not. s%mean_velocity > 0.0_dp) then
+            found%note = "a ratio alone: moes_m and moes_l give no sliding speed in m/s"
+         else if (.not. speed > 0.0_dp) then
+            found%note = "a ratio alone, that of vanishing sliding: there is no sliding, and rolling_moment_N_m resists the rolling"
+         else if (.not. known) then
+            found%note = why_none
+         else if (.not. ieee_is_finite(friction)) then
+            found%note = "the smooth contact is not converged"
+         else if (shear%thins() .or. found%shear_stress <= s%newtonian_limit) then
+            found%mu_isothermal(2) = friction*shear%scale*plan%scales%length**2/s%load
+            found%note = plan%heat%note
+         else
+            found%note = "a ratio alone: the Newtonian shear stress reaches "//fixed(found%shear_stress, "es8.1e2")// &
+                         " Pa, and oils shear thin above some "//to_text(s%newtonian_limit)// &
+                         " Pa (lubricant.eyring_stress): give a lubricant.shear_law"
+         end if
+         found%mu_isothermal(1) = ratio*found%mu_isothermal(2)
+         found%mu = found%mu_isothermal
+         if (plan%heat%counts) then
+            found%mu = found%mu*[heat_ratio, run%smooth_heat%ratio()]
+            if (ieee_is_finite(found%mu_isothermal(2)) .and. .not. ieee_is_finite(found%mu(2))) then
+               found%note = "the temperature is not converged"
+            end if
+         end if
+         if (.not. ieee_is_finite(found%mu(1))) return
+         source = heat_source(plan%contact)
+         found%flash = flash_temperature(found%mu(1)*s%load*speed/(pi*plan%scales%length**2*plan%contact%ellipticity), &
+                                         source(1)*plan%scales%length, source(2), s%speeds(), s%conductivity, s%diffusivity)
+         if (.not. plan%heat%counts) return
+         found%rises = run%smooth_heat%greatest
+         if (rough) found%rises = run%rough_heat%greatest
+         if (.not. ieee_is_finite(found%rises(1))) return
+         if (found%rises(1) > max(0.0_dp, plan%heat%measured_rise)) found%note = found%note// &
+            "; the film is hotter than the temperatures at which the viscosity was measured"
+      end associate
+   end subroutine find_friction
+
+   !> Rolling moment, mean shear rate and maximum shear stress of the smooth contact with pressure p and film h
+   subroutine read_off(run, grid, p, h, speed, found)
+      type(contact_run_t), intent(in) :: run
+      type(grid_t), intent(in) :: grid
+      real(dp), intent(in) :: p(:, :), h(:, :)
+      !> Of sliding [m/s]
+      real(dp), intent(in) :: speed
+      type(friction_results_t), intent(inout) :: found
+
+      found%rolling_moment = rolling_moment(grid, p, h)
+      if (.not. speed > 0.0_dp) return
+      found%shear_rate = speed/run%plan%scales%film*mean_inverse(run%plan%contact, grid, h)
+      found%shear_stress = max_stress(run%plan, p, h)
+   end subroutine read_off
+
+   !> iint H/2 dP/dX, the moment of the pressure flow on each surface, which resists the rolling [p_h a^3]; a long inlet
+   !> has a good part of it (Biboulet & Houpert 2010)
+   pure real(dp) function rolling_moment(grid, p, h)
+      type(grid_t), intent(in) :: grid
+      real(dp), intent(in) :: p(:, :), h(:, :)
+      integer :: j, n
+
+      rolling_moment = 0.0_dp
+      n = grid%nx
+      do j = 1, grid%ny
+         rolling_moment = rolling_moment + 0.25_dp*grid%weight(j)/grid%hx*sum((h(:n - 1, j) + h(2:, j))*(p(2:, j) - p(:n - 1, j)))
+      end do
+   end function rolling_moment
+
+   !> Mean of 1/H over the dry contact
+   pure real(dp) function mean_inverse(contact, grid, h)
+      class(contact_t), intent(in) :: contact
+      type(grid_t), intent(in) :: grid
+      real(dp), intent(in) :: h(:, :)
+      real(dp) :: area, x(grid%nx), pressure(grid%nx)
+      integer :: i, j
+
+      mean_inverse = 0.0_dp
+      area = 0.0_dp
+      x = grid%x([(i, i=1, grid%nx)])
+      do j = 1, grid%ny
+         call contact%pressure_row(x, grid%y(j), pressure)
+         area = area + grid%weight(j)*count(pressure > 0.0_dp)
+         mean_inverse = mean_inverse + grid%weight(j)*sum(1.0_dp/h(:, j), mask=pressure > 0.0_dp)
+      end do
+      mean_inverse = mean_inverse/area
+   end function mean_inverse
+
+   !> Maximum shear stress of the lubricant [Pa]; where the bodies touch it has none
+   pure real(dp) function max_stress(plan, p, h)
+      type(plan_t), intent(in) :: plan
+      real(dp), intent(in) :: p(:, :), h(:, :)
+      real(dp), dimension(size(p, 1)) :: log_eta, slope, stress, rho
+      integer :: j
+
+      max_stress = 0.0_dp
+      do j = 1, size(p, 2)
+         call plan%lubricant%log_viscosity(p(:, j), log_eta, slope)
+         stress = exp(log_eta)/h(:, j)
+         if (plan%lubricant%shear%thins()) call plan%lubricant%shear%reduce(p(:, j), stress)
+         if (plan%lubricant%boundary_film > 0.0_dp) then
+            call plan%lubricant%density(p(:, j), rho, slope)
+            where (rho*h(:, j) <= (1.0_dp + same_film)*plan%lubricant%boundary_film) stress = 0.0_dp
+         end if
+         max_stress = max(max_stress, plan%lubricant%shear%scale*maxval(stress))
+      end do
+   end function max_stress
+end module ehl_friction_results

@@ -1,0 +1,312 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> A planned contact on its way: smooth, then with the rough surface, stationary or in time steps. What there is of it after every
+!> cycle and step, and how one phase follows another; the phases themselves are ehl_fmg, ehl_stationary_rough, ehl_transient.
+module ehl_contact_run
+   use ehl_checkpoint, only: checkpoint_t, coarser_t
+   use ehl_frames, only: frames_t
+   use ehl_grid, only: grid_t
+   use ehl_heated_friction, only: heated_t
+   use ehl_hierarchy, only: hierarchy_t
+   use ehl_kinds, only: dp
+   use ehl_outcome, only: outcome_converged, outcome_running, outcome_target_missed
+   use ehl_level, only: gap
+   use ehl_plan, only: plan_t
+   use ehl_plan_surface, only: check_carried
+   use ehl_predicted_start, only: predicted_start_t
+   use ehl_smooth_contact, only: smooth_contact_t
+   use ehl_stationary_share, only: stationary_t
+   use ehl_status, only: ehl_no_memory, status_t
+   use ehl_stopping_criterion, only: transient_outcome
+   use ehl_table, only: table_t
+   use ehl_touching, only: known_names, touching_names
+   use ehl_transient_state, only: transient_t
+   implicit none (type, external)
+   private
+   public :: contact_run_t
+   public :: phase_smooth, phase_stationary, phase_steps
+
+   !> What is being solved: the smooth contact, that with a stationary rough surface, time steps
+   integer, parameter :: phase_smooth = 1, phase_stationary = 2, phase_steps = 3
+
+   !> Time steps of the finest grid: done, and until the earliest and the latest end; seconds spent on them
+   type :: work_t
+      real(dp) :: done = 0.0_dp, earliest = 0.0_dp, latest = 0.0_dp, seconds = 0.0_dp
+   end type work_t
+
+   type :: contact_run_t
+      type(plan_t) :: plan
+      !> How it stands, and what is being solved
+      integer :: outcome = outcome_running, phase = phase_smooth
+      !> Finest grid reached so far
+      type(grid_t) :: grid
+      type(hierarchy_t) :: hierarchy
+      type(smooth_contact_t) :: smooth
+      type(stationary_t) :: stationary
+      type(transient_t) :: transient
+      !> What time steps begin with where the plan says so, and why they do not
+      type(predicted_start_t) :: predicted
+      character(len=:), allocatable :: fallback_reason
+      !> A row per cycle or time step; seconds spent on those of the rough contact
+      type(table_t) :: history
+      real(dp) :: seconds = 0.0_dp
+      !> Pressure, film and separation of the smooth contact, kept where there is a rough one; frames of the transient run
+      real(dp), allocatable :: p_smooth(:, :), h_smooth(:, :)
+      real(dp) :: h00_smooth = 0.0_dp
+      type(frames_t) :: frames
+      !> Heat of the smooth contact, and of the rough one at the end
+      type(heated_t) :: smooth_heat, rough_heat
+      !> State on disk, and to go on from when the smooth contact is solved; the case that it belongs to, what its names begin with
+      type(checkpoint_t) :: checkpoint
+      character(len=:), allocatable :: state_text, state_prefix
+      !> The same contact on the next coarser grid; whether this is the run on it, what the other run has done and is to do, and
+      !> the cost of a step, in steps of the finest grid
+      type(coarser_t) :: coarser
+      logical :: is_coarser = .false.
+      type(work_t) :: other
+      real(dp) :: step_cost = 1.0_dp
+   contains
+      procedure :: begin
+      procedure, private :: begin_history
+      procedure :: record_cycle
+      procedure :: record_share
+      procedure :: record_step
+      procedure :: next_phase
+      procedure :: is_filling
+      procedure :: begin_again
+      procedure :: is_rough
+      procedure :: level
+      procedure :: mu_ratio
+      procedure :: heat_ratio
+      procedure :: save
+   end type contact_run_t
+
+   ! in contact_start.f90
+   interface
+      !> From the contact, smooth or with what is stationary, to time steps, or to the state that was kept
+      module subroutine begin_steps(self, status)
+         class(contact_run_t), intent(inout) :: self
+         type(status_t), intent(inout) :: status
+      end subroutine begin_steps
+
+      !> Where the first steps from a prediction fail: all of them again behind a front
+      module subroutine begin_again(self, outcome, status)
+         class(contact_run_t), intent(inout) :: self
+         !> How they failed
+         integer, intent(in) :: outcome
+         type(status_t), intent(inout) :: status
+      end subroutine begin_again
+   end interface
+
+   ! in contact_heat.f90
+   interface
+      !> Friction and temperature of the present contact on a level; the temperature at every node if it is to be kept
+      module subroutine add_heat(self, n, keep, found, status)
+         class(contact_run_t), intent(in) :: self
+         integer, intent(in) :: n
+         logical, intent(in) :: keep
+         type(heated_t), intent(out) :: found
+         type(status_t), intent(inout) :: status
+      end subroutine add_heat
+
+      !> Friction with heat over that without it after a step; NaN where it is not computed
+      module real(dp) function step_heat(self)
+         class(contact_run_t), intent(in) :: self
+      end function step_heat
+
+      !> The same of the rough contact of a run that has converged, over the time of its mean; NaN where it is not known
+      module real(dp) function heat_ratio(self)
+         class(contact_run_t), intent(in) :: self
+      end function heat_ratio
+   end interface
+
+contains
+
+   !> Prepare the coarse grids of the plan
+   subroutine begin(self, status)
+      class(contact_run_t), intent(inout) :: self
+      type(status_t), intent(inout) :: status
+
+      if (status%failed()) return
+      if (allocated(self%plan%fallback_reason)) self%fallback_reason = self%plan%fallback_reason
+      call self%hierarchy%setup(self%plan%coarsest, self%plan%levels, self%plan%lubricant, self%plan%point%speed_parameter, &
+                                self%plan%contact%kernel_factor, self%plan%engine, self%plan%threads, status)
+      call self%smooth%start(self%plan%contact, self%plan%steady_options_t)
+      call self%hierarchy%grow(self%smooth%n, status)
+      if (status%failed()) return
+      self%grid = self%hierarchy%levels(self%smooth%n)%grid
+      call self%begin_history()
+   end subroutine begin
+
+   !> A history without a row
+   subroutine begin_history(self)
+      class(contact_run_t), intent(inout) :: self
+      character(len=16), allocatable :: columns(:)
+
+      if (self%plan%surfaces%rest()) then
+         columns = [character(len=16) :: "cycle", "share", "mu_ratio", "H_c", "H_min", "P_max", "load_error", "residual"]
+      else if (self%plan%surfaces%move()) then
+         columns = [character(len=16) :: "step", "T", "mu_ratio", "H_c", "H_min", "P_max", "load_error", "cycles", "residual"]
+         if (self%plan%heat%counts) columns = [character(len=16) :: columns, "heat_ratio"]
+         if (self%plan%lubricant%boundary_film > 0.0_dp) then
+            columns = [character(len=16) :: columns, touching_names(:known_names(self%plan%lubricant))]
+         end if
+      else
+         columns = [character(len=16) :: "level", "points", "cycle", "H_c", "H_min", "P_max", "F", "load_error", "residual", &
+                    "H_c_algebraic"]
+      end if
+      call self%history%init(columns)
+   end subroutine begin_history
+
+   !> After a cycle of the smooth contact on level n
+   subroutine record_cycle(self, n, outcome, status)
+      class(contact_run_t), intent(inout) :: self
+      integer, intent(in) :: n
+      !> Of the smooth contact
+      integer, intent(in) :: outcome
+      type(status_t), intent(inout) :: status
+
+      self%grid = self%hierarchy%levels(n)%grid
+      if (.not. (self%plan%surfaces%rough() .and. outcome == outcome_converged)) self%outcome = outcome
+      if (self%plan%heat%counts .and. any(outcome == [outcome_converged, outcome_target_missed])) then
+         call add_heat(self, n, .not. self%plan%surfaces%rough(), self%smooth_heat, status)
+      end if
+      if (self%plan%surfaces%rough()) return
+      associate (result => self%smooth%results(n))
+         call self%history%append([real(dp) :: n, self%grid%nx, result%cycles, result%m%film_central, &
+                                   result%m%film_minimum, result%m%pressure_maximum, result%m%friction, &
+                                   result%m%load_error, result%residual, result%algebraic(1)])
+      end associate
+   end subroutine record_cycle
+
+   !> After a cycle with a share of the stationary roughness; where something moves, too, it is only on the way to time steps
+   subroutine record_share(self, outcome, seconds, status)
+      class(contact_run_t), intent(inout) :: self
+      !> Of the contact with all of the roughness
+      integer, intent(in) :: outcome
+      !> Spent on the cycle
+      real(dp), intent(in) :: seconds
+      type(status_t), intent(inout) :: status
+
+      if (self%plan%surfaces%move()) then
+         if (outcome /= outcome_converged) self%outcome = outcome
+         return
+      end if
+      self%seconds = self%seconds + seconds
+      self%outcome = outcome
+      if (self%plan%heat%counts .and. outcome == outcome_converged) then
+         call add_heat(self, self%smooth%n, .true., self%rough_heat, status)
+      end if
+      associate (rough => self%stationary, m => self%stationary%m)
+         call self%history%append([real(dp) :: rough%total_cycles, rough%share, rough%mu_ratio(), m%film_central, &
+                                   m%film_minimum, m%pressure_maximum, m%load_error, rough%residual])
+      end associate
+   end subroutine record_share
+
+   !> After a time step that is solved
+   subroutine record_step(self, status)
+      class(contact_run_t), intent(inout) :: self
+      type(status_t), intent(inout) :: status
+      real(dp), allocatable :: row(:)
+      real(dp) :: numbers(size(touching_names))
+
+      associate (transient => self%transient, m => self%transient%m, level => self%hierarchy%levels(self%smooth%n))
+         allocate (row, source=[real(dp) :: transient%step, transient%time, m%friction/transient%friction_smooth, m%film_central, &
+                                m%film_minimum, m%pressure_maximum, m%load_error, transient%cycles, transient%residual])
+         if (self%plan%heat%counts) row = [row, step_heat(self)]
+         if (self%plan%lubricant%boundary_film > 0.0_dp) then
+            numbers = m%touching%numbers()
+            row = [row, numbers(:known_names(self%plan%lubricant))]
+         end if
+         call self%history%append(row)
+         if (self%plan%surfaces%pass_once()) call transient%extremes%see(level, self%p_smooth, self%h_smooth, transient%time)
+         self%outcome = transient_outcome(self%plan, transient)
+         if (self%plan%heat%counts .and. self%outcome == outcome_converged) then
+            call add_heat(self, self%smooth%n, .true., self%rough_heat, status)
+         end if
+         call self%frames%keep(level, transient%time, transient%time_step, self%plan%frame_interval, status)
+      end associate
+   end subroutine record_step
+
+   !> What is being solved is solved: let the roughness in, first what is stationary of it, then what moves
+   subroutine next_phase(self, status)
+      class(contact_run_t), intent(inout) :: self
+      type(status_t), intent(inout) :: status
+
+      if (self%phase == phase_smooth) call keep_smooth(self, status)
+      if (status%failed()) return
+      associate (surfaces => self%plan%surfaces, n => self%smooth%n)
+         if (self%phase == phase_smooth .and. (surfaces%rest() .or. surfaces%some_rest())) then
+            call self%stationary%start(self%hierarchy%levels(n), n, self%plan%contact, surfaces, self%plan%steady_options_t, status)
+            self%phase = phase_stationary
+         else
+            call begin_steps(self, status)
+         end if
+      end associate
+   end subroutine next_phase
+
+   !> Prepare the surfaces for the grid reached, and keep what results need of the smooth contact
+   subroutine keep_smooth(self, status)
+      class(contact_run_t), intent(inout) :: self
+      type(status_t), intent(inout) :: status
+      integer :: stat
+
+      call self%plan%update_resolved_fraction(self%grid)
+      call check_carried(self%plan%surfaces, self%grid, status)
+      call self%plan%surfaces%prepare(self%grid, status)
+      if (status%failed()) return
+      if (allocated(self%p_smooth)) deallocate (self%p_smooth, self%h_smooth)
+      allocate (self%p_smooth(self%grid%nx, self%grid%ny), self%h_smooth(self%grid%nx, self%grid%ny), stat=stat)
+      if (stat /= 0) then
+         call status%fail(ehl_no_memory, "no memory for the fields of the smooth contact")
+         return
+      end if
+      associate (level => self%hierarchy%levels(self%smooth%n))
+         self%p_smooth(:, :) = level%p
+         self%h_smooth(:, :) = gap(level)
+         self%h00_smooth = level%h00
+      end associate
+   end subroutine keep_smooth
+
+   !> Whether the steps from a predicted start have not yet come to the mean
+   pure logical function is_filling(self)
+      class(contact_run_t), intent(in) :: self
+      is_filling = self%transient%mean%transit > 0.0_dp .and. self%transient%mean%n < self%transient%mean%filled
+   end function is_filling
+
+   !> Whether the roughness is in
+   pure logical function is_rough(self)
+      class(contact_run_t), intent(in) :: self
+      is_rough = self%phase /= phase_smooth
+   end function is_rough
+
+   !> Level of the results: the present one, or the last one that has been worked on
+   pure integer function level(self)
+      class(contact_run_t), intent(in) :: self
+      level = self%smooth%n
+      if (self%smooth%results(level)%cycles == 0 .and. level > 1) then
+         if (self%smooth%results(level - 1)%cycles > 0) level = level - 1
+      end if
+   end function level
+
+   !> Friction ratio of a run that has converged
+   pure real(dp) function mu_ratio(self)
+      class(contact_run_t), intent(in) :: self
+      if (self%phase == phase_stationary) then
+         mu_ratio = self%stationary%mu_ratio()
+      else
+         mu_ratio = self%transient%mean%mean(0.0_dp)
+      end if
+   end function mu_ratio
+
+   !> Write the state into a folder. Before the first time step there is nothing that is worth it.
+   subroutine save(self, folder, status)
+      class(contact_run_t), intent(inout) :: self
+      !> With its '/'
+      character(len=*), intent(in) :: folder
+      type(status_t), intent(inout) :: status
+
+      if (self%phase /= phase_steps .or. self%transient%step == 0) return
+      call self%checkpoint%write(folder//self%state_prefix, self%state_text, self%transient, self%history, self%frames, &
+                                 self%seconds, self%coarser, self%fallback_reason, status)
+   end subroutine save
+end module ehl_contact_run

@@ -1,0 +1,123 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> A state of the contact on its way to its tolerance: one multigrid cycle and what it leaves. What is solved (a level of the
+!> smooth contact, a share of a stationary roughness, a time step) extends iteration_t by its own estimate of the error.
+module ehl_iteration
+   use ehl_anderson, only: anderson_t
+   use ehl_contact_results, only: contact_results_t, load_tolerance, measure
+   use ehl_cycle, only: cycle_options_t, finest_cycle
+   use ehl_force_balance, only: balance_load
+   use ehl_hierarchy, only: hierarchy_t
+   use ehl_kinds, only: dp
+   use ehl_level, only: level_t
+   use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_diverged, outcome_negative_film, outcome_running
+   use ehl_reynolds, only: film_residual, update_residual
+   implicit none (type, external)
+   private
+   public :: iteration_t, reduction, max_reduction
+
+   !> Reductions per cycle that are believed
+   real(dp), parameter :: min_reduction = 0.3_dp, max_reduction = 0.95_dp
+
+   type :: iteration_t
+      !> Level, most cycles, and how the next one is made
+      integer :: n = 0, max_cycles = huge(1)
+      type(cycle_options_t) :: next_cycle
+      !> Whether the residual is the one that concerns the film
+      logical :: of_film = .false.
+      !> Cycles made; results and residual after the last one
+      integer :: cycles = 0
+      type(contact_results_t) :: m
+      real(dp) :: residual = 0.0_dp
+      !> Acceleration of cycles that stall
+      type(anderson_t) :: mixing
+   contains
+      procedure, non_overridable :: iterate
+      procedure, non_overridable :: balance
+      procedure, non_overridable :: failure_status
+      procedure, non_overridable :: verdict
+      procedure, non_overridable, private :: evaluate
+   end type iteration_t
+
+contains
+
+   !> Make a cycle and evaluate the state that it leaves
+   subroutine iterate(self, hierarchy)
+      class(iteration_t), intent(inout) :: self
+      type(hierarchy_t), intent(inout) :: hierarchy
+      real(dp) :: residual
+
+      associate (level => hierarchy%levels(self%n))
+         if (self%mixing%on) call self%mixing%remember(level)
+         call finest_cycle(hierarchy, self%n, self%next_cycle, residual)
+         self%cycles = self%cycles + 1
+         if (self%mixing%on) call self%mixing%mix(level, residual)
+         call self%evaluate(level, residual)
+      end associate
+   end subroutine iterate
+
+   !> Take what is wrong with the load away by scaling the pressure, and evaluate the state anew
+   subroutine balance(self, hierarchy)
+      class(iteration_t), intent(inout) :: self
+      type(hierarchy_t), intent(inout) :: hierarchy
+      real(dp) :: residual
+
+      if (.not. abs(self%m%load_error) > load_tolerance) return
+      associate (level => hierarchy%levels(self%n))
+         call balance_load(level)
+         call update_residual(level, residual)
+         call self%evaluate(level, residual)
+      end associate
+   end subroutine balance
+
+   !> Results and residual of a level
+   subroutine evaluate(self, level, residual)
+      class(iteration_t), intent(inout) :: self
+      type(level_t), intent(in) :: level
+      !> Residual (rms)
+      real(dp), intent(in) :: residual
+
+      self%m = measure(level)
+      if (.not. self%of_film) then
+         self%residual = residual
+      else if (self%failure_status() == outcome_running) then
+         self%residual = film_residual(level)
+      end if
+   end subroutine evaluate
+
+   !> What is wrong with a state that is no solution whatever its residual; outcome_running: nothing
+   pure integer function failure_status(self)
+      class(iteration_t), intent(in) :: self
+
+      failure_status = merge(outcome_running, outcome_negative_film, self%m%positive)
+      if (.not. self%m%finite) failure_status = outcome_diverged
+   end function failure_status
+
+   !> How the state stands after a cycle; outcome_running: another one is needed
+   pure integer function verdict(self, converged)
+      class(iteration_t), intent(in) :: self
+      !> Whether it meets its tolerances
+      logical, intent(in) :: converged
+
+      verdict = self%failure_status()
+      if (verdict /= outcome_running) return
+      if (self%cycles >= self%max_cycles) verdict = outcome_cycle_limit
+      if (converged) verdict = outcome_converged
+   end function verdict
+
+   !> Reduction q of the error per cycle, by the changes of the last two: q/(1 - q) of the last change is left. The first cycle
+   !> also makes up for the grid or the problem that the state comes from, so that its change says little of the next.
+   pure real(dp) function reduction(change, change_before, cycles, fall) result(q)
+      real(dp), intent(in) :: change(:), change_before(:)
+      !> Cycles made
+      integer, intent(in) :: cycles
+      !> Residual over that before the last cycle, if it is to bound q: a change can be tiny by chance, and the next one is
+      !> then many times as large
+      real(dp), intent(in), optional :: fall
+
+      q = min_reduction
+      if (cycles <= 1) return
+      q = min(maxval(change/max(change_before, tiny(1.0_dp))), max_reduction)
+      if (present(fall)) q = min(q, fall)
+      q = max(min_reduction, q)
+   end function reduction
+end module ehl_iteration

@@ -1,0 +1,45 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Who watches the loops: asked after every cycle of a steady contact and after every time step whether to leave. A loop that was
+!> left goes on where it was when it is called again.
+module ehl_observer
+   use ehl_contact_run, only: contact_run_t
+   implicit none (type, external)
+   private
+   public :: observer_t, single_step_t
+
+   !> Sees nothing, and stays to the end
+   type :: observer_t
+   contains
+      procedure :: watch
+   end type observer_t
+
+   !> Leaves after one cycle or time step
+   type, extends(observer_t) :: single_step_t
+   contains
+      procedure :: watch => watch_one
+   end type single_step_t
+
+contains
+
+   !> To the end
+   subroutine watch(self, run, leave)
+      class(observer_t), intent(inout) :: self
+      !> As the cycle or step has left it; its state may be saved
+      type(contact_run_t), intent(inout) :: run
+      logical, intent(out) :: leave
+
+      associate (unused => self, unused_run => run)
+      end associate
+      leave = .false.
+   end subroutine watch
+
+   !> One is enough
+   subroutine watch_one(self, run, leave)
+      class(single_step_t), intent(inout) :: self
+      type(contact_run_t), intent(inout) :: run
+      logical, intent(out) :: leave
+
+      call self%observer_t%watch(run, leave)
+      leave = .true.
+   end subroutine watch_one
+end module ehl_observer

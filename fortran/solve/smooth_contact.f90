@@ -1,0 +1,318 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The smooth, steady contact: what full multigrid knows of its levels, and when one of them is solved (the loop: ehl_fmg)
+module ehl_smooth_contact
+   use ehl_contact, only: contact_t
+   use ehl_contact_results, only: contact_results_t, load_tolerance, measure
+   use ehl_cycle, only: cycle_options_t, damped_cycle, most_damping, prolong_solution
+   use ehl_far_field, only: far_field_t
+   use ehl_film, only: refresh
+   use ehl_hierarchy, only: hierarchy_t
+   use ehl_iteration, only: iteration_t, reduction
+   use ehl_kinds, only: dp
+   use ehl_level_result, only: level_result_t
+   use ehl_level_tolerance, only: accurate, counts_share, has_coarser, has_target, is_end, residual_tolerance, wanted
+   use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_diverged, outcome_negative_film, outcome_running, &
+                          outcome_target_missed
+   use ehl_level, only: level_t
+   use ehl_status, only: ehl_no_memory, status_t
+   use ehl_steady_options, only: end_rule_t, rule_of_circles, rule_of_others, steady_options_t
+   implicit none (type, external)
+   private
+   public :: smooth_contact_t
+
+   !> Largest reduction per cycle that is believed of it: where the film is close to the boundary film the edge of a touching
+   !> zone moves by a node in several cycles
+   real(dp), parameter :: max_share_reduction = 0.99_dp
+   !> Most cycles of a contact that touches, over those of others: the edge of a touching zone moves by a node in several cycles
+   integer, parameter :: touching_cycles = 3
+   !> What an error of the load changes the film, per relative error: the deflection by the Hertz pressure differs from its
+   !> mean under it by 1/5 at the centre and by 3/10 at the edge [a^2/R]
+   real(dp), parameter :: film_per_load = 0.3_dp
+   !> Relative algebraic error that a light cycle can be trusted with: where less is wanted it costs a cycle
+   real(dp), parameter :: light_error = 3.0e-4_dp
+   !> A residual that no state on the way to a solution has, unless the one before it was nearly as large
+   real(dp), parameter :: max_residual = 2.0_dp
+   !> Cycles that are few: on a level that began from a coarser one, and from the Hertz pressure
+   integer, parameter :: min_cycles = 2, cycles_from_guess = 3
+
+   !> What is known of the cycles of a level, to take back what leaves no state of the contact
+   type :: guard_t
+      !> Degree of damping of the next cycle, 0: none; the degree of the last cycle that was taken back, and that which stays
+      integer :: damping = 0, was_damped = 0, lasting = 0
+      !> Cycles made since the degree was changed
+      integer :: since = 0
+      !> State before the last cycle
+      real(dp), allocatable :: p_before(:, :)
+      real(dp) :: h00_before = 0.0_dp
+      !> Residual after the last cycle that was not taken back, and some cycles ago
+      real(dp) :: residual_kept = 0.0_dp, residual_then = huge(1.0_dp)
+   end type guard_t
+
+   !> The state of the iteration is that of level n
+   type, extends(iteration_t) :: smooth_contact_t
+      class(contact_t), allocatable, private :: contact
+      type(steady_options_t), private :: options
+      !> When a level ends
+      type(end_rule_t), private :: rule = rule_of_circles
+      !> What is at a flooded border
+      type(far_field_t), private :: far_field
+      !> Whether level n has its first approximation, and whether the last level is solved
+      logical :: begun = .false., solved = .false.
+      !> Whether the levels are solved again with damped cycles
+      logical, private :: damped = .false.
+      !> Whether a cycle that ends in no state of the contact is taken back, and cycles that stall are accelerated
+      logical, private :: guarded = .false.
+      type(guard_t), private :: guard
+      !> Restarts: on a finer grid after a failure on a coarse one, with damping after one on the finest
+      integer :: restarts = 0
+      type(level_result_t), allocatable :: results(:)
+      !> Changes of H_c and H_min in the last cycle, and the residual after it
+      real(dp), private :: change(2) = 0.0_dp, residual_before = 0.0_dp
+      !> Residual over that before the last cycle
+      real(dp), private :: stall = 0.0_dp
+      !> Change of the load share of a boundary film in the last cycle
+      real(dp), private :: share_change = 0.0_dp
+   contains
+      procedure :: start
+      procedure :: begin_level
+      procedure :: begin_cycle
+      procedure :: estimate_errors
+      procedure :: may_scale_load
+      procedure :: converged
+      procedure :: guard_cycle
+      procedure :: record
+      procedure :: end_level
+   end type smooth_contact_t
+
+   ! in cycle_guard.f90
+   interface
+      !> Begin with the cycles of a level
+      module subroutine begin_guard(self)
+         class(smooth_contact_t), intent(inout) :: self
+      end subroutine begin_guard
+
+      !> The state before a cycle
+      module subroutine keep_state(self, level, status)
+         class(smooth_contact_t), intent(inout) :: self
+         type(level_t), intent(in) :: level
+         type(status_t), intent(inout) :: status
+      end subroutine keep_state
+
+      !> Take a cycle back that has left no state of the contact, and make smaller changes; accelerate cycles that stall
+      module subroutine guard_cycle(self, hierarchy, outcome, status)
+         class(smooth_contact_t), intent(inout) :: self
+         type(hierarchy_t), intent(inout) :: hierarchy
+         !> Of the cycle
+         integer, intent(inout) :: outcome
+         type(status_t), intent(inout) :: status
+      end subroutine guard_cycle
+   end interface
+
+contains
+
+   !> Ready for the first level
+   subroutine start(self, contact, options)
+      class(smooth_contact_t), intent(out) :: self
+      class(contact_t), intent(in) :: contact
+      type(steady_options_t), intent(in) :: options
+
+      self%contact = contact
+      self%options = options
+      self%rule = merge(rule_of_circles, rule_of_others, options%newtonian_circle)
+      if (options%flooded) call self%far_field%setup(contact)
+      self%max_cycles = options%max_cycles
+      self%of_film = .true.
+      self%guarded = options%guarded
+      self%n = options%start
+      self%results = spread(level_result_t(), 1, options%levels)
+   end subroutine start
+
+   !> First approximation on level n: from the solution on the next coarser one, or from the Hertz pressure
+   subroutine begin_level(self, hierarchy, status)
+      class(smooth_contact_t), intent(inout) :: self
+      type(hierarchy_t), intent(inout) :: hierarchy
+      type(status_t), intent(inout) :: status
+      integer :: j
+
+      call hierarchy%grow(self%n, status)
+      if (status%failed()) return
+      if (self%damped) call hierarchy%forget()
+      associate (level => hierarchy%levels(self%n), grid => hierarchy%levels(self%n)%grid)
+         do j = 1, grid%ny
+            call self%contact%gap_row(grid%columns(), grid%y(j), level%film_rhs(:, j))
+         end do
+         level%rhs = 0.0_dp
+         level%load = self%contact%load
+         if (has_coarser(self%results, self%n)) then
+            call prolong_solution(hierarchy%levels(self%n - 1), level)
+            self%m = self%results(self%n - 1)%m
+         else
+            do j = 1, grid%ny
+               call self%contact%pressure_row(grid%columns(), grid%y(j), level%p(:, j))
+            end do
+            level%h00 = self%options%film_expected + self%contact%dry_separation
+            call refresh(level)
+            self%m = measure(level)
+         end if
+      end associate
+      self%results(self%n)%mesh = hierarchy%levels(self%n)%grid%hx
+      self%cycles = 0
+      self%residual = 0.0_dp
+      self%begun = .true.
+      call begin_guard(self)
+   end subroutine begin_level
+
+   !> Before a cycle on level n: the pressure at a flooded border, the kind of cycle, the state to come back to
+   subroutine begin_cycle(self, level, status)
+      class(smooth_contact_t), intent(inout) :: self
+      type(level_t), intent(inout) :: level
+      type(status_t), intent(inout) :: status
+
+      if (self%options%flooded) call self%far_field%set_border(level, self%contact%load)
+      self%next_cycle = cycle_to_make(self)
+      self%max_cycles = self%options%max_cycles
+      if (is_end(self%options, self%n) .and. counts_share(self%options, self%m)) &
+         self%max_cycles = touching_cycles*self%max_cycles
+      if (self%guarded) call keep_state(self, level, status)
+   end subroutine begin_cycle
+
+   !> Algebraic errors by the changes in a cycle
+   subroutine estimate_errors(self, before)
+      class(smooth_contact_t), intent(inout) :: self
+      !> Results before the cycle
+      type(contact_results_t), intent(in) :: before
+      real(dp) :: change(2), q, fall
+
+      change = abs(self%m%films() - before%films())
+      fall = huge(fall)
+      if (self%rule%bounded .and. self%cycles > 1) fall = self%residual/max(self%residual_before, tiny(1.0_dp))
+      q = reduction(change, self%change, self%cycles, fall)
+      self%results(self%n)%algebraic = change*q/(1.0_dp - q)
+      self%change = change
+      self%stall = self%residual/max(self%residual_before, tiny(1.0_dp))
+      call estimate_share_error(self, abs(self%m%touching%load_share - before%touching%load_share))
+      self%residual_before = self%residual
+      if (.not. (self%rule%bounded .and. is_end(self%options, self%n))) return
+      self%results(self%n)%algebraic = self%results(self%n)%algebraic + film_per_load*abs(self%m%load_error)
+   end subroutine estimate_errors
+
+   !> Whether an error of the load is all that is left, and so small that scaling the pressure costs no accuracy
+   pure logical function may_scale_load(self)
+      class(smooth_contact_t), intent(in) :: self
+      real(dp) :: error
+
+      error = abs(self%m%load_error)
+      may_scale_load = is_end(self%options, self%n) .and. error <= self%rule%small_load_error
+      if (may_scale_load) may_scale_load = accurate(self%options, self%results, self%n, self%m, self%residual, &
+                                                    self%cycles < self%max_cycles)
+      if (may_scale_load) may_scale_load = film_per_load*error <= &
+                                           self%rule%share_of_load*minval(wanted(self%options, self%results, self%n, self%m))
+   end function may_scale_load
+
+   !> Algebraic error of the load share by its change in a cycle, as that of the films
+   pure subroutine estimate_share_error(self, change)
+      class(smooth_contact_t), intent(inout) :: self
+      real(dp), intent(in) :: change
+      real(dp) :: q
+
+      q = max_share_reduction
+      if (self%cycles > 1) q = max(reduction([change], [self%share_change], self%cycles), &
+                                   min(max_share_reduction, change/max(self%share_change, tiny(1.0_dp))))
+      self%results(self%n)%share_algebraic = change*q/(1.0_dp - q)
+      self%share_change = change
+   end subroutine estimate_share_error
+
+   !> Whether the level is solved; the load must be right where the solution may end
+   pure logical function converged(self)
+      class(smooth_contact_t), intent(in) :: self
+      converged = self%failure_status() == outcome_running .and. self%m%holds .and. &
+                  (abs(self%m%load_error) <= load_tolerance .or. .not. is_end(self%options, self%n))
+      if (converged) converged = accurate(self%options, self%results, self%n, self%m, self%residual, &
+                                          self%cycles < self%max_cycles)
+   end function converged
+
+   !> The results of level n so far
+   subroutine record(self)
+      class(smooth_contact_t), intent(inout) :: self
+
+      associate (result => self%results(self%n))
+         result%m = self%m
+         result%cycles = self%cycles
+         result%residual = self%residual
+      end associate
+   end subroutine record
+
+   !> The cycle to make: on a level that began from a coarser one a light one is the second, if what it leaves is good
+   !> enough; with one sweep less at first where the coarser level was solved in few cycles
+   pure function cycle_to_make(self) result(options)
+      class(smooth_contact_t), intent(in) :: self
+      type(cycle_options_t) :: options
+      logical :: first
+
+      options = self%options%cycle
+      if (self%damped) options = damped_cycle(options)
+      if (self%guard%damping > 0) options = damped_cycle(self%options%cycle, self%guard%damping)
+      if (self%damped .or. self%guard%damping > 0) return
+      if (self%options%second_cycle%full .eqv. self%options%cycle%full) return
+      if (.not. has_coarser(self%results, self%n) .or. self%cycles /= 1) return
+      if (any(wanted(self%options, self%results, self%n, self%m) < light_error*self%m%films())) return
+      options = self%options%second_cycle
+      first = self%n == 2
+      if (.not. first) first = .not. self%results(self%n - 2)%solved
+      if (self%results(self%n - 1)%cycles <= merge(cycles_from_guess, min_cycles, first)) options%pre = options%pre - 1
+   end function cycle_to_make
+
+   !> After the last cycle of a level: on to the next one, back to the first one, or to the end. A coarse level that runs out
+   !> of cycles is a beginning for the next one still.
+   subroutine end_level(self, outcome)
+      class(smooth_contact_t), intent(inout) :: self
+      !> Of the level; then of the smooth contact: outcome_running while a level is to follow
+      integer, intent(inout) :: outcome
+      logical :: finest, met
+
+      finest = self%n == self%options%levels
+      associate (result => self%results(self%n))
+         result%solved = outcome == outcome_converged .or. (outcome == outcome_cycle_limit .and. .not. finest)
+         if (self%guarded .and. outcome == outcome_cycle_limit .and. self%residual > max_residual) result%solved = .false.
+         if (.not. result%solved) then
+            call restart(self, finest, outcome)
+            return
+         end if
+      end associate
+      met = .false.
+      if (outcome == outcome_converged) met = has_target(self%options, self%results, self%n, self%m)
+      if (met .or. finest) then
+         outcome = merge(outcome_target_missed, outcome_converged, self%options%target_error > 0.0_dp .and. .not. met)
+         self%solved = outcome == outcome_converged
+      else
+         outcome = outcome_running
+         self%n = self%n + 1
+         self%begun = .false.
+      end if
+   end subroutine end_level
+
+   !> A level has no solution: begin anew on the next finer one, where the discrete problem is better posed; from the first level
+   !> on after a failure on the finest one, once with damped cycles and once with guarded ones
+   subroutine restart(self, finest, outcome)
+      class(smooth_contact_t), intent(inout) :: self
+      logical, intent(in) :: finest
+      integer, intent(inout) :: outcome
+
+      if (finest) then
+         if (.not. self%damped .and. self%options%may_restart) then
+            self%damped = .true.
+         else if (.not. self%guarded) then
+            self%guarded = .true.
+            self%damped = .false.
+         else
+            return
+         end if
+      end if
+      outcome = outcome_running
+      self%results%solved = .false.
+      self%restarts = self%restarts + 1
+      self%begun = .false.
+      self%n = merge(self%options%start, self%n + 1, finest)
+   end subroutine restart
+
+end module ehl_smooth_contact

@@ -1,0 +1,91 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The contact with a rough surface on the move (docs/theory/time-steps.md, docs/theory/transient.md)
+module ehl_transient
+   use ehl_clock, only: clock_t, start_clock
+   use ehl_contact_results, only: contact_results_t
+   use ehl_contact_run, only: contact_run_t
+   use ehl_hierarchy, only: hierarchy_t
+   use ehl_kinds, only: dp
+   use ehl_moving_surfaces, only: moving_surfaces_t
+   use ehl_observer, only: observer_t
+   use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_running
+   use ehl_status, only: status_t
+   use ehl_step_policy, only: step_begins_again, step_ends
+   use ehl_transient_state, only: transient_t
+   implicit none (type, external)
+   private
+   public :: solve_transient
+
+contains
+
+   !> Time steps until the mean friction has settled. The observer may leave after any step; another call goes on there.
+   subroutine solve_transient(run, observer, leave, status)
+      type(contact_run_t), intent(inout) :: run
+      class(observer_t), intent(inout) :: observer
+      logical, intent(out) :: leave
+      type(status_t), intent(inout) :: status
+      type(clock_t) :: clock
+      integer :: outcome
+
+      leave = .false.
+      steps: do
+         clock = start_clock()
+         call time_step(run%transient, run%hierarchy, run%plan%surfaces, outcome, status)
+         run%seconds = run%seconds + clock%seconds()
+         if (status%failed()) return
+         if (outcome == outcome_converged) then
+            call run%record_step(status)
+         else if (run%is_filling()) then
+            call run%begin_again(outcome, status)
+         else
+            run%outcome = outcome
+         end if
+         if (status%failed() .or. run%outcome /= outcome_running) return
+         call observer%watch(run, leave)
+         if (leave) return
+      end do steps
+   end subroutine solve_transient
+
+   !> One time step: attempts, cycles of each, until one is solved. Where none is the last good state stands.
+   subroutine time_step(transient, hierarchy, surfaces, outcome, status)
+      type(transient_t), intent(inout) :: transient
+      type(hierarchy_t), intent(inout) :: hierarchy
+      class(moving_surfaces_t), intent(inout) :: surfaces
+      !> outcome_converged, or why the step has no solution
+      integer, intent(out) :: outcome
+      type(status_t), intent(inout) :: status
+      type(contact_results_t) :: first
+      real(dp) :: before, residual_first
+      integer :: n, next
+
+      outcome = outcome_running
+      if (status%failed()) return
+      n = transient%n
+      call transient%begin_step(hierarchy%levels(n), surfaces)
+      attempts: do
+         call transient%begin_attempt(hierarchy, status)
+         if (status%failed()) return
+         cycles: do
+            if (.not. transient%residual < huge(1.0_dp) .and. transient%cycles > 0) exit attempts
+            before = transient%residual
+            call transient%begin_cycle(hierarchy%levels(n))
+            call transient%iterate(hierarchy)
+            if (transient%may_scale_load()) call transient%balance(hierarchy)
+            outcome = transient%verdict(transient%converged())
+            call transient%policy%after_cycle(transient%step + 1, transient%converged(), before, transient%residual, next)
+            if (next == step_ends) exit attempts
+            if (transient%cycles == 1) then
+               first = transient%m
+               residual_first = transient%residual
+            end if
+            if (next == step_begins_again) exit cycles
+         end do cycles
+      end do attempts
+      if (outcome == outcome_running) outcome = outcome_cycle_limit
+      if (outcome == outcome_converged) then
+         call transient%accept(hierarchy%levels(n), first, residual_first)
+      else
+         call transient%step_back(hierarchy%levels(n), surfaces)
+      end if
+   end subroutine time_step
+end module ehl_transient
