@@ -20,6 +20,7 @@ from workprec import COLUMNS
 
 HERE = Path(__file__).resolve().parent
 
+
 def main(files: list[str]) -> None:
     """Write the table and the figure."""
     rows = [row for file in files for row in json.loads(Path(file).read_text())["rows"]]
