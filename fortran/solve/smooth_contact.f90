@@ -171,8 +171,9 @@ contains
       if (self%options%flooded) call self%far_field%set_border(level, self%contact%load)
       self%next_cycle = cycle_to_make(self)
       self%max_cycles = self%options%max_cycles
-      if (is_end(self%options, self%n) .and. counts_share(self%options, self%m)) &
+      if (is_end(self%options, self%n) .and. counts_share(self%options, self%m)) then
          self%max_cycles = touching_cycles*self%max_cycles
+      end if
       if (self%guarded) call keep_state(self, level, status)
    end subroutine begin_cycle
 

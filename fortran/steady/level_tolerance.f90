@@ -56,8 +56,8 @@ contains
       integer, intent(in) :: n
       type(contact_results_t), intent(in) :: m
       real(dp), intent(in) :: residual
-      !> Whether another cycle may be made: what only the residual leaves open of a load share, and all cycles have not made small, is
-      !> in the error that is stated
+      !> Whether another cycle may be made: what only the residual leaves open of a load share, and all cycles have not made small,
+      !> is in the error that is stated
       logical, intent(in) :: more
       real(dp) :: left
 
