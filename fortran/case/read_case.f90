@@ -154,6 +154,7 @@ contains
          if (source%pieces(k)%group /= group) call write_group(trim(source%pieces(k)%group), trial, keys, values)
          group = source%pieces(k)%group
          follows(k) = values(findloc(keys, source%pieces(k)%key, dim=1)) == source%pieces(k)%value
+         source%pieces(k)%marked = follows(k)
       end do
       call keep_pieces(source%pieces, .not. follows)
    end subroutine drop_marked

@@ -15,7 +15,7 @@ module ehl_write_case
 contains
 
    !> A complete case as namelist text. Of keys that exclude each other only the one that holds is written; with a source,
-   !> values that were not given are marked.
+   !> values that were not given are marked, those that pyehl has made of others included.
    subroutine write_case(input, text, source)
       type(case_t), intent(in) :: input
       character(len=:), allocatable, intent(out) :: text
@@ -24,7 +24,8 @@ contains
       character(len=name_length), allocatable :: keys(:)
       character(len=path_length + 2), allocatable :: values(:), defaults(:)
       character(len=:), allocatable :: line
-      integer :: k, n
+      integer :: k, n, piece
+      logical :: marked
 
       case = input
       text = ""
@@ -40,9 +41,10 @@ contains
                call list_text(keys(k), input, line)
                if (line == "") cycle
             else if (present(source)) then
-               if (.not. source%given(trim(group_names(n))//"."//keys(k))) then
-                 line = line//" "//merge(mark_default, mark_derived, values(k) == defaults(k))
-               end if
+               piece = source%find(trim(group_names(n))//"."//trim(keys(k)))
+               marked = piece == 0
+               if (piece > 0) marked = source%pieces(piece)%marked
+               if (marked) line = line//" "//merge(mark_default, mark_derived, values(k) == defaults(k))
             end if
             text = text//line//newline
          end do

@@ -15,8 +15,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+import pyehl
+
 Array = NDArray[np.float64]
 HERE = Path(__file__).resolve().parent
+COMPLETED = ("bodies.", "lubricant.name", "lubricant.kinematic", "lubricant.table")
+"""Keys of which Python makes what the program reads."""
 
 
 @dataclass(frozen=True)
@@ -82,9 +86,13 @@ def solve(ehl: str, tmp_path_factory: pytest.TempPathFactory) -> Solve:
     def start(words: tuple[str, ...], timeout: float) -> Run:
         folder = place / f"{len(runs)}"
         options = [part for word in words for part in ("--set", word)]
+        name = "case.nml"
+        if any(word.startswith(COMPLETED) for word in words):
+            name, options = f"{folder.name}.nml", []
+            (place / name).write_text(pyehl.Case.from_text("", words).text)
         began = time.monotonic()
         done = subprocess.run(
-            [ehl, "case.nml", "-o", folder.name, "--quiet", *options],
+            [ehl, name, "-o", folder.name, "--quiet", *options],
             cwd=place,
             env=environment,
             capture_output=True,

@@ -152,11 +152,10 @@ def test_bodies_make_reduced_radii_and_modulus(ehl: str, tmp_path: Path):
     assert contact["radius_y"] == pytest.approx(1.0 / (1.0 / ball + 1.0 / groove), rel=1e-12)
     modulus = 2.0 / ((1.0 - 0.3**2) / 2.06e11 + (1.0 - 0.2**2) / 3e11)
     assert contact["reduced_modulus"] == pytest.approx(modulus, rel=1e-14)
-    (tmp_path / "case.nml").write_text("")
-    options = [f"{key}={value}" for key, value in bodies.items()]
-    sets = [word for o in (*options, "contact.load=20", "grid.points=65") for word in ("--set", o)]
+    case = pyehl.Case.from_text("", bodies, {"contact.load": 20, "grid.points": 65})
+    (tmp_path / "case.nml").write_text(case.text)
     first, again = tmp_path / "first", tmp_path / "again"
-    subprocess.run([ehl, tmp_path / "case.nml", "-o", first, *sets], check=True)
+    subprocess.run([ehl, tmp_path / "case.nml", "-o", first], check=True)
     subprocess.run([ehl, first / "case.nml", "-o", again], check=True)
     assert np.array_equal(np.load(first / "H.npy"), np.load(again / "H.npy"))
     changed = pyehl.Case(first / "case.nml", "bodies.radius_x2=0").resolve()["contact"]

@@ -44,9 +44,9 @@ def row_of(text: str) -> str:
     return " | ".join(f"{film} ± {error} nm" for film, error in films)
 
 
-def test_ball_bearing(root: Path, ehl: str, tmp_path: Path):
+def test_ball_bearing(root: Path, drivers: dict[str, list[str]], tmp_path: Path):
     case, page = root / "cases" / "ball_bearing.nml", root / "docs" / "howto" / "bearing.md"
-    words = [ehl, case, "-o", tmp_path / "out"]
+    words = [*drivers["pyehl"], case, "-o", tmp_path / "out"]
     run = subprocess.run(words, capture_output=True, text=True, check=False)
     assert run.returncode == 0, run.stdout
     sheet = pyehl.film(case).summary

@@ -160,8 +160,13 @@ def outcome(text: str, options: list[str], folder: Path) -> list[str] | str:
     try:
         resolved = resolve(text, str(folder / "case.nml"), options)
     except InputError as error:
-        return str(error).replace(str(folder), "FOLDER")
-    return lines(resolved.replace(str(folder), "FOLDER"))
+        return without_places(str(error), folder)
+    return lines(without_places(resolved, folder))
+
+
+def without_places(text: str, folder: Path) -> str:
+    """Replace the folder of the case, and the current one, from which options name files."""
+    return text.replace(str(folder), "FOLDER").replace(str(Path.cwd()), "CURRENT")
 
 
 def lines(resolved: str) -> list[str]:

@@ -375,15 +375,14 @@ def test_surface_onto_its_input(call: Call, tmp_path: Path, suffix: str):
             assert tree(tmp_path) == before
 
 
-@pytest.mark.parametrize("name", ["run", "ehl"])
-def test_table_among_the_results_is_kept(call: Call, tmp_path: Path, name: str):
+def test_table_among_the_results_is_kept(call: Call, tmp_path: Path):
     Path("first.nml").write_text(SI)
-    assert call(name, "-o", "out", case="first.nml").returncode == 0
+    assert call("run", "-o", "out", case="first.nml").returncode == 0
     table = "pressure_Pa,temperature_degC,viscosity_Pa_s\n0,40,0.04\n1e9,40,1e7\n"
     Path("out/history.csv").write_text(table)
     Path("case.nml").write_text(SI + "&lubricant table = 'out/history.csv' temperature = 40 /\n")
     before = tree(tmp_path)
-    refused(call(name, "-o", "out"), "history.csv")
+    refused(call("run", "-o", "out"), "history.csv")
     assert tree(tmp_path) == before
 
 

@@ -45,9 +45,15 @@ def results(folder: Path) -> dict[str, bytes]:
     files["summary.json"] = json.dumps(
         {name: value for name, value in summary.items() if name not in free}
     ).encode()
-    free_keys = rb"(?m)^   (threads|checkpoint_interval|steps) +=.*\n"
-    files["case.nml"], n = re.subn(free_keys, b"", files["case.nml"])
-    assert n == 3
+    # that of pyehl has the meanings of the keys
+    case = Case(folder / "case.nml").resolve()
+    for group, key in (
+        ("solver", "threads"),
+        ("output", "checkpoint_interval"),
+        ("time", "steps"),
+    ):
+        del case[group][key]
+    files["case.nml"] = json.dumps(case).encode()
     told = re.sub(rb"(?m)^(predicted|warning: more than).*\n", b"", files["plan.txt"]).rstrip()
     files["plan.txt"] = re.sub(rb"threads \d+", b"", told)
     return files
