@@ -3,29 +3,43 @@
 
 import argparse
 
-from pyehl.errors import EXIT_FAILED, EXIT_OK
+from pyehl.errors import EXIT_FAILED, EXIT_OK, InputError
+from pyehl.rigs.reading import read_rig
 from pyehl.studies.compare import compare, read_results
 from pyehl.studies.reference_table import SHIPPED, read_reference
+from pyehl.studies.rig_comparison import compared, lines
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.description = (
         "Compare a result or a study with a table of reference values: deviations, pass or fail. "
-        "Exit status: 0 all within their tolerances, 1 at least one outside, 2 bad input."
+        "Exit status: 0 all within their tolerances, 1 at least one outside, 2 bad input. Or a "
+        "study with what a rig measured: deviations per decade."
     )
     parser.add_argument("results", metavar="DIR", help="result folder, folder of a study, or CSV")
     parser.add_argument(
         "reference",
         metavar="REFERENCE.csv",
+        nargs="?",
         help=f"table of references, or one that comes with pyehl: {', '.join(SHIPPED)}",
     )
     parser.add_argument(
         "--partial", action="store_true", help="a study need not have all rows of the table"
     )
+    parser.add_argument(
+        "--measured",
+        metavar="FILE",
+        help="file of a rig (PCS EHD or MTM, or a table with units) in place of a reference",
+    )
     parser.add_argument("-q", "--quiet", action="store_true", help="print nothing but failures")
 
 
 def execute(args: argparse.Namespace) -> int:
+    if (args.reference is None) == (args.measured is None):
+        raise InputError("expected a table of references, or --measured FILE")
+    if args.measured is not None:
+        print("\n".join(lines(compared(read_results(args.results), read_rig(args.measured)))))
+        return EXIT_OK
     table, results = read_reference(args.reference), read_results(args.results)
     found = compare(results, table)
     line = 0

@@ -17,7 +17,7 @@ def read_npy(path: Path) -> Array:
     InputError if it is no matrix of real numbers, or its header lies.
     """
     raw = mapped(path)
-    if raw.ndim != 2:
+    if raw.ndim != 2 or raw.size == 0:
         raise InputError(f"{path}: heights must be a matrix (nx, ny), not of shape {raw.shape}")
     check_pixels(str(path), raw.shape)
     return np.array(raw, dtype=float, order="C")

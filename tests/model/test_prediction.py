@@ -4,6 +4,7 @@
 import importlib
 import re
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -31,6 +32,7 @@ from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.transport import Zone, free_stiffness, stiffness
 
+CASES = Path(__file__).resolve().parents[2] / "cases"
 POINT, OIL = OperatingPoint(), Lubricant()
 
 
@@ -191,31 +193,31 @@ def test_options_of_the_paper_alone(settings):
 
 def test_smooth_contact_from_a_result_folder(tmp_path):
     """A folder of the smooth contact gives what is solved on the spot; another contact does not."""
-    case = pyehl.Case("cases/table1.nml", "surface.kind=smooth", "grid.points=257")
+    case = pyehl.Case(CASES / "table1.nml", "surface.kind=smooth", "grid.points=257")
     folder = tmp_path / "smooth"
     pyehl.solve(case, output=folder)
-    given = pyehl.predict("cases/table1.nml", smooth=folder)
-    on_the_spot = pyehl.predict("cases/table1.nml")
+    given = pyehl.predict(CASES / "table1.nml", smooth=folder)
+    on_the_spot = pyehl.predict(CASES / "table1.nml")
     # films extrapolated, with their errors, and mu_r/mu_s: the same numbers
     names = "h_c_m", "h_c_error_m", "h_min_m", "h_min_error_m", "mu_ratio", "mu_ratio_model_error"
     assert [given.summary[n] for n in names] == [on_the_spot.summary[n] for n in names]
     assert given.film_source == f"smooth contact in {folder}, extrapolated"
     barus = {"lubricant.viscosity_law": "barus"}
     with pytest.raises(pyehl.InputError, match=r"viscosity_law is 'roelands' there and 'barus' in"):
-        pyehl.predict("cases/table1.nml", barus, smooth=folder)
+        pyehl.predict(CASES / "table1.nml", barus, smooth=folder)
     with pytest.raises(pyehl.InputError, match=r"grid\.border is 'zero' there and 'flooded' in"):
-        pyehl.predict("cases/table1.nml", {"grid.border": "flooded"}, smooth=folder)
+        pyehl.predict(CASES / "table1.nml", {"grid.border": "flooded"}, smooth=folder)
     with pytest.raises(pyehl.InputError, match="moes_m is"):
-        pyehl.predict("cases/table1.nml", "contact.load=500.0", smooth=folder)
+        pyehl.predict(CASES / "table1.nml", "contact.load=500.0", smooth=folder)
     with pytest.raises(pyehl.InputError, match="not a result folder"):
-        pyehl.predict("cases/table1.nml", smooth=tmp_path)
+        pyehl.predict(CASES / "table1.nml", smooth=tmp_path)
     point = OperatingPoint.from_moes(given.operating.moes_m, given.operating.moes_l)
     assert read_contact(folder, point, given.settings).central_film > 0.0
     with pytest.raises(pyehl.InputError, match=r"radius_ratio is 1 there and 0\.5"):
         read_contact(folder, replace(point, radius_ratio=0.5), given.settings)
     thinning = {"lubricant.shear_law": "eyring", "contact.slide_to_roll": 0.2}
     with pytest.raises(pyehl.InputError, match="the flow is newtonian there and eyring at 5e"):
-        pyehl.predict("cases/table1.nml", thinning, smooth=folder)
+        pyehl.predict(CASES / "table1.nml", thinning, smooth=folder)
 
 
 def test_turned_ellipse_is_no_smooth_contact_of_another(tmp_path):
@@ -231,12 +233,12 @@ def test_what_a_grid_does_not_resolve():
     """More of the rise hangs on unresolved waves on a coarser grid; the parts agree with bands."""
     found = {}
     for points in (129, 513):
-        case = pyehl.Case("cases/table1.nml", f"grid.points={points}")
+        case = pyehl.Case(CASES / "table1.nml", f"grid.points={points}")
         found[points] = resolution(case)
     assert found[129].mu_ratio == found[513].mu_ratio
     assert found[129].matters
     assert found[129].resolved < found[513].resolved < found[513].mu_ratio
-    assert resolution(pyehl.Case("cases/quick.nml")) is None
+    assert resolution(pyehl.Case(CASES / "quick.nml")) is None
 
 
 def test_waves_left_out_are_in_the_error():
@@ -245,7 +247,7 @@ def test_waves_left_out_are_in_the_error():
     options = "contact.load=119.0", "surface.rms_height=5e-9", "surface.length_x=4e-4"
     options = *options, "surface.length_y=4e-4", "contact.mean_velocity=0.832", "grid.points=65"
     options = *options, "grid.x_inlet=-2.5", "grid.x_outlet=1.5", "grid.y_extent=2.0"
-    summary = summary_of(pyehl.solve("cases/table1.nml", *options))
+    summary = summary_of(pyehl.solve(CASES / "table1.nml", *options))
     assert summary["variance_left_out"] > 0.0
     # grids that do not carry all waves have no common limit to extrapolate to
     assert "mu_ratio_extrapolated" not in summary

@@ -22,6 +22,7 @@ from pyehl.subsurface.measures import (
 )
 from pyehl.types import Array
 
+CASES = Path(__file__).resolve().parents[2] / "cases"
 POINTS = 257
 X = np.linspace(-2.5, 1.5, POINTS)
 """The domain of the solver [a]."""
@@ -223,21 +224,21 @@ def test_smooth_contact() -> None:
 
 def test_friction_of_a_run() -> None:
     """In sum the friction of the run; none where it states none, which is said."""
-    ds = pyehl.solve("cases/mtm.nml", "grid.points=65")
+    ds = pyehl.solve(CASES / "mtm.nml", "grid.points=65")
     below = pyehl.stress(ds)
     surface = below.sigma_xz_Pa.isel(Z=0)
     # body 1 is the faster one: the film holds it back, so that xz is positive
     assert float(surface.max()) > 1e7
     assert float(pyehl.stress(ds, body=2).sigma_xz_Pa.isel(Z=0).min()) < -1e7
     assert f"mu_smooth = {float(ds.mu):.4g}" in below.attrs["friction_note"]
-    newtonian = pyehl.solve("cases/mtm.nml", "grid.points=65", "lubricant.shear_law=newtonian")
+    newtonian = pyehl.solve(CASES / "mtm.nml", "grid.points=65", "lubricant.shear_law=newtonian")
     assert pyehl.stress(newtonian).attrs["friction_note"].startswith("without friction: ")
 
 
 def test_rough_contact(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """The command on a run with frames: the dent raises the shear near the surface."""
     run, out = tmp_path / "run", tmp_path / "stress"
-    pyehl.solve("cases/dent.nml", "grid.points=65", output=run)
+    pyehl.solve(CASES / "dent.nml", "grid.points=65", output=run)
     words = ["stress", str(run), "-o", str(out), "--friction", "0.05", "--above", "2e8"]
     words += ["--fatigue", "dang-van", "--torsion-limit", "4e8", "--bending-limit", "6.5e8"]
     assert main(words) == 0
@@ -253,7 +254,7 @@ def test_rough_contact(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> No
 
 def test_predicted_contact() -> None:
     """A prediction has the smooth contact under it, and more shear near the surface."""
-    found = pyehl.predict("cases/table1.nml", "surface.pixels=128")
+    found = pyehl.predict(CASES / "table1.nml", "surface.pixels=128")
     below = pyehl.stress(found, contamination=0.3)
     assert float(below.principal_shear_max_smooth) == pytest.approx(0.3115, rel=0.01)
     near = float(below.Z.sel(Z=0.01, method="nearest"))
@@ -277,13 +278,13 @@ def test_predicted_contact() -> None:
     ],
 )
 def test_bad_options(options: dict[str, object], expected: str) -> None:
-    ds = pyehl.solve("cases/quick.nml", "grid.points=33")
+    ds = pyehl.solve(CASES / "quick.nml", "grid.points=33")
     with pytest.raises(pyehl.InputError, match=expected):
         pyehl.stress(ds, **options)  # type: ignore[arg-type]
 
 
 def test_results_without_fields() -> None:
-    bare = pyehl.solve("cases/quick.nml", "grid.points=33", "output.fields=false")
+    bare = pyehl.solve(CASES / "quick.nml", "grid.points=33", "output.fields=false")
     with pytest.raises(pyehl.InputError, match=r"output\.fields = \.false\."):
         pyehl.stress(bare)
     with pytest.raises(pyehl.InputError, match="expected a result of solve"):

@@ -301,3 +301,9 @@ def test_arrays_in_memory_that_are_no_heights(array: np.ndarray, kind: str):
         assert in_memory(members, GROUP).shape == Z.shape
     with pytest.raises(InputError, match="a matrix of numbers"):
         in_memory(np.where(Z > 0, Z, None), GROUP)
+
+
+def test_array_without_heights(tmp_path: Path) -> None:
+    np.save(tmp_path / "empty.npy", np.zeros((0, 4)))
+    with pytest.raises(InputError, match=r"must be a matrix \(nx, ny\), not of shape \(0, 4\)"):
+        read_scan(tmp_path / "empty.npy")

@@ -5,6 +5,7 @@ import csv
 import math
 import re
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -22,6 +23,7 @@ from pyehl.theory.response import inlet_transfer
 from pyehl.theory.shear import flow_factors, sliding_stress
 from pyehl.theory.transport import transport
 
+CASES = Path(__file__).resolve().parents[2] / "cases"
 SURFACE = (
     "&surface kind = 'fractal' rms_height = 5e-8 seed = 1 pixels = 64 length_x = 4e-4 "
     "length_y = 4e-4 /"
@@ -223,7 +225,7 @@ def test_start_without_the_waves_that_the_grid_does_not_carry():
     x, y = np.linspace(-2.5, 1.5, 65), np.linspace(0.0, 2.0, 33)
     low, high = (
         starting_pressure(
-            Case("cases/table1.nml", f"surface.rms_height={rms}").resolve(),
+            Case(CASES / "table1.nml", f"surface.rms_height={rms}").resolve(),
             {},
             x,
             y,

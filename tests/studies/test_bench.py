@@ -330,7 +330,9 @@ def test_stated_errors_that_miss_are_counted():
     assert wide["median_ratio"] is None
 
 
-def test_mutated_inputs(tmp_path: Path):
+def test_mutated_inputs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    # it goes there, in a process of its own
+    monkeypatch.chdir(tmp_path)
     found = faults_inputs.run_chunk(5, 40, tmp_path, main)
     assert found["bad"] == []
     assert sum(found["counts"].values()) == 40
