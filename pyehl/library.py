@@ -81,8 +81,8 @@ def alpha_origin(text: str) -> str:
     return returned(note)
 
 
-WORTH = ("holds", "with care", "no answer")
-"""What a result may be worth, in the order of fortran/run/judgement.f90."""
+WORTH = ("holds", "with care", "no result")
+"""What a result may be worth, in the order of fortran/run/assessment.f90."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,15 +92,15 @@ class Conclusion:
     Attributes
     ----------
     lines
-        What was found, by name, and behind it the judgement.
-    judgement
+        What was found, by name, and behind it the assessment.
+    assessment
         A word and the reason for it.
     worth
         One of `WORTH`.
     """
 
     lines: Mapping[str, str]
-    judgement: str
+    assessment: str
     worth: str
 
     def __str__(self) -> str:
@@ -119,9 +119,9 @@ def conclude(summary: Mapping[str, Any]) -> Conclusion:
     text = json.dumps(told, indent=1, ensure_ascii=False)
     given = text.encode(errors="replace")
     behind, found, worth = whole(lambda room: functions.conclude(given, room), 1)
-    block, judgement = found[:behind], found[behind:]
+    block, assessment = found[:behind], found[behind:]
     lines = {line[:11].rstrip(): line[11:] for line in returned(block).splitlines()}
-    return Conclusion(lines, returned(judgement), WORTH[worth])
+    return Conclusion(lines, returned(assessment), WORTH[worth])
 
 
 def version() -> str:

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     import xarray
 
-VERSION = 1
+VERSION = 2
 """Of names, units and meanings, as `schema_version` in a summary: another one where one changes."""
 KINDS = {"s": "solution", "p": "prediction", "f": "film", "r": "response", "t": "fit"}
 
@@ -41,7 +41,7 @@ sprt | files | | names of the files of the result in its folder
 sp | status | | 'converged', 'predicted', or why there is no result
 s | converged | | whether the results are a solution
 sp | message | | the status in a sentence; of a run that has no result
-sp | judgement | | what the result is worth: a word, the reason, and what else to know
+sp | assessment | | what the result is worth: a word, the reason, and what else to know
 s | version | | version of the library
 sp | wall_seconds | s | time of the run
 s | bytes | byte | memory of the solver
@@ -132,7 +132,7 @@ s | P_rise_max | p_h | largest rise of the pressure over the smooth contact at t
 s | P_rise_max_T | a/u | when
 s | P_rise_max_X | a | where
 s | P_rise_max_Y | a | where
-s | H_ratio_min | - | least film over that of the smooth contact there
+s | H_ratio_min | - | minimum film over that of the smooth contact there
 s | H_ratio_min_T | a/u | when
 s | H_ratio_min_X | a | where
 s | H_ratio_min_Y | a | where

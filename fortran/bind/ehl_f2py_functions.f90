@@ -12,7 +12,7 @@ module ehl_f2py_functions
    use ehl_grid, only: grid_t
    use ehl_handles, only: put_text, fitted, reply
    use ehl_heated_friction, only: heat_film, heated_t
-   use ehl_judgement, only: judge
+   use ehl_assessment, only: judge
    use ehl_kinds, only: pi
    use ehl_lubricant, only: lubricant_t
    use ehl_memory, only: check_memory, free_bytes
@@ -104,8 +104,8 @@ contains
       compiler_text = build_text()
    end subroutine about
 
-   !> The last lines of a result from its summary (JSON, one value a line), the judgement, and what it is worth: see
-   !> ehl_judgement; the judgement begins behind so many bytes
+   !> The last lines of a result from its summary (JSON, one value a line), the assessment, and what it is worth: see
+   !> ehl_assessment; the assessment begins behind so many bytes
    subroutine conclude(summary, n, bytes, behind, length, worth)
       character(len=*), intent(in) :: summary
       integer(c_int), intent(in) :: n

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Values of a case that follow from others where they are not given, by the numerics alone. What needs tables, data sheets or
-!> judgement is completed by pyehl.
+!> assessment is completed by pyehl.
 module ehl_case_defaults
    use ehl_case, only: case_t, has_no_height, is_feature, lubricant_case_t, surface_case_t
    use ehl_case_grid, only: fill_grid, grid_keys

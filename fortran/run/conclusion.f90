@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> What a run or a prediction ends with: a few lines for a person, from its summary
 module ehl_conclusion
-   use ehl_judgement, only: judge
+   use ehl_assessment, only: judge
    use ehl_kinds, only: dp
    use ehl_record, only: record_t
    use ehl_text, only: fixed, newline, to_text
@@ -19,12 +19,12 @@ contains
    function conclusion(summary) result(text)
       type(record_t), intent(in) :: summary
       character(len=:), allocatable :: text
-      character(len=:), allocatable :: judgement
+      character(len=:), allocatable :: assessment
       integer :: worth
 
       text = film("c", "")//film("min", rough_film())//pressure()//lambda()//ratio()//friction()//heat()
-      call judge(summary, judgement, worth)
-      text = text//"judgement  "//judgement
+      call judge(summary, assessment, worth)
+      text = text//"assessment "//assessment
 
    contains
 
@@ -69,7 +69,7 @@ contains
          if (film /= "") film = film//more//newline
       end function film
 
-      !> The least film of the rough contact, where it is known
+      !> The minimum film of the rough contact, where it is known
       function rough_film()
          character(len=:), allocatable :: rough_film
 

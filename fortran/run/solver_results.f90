@@ -3,10 +3,10 @@
 submodule (ehl_solver) ehl_solver_results
    use ehl_domain, only: ratio_cost, too_small
    use ehl_friction_results, only: find_friction, friction_results_t
-   use ehl_judgement, only: judge
+   use ehl_assessment, only: judge
    use ehl_kinds, only: not_known
    use ehl_level_result, only: film_errors, spike_grows
-   use ehl_no_answer, only: why_no_answer
+   use ehl_no_result, only: why_no_result
    use ehl_outcome, only: outcome_names, outcome_target_missed
    use ehl_ratio_error, only: ratio_error_t
    use ehl_report, only: report_friction, report_passage, report_stationary, report_scene, report_transient, report_waves
@@ -24,14 +24,14 @@ submodule (ehl_solver) ehl_solver_results
    real(dp), parameter :: max_change = 0.5_dp, max_rise = 0.05_dp
 
    !> Of the names, units and meanings of results, with `VERSION` of pyehl/schema.py: another one where one of them changes
-   integer, parameter :: schema_version = 1
+   integer, parameter :: schema_version = 2
 
 contains
 
    module procedure summary
       logical :: good, converged, known, rough
       real(dp) :: ratio, stop_error
-      character(len=:), allocatable :: judgement, why, why_none
+      character(len=:), allocatable :: assessment, why, why_none
       type(friction_results_t) :: friction
       integer :: worth
 
@@ -43,9 +43,9 @@ contains
       call record%set("schema_version", schema_version)
       call record%set("status", trim(outcome_names(self%outcome())))
       if (allocated(self%coarse)) then
-         why = why_no_answer(self%run, self%coarse)
+         why = why_no_result(self%run, self%coarse)
       else
-         why = why_no_answer(self%run)
+         why = why_no_result(self%run)
       end if
       if (why /= "") call record%set("message", why)
       call record%set("converged", converged)
@@ -69,8 +69,8 @@ contains
       call find_friction(self%run, good, converged, why_none, friction)
       call report_friction(record, self%run%plan, friction)
       call record%set("bytes", real(self%run%hierarchy%bytes(), dp) + self%run%plan%surfaces%bytes())
-      call judge(record, judgement, worth)
-      call record%set("judgement", judgement)
+      call judge(record, assessment, worth)
+      call record%set("assessment", assessment)
    end procedure summary
 
    !> What the time steps began with

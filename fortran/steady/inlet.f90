@@ -22,7 +22,7 @@ module ehl_inlet
    !> Load share, and its part of the friction, up to which it hardly matters whether the grid is the reason: films grow as
    !> grids become finer, and no share is wrong by more than itself
    real(dp), parameter :: small_share = 0.05_dp, small_friction = 0.1_dp
-   !> What the formula may be off; least film of a smooth contact over the central one
+   !> What the formula may be off; minimum film of a smooth contact over the central one
    real(dp), parameter :: formula_error = 0.15_dp, thinnest = 0.3_dp
    !> Relative change of the load share by a relative change of the film; error of what is left of the load, at the edge of a
    !> contact that touches nearly everywhere

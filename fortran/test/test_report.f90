@@ -3,7 +3,7 @@
 module test_report
    use check, only: has_text, is_close, is_equal, is_text, is_true
    use ehl_conclusion, only: conclusion
-   use ehl_judgement, only: holds, judge, no_answer, with_care
+   use ehl_assessment, only: holds, judge, no_result, with_care
    use ehl_kinds, only: dp, not_known
    use ehl_lock, only: lock, lock_t, unlock
    use ehl_ratio_error, only: ratio_error_t
@@ -22,7 +22,7 @@ contains
    subroutine run_report()
       call parts_and_sum()
       call last_lines()
-      call judgements()
+      call assessments()
       call lock_fails()
    end subroutine run_report
 
@@ -52,16 +52,16 @@ contains
 
       call record%set("status", "cycle limit")
       call record%set("H_c", not_known)
-      call is_text(conclusion(record), "judgement  no answer: the status is 'cycle limit'", "no solution")
+      call is_text(conclusion(record), "assessment no result: the status is 'cycle limit'", "no solution")
       call record%set("message", "too coarse")
-      call is_text(conclusion(record), "judgement  no answer: the status is 'cycle limit': too coarse", "why there is none")
+      call is_text(conclusion(record), "assessment no result: the status is 'cycle limit': too coarse", "why there is none")
       call record%set("status", "converged")
       call record%set("H_c", 0.024369_dp)
       call record%set("H_c_error", 0.000266_dp)
       call record%set("H_min", 0.008315_dp)
       call record%set("H_min_error", not_known)
       call is_text(conclusion(record), "H_c        0.02437 +- 0.00027 (grid)"//lf//"H_min      0.008315, error not known"//lf// &
-                   "judgement  full film: smooth surfaces; the case gives no size in metres; but the error of H_min is not "// &
+                   "assessment full film: smooth surfaces; the case gives no size in metres; but the error of H_min is not "// &
                    "known", "smooth contact without a size")
       call record%set("H_c_error", 0.0266_dp)
       call record%set("h_c_m", 233.6e-9_dp)
@@ -98,7 +98,7 @@ contains
    end subroutine last_lines
 
    !> Each thing that a result may be short of has its word, and the worst comes first
-   subroutine judgements()
+   subroutine assessments()
       type(record_t) :: good, record
       character(len=:), allocatable :: text
       integer :: worth
@@ -110,12 +110,12 @@ contains
       ! as Python hands a summary over
       call good%take_json(record%to_json())
       call judge(good, text, worth)
-      call is_text(text, "full film: the least film is 30.0 nm: Lambda = 3 with an rms roughness of 10.0 nm", "full film")
+      call is_text(text, "full film: the minimum film is 30.0 nm: Lambda = 3 with an rms roughness of 10.0 nm", "full film")
       call is_equal(worth, holds, "worth of a full film")
 
       record = good
       call record%set("H_c_error", 0.002_dp)
-      call is_judged(record, "full film: the least film is 30.0 nm: Lambda = 3 with an rms roughness of 10.0 nm; but "// &
+      call is_judged(record, "full film: the minimum film is 30.0 nm: Lambda = 3 with an rms roughness of 10.0 nm; but "// &
                      "H_c is known to 10 % only", with_care)
       record = good
       call record%set("flash_temperature_K", 40.0_dp)
@@ -127,13 +127,13 @@ contains
 
       record = good
       call record%set("status", "target missed")
-      call is_judged(record, "full film: the least film is 30.0 nm: Lambda = 3 with an rms roughness of 10.0 nm; but "// &
+      call is_judged(record, "full film: the minimum film is 30.0 nm: Lambda = 3 with an rms roughness of 10.0 nm; but "// &
                      "grid.target_error is missed", with_care)
       record = good
       call record%set("lambda_ratio", 0.8_dp)
       call is_judged(record, "thin film: Lambda = 0.800 is below 1", with_care)
       call record%set("h_min_rough_m", 3.4e-9_dp)
-      call is_judged(record, "thin film: the least film over the roughness is 3.40 nm, below 10 nm", with_care)
+      call is_judged(record, "thin film: the minimum film over the roughness is 3.40 nm, below 10 nm", with_care)
       call record%set("p_max_Pa", 1.0e9_dp)
       call record%set("p_max_rough_Pa", 4.5e9_dp)
       call is_judged(record, "beyond the solids: the pressure reaches 4.50 GPa", with_care)
@@ -149,12 +149,12 @@ contains
 
       call record%set("status", "film breakdown")
       call record%set("message", "5 nm below zero")
-      call is_judged(record, "film breakdown: 5 nm below zero", no_answer)
+      call is_judged(record, "film breakdown: 5 nm below zero", no_result)
       ! of a run: the roughness, on a smooth contact that is solved; else the smooth contact itself
       call record%set("status", "negative film")
-      call is_judged(record, "film breakdown: 5 nm below zero", no_answer)
+      call is_judged(record, "film breakdown: 5 nm below zero", no_result)
       call record%set("H_c", not_known)
-      call is_judged(record, "no answer: the status is 'negative film': 5 nm below zero", no_answer)
+      call is_judged(record, "no result: the status is 'negative film': 5 nm below zero", no_result)
 
       record = good
       call record%set("pressure_viscosity_note", "alpha = 1 is an estimate")
@@ -173,7 +173,7 @@ contains
          call has_text(text, words, words)
          call is_equal(worth, expected, "worth: "//words)
       end subroutine is_judged
-   end subroutine judgements
+   end subroutine assessments
 
    !> What the system says is told, and the lock is not held then
    subroutine lock_fails()

@@ -223,7 +223,7 @@ class Layout:
         self._say(f"computing on {points} × {points} nodes …", "color:#666666")
 
     def failed(self, text: str) -> None:
-        """Say why there is no answer."""
+        """Say why there is no result."""
         self._say(text, "color:#b00020;font-weight:bold")
 
     def _say(self, text: str, style: str) -> None:

@@ -36,7 +36,7 @@ STARVED = (
 WEAR = "wear is not modelled: surfaces keep their heights"
 HARDNESS = (
     "contact.hardness [Pa] limits the pressure of the solids, with lubricant.boundary_film; "
-    "without it they stay elastic, and the judgement of a result names pressures above 4.2 GPa"
+    "without it they stay elastic, and the assessment of a result names pressures above 4.2 GPa"
 )
 # Names that people give to what is called otherwise here, or is not modelled; in what group
 OTHER_NAMES: dict[tuple[str, str], str] = {

@@ -40,7 +40,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=lambda text: text.split(","),
         metavar="NAME,...",
         help="columns of the table, by their names in summary.json (default: all numbers but those "
-        "over the tracks of a prediction, and the assessment `judgement`)",
+        "over the tracks of a prediction, and `assessment`)",
     )
     parser.add_argument("--zip", action="store_true", help="all varied keys move together")
     parser.add_argument("--keep", action="store_true", help="a result folder for each case")

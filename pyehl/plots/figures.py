@@ -153,7 +153,10 @@ def _friction(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
 
 def _extremes(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
     figure = panels(1, (6.4, 3.8), title)
-    films = {"least film": data.history_H_min.values, "film at the centre": data.history_H_c.values}
+    films = {
+        "minimum film": data.history_H_min.values,
+        "film at the centre": data.history_H_c.values,
+    }
     transient.extremes_history(
         data.history_T.values, data.history_P_max.values, films, scales, ax=figure.axes[0]
     )

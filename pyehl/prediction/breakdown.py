@@ -59,7 +59,7 @@ def below_zero(
     semi_axes: tuple[float, float],
     sustained: Sustained,
 ) -> BelowZero:
-    """Find the least film over tiles, in the strip that passes through the contact.
+    """Find the minimum film over tiles, in the strip that passes through the contact.
 
     Every pixel of a tile within b of the track passes through the contact at some time, along its
     row, and meets the thinnest smooth film of that row, and the highest point of the other tile on
@@ -136,7 +136,7 @@ def of_model(model: Model, deformed: Sequence[Array], sustained: Sustained) -> B
 def _in_common_period(
     model: Model, positions: RelativePositions, deformed: Sequence[Array], sustained: Sustained
 ) -> BelowZero:
-    """Find the least film of two surfaces over a common period, by steps of a pixel."""
+    """Find the minimum film of two surfaces over a common period, by steps of a pixel."""
     tiles, (a, b) = [one.topography for one in model.surfaces], model.operating.semi_axes
     smooth, columns = _strip(tiles, a, b, sustained)
     x = (2.0 * np.arange(PLACES) + 1.0) / PLACES - 1.0

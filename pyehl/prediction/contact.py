@@ -34,7 +34,7 @@ class Response:
 class ShearedContact:
     """Points of a contact, the shear stress integrals over them, and what was met so far."""
 
-    thinnest: float  # least film, by which its end is known
+    thinnest: float  # minimum film, by which its end is known
     smooth: float  # sum of the stress of the smooth contact over the points, as `stress`
     points: int  # within the contact
     area: float  # that one of them stands for [m^2]
@@ -73,7 +73,7 @@ class ShearedContact:
             self.below[i] += np.count_nonzero(film < level)
 
     def least_film(self) -> float:
-        """Least film that was met, as it is told."""
+        """Minimum film that was met, as it is told."""
         return self.thinnest
 
     def rise_rms(self) -> float:

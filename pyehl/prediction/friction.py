@@ -57,7 +57,7 @@ class RoughFriction:
     # Friction coefficient of the smooth contact at the slide-to-roll ratio [-]; without meaning for
     # a Newtonian lubricant
     mu_smooth: float
-    film_min: float  # least film over the passage [m]; NaN where it ends
+    film_min: float  # minimum film over the passage [m]; NaN where it ends
     # Rise of the pressure over the passage, its rms within :data:`~pyehl.prediction.contact.NEAR`
     # and the greatest within :data:`~pyehl.prediction.contact.INNER` [Pa]
     rise_rms: float

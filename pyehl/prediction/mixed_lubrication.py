@@ -14,7 +14,7 @@ column of lubricant that a peak has passed has the film of the layer at least. S
 each the most that it has lacked on the way through the contact, on which peaks that slip pass it
 one after the other, and all films are thicker by the mean s of that:
 
-    s = < max(0, h_b - h_least - s) >,   h_least the least film of the column on its way.
+    s = < max(0, h_b - h_least - s) >,   h_least the minimum film of the column on its way.
 
 Compared with the full simulation in docs/evidence/partial.
 """

@@ -36,7 +36,7 @@ INLET, RESOLVED = 1.3, 0.12
 """A grid misses the share INLET (h/H^(2/3))^2 of the film that the inlet makes; what it may miss
 where bodies touch (``fortran/steady/inlet.f90``)."""
 THINNEST, THICKER = 0.3, 1.15
-"""Least film of a smooth contact over the central one, and the error of the formula for that."""
+"""Minimum film of a smooth contact over the central one, and the error of the formula for that."""
 FINEST = 1025
 """Nodes per side of the finest grid that is tried."""
 

@@ -61,7 +61,7 @@ def report(rows: Sequence[Mapping[str, Any]]) -> list[str]:
             lengths.length(row["rolloff_wavelength_m"], most="um")
         )  # fmt: skip
         if row["status"] == "predicted":
-            what = f"least film {lengths.length(row['h_min_rough_m'])}, "
+            what = f"minimum film {lengths.length(row['h_min_rough_m'])}, "
             what += f"mu_r/mu_s {row['mu_ratio']:.4g}"
         else:
             what = str(row["status"])

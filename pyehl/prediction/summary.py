@@ -110,4 +110,4 @@ def summary_of(prediction: Prediction) -> dict[str, Any]:
         values |= {"radius_ratio": o.radius_ratio, "semi_axis_y_m": o.semi_axis_y}
         values["ellipticity"] = o.ellipse.ellipticity
     told = {key: finite(value) for key, value in values.items()}
-    return told | {"judgement": library.conclude(told).judgement}
+    return told | {"assessment": library.conclude(told).assessment}

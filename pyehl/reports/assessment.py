@@ -10,7 +10,7 @@ from pyehl.types import Values
 # A result whose error is a larger share of it is to be taken with care
 WELL_KNOWN = 0.05
 NM = 1e9
-KINDS = {"holds": "pass", "with care": "care", "no answer": "fail"}
+KINDS = {"holds": "pass", "with care": "care", "no result": "fail"}
 SIGNS = {"mu_r/mu_s": "μ_r/μ_s", "Lambda": "Λ", "+-": "±", "sigma": "σ", "mu ": "μ "}
 WORDS = {
     "H_c": "central film",
@@ -37,7 +37,7 @@ class Assessment(NamedTuple):
 def numbers_of(summary: Values) -> dict[str, str]:
     """Give names and values of what was found; nothing where there is no result."""
     conclusion = library.conclude(summary)
-    if conclusion.worth == "no answer":
+    if conclusion.worth == "no result":
         return {}
     found = {
         WORDS[name]: f"{name} = {_signs(text)}" if name in ("H_c", "H_min") else _signs(text)
@@ -78,12 +78,12 @@ def _predicted(s: Values) -> dict[str, str]:
 def assess(summary: Values) -> Assessment:
     """Assess a result as its last lines do."""
     conclusion = library.conclude(summary)
-    word, _, why = _signs(conclusion.judgement).partition(": ")
+    word, _, why = _signs(conclusion.assessment).partition(": ")
     hint = ""
     if summary.get("film_breakdown"):
         hint = " No number is a result. What leaves a full film is listed below."
     return Assessment(
-        word.replace("no answer", "no result").capitalize(),
+        word.replace("no result", "no result").capitalize(),
         f"{why[:1].upper()}{why[1:]}.{hint}",
         KINDS[conclusion.worth],
     )

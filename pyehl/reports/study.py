@@ -121,8 +121,8 @@ def _assess(rows: pd.DataFrame, size: int) -> Assessment:
         if len(those):
             why += f" {words}: {', '.join(f'{n} {word!r}' for word, n in those.items())}."
     thin = False
-    if "judgement" in rows:
-        words = rows["judgement"].dropna().str.partition(":")[0].value_counts()
+    if "assessment" in rows:
+        words = rows["assessment"].dropna().str.partition(":")[0].value_counts()
         why += f" By their assessments: {', '.join(f'{n} {word}' for word, n in words.items())}."
         thin = any(word != "full film" for word in words.index)
     if known == 0:

@@ -39,7 +39,7 @@ mu_ratio_spread mu_ratio_model_error mu_ratio_ehl mu_ratio_ehl_error moes_m moes
 """
 UNITS = {name: unit_of(name) for name in _NUMBERS.split()}
 """Columns that are numbers, and their units; behind them come `WORDS`."""
-WORDS = ("status", "message", "judgement")
+WORDS = ("status", "message", "assessment")
 CONTACT: dict[str, Callable[[Iterable[float]], float]] = {
     "contact_load_share": fmean,
     "contact_load_share_error": max,
@@ -146,7 +146,7 @@ def _row(
             values["status"] = UNSOLVED
     values["message"] = "; ".join(filter(None, notes))
     values[CONCLUSION] = _conclude(point.settings, values)
-    return values | {"judgement": values[CONCLUSION].judgement}
+    return values | {"assessment": values[CONCLUSION].assessment}
 
 
 def _conclude(settings: Settings, values: Values) -> library.Conclusion:

@@ -66,9 +66,9 @@ def last_lines(plan: CurvePlan, table: pd.DataFrame) -> str:
     film = table["h_min_rough_m"].fillna(table["h_min_m"]).astype(float)
     film = film[table["h_min_m"].notna()]
     if film.empty:
-        return "judgement  no answer: no point has a film"
+        return "assessment no result: no point has a film"
     thinnest = int(film.idxmin())
-    words = table["judgement"].str.partition(":")[0].where(table["status"] != OUTSIDE, OUTSIDE)
+    words = table["assessment"].str.partition(":")[0].where(table["status"] != OUTSIDE, OUTSIDE)
     counts = ", ".join(f"{word} at {n}" for word, n in Counter(words).items())
     return (
         f"the film is thinnest at {plan.points[thinnest].point}:\n"

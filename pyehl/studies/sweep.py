@@ -78,7 +78,7 @@ def sweep(
     run
         'solve', 'predict' or 'film'.
     outputs
-        Names of results wanted; none: all numbers and the assessment (``judgement``). Mean and
+        Names of results wanted; none: all numbers and ``assessment``. Mean and
         spread over the tracks of a prediction, which take twice the time, are made only where they
         are named.
     output

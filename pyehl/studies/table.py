@@ -18,7 +18,7 @@ from pyehl.types import Values
 
 # Words that are always in the table; other words only where they are asked for
 TEXTS = ("status", "message")
-WORDS = ("flags", "outside_range", "judgement")
+WORDS = ("flags", "outside_range", "assessment")
 
 
 def columns(study: Study, rows: Mapping[int, Values]) -> list[str]:

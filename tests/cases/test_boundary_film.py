@@ -135,7 +135,7 @@ def test_inlet_that_a_grid_does_not_resolve(solve, points):
         assert done[name] is None, name
     for name in ("contact_load_share_error", "mu", "H_c_error", "H_min_error", "F_error"):
         assert "grid.points = 1025 or more" in done[f"{name}_note"], name
-    assert done["judgement"].startswith("unresolved inlet: ")
+    assert done["assessment"].startswith("unresolved inlet: ")
 
 
 def test_target_error_refines_until_the_inlet_is_resolved(solve):
@@ -331,7 +331,7 @@ def test_hardness_dry_limit(solve, root, dry, name, points, velocity, layer, har
     assert done["plastic_depth_max_m"] > 5e-8
     # where the solids give way, the film is no less than the layer
     assert done.field("H").min() > 0.7 * done["boundary_film"]
-    assert "yielding solids" in done["judgement"]
+    assert "yielding solids" in done["assessment"]
 
 
 def of_shape(settings: dict) -> dict:
@@ -433,17 +433,17 @@ def test_contact_of_a_coarse_grid(solve):
     assert done["contact_load_share"] > 0.1
     assert done["contact_load_share_error"] is None
     assert "does not resolve the inlet" in done["contact_load_share_error_note"]
-    assert done["judgement"].startswith("mixed film: ")
-    assert "an error that is not known" in done["judgement"]
+    assert done["assessment"].startswith("mixed film: ")
+    assert "an error that is not known" in done["assessment"]
 
 
 def test_a_layer_that_would_have_to_give_much(solve):
-    """A thick one on a coarse grid: the judgement says that the model ends there."""
+    """A thick one on a coarse grid: the assessment says that the model ends there."""
     done = solve(None, 65, STEEL | MIXED | {"lubricant.boundary_film": 8e-8})
     assert done.converged
     assert done["layer_supply"] > 0.1
-    assert "the layer would have to give" in done["judgement"]
-    assert "where the model ends" in done["judgement"]
+    assert "the layer would have to give" in done["assessment"]
+    assert "where the model ends" in done["assessment"]
 
 
 @pytest.mark.long

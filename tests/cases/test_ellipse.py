@@ -317,7 +317,9 @@ def test_too_coarse_a_grid_names_one_that_will_do(ehl: str, tmp_path: Path):
     done = subprocess.run(words, capture_output=True, text=True, check=False)
     assert done.returncode == 1
     (points,) = re.findall(
-        r"^judgement .*: the grid is too coarse .*: grid.points = (\d+) or more$", done.stdout, re.M
+        r"^assessment .*: the grid is too coarse .*: grid.points = (\d+) or more$",
+        done.stdout,
+        re.MULTILINE,
     )
     words = [*words[:3], tmp_path / "fine", "--set", f"grid.points={points}"]
     done = subprocess.run(words, capture_output=True, text=True, check=False)
@@ -345,7 +347,7 @@ def test_wide_thin_films_take_cycles_back(solve, moes_l: float):
 def test_a_failed_contact_names_a_finer_grid(solve):
     done = solve((200.0, 10.0), 65, {"solver.max_cycles": 2})
     assert done["status"] == "cycle limit"
-    assert "give a finer grid (grid.points = 129)" in done["judgement"]
+    assert "give a finer grid (grid.points = 129)" in done["assessment"]
 
 
 @pytest.mark.parametrize("kappa", [0.1, 0.2, 0.5, 2.0, 5.0, 10.0])
@@ -431,7 +433,7 @@ def test_cells_that_a_narrow_contact_needs(kappa: float, round_m: float):
         assert not solver.run()
         summary = solver.summary
     assert (summary["H_c"], summary["status"]) == (None, "negative film")
-    named = re.findall(r"(\w+\.\w+) = ([\d.]+)", summary["judgement"])
+    named = re.findall(r"(\w+\.\w+) = ([\d.]+)", summary["assessment"])
     assert [key for key, _ in named] == ["grid.y_extent", "grid.points_y", "solver.max_cycles"]
     found = []
     for wider in (1.0, 1.5):

@@ -89,12 +89,12 @@ def test_gear_pair(root: Path, ehl: str, tmp_path: Path):
         assert f"| {formula['h_c_m'] * 1e9:.1f} nm |{least}" in text
     assert f"```text\n{library.conclude(record)}\n```" in text
     least = [round(record[name] * 1e9) for name in ("h_min_m", "h_min_rough_m")]
-    assert "least film from {} to {} nm".format(*least) in text
+    assert "minimum film from {} to {} nm".format(*least) in text
     assert 0.0 < abs(1.0 - record["mu_ratio"]) < 0.005
     predicted = pyehl.predict(case, tracks=1).summary
     least_film = round(predicted["h_min_rough_m"] * 1e9)
     ratio = f"{predicted['mu_ratio']:.4f}"
-    assert f"a ratio of {ratio} and a least film of {least_film} nm" in text
+    assert f"a ratio of {ratio} and a minimum film of {least_film} nm" in text
     assert predicted["mu_ratio_model_error"] is None
     assert predicted["h_min_rough_error_m"] is None
     assert predicted["outside_range"] == ["ellipticity"]

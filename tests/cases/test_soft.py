@@ -137,11 +137,11 @@ def test_water(root: Path):
 
 
 def test_strain_is_named(root: Path):
-    told = str(pyehl.solve(root / "cases/soft.nml", {"grid.points": 65}).attrs["judgement"])
+    told = str(pyehl.solve(root / "cases/soft.nml", {"grid.points": 65}).attrs["assessment"])
     assert "the contact radius is 0.11 of the radius of curvature (p_h/E' = 0.034)" in told
     assert "a strain of about 2.1 %" in told
     small = {"contact.load": 0.01, "grid.points": 65}
-    assert "strain" not in str(pyehl.solve(root / "cases/soft.nml", small).attrs["judgement"])
+    assert "strain" not in str(pyehl.solve(root / "cases/soft.nml", small).attrs["assessment"])
     with pytest.raises(pyehl.InputError, match="exceeds that of the ball"):
         pyehl.check(root / "cases/soft.nml", {"bodies.modulus_1": 1e4, "contact.load": 5.0})
 

@@ -93,7 +93,7 @@ def test_both_drivers_end_with_the_same_lines(drive, tmp_path: Path):
             lines[driver] = last_lines(done.stdout)
             values[driver] = summary_of(tmp_path / f"{driver} {name}")
             assert 3 <= len(lines[driver]) <= 8
-            assert lines[driver][-1] == f"judgement  {values[driver]['judgement']}"
+            assert lines[driver][-1] == f"assessment {values[driver]['assessment']}"
         assert lines["ehl"][:4] == lines["pyehl"][:4]
         assert [line[:11] for line in lines["ehl"]] == [line[:11] for line in lines["pyehl"]]
         v = values["pyehl"]
@@ -108,9 +108,9 @@ def test_both_drivers_end_with_the_same_lines(drive, tmp_path: Path):
             assert lines["ehl"][:-1] == lines["pyehl"][:-1]
             # these waves add next to nothing, which a prediction alone can say
             assert lines["ehl"][-1].startswith(
-                "judgement  unresolved waves: they hold 5.2 % of the "
+                "assessment unresolved waves: they hold 5.2 % of the "
             )
-            assert lines["pyehl"][-1].startswith("judgement  full film: the least film over ")
+            assert lines["pyehl"][-1].startswith("assessment full film: the minimum film over ")
             assert values["ehl"]["mu_ratio_error"] == v["mu_ratio_error"]
         else:
             assert values["ehl"]["mu_ratio_error"] is None
@@ -270,9 +270,9 @@ def test_no_ratio_is_none(text: str):
         values = solver.summary
         assert values["mu_ratio"] is values["mu_ratio_error"] is values["H_c"] is None
         assert values["mu_ratio_error_note"] == "there is no mu_ratio"
-        assert values["message"] in values["judgement"]
+        assert values["message"] in values["assessment"]
         assert "cycle 1; give a finer grid (grid.points = " in values["message"]
-        assert solver.conclusion().endswith(values["judgement"])
+        assert solver.conclusion().endswith(values["assessment"])
 
 
 def test_least_rough_film_is_that_of_the_time_of_the_mean():

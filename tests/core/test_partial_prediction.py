@@ -68,7 +68,7 @@ def test_share_grows_with_the_layer_up_to_dry_contact():
     assert found[-1]["mu"] == pytest.approx(0.1, rel=0.05)
     assert all(s["contact_load_share_error"] >= 0.0 for s in found)
     assert all(s["status"] == "predicted" for s in found)
-    assert "mixed film" in found[1]["judgement"]
+    assert "mixed film" in found[1]["assessment"]
 
 
 @pytest.mark.parametrize(

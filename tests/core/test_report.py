@@ -117,7 +117,7 @@ def test_numbers_are_those_of_the_result(folders, tmp_path):
     error = summary["H_c_error"] * summary["film_scale_m"] * 1e9
     assert f"h_c {with_error(summary['h_c_m'] * 1e9, error, 'nm')}" in page.text
     assert f"H_c = {with_error(summary['H_c'], summary['H_c_error'])}" in page.text
-    assert summary["judgement"].partition(": ")[2][1:] in page.text.replace("μ_r/μ_s", "mu_r/mu_s")
+    assert summary["assessment"].partition(": ")[2][1:] in page.text.replace("μ_r/μ_s", "mu_r/mu_s")
     assert summary["mu_note"] in page.text
     prediction = json.loads((folders / "prediction/summary.json").read_text())
     page = read(pyehl.report(folders / "prediction", tmp_path / "other.html"))
@@ -154,7 +154,7 @@ def test_films_by_formula_are_results(tmp_path, root, load, verdict):
     assert verdict in read(pyehl.report(folder)).text
 
 
-def test_no_answer_is_said(tmp_path, root):
+def test_no_result_is_said(tmp_path, root):
     with pytest.raises(pyehl.NotConverged):
         pyehl.solve(root / "cases/quick.nml", SMALL, "solver.max_cycles=1", output=tmp_path / "run")
     page = read(pyehl.report(tmp_path / "run", tmp_path / "page.html"))
@@ -353,7 +353,7 @@ GOOD = {
             "Smooth surfaces",
             "pass",
         ),
-        ({"h_min_m": 5e-9}, "Thin film", "The least film is 5.00 nm", "care"),
+        ({"h_min_m": 5e-9}, "Thin film", "The minimum film is 5.00 nm", "care"),
         ({"status": "diverged"}, "No result", "'diverged'", "fail"),
     ],
 )

@@ -41,7 +41,7 @@ def results(folder: Path) -> dict[str, bytes]:
     if summary.get("variance_unresolved"):
         # Python also predicts what the grid does not resolve, and counts what it leaves out
         free |= {"mu_ratio_unresolved", "mu_ratio_error_left_out"}
-        free |= {"mu_ratio_error", "mu_ratio_error_note", "judgement"}
+        free |= {"mu_ratio_error", "mu_ratio_error_note", "assessment"}
     files["summary.json"] = json.dumps(
         {name: value for name, value in summary.items() if name not in free}
     ).encode()
@@ -94,12 +94,12 @@ def unbroken(drivers, tmp_path_factory) -> dict[str, Path]:
 
 @pytest.mark.parametrize("driver", ["ehl", "pyehl"])
 @pytest.mark.parametrize(
-    ("extra", "options", "judgement", "says"),
+    ("extra", "options", "assessment", "says"),
     [
         (
             "amplitude_over_film = 0.2",
             "time.steps=5",
-            "no answer: the status is 'not settled': the mean of mu_r/mu_s has not settled at T = ",
+            "no result: the status is 'not settled': the mean of mu_r/mu_s has not settled at T = ",
             "a larger time.max_periods",
         ),
         (
@@ -111,12 +111,12 @@ def unbroken(drivers, tmp_path_factory) -> dict[str, Path]:
     ],
 )
 def test_only_what_could_end_otherwise_is_offered(
-    drive, tmp_path: Path, driver: str, extra: str, options: str, judgement: str, says: str
+    drive, tmp_path: Path, driver: str, extra: str, options: str, assessment: str, says: str
 ):
     (tmp_path / "case.nml").write_text(WAVE.format(points=65, extra=f"wavelength = 1.0 {extra}"))
     done = drive(driver, "case.nml", "-o", "out", "--set", options)
     assert done.returncode == 1
-    assert f"judgement  {judgement}" in done.stdout
+    assert f"assessment {assessment}" in done.stdout
     *_, last = done.stdout.splitlines()
     assert last.endswith("--resume out") == bool(says)
     assert says in last

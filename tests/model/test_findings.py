@@ -228,13 +228,13 @@ def test_findings_are_reported_predicted_and_drawn(tmp_path, capsys):
     assert (tmp_path / "tile.npy.png").is_file()
 
 
-def test_doubts_about_the_map_stand_in_the_judgement():
+def test_doubts_about_the_map_stand_in_the_assessment():
     z = rough(rms=5e-9) + 1e-9 * np.random.default_rng(4).normal(size=N)
     case = pyehl.Case.from_text("&surface kind='fractal' /")
     made = prepare(Scan(z, N * PIXEL, N * PIXEL, "lines"))
     result = pyehl.predict(case, surface=Topography(made.tile, made.lengths, "lines", None, made))
     assert result.summary["status"] == "predicted"
-    assert "but the map is not roughness alone: line offsets" in result.summary["judgement"]
+    assert "but the map is not roughness alone: line offsets" in result.summary["assessment"]
 
 
 def test_a_scan_of_many_contacts_says_its_cost_and_offers_a_part(caplog, monkeypatch):

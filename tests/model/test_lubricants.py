@@ -139,7 +139,7 @@ def test_band_of_a_coefficient_that_was_not_given(root: Path):
     assert f"for {band} the film is {-least:.0f} % thinner to {most:.0f} % thicker" in note
     assert (
         f"alpha is an estimate ({least:.0f} to {most:+.0f} % of the film)"
-        in data.attrs["judgement"]
+        in data.attrs["assessment"]
     )
 
 
@@ -174,8 +174,8 @@ def test_a_coefficient_that_was_not_given_is_named(
     data = pyehl.solve(tmp_path / "case.nml", LIGHT)
     note = str(data.attrs.get("pressure_viscosity_note", ""))
     assert (words in note) if words else not note
-    judgement = data.attrs["judgement"]
-    assert (judged in judgement) if words else ("alpha" not in judgement)
+    assessment = data.attrs["assessment"]
+    assert (judged in assessment) if words else ("alpha" not in assessment)
 
 
 def test_slopes_at_the_inlet_follow_from_the_law(table: Path):

@@ -227,7 +227,7 @@ def test_waves_against_the_full_simulation(ahead):
 
 
 def test_film_between_two_tiles(contact):
-    """Least film over all positions: the highest points of a line meet. In a common period few."""
+    """Minimum film over all positions: the highest points of a line meet, in a period few."""
 
     def film(x, y):
         return np.full((x.size, y.size), 1e-7)
@@ -433,4 +433,4 @@ def test_waves_of_equal_surfaces_that_move_together_add_up(slide_to_roll, seed, 
     else:
         assert about["surface_correlation"] == pytest.approx(product, abs=1e-9)
         assert f"correlation {product:.2f}" in plan
-    assert ("are alike (correlation 1.00)" in about["judgement"]) == (alike == 1.0)
+    assert ("are alike (correlation 1.00)" in about["assessment"]) == (alike == 1.0)

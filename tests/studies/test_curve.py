@@ -347,8 +347,8 @@ def test_a_ratio_beyond_linear_response_leaves_the_film(cases: Path, tmp_path: P
     assert first["status"] == OUTSIDE
     assert (first["mu_ratio"], first["mu"]) == ("", "")
     assert first["message"].startswith("beyond linear response: pressures that raise mu_r/mu_s to")
-    assert "but mu_r/mu_s is not known: pressures that raise" in first["judgement"]
-    assert "no answer" not in first["judgement"] + told
+    assert "but mu_r/mu_s is not known: pressures that raise" in first["assessment"]
+    assert "no result" not in first["assessment"] + told
     assert float(first["lambda_ratio"]) > 0.5
     assert second["mu_ratio"] != ""
     assert complaint == ""

@@ -39,11 +39,11 @@ def test_a_row_is_the_summary_of_a_prediction(cases: Path, name: str):
     row = execute(Task(0, case.text, "predict"))
     assert row["status"] == summary["status"] == STATUSES.get(name, "predicted")
     for key, value in row.items():
-        # the judgement has the message where there is no ratio
-        if key not in OWN | {"message", "outside_range", "judgement"}:
+        # the assessment has the message where there is no ratio
+        if key not in OWN | {"message", "outside_range", "assessment"}:
             assert value == summary[key], key
     if name not in STATUSES:
-        assert row["judgement"] == summary["judgement"]
+        assert row["assessment"] == summary["assessment"]
     numbers = {k for k, v in summary.items() if v is None or isinstance(v, bool | int | float)}
     dropped = numbers - set(row)
     assert dropped <= {*TRACKS, *OWN, "film_breakdown", "schema_version", "surface_preparation"}
@@ -51,12 +51,12 @@ def test_a_row_is_the_summary_of_a_prediction(cases: Path, name: str):
     assert summary["message"].startswith(row["message"])
 
 
-def test_judgement_of_a_ratio_beyond_linear_response(cases: Path):
+def test_assessment_of_a_ratio_beyond_linear_response(cases: Path):
     """Of the film that is known; the ratio alone is missing."""
     summary = pyehl.predict(cases / "table1.nml", *CASES["beyond"], tracks=1).summary
     assert summary["mu_ratio"] is None
     assert summary["lambda_ratio"] > 0.0
-    word, _, reason = summary["judgement"].partition(": ")
+    word, _, reason = summary["assessment"].partition(": ")
     assert word in ("full film", "thin film")
     assert f"but mu_r/mu_s is not known: {summary['message']}" in reason
 

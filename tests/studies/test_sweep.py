@@ -63,7 +63,7 @@ def test_table_is_that_of_single_runs(done: tuple[Path, str], cases: Path):
             alone = solver.summary
         for name in ("H_c", "H_c_error", "H_min", "F", "P_max"):
             assert float(row[name]) == alone[name]
-        assert row["judgement"] == alone["judgement"] != ""
+        assert row["assessment"] == alone["assessment"] != ""
         assert row["status"] == alone["status"] == "converged"
         assert float(row["seconds"]) > 0.0
 

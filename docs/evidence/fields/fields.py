@@ -49,7 +49,7 @@ MOMENTS = 8
 RINGS = {"r < 0.4": (0.0, 0.4), "0.4 to 0.7": (0.4, 0.7), "0.7 to 0.9": (0.7, 0.9)}
 STRIPS = {"X = -0.5": (-0.65, -0.35), "X = 0": (-0.15, 0.15), "X = 0.5": (0.35, 0.65)}
 SIDE = 0.5
-# Where the least film lies: X and |Y| [a]
+# Where the minimum film lies: X and |Y| [a]
 LOBE_X, LOBE_Y = (0.1, 0.3), (0.88, 0.97)
 COLUMNS = (
     "name points place p_correlation p_slope p_square gamma film_correlation film_slope film_square"

@@ -29,7 +29,7 @@ def rows() -> list[dict[str, str]]:
 def lines() -> list[str]:
     """Give the points with a full simulation: prediction, then simulation."""
     found = [
-        "| speed [m/s] | Λ | load share | simulated | area share | simulated | least film [nm] "
+        "| speed [m/s] | Λ | load share | simulated | area share | simulated | minimum film [nm] "
         "| simulated |",
         "|---|---|---|---|---|---|---|---|",
     ]

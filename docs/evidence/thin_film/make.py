@@ -186,8 +186,8 @@ def lines() -> list[str]:
     """Give the table of predicted beside simulated."""
     known = {tuple(row[k] for k in KEYS[:3]): row for row in read("predicted.csv")}
     found = [
-        "| surface | speed [m/s] | flow | predicted | least film [nm] | nodes | simulated "
-        "| least film [nm] | greatest pressure [p_h] |",
+        "| surface | speed [m/s] | flow | predicted | minimum film [nm] | nodes | simulated "
+        "| minimum film [nm] | greatest pressure [p_h] |",
         "|---|---|---|---|---|---|---|---|---|",
     ]
     for row in read("simulated.csv"):

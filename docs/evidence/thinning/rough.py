@@ -234,8 +234,8 @@ def read(path: Path) -> dict[str, dict[str, Any]]:
 def compare(predictions: dict[str, dict[str, Any]], simulations: dict[str, dict[str, Any]]) -> None:
     """Print predicted beside simulated, and how many deviations the stated errors cover.
 
-    The least film is compared with that of a grid without error: what the smooth contact misses on
-    the grid of the simulations is added to the simulated one.
+    The minimum film is compared with that of a grid without error: what the smooth contact misses
+    on the grid of the simulations is added to the simulated one.
     """
     covered: dict[str, list[bool]] = {name: [] for name in QUANTITIES}
     relative: dict[str, list[float]] = {name: [] for name in QUANTITIES}

@@ -27,8 +27,8 @@ def end(text: str, *options: str, stop: int | None = None) -> dict[str, Any]:
             assert not solver.summary.get("message")
             solver.interrupt()
         summary = solver.summary
-        assert solver.conclusion().endswith(f"judgement  {summary['judgement']}")
-    assert "\n" not in summary["judgement"]
+        assert solver.conclusion().endswith(f"assessment {summary['assessment']}")
+    assert "\n" not in summary["assessment"]
     return summary
 
 
@@ -37,10 +37,11 @@ def test_film_breakdown_of_a_run():
     assert found["status"] == "negative film"
     # T of the step that failed
     place = f"the time step to T = {found['T'] + found['x_mesh']:.4f} on 65 x 65 nodes"
-    assert found["judgement"].startswith(
-        f"film breakdown: no solution with a positive film for {place}, least film before H_min = "
+    assert found["assessment"].startswith(
+        f"film breakdown: no solution with a positive film for {place}, "
+        "minimum film before H_min = "
     )
-    assert found["judgement"].endswith(
+    assert found["assessment"].endswith(
         "; the shortest waves have 7 nodes, and as high as the film they need 32: give a finer "
         "grid (grid.points = 129), a smoother surface; pyehl predict says where the film ends"
     )
@@ -48,9 +49,9 @@ def test_film_breakdown_of_a_run():
 
 def test_film_breakdown_of_a_feature_in_metres():
     """Nothing is predicted of a feature; where a film has metres a boundary film can be given."""
-    told = end(IN_METRES.format("height_m = 6e-7 width = 0.5"))["judgement"]
+    told = end(IN_METRES.format("height_m = 6e-7 width = 0.5"))["assessment"]
     assert told.startswith("film breakdown: no solution with a positive film for the time step to ")
-    assert ", least film before " in told
+    assert ", minimum film before " in told
     assert " nm; " in told
     assert told.endswith("a smoother surface or lubricant.boundary_film")
 
@@ -106,7 +107,7 @@ def test_film_breakdown_of_a_feature_in_metres():
 def test_other_ends(options: list[str], stop: int | None, status: str, words: str):
     found = end(WAVE, *options, stop=stop)
     assert found["status"] == status
-    assert found["judgement"] == f"no answer: the status is '{status}': {found['message']}"
+    assert found["assessment"] == f"no result: the status is '{status}': {found['message']}"
     assert found["message"].endswith(words)
 
 

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> What a result is worth to an engineer: one line from its summary, of a solution or a prediction
-module ehl_judgement
+module ehl_assessment
    use ehl_kinds, only: dp, pi
    use ehl_record, only: record_t
    use ehl_resolution, only: no_inlet
@@ -9,10 +9,10 @@ module ehl_judgement
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    implicit none (type, external)
    private
-   public :: judge, holds, with_care, no_answer
+   public :: judge, holds, with_care, no_result
 
    !> What a result is worth
-   integer, parameter :: holds = 0, with_care = 1, no_answer = 2
+   integer, parameter :: holds = 0, with_care = 1, no_result = 2
 
    !> Pressure [Pa] from which bearing steel keeps a dent of 1e-4 of the diameter of the ball (ISO 76:2006); the solids
    !> of the model stay elastic
@@ -35,7 +35,7 @@ module ehl_judgement
 
 contains
 
-   !> A word and the reason for it: 'no answer', 'film breakdown', 'beyond the solids', 'unresolved inlet', 'mixed film',
+   !> A word and the reason for it: 'no result', 'film breakdown', 'beyond the solids', 'unresolved inlet', 'mixed film',
    !> 'yielding solids',
    !> 'thin film', 'unresolved waves' or 'full film', then what else there is to know
    subroutine judge(summary, text, worth)
@@ -46,13 +46,13 @@ contains
       logical :: breaks
 
       status = summary%text("status")
-      worth = no_answer
+      worth = no_result
       ! a run whose smooth contact is solved
       breaks = status == "film breakdown" .or. (status == "negative film" .and. ieee_is_finite(summary%number("H_c")))
       if (breaks) then
          text = "film breakdown: "//summary%text("message")
       else if (all(status /= [character(len=len(beyond)) :: "converged", "predicted", "target missed", beyond])) then
-         text = "no answer: the status is '"//status//"'"
+         text = "no result: the status is '"//status//"'"
          if (summary%text("message") /= "") text = text//": "//summary%text("message")
       else
          worth = with_care
@@ -236,9 +236,9 @@ contains
       film = least(summary)
       ratio = summary%number("lambda_ratio")
       if (ieee_is_finite(film) .and. ieee_is_finite(summary%number("h_min_rough_m"))) then
-         text = "the least film over the roughness is "//short(film*1.0e9_dp)//" nm"
+         text = "the minimum film over the roughness is "//short(film*1.0e9_dp)//" nm"
       else if (ieee_is_finite(film)) then
-         text = "the least film is "//short(film*1.0e9_dp)//" nm"
+         text = "the minimum film is "//short(film*1.0e9_dp)//" nm"
          if (.not. summary%has("lambda_ratio")) text = text//": Lambda = "//short(apart, 1)// &
                                                         " with an rms roughness of "//short(film/apart*1.0e9_dp)//" nm"
       else
@@ -262,4 +262,4 @@ contains
       larger = .false.
       if (ieee_is_finite(a) .and. ieee_is_finite(b)) larger = a > b
    end function larger
-end module ehl_judgement
+end module ehl_assessment

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Why a run has no answer, where it ended, and what to do about it: one line
-module ehl_no_answer
+!> Why a run has no result, where it ended, and what to do about it: one line
+module ehl_no_result
    use ehl_contact_run, only: contact_run_t, phase_stationary, phase_steps
    use ehl_kinds, only: dp
    use ehl_outcome, only: outcome_cycle_limit, outcome_diverged, outcome_interrupted, outcome_negative_film, outcome_unsettled
@@ -8,7 +8,7 @@ module ehl_no_answer
    use ehl_text, only: fixed, to_text
    implicit none (type, external)
    private
-   public :: why_no_answer
+   public :: why_no_result
 
    !> Waves as high as the film need so many nodes a wavelength (docs/limits.md); what may be in shorter ones
    integer, parameter :: enough_nodes = 32
@@ -17,7 +17,7 @@ module ehl_no_answer
 contains
 
    !> Empty for a run that has an answer, or is not at its end
-   function why_no_answer(run, coarse) result(text)
+   function why_no_result(run, coarse) result(text)
       type(contact_run_t), intent(in) :: run
       !> The run for the grid error, while it runs
       type(contact_run_t), intent(in), optional :: coarse
@@ -48,7 +48,7 @@ contains
       case default
          text = ""
       end select
-   end function why_no_answer
+   end function why_no_result
 
    !> No positive film: by the grid, or by the roughness
    function of_negative_film(run) result(text)
@@ -61,7 +61,7 @@ contains
          return
       end if
       text = "no solution with a positive film for "//place(run)
-      if (run%history%n_rows() > 0) text = text//", least film before "//film_before(run)
+      if (run%history%n_rows() > 0) text = text//", minimum film before "//film_before(run)
       nodes = nodes_of_waves(run)
       text = text//"; the shortest waves have "
       if (nodes < enough_nodes) then
@@ -150,4 +150,4 @@ contains
          end if
       end do
    end function nodes_of_waves
-end module ehl_no_answer
+end module ehl_no_result
