@@ -196,7 +196,9 @@ def test_a_solver_loads_no_prediction():
         "    assert solver.converged\n"
         "print([name for name in sys.modules if name.startswith('pyehl.prediction.')])"
     )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    done = subprocess.run(
+        [sys.executable, "-P", "-c", code], capture_output=True, text=True, check=False
+    )
     assert (done.stdout.strip(), done.returncode) == ("[]", 0), done.stderr
 
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Stress below the surface against closed forms, and what `pyehl.stress` makes of results."""
 
+import csv
 import json
 import math
 from pathlib import Path
@@ -289,3 +290,21 @@ def test_results_without_fields() -> None:
         pyehl.stress(bare)
     with pytest.raises(pyehl.InputError, match="expected a result of solve"):
         pyehl.stress(3)  # type: ignore[arg-type]
+
+
+def test_evidence_is_what_the_page_shows(root: Path) -> None:
+    """Each row of the table of predicted beside simulated stress."""
+    folder = root / "docs" / "evidence" / "subsurface"
+    page = (folder / "README.md").read_text(encoding="utf-8")
+    with (folder / "table.csv").open(newline="", encoding="utf-8") as stream:
+        rows = list(csv.DictReader(stream))
+    assert len(rows) >= 6
+    near = []
+    for row in rows:
+        near.append(float(row["near_predicted"]) / float(row["near_simulated"]) - 1.0)
+        largest = float(row["largest_predicted"]) / float(row["largest_simulated"]) - 1.0
+        assert f"| {row['name']} | {float(row['near_smooth']):.4f} |" in page
+        assert f"| {near[-1]:+.1%} |".replace("%", " %") in page
+        assert f"| {largest:+.2%} |".replace("%", " %") in page
+        assert abs(largest) < 0.002
+    assert sum(abs(off) < 0.05 for off in near) == 7
