@@ -75,7 +75,7 @@ def test_ball_bearing(root: Path, drivers: dict[str, list[str]], tmp_path: Path)
 
 
 @pytest.mark.long
-def test_gear_pair(root: Path, ehl: str, tmp_path: Path):
+def test_gear_pair(root: Path, drivers: dict[str, list[str]], tmp_path: Path):
     """The page has the numbers of the record, and the record those of the smooth contact."""
     case, page = root / "cases" / "gear_pair.nml", root / "docs" / "howto" / "gear.md"
     text = page.read_text(encoding="utf-8")
@@ -98,7 +98,7 @@ def test_gear_pair(root: Path, ehl: str, tmp_path: Path):
     assert predicted["mu_ratio_model_error"] is None
     assert predicted["h_min_rough_error_m"] is None
     assert predicted["outside_range"] == ["ellipticity"]
-    words = [ehl, case, "-o", tmp_path / "out"]
+    words = [*drivers["pyehl"], case, "-o", tmp_path / "out"]
     for group in ("surface", "second_surface"):
         words += ["--set", f"{group}.kind=smooth"]
     subprocess.run(words, capture_output=True, check=True)
