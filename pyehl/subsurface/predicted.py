@@ -12,6 +12,7 @@ from pyehl.prediction.model import Model, RoughSurface
 from pyehl.prediction.moving_tile import Component
 from pyehl.prediction.options import ModelOptions
 from pyehl.prediction.rough_contact import RoughContact
+from pyehl.prediction.second_order import film_left
 from pyehl.prediction.smooth import solve_contact
 from pyehl.results import settings_of
 from pyehl.subsurface.loads import Loads, made_of
@@ -81,15 +82,15 @@ def predicted_loads(data: xr.Dataset, *, body: int | None, friction: str | float
     def pressures(k: int) -> Array:
         found = pressure.copy()
         gained = contact.pressure + np.where(contact.inside, change(k)[..., 1], 0.0)
-        # the lubricant bears no tension
+        # cavitation: `cavitated_share` of the prediction says on how much of the contact
         found[inner] = np.maximum(gained, 0.0)
         return found
 
     def films(k: int) -> Array:
         found = film.copy()
-        left = contact.smooth_film() - np.where(contact.inside, change(k)[..., 0], 0.0)
-        # where the film ends, the shear stress is that of a hundredth of the smooth film
-        found[inner] = np.maximum(left, 0.01 * contact.film)
+        smooth_film = contact.smooth_film()
+        loss = np.where(contact.inside, change(k)[..., 0], 0.0)
+        found[inner] = smooth_film * film_left(loss / smooth_film)
         return found * operating.film_scale
 
     return made_of(
