@@ -23,6 +23,7 @@ from pyehl.types import Array, Mask, Settings
 if TYPE_CHECKING:
     import xarray as xr
 
+# Of steel, for cases without the group bodies
 DEFAULT_POISSON = 0.3
 LARGEST_FRICTION = 2.0
 
@@ -46,7 +47,7 @@ class Loads:
     times: Array  # (n,) of the rough contact [a/u]; none of a smooth one
     pressures: Callable[[int], Array]
     films: Callable[[int], Array]
-    traction: Callable[[Array, Array | None, bool], Array | None]
+    traction: Traction
     body: int
     velocity: float  # of its surface over the mean one
     poisson: float
@@ -69,7 +70,8 @@ class Loads:
         """Give the loads of the rough contact, one after the other."""
         for k, time in enumerate(self.times):
             pressure = self.pressures(k)
-            yield Load(float(time), pressure, self.traction(pressure, self.films(k), True))
+            film = self.films(k) if self.traction.by_film else None
+            yield Load(float(time), pressure, self.traction(pressure, film, True))
 
     def contact(self) -> Mask:
         """Tell which nodes (nx, ny) lie in the dry contact."""
@@ -136,7 +138,7 @@ def friction_of(
     return smooth, heat, note
 
 
-class _Traction:
+class Traction:
     """Traction on the body from pressure [p_h] and film [m]."""
 
     def __init__(
@@ -151,11 +153,12 @@ class _Traction:
     ) -> None:
         self.operating, self.lubricant, self.coulomb = operating, lubricant, friction != "run"
         self.mu, self.heat, _ = found
+        self.by_film = math.isfinite(self.mu) and not self.coulomb
         # the faster body is held back
         faster = operating.slide_to_roll >= 0.0
         self.sign = -1.0 if (body == 1) == faster else 1.0
         self.scale = 1.0
-        if math.isfinite(self.mu) and not self.coulomb:
+        if self.by_film:
             total = float(self._by_law(*smooth).sum()) * area
             load = 2.0 * math.pi / 3.0 * operating.ellipse.ellipticity
             self.scale = self.mu * load / total
@@ -171,6 +174,7 @@ class _Traction:
         return np.where(p > 0.0, shear_stress(newtonian, p, self.lubricant.shear), 0.0) / p_h
 
     def __call__(self, pressure: Array, film: Array | None, rough: bool) -> Array | None:
+        """Give the traction (nx, ny) [p_h]; None without friction, a film only where `by_film`."""
         if not math.isfinite(self.mu):
             return None
         if self.coulomb:
@@ -238,7 +242,7 @@ def made_of(
     found = friction_of(data, operating, lubricant, friction)
     x, y = axes
     area = float((x[1] - x[0]) * (y[1] - y[0]))
-    traction = _Traction(smooth, area, operating, lubricant, found, number, friction)
+    traction = Traction(smooth, area, operating, lubricant, found, number, friction)
     return Loads(
         x=x,
         y=y,

@@ -113,6 +113,7 @@ class History:
             self.parts = list(np.moveaxis(lines, 1, 0))
             return
         mesh = self.x[1] - self.x[0]
+        # a point outside of the domain has the stress at its border
         place = np.arange(self.x.size) - self.velocity * (self.end - time) / mesh
         left = np.clip(np.floor(place), 0, self.x.size - 2).astype(int)
         share = np.clip(place - left, 0.0, 1.0)[np.newaxis, :, np.newaxis]
