@@ -74,8 +74,6 @@ def _groups(places: Array) -> list[Array]:
     """
     gaps = np.diff(places) / np.maximum(np.abs(places[1:]), 1e-300)
     large = gaps[gaps >= SAME]
-    limit = min(SAME, NEARER * float(np.median(large))) if large.size else SAME * NEARER
-    if large.size < 1:
-        limit = 1e-6
+    limit = min(SAME, NEARER * float(np.median(large))) if large.size else 0.0
     ends = np.flatnonzero(gaps > limit) + 1
     return list(np.split(np.arange(places.size), ends))
