@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a scene does not need, the seconds saved, and that nothing changes.
+"""What a case does not need, the seconds saved, and that nothing changes.
 
 Each row is a scene solved as usual and once more with that work done, in turn, on one thread.
 Seconds are those of the processor.

@@ -6,7 +6,8 @@ import argparse
 from pyehl.commands.arguments import add_force
 from pyehl.subsurface.fatigue import CRITERIA
 from pyehl.subsurface.life import BEARINGS
-from pyehl.subsurface.result import stress, text
+from pyehl.subsurface.result import stress
+from pyehl.subsurface.text import text
 
 
 def _friction(value: str) -> str | float:

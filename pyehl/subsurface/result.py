@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""``pyehl.stress``: stress below the surface as a labelled Dataset, as text and as a folder."""
+"""``pyehl.stress``: stress below the surface as a labelled Dataset, and as a folder."""
 
 from __future__ import annotations
 
@@ -312,52 +312,3 @@ def summary_of(data: xr.Dataset, folder: Path) -> dict[str, Any]:
     files = sorted(["summary.json", *(path.name for path in folder.iterdir())])
     words = {k: v for k, v in data.attrs.items() if k != "case"}
     return {**words, **known, "files": files}
-
-
-def text(data: xr.Dataset) -> str:
-    """Lines that ``pyehl stress`` prints."""
-    si = "principal_shear_max_Pa" in data
-
-    def told(name: str, end: str = "") -> str:
-        if si:
-            stress_text = f"{float(data[f'{name}{end}_Pa']) * 1e-6:.4g} MPa"
-            depth = f"{float(data[f'{name}{end}_depth_m']) * 1e6:.3g} um"
-        else:
-            stress_text = f"{float(data[f'{name}{end}']):.4g} p_h"
-            depth = f"{float(data[f'{name}{end}_depth']):.3g} a"
-        return f"{stress_text} at a depth of {depth}"
-
-    error = float(data.principal_shear_max_error) / float(data.principal_shear_max)
-    lines = [
-        f"body {data.attrs['body']}     Poisson ratio {data.attrs['poisson']:g}; "
-        f"{data.attrs['friction_note']}",
-        f"shear      {told('principal_shear_max')} (principal shear, +- {100.0 * error:.2g} %)",
-        f"von Mises  {told('von_mises_max')}",
-    ]
-    if "ratio_to_smooth" in data:
-        lines.append(
-            f"smooth     {told('principal_shear_max', '_smooth')}; rough over smooth "
-            f"{float(data.ratio_to_smooth):.3f}; {data.attrs['instants']} instants"
-        )
-    if "near_surface_share" in data:
-        lines.append(
-            f"near       {100.0 * float(data.near_surface_share):.3g} % of the volume down to "
-            f"{float(data.near_surface_depth_m) * 1e6:.3g} um is above the given shear"
-            + (
-                f" (smooth: {100.0 * float(data.near_surface_share_smooth):.3g} %)"
-                if "near_surface_share_smooth" in data
-                else ""
-            )
-        )
-    if "fatigue_stress_Pa" in data:
-        lines.append(
-            f"fatigue    {float(data.fatigue_stress_Pa) * 1e-6:.4g} MPa, "
-            f"{float(data.fatigue_ratio):.3f} of the fatigue limit in torsion"
-        )
-    if "kappa" in data:
-        lines.append(f"kappa      {float(data.kappa):.3g} by Lambda^1.3 (ISO 281, for comparison)")
-    if "a_iso" in data:
-        factor = float(data.a_iso)
-        known = f"{factor:.3g}" if math.isfinite(factor) else "not defined below kappa = 0.1"
-        lines.append(f"a_ISO      {known}")
-    return "\n".join(lines)
