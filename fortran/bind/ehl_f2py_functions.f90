@@ -155,7 +155,7 @@ contains
       call reply(status, stat, message)
    end subroutine deflection
 
-   !> Friction with heat over that without it (NaN: not known), and the greatest rises of temperature of film and walls [K],
+   !> Friction with heat over that without it (NaN: not known), and the maximum increases of temperature of film and walls [K],
    !> of the contact of a case with the pressure and the film p, h(nx, ny), the first node at (x0, y0); mirror: the rows are
    !> those of Y >= 0; touching: 1 where the bodies touch at the boundary film. Whether the heat counts, and what a coefficient of
    !> friction is then.

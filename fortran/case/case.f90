@@ -34,7 +34,7 @@ module ehl_case
       !> radius_x/radius_y, set by the reader where the case was given in SI
       real(dp) :: radius_ratio = 1.0_dp
       real(dp) :: reduced_modulus = 2.26e11_dp
-      !> Greatest pressure that the solids carry
+      !> Maximum pressure that the solids carry
       real(dp) :: hardness = 0.0_dp
       !> Of the plane of radius_x against that of the motion, counter-clockwise
       real(dp) :: angle = 0.0_dp

@@ -38,7 +38,7 @@ class Contact:
         0.0,
         "Pa",
         "0 or [1e5, 1e12]",
-        "greatest pressure of the solids, with boundary_film; 0: no limit",
+        "maximum pressure of the solids, with boundary_film; 0: no limit",
     )
     angle: float = real(
         0.0,

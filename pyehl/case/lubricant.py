@@ -17,7 +17,7 @@ from pyehl.errors import InputError
 
 # Relative difference of values that is none
 ROUNDING = 1e-6
-# Greatest pressure at which a law must tell a viscosity, over the Hertz pressure; in so many steps
+# Maximum pressure at which a law must tell a viscosity, over the Hertz pressure; in so many steps
 BEYOND_HERTZ, STEPS = 1.5, 300
 # A table of a single temperature holds within that [K]
 SAME_TEMPERATURE = 0.01

@@ -72,7 +72,7 @@ def _deformed(values: Mapping[str, Any]) -> list[str]:
     """Say what becomes of the surface."""
     unit = lengths.unit_of(values["rms_deformed_m"])
     surface = [f"rms {_told(values, 'rms_deformed_m', lengths.UNITS[unit])} {unit}"]
-    for words, name in (("pressure rms", "p_rise_rms_Pa"), ("greatest rise", "p_rise_max_Pa")):
+    for words, name in (("pressure rms", "p_rise_rms_Pa"), ("maximum increase", "p_rise_max_Pa")):
         if values[name] is not None:
             surface.append(f"{words} {_told(values, name, 1e-6)} MPa")
     film = []

@@ -23,7 +23,7 @@ def draw_oil(
 ) -> Figure:
     """Draw eta over p at some temperatures, and tau over the shear rate at some pressures.
 
-    `measured` are lowest and highest temperature [degC] and greatest pressure [Pa] of the
+    `measured` are lowest and highest temperature [degC] and maximum pressure [Pa] of the
     measurements, beyond which lines are dashed; infinite where they are not known. `limit` is the
     limiting shear stress over pressure, None where neither is known.
     """

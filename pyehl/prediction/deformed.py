@@ -93,7 +93,7 @@ def error_name(name: str) -> str:
 def deformed_surfaces(rows: Sequence[Mapping[str, Any]]) -> dict[str, float | None]:
     """Give the same over the summaries of several surfaces.
 
-    Means, the greatest rise of the pressure, the minimum film; the largest of each error. None
+    Means, the maximum pressure increase, the minimum film; the largest of each error. None
     where one of the surfaces has none.
     """
     names = (

@@ -62,7 +62,7 @@ class RoughFriction:
     # and the greatest within :data:`~pyehl.prediction.contact.INNER` [Pa]
     rise_rms: float
     rise_max: float
-    pressure_max: float  # greatest pressure over the passage within INNER [Pa]
+    pressure_max: float  # maximum pressure over the passage within INNER [Pa]
     # Mean share of the contact with less film than psd.film_limit [-], and what the error of the
     # film makes of it; NaN without a limit
     below_limit: float

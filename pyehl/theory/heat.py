@@ -17,7 +17,7 @@ class Heat:
     """What the heat of sliding makes of the friction of a contact."""
 
     ratio: float = 1.0  # friction with it over that without it [-]; NaN: not known
-    # Greatest rises of temperature [K]: mean across the film, surfaces of body 1 and of body 2
+    # Maximum increases of temperature [K]: mean across the film, surfaces of body 1 and of body 2
     rises: tuple[float, float, float] = (math.nan, math.nan, math.nan)
     note: str = "isothermal"  # what a coefficient of friction is then, in words
     rough: bool = False  # whether of the rough contact, and not of the smooth one

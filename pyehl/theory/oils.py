@@ -26,7 +26,7 @@ class Oil(OilConstants):
 
     @property
     def measured(self) -> tuple[float, float, float]:
-        """Lowest and highest temperature [degC], greatest pressure [Pa]; infinite: not known."""
+        """Lowest and highest temperature [degC], maximum pressure [Pa]; infinite: not known."""
         keys = ("range_temperature_min", "range_temperature_max", "range_pressure_max")
         found = [self.constant(key) for key in keys]
         ends = (-math.inf, math.inf, math.inf)

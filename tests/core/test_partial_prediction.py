@@ -234,7 +234,7 @@ def test_contact_where_a_full_film_breaks_down(tmp_path, capsys):
     assert [summary.get(name) for name in names] == [None] * 3
     said = capsys.readouterr().out
     assert "deformed   rms" in said
-    assert "greatest rise" not in said
+    assert "maximum increase" not in said
     assert (tmp_path / "out" / "passage.png").is_file()
 
 

@@ -120,7 +120,7 @@ def test_flash_temperature_limits():
 
 
 def greatest_rise(kappa: float, peclet: float) -> float:
-    """Greatest rise of a half-space that moves under a semi-ellipse of heat [mean q a/k].
+    """Maximum increase of a half-space that moves under a semi-ellipse of heat [mean q a/k].
 
     By the integral over moving point sources in polar coordinates about points of Y = 0; semi-axes
     1 and kappa, Pe = u a/(2 diffusivity).
@@ -147,7 +147,7 @@ def greatest_rise(kappa: float, peclet: float) -> float:
 @pytest.mark.parametrize("peclet", [0.0, 2.0, 20.0])
 @pytest.mark.parametrize(("kappa", "near"), [(0.1, 0.06), (0.4, 0.03), (1.0, 0.012), (4.0, 0.06)])
 def test_flash_temperature_of_ellipses(kappa, near, peclet):
-    """The greatest rise of one surface of an ellipse, by sources that move; at rest exactly."""
+    """The maximum increase of one surface of an ellipse, by sources that move; at rest exactly."""
     square = kappa**2
     ratio = elliprd(0.0, 1.0, square) / elliprd(0.0, square, 1.0) if kappa != 1.0 else 1.0
     shape = ellipse(float(ratio))

@@ -187,7 +187,7 @@ def lines() -> list[str]:
     known = {tuple(row[k] for k in KEYS[:3]): row for row in read("predicted.csv")}
     found = [
         "| surface | speed [m/s] | flow | predicted | minimum film [nm] | nodes | simulated "
-        "| minimum film [nm] | greatest pressure [p_h] |",
+        "| minimum film [nm] | maximum pressure [p_h] |",
         "|---|---|---|---|---|---|---|---|---|",
     ]
     for row in read("simulated.csv"):
