@@ -67,7 +67,9 @@ def over_depth(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     if rough:
         smooth = data.principal_shear_smooth.values * factor
         ax.plot(smooth, z, "--", color=style.GREY, label="smooth")
-        ax.legend(fontsize="small", frameon=False, loc="lower left")
+        ax.legend(
+            fontsize="small", frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2
+        )
     ax.set(yscale="log", ylim=(z[-1], z[0]), xlabel=label, ylabel=f"depth z [{unit}]")
     ax.set_xlim(left=0.0)
     ax.yaxis.set_major_formatter("{x:g}")
