@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A scene as it is solved and with skipped work done: seconds, and the difference in a result."""
+"""A problem as it is solved and with skipped work done: seconds, and the difference in a result."""
 
 from collections.abc import Callable
 from typing import Any
@@ -42,7 +42,7 @@ def solve_from_prediction(*options: str) -> dict[str, Any]:
 
 
 def compare(
-    scene: str,
+    problem: str,
     skipped: str,
     quantity: str,
     usual: Callable[[], Values],
@@ -61,7 +61,7 @@ def compare(
     limit = allowed(values) if callable(allowed) else allowed
     without += seconds if besides else 0.0
     return {
-        "scene": scene,
+        "problem": problem,
         "skipped": skipped,
         "seconds": seconds,
         "without": without,

@@ -63,13 +63,13 @@ def draw_outcomes(rows: Sequence[Values], path: Path) -> None:
 
 
 def draw_work(rows: Sequence[Values], path: Path) -> None:
-    """Draw error over processor seconds, a panel for each scene and quantity."""
-    scenes = list(dict.fromkeys((row["scene"], row["quantity"]) for row in rows))
+    """Draw error over processor seconds, a panel for each problem and quantity."""
+    problems = list(dict.fromkeys((row["problem"], row["quantity"]) for row in rows))
     settings = list(dict.fromkeys(row["setting"] for row in rows))
-    figure = style.new_figure(3.0 * len(scenes), 3.6)
-    axes = figure.subplots(1, len(scenes), squeeze=False)[0]
-    for ax, (scene, quantity) in zip(axes, scenes, strict=True):
-        mine = [row for row in rows if (row["scene"], row["quantity"]) == (scene, quantity)]
+    figure = style.new_figure(3.0 * len(problems), 3.6)
+    axes = figure.subplots(1, len(problems), squeeze=False)[0]
+    for ax, (problem, quantity) in zip(axes, problems, strict=True):
+        mine = [row for row in rows if (row["problem"], row["quantity"]) == (problem, quantity)]
         for number, setting in enumerate(settings):
             line = [
                 (row["seconds"], row["error"])
@@ -85,7 +85,7 @@ def draw_work(rows: Sequence[Values], path: Path) -> None:
             lowest = 0.5 * min(bars[0], *(row["error"] for row in mine if row["error"]))
             ax.axhspan(lowest, bars[0], color="0.9", zorder=0)
             ax.set_ylim(bottom=lowest)
-        ax.set(title=f"{scene}: {quantity}", xlabel="processor seconds")
+        ax.set(title=f"{problem}: {quantity}", xlabel="processor seconds")
     axes[0].set_ylabel("relative error")
     handles, labels = axes[-1].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=4)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a case does not need, the seconds saved, and that nothing changes.
 
-Each row is a scene solved as usual and once more with that work done, in turn, on one thread.
+Each row is a problem solved as usual and once more with that work done, in turn, on one thread.
 Seconds are those of the processor.
 """
 
@@ -23,7 +23,7 @@ from pyehl.prediction.predict import predict
 from pyehl.types import Row, Values
 
 COLUMNS = columns(
-    "scene:s skipped:s seconds:.3f without:.3f saved:.0% quantity:s difference:.1e allowed:.1e"
+    "problem:s skipped:s seconds:.3f without:.3f saved:.0% quantity:s difference:.1e allowed:.1e"
 )
 MEANING = (
     "seconds: of the processor, one thread; without: the same with that work done; difference: in "
@@ -56,7 +56,7 @@ PREDICTIONS = 20
 def smooth_scene(points: int) -> list[Row]:
     """Smooth contact of Table 1 in SI units."""
     points = max(points, LEAST)
-    scene, grid = "smooth contact, SI units", f"grid.points={points}"
+    problem, grid = "smooth contact, SI units", f"grid.points={points}"
 
     def usual() -> Values:
         return solve(grid) | {"mu_ratio": 1.0}
@@ -75,7 +75,7 @@ def smooth_scene(points: int) -> list[Row]:
     def coarser() -> Values:
         return {"coarser H_c": solve(f"grid.points={(points + 1) // 2}")["H_c"]}
 
-    row = partial(compare, scene)
+    row = partial(compare, problem)
     return [
         row(
             "half of the domain: symmetric in Y",
@@ -99,11 +99,11 @@ def smooth_scene(points: int) -> list[Row]:
             START_TOLERANCE,
             besides=True,
         ),
-        _deflection_row(scene, points),
+        _deflection_row(problem, points),
     ]
 
 
-def _deflection_row(scene: str, points: int) -> Row:
+def _deflection_row(problem: str, points: int) -> Row:
     """Corrections of the deflection where P = 0, in so many deflections of a Hertz pressure."""
     pressure, h, _, _ = hertz(points)
     # as little as keeps a pressure from being zero
@@ -118,10 +118,10 @@ def _deflection_row(scene: str, points: int) -> Row:
         return deflect
 
     what = f"corrections where P = 0, {count} deflections"
-    return compare(scene, what, "deflection", call(pressure), call(everywhere), ROUNDING)
+    return compare(problem, what, "deflection", call(pressure), call(everywhere), ROUNDING)
 
 
-def _run_rows(scene: str, options: Sequence[str], *, symmetric: bool) -> list[Row]:
+def _run_rows(problem: str, options: Sequence[str], *, symmetric: bool) -> list[Row]:
     """Measure what a transient run leaves out."""
 
     def usual() -> Values:
@@ -137,7 +137,7 @@ def _run_rows(scene: str, options: Sequence[str], *, symmetric: bool) -> list[Ro
         steps = math.ceil(filled / 1.01 / step + FIXED_PERIODS * float(first["T_period"]) / step)
         return solve(*options, f"time.steps={steps}")
 
-    row = partial(compare, scene)
+    row = partial(compare, problem)
     rows = []
     if symmetric:
         rows.append(
@@ -227,26 +227,26 @@ def prediction_scene(points: int) -> list[Row]:
     ]
 
 
-SCENES: dict[str, Callable[[int], list[Row]]] = {
+PROBLEMS: dict[str, Callable[[int], list[Row]]] = {
     "smooth": smooth_scene,
     "wave": wave_scene,
     "fractal": fractal_scene,
     "predict": prediction_scene,
 }
-"""Scenes by name; each takes the nodes per side."""
+"""Problems by name; each takes the nodes per side."""
 
 
-def skip_rows(scenes: Sequence[str], points: int) -> list[Row]:
+def skip_rows(problems: Sequence[str], points: int) -> list[Row]:
     """Seconds with and without what is skipped, and the difference in the result.
 
-    Of scenes by their names in `SCENES`, on so many nodes per side.
+    Of problems by their names in `PROBLEMS`, on so many nodes per side.
     """
-    return [row for name in scenes for row in SCENES[name](points)]
+    return [row for name in problems for row in PROBLEMS[name](points)]
 
 
 def work(args: argparse.Namespace) -> Row:
     """Measure and print."""
-    rows = skip_rows(args.scenes, max(args.points))
+    rows = skip_rows(args.problems, max(args.points))
     show(rows, COLUMNS, MEANING)
     return {"rows": rows}
 
@@ -254,7 +254,7 @@ def work(args: argparse.Namespace) -> Row:
 def main(words: Sequence[str] | None = None) -> int:
     """Run the script; exit status 1 if skipped work would change a result."""
     made = parser(__doc__, points=(LEAST,))
-    add_list(made, "scenes", list(SCENES), known=list(SCENES))
+    add_list(made, "problems", list(PROBLEMS), known=list(PROBLEMS))
     return measure(work, made, words)
 
 

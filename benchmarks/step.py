@@ -44,10 +44,10 @@ TOLERANCE = 5e-4
 
 
 @dataclass(frozen=True, slots=True)
-class Scene:
+class Problem:
     """A run to be measured: what it is called, its case, whole or half domain.
 
-    A scene that is measured beside another one, a step of each in turn, has the name of that.
+    A problem that is measured beside another one, a step of each in turn, has the name of that.
     """
 
     name: str
@@ -66,13 +66,13 @@ ELLIPSE = "&contact moes_m = 2357.0 moes_l = 10.3 radius_ratio = 0.35177 /\n"
 # The wave is that of Fig. 2 of Zhang et al. 2019, the fractal surface that of Table 1. The contact
 # with a law is that of Table 1, of nearly the same Moes numbers.
 CASES = (
-    Scene("wave", "whole", CIRCLE + WAVE + "&solver symmetry = 'full' /\n"),
-    Scene("wave", "half", CIRCLE + WAVE),
-    Scene("fractal", "whole", FRACTAL),
-    Scene("wave-law", "half", WAVE + LAW, "wave"),
-    Scene("wave-ellipse", "half", ELLIPSE + WAVE, "wave"),
-    Scene("fractal-law", "whole", FRACTAL + LAW, "fractal"),
-    Scene("two-fractals", "whole", FRACTAL + SECOND, "fractal"),
+    Problem("wave", "whole", CIRCLE + WAVE + "&solver symmetry = 'full' /\n"),
+    Problem("wave", "half", CIRCLE + WAVE),
+    Problem("fractal", "whole", FRACTAL),
+    Problem("wave-law", "half", WAVE + LAW, "wave"),
+    Problem("wave-ellipse", "half", ELLIPSE + WAVE, "wave"),
+    Problem("fractal-law", "whole", FRACTAL + LAW, "fractal"),
+    Problem("two-fractals", "whole", FRACTAL + SECOND, "fractal"),
 )
 # Those that are measured unless others are asked for
 USUAL = ("wave", "fractal")
@@ -92,15 +92,15 @@ def meaning(scheme: str, front: float, steps: int) -> str:
     return (
         f"scheme '{scheme}'; seconds, cycles: of a step, mean of {steps} after the front of the "
         f"roughness has come to X = {front:g};\nunits: of one scipy.fft deflection at that grid; "
-        "ratio: of the seconds per node to those of the plain scene, steps in turn; "
+        "ratio: of the seconds per node to those of the plain problem, steps in turn; "
         "speedup: of a step, median; error: of the mean of mu_r/mu_s against the finest grid "
         "(--error)"
     )
 
 
-def _case(scene: Scene, points: int, scheme: str, *options: str) -> Case:
+def _case(problem: Problem, points: int, scheme: str, *options: str) -> Case:
     return Case.from_text(
-        scene.text,
+        problem.text,
         [
             f"grid.points={points}",
             f"time.scheme={scheme}",
@@ -126,7 +126,7 @@ def step_rows(
     grids: Sequence[int],
     threads: Sequence[int],
     *,
-    scenes: Sequence[Scene] = CASES,
+    problems: Sequence[Problem] = CASES,
     scheme: str = "narrow",
     front: float = FILLED,
     steps: int = STEPS,
@@ -142,16 +142,16 @@ def step_rows(
         deflect = partial(ScipyDeflection(points, points, h, h).apply, pressure)
         mine: list[Row] = []
         units: list[float] = []
-        for scene in scenes:
-            say(f"{points} {scene.name} {scene.domain}")
-            mine += _scene_rows(scene, points, threads, (scheme, front, steps), deflect, units)
+        for problem in problems:
+            say(f"{points} {problem.name} {problem.domain}")
+            mine += _scene_rows(problem, points, threads, (scheme, front, steps), deflect, units)
         unit = statistics.median(units)
         rows += [row | {"unit_seconds": unit, "units": row["seconds"] / unit} for row in mine]
     return rows
 
 
 def _scene_rows(
-    scene: Scene,
+    problem: Problem,
     points: int,
     threads: Sequence[int],
     how: tuple[str, float, int],
@@ -160,10 +160,10 @@ def _scene_rows(
 ) -> list[Row]:
     scheme, front, steps = how
     rows: list[Row] = []
-    plain = [s for s in CASES if (s.name, s.domain) == (scene.beside, scene.domain)]
+    plain = [s for s in CASES if (s.name, s.domain) == (problem.beside, problem.domain)]
     with contextlib.ExitStack() as stack:
         solvers = []
-        for one in (scene, *plain):
+        for one in (problem, *plain):
             case = _case(
                 one, points, scheme, f"solver.threads={max(threads)}", "time.steps=10000000"
             )
@@ -186,15 +186,17 @@ def _scene_rows(
     ]
     for k, workers in enumerate(threads):
         if after[k]["steps"] - before[k]["steps"] != steps:
-            raise EhlError(f"{points} {scene.name}: a step did not converge: {after[k]['status']}")
+            raise EhlError(
+                f"{points} {problem.name}: a step did not converge: {after[k]['status']}"
+            )
         cycles = after[k]["steps"] * after[k]["cycles_per_step"]
         cycles -= before[k]["steps"] * before[k]["cycles_per_step"]
         ratios = [one / now for one, now in zip(times[0], times[k], strict=True)]
         rows.append(
             {
                 "points": points,
-                "case": scene.name,
-                "domain": scene.domain,
+                "case": problem.name,
+                "domain": problem.domain,
                 "threads": workers,
                 "seconds": statistics.fmean(times[k]),
                 "seconds_of_steps": times[k],
@@ -232,26 +234,26 @@ def error_rows(
     threads: int,
     *,
     scheme: str = "narrow",
-    scenes: Sequence[Scene] = CASES,
+    problems: Sequence[Problem] = CASES,
 ) -> list[Row]:
     """Mean of mu_r/mu_s by whole runs, and its relative change to that on the finest grid.
 
-    The half domain serves for the whole one where the scene is symmetric.
+    The half domain serves for the whole one where the problem is symmetric.
     """
     rows: list[Row] = []
-    chosen = {scene.name: scene for scene in scenes}
-    chosen |= {scene.name: scene for scene in scenes if scene.domain == "half"}
-    for scene in chosen.values():
+    chosen = {problem.name: problem for problem in problems}
+    chosen |= {problem.name: problem for problem in problems if problem.domain == "half"}
+    for problem in chosen.values():
         means: dict[int, float] = {}
         for points in sorted(grids):
-            say(f"{points} {scene.name}, whole run")
+            say(f"{points} {problem.name}, whole run")
             options = f"solver.threads={threads}", f"time.tolerance={TOLERANCE}"
-            case = _case(scene, points, scheme, *options)
+            case = _case(problem, points, scheme, *options)
             began = time.perf_counter()
             with Solver(case) as solver:
                 solver.run()
                 summary = solver.summary
-            row: Row = {"points": points, "case": scene.name, "threads": threads, "error": None}
+            row: Row = {"points": points, "case": problem.name, "threads": threads, "error": None}
             row["seconds"] = time.perf_counter() - began
             row |= {name: summary[name] for name in ("status", "steps", "mu_ratio")}
             if row["mu_ratio"] is not None:
@@ -259,25 +261,25 @@ def error_rows(
             rows.append(row)
         finest = max(means, default=0)
         for row in rows:
-            if row["case"] == scene.name and row["points"] in means and row["points"] < finest:
+            if row["case"] == problem.name and row["points"] in means and row["points"] < finest:
                 row["error"] = abs(means[row["points"]] / means[finest] - 1.0)
     return rows
 
 
 def work(args: argparse.Namespace) -> Row:
     """Measure and print."""
-    scenes = [scene for scene in CASES if scene.name in args.cases]
+    problems = [problem for problem in CASES if problem.name in args.cases]
     rows = step_rows(
         args.points,
         args.threads,
-        scenes=scenes,
+        problems=problems,
         scheme=args.scheme,
         front=args.front,
         steps=args.steps,
     )
     answer: Row = {"scheme": args.scheme, "front": args.front, "steps": args.steps, "rows": rows}
     if args.error:
-        runs = error_rows(args.points, max(args.threads), scheme=args.scheme, scenes=scenes)
+        runs = error_rows(args.points, max(args.threads), scheme=args.scheme, problems=problems)
         errors = {(row["points"], row["case"]): row["error"] for row in runs}
         for row in rows:
             row["error"] = errors.get((row["points"], row["case"]))
@@ -290,7 +292,7 @@ def work(args: argparse.Namespace) -> Row:
 def main(words: Sequence[str] | None = None) -> int:
     """Run the script."""
     made = parser(__doc__, points=GRIDS[1:4], threads=(1, 2))
-    names = list(dict.fromkeys(scene.name for scene in CASES))
+    names = list(dict.fromkeys(problem.name for problem in CASES))
     add_list(made, "cases", USUAL, "; wave: of Fig. 2, fractal: of Table 1", names)
     made.add_argument("--scheme", choices=("narrow", "paper"), default="narrow")
     add_number(made, "steps", STEPS, "timed steps", least=1)

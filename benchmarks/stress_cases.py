@@ -19,7 +19,7 @@ GRIDS = (65, 129, 257)
 BOUNDS = {65: 400, 129: 300, 257: 200}
 """Most steps of a case by its grid; one that needs more is ended there."""
 FAMILIES = {"smooth": 0.15, "wave": 0.5, "rest": 0.1, "fractal": 0.12, "feature": 0.13}
-"""Kinds of scenes, and the share of each."""
+"""Kinds of problems, and the share of each."""
 LAWS = ("newtonian", "eyring", "carreau")
 """Shear laws that the cases of a campaign may have, with a stress and an exponent for each case."""
 # Where the roughness begins to matter, and where it fills the contact [a]
@@ -71,7 +71,7 @@ def draw(
     ]
     if law == "newtonian":
         return drawn
-    # the scenes are those without a law
+    # the problems are those without a law
     generator = np.random.default_rng((seed, LAWS.index(law)))
     drawn = [_with_law(case, law, generator) for case in drawn]
     if not layer:

@@ -17,7 +17,7 @@ ENDED = "ended at its number of steps"
 """Status of a run that was to end after so many steps, all of which converged."""
 UNKNOWN_ERROR = 0.03
 """Difference allowed where a result comes without an estimate of its error."""
-# What a result is, by the kind of scene, and the estimate of its error
+# What a result is, by the kind of problem, and the estimate of its error
 RESULTS = {"smooth": ("H_c", "H_c_error_grid")}
 HELD = 0.01
 """Share of the layer by which the film of a touching node may differ from it."""

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Cases per core-hour of studies, overhead of a case, estimate of time.
 
-Each scene runs as a study, in one worker process and in several. The start of the workers (they
+Each problem runs as a study, in one worker process and in several. The start of the workers (they
 import the package) is taken off: it ends with the first row.
 """
 
@@ -25,7 +25,7 @@ from pyehl.studies.vary import axis
 from pyehl.types import Row
 
 COLUMNS = columns(
-    "scene:s cases:d processes:d wall_seconds:.2f estimate_seconds:.2f "
+    "problem:s cases:d processes:d wall_seconds:.2f estimate_seconds:.2f "
     "cases_per_core_hour:.0f busy:.2f overhead_ms:.2f efficiency:.2f"
 )
 MEANING = (
@@ -37,7 +37,7 @@ MEANING = (
 
 
 @dataclass(frozen=True, slots=True)
-class Scene:
+class Problem:
     """What a study is made of."""
 
     # Its name, and what is done with each case
@@ -51,15 +51,15 @@ class Scene:
 FRACTAL = ("surface.kind=fractal",)
 WAVE = ("surface.kind=harmonic", "surface.amplitude_over_film=0.3")
 SEEDS = "surface.seed"
-SCENES = (
-    Scene("film", "film", 200, FRACTAL),
-    Scene("predict", "predict", 40, FRACTAL),
-    Scene("predict shared", "predict", 40, (*FRACTAL, SEEDS)),
-    Scene("smooth 257", "solve", 8, ("grid.points=257",)),
-    Scene("transient 257", "solve", 2, (*WAVE, "grid.points=257")),
-    Scene("transient 513", "solve", 1, (*WAVE, "grid.points=513")),
+PROBLEMS = (
+    Problem("film", "film", 200, FRACTAL),
+    Problem("predict", "predict", 40, FRACTAL),
+    Problem("predict shared", "predict", 40, (*FRACTAL, SEEDS)),
+    Problem("smooth 257", "solve", 8, ("grid.points=257",)),
+    Problem("transient 257", "solve", 2, (*WAVE, "grid.points=257")),
+    Problem("transient 513", "solve", 1, (*WAVE, "grid.points=513")),
 )
-"""Scenes by name: a prediction of a fractal surface, smooth contacts, passages of a waviness."""
+"""Problems by name: a prediction of a fractal surface, smooth contacts, passages of a waviness."""
 
 
 class _FirstRow(Watcher):
@@ -77,19 +77,19 @@ class _FirstRow(Watcher):
             self.started = time.monotonic() - self.began_at - first
 
 
-def sweep_rows(scenes: Sequence[Scene], processes: Sequence[int]) -> list[Row]:
-    """Run scenes with each number of worker processes.
+def sweep_rows(problems: Sequence[Problem], processes: Sequence[int]) -> list[Row]:
+    """Run problems with each number of worker processes.
 
     `overhead_ms` is the overhead per case, in the plan (without what every plan costs)
     and in one worker process; `busy` the share of the time of the workers that cases took;
     `efficiency` the throughput over that of the first number of processes times their ratio.
     """
     rows: list[Row] = []
-    for scene in scenes:
-        count = scene.cases * max(processes)
+    for problem in problems:
+        count = problem.cases * max(processes)
         slowest: float | None = None
         for jobs in processes:
-            row = _run(scene, count, jobs)
+            row = _run(problem, count, jobs)
             rate = count / row["wall_seconds"]
             slowest = slowest or rate / jobs
             row["efficiency"] = rate / (slowest * jobs)
@@ -97,20 +97,20 @@ def sweep_rows(scenes: Sequence[Scene], processes: Sequence[int]) -> list[Row]:
     return rows
 
 
-def _planned(scene: Scene, count: int) -> tuple[float, Plan]:
-    """Plan so many cases of a scene: seconds, and the plan."""
+def _planned(problem: Problem, count: int) -> tuple[float, Plan]:
+    """Plan so many cases of a problem: seconds, and the plan."""
     began = time.monotonic()
     varied = axis("contact.mean_velocity", f"0.7:1.0:{count}")
-    if SEEDS in scene.options:
+    if SEEDS in problem.options:
         varied = axis(SEEDS, f"1:{count}")
-    options = [text for text in scene.options if "=" in text]
-    todo = plan(make(Case.from_text(""), [varied], options=options, run=scene.run))
+    options = [text for text in problem.options if "=" in text]
+    todo = plan(make(Case.from_text(""), [varied], options=options, run=problem.run))
     return time.monotonic() - began, todo
 
 
-def _run(scene: Scene, count: int, jobs: int) -> Row:
-    single, _ = _planned(scene, 1)
-    planned, todo = _planned(scene, count)
+def _run(problem: Problem, count: int, jobs: int) -> Row:
+    single, _ = _planned(problem, 1)
+    planned, todo = _planned(problem, count)
     watcher = _FirstRow()
     with tempfile.TemporaryDirectory(prefix="pyehl-") as folder:
         outcome = perform(todo, folder, jobs=jobs, watcher=watcher)
@@ -119,7 +119,7 @@ def _run(scene: Scene, count: int, jobs: int) -> Row:
     wall = outcome.wall - watcher.started
     spent = wall * jobs
     return {
-        "scene": scene.name,
+        "problem": problem.name,
         "cases": count,
         "processes": jobs,
         "wall_seconds": wall,
@@ -138,7 +138,9 @@ def _run(scene: Scene, count: int, jobs: int) -> Row:
 
 def work(args: argparse.Namespace) -> Row:
     """Measure and print."""
-    rows = sweep_rows([scene for scene in SCENES if scene.name in args.scenes], args.threads)
+    rows = sweep_rows(
+        [problem for problem in PROBLEMS if problem.name in args.problems], args.threads
+    )
     show(rows, COLUMNS, MEANING)
     return {"rows": rows}
 
@@ -147,8 +149,8 @@ def main(words: Sequence[str] | None = None) -> int:
     """Run the script."""
     made = parser(__doc__)
     add_list(made, "threads", (1, 2), "numbers of worker processes")
-    names = [scene.name for scene in SCENES]
-    add_list(made, "scenes", names, known=names)
+    names = [problem.name for problem in PROBLEMS]
+    add_list(made, "problems", names, known=names)
     return measure(work, made, words)
 
 

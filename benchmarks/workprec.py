@@ -22,7 +22,7 @@ from pyehl.solver import Solver
 from pyehl.types import Row
 
 COLUMNS = columns(
-    "scene:s quantity:s setting:s points:d threads:d seconds:.3f units:.1f value:.6g "
+    "problem:s quantity:s setting:s points:d threads:d seconds:.3f units:.1f value:.6g "
     "error:.1e bar:.0e estimate:.1e"
 )
 POINT = ("contact.moes_m=1000.0", "contact.moes_l=10.0")
@@ -48,7 +48,7 @@ ORDER = 2
 
 
 @dataclass(frozen=True, slots=True)
-class Scene:
+class Problem:
     """What is solved."""
 
     name: str
@@ -59,60 +59,60 @@ class Scene:
     rough: bool = True  # whether schemes, coarsenings and the prediction belong to it
 
 
-SCENES = (
-    Scene("smooth", POINT, ("H_c", "H_min", "F"), (65, 129, 257, 513, 1025, 2049), rough=False),
-    Scene("wave", WAVE, RATIO, (129, 257, 513, 1025)),
-    Scene(
+PROBLEMS = (
+    Problem("smooth", POINT, ("H_c", "H_min", "F"), (65, 129, 257, 513, 1025, 2049), rough=False),
+    Problem("wave", WAVE, RATIO, (129, 257, 513, 1025)),
+    Problem(
         "resolved fractal",
         ("surface.kind=fractal", "surface.shortest_wavelength=5.2e-5"),
         RATIO,
         (129, 257, 513, 1025),
     ),
-    Scene("fractal", ("surface.kind=fractal",), RATIO, (129, 257, 513, 1025)),
+    Problem("fractal", ("surface.kind=fractal",), RATIO, (129, 257, 513, 1025)),
 )
 
 
 def work_rows(
-    scenes: Sequence[str],
+    problems: Sequence[str],
     *,
     grids: Sequence[int] = (),
     threads: Sequence[int] = (1, 2),
     full: bool = False,
 ) -> list[Row]:
-    """Run all settings of scenes, by their names in `SCENES`.
+    """Run all settings of problems, by their names in `PROBLEMS`.
 
-    `grids`: nodes per side, where not those of the scene; `full`: with the finest of these, too.
+    `grids`: nodes per side, where not those of the problem; `full`: with the finest of these, too.
     Of the numbers of threads those after the first are for the default setting alone. Rows have
     `COLUMNS` and `unit_seconds`; `error` is relative to the reference, `bar` the error of that,
     `estimate` what the run says of its own error.
     """
     rows: list[Row] = []
-    for scene in (scene for scene in SCENES if scene.name in scenes):
-        used = grids or (scene.grids if full else scene.grids[:-1])
+    for problem in (problem for problem in PROBLEMS if problem.name in problems):
+        used = grids or (problem.grids if full else problem.grids[:-1])
         mine: list[Row] = []
         for points in used:
             unit = unit_seconds(points)
             # the finest grid is there for the reference
-            reference = scene.rough and full and points == scene.grids[-1]
-            for setting, options in SETTINGS if scene.rough else SETTINGS[:2]:
+            reference = problem.rough and full and points == problem.grids[-1]
+            for setting, options in SETTINGS if problem.rough else SETTINGS[:2]:
                 if reference and options:
                     continue
                 for workers in threads[:1] if reference or options else threads:
-                    say(f"{scene.name}: {points} x {points}, {setting}, threads {workers}")
-                    mine += _run(scene, setting, options, points, workers, unit)
-        if scene.rough:
-            mine += _predicted(scene, unit_seconds(max(used)))
+                    say(f"{problem.name}: {points} x {points}, {setting}, threads {workers}")
+                    mine += _run(problem, setting, options, points, workers, unit)
+        if problem.rough:
+            mine += _predicted(problem, unit_seconds(max(used)))
         mine += extrapolated(mine)
-        add_errors(mine, scene.quantities)
+        add_errors(mine, problem.quantities)
         rows += mine
     return rows
 
 
 def _run(
-    scene: Scene, setting: str, options: Sequence[str], points: int, threads: int, unit: float
+    problem: Problem, setting: str, options: Sequence[str], points: int, threads: int, unit: float
 ) -> list[Row]:
-    texts = [*scene.options, *options, f"grid.points={points}", f"solver.threads={threads}"]
-    if scene.rough:
+    texts = [*problem.options, *options, f"grid.points={points}", f"solver.threads={threads}"]
+    if problem.rough:
         # the coarser run is a row of its own
         texts.append("time.estimate_error=.false.")
     began = processor_seconds()
@@ -120,28 +120,28 @@ def _run(
         solver.run()
         seconds = processor_seconds() - began
         summary = solver.summary
-    row: Row = {"scene": scene.name, "setting": setting, "points": points, "threads": threads}
+    row: Row = {"problem": problem.name, "setting": setting, "points": points, "threads": threads}
     row |= {"seconds": seconds, "units": seconds / unit, "unit_seconds": unit}
     row["status"] = summary["status"]
     rows = []
-    for quantity in scene.quantities:
+    for quantity in problem.quantities:
         value, error = summary.get(quantity), summary.get(f"{quantity}_error")
         estimate = abs(error / value) if error and value else None
         rows.append(row | {"quantity": quantity, "value": value, "estimate": estimate})
     return rows
 
 
-def _predicted(scene: Scene, unit: float) -> list[Row]:
+def _predicted(problem: Problem, unit: float) -> list[Row]:
     """Give the prediction as one more setting."""
-    if scene.name == "wave":
+    if problem.name == "wave":
         # the prediction takes heights in metres: no such surface there
         return []
-    case = Case.from_text("", scene.options)
+    case = Case.from_text("", problem.options)
     began = processor_seconds()
     found = predict(case.resolve()).summary
     seconds = processor_seconds() - began
     value, model = found["mu_ratio"], found.get("mu_ratio_model_error")
-    row: Row = {"scene": scene.name, "setting": "prediction", "points": 257, "threads": 1}
+    row: Row = {"problem": problem.name, "setting": "prediction", "points": 257, "threads": 1}
     row |= {"seconds": seconds, "units": seconds / unit, "unit_seconds": unit}
     row |= {"status": found["status"], "quantity": "mu_ratio", "value": value}
     return [row | {"estimate": model / value if model else None}]
@@ -188,7 +188,7 @@ def extrapolated(rows: Sequence[Row]) -> list[Row]:
         if coarse is None or fine["value"] is None or coarse["value"] is None:
             continue
         # nested iteration has solved the coarser grid of a smooth contact anyway
-        extra = 0.0 if fine["scene"] == "smooth" else coarse["seconds"]
+        extra = 0.0 if fine["problem"] == "smooth" else coarse["seconds"]
         seconds = fine["seconds"] + extra
         value = fine["value"] + (fine["value"] - coarse["value"]) / (2**ORDER - 1)
         more.append(
@@ -218,7 +218,7 @@ def _reference(values: Mapping[int, float]) -> tuple[float, float]:
 
 
 def add_errors(rows: Sequence[Row], quantities: Sequence[str]) -> None:
-    """Add to the rows of a scene `error`, relative to the reference, and `bar`, its own error."""
+    """Add to the rows of a problem `error`, relative to the reference, and `bar`, its own error."""
     for quantity in quantities:
         mine = [row for row in rows if row["quantity"] == quantity]
         values = {
@@ -234,21 +234,21 @@ def add_errors(rows: Sequence[Row], quantities: Sequence[str]) -> None:
 
 
 def cheapest(rows: Sequence[Row]) -> list[Row]:
-    """Give the setting of least seconds for each of `LEVELS`, by scene and quantity.
+    """Give the setting of least seconds for each of `LEVELS`, by problem and quantity.
 
     An error below the bar of the reference counts as the bar.
     """
     found = []
-    for scene, quantity in dict.fromkeys((row["scene"], row["quantity"]) for row in rows):
+    for problem, quantity in dict.fromkeys((row["problem"], row["quantity"]) for row in rows):
         mine = [
             row
             for row in rows
-            if (row["scene"], row["quantity"]) == (scene, quantity) and row["error"] is not None
+            if (row["problem"], row["quantity"]) == (problem, quantity) and row["error"] is not None
         ]
         for level in LEVELS:
             good = [row for row in mine if max(row["error"], row["bar"]) <= level]
             best = min(good, key=lambda row: row["seconds"], default=None)
-            found.append({"scene": scene, "quantity": quantity, "level": level, "best": best})
+            found.append({"problem": problem, "quantity": quantity, "level": level, "best": best})
     return found
 
 
@@ -258,16 +258,16 @@ def told(row: Row) -> str:
     if best is not None:
         how = f"{best['setting']}, {best['points']} x {best['points']}, threads {best['threads']}: "
         how += f"{best['seconds']:.3g} s, error {best['error']:.1e}"
-    return f"{row['scene']}, {row['quantity']} to {row['level']:.1%}: {how}"
+    return f"{row['problem']}, {row['quantity']} to {row['level']:.1%}: {how}"
 
 
 def work(args: argparse.Namespace) -> Row:
     """Measure, print and draw."""
-    rows = work_rows(args.scenes, grids=args.points, threads=args.threads, full=args.full)
+    rows = work_rows(args.problems, grids=args.points, threads=args.threads, full=args.full)
     best = cheapest(rows)
     show(rows, COLUMNS, *map(told, best))
     answer: Row = {"cheapest": best, "rows": rows}
-    if "wave" in args.scenes:
+    if "wave" in args.problems:
         share = answer["share_of_deflection"] = share_of_deflection()
         print(
             f"multi-integration, short wave that slides, {share['points']} x {share['points']}: "
@@ -281,9 +281,9 @@ def work(args: argparse.Namespace) -> Row:
 def main(words: Sequence[str] | None = None) -> int:
     """Run the script."""
     made = parser(__doc__, threads=(1, 2))
-    add_list(made, "points", (), "nodes per side (default: those of each scene)")
-    names = [scene.name for scene in SCENES]
-    add_list(made, "scenes", names, known=names)
+    add_list(made, "points", (), "nodes per side (default: those of each problem)")
+    names = [problem.name for problem in PROBLEMS]
+    add_list(made, "problems", names, known=names)
     made.add_argument("--full", action="store_true", help="the finest grids too, for reference")
     return measure(work, made, words, picture=True)
 

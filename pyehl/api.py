@@ -262,7 +262,7 @@ class CheckedCase:
 
 
 def check(case: Case | str | os.PathLike[str], *options: Option) -> CheckedCase:
-    """Tell a case with every value, and how it would be solved; solves nothing.
+    """Describe a case with every value, and how it would be solved; solves nothing.
 
     Parameters
     ----------

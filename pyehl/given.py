@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What callers hand over: checked where it comes in, so that a wrong type is told as bad input."""
+"""Arguments of callers, checked where they come in: a wrong type is reported as bad input."""
 
 import math
 import os

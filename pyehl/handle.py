@@ -50,7 +50,7 @@ def _in_order(heights: ArrayLike | None) -> Array | None:
 
 
 def _arguments(given: tuple[Array | None, Array | None]) -> tuple[int, Array, int, Array]:
-    """Tell the library of each surface whether it is given, and its heights."""
+    """Pass to the library of each surface whether it is given, and its heights."""
     first, second = given
     return (
         int(first is not None),

@@ -15,19 +15,19 @@ def unit_of(largest: float, *, most: str = "mm") -> str:
 
 
 def length(value: float, digits: int = 3, *, most: str = "mm") -> str:
-    """Tell a length [m] with its unit."""
+    """Format a length [m] with its unit."""
     unit = unit_of(abs(value), most=most)
     return f"{value * UNITS[unit]:.{digits}g} {unit}"
 
 
 def size(x: float, y: float, digits: int = 5) -> str:
-    """Tell the two sides of a map [m] with their unit."""
+    """Format the two sides of a map [m] with their unit."""
     unit = unit_of(max(x, y))
     return " x ".join(f"{side * UNITS[unit]:.{digits}g}" for side in (x, y)) + f" {unit}"
 
 
 def waves(longest: float, shortest: float) -> str:
-    """Tell a range of wavelengths [m]: 'from 829 to 414 um'."""
+    """Format a range of wavelengths [m]: 'from 829 to 414 um'."""
     units = [unit_of(side, most="um") for side in (longest, shortest)]
     parts = [_short(s * UNITS[u]) for s, u in zip((longest, shortest), units, strict=True)]
     first = "" if units[0] == units[1] else f" {units[0]}"

@@ -34,7 +34,7 @@ class Predictions:
     def __init__(self, case: Case, tiles: Mapping[str, Topography], *, whole: bool) -> None:
         self._case, self._tiles, self._whole = case, tiles, whole
         self._resolution: Resolution | str | None = None
-        self._resolved = self._told = False
+        self._resolved = self._passed = False
 
     def begin(self, solver: SolverHandle) -> None:
         """Hand a solver the start that it asks for; mostly it asks for none."""
@@ -66,8 +66,8 @@ class Predictions:
         return found.report() if found else []
 
     def tell(self, solver: SolverHandle) -> None:
-        """Tell a solver what is predicted, if the error of its mu_ratio asks for it."""
-        summary = {} if self._told else solver.summary
+        """Pass to a solver what is predicted, if the error of its mu_ratio asks for it."""
+        summary = {} if self._passed else solver.summary
         if summary.get("mu_ratio") is None or not summary["variance_unresolved"]:
             return
         found = self._resolution_once()
@@ -75,8 +75,11 @@ class Predictions:
             # a status without its message, which the plan has
             why = found.partition(": ")[0]
             take_prediction(
-                solver, math.nan, math.nan, f"what the waves left out add is not predicted ({why})"
+                solver,
+                math.nan,
+                math.nan,
+                f"the contribution of the omitted waves is not predicted ({why})",
             )
         elif found is not None:
             take_prediction(solver, found.left_out, found.unresolved, "")
-        self._told = True
+        self._passed = True

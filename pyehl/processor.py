@@ -22,7 +22,7 @@ V3_FLAGS = {"avx", "avx2", "bmi1", "bmi2", "f16c", "fma", "abm", "movbe", "xsave
 
 
 def processor_flags(path: Path = Path("/proc/cpuinfo")) -> set[str]:
-    """Features of the processor by the names of Linux; none where they are not told."""
+    """Features of the processor by the names of Linux; none where they are not reported."""
     try:
         text = path.read_text(encoding="ascii", errors="replace")
     except OSError:
@@ -51,7 +51,7 @@ def choose(wanted: str, has_v3: bool, flags: set[str]) -> str:
     able = flags >= V3_FLAGS
     if wanted == V3 and not able:
         lacking = ", ".join(sorted(V3_FLAGS - flags))
-        raise InputError(f"{VARIABLE}={V3}: this processor lacks {lacking}")
+        raise InputError(f"{VARIABLE}={V3}: missing on this processor: {lacking}")
     return "_v3" if has_v3 and able and wanted != BASELINE else ""
 
 

@@ -61,7 +61,7 @@ class StopRequest:
         signal.signal(number, self._before[signal.Signals(number)])
 
 
-def _silent(told: object) -> None:
+def _silent(_: object) -> None:
     """Take what a run tells."""
 
 
@@ -138,7 +138,7 @@ def _open_named(
     resumed: AnyPath,
     given: tuple[Surface | None, Surface | None],
 ) -> Solver:
-    """Open a solver; what is wrong with the case is told with the name of its file."""
+    """Open a solver; what is wrong with the case is reported with the name of its file."""
     with named(os.fspath(inputs[0]) if inputs else ""):
         return _open(case, resumed, given)
 

@@ -242,7 +242,7 @@ p | pixels | - | pixels of the tile along x and y
 p | length_x_m | m | size of the tile along x
 p | length_y_m | m | size of the tile along y
 pf | rms_height_m | m | rms height sigma of the undeformed roughness
-p | film_limit_m | m | film of which the share below is told
+p | film_limit_m | m | film of which the share below is reported
 p | film_below_limit_share | - | mean share of the contact with a film below it
 p | film_below_limit_error | - | estimate of its error
 p | h_min_rough_error_m | m | error of h_min_rough_m by the response, beside that of the smooth film

@@ -175,7 +175,7 @@ class Solver(SolverHandle):
             yield Step(self._calls, self.progress, self)
 
     def describe(self, *, predict: bool = False) -> str:
-        """Tell the plan: what will be solved and how, with a table of the levels.
+        """Describe the plan: what will be solved and how, with a table of the levels.
 
         Parameters
         ----------
@@ -186,7 +186,7 @@ class Solver(SolverHandle):
         return "\n".join([self._text("plan"), *self._lines(predict=predict)])
 
     def _lines(self, *, predict: bool = True) -> list[str]:
-        """Tell how a map was prepared, and what the grid does not resolve."""
+        """Describe how a map was prepared, and what the grid does not resolve."""
         lines = [line for made in self._preparations.values() for line in made.report()]
         return lines + (self._predictions.lines() if predict else [])
 
@@ -196,16 +196,16 @@ class Solver(SolverHandle):
         return super().summary | self._prepared()
 
     def _prepared(self) -> dict[str, Any]:
-        """Tell what was done to measured maps, by the name in a summary."""
+        """Describe what was done to measured maps, by the name in a summary."""
         return {f"{name}_preparation": made.summary for name, made in self._preparations.items()}
 
     def conclusion(self) -> str:
-        """Tell the results of a run that has ended, with their errors, in a few lines."""
+        """Describe the results of a run that has ended, with their errors, in a few lines."""
         self._predictions.tell(self)
         return self._text("conclusion")
 
     def resumption(self, results: str | os.PathLike[str]) -> str:
-        """Tell how a run that was to write into a folder can go on; '' if it cannot."""
+        """Describe how a run that was to write into a folder can go on; '' if it cannot."""
         text = self._text("resumption")
         return f"{text} {os.fspath(results)}" if text else ""
 
@@ -254,8 +254,8 @@ class Solver(SolverHandle):
         self._write(folder)
         if self._lines():
             plan = folder / "plan.txt"
-            told = plan.read_text(encoding="utf-8").rstrip("\n")
-            plan.write_text("\n".join([told, *self._lines(), ""]), encoding="utf-8")
+            text = plan.read_text(encoding="utf-8").rstrip("\n")
+            plan.write_text("\n".join([text, *self._lines(), ""]), encoding="utf-8")
         if not self._preparations and not self._tiles:
             return
         summary = folder / "summary.json"

@@ -3,7 +3,7 @@
 A measured surface, prepared step by step
 =========================================
 
-A scan as an instrument delivers it has holes, spikes, tilt and curvature, and its edges do not meet.
+A scan as an instrument delivers it has holes, spikes, tilt and curvature, and its edges do not match.
 :doc:`/howto/measured-surface` explains the keys of each step. This needs the extra ``surfaces``.
 """
 

@@ -88,16 +88,16 @@ def random_cases() -> Values:
 
 
 def laws() -> Values:
-    """The same scenes with a shear law and without one."""
+    """The same problems with a shear law and without one."""
     rows = read("stress/laws.csv")
     every = {law: [row for row in rows if row["law"] == law] for law in NAMES}
     assert sum(map(len, every.values())) == len(rows)
     # with a law in SI units
-    scenes = [
+    problems = [
         [(r["family"], r["moes_m"], max(1.0, float(r["moes_l"])), r["points"]) for r in each]
         for each in every.values()
     ]
-    assert scenes[0] == scenes[1] == scenes[2]
+    assert problems[0] == problems[1] == problems[2]
     assert sum(float(row["moes_l"]) < 1.0 for row in every["newtonian"]) == 2
     lines = {}
     for law, mine in every.items():

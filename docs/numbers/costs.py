@@ -50,7 +50,7 @@ def start_times() -> Values:
         for row in read("speed/skips.csv")
         if "start = 'prediction'" in row["skipped"]
     ]
-    rows = [row for row in read("start/scenes.csv") if "slide-to-roll" not in row["scene"]]
+    rows = [row for row in read("start/problems.csv") if "slide-to-roll" not in row["problem"]]
     return locals()
 
 
@@ -69,16 +69,16 @@ def stress() -> Values:
 def workprec() -> Values:
     """The cheapest settings, and what the others cost."""
     rows = {
-        (row["scene"], row["setting"], row["points"], row["threads"]): row
+        (row["problem"], row["setting"], row["points"], row["threads"]): row
         for row in read("workprec/workprec.csv")
         if row["quantity"] in ("H_c", "mu_ratio")
     }
 
-    def number(scene: str, setting: str, points: int, name: str = "seconds") -> float:
-        return float(rows[scene, setting, str(points), "1"][name])
+    def number(problem: str, setting: str, points: int, name: str = "seconds") -> float:
+        return float(rows[problem, setting, str(points), "1"][name])
 
-    def over(scene: str, other: str, points: int, name: str = "seconds") -> float:
-        return number(scene, other, points, name) / number(scene, "default", points, name)
+    def over(problem: str, other: str, points: int, name: str = "seconds") -> float:
+        return number(problem, other, points, name) / number(problem, "default", points, name)
 
     smooth = [number("smooth", "default, extrapolated", n) for n in (257, 513)]
     wave = [number("wave", "default", n) for n in (129, 257, 513)]

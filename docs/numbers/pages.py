@@ -88,6 +88,6 @@ def limits() -> Values:
 
 def starts() -> Values:
     """Steps of runs that start from the prediction, over those of others."""
-    rows = [row for row in read("start/scenes.csv") if "slide-to-roll" not in row["scene"]]
+    rows = [row for row in read("start/problems.csv") if "slide-to-roll" not in row["problem"]]
     share = of(rows, "steps") / of(rows, "steps_front")
     return locals()

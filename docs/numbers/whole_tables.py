@@ -54,7 +54,7 @@ def inlet() -> Values:
 def start() -> Values:
     """Runs that start from the prediction: the same means in fewer steps."""
     make = script("start/make.py")
-    rows = make.rows_of(make.Path(make.__file__).with_name("scenes.csv"))
+    rows = make.rows_of(make.Path(make.__file__).with_name("problems.csv"))
     for row in rows:
         stop = row["error_stop"] + row["error_stop_front"]
         assert abs(row["mu_ratio"] - row["mu_ratio_front"]) <= stop

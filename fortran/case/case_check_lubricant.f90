@@ -74,7 +74,7 @@ contains
       type(scales_t), intent(in) :: scales
       type(operating_t), intent(in) :: point
       type(status_t), intent(inout) :: status
-      character(len=*), parameter :: unknown = "nothing tells how the viscosity falls with temperature", &
+      character(len=*), parameter :: unknown = "the viscosity by temperature is not known", &
          by_law = "temperature_viscosity, or viscosity at the inlet temperature alone"
       logical :: knows
 
@@ -103,16 +103,16 @@ contains
          call refuse(l%shear_law == "carreau" .and. .not. (l%carreau_stress > 0.0_dp .and. l%carreau_exponent > 0.0_dp), &
                      "lubricant.shear_law", "'carreau' without carreau_stress and carreau_exponent", "both, as measured")
          call refuse(l%boundary_friction > 0.0_dp .and. .not. l%boundary_film > 0.0_dp, "lubricant.boundary_friction", &
-                     "without lubricant.boundary_film: no bodies touch", "a boundary_film in m, or boundary_friction = 0.0")
+                     "without lubricant.boundary_film: no solid contact", "a boundary_film in m, or boundary_friction = 0.0")
          call refuse(c%hardness > 0.0_dp .and. .not. l%boundary_film > 0.0_dp, "contact.hardness", &
-                     "without lubricant.boundary_film: no bodies touch", "a boundary_film in m, or hardness = 0.0")
+                     "without lubricant.boundary_film: no solid contact", "a boundary_film in m, or hardness = 0.0")
          call refuse(l%boundary_film > 0.0_dp .and. .not. c%si, "lubricant.boundary_film", "with a contact by Moes numbers", &
                      "0.0, or "//si_units)
          call refuse(c%hardness > 0.0_dp .and. .not. c%hardness > scales%pressure, "contact.hardness", &
                      "not above the Hertz pressure of "//short(scales%pressure)//" Pa: smooth bodies would yield", &
                      "more than the Hertz pressure, a lower load, or 0.0 for elastic solids")
          call refuse(l%boundary_film > 0.0_dp .and. input%solver%coarsening == "alcouffe", "solver.coarsening", &
-                     "'alcouffe' does not converge where bodies touch (lubricant.boundary_film)", "'auto' or 'classical'")
+                     "'alcouffe' does not converge with solid contact (lubricant.boundary_film)", "'auto' or 'classical'")
          if (l%thermal_friction == "always") call check_heat("lubricant.thermal_friction", "'auto'")
          if (l%thermal_reduction) call check_heat("lubricant.thermal_reduction", ".false.")
          if (status%failed() .or. .not. l%thermal_reduction) return
@@ -174,7 +174,7 @@ contains
          character(len=*), parameter :: group = "lubricant."
 
          if (abs(value - follows) > rounding*follows) call source%refuse(group//key, group//key//" = "//to_text(value)// &
-            ", and the law or the data sheet gives "//short(follows), key//", or what tells it", status)
+            ", and the law or the data sheet gives "//short(follows), key//", or what gives it", status)
          call source%check_range(group//key, value, group//key, "the law", status)
       end subroutine agree
    end subroutine check_inlet
@@ -216,7 +216,7 @@ contains
             end if
             call source%refuse(key, "the law has no "//what//" that rises with pressure at "//short(p(k)*scales%pressure)// &
                " Pa and "//to_text(input%lubricant%temperature)//" degC, and the Hertz pressure is "//short(scales%pressure)// &
-               " Pa", "a law that tells the "//what//" up to 1.5 times the Hertz pressure, or a lower load", status)
+               " Pa", "a law that holds for the "//what//" up to 1.5 times the Hertz pressure, or a lower load", status)
             return
          end do
       end subroutine check

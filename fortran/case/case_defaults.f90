@@ -117,7 +117,7 @@ contains
       roelands_exponent = alpha*p0/(log(viscosity) + 9.67_dp)
    end function roelands_exponent
 
-   !> Viscosity [Pa s], pressure-viscosity coefficient [1/Pa] and -(d eta/dT)/eta [1/K] at the inlet by the law that tells them
+   !> Viscosity [Pa s], pressure-viscosity coefficient [1/Pa] and -(d eta/dT)/eta [1/K] at the inlet by the law that gives them
    subroutine inlet(l, viscosity, alpha, slope, status)
       type(lubricant_case_t), intent(in) :: l
       real(dp), intent(out) :: viscosity, alpha, slope

@@ -57,7 +57,7 @@ contains
             plan%note = "isothermal: lubricant.thermal_friction is 'never'"
             return
          else if (.not. knows_temperature(input)) then
-            plan%note = "isothermal: nothing tells how the viscosity falls with temperature "// &
+            plan%note = "isothermal: the viscosity by temperature is not known "// &
                         "(lubricant.temperature_viscosity, or the viscosities of a data sheet)"
             return
          else if (.not. heat%speed > 0.0_dp) then

@@ -70,7 +70,7 @@ contains
          text = text//", up to ten times as long with damped cycles"
       end if
       if (plan%lubricant%boundary_film > 0.0_dp .and. .not. plan%surfaces%rough()) then
-         text = text//", up to thirty times as long where the bodies touch"
+         text = text//", up to thirty times as long with solid contact"
       end if
       if (plan%target_error > 0.0_dp) text = text//", if it comes to the finest grid"
       if (plan%surfaces%move() .and. plan%steps == 0) text = text//", if it ends as early as it can"

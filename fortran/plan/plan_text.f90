@@ -41,7 +41,7 @@ contains
          if (plan%coarse_run) call add("error      of the friction ratio: computed on the next coarser grid too")
          call add(wave_lines(plan))
       else
-         call add("scene      smooth and steady: no time levels, no roughness")
+         call add("problem    smooth and steady: no time levels, no roughness")
       end if
       call tell_domain()
       call add("deflection "//plan%engine//", threads "//to_text(plan%threads))

@@ -23,7 +23,7 @@ contains
 
       text = ""
       do k = 1, surfaces%count()
-         label = "scene      "
+         label = "problem    "
          if (surfaces%count() > 1) label = label//"&"//trim(surfaces%of(k)%group)//": "
          text = text//label//surface_words(surfaces%of(k)%surface, surfaces%rest())//newline
       end do

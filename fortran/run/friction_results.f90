@@ -8,7 +8,7 @@ module ehl_friction_results
    use ehl_kinds, only: dp, not_known, pi
    use ehl_level, only: gap
    use ehl_plan, only: plan_t
-   use ehl_text, only: fixed, to_text
+   use ehl_text, only: fixed, rounded
    use ehl_touching, only: same_film
    use ehl_wall_heat, only: heat_source
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
@@ -77,8 +77,8 @@ contains
             found%note = plan%heat%note
          else
             found%note = "a ratio alone: the Newtonian shear stress reaches "//fixed(found%shear_stress, "es8.1e2")// &
-                         " Pa, and oils shear thin above some "//to_text(s%newtonian_limit)// &
-                         " Pa (lubricant.eyring_stress): give a lubricant.shear_law"
+                         " Pa, and oils shear thin above about "//rounded(1.0e-6_dp*s%newtonian_limit)// &
+                         " MPa (lubricant.eyring_stress): give a lubricant.shear_law"
          end if
          found%mu_isothermal(1) = ratio*found%mu_isothermal(2)
          found%mu = found%mu_isothermal

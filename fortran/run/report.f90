@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Results of a run by name: its scene, the waves of its surfaces, the rough contact in time steps, of a feature that passes,
+!> Results of a run by name: its problem, the waves of its surfaces, the rough contact in time steps, of a feature that passes,
 !> and stationary; friction
 module ehl_report
    use ehl_contact_run, only: contact_run_t

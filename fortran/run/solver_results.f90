@@ -171,9 +171,9 @@ contains
       if (.not. waves%known) then
          if (self%run%plan%surfaces%unresolved > rounding) waves%unresolved = not_known
          waves%left_out = waves%unresolved
-         waves%why = "what the waves left out add is not predicted (pyehl run does)"
+         waves%why = "the contribution of the omitted waves is not predicted (pyehl run does)"
          if (self%run%plan%surfaces%rest()) waves%why = &
-            "what the waves left out add is not predicted (for surfaces on the move alone)"
+            "the contribution of the omitted waves is not predicted (for surfaces on the move alone)"
       end if
       if (.not. (self%run%plan%surfaces%left_out > rounding .and. self%run%plan%surfaces%has_spectrum())) waves%left_out = 0.0_dp
    end function waves_of

@@ -158,7 +158,7 @@ contains
       counts = .not. self%of(k)%surface%at_rest() .and. (self%of(k)%surface%passes_once .or. .not. self%pass_once())
    end function counts
 
-   !> Find the time in which the friction repeats: the least one that holds whole periods of all surfaces. Where none
+   !> Find the time in which the friction repeats: the smallest one that holds whole periods of all surfaces. Where none
    !> with so many periods of the slowest one does, a time after which all are nearly where they began; `mismatch` is
    !> by how much they are not. Of what passes once, the time from when it comes near until it has left, in whole periods
    !> of roughness on the other body.

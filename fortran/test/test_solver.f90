@@ -114,7 +114,7 @@ contains
       call is_close(maxval(abs(h_fft - h)), 0.0_dp, 1.0e-4_dp, "mlmi against fft")
    end subroutine smooth_against_reference
 
-   !> A scene that is symmetric in Y on half and on whole domain
+   !> A problem that is symmetric in Y on half and on whole domain
    subroutine half_is_whole(more, tolerance)
       character(len=*), intent(in) :: more
       real(dp), intent(in) :: tolerance

@@ -140,9 +140,9 @@ def tiles(made: Prediction) -> tuple[Array, Array, float, float, float]:
 
 def octaves(made: Prediction) -> dict[str, list[float]]:
     """Octaves of wavelengths [µm], and what each adds to mu_r/mu_s."""
-    bands = [band for band in made.bands if math.isfinite(band.rise)]
+    bands = [band for band in made.bands if math.isfinite(band.increase)]
     return {
         "left": [band.shortest * 1e6 for band in bands],
         "right": [band.longest * 1e6 for band in bands],
-        "rise": [band.rise for band in bands],
+        "increase": [band.increase for band in bands],
     }

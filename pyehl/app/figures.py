@@ -58,7 +58,7 @@ class Pictures:
         columns: dict[str, list[float]] = {"place": [], "pressure": [], "hertz": [], "film": []}
         self.lines = {name: ColumnDataSource(columns) for name in "xy"}
         self.tiles = ColumnDataSource({"before": [], "after": [], **empty}, name="tiles")
-        self.octaves = ColumnDataSource({"left": [], "right": [], "rise": []})
+        self.octaves = ColumnDataSource({"left": [], "right": [], "increase": []})
         self.passage = ColumnDataSource({"shift": [], "ratio": []})
         names = ("place", "value", "low", "high", "status")
         self.curve = {
@@ -131,11 +131,11 @@ class Pictures:
     def _friction(self) -> tuple[Any, Any]:
         """Draw what octaves add, and the ratio over the passage."""
         bands = _figure(
-            "what octaves of wavelengths add", "wavelength [µm]", "rise of μ_r/μ_s",
+            "what octaves of wavelengths add", "wavelength [µm]", "increase of μ_r/μ_s",
             x_axis_type="log", height=260, x_range=Range1d(1, 1000), y_range=Range1d(0, 1),
         )  # fmt: skip
         bands.quad(
-            left="left", right="right", top="rise", bottom=0.0, source=self.octaves,
+            left="left", right="right", top="increase", bottom=0.0, source=self.octaves,
             fill_color=GREEN, line_color="white",
         )  # fmt: skip
         over = _figure(
@@ -217,9 +217,9 @@ class Pictures:
             change(picture.title, text=f"{about}; {what}")
         octaves = drawing.octaves(made)
         change(self.octaves, data=octaves)
-        if octaves["rise"]:
+        if octaves["increase"]:
             change(self.bands.x_range, start=min(octaves["left"]), end=max(octaves["right"]))
-            self._around(self.bands, [0.0, *octaves["rise"]])
+            self._around(self.bands, [0.0, *octaves["increase"]])
         self._empty(self.passage)
         if math.isfinite(made.mu_ratio):
             shift, ratio = made.friction.shift * 1e3, made.friction.passage

@@ -45,7 +45,7 @@ def make_server(
 ) -> Server:
     """Give a server that listens already; port 0: any that is free.
 
-    `made` is told each page. InputError if the port is taken.
+    `made` is called with each page. InputError if the port is taken.
     """
 
     def page(document: Document) -> None:
@@ -53,7 +53,7 @@ def make_server(
         if made is not None:
             made(new)
 
-    # what a tab is told of itself is not for the terminal
+    # what a tab reports of itself is not for the terminal
     logging.getLogger("bokeh").setLevel(logging.ERROR)
     logging.getLogger("tornado").setLevel(logging.ERROR)
     try:

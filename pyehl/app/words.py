@@ -104,7 +104,7 @@ def rough_rows(found: Rough, film: Film | None = None) -> list[tuple[str, str]]:
     rows.append(("rms height σ", f"{sigma * NM:.4g} nm"))
     rows.append(("rms in the contact", f"{s['rms_deformed_m'] * NM:.4g} nm"))
     if p.friction.status == "predicted" and s["h_min_rough_m"] is not None:
-        rows.append(("least rough film", f"{s['h_min_rough_m'] * NM:.4g} nm"))
+        rows.append(("minimum rough film", f"{s['h_min_rough_m'] * NM:.4g} nm"))
     if p.advice is not None:
         rows += [("suggested cut-off", line) for line in p.advice.report()]
     return rows

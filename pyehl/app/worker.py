@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """One thread that computes for one page: the newest job alone, never two at a time.
 
-Each job gets a number, larger than those before it: its generation. What a job tells carries it, so
+Each job gets a number, larger than those before it: its generation. What a job reports has it, so
 that who shows answers can leave out one that is older than the one shown.
 """
 
@@ -18,7 +18,7 @@ GRACE = 0.4
 
 
 class Ticket:
-    """What a job knows of the world: whether it is still wanted, and whom to tell."""
+    """What a job knows of the world: whether it is still wanted, and where to report."""
 
     def __init__(self, worker: Worker, generation: int) -> None:
         self._worker, self.generation = worker, generation

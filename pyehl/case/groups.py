@@ -170,7 +170,7 @@ class Solver:
         "transfers in time steps: bilinear, or by the conductance (Galerkin)",
     )
     symmetry: str = word(
-        "auto", "auto|full", "auto: half the domain where the scene is symmetric in Y"
+        "auto", "auto|full", "auto: half the domain where the problem is symmetric in Y"
     )
     cycle: str = word(
         "auto",
@@ -225,7 +225,7 @@ class Psd:
         "roelands|barus|dicke|yasutomi|doolittle|table|",
         "viscosity under pressure; default as in &lubricant",
     )
-    load_balance: bool = truth(False, "rebalance the pressure to carry the load")
+    load_balance: bool = truth(False, "rebalance the pressure so that it sustains the load")
     positions: int = whole(
         0, "[0, 4096]", "positions of the surface over one passage; 0: automatic"
     )

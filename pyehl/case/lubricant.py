@@ -52,7 +52,7 @@ def complete_oil(draft: Draft) -> None:
 
 
 def complete_law(draft: Draft) -> None:
-    """Find viscosity, alpha and fall with temperature at the inlet by the law that tells them."""
+    """Find viscosity, alpha and fall with temperature at the inlet by the law that gives them."""
     oil = draft.settings.lubricant
     own = oil.own_law
     if not own:
@@ -110,7 +110,7 @@ def _follow(draft: Draft, key: str, follows: float) -> None:
         draft.check_range(name, follows, by, f"{by} at {temperature}")
     elif abs(value - follows) > ROUNDING * follows:
         why = f"{name} = {to_text(value)}, and the law gives {short(follows)} at {temperature}"
-        draft.contradict(name, by, f"{key}, or the law that tells it", why)
+        draft.contradict(name, by, f"{key}, or the law that gives it", why)
 
 
 def _law_key(draft: Draft) -> str:
@@ -226,7 +226,7 @@ def check_law(draft: Draft) -> None:
         draft.refuse(
             key,
             f"the law '{law}' has no {what} that rises with pressure at {where}",
-            f"a law that tells the {what} up to 1.5 times the Hertz pressure, or a lower load",
+            f"a law that holds for the {what} up to 1.5 times the Hertz pressure, or a lower load",
         )
 
 
@@ -252,7 +252,7 @@ def check_boundary_film(draft: Draft) -> None:
     settings = draft.settings
     film, friction = settings.lubricant.boundary_film, settings.lubricant.boundary_friction
     hardness = settings.contact.hardness
-    without = "without lubricant.boundary_film: no bodies touch"
+    without = "without lubricant.boundary_film: no solid contact"
     if friction > 0.0 and film <= 0.0:
         what = f"lubricant.boundary_friction = {short(friction)} {without}"
         expected = "a boundary_film in m, or boundary_friction = 0.0"
@@ -279,5 +279,5 @@ def check_boundary_film(draft: Draft) -> None:
             "lubricant.boundary_film",
             "solver.coarsening",
             "coarsening = 'auto' or 'classical'",
-            "transfers by the conductance do not converge where bodies touch",
+            "transfers by the conductance do not converge with solid contact",
         )

@@ -146,13 +146,13 @@ class Lubricant:
         0.0,
         "-",
         "0 or [1e-3, 2]",
-        "friction coefficient where the bodies touch at the boundary film; 0: not known",
+        "friction coefficient of solid contact at the boundary film; 0: not known",
     )
     temperature: float = real(
         40.0,
         "degC",
         "[-60, 250]",
-        "temperature of the inlet; needs what tells the viscosity by temperature",
+        "temperature of the inlet; needs a viscosity by temperature",
     )
     kinematic_viscosity_40: float = real(
         0.0,
@@ -201,7 +201,7 @@ class Lubricant:
 
     @property
     def own_law(self) -> str:
-        """The law that tells viscosity and alpha of the inlet: table, oil or key; '' for none."""
+        """The law that gives viscosity and alpha of the inlet: table, oil or key; '' for none."""
         if self.table or self.table_pressure:
             return "table"
         if self.name:

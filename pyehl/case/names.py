@@ -15,7 +15,7 @@ EFFECTIVE = (
 )
 PRESSURE = (
     "a pressure is no input: the Hertz pressure follows from load, radius and reduced_modulus of "
-    "&contact, and 'pyehl film' tells it"
+    "&contact, and 'pyehl film' prints it"
 )
 SPEEDS = (
     "speeds are contact.mean_velocity = (u1 + u2)/2 and contact.slide_to_roll = (u1 - "

@@ -34,7 +34,7 @@ NO_RANGE = (
     "the source does not state the range of the measurements; it applies them at 42 and 50 degC"
 )
 MANN_RANGE = (
-    "the source names states from 25 to 60 degC and up to 510 MPa, and does not tell the whole "
+    "the source names states from 25 to 60 degC and up to 510 MPa, and does not give the whole "
     "range"
 )
 MANN_LIMITS = (

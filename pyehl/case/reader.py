@@ -58,7 +58,7 @@ def read(text: str, origin: str, options: Iterable[str] = ()) -> Draft:
         try:
             replaced.add(_option(source)[0].name)
         except InputError:
-            pass  # told when it is read
+            pass  # reported when it is read
     marked = _Groups(draft, replaced).read()
     if marked:
         draft = _settled(draft, marked)

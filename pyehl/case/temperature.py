@@ -44,7 +44,7 @@ def complete_viscosity(draft: Draft) -> None:
             f"{short(follows)} Pa s at {temperature}"
         )
         other = "lubricant.kinematic_viscosity_40" if given else "lubricant.name"
-        draft.contradict("lubricant.viscosity", other, "viscosity, or what tells it", why)
+        draft.contradict("lubricant.viscosity", other, "viscosity, or what gives it", why)
 
 
 def _check_use_of_sheet(draft: Draft) -> None:
@@ -125,5 +125,5 @@ def _need(draft: Draft, key: str, value: str, velocity: str, others: tuple[str, 
             "temperature_viscosity, or kinematic_viscosity_40 and kinematic_viscosity_100, or "
             f"{others[1]}"
         )
-        what = f"{name}{value}, and nothing tells how the viscosity falls with temperature"
+        what = f"{name}{value}, and the viscosity by temperature is not known"
         draft.refuse(name, what, expected)

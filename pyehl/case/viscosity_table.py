@@ -37,7 +37,7 @@ class State(NamedTuple):
 
 
 def read_table(path: str) -> list[State]:
-    """Read the states of a file by temperature, then pressure; a fault is told with its line."""
+    """Read the states of a file by temperature, then pressure; an error names its line."""
     text = read_text(path, f"a file of measured viscosities, {HEADER}")
     source = Source(path, text.replace("\r", " ") + "\n")
     states = sorted(_states(source), key=lambda state: state[:2])

@@ -36,12 +36,12 @@ def report(prediction: Prediction) -> str:
         ]
         if values["mu"] is not None:
             lines.append(f"           mu: {values['mu_note']}")
-        strongest = sorted(prediction.bands, key=lambda band: -abs(band.rise))[:3]
+        strongest = sorted(prediction.bands, key=lambda band: -abs(band.increase))[:3]
         parts = ", ".join(
-            f"{b.rise:+.4f} {lengths.waves(b.longest, b.shortest)}" for b in strongest
+            f"{b.increase:+.4f} {lengths.waves(b.longest, b.shortest)}" for b in strongest
         )
         if parts:
-            lines.append(f"rise       {parts}")
+            lines.append(f"increase   {parts}")
     lines += spectrum_assumed.report(prediction.beside)
     if prediction.advice:
         lines += prediction.advice.report()
@@ -53,8 +53,8 @@ def report(prediction: Prediction) -> str:
     return "\n".join([*lines, str(library.conclude(values))])
 
 
-def _told(values: Mapping[str, Any], name: str, factor: float) -> str:
-    """Tell a number of a summary with its error, both times a factor."""
+def _with_error(values: Mapping[str, Any], name: str, factor: float) -> str:
+    """Format a number of a summary with its error, both times a factor."""
     error = values[error_name(name)]
     text = f"{values[name] * factor:.3g}"
     # to one digit, without a power of ten
@@ -71,16 +71,16 @@ def _surface(name: str, tile: Topography) -> str:
 def _deformed(values: Mapping[str, Any]) -> list[str]:
     """Say what becomes of the surface."""
     unit = lengths.unit_of(values["rms_deformed_m"])
-    surface = [f"rms {_told(values, 'rms_deformed_m', lengths.UNITS[unit])} {unit}"]
+    surface = [f"rms {_with_error(values, 'rms_deformed_m', lengths.UNITS[unit])} {unit}"]
     for words, name in (("pressure rms", "p_rise_rms_Pa"), ("maximum increase", "p_rise_max_Pa")):
         if values[name] is not None:
-            surface.append(f"{words} {_told(values, name, 1e-6)} MPa")
+            surface.append(f"{words} {_with_error(values, name, 1e-6)} MPa")
     film = []
     if values["lambda_ratio_deformed"] is not None:
-        film.append(f"h_min over its rms {_told(values, 'lambda_ratio_deformed', 1.0)}")
+        film.append(f"h_min over its rms {_with_error(values, 'lambda_ratio_deformed', 1.0)}")
     if values["film_below_limit_share"] is not None:
         film.append(
-            f"{_told(values, 'film_below_limit_share', 100.0)} % of the contact below "
+            f"{_with_error(values, 'film_below_limit_share', 100.0)} % of the contact below "
             f"{lengths.length(values['film_limit_m'], 4)}"
         )
     return [

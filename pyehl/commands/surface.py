@@ -122,7 +122,7 @@ def print_spectrum(surface: Mapping[str, Any]) -> None:
 
 
 def _lines(surface: Topography) -> list[str]:
-    """Tell what the surface is, and how it was prepared."""
+    """Describe what the surface is, and how it was prepared."""
     if surface.preparation is None:
         lines = [f"surface    {surface.origin}"]
     else:

@@ -122,8 +122,8 @@ def response(
     with tempfile.TemporaryDirectory(prefix="pyehl-") as nothing:
         folder = nothing if output is None else path_of(output, "output")
         place = destination(folder, inputs=inputs, force=force)
-        told = {} if progress is None else {"progress": progress}
-        return _write(case, measure(case, place, tiers=tiers, **told), place)
+        more = {} if progress is None else {"progress": progress}
+        return _write(case, measure(case, place, tiers=tiers, **more), place)
 
 
 def _write(case: Case, found: Mapping[str, Mapping[str, Any]], place: Destination) -> xr.Dataset:

@@ -78,7 +78,7 @@ def tier_waves(tier: Tier) -> WaveSet:
 
 
 def _identity(settings: Settings, velocity_ratio: float, tier: Tier) -> str:
-    """Tell what a tier depends on, as text."""
+    """Describe what a tier depends on, as text."""
     o = OperatingPoint.from_settings(settings)
     shape = [] if o.radius_ratio == 1.0 else [o.radius_ratio]
     values = {
@@ -117,8 +117,8 @@ def _check_folder(place: Destination, settings: Settings, velocity_ratio: float)
             raise InputError(f"{path}: cannot be read ({error}); remove it") from error
         wrong = difference(found, json.loads(_identity(settings, velocity_ratio, tier)))
         if wrong:
-            told = f"{path}: is of another response; use another folder. It differs in"
-            raise InputError("\n  ".join([told, *wrong]))
+            message = f"{path}: is of another response; use another folder. It differs in"
+            raise InputError("\n  ".join([message, *wrong]))
         done.append(tier)
     return done
 

@@ -50,7 +50,7 @@ class WaveSet:
     phase: Array  # (m,) [rad]
 
     def __post_init__(self) -> None:
-        """Check that the frequencies can be told apart."""
+        """Check that the frequencies can be distinguished."""
         if np.unique(self.along).size != self.along.size or self.along.min() < 1:
             raise ValueError(
                 "the waves of a tile need different numbers along the motion, 1 or more"

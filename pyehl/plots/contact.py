@@ -19,7 +19,7 @@ from pyehl.types import Array
 # Light of the interferogram [m]: red and green, as in two-colour interferometry; mineral oil
 RED, GREEN = 633e-9, 532e-9
 REFRACTIVE_INDEX = 1.5
-# Films [m] whose fringes this light tells apart; for others the fringes are a share of the film
+# Films [m] whose fringes this light distinguishes; for others the fringes are a share of the film
 THINNEST, THICKEST = 0.9e-7, 1.2e-6
 RED_SHARE = 0.9
 # Fringes after which the contrast has faded, as under filtered light

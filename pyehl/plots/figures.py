@@ -246,7 +246,7 @@ def _passage(tables: Mapping[str, Mapping[str, Array]], length: float, title: st
     shift, ratio = tables["passage"]["shift_m"], tables["passage"]["mu_ratio"]
     second = tables["passage"].get("second_shift_m")
     surface.passage(shift, ratio, length, second=second, ax=left)
-    columns = [tables["bands"][name] for name in ("longest_m", "shortest_m", "rise")]
+    columns = [tables["bands"][name] for name in ("longest_m", "shortest_m", "increase")]
     surface.octaves(
         [(float(a), float(b), float(c)) for a, b, c in zip(*columns, strict=True)], ax=right
     )

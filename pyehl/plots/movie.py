@@ -30,11 +30,11 @@ def _pace(data: xr.Dataset, seconds: float, *, si: bool) -> str:
     """Say how long a frame is shown, and what time of the contact it stands for."""
     times = data["T"].values
     between = float(np.median(np.diff(times))) if times.size > 1 else 0.0
-    told = f"{between:.3g} a/u"
+    text = f"{between:.3g} a/u"
     if si:
         unit = OperatingPoint.from_settings(settings_of(data)).time_scale
-        told += f" = {between * unit * 1e6:.3g} µs"
-    return f"{seconds:.3g} s per frame, which is {told} in the contact"
+        text += f" = {between * unit * 1e6:.3g} µs"
+    return f"{seconds:.3g} s per frame, which is {text} in the contact"
 
 
 def movie(

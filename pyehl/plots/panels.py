@@ -22,7 +22,7 @@ def headline(summary: Mapping[str, Any], scales: Scales | None = None) -> str:
     """
     parts = [f"M = {summary['moes_m']:.4g}", f"L = {summary['moes_l']:.4g}"]
     parts.append(f"Hertz pressure {summary['hertz_pressure_Pa'] * 1e-9:.3g} GPa")
-    for name, word in (("c", "film"), ("min", "least")):
+    for name, word in (("c", "film"), ("min", "minimum")):
         si, big = summary.get(f"h_{name}_m"), summary.get(f"H_{name}")
         if si is None and scales is not None and big is not None:
             si = big * scales.film

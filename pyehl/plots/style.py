@@ -36,7 +36,7 @@ DPI = 150
 INCH = 0.0254
 # For PNG files: twice as fast as the usual way, and as small
 COMPRESSION = {"compress_type": zlib.Z_RLE}
-# Okabe & Ito: told apart by everybody
+# Okabe & Ito: distinguishable by everybody
 BLUE, VERMILLION, GREEN, GREY = "#0072B2", "#D55E00", "#009E73", "#666666"
 SEQUENTIAL, DIVERGING = "viridis", "PuOr_r"
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")

@@ -22,7 +22,7 @@ BAND_COLUMNS = {
     "rms_height": "rms_height_m",
     "rms_deformed": "rms_deformed_m",
     "rms_pressure": "rms_pressure_Pa",
-    "rise": "rise",
+    "increase": "increase",
 }
 
 
@@ -38,7 +38,7 @@ class Band:
     rms_pressure: float  # of delta p in the band [Pa]
     # How much mu_r/mu_s grows when this band joins all the longer ones [-]; NaN where the model
     # does not hold
-    rise: float
+    increase: float
 
 
 def octaves(q: Array, power: Array, *, only: int = 0) -> Iterator[tuple[float, Mask, bool]]:
@@ -92,7 +92,7 @@ def joining(
                 rms_height=rms[0] * film,
                 rms_deformed=rms[1] * film,
                 rms_pressure=rms[2] * p_h,
-                rise=ratio - before,
+                increase=ratio - before,
             )
         )
         before = ratio

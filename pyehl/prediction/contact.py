@@ -73,7 +73,7 @@ class ShearedContact:
             self.below[i] += np.count_nonzero(film < level)
 
     def least_film(self) -> float:
-        """Minimum film that was met, as it is told."""
+        """Minimum film that was met, as reported."""
         return self.thinnest
 
     def rise_rms(self) -> float:

@@ -16,8 +16,8 @@ PER_PIXEL = 1.5e-5
 """Seconds per pixel of the tile that is worked on, of one core of 2020, to a factor of two."""
 PER_POINT = 1e-4
 """And per point of the contact."""
-TOLD = 10.0
-"""Seconds from which on they are told."""
+REPORTED = 10.0
+"""Seconds from which on they are reported."""
 SMALL = 0.02
 """Contacts along each side of a map that has to be repeated very often."""
 ENOUGH = 3.0
@@ -34,10 +34,10 @@ def seconds_of(tile: Topography, operating: OperatingPoint) -> float:
     return PER_PIXEL * pixels + PER_POINT * points
 
 
-def tell_cost(tile: Topography, operating: OperatingPoint, group: str = "surface") -> None:
-    """Tell what a large tile takes, and which part of its map is enough."""
+def report_cost(tile: Topography, operating: OperatingPoint, group: str = "surface") -> None:
+    """Describe what a large tile takes, and which part of its map is enough."""
     seconds = seconds_of(tile, operating)
-    if seconds < TOLD:
+    if seconds < REPORTED:
         return
     made = tile.preparation
     images = 2 if made is not None and made.options.edges == "mirror" else 1

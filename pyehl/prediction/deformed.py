@@ -77,8 +77,8 @@ def deformed_surface(
     }
     found: dict[str, Any] = {"film_limit_m": film_limit or None}
     for name, (value, error) in values.items():
-        told = known and math.isfinite(value)
-        found |= {name: value, error_name(name): error if told else math.nan}
+        reported = known and math.isfinite(value)
+        found |= {name: value, error_name(name): error if reported else math.nan}
     return found
 
 

@@ -72,7 +72,7 @@ def cutoff_error(bands: Sequence[Band]) -> float:
     This much hangs on the cut-off: a measure of what waves shorter than those of the map would
     add. NaN without bands.
     """
-    return abs(bands[-1].rise) if bands else math.nan
+    return abs(bands[-1].increase) if bands else math.nan
 
 
 def outside_range(

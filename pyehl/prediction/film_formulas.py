@@ -64,7 +64,7 @@ def left_out(settings: Settings, lubricant: Lubricant) -> list[str]:
         law = lubricant.shear.law
         found.append(f"lubricant.shear_law = '{law}': the formulas are of a Newtonian flow")
     if layer > 0.0:
-        found.append(f"lubricant.boundary_film = {layer:g}: the formulas know no layer")
+        found.append(f"lubricant.boundary_film = {layer:g}: the formulas are of a full film")
     return found
 
 

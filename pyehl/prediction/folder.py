@@ -137,9 +137,9 @@ def _check_same(folder: Path, of_folder: Settings, settings: Settings) -> None:
         numbers = [v for v in both if isinstance(v, float)]
         same = math.isclose(*numbers, rel_tol=1e-4) if len(numbers) == 2 else both[0] == both[1]
         if not same:
-            told = ["not set" if v is None else namelist.word(v) for v in both]
+            words = ["not set" if v is None else namelist.word(v) for v in both]
             raise InputError(
-                f"{folder}: {group}.{key} is {told[0]} there and {told[1]} in the case"
+                f"{folder}: {group}.{key} is {words[0]} there and {words[1]} in the case"
             )
 
 

@@ -21,7 +21,7 @@ TRACKS = 8
 """Tracks over which mean and spread are taken unless asked for otherwise."""
 
 LARGEST_RATIO = 10.0
-"""Largest mu_r/mu_s that is told."""
+"""Largest mu_r/mu_s that is reported."""
 
 NEWTONIAN_NOTE = (
     "Newtonian: a ratio at this slip, no absolute coefficient; shear thinning brings it close to "

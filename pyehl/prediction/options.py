@@ -16,7 +16,7 @@ MAX_POSITIONS = 4096
 
 
 def unpredictable(settings: Settings) -> str:
-    """Tell why nothing is predicted of a resolved case; '' where something is."""
+    """Say why nothing is predicted of a resolved case; '' where something is."""
     if turned(settings):
         return turned(settings)
     groups = rough_groups(settings)
@@ -34,7 +34,7 @@ def unpredictable(settings: Settings) -> str:
 
 
 def turned(settings: Settings) -> str:
-    """Tell why an elliptical contact has no response; '' where an axis lies along the motion."""
+    """Say why an elliptical contact has no response; '' where an axis lies along the motion."""
     contact = settings["contact"]
     angle = float(contact["angle"])
     if angle == 0.0 or OperatingPoint.from_settings(settings).radius_ratio == 1.0:
@@ -61,7 +61,7 @@ class ModelOptions:
     # Whether the semi-ellipse gives up the load that delta p carries inside the contact: a Hertz
     # contact under the remaining load, p_h and a scaled by its cube root
     load_balance: bool = False
-    # Film below which the share of the contact is told [m]; 0: none
+    # Film below which the share of the contact is reported [m]; 0: none
     film_limit: float = 0.0
     # Positions of the surface over one passage; 0: doubled until mu_r/mu_s is resolved
     positions: int = 0

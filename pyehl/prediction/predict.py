@@ -22,7 +22,7 @@ from pyehl.prediction.breakdown import (
     of_model,
     sustained_by,
 )
-from pyehl.prediction.cost import tell_cost
+from pyehl.prediction.cost import report_cost
 from pyehl.prediction.folder import read_contact
 from pyehl.prediction.friction import TRACKS, RoughFriction, broken
 from pyehl.prediction.mixed_lubrication import mixed_film, with_contact
@@ -131,7 +131,7 @@ def _surfaces(
         else:
             tile = surfaces.finished(tile, values)
         if not brief:
-            tell_cost(tile, operating, group)
+            report_cost(tile, operating, group)
         ratio, front = float(values["velocity_ratio"]), float(values["x_start"])
         rough.append(RoughSurface(tile, ratio, front, str(values["filter"]), (group,)))
     return tuple(rough)

@@ -40,15 +40,15 @@ class Resolution:
 
     @property
     def matters(self) -> bool:
-        """Whether more than TOLERANCE of the answer hangs on waves that are not resolved."""
+        """Whether more than TOLERANCE of the result comes from waves that are not resolved."""
         return abs(self.unresolved) > TOLERANCE * self.mu_ratio
 
     def __str__(self) -> str:
         """Say it in a line."""
-        rise, part = self.mu_ratio - 1.0, self.unresolved
+        increase, part = self.mu_ratio - 1.0, self.unresolved
         return (
-            f"predicted   mu_r/mu_s {self.mu_ratio:.3f}; of the rise {rise:+.3f}, {part:+.3f} come "
-            f"from waves shorter than {lengths.length(self.shortest, most='um')}, "
+            f"predicted   mu_r/mu_s {self.mu_ratio:.3f}; of the increase {increase:+.3f}, "
+            f"{part:+.3f} come from waves shorter than {lengths.length(self.shortest, most='um')}, "
             f"{NODES} nodes of this grid" + (f" (predicted with {self.part})" if self.part else "")
         )
 
@@ -57,7 +57,7 @@ class Resolution:
         lines = [str(self)]
         if self.matters:
             lines.append(
-                f"warning: more than {TOLERANCE:.0%} of mu_r/mu_s hangs on waves with fewer than "
+                f"warning: more than {TOLERANCE:.0%} of mu_r/mu_s comes from waves with fewer than "
                 f"{NODES} nodes; a finer grid (grid.points) or surface.shortest_wavelength "
                 "resolves what is left"
             )

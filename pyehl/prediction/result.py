@@ -50,7 +50,7 @@ class Prediction:
         Its rough surfaces, smooth contact, operating point and lubricant, and how it was read.
     films
         The smooth contact with the boundary film of the case, of which films and maximum pressure
-        are told.
+        are reported.
     outcome
         Friction over the passage with delta p and deformed roughness, mean and spread over tracks,
         and what each octave of wavelengths adds.

@@ -245,7 +245,7 @@ class RoughContact(ShearedContact):
         return film
 
     def least_film(self) -> float:
-        """Minimum film over the positions, as it is told [a^2/R]."""
+        """Minimum film over the positions, as reported [a^2/R]."""
         return self.least if self.thinnest > 0.0 else self.thinnest
 
     def sheared(self, change: Single, smooth: Array) -> float:

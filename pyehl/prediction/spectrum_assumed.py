@@ -55,7 +55,7 @@ def report(rows: Sequence[Mapping[str, Any]]) -> list[str]:
     """Return the lines that ``pyehl predict`` prints."""
     if not rows:
         return []
-    lines = ["spectrum   Ra and finish do not tell it; with a roll-off of the spectrum at"]
+    lines = ["spectrum   not determined by Ra or a finish; with a roll-off of the spectrum at"]
     for row in rows:
         where = "none" if row["rolloff_wavelength_m"] is None else (
             lengths.length(row["rolloff_wavelength_m"], most="um")

@@ -109,5 +109,5 @@ def summary_of(prediction: Prediction) -> dict[str, Any]:
     if o.radius_ratio != 1.0:
         values |= {"radius_ratio": o.radius_ratio, "semi_axis_y_m": o.semi_axis_y}
         values["ellipticity"] = o.ellipse.ellipticity
-    told = {key: finite(value) for key, value in values.items()}
-    return told | {"assessment": library.conclude(told).assessment}
+    found = {key: finite(value) for key, value in values.items()}
+    return found | {"assessment": library.conclude(found).assessment}

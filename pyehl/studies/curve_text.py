@@ -71,7 +71,7 @@ def last_lines(plan: CurvePlan, table: pd.DataFrame) -> str:
     words = table["assessment"].str.partition(":")[0].where(table["status"] != OUTSIDE, OUTSIDE)
     counts = ", ".join(f"{word} at {n}" for word, n in Counter(words).items())
     return (
-        f"the film is thinnest at {plan.points[thinnest].point}:\n"
+        f"the minimum film is at {plan.points[thinnest].point}:\n"
         f"{table[CONCLUSION][thinnest]}\n"
         f"curve      {counts} of {len(table)} points"
     )

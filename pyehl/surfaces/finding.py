@@ -9,7 +9,7 @@ from pyehl.surfaces.holes import MAD_TO_SIGMA
 from pyehl.types import Array
 
 SAMPLES = 512
-"""Points of a line, at the most, that its offset is told by."""
+"""Points of a line, at the most, that its offset is found by."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,7 +23,7 @@ class Finding:
     places: tuple[tuple[float, float, float, float], ...] = ()
 
     def report(self) -> str:
-        """Tell it in one line."""
+        """Describe it in one line."""
         return f"{self.kind}: {self.text}" + (f"; {self.remedy}" if self.remedy else "")
 
     @property

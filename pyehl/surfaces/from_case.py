@@ -172,7 +172,7 @@ def scan_of(surface: Mapping[str, Any]) -> Scan:
         raise InputError(
             f"{error}\nexpected: a map; this is a profile along a line, so "
             "surface.profile = 'isotropic' (a surface of its spectrum) or 'ridges' (it extended "
-            f"across, as by a lay); 'pyehl surface {path}' tells its spectrum"
+            f"across, as by a lay); 'pyehl surface {path}' shows its spectrum"
         ) from error
 
 

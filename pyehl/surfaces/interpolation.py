@@ -27,7 +27,7 @@ def shifted(topography: Topography, distance_x: float, distance_y: float = 0.0) 
     """Return the tile moved by a distance [m] towards positive x and y, by its Fourier interpolant.
 
     Exact for the trigonometric polynomial through the heights; a shift by whole pixels is the
-    cyclic copy to rounding. The Nyquist component cannot be told from a standing wave and is
+    cyclic copy to rounding. The Nyquist component is indistinguishable from a standing wave and is
     multiplied by the cosine of its phase, so it is the one part that a fraction of a pixel dims.
     """
     nx, ny = topography.shape

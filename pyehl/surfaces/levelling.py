@@ -38,7 +38,7 @@ def _factors(heights: Array, degree: int, valid: Mask | None) -> tuple[Array, Ar
     if count < len(powers) or np.linalg.cond(matrix) > 1e12:
         raise InputError(
             f"surface.detrend: {count} heights lie so that a polynomial of degree "
-            f"{degree} cannot be told from them"
+            f"{degree} cannot be determined from them"
         )
     values = np.linalg.solve(matrix, [right[a, b] for a, b in powers])
     coefficient = np.zeros((degree + 1, degree + 1))

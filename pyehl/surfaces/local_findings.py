@@ -180,7 +180,7 @@ def _named(
     pixel: tuple[float, float],
     corner: tuple[float, float],
 ) -> Finding:
-    """Tell of specks, the highest first."""
+    """Describe of specks, the highest first."""
     first = specks[0]
     x, y = (
         c + 0.5 * (b.start + b.stop) * p for c, b, p in zip(corner, first.box, pixel, strict=True)

@@ -10,7 +10,7 @@ WORKING_COPIES, PREDICTION_COPIES = 12, 28
 """Arrays of the size of the map that its preparation holds at once, and of the size of a made tile
 that a prediction does, spectra included."""
 LARGE = 1e9
-"""Bytes from which on the need is told."""
+"""Bytes from which on the need is reported."""
 
 _LOG = logging.getLogger(__name__)
 

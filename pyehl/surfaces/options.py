@@ -41,7 +41,7 @@ def defaults(options: Options, scan: Scan) -> tuple[Options, dict[str, str]]:
     """Options without 'auto', and the reason for each word.
 
     A file of an instrument is a map of a part: it lies at an angle that is the stage's and not
-    the surface's, and its edges do not meet. An array is taken at its word, as is a file that
+    the surface's, and its edges do not match. An array is taken at its word, as is a file that
     says that it is periodic: nothing is taken off, and it is repeated. A part of an array, or an
     array that was turned, is no longer periodic.
     """
@@ -55,7 +55,7 @@ def defaults(options: Options, scan: Scan) -> tuple[Options, dict[str, str]]:
         quarter = abs(options.rotate / 90.0 - round(options.rotate / 90.0)) < 1e-9
         whole = not any(options.crop) and quarter
         options = replace(options, edges="periodic" if tile and whole else "mirror")
-        why["edges"] = what if tile and whole else "opposite edges of a scan do not meet"
+        why["edges"] = what if tile and whole else "opposite edges of a scan do not match"
         if tile and not whole:
             why["edges"] = "a part of a tile is not periodic"
     return options, why

@@ -29,7 +29,7 @@ RMS_BAND = (1e-10, 1e-4)
 """Rms heights outside of it [m] are mistakes of units."""
 
 LARGE = 2**22
-"""Heights of a map whose steps take seconds: each is told before it begins."""
+"""Heights of a map whose steps take seconds: each is reported before it begins."""
 
 JUMP = 3.0
 """A seam whose steps are more than this many times those inside is named in the record."""
@@ -162,7 +162,7 @@ def _join(work: WorkingMap, options: Options, why: dict[str, str]) -> None:
         tile -= tile.mean()
     elif (steep := seams.jump(prepared)) > JUMP:
         note = (
-            f"the edges do not meet: steps across them are {steep:.3g} times those inside; "
+            f"the edges do not match: steps across them are {steep:.3g} times those inside; "
             "if the map is not periodic, surface.edges = 'mirror'"
         )
         work.do("edges", "periodic", prepared, why["edges"], note=note)
@@ -183,12 +183,12 @@ def _fill(work: WorkingMap, options: Options, valid: Mask) -> None:
         full = holes.filled(work.z, work.pixel, (options.crop[0], options.crop[2]))
     except ValueError as error:
         raise InputError(f"{work.origin}: {error}") from None
-    why = "given" if options.outliers > 0.0 else "nothing is known but the rims of the holes"
+    why = "given" if options.outliers > 0.0 else "only the edges of the holes are known"
     work.do("fill", options.fill, full, why, changed=missing)
 
 
 def _tell(scan: Scan, step: str) -> None:
-    """Tell which step of a large map begins."""
+    """Describe which step of a large map begins."""
     if scan.heights.size >= LARGE:
         nx, ny = scan.heights.shape
         LOG.info("%s: %d x %d heights: %s ...", scan.origin, nx, ny, step)

@@ -218,7 +218,7 @@ def _row(line: str, *, comma: bool) -> list[float] | None:
 
 
 def _places(table: Array, head: Sequence[str], *, comma: bool) -> Read:
-    """Tell places from heights, with the units that the head names."""
+    """Distinguish places from heights, with the units that the head names."""
     columns, units = table.shape[1], _units(head, table.shape[1])
     if columns == 1:
         spacing, unit = _spacing(head, comma=comma)

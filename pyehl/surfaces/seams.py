@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tiles of maps: what happens at the edges of a map that is not periodic.
 
-A tile is repeated over and over. Where opposite edges do not meet, the heights jump, a step of
+A tile is repeated over and over. Where opposite edges do not match, the heights jump, a step of
 infinite slope that the surface does not have, and that holds the film up or breaks it.
 """
 

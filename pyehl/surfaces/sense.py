@@ -79,7 +79,7 @@ def doubts(heights: Array) -> list[str]:
     if values.size < 2 * OFTEN:
         return []
     notes = [_far_end(values, counts, end) for end in (0, -1)]
-    ends = {0: "the least one", values.size - 1: "the largest one"}
+    ends = {0: "the smallest one", values.size - 1: "the largest one"}
     # an end of the range of an instrument may be there at both
     for place in np.argsort(counts)[:-3:-1]:
         rest = np.delete(counts, [place, *ends]).max()

@@ -18,7 +18,7 @@ _CONTROL = set(b"\t\n\v\f\r\x1a")
 
 
 def encoding_of(path: Path) -> str | None:
-    """Tell the encoding of a text by its first bytes; None if it is no text."""
+    """Find the encoding of a text by its first bytes; None if it is no text."""
     with path.open("rb") as stream:
         first = stream.read(SAMPLE)
     for mark, name in _MARKS.items():

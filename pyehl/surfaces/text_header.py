@@ -205,7 +205,7 @@ def _sort(entry: _Entry, header: Header, found: dict[tuple[str, int], set[float]
 
 
 def _kind(entry: _Entry) -> str:
-    """Tell what the number of an entry is by its name; empty: nothing that is known."""
+    """Describe what the number of an entry is by its name; empty: nothing that is known."""
     words, sides = entry.words, _X | _Y
     if words & _UNITS:
         return ""

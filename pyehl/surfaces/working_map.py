@@ -197,7 +197,7 @@ class WorkingMap:
         self.steps.append(Step(name, value, why, changed, before, self._last, note))
 
     def record(self, options: Options) -> Record:
-        """Tell what was done, in numbers."""
+        """Describe what was done, in numbers."""
         scan, images = self.scan, 2 if options.edges == "mirror" else 1
         nx, ny = (images * n for n in self.z.shape)
         return Record(

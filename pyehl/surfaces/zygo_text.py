@@ -35,7 +35,7 @@ def read_zygo(lines: Iterable[str]) -> ZygoMap:
     rest = iter(lines)
     header = [line.strip() for line in islice(rest, HEADER_LINES)]
     if len(header) < HEADER_LINES or not header[0].startswith(MAGIC):
-        raise ValueError(f"the header of a Zygo text file has {HEADER_LINES} lines at the least")
+        raise ValueError(f"the header of a Zygo text file has {HEADER_LINES} lines at least")
     is_list = header[0].startswith(MAGIC[0])
     left, top, width, height = (int(v) for v in _numbers(header, 4, 4))
     # heights are counts of phase times scale factor, wavelength and obliquity factor

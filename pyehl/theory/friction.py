@@ -59,8 +59,8 @@ def absolute_friction(
         else:
             note = (
                 f"a ratio alone: the Newtonian shear stress reaches {stress:.1E} Pa, and oils "
-                f"shear thin above some {law.eyring_stress!r} Pa (lubricant.eyring_stress): give a "
-                "lubricant.shear_law"
+                f"shear thin above about {law.eyring_stress * 1e-6:.3g} MPa "
+                "(lubricant.eyring_stress): give a lubricant.shear_law"
             )
     mu = mu_ratio * smooth * heat.ratio
     if heat.rough and math.isfinite(smooth):

@@ -165,7 +165,7 @@ def inlet_fit(
     s = np.clip(parameter, low, high)
     c = np.abs(along) / q
     slip = velocity_ratio - 1.0
-    # beyond the range, which is told, the leak is held as s is
+    # beyond the range, which is reported, the leak is held as s is
     leak = min(1.0, fit["leak"] / (moes_m * moes_l))
     variables = (s, c, np.log(moes_l / 10.0), 0.5 * np.log(moes_m / 1000.0), slip, leak)
     log_z = _polynomial(fit["modulus"], variables) + 2.0 * fit["slope"] * (parameter - s)

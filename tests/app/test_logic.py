@@ -257,7 +257,7 @@ def test_rough_contact_is_that_of_a_prediction(start):
     assert before.shape == after.shape == (256, 256)
     assert np.abs(before).max() == pytest.approx(most)
     assert width == pytest.approx(0.829)
-    assert sum(drawing.octaves(found.prediction)["rise"]) == pytest.approx(
+    assert sum(drawing.octaves(found.prediction)["increase"]) == pytest.approx(
         prediction.mu_ratio - 1.0, abs=1e-6
     )
 
@@ -267,7 +267,7 @@ def test_film_that_ends_says_what_would_carry(start):
     rows = words.rough_rows(answers.rough(position))
     names = [name for name, _ in rows]
     assert "suggested cut-off" in names
-    assert "least rough film" not in names
+    assert "minimum rough film" not in names
     assert not any(name.startswith("μ_r/μ_s") for name, _ in rows)
 
 

@@ -48,12 +48,12 @@ def results(folder: Path) -> dict[str, object]:
 @pytest.mark.parametrize(
     # whole domains of 257 x 257 nodes are worked on by all threads; a run begins with the smooth
     # contact, whose fields are among its results
-    ("points", "scene"),
+    ("points", "case"),
     [(129, HARMONIC), (257, FULL | HARMONIC | SHORT)],
     ids=["harmonic", "harmonic-whole"],
 )
-def test_threads(solve, points: int, scene: dict[str, object], engine: str):
-    settings = scene | {"solver.deflection": engine}
+def test_threads(solve, points: int, case: dict[str, object], engine: str):
+    settings = case | {"solver.deflection": engine}
     one, two, four = (
         solve((1000.0, 10.0), points, settings | {"solver.threads": threads}, fields=True)
         for threads in (1, 2, 4)
@@ -66,11 +66,11 @@ def test_threads(solve, points: int, scene: dict[str, object], engine: str):
     assert results(four.folder) == expected
 
 
-@pytest.mark.parametrize("scene", [HARMONIC, {"surface.kind": "fractal", "time.steps": 3}])
-def test_drivers(drivers, tmp_path: Path, scene: dict[str, object]):
+@pytest.mark.parametrize("case", [HARMONIC, {"surface.kind": "fractal", "time.steps": 3}])
+def test_drivers(drivers, tmp_path: Path, case: dict[str, object]):
     """A rough contact by `ehl` and by `pyehl run`: the same bits."""
-    settings = scene | {"grid.points": 65}
-    if scene["surface.kind"] == "fractal":
+    settings = case | {"grid.points": 65}
+    if case["surface.kind"] == "fractal":
         # `ehl` reads the map that `pyehl` makes
         tile = tmp_path / "tile.npy"
         rng = np.random.default_rng(1)

@@ -20,7 +20,7 @@ DENT = {"kind": "dent", "amplitude": 5e-3, "width": 0.5}
 FIELDS = ("P", "H", "RR", "A_d")
 
 
-def scene(
+def surfaces_of(
     first: Mapping[str, object], second: Mapping[str, object], **contact: object
 ) -> dict[str, object]:
     """Keys of a case with these surfaces."""
@@ -31,9 +31,9 @@ def scene(
 
 def test_exchange_of_the_two(solve):
     """Body 1 with one roughness and body 2 with the other, named in either order: the same bits."""
-    one = solve(POINT, POINTS, scene(WAVE, OTHER, slide_to_roll=0.5), fields=True)
+    one = solve(POINT, POINTS, surfaces_of(WAVE, OTHER, slide_to_roll=0.5), fields=True)
     other = solve(
-        POINT, POINTS, scene(OTHER, WAVE, slide_to_roll=0.5, rough_surface=2), fields=True
+        POINT, POINTS, surfaces_of(OTHER, WAVE, slide_to_roll=0.5, rough_surface=2), fields=True
     )
     assert one.converged
     for name in FIELDS:
@@ -45,8 +45,10 @@ def test_exchange_of_the_two(solve):
 
 def test_one_smooth_body(solve):
     """Roughness on body 2 is the same by either group."""
-    one = solve(POINT, POINTS, scene({}, WAVE, slide_to_roll=0.5), fields=True)
-    other = solve(POINT, POINTS, scene(WAVE, {}, slide_to_roll=0.5, rough_surface=2), fields=True)
+    one = solve(POINT, POINTS, surfaces_of({}, WAVE, slide_to_roll=0.5), fields=True)
+    other = solve(
+        POINT, POINTS, surfaces_of(WAVE, {}, slide_to_roll=0.5, rough_surface=2), fields=True
+    )
     assert one.converged
     for name in FIELDS:
         assert np.array_equal(one.field(name), other.field(name)), name
@@ -56,9 +58,11 @@ def test_one_smooth_body(solve):
 def test_both_at_the_mean_velocity_are_one(solve):
     """Without sliding the two are one surface with the sum of the heights."""
     both = solve(
-        POINT, POINTS, scene(WAVE, WAVE | {"amplitude": 3e-3}, slide_to_roll=0), fields=True
+        POINT, POINTS, surfaces_of(WAVE, WAVE | {"amplitude": 3e-3}, slide_to_roll=0), fields=True
     )
-    one = solve(POINT, POINTS, scene(WAVE | {"amplitude": 8e-3}, {}, slide_to_roll=0), fields=True)
+    one = solve(
+        POINT, POINTS, surfaces_of(WAVE | {"amplitude": 8e-3}, {}, slide_to_roll=0), fields=True
+    )
     assert both.converged
     assert both["T_period"] == one["T_period"] == 1.0
     for name in FIELDS:
@@ -73,12 +77,12 @@ def test_at_rest_in_all_words(solve):
     runs = [
         solve(POINT, POINTS, keys, fields=True)
         for keys in (
-            scene(still, {}),
-            scene({}, still),
-            scene({}, OTHER, slide_to_roll=2),
-            scene(OTHER, {}, slide_to_roll=-2),
-            scene(OTHER, {}, slide_to_roll=2, rough_surface=2),
-            scene(OTHER, WAVE | {"amplitude": 0.0}, slide_to_roll=-2),
+            surfaces_of(still, {}),
+            surfaces_of({}, still),
+            surfaces_of({}, OTHER, slide_to_roll=2),
+            surfaces_of(OTHER, {}, slide_to_roll=-2),
+            surfaces_of(OTHER, {}, slide_to_roll=2, rough_surface=2),
+            surfaces_of(OTHER, WAVE | {"amplitude": 0.0}, slide_to_roll=-2),
         )
     ]
     assert runs[0].converged
@@ -103,8 +107,8 @@ def test_at_rest_in_all_words(solve):
 def test_no_height_is_smooth(solve, rough, flat):
     """A second surface without height costs nothing and changes no bit."""
     steps = {"time.steps": 12}
-    alone = solve(POINT, POINTS, scene(rough, {}, slide_to_roll=0.5) | steps, fields=True)
-    beside = solve(POINT, POINTS, scene(rough, flat, slide_to_roll=0.5) | steps, fields=True)
+    alone = solve(POINT, POINTS, surfaces_of(rough, {}, slide_to_roll=0.5) | steps, fields=True)
+    beside = solve(POINT, POINTS, surfaces_of(rough, flat, slide_to_roll=0.5) | steps, fields=True)
     for name in FIELDS:
         assert np.array_equal(alone.field(name), beside.field(name)), name
     assert alone["last_mu_ratio"] == beside["last_mu_ratio"]
@@ -114,8 +118,8 @@ def test_no_height_is_smooth(solve, rough, flat):
 def test_one_at_rest(solve):
     """At SRR = 2 body 2 stands: with next to nothing on body 1 this is the steady contact."""
     faint = WAVE | {"amplitude": 1e-14}
-    moving = solve(POINT, POINTS, scene(faint, OTHER, slide_to_roll=2), fields=True)
-    steady = solve(POINT, POINTS, scene({}, OTHER, slide_to_roll=2), fields=True)
+    moving = solve(POINT, POINTS, surfaces_of(faint, OTHER, slide_to_roll=2), fields=True)
+    steady = solve(POINT, POINTS, surfaces_of({}, OTHER, slide_to_roll=2), fields=True)
     assert moving.converged
     assert steady.converged
     assert moving.field("RR") == pytest.approx(steady.field("RR"), abs=2e-14)
@@ -125,15 +129,18 @@ def test_one_at_rest(solve):
     assert moving["mu_ratio_max"] - moving["mu_ratio_min"] < 1e-5
     # solved further both come as near to each other: nothing but what is left unsolved is between
     exact = {"solver.accuracy": 1e-6}
-    moving = solve(POINT, POINTS, scene(faint, OTHER, slide_to_roll=2) | exact, fields=True)
-    further = solve(POINT, POINTS, scene({}, OTHER, slide_to_roll=2) | exact, fields=True)
+    moving = solve(POINT, POINTS, surfaces_of(faint, OTHER, slide_to_roll=2) | exact, fields=True)
+    further = solve(POINT, POINTS, surfaces_of({}, OTHER, slide_to_roll=2) | exact, fields=True)
     # 1.3e-9, 1.6e-9, where 2.6e-6 and 3.1e-8 are left with an accuracy of 1e-2 and 1e-4
     assert moving["mu_ratio"] == pytest.approx(further["mu_ratio"], abs=5e-9)
     assert moving.field("H") == pytest.approx(further.field("H"), abs=5e-9)
     # and with something on it the heights add up, to the bit
-    both = solve(POINT, POINTS, scene(WAVE, OTHER, slide_to_roll=2), fields=True)
+    both = solve(POINT, POINTS, surfaces_of(WAVE, OTHER, slide_to_roll=2), fields=True)
     alone = solve(
-        POINT, POINTS, scene(WAVE, {}, slide_to_roll=2) | {"time.steps": both["steps"]}, fields=True
+        POINT,
+        POINTS,
+        surfaces_of(WAVE, {}, slide_to_roll=2) | {"time.steps": both["steps"]},
+        fields=True,
     )
     assert both.converged
     assert alone["T"] == both["T"]
@@ -147,7 +154,7 @@ def test_small_waves_add(solve):
         wave, other = WAVE | {"amplitude": amplitude}, OTHER | {"amplitude": amplitude}
         exactly = {"solver.accuracy": 0.01, "time.steps": 140, "time.skip_start": False}
         deformed = [
-            solve(POINT, POINTS, scene(*pair, slide_to_roll=0.5) | exactly, fields=True)
+            solve(POINT, POINTS, surfaces_of(*pair, slide_to_roll=0.5) | exactly, fields=True)
             for pair in ((wave, other), (wave, {}), ({}, other))
         ]
         assert len({run["T"] for run in deformed}) == 1
@@ -165,7 +172,7 @@ def test_rises_of_small_waves_add(solve):
     for amplitude in (2e-3, 1e-3):
         wave, other = WAVE | {"amplitude": amplitude}, OTHER | {"amplitude": amplitude}
         rise = [
-            solve(POINT, POINTS, scene(*pair, slide_to_roll=0.5) | {"solver.accuracy": 0.01})[
+            solve(POINT, POINTS, surfaces_of(*pair, slide_to_roll=0.5) | {"solver.accuracy": 0.01})[
                 "mu_ratio"
             ]
             - 1.0
@@ -179,7 +186,7 @@ def test_rises_of_small_waves_add(solve):
 
 def test_common_period(solve):
     """Waves of 1 and 0.8 at 1.25 and 0.75: periods of 0.8 and 16/15, both in 3.2."""
-    done = solve(POINT, POINTS, scene(WAVE, OTHER, slide_to_roll=0.5))
+    done = solve(POINT, POINTS, surfaces_of(WAVE, OTHER, slide_to_roll=0.5))
     assert done["T_period"] == done["T_mean"] == pytest.approx(3.2, rel=1e-12)
     assert done["T_mismatch"] == 0.0
     assert "mu_ratio_error_window" not in done.summary
@@ -188,7 +195,7 @@ def test_common_period(solve):
 
 def test_no_common_period(solve):
     """The error that is stated for a short window covers what a long one gives."""
-    known = scene(WAVE | {"velocity_ratio": 1.3137}, OTHER)
+    known = surfaces_of(WAVE | {"velocity_ratio": 1.3137}, OTHER)
     short = solve(POINT, POINTS, known | {"time.max_periods": 6})
     long = solve(POINT, POINTS, known | {"time.max_periods": 60})
     assert short.converged
@@ -207,7 +214,7 @@ def test_no_common_period(solve):
 @pytest.mark.long
 def test_surfaces_that_hardly_meet(solve):
     """At SRR = 0.02 waves of one length are where they began after 99 periods, and not before."""
-    keys = scene(WAVE, WAVE, slide_to_roll=0.02)
+    keys = surfaces_of(WAVE, WAVE, slide_to_roll=0.02)
     short = solve(POINT, POINTS, keys)
     assert short.converged
     assert short["mu_ratio_error"] is None
@@ -221,7 +228,7 @@ def test_surfaces_that_hardly_meet(solve):
 
 
 def test_window_is_part_of_the_error(solve):
-    keys = scene(WAVE | {"velocity_ratio": 1.3137}, OTHER) | {
+    keys = surfaces_of(WAVE | {"velocity_ratio": 1.3137}, OTHER) | {
         "time.max_periods": 6,
         "time.estimate_error": True,
     }
@@ -236,12 +243,12 @@ def test_window_is_part_of_the_error(solve):
 def test_dent_over_roughness(solve, resting):
     """A dent comes when the roughness fills the contact; its mean holds whole periods of that."""
     srr = 2.0 if resting else 0.5
-    done = solve(POINT, POINTS, scene(DENT, WAVE, slide_to_roll=srr), fields=True)
+    done = solve(POINT, POINTS, surfaces_of(DENT, WAVE, slide_to_roll=srr), fields=True)
     assert done.converged
     plan = (done.folder / "plan.txt").read_text()
     assert "&surface: a dent passes once" in plan
     assert ("then the one with what is at rest" in plan) == resting
-    smooth = solve(POINT, POINTS, scene(DENT, {}, slide_to_roll=srr))
+    smooth = solve(POINT, POINTS, surfaces_of(DENT, {}, slide_to_roll=srr))
     assert done["H_min_rough"] < smooth["H_min_rough"]
     assert done["P_rise_max"] > smooth["P_rise_max"]
     if resting:
@@ -254,9 +261,9 @@ def test_dent_over_roughness(solve, resting):
 
 def test_dent_on_both(solve):
     """Two dents: the run ends when both have left, and knows the deepest film of either."""
-    both = solve(POINT, POINTS, scene(DENT, DENT | {"amplitude": 2e-3}, slide_to_roll=0.5))
-    first = solve(POINT, POINTS, scene(DENT, {}, slide_to_roll=0.5))
-    second = solve(POINT, POINTS, scene({}, DENT | {"amplitude": 2e-3}, slide_to_roll=0.5))
+    both = solve(POINT, POINTS, surfaces_of(DENT, DENT | {"amplitude": 2e-3}, slide_to_roll=0.5))
+    first = solve(POINT, POINTS, surfaces_of(DENT, {}, slide_to_roll=0.5))
+    second = solve(POINT, POINTS, surfaces_of({}, DENT | {"amplitude": 2e-3}, slide_to_roll=0.5))
     assert both.converged
     assert both["T_period"] >= max(first["T_period"], second["T_period"])
     assert both["H_min_rough"] <= min(first["H_min_rough"], second["H_min_rough"]) * 1.001
@@ -268,7 +275,8 @@ def test_composite_statistics(solve):
     tile = {"kind": "fractal", "pixels": 32, "rms_height": 3e-8}
     wave = {"kind": "harmonic", "amplitude": 5e-3, "wavelength": 1.0}
     runs = [
-        solve(None, POINTS, scene(*pair) | si) for pair in ((tile, wave), (tile, {}), ({}, wave))
+        solve(None, POINTS, surfaces_of(*pair) | si)
+        for pair in ((tile, wave), (tile, {}), ({}, wave))
     ]
     both, first, second = runs
     for name in ("surface_rms_m", "surface_slope"):
@@ -289,10 +297,10 @@ def test_amplitude_by_the_film(solve):
     si = {"contact.load": 120.0, "contact.slide_to_roll": 0.5, "time.steps": 2}
     tile = {"kind": "fractal", "pixels": 32, "rms_height": 3e-8}
     wave = {"kind": "harmonic", "wavelength": 1.0}
-    share = solve(None, POINTS, scene(tile, wave | {"amplitude_over_film": 0.2}) | si)
+    share = solve(None, POINTS, surfaces_of(tile, wave | {"amplitude_over_film": 0.2}) | si)
     amplitude = share["second_amplitude"]
-    given = solve(None, POINTS, scene(tile, wave | {"amplitude": amplitude}) | si)
-    alone = solve(None, POINTS, scene(tile, {}) | si)
+    given = solve(None, POINTS, surfaces_of(tile, wave | {"amplitude": amplitude}) | si)
+    alone = solve(None, POINTS, surfaces_of(tile, {}) | si)
     assert 0.0 < given["variance_unresolved"] < alone["variance_unresolved"]
     for name in ("variance_unresolved", "variance_left_out", "surface_rms_m", "mu_ratio_min"):
         assert share[name] == given[name], name

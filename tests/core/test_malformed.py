@@ -117,7 +117,7 @@ FAULTS: list[tuple[str, str, list[str], list[str]]] = [
         "hardness without a boundary film",
         "&contact hardness = §3e9 /",
         [],
-        ["no bodies touch", "a boundary_film in m"],
+        ["no solid contact", "a boundary_film in m"],
     ),
     (
         "hardness below the Hertz pressure",

@@ -116,7 +116,7 @@ def test_both_drivers_end_with_the_same_lines(drive, tmp_path: Path):
             assert values["ehl"]["mu_ratio_error"] is None
             assert values["ehl"]["mu_ratio_error_left_out"] is None
             note = values["ehl"]["mu_ratio_error_note"]
-            assert note == "what the waves left out add is not predicted (pyehl run does)"
+            assert note == "the contribution of the omitted waves is not predicted (pyehl run does)"
             assert lines["ehl"][4].endswith(f", error not known: {note}")
 
 
@@ -159,7 +159,7 @@ def test_a_prediction_that_fails_makes_no_error_smaller(monkeypatch, tmp_path: P
         for values in (solver.summary, summary_of(tmp_path / "out")):
             assert values["mu_ratio_error_grid"] > 0.0
             assert values["mu_ratio_error"] is values["mu_ratio_error_left_out"] is None
-            note = "what the waves left out add is not predicted (film breakdown)"
+            note = "the contribution of the omitted waves is not predicted (film breakdown)"
             assert note in values["mu_ratio_error_note"]
         assert "error not known" in solver.conclusion()
     # where nothing is left out nothing is missing

@@ -136,7 +136,7 @@ def test_too_long_a_way(heights, tmp_path: Path):
     assert "expected: a velocity ratio of at least" in str(caught.value)
 
 
-SCENES = {
+PAIRS = {
     "fractal and map": FRACTAL.format("surface") + MAP.format("second_surface", "two", ""),
     "two maps": MAP.format("surface", "one", "") + MAP.format("second_surface", "two", ""),
     "map at rest": WAVE.format("surface", "")
@@ -144,10 +144,10 @@ SCENES = {
 }
 
 
-@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("name", PAIRS)
 def test_both_drivers_give_the_same_bits(drive, heights, tmp_path: Path, name: str):
     contact = CONTACT.replace(SLIP, "") if "rest" in name else CONTACT
-    (tmp_path / "case.nml").write_text(contact + SCENES[name] + STEPS.format(6))
+    (tmp_path / "case.nml").write_text(contact + PAIRS[name] + STEPS.format(6))
     for driver in ("ehl", "pyehl"):
         done = drive(driver, "case.nml", "-o", driver)
         assert (done.returncode, done.stderr) == (1, "")
@@ -162,7 +162,7 @@ def test_both_drivers_give_the_same_bits(drive, heights, tmp_path: Path, name: s
 @pytest.mark.parametrize("name", ["fractal and map", "map at rest"])
 def test_resumed_to_the_same_bits(drive, heights, tmp_path: Path, name: str):
     contact = CONTACT.replace(SLIP, "") if "rest" in name else CONTACT
-    (tmp_path / "case.nml").write_text(contact + SCENES[name])
+    (tmp_path / "case.nml").write_text(contact + PAIRS[name])
     often = ["--set", "output.checkpoint_interval=1e-3"]
     assert drive("ehl", "case.nml", "-o", "whole", "--set", "time.steps=9").returncode == 1
     assert drive("ehl", "case.nml", "-o", "out", *often, "--set", "time.steps=5").returncode == 1
@@ -179,7 +179,7 @@ def test_resumed_to_the_same_bits(drive, heights, tmp_path: Path, name: str):
 def test_heights_in_memory(heights, tmp_path: Path, monkeypatch):
     """Arrays in place of both surfaces: as from files, and the folder solves itself again."""
     monkeypatch.chdir(tmp_path)
-    text = CONTACT + SCENES["two maps"] + STEPS.format(4)
+    text = CONTACT + PAIRS["two maps"] + STEPS.format(4)
     read = pyehl.solve(Case.from_text(text), check=False)
     size = "length_x = 8e-5 length_y = 1e-4 pixels = 8 /\n"
     empty = f"&surface kind = 'fractal' {size}&second_surface kind = 'fractal' {size}"
@@ -198,7 +198,7 @@ def test_heights_in_memory(heights, tmp_path: Path, monkeypatch):
     again = pyehl.solve(tmp_path / "out" / "case.nml", check=False)
     assert np.array_equal(again.RR.values, given.RR.values)
     # one alone
-    alone = Case.from_text(CONTACT + SCENES["two maps"] + STEPS.format(4))
+    alone = Case.from_text(CONTACT + PAIRS["two maps"] + STEPS.format(4))
     other = pyehl.solve(alone, second_surface=heights["one"], check=False)
     assert not np.array_equal(other.RR.values, read.RR.values)
     with pytest.raises(InputError, match=r"second_surface\.length_x"):
@@ -209,7 +209,7 @@ def test_heights_in_memory(heights, tmp_path: Path, monkeypatch):
 
 def test_given_surfaces_are_kept_for_both_drivers(drive, heights, tmp_path: Path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "case.nml").write_text(CONTACT + SCENES["two maps"])
+    (tmp_path / "case.nml").write_text(CONTACT + PAIRS["two maps"])
     swapped = [heights["two"], heights["one"]]
     with solver_on_heights(
         Case("case.nml"), dict(zip(("surface", "second_surface"), swapped, strict=True))

@@ -106,7 +106,7 @@ def test_page_of_the_theory_prints_the_bands(root: Path):
     for column, ratio in ((0, 1.0), (2, 1.01)):
         keys = {"surface.seed": 21, "surface.velocity_ratio": ratio}
         found = pyehl.predict(root / "cases/table1.nml", keys)
-        rises = [band.rise for band in found.bands]
+        rises = [band.increase for band in found.bands]
         assert [line[column] for line in table] == pytest.approx(rises, abs=6e-4)
         totals = [1.0 + sum(rises[: k + 1]) for k in range(len(rises))]
         assert [line[column + 1] for line in table] == pytest.approx(totals, abs=6e-4)

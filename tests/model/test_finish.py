@@ -92,7 +92,7 @@ def test_a_prediction_by_ra_shows_what_the_spectrum_does(tmp_path, capsys):
     command = ["predict", str(tmp_path / "case.nml"), "-o", str(tmp_path / "out"), "--no-plots"]
     assert cli.main([*command, "--tracks", "1"]) == 0
     out = capsys.readouterr().out
-    assert "spectrum   Ra and finish do not tell it" in out
+    assert "spectrum   not determined by Ra or a finish" in out
     about = summary_of(pyehl.load(tmp_path / "out"))
     assert about["status"] == "predicted"
     result = pyehl.predict(pyehl.Case.from_text(text), tracks=1)

@@ -334,7 +334,7 @@ def test_bands_hold_the_waves_of_both(contact):
     assert bands[0].longest == pytest.approx(1.1 * RADIUS)
     heights = [a * POINT.film_scale / np.sqrt(2.0) for a in (2e-3, 1e-3)]
     assert [band.rms_height for band in bands] == pytest.approx(heights, rel=1e-9)
-    assert sum(band.rise for band in bands) == pytest.approx(found.mu_ratio - 1.0, abs=1e-12)
+    assert sum(band.increase for band in bands) == pytest.approx(found.mu_ratio - 1.0, abs=1e-12)
 
 
 def test_composite_statistics():

@@ -204,7 +204,7 @@ def test_headline():
         about | {"H_c": 0.0243, "h_c_m": 2.3e-7, "h_min_m": 8e-8}, style.Scales(1.0, 1.0, 1.0)
     )
     assert "film 0.23 µm" in title
-    assert "least 0.08 µm" in title
+    assert "minimum 0.08 µm" in title
     assert "FILM" in panels.headline(about | {"status": "negative film"})
 
 

@@ -39,7 +39,7 @@ def test_summary_says_what_was_done(settings):
     assert summary["mu_smooth"] is None  # a Newtonian coefficient has no meaning
     assert "no absolute coefficient" in summary["note"]
     assert 0.0 < summary["wall_seconds"] < 5.0
-    assert sum(b["rise"] for b in summary["bands"]) == pytest.approx(summary["mu_ratio"] - 1)
+    assert sum(b["increase"] for b in summary["bands"]) == pytest.approx(summary["mu_ratio"] - 1)
     for word in (
         "on the track of the case 1.25",
         "positions",
@@ -111,7 +111,7 @@ def test_folder_holds_the_data(folder, settings):
     data = predict(settings).data
     again = load(folder)
     assert data.deformed_m.shape == (256, 256)
-    assert data.bands_rise.dims == ("bands",)
+    assert data.bands_increase.dims == ("bands",)
     assert min(float(one.wall_seconds) for one in (data, again)) > 0.0
     data, again = (one.drop_vars("wall_seconds") for one in (data, again))
     xr.testing.assert_identical(data, again)

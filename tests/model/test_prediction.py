@@ -81,7 +81,7 @@ def test_no_roughness_no_change(contact, table_1):
     friction, tracks, bands = run(passage(contact, flat))
     assert friction.mu_ratio == pytest.approx(1.0, abs=1e-7)
     assert tracks[0] == pytest.approx(1.0, abs=1e-7)
-    assert sum(band.rise for band in bands) == pytest.approx(friction.mu_ratio - 1.0, abs=1e-12)
+    assert sum(band.increase for band in bands) == pytest.approx(friction.mu_ratio - 1.0, abs=1e-12)
 
 
 def test_a_wave_in_the_contact_is_its_transfer():

@@ -119,7 +119,7 @@ def test_circle_is_the_limit_of_ellipses():
         here.summary["mu_ratio_tracks"], rel=1e-3
     )
     for one, other in zip(here.bands, near.bands, strict=True):
-        assert other.rise == pytest.approx(one.rise, abs=1e-3)
+        assert other.increase == pytest.approx(one.increase, abs=1e-3)
     assert "ellipticity" not in here.summary
     assert near.summary["ellipticity"] == pytest.approx(1.0, abs=1e-6)
 

@@ -63,7 +63,7 @@ def test_form_is_that_of_the_points_that_count():
     left = levelled(holed, "tilt", valid)
     assert left[there] == pytest.approx(0.0, abs=1e-20)
     assert left[20, 20] == pytest.approx(1e-3, abs=1e-18)
-    with pytest.raises(ValueError, match="degree 1 cannot be told"):
+    with pytest.raises(ValueError, match="degree 1 cannot be determined"):
         levelled(np.where(x == x[0, 0], z, np.nan), "tilt")
 
 
@@ -156,7 +156,7 @@ def test_defaults_by_the_kind_of_file():
     array = prepare(instrument(z, is_array=True))
     assert array.tile == pytest.approx(z - z.mean(), abs=1e-20)
     assert [s.name for s in array.steps] == ["edges"]
-    assert "the edges do not meet" in array.steps[0].note
+    assert "the edges do not match" in array.steps[0].note
     measured = prepare(instrument(z))
     assert [(s.name, s.value) for s in measured.steps] == [("detrend", "tilt"), ("edges", "mirror")]
     assert measured.tile.shape == (128, 96)

@@ -111,11 +111,11 @@ def test_contributions_add_up(table_1):
     rough = table_1(pixels=128)
     bands = contributions(rough, POINT, ROELANDS, FILM)
     whole = predict_friction(rough, POINT, ROELANDS, FILM)
-    assert sum(b.rise for b in bands) == pytest.approx(whole.mu_ratio - 1, rel=1e-9)
+    assert sum(b.increase for b in bands) == pytest.approx(whole.mu_ratio - 1, rel=1e-9)
     assert sum(b.rms_height**2 for b in bands) == pytest.approx(rough.rms_height**2, rel=1e-12)
     assert bands[0].longest == pytest.approx(LENGTH)
     assert all(a.shortest == pytest.approx(b.longest) for a, b in pairwise(bands))
-    assert max(bands, key=lambda b: b.rise) is bands[0]
+    assert max(bands, key=lambda b: b.increase) is bands[0]
 
 
 def test_contributions_of_one_wave(wave):

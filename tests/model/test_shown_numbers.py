@@ -73,7 +73,7 @@ def test_measured_surface(says, cases: Path):
     found = pyehl.predict(cases / "scan.nml", {"surface.outliers": 100}, tracks=4)
     steps = found.summary["surface_preparation"]["steps"]
     rms = [1e9 * found.summary[f"rms_{name}_m"] for name in ("height", "deformed")]
-    strongest = max(found.bands, key=lambda band: band.rise)
+    strongest = max(found.bands, key=lambda band: band.increase)
     says(
         "docs/howto/measured-surface.md",
         "the rms height falls from {:.1f} nm to {:.1f} nm".format(*rms),

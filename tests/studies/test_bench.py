@@ -41,7 +41,7 @@ def test_skips_change_nothing(tmp_path: Path, capsys, monkeypatch):
     domain = ("grid.x_inlet=-2.5", "grid.x_outlet=1.5", "grid.y_extent=2.0")
     wave = (*point, *domain, "surface.kind=harmonic", "surface.amplitude_over_film=0.2")
     monkeypatch.setattr(skips, "WAVE", wave)
-    words = ["--scenes", "wave,predict", "--points", "65"]
+    words = ["--problems", "wave,predict", "--points", "65"]
     assert skips.main([*words, "-o", str(tmp_path / "skips.json")]) == 0
     assert "symmetric in Y" in capsys.readouterr().out
     rows = json.loads((tmp_path / "skips.json").read_text())["rows"]
@@ -55,11 +55,11 @@ def test_skips_change_nothing(tmp_path: Path, capsys, monkeypatch):
 
 def test_skips_that_change_something_are_told(monkeypatch, capsys):
     row = dict.fromkeys((name for name, _ in skips.COLUMNS), 0.0)
-    row |= {"scene": "s", "skipped": "w", "quantity": "q", "same": False}
-    monkeypatch.setattr(skips, "SCENES", {"predict": lambda points: [row]})
-    assert skips.main(["--scenes", "predict"]) == 1
+    row |= {"problem": "s", "skipped": "w", "quantity": "q", "same": False}
+    monkeypatch.setattr(skips, "PROBLEMS", {"predict": lambda points: [row]})
+    assert skips.main(["--problems", "predict"]) == 1
     with pytest.raises(SystemExit, match="2"):
-        skips.main(["--scenes", "perdict"])
+        skips.main(["--problems", "perdict"])
     assert "perdict" in capsys.readouterr().err
 
 
@@ -71,7 +71,7 @@ def test_skips_that_change_something_are_told(monkeypatch, capsys):
         ("deflection --threads 0", "0; expected: 1 or more"),
         ("deflection --points many", "'many' is not like 129,257"),
         ("smooth --cases square", "'square'; expected: some of circle, law, ellipse"),
-        ("sweep --scenes flim", "'flim'; expected: some of film, predict"),
+        ("sweep --problems flim", "'flim'; expected: some of film, predict"),
         ("step --cases nothing", "'nothing'; expected: some of wave, fractal"),
         ("machines --count 0", "0; expected: 1 or more"),
         ("stress --seed 3", "arguments are required: -o"),
@@ -125,11 +125,11 @@ def test_smooth_cases_beside_the_circle(monkeypatch):
 def test_steps_beside_the_plain_scene(monkeypatch):
     wave = "&surface kind = 'harmonic' amplitude_over_film = 0.2 velocity_ratio = 1.01 /\n"
     ball = "&contact moes_m = 50.0 moes_l = 5.0 /\n"
-    plain = step.Scene("wave", "half", ball + wave)
+    plain = step.Problem("wave", "half", ball + wave)
     ellipse = ball.replace(" /", " radius_ratio = 0.5 /")
-    beside = step.Scene("wave-ellipse", "half", ellipse + wave, "wave")
+    beside = step.Problem("wave-ellipse", "half", ellipse + wave, "wave")
     monkeypatch.setattr(step, "CASES", (plain, beside))
-    rows = step.step_rows([33], [1], scenes=[plain, beside], front=-1.0, steps=3)
+    rows = step.step_rows([33], [1], problems=[plain, beside], front=-1.0, steps=3)
     assert rows[0]["ratio"] is None
     # more nodes, and seconds of each node by those of the circle
     assert 0.05 < rows[1]["ratio"] < 20.0
@@ -137,10 +137,10 @@ def test_steps_beside_the_plain_scene(monkeypatch):
 
 
 def test_scenes_of_steps_are_cases():
-    places = {(scene.name, scene.domain) for scene in step.CASES}
-    for scene in step.CASES:
-        assert pyehl.Case.from_text(scene.text).resolve()["surface"]["kind"] != "smooth"
-        assert not scene.beside or (scene.beside, scene.domain) in places
+    places = {(problem.name, problem.domain) for problem in step.CASES}
+    for problem in step.CASES:
+        assert pyehl.Case.from_text(problem.text).resolve()["surface"]["kind"] != "smooth"
+        assert not problem.beside or (problem.beside, problem.domain) in places
     assert set(step.USUAL) <= {name for name, _ in places}
 
 
@@ -186,7 +186,7 @@ def test_interrupted_stress_keeps_what_is_done(root: Path, tmp_path: Path):
 
 def test_interrupted_throughput_is_none(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(sweep, "perform", lambda *_, **__: Outcome({}, interrupted=True))
-    assert sweep.main(["--scenes", "film", "--threads", "1"]) == 130
+    assert sweep.main(["--problems", "film", "--threads", "1"]) == 130
 
 
 def test_wrong_results_are_seen():
@@ -357,7 +357,7 @@ def test_faults_campaign(tmp_path: Path, capsys):
 
 
 def test_work_and_precision(tmp_path: Path, capsys):
-    words = ["--scenes", "smooth", "--points", "65,129,257", "--threads", "1"]
+    words = ["--problems", "smooth", "--points", "65,129,257", "--threads", "1"]
     assert workprec.main([*words, "-o", str(tmp_path / "w.json")]) == 0
     assert "smooth, H_c to 1.0%" in capsys.readouterr().out
     rows = json.loads((tmp_path / "w.json").read_text())["rows"]
@@ -376,8 +376,8 @@ def test_work_and_precision(tmp_path: Path, capsys):
 def test_seconds_of_a_step(tmp_path: Path, capsys, monkeypatch):
     contact = "&contact load = 20.0 /\n&grid x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
     tile = "pixels = 32 length_x = 1e-4 length_y = 1e-4 rms_height = 2e-8"
-    scene = step.Scene("fractal", "whole", f"{contact}&surface kind = 'fractal' {tile} /\n")
-    monkeypatch.setattr(step, "CASES", (scene,))
+    problem = step.Problem("fractal", "whole", f"{contact}&surface kind = 'fractal' {tile} /\n")
+    monkeypatch.setattr(step, "CASES", (problem,))
     words = ["--points", "33,65", "--threads", "1,2", "--cases", "fractal", "--steps", "3"]
     target = tmp_path / "step.json"
     assert step.main([*words, "--error", "-o", str(target)]) == 0
@@ -403,7 +403,7 @@ def test_seconds_of_a_step(tmp_path: Path, capsys, monkeypatch):
 
 @pytest.mark.long
 def test_cases_per_core_hour(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
-    words = ["--scenes", "film", "--threads", "1,2"]
+    words = ["--problems", "film", "--threads", "1,2"]
     assert sweep.main([*words, "-o", str(tmp_path / "b.json")]) == 0
     told = capsys.readouterr().out
     assert "cases per core hour" in told
@@ -419,7 +419,7 @@ def test_cases_per_core_hour(tmp_path: Path, capsys: pytest.CaptureFixture[str])
 
 def test_cheapest_setting():
     def row(setting: str, seconds: float, error: float) -> dict[str, object]:
-        names = {"scene": "s", "quantity": "q", "bar": 1e-4}
+        names = {"problem": "s", "quantity": "q", "bar": 1e-4}
         return {"setting": setting, "seconds": seconds, "error": error} | names
 
     rows = [row("dear", 9.0, 1e-5), row("cheap", 1.0, 0.02), row("mean", 2.0, 0.008)]

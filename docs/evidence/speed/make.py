@@ -26,8 +26,8 @@ HERE = Path(__file__).resolve().parent
 
 Row = dict[str, Any]
 
-# Scenes as the documents call them
-SCENES = {
+# Problems as the documents call them
+PROBLEMS = {
     "wave": "wave of Fig. 2",
     "fractal": "fractal surface of Table 1",
     "wave-law": "step of a wave, Eyring",
@@ -67,14 +67,14 @@ TABLES: dict[str, tuple[tuple[str, ...], dict[str, str]]] = {
     "skips": (
         ("skips",),
         {
-            **{"scene": "s", "skipped": "s", "saved": ".2f", "quantity": "s"},
+            **{"problem": "s", "skipped": "s", "saved": ".2f", "quantity": "s"},
             **{"difference": ".0e", "allowed": ".0e"},
         },
     ),
     "sweep": (
         ("sweep",),
         {
-            **{"scene": "s", "cases": "d", "processes": "d", "cases_per_core_hour": ".0f"},
+            **{"problem": "s", "cases": "d", "processes": "d", "cases_per_core_hour": ".0f"},
             **{"busy": ".2f", "efficiency": ".2f"},
         },
     ),
@@ -131,7 +131,7 @@ def percent(error: str) -> str:
 
 
 def steps() -> list[str]:
-    """Make the table of time steps: each scene on one thread and on two."""
+    """Make the table of time steps: each problem on one thread and on two."""
     rows = table("steps")
     found = []
     for one, two in zip(rows[::2], rows[1::2], strict=True):
@@ -139,10 +139,10 @@ def steps() -> list[str]:
         grid = f"{one['points']} × {one['points']}"
         units = one["units"], two["units"]
         found.append(
-            [grid, SCENES[one["case"]] + half, one["cycles"], *units, percent(one["error"])]
+            [grid, PROBLEMS[one["case"]] + half, one["cycles"], *units, percent(one["error"])]
         )
     return lines(
-        "| grid | scene | cycles a step | units, one thread | two threads | error of μ_r/μ_s |",
+        "| grid | problem | cycles a step | units, one thread | two threads | error of μ_r/μ_s |",
         found,
     )
 
@@ -152,12 +152,12 @@ def whole() -> list[str]:
     found = [
         [
             f"{row['points']} × {row['points']}",
-            SCENES[row["case"]],
+            PROBLEMS[row["case"]],
             *(row["steps"], row["units"], f"{float(row['mu_ratio']):.3f}", percent(row["error"])),
         ]
         for row in table("runs")
     ]
-    return lines("| grid | scene | steps | units, two threads | μ_r/μ_s | error |", found)
+    return lines("| grid | problem | steps | units, two threads | μ_r/μ_s | error |", found)
 
 
 def smooth() -> list[str]:
@@ -182,11 +182,11 @@ def smooth() -> list[str]:
 def ratios() -> list[str]:
     """Make the table of what a law, an ellipse or a second surface costs."""
     found = [
-        [SCENES[row["case"]], f"{row['points']} nodes", row["ratio"]]
+        [PROBLEMS[row["case"]], f"{row['points']} nodes", row["ratio"]]
         for row in table("ratios")
-        if row["case"] in SCENES
+        if row["case"] in PROBLEMS
     ]
-    return lines("| scene | along X | time per node |", found)
+    return lines("| problem | along X | time per node |", found)
 
 
 def power(text: str) -> str:
@@ -207,14 +207,16 @@ def skips() -> list[str]:
             row["quantity"].replace("mu_ratio", "μ_r/μ_s").replace("coarser H_c", "H_c there")
         )
         numbers = power(row["difference"]), power(row["allowed"])
-        found.append([row["scene"], what, f"{100 * float(row['saved']):.0f} %", quantity, *numbers])
-    return lines("| scene | not done | time saved | quantity | difference | allowed |", found)
+        found.append(
+            [row["problem"], what, f"{100 * float(row['saved']):.0f} %", quantity, *numbers]
+        )
+    return lines("| problem | not done | time saved | quantity | difference | allowed |", found)
 
 
 def sweep() -> list[str]:
     """Make the table of studies: a case over a smooth contact on 257 x 257 nodes."""
     rows = table("sweep")
-    rate = {(row["scene"], row["processes"]): float(row["cases_per_core_hour"]) for row in rows}
+    rate = {(row["problem"], row["processes"]): float(row["cases_per_core_hour"]) for row in rows}
     names = {
         "film": "film formulas (`pyehl film`)",
         "predict": "prediction, each with a smooth contact of its own",
@@ -225,8 +227,8 @@ def sweep() -> list[str]:
     }
     found = [
         [
-            names[row["scene"]],
-            two_digits(rate["smooth 257", "1"] / rate[row["scene"], "1"]),
+            names[row["problem"]],
+            two_digits(rate["smooth 257", "1"] / rate[row["problem"], "1"]),
             f"{2.0 * float(row['efficiency']):.1f}",
         ]
         for row in rows

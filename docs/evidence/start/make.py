@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Scenes from front and prediction: python make.py scenes.csv [POINTS [SCENE ...]].
+"""Problems from front and prediction: python make.py problems.csv [POINTS [PROBLEM ...]].
 
-Each scene is run with time.start = 'front' and with 'prediction', on as many nodes a side.
+Each problem is run with time.start = 'front' and with 'prediction', on as many nodes a side.
 Rows are appended as they are done; those that are there are left alone. Without POINTS the lines of
 the table in README.md are printed.
 """
@@ -19,7 +19,7 @@ import numpy as np
 import pyehl
 
 COLUMNS = (
-    "scene",
+    "problem",
     "points",
     "start",
     "mu_ratio_front",
@@ -57,7 +57,7 @@ def pair(slide_to_roll: float, other: float) -> dict[str, Any]:
     return keys | {"contact.slide_to_roll": slide_to_roll}
 
 
-def scenes(folder: Path) -> dict[str, dict[str, Any]]:
+def problems(folder: Path) -> dict[str, dict[str, Any]]:
     """Options by name; a map is written into a folder."""
     heights = 2e-8 * np.random.default_rng(1).standard_normal((32, 32))
     np.save(folder / "map.npy", heights)
@@ -86,7 +86,7 @@ def scenes(folder: Path) -> dict[str, dict[str, Any]]:
 
 
 def row_of(name: str, points: int, options: dict[str, Any]) -> dict[str, Any]:
-    """Run a scene both ways."""
+    """Run a problem both ways."""
     found = []
     for start in ("front", "prediction"):
         case = pyehl.Case.from_text("", options | {"grid.points": points, "time.start": start})
@@ -95,7 +95,7 @@ def row_of(name: str, points: int, options: dict[str, Any]) -> dict[str, Any]:
             found.append(solver.summary)
     front, other = found
     return {
-        "scene": name,
+        "problem": name,
         "points": points,
         "start": other["start"],
         "mu_ratio_front": front["mu_ratio"],
@@ -113,7 +113,7 @@ def rows_of(table: Path) -> list[dict[str, Any]]:
     if not table.is_file():
         return []
     with table.open(newline="", encoding="utf-8") as file:
-        words = ("scene", "start")
+        words = ("problem", "start")
         return [
             {name: value if name in words else float(value or "nan") for name, value in row.items()}
             for row in csv.DictReader(file)
@@ -123,7 +123,7 @@ def rows_of(table: Path) -> list[dict[str, Any]]:
 def line_of(row: dict[str, Any]) -> str:
     """Line of the table in README.md."""
     return (
-        f"| {row['scene']} | {row['points']:.0f} | {row['mu_ratio_front']:.5f} | "
+        f"| {row['problem']} | {row['points']:.0f} | {row['mu_ratio_front']:.5f} | "
         f"{row['mu_ratio']:.5f} | {row['mu_ratio'] - row['mu_ratio_front']:+.1e} | "
         f"{row['error_stop']:.1e} | {row['error_grid']:.1e} | {row['steps_front']:.0f} | "
         f"{row['steps']:.0f} | {row['steps'] / row['steps_front']:.2f} |"
@@ -132,12 +132,12 @@ def line_of(row: dict[str, Any]) -> str:
 
 def main(table: Path, points: int, wanted: list[str]) -> None:
     """Append the rows that are missing."""
-    done = {(row["scene"], int(row["points"])) for row in rows_of(table)}
+    done = {(row["problem"], int(row["points"])) for row in rows_of(table)}
     with tempfile.TemporaryDirectory() as folder, table.open("a", newline="") as file:
         writer = csv.DictWriter(file, COLUMNS)
         if not done:
             writer.writeheader()
-        for name, options in scenes(Path(folder)).items():
+        for name, options in problems(Path(folder)).items():
             if (name, points) in done or (wanted and name not in wanted):
                 continue
             writer.writerow(row_of(name, points, options))

@@ -4,7 +4,7 @@
 python benchmarks/workprec.py --full -o workprec.json
 python docs/evidence/workprec/make.py workprec.json
 
-Scenes may have been measured one at a time (``--scenes``): several files are put together.
+Problems may have been measured one at a time (``--problems``): several files are put together.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ def main(files: list[str]) -> None:
             writer.writerow(
                 "" if row[name] is None else format(row[name], form) for name, form in COLUMNS
             )
-    # the film and one panel of each rough scene
+    # the film and one panel of each rough problem
     shown = [row for row in rows if row["quantity"] in ("H_c", "mu_ratio")]
     draw_work(shown, HERE / "workprec.png")
 
