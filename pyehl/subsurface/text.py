@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     import xarray as xr
 
+NOTES = "surface_note", "cycle_note"
+
 
 def text(data: xr.Dataset) -> str:
     """Lines that ``pyehl stress`` prints."""
@@ -35,6 +37,26 @@ def text(data: xr.Dataset) -> str:
             f"smooth     {told('principal_shear_max', '_smooth')}; rough over smooth "
             f"{float(data.ratio_to_smooth):.3f}; {data.attrs['instants']} instants"
         )
+    near = data.near_surface_shear_Pa * 1e-6 if si else data.near_surface_shear
+    layer = data.near_surface_depth_m * 1e6 if si else data.near_surface_depth
+    unit, length = ("MPa", "um") if si else ("p_h", "a")
+    line = f"near       {float(near):.4g} {unit} in the layer down to {float(layer):.3g} {length}"
+    if "near_surface_shear_error" in data:
+        errors = [
+            100.0 * float(data[f"{name}_error"] / data[name])
+            for name in ("near_surface_shear", "near_surface_shear_inner")
+        ]
+        line += f", +- {errors[0]:.2g} % ({errors[1]:.2g} % within 0.8 semi-axes)"
+    lines.append(line)
+    if "shear_amplitude" in data:
+        k = int(data.shear_amplitude.values.argmax())
+        amplitude = data.shear_amplitude_Pa[k] * 1e-6 if si else data.shear_amplitude[k]
+        place = float(data.z_m[k] * 1e6 if si else data.Z[k])
+        lines.append(
+            f"amplitude  {float(amplitude):.4g} {unit} of the deviator over the passage, at "
+            f"{place:.3g} {length}"
+        )
+    lines += [f"note       {data.attrs[n]}" for n in NOTES if n in data.attrs]
     if "near_surface_share" in data:
         lines.append(
             f"near       {100.0 * float(data.near_surface_share):.3g} % of the volume down to "
