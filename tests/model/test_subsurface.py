@@ -266,7 +266,9 @@ def test_mean_and_amplitude() -> None:
     options = {"torsion_limit": 4e8, "bending_limit": 6.5e8, "friction": "none"}
     below = pyehl.stress(ds, fatigue="crossland", **options)  # type: ignore[arg-type]
     deep = below.sel(Z=0.5, method="nearest")
-    assert float(deep.hydrostatic_mean) == pytest.approx(-float(deep.hydrostatic_amplitude), rel=0.1)
+    assert float(deep.hydrostatic_mean) == pytest.approx(
+        -float(deep.hydrostatic_amplitude), rel=0.1
+    )
     assert float(deep.sigma_zz_mean) == pytest.approx(-float(deep.sigma_zz_amplitude), rel=0.1)
     # the orthogonal shear is antisymmetric, with 0.21 p_h below the centre line of a circle
     assert float(deep.sigma_xz_mean) == pytest.approx(0.0, abs=0.002)
