@@ -12,6 +12,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("-o", "--output", metavar="FILE.html", help="default: DIR/report.html")
     parser.add_argument(
+        "--stress",
+        nargs="?",
+        const=True,
+        metavar="OUT",
+        help="stress below the surface: computed, or of a folder of pyehl stress (default: that in "
+        "DIR/stress, if there is one)",
+    )
+    parser.add_argument(
         "--pdf",
         action="store_true",
         help="print it as PDF, too, by an installed Chromium or Chrome",
@@ -20,7 +28,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def execute(args: argparse.Namespace) -> int:
     """Run ``pyehl report``; 0 written, 1 not written, 2 bad input."""
-    path = report(args.folder, args.output, pdf=args.pdf)
+    path = report(args.folder, args.output, stress=args.stress, pdf=args.pdf)
     print(path)
     if args.pdf:
         print(path.with_suffix(".pdf"))

@@ -9,6 +9,8 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
+import xarray as xr
+
 from pyehl import library, namelist
 from pyehl.destination import check_files, file_errors
 from pyehl.errors import FileError, InputError
@@ -20,6 +22,7 @@ from pyehl.reports.assessment import Assessment, assess, numbers_of
 from pyehl.reports.conditions import conditions, numbers
 from pyehl.reports.limits import limits, warnings
 from pyehl.reports.page import Block
+from pyehl.reports.stress import stress_of, stress_parts
 from pyehl.reports.study import study_parts
 from pyehl.results import load, settings_of
 from pyehl.schema import QUANTITIES
@@ -55,6 +58,7 @@ def report(
     folder: str | os.PathLike[str],
     output: str | os.PathLike[str] | None = None,
     *,
+    stress: str | os.PathLike[str] | bool | None = None,
     pdf: bool = False,
 ) -> Path:
     """Write one HTML page about a result, which needs neither network nor pyehl.
@@ -69,6 +73,9 @@ def report(
         Result folder of ``run``, ``predict``, ``stribeck``, ``sweep`` or ``response``.
     output
         File to write; one that `report` wrote is replaced; default ``report.html`` in the folder.
+    stress
+        Stress below the surface: a folder that `pyehl.stress` wrote; True: compute it; None: the
+        one in ``stress`` in the folder, if there is one. For a run or prediction.
     pdf
         Print it as PDF, too, beside it, by an installed Chromium or Chrome.
 
@@ -104,8 +111,9 @@ def report(
     if pdf:
         browser.browser()
     files = _files(source)
+    below = _stress(source, stress)
     for dpi in DOTS:
-        title, assessment, parts = _content(source, dpi)
+        title, assessment, parts = _content(source, dpi, below)
         parts = [page.verdict(*assessment), *parts, *_versions()]
         text = page.render(title, parts, "report", lambda value: _nameless(value, files))
         if len(text) < LARGEST:
@@ -116,7 +124,21 @@ def report(
     return path
 
 
-def _content(folder: Path, dpi: int) -> tuple[str, Assessment, list[Block]]:
+def _stress(folder: Path, given: str | os.PathLike[str] | bool | None) -> xr.Dataset | None:
+    """Give the stress below a run or prediction, as `report` has it."""
+    case = folder / "case.nml"
+    single = case.is_file() and not (folder / NAME).is_file()
+    if not single:
+        if given:
+            raise InputError(f"{folder}: stress is below a run or a prediction alone")
+        return None
+    place = given if given is None or isinstance(given, bool) else path_of(given, "stress")
+    return stress_of(folder, _text(case), place)
+
+
+def _content(
+    folder: Path, dpi: int, below: xr.Dataset | None
+) -> tuple[str, Assessment, list[Block]]:
     """Give title, assessment and parts of the page of any result folder."""
     if (folder / NAME).is_file():
         return study_parts(folder)
@@ -132,11 +154,11 @@ def _content(folder: Path, dpi: int) -> tuple[str, Assessment, list[Block]]:
         return _response(folder, summary)
     if summary.get("kind") not in ("solution", "prediction"):
         raise InputError(f"{folder}: a result of '{summary.get('kind')}' has no report\n{EXPECTED}")
-    return _single(folder, summary, dpi)
+    return _single(folder, summary, dpi, below)
 
 
 def _single(
-    folder: Path, summary: Mapping[str, Any], dpi: int
+    folder: Path, summary: Mapping[str, Any], dpi: int, below: xr.Dataset | None
 ) -> tuple[str, Assessment, list[Block]]:
     data = load(folder)
     settings, case = settings_of(data), str(data.attrs["case"])
@@ -149,6 +171,8 @@ def _single(
     if summary.get("film_breakdown"):
         parts.append(page.facts({k: str(v) for k, v in summary["film_breakdown"].items()}))
     parts += _pictures(data, summary, dpi)
+    if below is not None:
+        parts += stress_parts(below, dpi)
     if summary.get("bands"):
         names = list(summary["bands"][0])
         rows = [[_value(band[name]) for name in names] for band in summary["bands"]]

@@ -3,7 +3,8 @@
 
 Both weigh the amplitude of the deviator against the hydrostatic stress, with two fatigue limits of
 the material, in fully reversed torsion and bending. The amplitude is the radius of the smallest
-hypersphere around the path of the deviator s, with the norm sqrt(s:s/2).
+hypersphere around the path of the deviator s, with the norm sqrt(s:s/2); its centre is the mean
+(:class:`pyehl.subsurface.cycle.Cycle`).
 
 - Dang Van 1993 (ASTM STP 1191, 120): max over time of tau(t) + a p(t), where tau is the largest
   shear of s(t) less the centre of the sphere, p the hydrostatic stress, a = 3 (t/f - 1/2).
@@ -21,19 +22,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from pyehl.errors import InputError
-from pyehl.subsurface.measures import (
-    deviator,
-    hydrostatic,
-    principal_shear,
-    second_invariant,
-)
-from pyehl.types import Array, Indices
+from pyehl.subsurface.cycle import Cycle
+from pyehl.subsurface.measures import deviator, hydrostatic, principal_shear
 
 CRITERIA = ("dang-van", "crossland")
-# Steps of the way to the centre of the sphere; the radius is then right to about 1/STEPS of itself
-STEPS = 200
-# Points for which the sphere is found, those of the largest bounds
-CANDIDATES = 64
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,46 +57,10 @@ class Fatigue:
         ratio = 3.0 * self.torsion_limit / self.bending_limit
         return ratio - (1.5 if self.criterion == "dang-van" else math.sqrt(3.0))
 
-    def largest(self, history: Array) -> float:
-        """Largest equivalent stress [Pa] of points whose history is (6, times, points) [Pa]."""
-        history = history[:, :, _candidates(history, self.weight)]
-        centre, radius = smallest_sphere(deviator(history))
-        pressure = hydrostatic(history)
+    def largest(self, cycle: Cycle) -> float:
+        """Largest equivalent stress [Pa] of the material points of a cycle."""
         if self.criterion == "crossland":
-            return float(np.max(radius + self.weight * pressure.max(axis=0)))
-        shear = principal_shear(deviator(history) - centre[:, np.newaxis])
-        return float(np.max(shear + self.weight * pressure))
-
-
-def _norm(s: Array) -> Array:
-    """sqrt(s:s/2) of deviators (6, ...)."""
-    return np.asarray(np.sqrt(second_invariant(s)))
-
-
-def _candidates(history: Array, weight: float) -> Indices:
-    """Points with the largest bounds of the criterion: the sphere around the box of the path."""
-    s = deviator(history)
-    bound = _norm(0.5 * (s.max(axis=1) - s.min(axis=1)))
-    bound += weight * hydrostatic(history).max(axis=0)
-    return np.argsort(bound)[-CANDIDATES:]
-
-
-def smallest_sphere(path: Array) -> tuple[Array, Array]:
-    """Centre (6, points) and radius (points,) of the smallest spheres around paths.
-
-    Paths are (6, times, points). By steps of falling length towards the farthest point (Badoiu &
-    Clarkson 2003); the radius is the distance of the farthest point from the centre found, so that
-    it is an upper bound.
-    """
-    centre = 0.5 * (path.max(axis=1) + path.min(axis=1))
-    best, radius = centre.copy(), np.full(centre.shape[1], np.inf)
-    points = np.arange(centre.shape[1])
-    for step in range(1, STEPS + 1):
-        distance = _norm(path - centre[:, np.newaxis])
-        farthest = distance.argmax(axis=0)
-        longest = distance[farthest, points]
-        nearer = longest < radius
-        radius = np.where(nearer, longest, radius)
-        best[:, nearer] = centre[:, nearer]
-        centre = centre + (path[:, farthest, points] - centre) / (step + 1)
-    return best, radius
+            top = cycle.hydrostatic_mean + cycle.hydrostatic_amplitude
+            return float(np.max(cycle.amplitude + self.weight * top))
+        shear = principal_shear(deviator(cycle.history) - cycle.mean[:, np.newaxis])
+        return float(np.max(shear + self.weight * hydrostatic(cycle.history)))

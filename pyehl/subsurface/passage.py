@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
@@ -10,18 +11,20 @@ from typing import TYPE_CHECKING
 import numpy as np
 from tqdm import tqdm
 
+from pyehl.subsurface.cycle import Cycle, History, incomplete
 from pyehl.subsurface.depths import depths
 from pyehl.subsurface.fatigue import Fatigue
 from pyehl.subsurface.half_space import HalfSpace, Layer
-from pyehl.subsurface.loads import Load, Loads
+from pyehl.subsurface.loads import Load, Loads, steep_edge
 from pyehl.subsurface.measures import hydrostatic, shear_and_mises
 from pyehl.types import Array
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-# Lines across the motion whose material points have a history under a passage
-LINES = 33
+# Distance from the centre within which the largest shear is reported apart [semi-axes]: the
+# roughness moves the edge of the contact to and fro
+INNER = 0.8
 
 
 @dataclass(slots=True)
@@ -49,10 +52,13 @@ class Row:
 
     depth: float  # [a]
     shear: Peak = field(default_factory=Peak)
+    inner: Peak = field(default_factory=Peak)  # shear within `INNER`, and outside of it
+    outer: Peak = field(default_factory=Peak)
     mises: Peak = field(default_factory=Peak)
     tension: float = -math.inf  # largest hydrostatic stress
     above: float = 0.0  # share of the dry contact where the shear exceeds a value
     section: Array | None = None  # principal shear on y = 0 (nx,), largest over time
+    cycle: Cycle | None = None  # of the material points; None where no whole passage is known
     fatigue: float = math.nan  # largest equivalent stress of the criterion
     error: float = 0.0  # of what the periodic cell changes, bound
 
@@ -68,11 +74,14 @@ def row_of(
     """Give the row of a depth over some instants; `above` in p_h."""
     row, middle = Row(depth), int(np.abs(loads.y).argmin())
     exceeded = np.zeros((loads.x.size, loads.y.size), dtype=bool)
-    history = History(loads) if fatigue else None
+    inside, inner = loads.contact(), loads.contact(INNER)
+    history = None if incomplete(loads) else History(loads)
     for load in instants:
         stress = layer.under(load.pressure, load.traction)
         shear, mises = shear_and_mises(stress)
         row.mises.take(mises, loads, load.time)
+        row.inner.take(np.where(inner, shear, -math.inf), loads, load.time)
+        row.outer.take(np.where(inner, -math.inf, shear), loads, load.time)
         if row.shear.take(shear, loads, load.time):
             row.error = layer.error(load.pressure, load.traction)
         on_axis = shear[:, middle]
@@ -81,48 +90,14 @@ def row_of(
         if above is not None:
             exceeded |= shear > above
         if history:
-            history.add(stress, load.time)
-    inside = loads.contact()
+            history.add(stress)
     row.above = float(np.count_nonzero(exceeded & inside) / np.count_nonzero(inside))
-    if fatigue and history:
-        row.fatigue = fatigue.largest(history.of_points())
+    if history:
+        points = history.of_points()
+        row.cycle = Cycle.of(points)
+        if fatigue:
+            row.fatigue = fatigue.largest(Cycle.of(points, fatigue.weight))
     return row
-
-
-class History:
-    """Stress of material points over time; they move with the surface of the body.
-
-    Under a smooth contact all points of a line along the motion have one history. Under a passage
-    a point at x at the end of the run was at x - U t before; between nodes it is interpolated.
-    Points are those of `LINES` lines in the dry contact.
-    """
-
-    def __init__(self, loads: Loads) -> None:
-        inside = np.flatnonzero(np.abs(loads.y) <= loads.semi_axis_y)
-        step = max(1, inside.size // LINES)
-        self.lines = inside[::step]
-        self.x, self.velocity = loads.x, loads.velocity
-        self.end = float(loads.times[-1]) if loads.times.size else math.nan
-        self.parts: list[Array] = []
-
-    def add(self, stress: Array, time: float) -> None:
-        """Add an instant, stress (6, nx, ny)."""
-        lines = stress[:, :, self.lines]
-        if math.isnan(time):
-            # the path along x is the history
-            self.parts = list(np.moveaxis(lines, 1, 0))
-            return
-        mesh = self.x[1] - self.x[0]
-        # a point outside of the domain has the stress at its border
-        place = np.arange(self.x.size) - self.velocity * (self.end - time) / mesh
-        left = np.clip(np.floor(place), 0, self.x.size - 2).astype(int)
-        share = np.clip(place - left, 0.0, 1.0)[np.newaxis, :, np.newaxis]
-        moved = lines[:, left] * (1.0 - share) + lines[:, left + 1] * share
-        self.parts.append(moved.reshape(6, -1).astype(np.float32))
-
-    def of_points(self) -> Array:
-        """Give the history (6, times, points)."""
-        return np.stack(self.parts, axis=1).astype(np.float64)
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,12 +126,17 @@ def profile(
 
     def add(depth: float) -> None:
         layer = half_space.layer(depth)
-        of_smooth = None if is_rough else fatigue
-        smooth.append(row_of(depth, layer, loads, [loads.smooth], above, of_smooth))
         if is_rough:
             rough.append(row_of(depth, layer, loads, loads.rough(), above, fatigue))
+        only = dataclasses.replace(loads, times=np.zeros(0))
+        smooth.append(
+            row_of(depth, layer, only, [loads.smooth], above, None if is_rough else fatigue)
+        )
 
     all_depths = depths(first.pressure, loads.mesh, loads.short_side)
+    if any(steep_edge(load.traction) for load in (loads.smooth, first)):
+        # the stress at the surface grows with the number of nodes
+        all_depths = all_depths[1:]
     for depth in tqdm(all_depths, desc="stress", delay=2.0, leave=False, disable=not progress):
         add(float(depth))
     # the rows are far apart: one more where the parabolas have their tops
@@ -183,12 +163,19 @@ def largest(rows: list[Row], name: str = "shear") -> tuple[float, float, Peak]:
     peaks: list[Peak] = [getattr(row, name) for row in rows]
     k = int(np.argmax([peak.value for peak in peaks]))
     # the surface has no logarithm
-    if k < 2 or k == len(rows) - 1:
+    if k == 0 or not rows[k - 1].depth > 0.0 or k == len(rows) - 1:
         return peaks[k].value, rows[k].depth, peaks[k]
     z = np.log([row.depth for row in rows[k - 1 : k + 2]])
     curve = np.polyfit(z - z[1], [peak.value for peak in peaks[k - 1 : k + 2]], 2)
     top = -0.5 * curve[1] / curve[0]
     return float(np.polyval(curve, top)), float(np.exp(z[1] + top)), peaks[k]
+
+
+def in_layer(rows: list[Row], name: str, depth: float) -> float:
+    """Largest value of a peak down to a depth [a], which lies within the rows."""
+    z = np.array([row.depth for row in rows])
+    values = np.array([getattr(row, name).value for row in rows])
+    return float(np.append(values[z < depth], np.interp(depth, z, values)).max())
 
 
 def share_above(rows: list[Row], depth: float) -> float:

@@ -70,7 +70,14 @@ def predicted_loads(data: xr.Dataset, *, body: int | None, friction: str | float
     slowest = min(one.velocity_ratio for one in model.surfaces)
     if not slowest > 0.0:
         raise InputError("stress of a prediction needs surfaces that move")
-    times = np.linspace(0.0, length / slowest, POSITIONS, endpoint=False)
+    period = length / slowest
+    step = period / POSITIONS
+    if len(model.surfaces) > 1:
+        # two surfaces do not repeat themselves: a point is followed through the contact
+        period = 0.0
+        times = np.arange(0.0, (x[-1] - x[0]) / slowest, step)
+    else:
+        times = np.arange(POSITIONS) * step
     changes: dict[int, Array] = {}
 
     def change(k: int) -> Array:
@@ -102,6 +109,7 @@ def predicted_loads(data: xr.Dataset, *, body: int | None, friction: str | float
         films,
         body=body,
         friction=friction,
+        period=period,
     )
 
 

@@ -18,16 +18,17 @@ from pyehl.netcdf import write_netcdf
 from pyehl.results import load
 from pyehl.schema import VERSION
 from pyehl.subsurface import life
+from pyehl.subsurface.cycle import incomplete, over_depth
 from pyehl.subsurface.fatigue import Fatigue
 from pyehl.subsurface.half_space import COMPONENTS
 from pyehl.subsurface.loads import Loads, check_friction, loads_of
-from pyehl.subsurface.passage import Peak, Profile, largest, profile, share_above
+from pyehl.subsurface.near_surface import near_surface
+from pyehl.subsurface.passage import Peak, Profile, largest, profile
 
 if TYPE_CHECKING:
     from pyehl.prediction.result import Prediction
 
-# Depth down to which the near-surface volume reaches, over that of the largest smooth shear
-NEAR = 0.25
+STEEP = "not at depth 0: the traction ends in a step, where the stress at the surface is not finite"
 FILES = ("case.nml", "summary.json", "stress.nc", "section.png", "depth.png")
 
 
@@ -120,6 +121,9 @@ def stress(
     si = loads.operating.si
     if not si and (above or near or criterion):
         raise InputError("above, near and fatigue are in SI units: give the case in SI units")
+    partial = incomplete(loads)
+    if criterion and partial:
+        raise InputError(f"fatigue = {fatigue!r}: {partial}")
     p_h, a = loads.operating.hertz_pressure, loads.operating.hertz_radius
     found = profile(
         loads,
@@ -128,7 +132,10 @@ def stress(
         progress=progress,
     )
     data = _dataset(loads, found)
-    _add_near(data, found, loads, above, None if near is None else near / a)
+    predicted = summary.attrs.get("kind") == "prediction"
+    scalars = near_surface(found, near and near / a, above, predicted=predicted)
+    for name, value, unit, meaning in scalars:
+        _add(data, loads, name, value, unit, meaning)
     if criterion:
         rows = found.rows
         equivalent = max(row.fatigue for row in rows) * p_h
@@ -146,6 +153,8 @@ def stress(
         "short_side": loads.short_side,
         "case": case,
     }
+    notes = {"cycle_note": partial, "surface_note": "" if found.rows[0].depth == 0.0 else STEEP}
+    data.attrs |= {name: words for name, words in notes.items() if words}
     if place is not None:
         _write(data, place)
     return data
@@ -190,6 +199,15 @@ def _scalar(value: float, unit: str, meaning: str) -> xr.Variable:
     return xr.Variable((), value, {"units": unit, "long_name": meaning})
 
 
+def _add(data: xr.Dataset, loads: Loads, name: str, value: float, unit: str, meaning: str) -> None:
+    """Add a scalar in Hertz units, and in a unit of SI, '1' for none, where the case has them."""
+    data[name] = _scalar(value, "1", meaning)
+    if loads.operating.si and unit != "1":
+        scales = {"Pa": "hertz_pressure", "m": "hertz_radius", "s": "time_scale"}
+        value *= float(getattr(loads.operating, scales[unit]))
+        data[f"{name}_{unit}"] = _scalar(value, unit, meaning)
+
+
 def _dataset(loads: Loads, found: Profile) -> xr.Dataset:
     """Profiles, section and peaks, in Hertz units and in SI units."""
     point = loads.operating
@@ -226,6 +244,10 @@ def _dataset(loads: Loads, found: Profile) -> xr.Dataset:
         add(f"hydrostatic{end}", ("Z",), tension, f"largest hydrostatic stress{of}")
         _add_peak(data, loads, f"principal_shear_max{end}", *largest(rows))
         _add_peak(data, loads, f"von_mises_max{end}", *largest(rows, "mises"))
+        cycles = [row.cycle for row in rows if row.cycle]
+        if cycles:
+            for name, values, meaning in over_depth(cycles):
+                add(f"{name}{end}", ("Z",), values, f"{meaning}{of}")
     images = max(row.error for row in found.rows)
     pressure = loads.pressure_error
     error = images + (pressure * float(data.principal_shear_max) if pressure > 0.0 else 0.0)
@@ -247,32 +269,15 @@ def _dataset(loads: Loads, found: Profile) -> xr.Dataset:
 def _add_peak(
     data: xr.Dataset, loads: Loads, name: str, value: float, depth: float, peak: Peak
 ) -> None:
-    point = loads.operating
-    rows = [("", value, "Pa", point.hertz_pressure, "its largest value")]
-    for axis, number in (("depth", depth), ("x", peak.x), ("y", peak.y)):
-        rows.append((f"_{axis}", number, "m", point.hertz_radius, f"{axis} of it"))
+    rows = [("", value, "Pa", "its largest value")]
+    rows += [
+        (f"_{axis}", v, "m", f"{axis} of it")
+        for axis, v in zip(("depth", "x", "y"), (depth, peak.x, peak.y), strict=True)
+    ]
     if math.isfinite(peak.time):
-        rows.append(("_time", peak.time, "s", point.time_scale, "time of it"))
-    for end, number, unit, scale, meaning in rows:
-        data[f"{name}{end}"] = _scalar(number, "1", meaning)
-        if point.si:
-            data[f"{name}{end}_{unit}"] = _scalar(number * scale, unit, meaning)
-
-
-def _add_near(
-    data: xr.Dataset, found: Profile, loads: Loads, above: float | None, near: float | None
-) -> None:
-    """Add the share of the near-surface volume above a shear stress."""
-    if above is None:
-        return
-    depth = near or NEAR * largest(found.smooth)[1]
-    a = loads.operating.hertz_radius
-    data["near_surface_depth_m"] = _scalar(depth * a, "m", "depth of the near-surface volume")
-    meaning = f"share of it where the principal shear exceeds {above:g} Pa at some time"
-    data["near_surface_share"] = _scalar(share_above(found.rows, depth), "1", meaning)
-    if found.rough:
-        share = share_above(found.smooth, depth)
-        data["near_surface_share_smooth"] = _scalar(share, "1", f"{meaning}, smooth contact")
+        rows.append(("_time", peak.time, "s", "time of it"))
+    for end, number, unit, meaning in rows:
+        _add(data, loads, f"{name}{end}", number, unit, meaning)
 
 
 def _add_life(

@@ -394,3 +394,28 @@ def test_limits_that_apply(root):
     assert len(limits(thinning, {"kind": "response"})) == 2
     assert warnings({"status": "converged"}) == []
     assert "moes_m" in warnings({"status": "predicted", "outside_range": ["moes_m"]})[0]
+
+
+def test_stress_in_a_report(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """From the folder of the result, from another one, or computed; of another case refused."""
+    run, other = tmp_path / "run", tmp_path / "other"
+    pyehl.solve("cases/mtm.nml", "grid.points=33", output=run)
+    pyehl.solve("cases/mtm.nml", "grid.points=33", "contact.load=30", output=other)
+
+    def words(*options: str) -> tuple[str, int]:
+        assert main(["report", str(run), *options]) == 0
+        found = Page((run / "report.html").read_text(encoding="utf-8"))
+        return " ".join(found.words), len(found.pictures)
+
+    without, pictures = words()
+    assert "Stress below the surface" not in without
+    assert "Stress below the surface" in words("--stress")[0]
+    assert main(["stress", str(run), "-o", str(run / "stress"), "--friction", "0.1"]) == 0
+    inside, more = words()
+    assert "traction is 0.1 times the pressure" in inside
+    assert more == pictures + 2
+    assert main(["stress", str(other), "-o", str(tmp_path / "steel")]) == 0
+    capsys.readouterr()
+    for folder, expected in (("steel", "the stress of another case"), ("run", "no stress.nc")):
+        assert main(["report", str(run), "--stress", str(tmp_path / folder)]) == 2
+        assert expected in capsys.readouterr().err

@@ -12,7 +12,8 @@ import pytest
 import pyehl
 from pyehl.cli import main
 from pyehl.subsurface import life
-from pyehl.subsurface.fatigue import Fatigue, smallest_sphere
+from pyehl.subsurface.cycle import Cycle, smallest_sphere
+from pyehl.subsurface.fatigue import Fatigue
 from pyehl.subsurface.half_space import HalfSpace
 from pyehl.subsurface.measures import (
     deviator,
@@ -21,6 +22,7 @@ from pyehl.subsurface.measures import (
     principal_shear,
     von_mises,
 )
+from pyehl.subsurface.text import text
 from pyehl.types import Array
 
 CASES = Path(__file__).resolve().parents[2] / "cases"
@@ -182,7 +184,7 @@ def test_fatigue_limits_are_met_by_their_own_tests() -> None:
     for criterion in ("dang-van", "crossland"):
         found = Fatigue(criterion, 300.0, 450.0)
         for history in (torsion, bending):
-            assert found.largest(history) == pytest.approx(300.0, rel=1e-3)
+            assert found.largest(Cycle.of(history, found.weight)) == pytest.approx(300.0, rel=1e-3)
     with pytest.raises(pyehl.InputError, match="torsion_limit/bending_limit"):
         Fatigue("dang-van", 100.0, 450.0)
 
@@ -253,6 +255,55 @@ def test_rough_contact(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> No
     assert 0.3 < summary["fatigue_ratio"] < 0.8
 
 
+def test_mean_and_amplitude() -> None:
+    """Amplitude and mean of a smooth contact; both criteria of fatigue use them.
+
+    A pass from no stress to p and back has mean and amplitude of p/2 in its hydrostatic part.
+    """
+    ds = pyehl.solve(CASES / "mtm.nml", "grid.points=65")
+    inside = np.maximum(1.0 - ds.X**2 - ds.Y**2, 0.0)
+    ds["P"] = (ds.P.dims, np.sqrt(inside).transpose(*ds.P.dims).values)
+    options = {"torsion_limit": 4e8, "bending_limit": 6.5e8, "friction": "none"}
+    below = pyehl.stress(ds, fatigue="crossland", **options)  # type: ignore[arg-type]
+    deep = below.sel(Z=0.5, method="nearest")
+    assert float(deep.hydrostatic_mean) == pytest.approx(
+        -float(deep.hydrostatic_amplitude), rel=0.1
+    )
+    assert float(deep.sigma_zz_mean) == pytest.approx(-float(deep.sigma_zz_amplitude), rel=0.1)
+    # the orthogonal shear is antisymmetric, with 0.21 p_h below the centre line of a circle
+    assert float(deep.sigma_xz_mean) == pytest.approx(0.0, abs=0.002)
+    assert float(below.sigma_xz_amplitude.max()) == pytest.approx(0.2148, abs=0.003)
+    weight = 3.0 * 4e8 / 6.5e8 - math.sqrt(3.0)
+    highest = below.shear_amplitude_Pa + weight * (
+        below.hydrostatic_mean_Pa + below.hydrostatic_amplitude_Pa
+    )
+    assert float(below.fatigue_stress_Pa) >= float(highest.max()) * (1.0 - 1e-9)
+
+
+def test_mean_and_amplitude_need_a_passage() -> None:
+    """A rough contact with too few instants has neither, which is said."""
+    rough = pyehl.solve(CASES / "dent.nml", "grid.points=33", "output.frame_interval=0")
+    below = pyehl.stress(rough, friction="none")
+    assert "shear_amplitude" not in below
+    assert "cover 0 a of the way" in below.attrs["cycle_note"]
+    with pytest.raises(pyehl.InputError, match=r"fatigue = 'crossland': the 1 instants.*frame_int"):
+        pyehl.stress(rough, fatigue="crossland", torsion_limit=4e8, bending_limit=6.5e8)
+
+
+@pytest.mark.parametrize(("power", "singular"), [(0.0, True), (0.5, False), (1.0, False)])
+def test_depth_of_0_with_a_singular_edge(power: float, *, singular: bool) -> None:
+    """A traction that ends in a step has no finite stress at the surface: no depth of 0."""
+    ds = pyehl.solve(pyehl.Case(contact={"moes_m": 100.0, "moes_l": 5.0}), "grid.points=65")
+    inside = np.maximum(1.0 - ds.X**2 - ds.Y**2, 0.0).transpose(*ds.P.dims).values
+    ds["P"] = (ds.P.dims, np.where(inside > 0.0, inside**power, 0.0))
+    below = pyehl.stress(ds, friction=0.1)
+    assert ("surface_note" in below.attrs) is singular
+    assert (float(below.Z[0]) > 0.0) is singular
+    if singular:
+        assert "ends in a step, where the stress at the surface is not finite" in text(below)
+        assert float(pyehl.stress(ds, friction="none").Z[0]) == 0.0
+
+
 def test_predicted_contact() -> None:
     """A prediction has the smooth contact under it, and more shear near the surface."""
     found = pyehl.predict(CASES / "table1.nml", "surface.pixels=128")
@@ -262,6 +313,13 @@ def test_predicted_contact() -> None:
     rough, smooth = (below[f"principal_shear{end}"].sel(Z=near) for end in ("", "_smooth"))
     assert float(rough) > 1.15 * float(smooth)
     assert float(below.a_iso) > 0.1
+    # what the roughness adds is known to 15 % but at the edge, which it moves
+    added = float(below.near_surface_shear_inner - below.near_surface_shear_inner_smooth)
+    assert float(below.near_surface_shear_inner_error) == pytest.approx(0.15 * added, rel=0.3)
+    assert float(below.near_surface_shear_error) >= float(below.near_surface_shear_inner_error)
+    assert "% within 0.8 semi-axes" in text(below)
+    # a point is followed through the whole contact, over several lengths of the tile
+    assert float(below.sigma_zz_amplitude.max()) > 0.5
 
 
 @pytest.mark.parametrize(

@@ -26,41 +26,44 @@ import rough  # noqa: E402
 
 import pyehl  # noqa: E402
 
-# Depth of the near-surface layer over that of the largest smooth shear, and frames of a period
-NEAR, FRAMES = 0.25, 24
+# Frames of a period
+FRAMES = 24
 COLUMNS = (
-    "name points near_simulated near_predicted near_smooth largest_simulated largest_predicted "
-    "largest_smooth depth_simulated depth_predicted"
+    "name points near_simulated near_predicted near_error near_smooth inner_simulated "
+    "inner_predicted inner_error inner_smooth largest_simulated largest_predicted largest_smooth "
+    "depth_simulated depth_predicted"
 ).split()
 
 
-def near(data: xr.Dataset, name: str) -> float:
-    """Largest value [p_h] of a profile within the near-surface layer."""
-    depth = NEAR * float(data.principal_shear_max_smooth_depth)
-    return float(np.interp(np.linspace(0.0, depth, 200), data.Z, data[name]).max())
-
-
-def row_of(name: str, points: int) -> dict[str, Any]:
-    """Simulate and predict."""
+def solved(name: str, points: int) -> xr.Dataset:
+    """Simulate; the frames of the last period."""
     plan = rough.PLAN[name]
     period = plan.length / plan.velocity_ratio
     case = rough.case_of(plan, points).with_options(f"output.frame_interval={period / FRAMES!r}")
-    solved = pyehl.solve(case, check=False)
-    last = solved.isel(T=np.flatnonzero(solved.T > float(solved.T[-1]) - period))
+    found = pyehl.solve(case, check=False)
+    return found.isel(T=np.flatnonzero(found.T > float(found.T[-1]) - period))
+
+
+def row_of(name: str, last: xr.Dataset) -> dict[str, Any]:
+    """Predict, and compare the stress with that below the frames of a simulation."""
+    points = last.sizes["X"]
     simulated = pyehl.stress(last, friction="none")
-    predicted = pyehl.stress(pyehl.predict(case), friction="none")
-    return {
-        "name": name,
-        "points": points,
-        "near_simulated": near(simulated, "principal_shear"),
-        "near_predicted": near(predicted, "principal_shear"),
-        "near_smooth": near(simulated, "principal_shear_smooth"),
-        "largest_simulated": float(simulated.principal_shear_max),
-        "largest_predicted": float(predicted.principal_shear_max),
-        "largest_smooth": float(simulated.principal_shear_max_smooth),
-        "depth_simulated": float(simulated.principal_shear_max_depth),
-        "depth_predicted": float(predicted.principal_shear_max_depth),
-    }
+    prediction = pyehl.predict(rough.case_of(rough.PLAN[name], points))
+    predicted = pyehl.stress(prediction, friction="none")
+    row = {"name": name, "points": points}
+    for layer, value in (("near", "near_surface_shear"), ("inner", "near_surface_shear_inner")):
+        row |= {
+            f"{layer}_simulated": float(simulated[value]),
+            f"{layer}_predicted": float(predicted[value]),
+            f"{layer}_error": float(predicted[f"{value}_error"]),
+            f"{layer}_smooth": float(simulated[f"{value}_smooth"]),
+        }
+    for word, value in (("largest", "principal_shear_max"), ("depth", "principal_shear_max_depth")):
+        row |= {
+            f"{word}_simulated": float(simulated[value]),
+            f"{word}_predicted": float(predicted[value]),
+        }
+    return row | {"largest_smooth": float(simulated.principal_shear_max_smooth)}
 
 
 def rows() -> list[dict[str, str]]:
@@ -79,15 +82,25 @@ def main() -> None:
     parser.add_argument("--points", type=int, default=257)
     args = parser.parse_args()
     for name in args.names:
-        new = {k: v if k == "name" else f"{v:.5g}" for k, v in row_of(name, args.points).items()}
+        found = row_of(name, solved(name, args.points))
+        new = {k: v if k == "name" else f"{v:.5g}" for k, v in found.items()}
         kept = [r for r in rows() if (r["name"], r["points"]) != (name, new["points"])]
         with (HERE / "table.csv").open("w", newline="", encoding="utf-8") as stream:
             writer = csv.DictWriter(stream, COLUMNS, lineterminator="\n")
             writer.writeheader()
             writer.writerows([*kept, new])
     for row in rows():
-        ratio = float(row["near_predicted"]) / float(row["near_simulated"])
-        print(*(row[c] for c in COLUMNS), f"near predicted/simulated {ratio:.3f}")
+        value = {k: float(v) for k, v in row.items() if k != "name"}
+        print(row["name"], row["points"], end="")
+        for layer in ("near", "inner"):
+            simulated, predicted = (value[f"{layer}_{of}"] for of in ("simulated", "predicted"))
+            print(
+                f"  {layer} {simulated:.4f} {predicted:.4f} ({predicted / simulated - 1.0:+.1%}, "
+                f"error {value[f'{layer}_error'] / predicted:.1%}), smooth "
+                f"{value[f'{layer}_smooth']:.4f}",
+                end="",
+            )
+        print()
 
 
 if __name__ == "__main__":

@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Stress below the surface in a report."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import xarray as xr
+
+from pyehl.errors import FileError, InputError
+from pyehl.plots.style import png
+from pyehl.plots.subsurface import stress_figures
+from pyehl.reports import page
+from pyehl.reports.page import Block
+from pyehl.subsurface.result import stress
+from pyehl.subsurface.text import facts
+
+FOLDER = "stress"
+"""Where a report looks for the stress of a result, in its folder."""
+PICTURES = {
+    "section": "Principal shear stress on the section y = 0, largest over time",
+    "depth": "Largest principal shear stress over depth",
+}
+
+
+def stress_of(folder: Path, case: str, given: str | Path | bool | None) -> xr.Dataset | None:
+    """Give the stress below a result; None where there is none and none is asked for.
+
+    Parameters
+    ----------
+    folder
+        Result folder.
+    case
+        Its case, that of the stress has to be the same.
+    given
+        Folder of `pyehl.stress`; True: compute it; None: `FOLDER` in the result folder.
+
+    Raises
+    ------
+    InputError
+        If the folder has no stress, or that of another case.
+    """
+    if given is True:
+        return stress(folder)
+    place = folder / FOLDER if given in (None, False) else Path(str(given))
+    path = place / "stress.nc"
+    if not path.is_file():
+        if given in (None, False):
+            return None
+        raise InputError(f"{place}: no stress.nc\nexpected: a folder that pyehl stress -o wrote")
+    try:
+        data = xr.load_dataset(path, engine="scipy")
+    except (OSError, TypeError, ValueError) as error:
+        raise FileError(f"{path}: cannot be read: {error}") from error
+    if data.attrs.get("case", "").strip() != case.strip():
+        raise InputError(
+            f"{place}: it is the stress of another case than {folder}\nexpected: that of "
+            f"pyehl stress {folder}"
+        )
+    return data
+
+
+def stress_parts(data: xr.Dataset, dpi: int) -> list[Block]:
+    """Give the section of a report."""
+    rows = facts(data)
+    notes = [words for name, words in rows if name == "note"]
+    parts = [
+        page.heading("Stress below the surface"),
+        page.facts({name: words for name, words in rows if name != "note"}),
+        *map(page.paragraph, notes),
+    ]
+    shear = next(words for name, words in rows if name == "shear")
+    for name, figure in stress_figures(data).items():
+        words = PICTURES[name]
+        parts.append(page.picture(png(figure, dpi), f"{words}. {shear}", f"{words}."))
+    return parts
