@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 from records import Row, Values, largest, of, read, span
 
-from pyehl.prediction import errors
+from pyehl.prediction import options
 from pyehl.prediction.mixed_lubrication import TOUCHING_FILM_ERROR
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.transition import lift_off
@@ -68,7 +68,7 @@ def ellipse() -> Values:
         for row in read("ellipse/ridges.csv")
         if row["wavelength"] == "1" and float(row["ellipticity"]) < 1.0
     ]
-    term = errors.NARROW
+    term = options.NARROW
     return locals()
 
 

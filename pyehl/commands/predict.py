@@ -11,8 +11,7 @@ from pyehl import lengths, library
 from pyehl.api import predict
 from pyehl.commands.arguments import add_case_arguments, add_force
 from pyehl.prediction import folder, spectrum_assumed
-from pyehl.prediction.deformed import error_name
-from pyehl.prediction.friction import TRACKS
+from pyehl.prediction.friction import TRACKS, error_name
 from pyehl.prediction.result import Prediction
 from pyehl.surfaces import Topography
 

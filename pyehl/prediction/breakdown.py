@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pyehl import lengths
-from pyehl.prediction.cutoff_search import choices, spikes_of, suggested_wavelength
+from pyehl.prediction.bands import choices, spikes_of, suggested_wavelength
 from pyehl.prediction.model import Model
 from pyehl.prediction.passage_friction import known, remedies
 from pyehl.prediction.relative_positions import RelativePositions

@@ -11,10 +11,10 @@ import numpy as np
 
 from pyehl.prediction.response import Transfer
 from pyehl.prediction.spectrum import Spectrum
-from pyehl.prediction.transverse_modes import harmonics
 from pyehl.theory.disc import LARGEST, RADIUS, RIM_ANGLES, disc_correction, disc_rim, monomials
 from pyehl.theory.ellipse import Ellipse
 from pyehl.theory.ellipse_edge import ellipse_edge
+from pyehl.theory.transport import harmonics
 from pyehl.types import Array, Complex
 
 # The polynomials of the edge of a circle are held constant beyond this radius; 0.8 and 0.9 change

@@ -17,7 +17,6 @@ import scipy
 from pyehl import surfaces
 from pyehl.errors import EhlError, InputError, InternalError
 from pyehl.handle import SolverHandle, start_fronts, take_start
-from pyehl.prediction.errors import model_error, outside_range
 from pyehl.prediction.model import Model, RoughSurface
 from pyehl.prediction.moving_tile import (
     REACH,
@@ -26,7 +25,7 @@ from pyehl.prediction.moving_tile import (
     slipped,
     station_weights,
 )
-from pyehl.prediction.options import ModelOptions, turned
+from pyehl.prediction.options import ModelOptions, model_error, outside_range, turned
 from pyehl.prediction.passage_friction import mean
 from pyehl.prediction.response import Transfer
 from pyehl.prediction.smooth import SmoothContact, solve_contact

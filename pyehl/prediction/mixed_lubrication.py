@@ -28,9 +28,9 @@ from typing import Any
 import numpy as np
 
 from pyehl.prediction.boundary_film import HOLD, LayeredContact, Level
-from pyehl.prediction.errors import outside_range
 from pyehl.prediction.friction import RoughFriction, broken
 from pyehl.prediction.model import Components, Model
+from pyehl.prediction.options import outside_range
 from pyehl.prediction.passage_friction import Outcome
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.surfaces import interpolated

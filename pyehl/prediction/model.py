@@ -15,8 +15,8 @@ T = driven + free e^(i (U-1) k_x (X+1)) :func:`pyehl.theory.transport.transport`
                                         the free wave), :func:`pyehl.theory.response.inlet_transfer`
 delta p = E'|q|/4 (1 - T) rr(q), eq. 11 :func:`pyehl.theory.transport.wave_pressure`,
                                         :meth:`response.Transfer.gain` (finite contact)
-sum over all waves, eq. 12              :meth:`waves.WaveTiles.of`, :class:`moving_tile.PixelTile`,
-                                        :class:`moving_tile.LineTile`
+sum over all waves, eq. 12              :class:`moving_tile.WaveTiles`, of one surface
+                                        :class:`moving_tile.PixelTile`, of two ``LineTile``
 edge of the contact                     :meth:`edge.Edge.of`
 second order: gamma (P^2 - s^2), f(t/H) :meth:`second_order.SecondOrder.of`,
                                         :func:`second_order.film_left`
@@ -30,7 +30,7 @@ contact at a boundary film              :func:`mixed_lubrication.partial_film`
 heat of sliding                         :func:`thermal.heat_of`
 where the film ends, and a cut-off      :func:`breakdown.below_zero`, :func:`breakdown.advise`
 with which it would not
-errors                                  :func:`errors.model_error`
+errors                                  :func:`options.model_error`
 ======================================= ==========================================================
 
 Two surfaces: to first order each is deformed as if the other one were smooth, at its own velocity

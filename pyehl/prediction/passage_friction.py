@@ -8,21 +8,20 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pyehl.prediction.bands import Band, joining
+from pyehl.prediction.bands import Band, joining, known_by_cut_off, remedies_of
 from pyehl.prediction.contact import HertzContact
-from pyehl.prediction.cutoff_search import known_by_cut_off, remedies_of
-from pyehl.prediction.deformed import film_levels
-from pyehl.prediction.errors import KNOWN_RATIO, model_error
 from pyehl.prediction.friction import (
     BEYOND,
     LARGEST_RATIO,
     TRACKS,
     RoughFriction,
+    film_levels,
     outcome,
     passed,
 )
 from pyehl.prediction.model import PIXEL_POINTS, Components, Model
 from pyehl.prediction.moving_tile import Component
+from pyehl.prediction.options import KNOWN_RATIO, model_error
 from pyehl.prediction.relative_positions import Passage, Positions
 from pyehl.prediction.rough_contact import RoughContact
 from pyehl.prediction.spectrum import longer_waves

@@ -27,7 +27,7 @@ Friction = Callable[[Position], float]
 
 POSITION_TOLERANCE = 2e-3
 """Error that half of the positions may make (relative) for no more to be added: a fifth of the
-least error of the model (:data:`pyehl.prediction.errors.CONSTANT`)."""
+least error of the model (:data:`pyehl.prediction.options.CONSTANT`)."""
 EXTREMES = 32
 """Positions at which minimum film and greatest increase of the pressure are looked for: at twice as
 many they differ by 1 % at most (docs/evidence/thinning)."""

@@ -13,11 +13,9 @@ from typing import NamedTuple
 import numpy as np
 
 from pyehl.prediction.second_order import SecondOrder
-from pyehl.prediction.spectrum import Spectrum
-from pyehl.prediction.transverse_modes import LINES, pressed
-from pyehl.prediction.wave_table import WaveTable, coarsened
+from pyehl.prediction.spectrum import Spectrum, WaveTable, coarsened
 from pyehl.theory.response import edge_gain, inlet_transfer
-from pyehl.theory.transport import Zone, free_stiffness, transport, wave_pressure
+from pyehl.theory.transport import LINES, Zone, free_stiffness, pressed, transport, wave_pressure
 from pyehl.types import Array, Complex, Indices
 
 STATIONS = np.array([-0.5, 0.0, 0.5])
@@ -159,7 +157,7 @@ class Transfer:
     # The pressure of second order; None where the waves move with the roughness as they are
     second: SecondOrder | None = None
     # Of an ellipse, what gives way where `off_centre` is [p_h R/a^2], of a half-space under a
-    # circle: on each of LINES (:func:`pyehl.prediction.transverse_modes.pressed`)
+    # circle: on each of LINES (:func:`pyehl.theory.transport.pressed`)
     pressed: Sequence[Complex] = ()
     stiffening: float = 1.0  # stiffness over that of the half-space under a circle
     ellipticity: float = 1.0  # of the contact

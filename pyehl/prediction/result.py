@@ -13,11 +13,11 @@ import numpy as np
 from pyehl import display, namelist
 from pyehl.prediction.bands import BAND_COLUMNS, Band
 from pyehl.prediction.breakdown import Advice, BelowZero
-from pyehl.prediction.errors import model_error, outside_range, why_no_error
+from pyehl.prediction.folder import summary_of
 from pyehl.prediction.friction import TRACKS, RoughFriction, meaning, thins
 from pyehl.prediction.mixed_lubrication import NO_FRICTION, MixedFilm
 from pyehl.prediction.model import Model, RoughSurface
-from pyehl.prediction.options import ModelOptions
+from pyehl.prediction.options import ModelOptions, model_error, outside_range, why_no_error
 from pyehl.prediction.passage_friction import Outcome
 from pyehl.prediction.second_surface import (
     SECOND,
@@ -25,7 +25,6 @@ from pyehl.prediction.second_surface import (
     arrays,
 )
 from pyehl.prediction.smooth import SmoothContact
-from pyehl.prediction.summary import summary_of
 from pyehl.surfaces import Topography, psd_isotropic
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.heat import Heat

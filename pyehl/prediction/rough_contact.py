@@ -3,9 +3,9 @@
 
 Pressure P_s + delta P and film H_s - rr_d with P_s and H_s of the smooth contact; friction is the
 integral of the shear stress (Zhang et al. 2019, eqs 13, 14). To first order the waves of all
-surfaces add up (:mod:`pyehl.prediction.waves`); the pressure of second order is that of the sum
-(:mod:`pyehl.prediction.second_order`); waves longer than half the contact radius also feel the edge
-of the contact, which they move (:mod:`pyehl.prediction.edge`).
+surfaces add up (:mod:`pyehl.prediction.moving_tile`); the pressure of second order is that of the
+sum (:mod:`pyehl.prediction.second_order`); waves longer than half the contact radius also feel the
+edge of the contact, which they move (:mod:`pyehl.prediction.edge`).
 
 The points of the contact under one surface are pixels of its tile. Two tiles have pixels and
 lengths of their own: the points are on a grid of the contact, and the waves are made on its lines.
@@ -30,12 +30,12 @@ from pyehl.prediction.moving_tile import (
     PixelTile,
     Position,
     Tile,
+    WaveTiles,
     station_weights,
 )
 from pyehl.prediction.response import STATIONS
 from pyehl.prediction.second_order import FILM_ENDS, film_left
 from pyehl.prediction.smooth import SmoothContact
-from pyehl.prediction.waves import WaveTiles
 from pyehl.theory.disc import RIM_ANGLES
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint

@@ -35,7 +35,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from pyehl.prediction.wave_table import WaveTable, coarsened
+from pyehl.prediction.spectrum import WaveTable, coarsened
 from pyehl.theory.transport import Zone, stiffness
 from pyehl.types import Array, Complex
 

@@ -10,10 +10,9 @@ import numpy as np
 import pandas as pd
 
 from pyehl import library
-from pyehl.prediction.deformed import deformed_surfaces
-from pyehl.prediction.errors import KNOWN_RATIO
-from pyehl.prediction.friction import BEYOND
+from pyehl.prediction.friction import BEYOND, deformed_surfaces
 from pyehl.prediction.mixed_lubrication import NO_FRICTION
+from pyehl.prediction.options import KNOWN_RATIO
 from pyehl.prediction.smooth import film_of
 from pyehl.results import unit_of
 from pyehl.studies.curve_pattern import Pattern, kept_pattern

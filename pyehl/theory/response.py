@@ -62,7 +62,7 @@ def edge_gain(
     or less, the largest 0.05. At M = 100, where little pressure is left to measure, it is wrong;
     for ridges of a/8 it is 2 % too low.
 
-    On ellipses the pressure is calculated (:mod:`pyehl.prediction.transverse_modes`), and there is
+    On ellipses the pressure is calculated (:mod:`pyehl.theory.transport`), and there is
     no such factor.
 
     Wavenumbers [1/a], H_c [a^2/R]. The constants are factor and power of the film, weight of

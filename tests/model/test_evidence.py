@@ -14,7 +14,7 @@ from document_text import plain
 
 import pyehl
 from pyehl.prediction import rough_contact
-from pyehl.prediction.errors import KNOWN_RATIO, model_error
+from pyehl.prediction.options import KNOWN_RATIO, model_error
 from pyehl.prediction.resolution import resolution
 from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant

@@ -13,11 +13,11 @@ import scipy.ndimage
 
 import pyehl
 from pyehl.prediction import model, moving_tile, rough_contact, second_order
-from pyehl.prediction.errors import KNOWN_RATIO
 from pyehl.prediction.folder import read_contact
 from pyehl.prediction.friction import outcome
 from pyehl.prediction.model import Model
-from pyehl.prediction.options import ModelOptions
+from pyehl.prediction.moving_tile import WaveTiles
+from pyehl.prediction.options import KNOWN_RATIO, ModelOptions
 from pyehl.prediction.passage_friction import run
 from pyehl.prediction.predict import predict
 from pyehl.prediction.resolution import resolution
@@ -25,7 +25,6 @@ from pyehl.prediction.response import Transfer, _at_amplitude
 from pyehl.prediction.second_order import film_left, loss_at
 from pyehl.prediction.smooth import hertz_contact, solve_contact, zone_of
 from pyehl.prediction.spectrum import Spectrum
-from pyehl.prediction.waves import WaveTiles
 from pyehl.schema import summary_of
 from pyehl.surfaces import Topography, filtered
 from pyehl.theory.lubricant import Lubricant
@@ -140,7 +139,7 @@ def test_table_is_fine_enough(contact, table_1, monkeypatch):
     """Neither the table of responses, nor the stations, nor the points of friction matter."""
     tile = table_1(seed=5)
     usual = run(passage(contact, tile), tracks=1)[0].mu_ratio
-    monkeypatch.setattr("pyehl.prediction.wave_table.TABLE", (145, 49))
+    monkeypatch.setattr("pyehl.prediction.spectrum.TABLE", (145, 49))
     assert run(passage(contact, tile), 1)[0].mu_ratio == pytest.approx(usual, rel=5e-4)
     monkeypatch.setattr("pyehl.prediction.model.PIXEL_POINTS", 128)
     assert run(passage(contact, tile), 1)[0].mu_ratio == pytest.approx(usual, rel=1e-3)
@@ -162,7 +161,7 @@ def test_transfer_is_interpolated_from_its_table(contact):
     zone = zone_of(contact, POINT, OIL)
     coarse = one_transfer(spectrum, zone, (1000.0, 10.0), 1.02)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("pyehl.prediction.wave_table.TABLE", (217, 73))
+        patch.setattr("pyehl.prediction.spectrum.TABLE", (217, 73))
         fine = one_transfer(spectrum, zone, (1000.0, 10.0), 1.02)
     for a, b in zip(coarse.driven + coarse.free, fine.driven + fine.free, strict=True):
         assert np.abs(a - b)[spectrum.q > 0].max() < 2e-3

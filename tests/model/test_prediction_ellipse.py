@@ -14,11 +14,9 @@ from document_text import plain
 import pyehl
 from pyehl.errors import InputError
 from pyehl.measured_response.folder import shipped_response
-from pyehl.prediction.errors import model_error, outside_range
-from pyehl.prediction.options import ModelOptions
+from pyehl.prediction.options import ModelOptions, model_error, outside_range
 from pyehl.prediction.response import AXIS
 from pyehl.prediction.smooth import solve_contact, zone_of
-from pyehl.prediction.transverse_modes import LINES, harmonics, pressed
 from pyehl.theory.disc import RADIUS, disc_correction, monomials
 from pyehl.theory.ellipse import Ellipse, ellipse
 from pyehl.theory.ellipse_edge import EllipseEdge, Series
@@ -26,7 +24,7 @@ from pyehl.theory.film import circle_with_same_inlet
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import inlet_fit
-from pyehl.theory.transport import free_stiffness
+from pyehl.theory.transport import LINES, free_stiffness, harmonics, pressed
 
 # R_x/R_y of the ellipticities 2 and 0.4
 WIDE, NARROW = 0.351771642284186, 3.998264475680259

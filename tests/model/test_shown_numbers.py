@@ -16,7 +16,7 @@ from scipy.optimize import brentq
 import pyehl
 from pyehl.app import answers, worker
 from pyehl.prediction import second_order
-from pyehl.prediction.errors import ELLIPTICITY
+from pyehl.prediction.options import ELLIPTICITY
 from pyehl.schema import summary_of
 from pyehl.studies import plan, study
 from pyehl.theory.lubricant import Lubricant

@@ -7,11 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pyehl.prediction.response import AXIS
-from pyehl.prediction.transverse_modes import LINES, harmonics, pressed
 from pyehl.theory.ellipse import Ellipse
 from pyehl.theory.ellipse_edge import EllipseEdge
 from pyehl.theory.response import edge_gain, inlet_transfer
-from pyehl.theory.transport import Zone, transport, wave_pressure
+from pyehl.theory.transport import LINES, Zone, harmonics, pressed, transport, wave_pressure
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

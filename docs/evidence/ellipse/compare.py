@@ -19,9 +19,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from cases import HERE, case, read, surface
-from pyehl.prediction.errors import model_error
 from pyehl.prediction.model import Model
-from pyehl.prediction.options import ModelOptions
+from pyehl.prediction.options import ModelOptions, model_error
 from pyehl.prediction.passage_friction import run
 from pyehl.prediction.smooth import solve_contact
 from pyehl.theory.lubricant import Lubricant

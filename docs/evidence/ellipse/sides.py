@@ -21,13 +21,12 @@ from cases import HERE, case_of_circle
 from pyehl.measured_response.superposition import transient_case
 from pyehl.prediction.response import AXIS
 from pyehl.prediction.smooth import circle_of, solve_contact, zone_of
-from pyehl.prediction.transverse_modes import LINES, harmonics, pressed
 from pyehl.solver import solver_on_heights
 from pyehl.theory.ellipse_edge import EllipseEdge
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import inlet_transfer
-from pyehl.theory.transport import stiffness, transport
+from pyehl.theory.transport import LINES, harmonics, pressed, stiffness, transport
 
 sys.path.insert(0, str(HERE.parent / "response"))
 from ridges import ACCURACY, AMPLITUDE, PIXELS
