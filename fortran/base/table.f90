@@ -5,7 +5,7 @@ module ehl_table
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_whole_file, only: end_writing, open_to_write
    use ehl_kinds, only: dp
-   use ehl_status, only: ehl_internal, status_t
+   use ehl_status, only: ehl_internal, ehl_no_memory, status_t
    use ehl_text, only: to_text
    implicit none (type, external)
    private
@@ -50,13 +50,19 @@ contains
    end subroutine init
 
    !> Add a row; values(:) has one number per column
-   subroutine append(self, values)
+   subroutine append(self, values, status)
       class(table_t), intent(inout) :: self
       real(dp), intent(in) :: values(:)
+      type(status_t), intent(inout) :: status
       real(dp), allocatable :: larger(:, :)
+      integer :: stat
 
       if (self%rows == size(self%values, 2)) then
-         allocate (larger(size(self%values, 1), 2*self%rows))
+         allocate (larger(size(self%values, 1), 2*self%rows), stat=stat)
+         if (stat /= 0) then
+            call status%fail(ehl_no_memory, "no memory for row "//to_text(self%rows + 1)//" of the history")
+            return
+         end if
          larger(:, :self%rows) = self%values
          call move_alloc(larger, self%values)
       end if

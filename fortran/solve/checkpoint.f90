@@ -210,8 +210,9 @@ contains
          do k = 1, t%step
             if (stat == 0) read (lun, iostat=stat, iomsg=reason) row, values
             if (stat /= 0) exit
-            call history%append(row)
-            call t%mean%append(values(1), values(2), values(3))
+            call history%append(row, status)
+            call t%mean%append(values(1), values(2), values(3), status)
+            if (status%failed()) exit
          end do
       end associate
       call end_reading(lun, self%path, stat, reason, status)

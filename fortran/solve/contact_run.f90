@@ -174,7 +174,7 @@ contains
       associate (result => self%smooth%results(n))
          call self%history%append([real(dp) :: n, self%grid%nx, result%cycles, result%m%film_central, &
                                    result%m%film_minimum, result%m%pressure_maximum, result%m%friction, &
-                                   result%m%load_error, result%residual, result%algebraic(1)])
+                                   result%m%load_error, result%residual, result%algebraic(1)], status)
       end associate
    end subroutine record_cycle
 
@@ -198,7 +198,7 @@ contains
       end if
       associate (rough => self%stationary, m => self%stationary%m)
          call self%history%append([real(dp) :: rough%total_cycles, rough%share, rough%mu_ratio(), m%film_central, &
-                                   m%film_minimum, m%pressure_maximum, m%load_error, rough%residual])
+                                   m%film_minimum, m%pressure_maximum, m%load_error, rough%residual], status)
       end associate
    end subroutine record_share
 
@@ -217,7 +217,7 @@ contains
             numbers = m%touching%numbers()
             row = [row, numbers(:known_names(self%plan%lubricant))]
          end if
-         call self%history%append(row)
+         call self%history%append(row, status)
          if (self%plan%surfaces%pass_once()) call transient%extremes%see(level, self%p_smooth, self%h_smooth, transient%time)
          self%outcome = transient_outcome(self%plan, transient)
          if (self%plan%heat%counts .and. self%outcome == outcome_converged) then

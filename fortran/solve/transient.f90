@@ -83,7 +83,7 @@ contains
       end do attempts
       if (outcome == outcome_running) outcome = outcome_cycle_limit
       if (outcome == outcome_converged) then
-         call transient%accept(hierarchy%levels(n), first, residual_first)
+         call transient%accept(hierarchy%levels(n), first, residual_first, status)
       else
          call transient%step_back(hierarchy%levels(n), surfaces)
       end if

@@ -229,12 +229,13 @@ contains
    end function converged
 
    !> The step is solved: it becomes the last one
-   subroutine accept(self, level, first, residual_first)
+   subroutine accept(self, level, first, residual_first, status)
       class(transient_t), intent(inout) :: self
       type(level_t), intent(in) :: level
       !> Results and residual after its first cycle
       type(contact_results_t), intent(in) :: first
       real(dp), intent(in) :: residual_first
+      type(status_t), intent(inout) :: status
 
       if (self%cycles > 1) call self%accuracy%learn(first%friction_newtonian, residual_first, self%m%friction_newtonian, &
                                                     self%residual)
@@ -242,7 +243,8 @@ contains
       self%total_cycles = self%total_cycles + self%cycles
       self%step = self%step + 1
       self%time = (self%skipped + self%step)*self%time_step
-      call self%mean%append(self%m%friction/self%friction_smooth, self%m%film_central, central_value(level%grid, self%rr))
+      call self%mean%append(self%m%friction/self%friction_smooth, self%m%film_central, central_value(level%grid, self%rr), &
+                            status)
       self%h00_before = [level%h00, self%h00_before(1:2)]
       call self%predictor%learn(self%p_before, level)
       call keep(level, self%mass_content, self%p_before)

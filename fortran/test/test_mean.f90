@@ -4,11 +4,13 @@ module test_mean
    use check, only: is_close, is_true
    use ehl_friction_mean, only: friction_mean_t
    use ehl_kinds, only: dp
+   use ehl_status, only: status_t
    implicit none (type, external)
    private
    public :: run_mean
 
    real(dp), parameter :: pi = acos(-1.0_dp), tolerance = 1.0e-3_dp
+   type(status_t) :: status
    !> A wave 0.25 long that moves by 1.01 of 1/128 a step: no whole number of steps is a period
    real(dp), parameter :: time_step = 1.0_dp/128.0_dp, period = 0.25_dp/1.01_dp
 
@@ -36,7 +38,7 @@ contains
          do j = 0, 11
             call mean%start(period, 5, mismatch, time_step, 0.0_dp)
             do k = 1, ceiling(1.2_dp*period/time_step)
-               call mean%append(1.0_dp + 0.1_dp*cos(2.0_dp*pi*(beats*k*time_step/period + j/12.0_dp)), 0.0_dp, 0.0_dp)
+               call mean%append(1.0_dp + 0.1_dp*cos(2.0_dp*pi*(beats*k*time_step/period + j/12.0_dp)), 0.0_dp, 0.0_dp, status)
             end do
             worst = max(worst, abs(mean%mean(0.0_dp) - 1.0_dp))
             stated = min(stated, mean%window_error())
@@ -52,9 +54,9 @@ contains
       integer :: k
 
       call mean%start(period, 1, 0.0_dp, time_step, 0.0_dp)
-      call mean%append(1.0e24_dp, 0.0_dp, 0.0_dp)
+      call mean%append(1.0e24_dp, 0.0_dp, 0.0_dp, status)
       do k = 1, nint(1.6_dp*period/time_step)
-         call mean%append(1.0_dp, 0.0_dp, 0.0_dp)
+         call mean%append(1.0_dp, 0.0_dp, 0.0_dp, status)
       end do
       call is_close(mean%mean(0.0_dp), 1.0_dp, 1.0e-12_dp, "mean of a constant behind a peak")
       call is_true(mean%settled(1.0e-12_dp), "and it has settled")
@@ -102,7 +104,7 @@ contains
 
       call mean%start(period, 1, 0.0_dp, time_step, 0.0_dp)
       do k = 1, nint(40.0_dp*period/time_step)
-         call mean%append(signal(k*time_step/period, height), 0.0_dp, 0.0_dp)
+         call mean%append(signal(k*time_step/period, height), 0.0_dp, 0.0_dp, status)
          if (mean%settled(tolerance)) return
       end do
    end subroutine run

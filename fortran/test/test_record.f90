@@ -53,7 +53,7 @@ contains
       path = "test_table-" // process_mark() // ".csv"
       call table%init([character(len=8) :: "cycle", "residual"])
       do k = 1, 100
-         call table%append([real(k, dp), 0.5_dp**k])
+         call table%append([real(k, dp), 0.5_dp**k], status)
       end do
       call is_equal(table%n_rows(), 100, "rows of the table")
       call is_equal(size(table%column("nothing")), 0, "values of a column that is not there")

@@ -2,6 +2,8 @@
 !> The mean of the friction ratio over whole periods, and whether it has settled
 module ehl_friction_mean
    use ehl_kinds, only: dp
+   use ehl_status, only: ehl_no_memory, status_t
+   use ehl_text, only: to_text
    implicit none (type, external)
    private
    public :: friction_mean_t, periods_compared, automatic_periods
@@ -89,20 +91,38 @@ contains
    end subroutine start
 
    !> Add the values of the next step: friction ratio, film and roughness at X = Y = 0
-   subroutine append(self, value, film, roughness)
+   subroutine append(self, value, film, roughness, status)
       class(friction_mean_t), intent(inout) :: self
       real(dp), intent(in) :: value, film, roughness
+      type(status_t), intent(inout) :: status
 
       if (self%n == size(self%values)) then
-         self%values = [self%values, self%values]
-         self%film = [self%film, self%film]
-         self%roughness = [self%roughness, self%roughness]
+         call double(self%values, status)
+         call double(self%film, status)
+         call double(self%roughness, status)
+         if (status%failed()) return
       end if
       self%n = self%n + 1
       self%values(self%n) = value
       self%film(self%n) = film
       self%roughness(self%n) = roughness
    end subroutine append
+
+   !> Twice as many places
+   subroutine double(values, status)
+      real(dp), allocatable, intent(inout) :: values(:)
+      type(status_t), intent(inout) :: status
+      real(dp), allocatable :: more(:)
+      integer :: stat
+
+      allocate (more(2*size(values)), stat=stat)
+      if (stat /= 0) then
+         call status%fail(ehl_no_memory, "no memory for the friction of more than "//to_text(size(values))//" time steps")
+         return
+      end if
+      more(:size(values)) = values
+      call move_alloc(more, values)
+   end subroutine double
 
    !> A_d/A_i at X = Y = 0: the standard deviation of the film there over the last period, over that of
    !> the roughness that passes

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 import scipy
 
-from pyehl.prediction.contact_solver import Compliance, lifted
+from pyehl.prediction.contact_solver import Compliance, Lifted, lifted
 from pyehl.prediction.model import Components, Model
 from pyehl.prediction.moving_tile import slipped
 from pyehl.prediction.rough_contact import RoughContact, missing
@@ -32,6 +32,9 @@ LEAST_LEFT = 0.02
 change no digit of the contact in docs/howto/mixed.md."""
 GIVEN_TO = 1e-4
 """Error of the film that the layer gives, over the layer: far below HOLD."""
+SHARE, FARTHEST = 1e-3, 1.0
+"""Error of the load share of a smooth contact, and the largest film over its minimum film, in the
+search for the film that has it."""
 BOX = 1.25
 """Length of the periodic box of pressures over that of the contact: 1.1 and 2 change the load share
 in docs/howto/mixed.md by 2 and 4 % of itself, a tenth of its error."""
@@ -142,26 +145,63 @@ class LayeredContact:
         """Add what a position has to levels; False: it is not solved."""
         rough, held = self.rough, None
         change = rough.change((shift, 0)).astype(float)
-        linear = rough.pressure + change[..., 1]
-        floor = self._floor(linear)
-        sustained = self.film * loss_at(floor / self.film)
         for level in levels:
-            loss = change[..., 0] - level.thicker
-            loss -= self._given(floor - self.film * film_left(loss / self.film))
-            gap = np.where(rough.inside, sustained - loss, np.inf)
-            held = lifted(gap, self.lifting, self.layer, self.load, held)
+            held, (pressure, film, touching) = self._state(change, level.thicker, held)
             if held is None:
                 return False
-            film = np.maximum(self.film * film_left((loss - held.lift) / self.film), floor)
-            pressure = np.maximum(linear + self.raising(held.pressure), 0.0)
-            touching = self._touching(pressure, film, floor)
             self.found.setdefault(shift, (pressure, film, touching))
-            carried = float(pressure.sum(where=rough.inside))
-            level.load.append(float(pressure.sum(where=touching)) / carried)
+            level.load.append(self._share(pressure, touching))
             level.area.append(np.count_nonzero(touching) / rough.points)
             level.stress.append(self._stress(pressure, film, touching))
             level.least = min(level.least, float(film.min(where=rough.inside, initial=math.inf)))
         return True
+
+    def _state(
+        self, change: Array, thicker: float, held: Lifted | None
+    ) -> tuple[Lifted | None, tuple[Array, Array, Mask]]:
+        """Pressure, film and where bodies touch (m, n), by loss of film and rise of pressure.
+
+        `change` (m, n, 2) where films are thicker by a length; also what holds the film off the
+        layer, None: it is not solved, from what did so in a similar state.
+        """
+        linear = self.rough.pressure + change[..., 1]
+        floor = self._floor(linear)
+        loss = change[..., 0] - thicker
+        loss -= self._given(floor - self.film * film_left(loss / self.film))
+        sustained = self.film * loss_at(floor / self.film)
+        gap = np.where(self.rough.inside, sustained - loss, np.inf)
+        held = lifted(gap, self.lifting, self.layer, self.load, held)
+        lift, more = (0.0, 0.0) if held is None else (held.lift, self.raising(held.pressure))
+        film = np.maximum(self.film * film_left((loss - lift) / self.film), floor)
+        pressure = np.maximum(linear + more, 0.0)
+        return held, (pressure, film, self._touching(pressure, film, floor))
+
+    def _share(self, pressure: Array, touching: Mask) -> float:
+        """Share of the load at the layer."""
+        carried = float(pressure.sum(where=self.rough.inside))
+        return float(pressure.sum(where=touching)) / carried
+
+    def film_off(self, share: float) -> float:
+        """Film [a^2/R] by which all were thicker in a smooth contact with a load share.
+
+        To SHARE; NaN where none up to FARTHEST does, or the share is not known.
+        """
+        farthest = FARTHEST * self.rough.lowest
+        low, high, off = -farthest, farthest, 0.0
+        while math.isfinite(share) and (found := self._of_smooth(off)) is not None:
+            left = self._share(found[0], found[2]) - share
+            if abs(left) <= SHARE:
+                return off
+            if high - low < GIVEN_TO * self.layer:
+                return off if -farthest < low < high < farthest else math.nan
+            low, high = (off, high) if left > 0.0 else (low, off)
+            off = 0.5 * (low + high)
+        return math.nan
+
+    def _of_smooth(self, thicker: float) -> tuple[Array, Array, Mask] | None:
+        """Pressure, film and where bodies touch without roughness; None: not solved."""
+        held, state = self._state(np.zeros((*self.film.shape, 2)), thicker, None)
+        return None if held is None else state
 
     def _touching(self, pressure: Array, film: Array, floor: Array) -> Mask:
         return self.rough.inside & (film <= (1.0 + HOLD) * floor) & (pressure > 0.0)
@@ -196,12 +236,16 @@ class LayeredContact:
             [self._stress(*state) for state in found],
         )
 
-    def smooth_friction(self) -> float:
-        """Sum of the shear stress of the smooth contact."""
+    def smooth_friction(self, off: float) -> float:
+        """Sum of the shear stress of the smooth contact, which touches where films `film_off` do.
+
+        NaN: where its own film is not above that of the layer.
+        """
         pressure = self.rough.pressure
-        floor = self._floor(pressure)
-        film = np.maximum(self.film, floor)
-        touching = self._touching(pressure, film, floor)
+        film = np.maximum(self.film, self._floor(pressure))
+        touching = self._touching(pressure, film, self._floor(pressure))
+        if math.isfinite(off) and (state := self._of_smooth(off)) is not None:
+            pressure, _, touching = state
         return self._stress(pressure, film, touching)
 
     def coefficient(self, stress: float) -> float:

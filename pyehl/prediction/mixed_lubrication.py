@@ -16,6 +16,10 @@ one after the other, and all films are thicker by the mean s of that:
 
     s = < max(0, h_b - h_least - s) >,   h_least the minimum film of the column on its way.
 
+Without roughness this is not the solution of the smooth contact: the layer makes the film of its
+inlet thinner there. By as much as all films had to be thinner or thicker for the load share of that
+solution they may be wrong, and friction is relative to the smooth contact with those.
+
 Compared with the full simulation in docs/evidence/partial.
 """
 
@@ -32,6 +36,7 @@ from pyehl.prediction.friction import RoughFriction, broken
 from pyehl.prediction.model import Components, Model
 from pyehl.prediction.options import outside_range
 from pyehl.prediction.passage_friction import Outcome
+from pyehl.prediction.smooth import SmoothContact
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.surfaces import interpolated
 from pyehl.theory.heat import Heat
@@ -56,6 +61,7 @@ OTHER_MODEL = "psd.reduction and psd.smooth are not those that contact is predic
 ELASTIC = "the prediction is of elastic solids: contact.hardness is left out"
 UNRESOLVED = "waves are too short for the points of the prediction"
 UNSOLVED = "the contact of the prediction is not solved"
+NO_SMOOTH = "no film has the load share of the smooth contact, by which the error is known"
 BETWEEN = "the film ends between the positions at which contact is looked for"
 NO_FRICTION = (
     "the bodies touch, and the friction there is not known: lubricant.boundary_friction and "
@@ -95,14 +101,31 @@ class MixedFilm:
             return self
         return MixedFilm(note, mu_smooth=self.mu_smooth, lost=self.lost or self.touches)
 
+    def without_errors(self, note: str) -> MixedFilm:
+        """Give the same where no error is known, and why."""
+        n = math.nan
+        return replace(
+            self,
+            note=self.note or note,
+            load_share_error=n,
+            area_share_error=n,
+            film_min_error=n,
+            friction_error=n,
+        )
+
     @property
     def lacks_friction(self) -> bool:
         """Whether bodies touch and the friction there is not known."""
         return self.touches and not math.isfinite(self.friction)
 
 
-def mixed_film(model: Model, waves: Components, settings: Settings) -> MixedFilm | None:
-    """Find the partial film of a resolved case under a model; None without a boundary film."""
+def mixed_film(
+    model: Model, waves: Components, settings: Settings, smooth: SmoothContact
+) -> MixedFilm | None:
+    """Find the partial film of a resolved case under a model; None without a boundary film.
+
+    `smooth`: the smooth contact with its boundary film.
+    """
     layer = float(settings["lubricant"]["boundary_film"])
     if not layer > 0.0:
         return None
@@ -110,20 +133,22 @@ def mixed_film(model: Model, waves: Components, settings: Settings) -> MixedFilm
         return MixedFilm(OF_TWO)
     if not model.options.measured:
         return MixedFilm(OTHER_MODEL)
-    found = partial_film(model, waves, layer, settings)
+    found = partial_film(model, waves, layer, settings, smooth)
     ratio, thinning = model.surfaces[0].velocity_ratio, model.contact.thinning
     if beyond := outside_range(model.operating, ratio, model.options, thinning):
         found = found.unknown(f"outside the range of the response by {', '.join(beyond)}")
     if settings["contact"].get("hardness", 0.0) > 0.0:
-        note = found.note or ELASTIC
-        found = replace(found, load_share_error=math.nan, area_share_error=math.nan, note=note)
+        found = found.without_errors(ELASTIC)
     return found
 
 
-def partial_film(model: Model, waves: Components, layer: float, settings: Settings) -> MixedFilm:
+def partial_film(
+    model: Model, waves: Components, layer: float, settings: Settings, with_layer: SmoothContact
+) -> MixedFilm:
     """Find the partial film over a passage of one tile, with a layer [m], of a resolved case.
 
-    Its errors are by a film that is thicker and thinner by its error.
+    Its errors are by a film that is thicker and thinner by its error; none where the smooth contact
+    `with_layer` is not known.
     """
     (grid,), (wave,), o = model.grids(), waves, model.operating
     friction = float(settings["lubricant"]["boundary_friction"])
@@ -134,12 +159,14 @@ def partial_film(model: Model, waves: Components, layer: float, settings: Settin
     # what the smooth film may be off, where that is more: bodies touch where it is least
     of_smooth = np.nan_to_num(model.contact.minimum_film_error)
     margin = max(TOUCHING_FILM_ERROR * math.sqrt(float(power.sum())), float(of_smooth))
+    off = contact.film_off(with_layer.load_share) if with_layer is not model.contact else 0.0
+    margin = max(margin, abs(off)) if math.isfinite(off) else margin
     levels = [Level(film) for film in (0.0, margin, -margin)]
     steps = np.arange(POSITIONS) * (grid.shape[0] // POSITIONS)
     with np.errstate(over="ignore", invalid="ignore"):
         if not all(contact.add(int(step), levels) for step in steps):
             return MixedFilm(UNSOLVED)
-        smooth = contact.smooth_friction()
+        smooth = contact.smooth_friction(off)
         heat = contact.heat(steps[:: POSITIONS // HEATED_POSITIONS], settings)
     load, load_error = _mean([level.load for level in levels])
     area, area_error = _mean([level.area for level in levels])
@@ -160,7 +187,9 @@ def partial_film(model: Model, waves: Components, layer: float, settings: Settin
         passage=np.array(levels[0].stress) / smooth,
         heat=heat,
     )
-    return found if points <= 2.0 * CONTACT_POINTS[1] else found.unknown(UNRESOLVED)
+    if points > 2.0 * CONTACT_POINTS[1]:
+        return found.unknown(UNRESOLVED)
+    return found if math.isfinite(off) else found.without_errors(NO_SMOOTH)
 
 
 def _mean(values: list[list[float]]) -> tuple[float, float]:

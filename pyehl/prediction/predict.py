@@ -84,7 +84,7 @@ def predict(
         # the positions of the passage have missed it
         outcome = Outcome(broken(outcome.friction, below.deepest))
     ended = outcome.friction.status == "film breakdown"
-    mixed = mixed_film(model, waves or [], settings)
+    mixed = mixed_film(model, waves or [], settings, films)
     if mixed is not None:
         outcome, mixed = with_contact(outcome, mixed)
     advice = None

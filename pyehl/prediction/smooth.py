@@ -56,6 +56,7 @@ class SmoothContact:
     extrapolated: bool = False  # whether `central_film` is
     newtonian: SmoothContact | None = None  # that contact with a Newtonian flow; None: it is
     minimum_film_error: float = math.nan  # estimated error of `minimum_film` [a^2/R]
+    load_share: float = math.nan  # share of the load at the boundary film [-]; NaN: not known
 
     @property
     def thinning(self) -> float:
@@ -108,7 +109,7 @@ def with_layer(settings: Settings, contact: SmoothContact, lubricant: Lubricant)
     pressure = np.maximum(contact.pressure, 0.0) * operating.hertz_pressure
     held = lubricant.density_ratio(pressure) * contact.film
     if float(held.min()) > TOUCHES * layer:
-        return contact
+        return replace(contact, load_share=0.0)
     cycles = max(CYCLES, int(settings["solver"]["max_cycles"]))
     found, why = _solved_with_layer(smooth_case(settings, layer=True), cycles)
     if found is not None:
@@ -197,6 +198,7 @@ def contact_of(
     limit = summary["H_c_extrapolated"]
     how = "extrapolated" if limit is not None else "not extrapolated"
     (central, error), (least, least_error) = (film_of(summary, name) for name in ("H_c", "H_min"))
+    share = summary.get("contact_load_share")
     film = film * (central / summary["H_c"])
     for values in (*axes, pressure, film):
         values.flags.writeable = False
@@ -210,6 +212,7 @@ def contact_of(
         least,
         limit is not None,
         minimum_film_error=math.nan if least_error is None else least_error,
+        load_share=math.nan if share is None else share,
     )
 
 
