@@ -12,11 +12,15 @@ import pandas as pd
 from pyehl.commands.arguments import add_case_arguments
 from pyehl.commands.watching import Terminal, add_worker_arguments, jobs_of, report_lost
 from pyehl.errors import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, InputError
+from pyehl.rigs.quantities import FRICTION
+from pyehl.rigs.reading import is_rig, read_rig
+from pyehl.studies.compare import read_results
 from pyehl.studies.curve import curves_of, no_coefficient
 from pyehl.studies.curve_plan import KEYS, CurvePlan, plan_curve
 from pyehl.studies.curve_run import CSV, NETCDF, PICTURE, curve_axes, perform
 from pyehl.studies.curve_text import absolute_friction, deviation, last_lines, report
 from pyehl.studies.measured_friction import Measured, read_measured
+from pyehl.studies.rig_comparison import compared, lines, rig_curves
 from pyehl.surfaces import rough_groups
 from pyehl.theory.load_share import AIHARA, LoadShare
 from pyehl.theory.transition import UNSOLVED
@@ -45,7 +49,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="mean and spread over K surfaces, of the seed of the case and those that follow",
     )
     parser.add_argument(
-        "--measured", metavar="FILE.csv", help="measured friction, drawn over the curve"
+        "--measured",
+        metavar="FILE",
+        help="measured friction, drawn over the curve: columns as of the curve, or the file of a "
+        "rig, whose films and friction are compared",
     )
     parser.add_argument(
         "--boundary-friction",
@@ -82,12 +89,28 @@ def _plan(args: argparse.Namespace) -> CurvePlan:
     )
 
 
-def _measured(path: str, plan: CurvePlan) -> Measured:
-    """Read measured friction; InputError if it does not fit the curve."""
+def _measured(path: str, plan: CurvePlan) -> Measured | None:
+    """Read measured friction; InputError if it does not fit the curve, None if a rig has none."""
     keys = plan.study.keys
     if len(keys) > 1:
         raise InputError("--measured: expected one curve, over one of the options")
-    measured = read_measured(path, keys[0])
+    if is_rig(path):
+        settings = plan.points[0].settings
+        rig = rig_curves(path, settings, keys)
+        return _fitting(path, rig[FRICTION], plan) if FRICTION in rig else None
+    measured = _fitting(path, read_measured(path, keys[0]), plan)
+    places = np.array([float(p.point.values[keys[0]]) for p in plan.points])
+    if measured.abscissa == keys[0] and (beyond := measured.outside(places)):
+        raise InputError(
+            f"{path}: --measured: {beyond} of {len(measured.places)} values of {keys[0]} are "
+            f"beyond the curve, which goes from {places.min():g} to {places.max():g}\nexpected: a "
+            "wider curve, or a file without them"
+        )
+    return measured
+
+
+def _fitting(path: str, measured: Measured, plan: CurvePlan) -> Measured:
+    """Give measured friction; InputError if the curve has another kind of it."""
     moving = [p.settings for p in plan.points if p.settings["contact"]["slide_to_roll"] != 0.0]
     why = next((note for settings in moving if (note := no_coefficient(settings))), "")
     wanted = "mu_ratio" if why else "mu"
@@ -95,13 +118,6 @@ def _measured(path: str, plan: CurvePlan) -> Measured:
         raise InputError(
             f"{path}: --measured: it holds {measured.ordinate}, the curve {wanted} "
             f"({why or 'with lubricant.shear_law = newtonian it has mu_ratio'})"
-        )
-    places = np.array([float(p.point.values[keys[0]]) for p in plan.points])
-    if measured.abscissa == keys[0] and (beyond := measured.outside(places)):
-        raise InputError(
-            f"{path}: --measured: {beyond} of {len(measured.places)} values of {keys[0]} are "
-            f"beyond the curve, which goes from {places.min():g} to {places.max():g}\nexpected: a "
-            "wider curve, or a file without them"
         )
     return measured
 
@@ -195,7 +211,10 @@ def _curve(args: argparse.Namespace, plan: CurvePlan, jobs: int, measured: Measu
         print("note: no point has a friction or a load share; there is no picture", file=sys.stderr)
     if not args.quiet:
         print(report(plan, table))
-        if measured is not None:
+        if args.measured is not None and is_rig(args.measured):
+            found = compared(read_results(str(folder)), read_rig(args.measured))
+            print("\n".join(lines(found)))
+        elif measured is not None:
             print("\n".join(deviation(curves_of(plan, table)[0], measured)))
         print(last_lines(plan, table))
         print(f"results    {', '.join(str(folder / name) for name in written)}")

@@ -2,6 +2,7 @@
 """Pictures of lubricants: viscosity and shear stress of an oil, a shear law and what it fits."""
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from pyehl.plots.style import BLUE, GREEN, VERMILLION, letter, new_figure, points
@@ -67,14 +68,32 @@ def draw_fit(
     slide_to_roll: Array, measured: Array, error: Array, curve: tuple[Array, Array], words: str
 ) -> Figure:
     """Draw a measured traction curve with its errors (n,), and a fitted one: places, friction."""
-    figure = new_figure(6.0, 4.2)
-    ax = figure.subplots()
-    how = {"fmt": "k^", "ms": 5, "mfc": "none", "capsize": 2, "lw": 0.8}
-    points(ax, slide_to_roll, measured, error, **how)
-    ax.plot([], [], "k^", mfc="none", label="measured")
-    ax.plot(*curve, "o-", ms=3, color=BLUE, label=words)
+    figure, ax = _measured_and_fitted(slide_to_roll, measured, error, curve, words)
     ax.set(xlabel="slide-to-roll ratio", ylabel=r"$\mu$")
     ax.set_xlim(left=0.0)
     ax.set_ylim(bottom=0.0)
-    ax.legend()
     return figure
+
+
+def draw_film_fit(
+    speeds: Array, measured: Array, error: Array, curve: tuple[Array, Array], words: str
+) -> Figure:
+    """Draw measured films [m] over speeds [m/s] with errors (n,), and fitted ones."""
+    nm = 1e9
+    fitted = curve[0], curve[1] * nm
+    figure, ax = _measured_and_fitted(speeds, measured * nm, error * nm, fitted, words)
+    ax.set(xscale="log", yscale="log", xlabel="mean velocity [m/s]", ylabel="central film [nm]")
+    return figure
+
+
+def _measured_and_fitted(
+    places: Array, measured: Array, error: Array, curve: tuple[Array, Array], words: str
+) -> tuple[Figure, Axes]:
+    figure = new_figure(6.0, 4.2)
+    ax = figure.subplots()
+    how = {"fmt": "k^", "ms": 5, "mfc": "none", "capsize": 2, "lw": 0.8}
+    points(ax, places, measured, error, **how)
+    ax.plot([], [], "k^", mfc="none", label="measured")
+    ax.plot(*curve, "o-", ms=3, color=BLUE, label=words)
+    ax.legend()
+    return figure, ax

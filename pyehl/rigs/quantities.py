@@ -55,6 +55,7 @@ FILM_ERROR = Quantity("h_c_error_m", "m", ("standard deviation", "film error"))
 ERROR = Quantity("error", "-", ("error", "mu error", "friction error"))
 CONDITIONS = (SPEED, SLIP, LOAD, TEMPERATURE)
 MEASURED = (FILM, LEAST, FRICTION)
+ERRORS = {FILM: FILM_ERROR, FRICTION: ERROR}
 QUANTITIES = (*CONDITIONS, *MEASURED, FILM_ERROR, ERROR)
 
 # Factor to the unit of a quantity, by that unit

@@ -18,7 +18,7 @@ from pathlib import Path
 import numpy as np
 
 from pyehl.errors import InputError
-from pyehl.rigs.quantities import MEASURED, QUANTITIES, in_si, quantity_of
+from pyehl.rigs.quantities import MEASURED, QUANTITIES, in_si, label_of, quantity_of
 from pyehl.types import Array
 
 PCS = re.compile(r"(EHD|MTM|ETM)\d*\s+Test Data File")
@@ -88,6 +88,15 @@ def read_rig(path: str | os.PathLike[str]) -> RigFile:
             "units in brackets"
         )
     return RigFile(name, kind, measured)
+
+
+def is_rig(path: str | os.PathLike[str]) -> bool:
+    """Tell whether a file is that of a rig, or a table with units in its line of names."""
+    lines = [line for line in _text(path).splitlines() if line.strip() and line[0] != "#"]
+    if not lines:
+        return False
+    named = any(quantity_of(cell) and label_of(cell)[1] for cell in re.split("[;\t,]", lines[0]))
+    return bool(named or PCS.match(lines[0]) or lines[0].startswith(SLIM))
 
 
 def _text(path: str | os.PathLike[str]) -> str:

@@ -8,12 +8,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pyehl.rigs.quantities import CONDITIONS, Quantity
+from pyehl.rigs.quantities import CONDITIONS, ERRORS, Quantity
 from pyehl.rigs.reading import Step
 from pyehl.types import Array
 
 # Conditions that differ less, relatively, are the same if they are far nearer than the next ones
 SAME, NEARER = 0.03, 0.25
+# Repeats whose own scatter is used; that of fewer is too uncertain, and all are taken together
+MANY = 5
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,6 +27,7 @@ class Curve:
     places: Array  # (n,) ascending
     values: Array  # means (n,)
     scatter: Array  # standard deviation over repeats (n,); NaN of a single value
+    error: Array  # of the means (n,); NaN where it is not known
     count: Array  # repeats (n,)
     conditions: dict[str, tuple[float, float]]  # smallest and largest of the other conditions
 
@@ -46,24 +49,41 @@ def varied(steps: Sequence[Step]) -> Quantity | None:
 
 
 def averaged(steps: Sequence[Step], quantity: Quantity, over: Quantity) -> Curve:
-    """Average what was measured of a quantity over a condition."""
+    """Average what was measured of a quantity over a condition.
+
+    The error of a mean is that of its repeats, or of all repeats as a share of their means, over
+    the root of their number. Without repeats it is what the file states.
+    """
     used = [s for s in steps if quantity.name in s.columns and over.name in s.columns]
     places = np.concatenate([s.columns[over.name] for s in used])
     values = np.concatenate([s.columns[quantity.name] for s in used])
+    nothing = [np.full(s.columns[over.name].shape, np.nan) for s in used]
+    name = ERRORS.get(quantity, quantity).name
+    stated = [
+        s.columns.get(name, n) if name != quantity.name else n
+        for s, n in zip(used, nothing, strict=True)
+    ]
     known = np.isfinite(places) & np.isfinite(values)
     order = np.argsort(places[known], kind="stable")
     places, values = places[known][order], values[known][order]
+    given = np.concatenate(stated)[known][order]
     groups = _groups(places)
     at, mean = (np.array([a[g].mean() for g in groups]) for a in (places, values))
-    scatter = [values[g].std(ddof=1) if len(g) > 1 else np.nan for g in groups]
+    scatter = np.array([values[g].std(ddof=1) if len(g) > 1 else np.nan for g in groups])
+    counts = np.array([len(g) for g in groups])
+    error = np.array([given[g].mean() for g in groups])
+    if (counts > 1).any():
+        free = np.where(counts > 1, counts - 1.0, 0.0)
+        shares = np.nan_to_num(scatter / mean) ** 2
+        pooled = float(np.sqrt((free * shares).sum() / free.sum())) * np.abs(mean)
+        error = np.where(counts < MANY, pooled, scatter) / np.sqrt(counts)
     others = {}
     for condition in CONDITIONS:
         parts = [s.columns[condition.name] for s in used if condition.name in s.columns]
         if parts and condition is not over:
             every = np.concatenate(parts)
             others[condition.name] = float(np.nanmin(every)), float(np.nanmax(every))
-    counts = np.array([len(g) for g in groups])
-    return Curve(over.name, quantity.name, at, mean, np.array(scatter), counts, others)
+    return Curve(over.name, quantity.name, at, mean, scatter, error, counts, others)
 
 
 def _groups(places: Array) -> list[Array]:

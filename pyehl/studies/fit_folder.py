@@ -1,18 +1,24 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A shear law fitted to a measured traction curve, and its result folder."""
+"""A lubricant fitted to a measured curve, and its result folder."""
 
 import os
+from dataclasses import replace
 
 from pyehl.arrays import write_csv
 from pyehl.case import Case
 from pyehl.destination import Destination, write_json
 from pyehl.errors import InputError, did_you_mean
 from pyehl.given import Option, check_kind, path_of
+from pyehl.rigs.quantities import FILM, FRICTION, SLIP, SPEED
+from pyehl.rigs.reading import is_rig, read_rig
+from pyehl.studies.film_fit import fit_coefficient
 from pyehl.studies.measured_friction import read_measured
+from pyehl.studies.rig_comparison import measured_curve
 from pyehl.studies.shear_fit import PARAMETERS, Fit, fit_law
 from pyehl.theory.operating import OperatingPoint
 
 KEY = "contact.slide_to_roll"
+OF_FILM = "pressure-viscosity"
 FILES = ("fit.csv", "parameters.csv", "lubricant.nml", "fit.png", "summary.json")
 
 
@@ -25,15 +31,18 @@ def fit_lubricant(
     output: str | os.PathLike[str] | None = None,
     force: bool = False,
 ) -> Fit:
-    """Fit the shear law of a lubricant to a measured traction curve.
+    """Fit the shear law of a lubricant to a traction curve, or its coefficient to film thickness.
 
-    The friction is that of smooth contacts, solved with the law at each slide-to-roll ratio; the
-    parameters are those of least squares, with 95 % confidence intervals of the linearised model.
+    Friction and central film are those of smooth contacts that are solved, at each slide-to-roll
+    ratio or over the mean velocity; the parameters are those of least squares, with 95 % confidence
+    intervals of the linearised model.
 
     Parameters
     ----------
     data
-        CSV file with the columns ``contact.slide_to_roll``, ``mu`` and, if known, ``error``.
+        CSV file with the columns ``contact.slide_to_roll``, ``mu`` and, if known, ``error``; or the
+        file of a rig (`pyehl compare --measured`): its steps under the conditions of the case,
+        repeats averaged, with their scatter as error.
     case
         A case, or the path of a case file: the contact in SI units and its lubricant. Roughness
         does not count.
@@ -41,7 +50,8 @@ def fit_lubricant(
         Values that replace those of the case, as of `Case`.
     law
         'eyring', 'limiting' (the limiting coefficient) or 'carreau'; '': that of the case, and
-        'eyring' where the case has none.
+        'eyring' where the case has none. 'pressure-viscosity': the coefficient from films over
+        speed of a rig, also where the file has films alone.
     points
         Nodes along X of the contacts.
     output
@@ -52,7 +62,8 @@ def fit_lubricant(
     Returns
     -------
     Fit
-        With ``parameters``, ``residual_rms`` and ``group``, the law as ``&lubricant`` to paste.
+        With ``parameters``, ``residual_rms`` and ``group``, the parameters as ``&lubricant`` to
+        paste.
 
     Raises
     ------
@@ -78,18 +89,24 @@ def fit_lubricant(
     case = Case(case, *options)
     settings = case.resolve()
     given = str(settings["lubricant"]["shear_law"])
+    if not law and is_rig(path) and not _has_friction(path):
+        law = OF_FILM
     law = law or ("eyring" if given == "newtonian" else given)
-    if law not in PARAMETERS:
-        raise InputError(
-            f"law = {law}: expected one of {', '.join(PARAMETERS)}{did_you_mean(law, PARAMETERS)}"
-        )
-    measured = read_measured(path, KEY)
-    if (measured.abscissa, measured.ordinate) != (KEY, "mu"):
+    laws = (*PARAMETERS, OF_FILM)
+    if law not in laws:
+        raise InputError(f"law = {law}: expected one of {', '.join(laws)}{did_you_mean(law, laws)}")
+    left_out: list[str] = []
+    if law == OF_FILM or is_rig(path):
+        quantity, over = (FILM, SPEED) if law == OF_FILM else (FRICTION, SLIP)
+        measured, left_out = measured_curve(path, settings, quantity, over)
+    else:
+        measured = read_measured(path, KEY)
+    if law != OF_FILM and (measured.abscissa, measured.ordinate) != (KEY, "mu"):
         raise InputError(
             f"{path}:1: error: the columns are {measured.abscissa} and {measured.ordinate}\n"
             f"expected: {KEY} and mu, and error, which may be missing"
         )
-    if measured.places.max() > 2.0:
+    if law != OF_FILM and measured.places.max() > 2.0:
         raise InputError(f"{path}: error: {KEY} = {measured.places.max():g}\nexpected: at most 2")
     if measured.friction.min() <= 0.0:
         raise InputError(f"{path}: error: mu = {measured.friction.min():g}\nexpected: above 0")
@@ -102,21 +119,30 @@ def fit_lubricant(
     if output is not None:
         place = Destination(path_of(output, "output"), "fit", FILES, tuple(inputs), force=force)
         place.check()
-    found = fit_law(settings, law, measured, points)
+    if law == OF_FILM:
+        found = fit_coefficient(settings, measured, points)
+    else:
+        found = fit_law(settings, law, measured, points)
+    found = replace(found, notes=(*found.notes, *(f"left out: {why}" for why in left_out)))
     if place is not None:
         _write(found, place)
     return found
 
 
+def _has_friction(path: str) -> bool:
+    return any(FRICTION.name in step.columns for step in read_rig(path).steps)
+
+
 def _write(fit: Fit, place: Destination) -> None:
     """Write tables, group, picture and summary, whole or not at all."""
     # matplotlib takes long to import
-    from pyehl.plots.lubricant import draw_fit  # noqa: PLC0415
+    from pyehl.plots.lubricant import draw_film_fit, draw_fit  # noqa: PLC0415
     from pyehl.plots.style import save  # noqa: PLC0415
 
     with place.fresh() as folder:
-        rows = zip(fit.slide_to_roll, fit.measured, fit.error, fit.fitted, strict=True)
-        write_csv(folder / "fit.csv", (KEY, "mu", "error", "mu_fitted"), rows)
+        rows = zip(fit.places, fit.measured, fit.error, fit.fitted, strict=True)
+        names = fit.over, fit.quantity, "error", f"{fit.quantity}_fitted"
+        write_csv(folder / "fit.csv", names, rows)
         columns = ("key", "unit", "value", "low", "high")
         write_csv(
             folder / "parameters.csv",
@@ -124,8 +150,8 @@ def _write(fit: Fit, place: Destination) -> None:
             [tuple(getattr(p, name) for name in columns) for p in fit.parameters],
         )
         (folder / "lubricant.nml").write_text(fit.group, encoding="utf-8")
-        curve = fit.slide_to_roll, fit.fitted
-        words = f"{fit.law}, fitted"
-        figure = draw_fit(fit.slide_to_roll, fit.measured, fit.error, curve, words)
+        draw = draw_fit if fit.law else draw_film_fit
+        words = f"{fit.law or fit.parameters[0].key.replace('_', '-')}, fitted"
+        figure = draw(fit.places, fit.measured, fit.error, (fit.places, fit.fitted), words)
         save(figure, folder / "fit.png", command="fit-lubricant")
         write_json(folder / "summary.json", {**fit.summary, "files": sorted(FILES)})

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,10 +20,11 @@ from pyehl.rigs.quantities import (
     TEMPERATURE,
     Quantity,
 )
-from pyehl.rigs.reading import RigFile, Step
+from pyehl.rigs.reading import RigFile, Step, read_rig
 from pyehl.rigs.repeats import Curve, averaged, varied
 from pyehl.studies.compare import Results
-from pyehl.types import Array
+from pyehl.studies.measured_friction import Measured
+from pyehl.types import Array, Settings
 
 # How far a condition of a rig may be from that of the case: relative, or as a difference
 RELATIVE = {SPEED: 0.03, LOAD: 0.05}
@@ -47,31 +49,14 @@ def compared(results: Results, rig: RigFile) -> list[Compared]:
         If the study does not go over the condition that the rig varies, if no step has its other
         conditions, or if they have no quantity or range in common.
     """
-    over = varied(rig.steps)
-    if over is None:
-        raise InputError(f"{rig.name}: error: one condition alone\nexpected: a curve over one")
-    if over.name not in results.vary:
-        raise InputError(
-            f"{rig.name}: error: measured over {over.name}; the results go over "
-            f"{', '.join(results.vary) or 'nothing'}\nexpected: results of a sweep or curve over it"
-        )
-    used: list[Step] = []
-    left_out = []
-    for step in rig.steps:
-        why = _difference(step, results, over)
-        if why:
-            left_out.append(f"{step.title or 'table'}: {why}")
-        else:
-            used.append(step)
-    if not used:
-        raise InputError(
-            f"{rig.name}: error: no step has the conditions of the case\n" + "\n".join(left_out)
-        )
+    over, used, left_out = steps_of(
+        rig, results.vary, lambda name: results.key(results.rows[0], name)
+    )
     places = _column(results, over.name)
     found = []
     for quantity in MEASURED:
         values = _column(results, quantity.name)
-        if any(quantity.name in step.columns for step in used) and np.isfinite(values).any():
+        if _has(used, quantity) and np.isfinite(values).any():
             curve = averaged(used, quantity, over)
             found.append(Compared(curve, deviations(curve, places, values), left_out))
     if not found:
@@ -89,19 +74,118 @@ def _column(results: Results, name: str) -> Array:
     return np.array([math.nan if v is None else float(v) for v in values])
 
 
-def _difference(step: Step, results: Results, over: Quantity) -> str:
+def steps_of(
+    rig: RigFile, vary: Sequence[str], here: Callable[[str], object]
+) -> tuple[Quantity, list[Step], list[str]]:
+    """Give the condition that a rig varied, the steps under the conditions of a case, and others.
+
+    Parameters
+    ----------
+    rig
+        Its file.
+    vary
+        Keys that the study goes over.
+    here
+        Value of a key of the case.
+
+    Returns
+    -------
+    tuple
+        Condition, steps, and of each step that is left out its title and the reason.
+
+    Raises
+    ------
+    InputError
+        If the rig varied another condition, or no step has the others.
+    """
+    over = varied(rig.steps)
+    if over is None:
+        raise InputError(f"{rig.name}: error: one condition alone\nexpected: a curve over one")
+    if over.name not in vary:
+        raise InputError(
+            f"{rig.name}: error: measured over {over.name}; the results go over "
+            f"{', '.join(vary) or 'nothing'}\nexpected: results of a sweep or curve over it"
+        )
+    pairs = [(step, _difference(step, here, over)) for step in rig.steps]
+    used = [step for step, why in pairs if not why]
+    left_out = [f"{step.title or 'table'}: {why}" for step, why in pairs if why]
+    if not used:
+        raise InputError(
+            f"{rig.name}: error: no step has the conditions of the case\n" + "\n".join(left_out)
+        )
+    return over, used, left_out
+
+
+def rig_curves(path: str, settings: Settings, vary: Sequence[str]) -> dict[Quantity, Measured]:
+    """Give what a rig measured under the conditions of a case; what is not above 0 is left out.
+
+    Raises
+    ------
+    InputError
+        If the file has no curve over one of the keys of `vary` under these conditions.
+    """
+    over, used, _ = steps_of(read_rig(path), vary, lambda name: _value(settings, name))
+    return {q: _above_0(averaged(used, q, over)) for q in MEASURED if _has(used, q)}
+
+
+def measured_curve(
+    path: str, settings: Settings, quantity: Quantity, over: Quantity
+) -> tuple[Measured, list[str]]:
+    """Give what a rig measured of a quantity over a condition, and the steps that are left out.
+
+    Raises
+    ------
+    InputError
+        If the file has no such curve under the conditions of the case.
+    """
+    rig = read_rig(path)
+    _, used, left_out = steps_of(rig, [over.name], lambda name: _value(settings, name))
+    if not _has(used, quantity):
+        columns = sorted({name for step in used for name in step.columns})
+        raise InputError(
+            f"{path}: error: no column of {quantity.known_as[0]}; columns: {', '.join(columns)}\n"
+            f"expected: {quantity.name} over {over.name}"
+        )
+    curve = averaged(used, quantity, over)
+    measured = _above_0(curve)
+    if lost := curve.places.size - measured.places.size:
+        left_out.append(f"{lost} points that are not above 0")
+    return measured, left_out
+
+
+def _value(settings: Settings, name: str) -> object:
+    group, _, key = name.partition(".")
+    return settings[group].get(key)
+
+
+def _above_0(curve: Curve) -> Measured:
+    """Give a curve as measured values; friction at negative slip mirrors that at positive slip."""
+    values = np.where((curve.places < 0.0) & (curve.values < 0.0), -curve.values, curve.values)
+    places = np.abs(curve.places)
+    good = (places > 0.0) & (values > 0.0)
+    error = curve.error[good]
+    if not (error > 0.0).all():
+        error = np.zeros_like(error)
+    return Measured(curve.over, places[good], curve.quantity, values[good], error)
+
+
+def _has(steps: list[Step], quantity: Quantity) -> bool:
+    return any(quantity.name in step.columns for step in steps)
+
+
+def _difference(step: Step, here: Callable[[str], object], over: Quantity) -> str:
     """Say which condition of a step is not that of the case; '' for none."""
     for condition in CONDITIONS:
         if condition is over or condition.name not in step.columns:
             continue
         there = float(np.nanmedian(step.columns[condition.name]))
-        here = results.key(results.rows[0], condition.name)
-        if not isinstance(here, int | float):
+        value = here(condition.name)
+        if not isinstance(value, int | float):
             continue
-        limit = RELATIVE.get(condition, 0.0) * abs(here) + ABSOLUTE.get(condition, 0.0)
-        if abs(there - here) > limit:
+        limit = RELATIVE.get(condition, 0.0) * abs(value) + ABSOLUTE.get(condition, 0.0)
+        if abs(there - value) > limit:
             unit = "" if condition.unit == "-" else f" {condition.unit}"
-            return f"{condition.name} = {there:.4g}{unit}, in the case {here:.4g}{unit}"
+            return f"{condition.name} = {there:.4g}{unit}, in the case {value:.4g}{unit}"
     return ""
 
 

@@ -61,19 +61,22 @@ class Parameter:
 
 @dataclass(frozen=True, slots=True)
 class Fit:
-    """A shear law and the traction curve that it was fitted to."""
+    """Parameters of a lubricant and the measured curve that they were fitted to."""
 
-    law: str
+    law: str  # the shear law, or '' of the pressure-viscosity coefficient
     parameters: tuple[Parameter, ...]
-    slide_to_roll: Array  # (n,), ascending
-    measured: Array  # mu (n,)
+    places: Array  # (n,), ascending, of the key `over`
+    measured: Array  # of the result `quantity` (n,)
     error: Array  # of it (n,), zeros where none is given
-    fitted: Array  # mu by the package (n,)
+    fitted: Array  # the same by the package (n,)
     points: int  # nodes along X of the contacts
+    over: str = "contact.slide_to_roll"
+    quantity: str = "mu"
+    notes: tuple[str, ...] = ()
 
     @property
     def residual_rms(self) -> float:
-        """Root mean square of fitted less measured mu [-]."""
+        """Root mean square of fitted less measured values [their unit]."""
         return float(np.sqrt(np.mean((self.fitted - self.measured) ** 2)))
 
     @property
@@ -82,16 +85,19 @@ class Fit:
         return {
             "kind": "fit",
             "schema_version": schema.VERSION,
-            "shear_law": self.law,
+            "shear_law": self.law or None,
+            "fitted": [p.key for p in self.parameters],
+            "quantity": self.quantity,
             "residual_rms": self.residual_rms,
             "points": self.points,
         }
 
     @property
     def group(self) -> str:
-        """The law as ``&lubricant`` to paste into a case."""
-        values = {p.key: float(f"{p.value:.6g}") for p in self.parameters}
-        return namelist.text_of({"lubricant": {"shear_law": self.law, **values}})
+        """The parameters as ``&lubricant`` to paste into a case."""
+        values: dict[str, Any] = {"shear_law": self.law} if self.law else {}
+        values |= {p.key: float(f"{p.value:.6g}") for p in self.parameters}
+        return namelist.text_of({"lubricant": values})
 
 
 def fit_law(settings: Settings, law: str, measured: Measured, points: int) -> Fit:
@@ -110,8 +116,8 @@ def fit_law(settings: Settings, law: str, measured: Measured, points: int) -> Fi
             f"{srr.size} measured points for {len(keys)} parameters of '{law}'\nexpected: more "
             "points than parameters"
         )
-    weight = _weights(error)
-    base = _base(settings, points)
+    weight = weights(error)
+    base = smooth_base(settings, points)
     model = _Model(settings, law)
     limits = np.array([_limits(key) for key in keys])
     lower, upper = _to_search(keys, limits[:, 0]), _to_search(keys, limits[:, 1])
@@ -144,7 +150,7 @@ def fit_law(settings: Settings, law: str, measured: Measured, points: int) -> Fi
             f"the fit of '{law}' ends at {listed}, where the range of the key ends: the data do "
             "not determine it"
         )
-    ends = _intervals(keys, settled.jac, settled.fun, found)
+    ends = intervals(keys, settled.jac, settled.fun, found)
     units = {key.name.partition(".")[2]: key.unit for key in KEYS.values()}
     parameters = tuple(
         Parameter(key, units[key], float(value), *end)
@@ -153,7 +159,7 @@ def fit_law(settings: Settings, law: str, measured: Measured, points: int) -> Fi
     return Fit(law, parameters, srr, mu, error, settled.fun / weight + mu, points)
 
 
-def _weights(error: Array) -> Array:
+def weights(error: Array) -> Array:
     """Weights of measured points by their errors (n,); InputError for errors of which one is none.
 
     Zeros alone stand for errors that are not known.
@@ -184,7 +190,7 @@ def _to_values(keys: tuple[str, ...], found: Array) -> Array:
     return np.where(linear, found, np.exp(np.where(linear, 0.0, found)))
 
 
-def _intervals(
+def intervals(
     keys: tuple[str, ...], jacobian: Array, residuals: Array, found: Array
 ) -> list[tuple[float, float]]:
     """Find the ends of the confidence intervals; infinite where the data determine nothing."""
@@ -226,7 +232,7 @@ class _Model:
         )
 
 
-def _base(settings: Settings, points: int) -> dict[str, dict[str, Any]]:
+def smooth_base(settings: Settings, points: int) -> dict[str, dict[str, Any]]:
     """Give what the contacts share: groups of a case without sliding and shear law."""
     groups = without_surface(settings)
     for key in ("slide_to_roll", "rough_surface"):

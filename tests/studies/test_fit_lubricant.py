@@ -9,7 +9,7 @@ import pytest
 
 import pyehl
 from pyehl import InputError, cli, schema
-from pyehl.studies.shear_fit import _weights
+from pyehl.studies.shear_fit import weights
 
 RATIOS = (0.01, 0.02, 0.05, 0.1, 0.2)
 CASE = (
@@ -118,13 +118,13 @@ def test_bad_data(case: Path, tmp_path: Path, text: str, words: list[str]):
     assert not (tmp_path / "out").exists()
 
 
-def test_weights_are_not_dropped():
+def testweights_are_not_dropped():
     """One error of none refuses a fit; zeros alone stand for errors that are not known."""
-    assert (_weights(np.zeros(3)) == 1.0).all()
-    assert _weights(np.array([0.1, 0.2])) == pytest.approx([10.0, 5.0])
+    assert (weights(np.zeros(3)) == 1.0).all()
+    assert weights(np.array([0.1, 0.2])) == pytest.approx([10.0, 5.0])
     for wrong in (0.0, -0.1):
         with pytest.raises(InputError, match="expected: errors above 0"):
-            _weights(np.array([0.1, wrong]))
+            weights(np.array([0.1, wrong]))
 
 
 def test_bad_arguments(case: Path, tmp_path: Path):
