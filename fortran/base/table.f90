@@ -5,6 +5,7 @@ module ehl_table
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_whole_file, only: end_writing, open_to_write
    use ehl_kinds, only: dp
+   use ehl_number_text, only: real_buffer
    use ehl_status, only: ehl_internal, ehl_no_memory, status_t
    use ehl_text, only: to_text
    implicit none (type, external)
@@ -167,7 +168,8 @@ contains
       if (whole) then
          line = line//to_text(nint(x))
       else if (ieee_is_finite(x)) then
-         line = line//to_text(x)
+         ! to_text would make it twice, once for its length
+         line = line//trim(real_buffer(x))
       end if
    end subroutine add_cell
 end module ehl_table

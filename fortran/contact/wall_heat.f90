@@ -27,6 +27,8 @@ module ehl_wall_heat
    !> Largest over s of int sqrt(1 - x^2)/sqrt(s - x) dx, x from -1 to s
    real(dp), parameter :: fast_integral = 2.18830_dp
 
+   integer, parameter :: side_by_side = 16
+
    !> A row of equidistant nodes between two walls
    type :: wall_heat_t
       !> Rise of each wall at a node by unit heat of its own cell [K m^2/W]
@@ -108,17 +110,21 @@ contains
    pure real(dp) function history(self, wall, heat, first, last, i)
       class(wall_heat_t), intent(in) :: self
       integer, intent(in) :: wall, first, last, i
-      real(dp), intent(in) :: heat(:)
-      real(dp) :: total
-      integer :: shift, k
+      real(dp), contiguous, intent(in) :: heat(:)
+      !> Sums side by side: one alone would wait for itself
+      real(dp) :: parts(side_by_side)
+      integer :: shift, k, rest
 
       shift = size(self%upstream) + 1 - i
-      total = 0.0_dp
-      !$omp simd reduction(+:total)
-      do k = first, last
-         total = total + self%upstream(shift + k)*heat(k)
+      rest = first + mod(last - first + 1, side_by_side) - 1
+      parts = 0.0_dp
+      do k = first, rest
+         parts(1) = parts(1) + self%upstream(shift + k)*heat(k)
       end do
-      history = self%own(wall)*total
+      do k = rest + 1, last, side_by_side
+         parts = parts + self%upstream(shift + k:shift + k + side_by_side - 1)*heat(k:k + side_by_side - 1)
+      end do
+      history = self%own(wall)*sum(parts)
    end function history
 
    !> What the heat of a cell does, with the rises of the walls that it has from upstream [K], its film h [m] of
