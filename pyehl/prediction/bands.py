@@ -9,8 +9,8 @@ import numpy as np
 
 from pyehl.prediction.options import KNOWN_RATIO
 from pyehl.prediction.spectrum import Spectrum
-from pyehl.surfaces.cutting import cropped
 from pyehl.surfaces.holes import prominence
+from pyehl.surfaces.map_steps import cropped
 from pyehl.surfaces.prepare import Preparation
 from pyehl.surfaces.tile import Topography
 from pyehl.theory.operating import OperatingPoint

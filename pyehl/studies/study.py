@@ -19,7 +19,7 @@ from pyehl.case import Case
 from pyehl.errors import EhlError, InputError, did_you_mean
 from pyehl.given import Value, bare, by_key, key_of, option, text_file
 from pyehl.schema import QUANTITIES
-from pyehl.studies.outputs import TRACKS, checked
+from pyehl.studies.tasks import TRACKS, checked
 from pyehl.studies.vary import Axis, axes_of, axis
 
 RUNS = ("solve", "predict", "film")

@@ -12,8 +12,8 @@ from pyehl import arrays
 from pyehl.case import KEYS
 from pyehl.given import bare
 from pyehl.results import unit_of
-from pyehl.studies.outputs import LAST
 from pyehl.studies.study import Point, Study
+from pyehl.studies.tasks import LAST
 from pyehl.types import Values
 
 # Words that are always in the table; other words only where they are asked for

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a worker does: one case of a study, to a row of its table.
+"""What a worker does: one case of a study, to a row of its table; names of the results.
 
 Nothing that a case does ends a worker: whatever goes wrong is the status and the message of a row.
 """
@@ -13,15 +13,64 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from pyehl import schema
 from pyehl.case import trusted
-from pyehl.errors import EhlError
+from pyehl.errors import EhlError, InputError, did_you_mean
 from pyehl.prediction import film_formulas, folder
 from pyehl.prediction.friction import BEYOND
 from pyehl.prediction.predict import predict
 from pyehl.run import run
 from pyehl.solver import Solver
-from pyehl.studies.outputs import NOT_IN_A_TABLE, TRACKS, film_columns
+from pyehl.theory.film import estimates
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Row
+
+LAST = ("status", "seconds", "message")
+"""Columns that every table has, behind all others."""
+TRACKS = ("tracks", "mu_ratio_tracks", "mu_ratio_tracks_spread")
+"""Results of a prediction that are made only where they are asked for."""
+
+KINDS = {"solve": "solution", "predict": "prediction", "film": "film"}
+NOT_IN_A_TABLE = frozenset(
+    "bands film_breakdown formulas pixels schema_version second_pixels second_surface_preparation "
+    "surface_preparation wall_seconds".split()
+)
+"""Quantities that are no number, truth value or word, that all cases share, or are `seconds`."""
+
+
+def film_columns(name: str) -> tuple[str, str]:
+    """Columns of the central and the minimum film by a formula with this name."""
+    short = "".join(c if c.isalnum() else "_" for c in name.lower()).strip("_")
+    return f"h_c_m_{short}", f"h_min_m_{short}"
+
+
+def known(run: str) -> list[str]:
+    """Names of all results that a table may have where `run` is done with each case."""
+    kind = KINDS[run]
+    names = [q.name for q in schema.QUANTITIES if kind in q.kinds]
+    if run == "film":
+        names.append("h_c_m")
+        for formula in estimates(OperatingPoint(), Lubricant()):
+            names += film_columns(formula.name)
+    return [*(name for name in names if name not in NOT_IN_A_TABLE), *LAST]
+
+
+def checked(outputs: Sequence[str], run: str, origin: str = "") -> tuple[str, ...]:
+    """Give the names asked for, each once.
+
+    InputError for one that no table has, with the nearest; `origin` says where it stands.
+    """
+    names = known(run)
+    for name in outputs:
+        if name not in names:
+            hint = did_you_mean(name, names) or f": {', '.join(names)}"
+            raise InputError(
+                f"{origin}outputs: unknown result '{name}'\nexpected: names of the summary of "
+                f"run = '{run}'{hint}"
+            )
+    return tuple(dict.fromkeys(outputs))
+
 
 FAILED = "failed"
 """Status of a case that ended with an exception."""

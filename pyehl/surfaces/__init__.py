@@ -7,7 +7,15 @@ y = j length_y/ny. Spectra are those of Jacobs, Junge & Pastewka 2017, in m^4.
 """
 
 # ruff: noqa: F401 (names for the rest of the package)
-from pyehl.surfaces.filters import filtered, psd_2d, psd_isotropic, wavenumbers
+from pyehl.surfaces.filters import (
+    filtered,
+    interpolated,
+    psd_2d,
+    psd_isotropic,
+    resampled,
+    shifted,
+    wavenumbers,
+)
 from pyehl.surfaces.from_case import (
     GROUPS,
     finished,
@@ -30,7 +38,6 @@ from pyehl.surfaces.in_memory import (
     part_of,
     with_surface,
 )
-from pyehl.surfaces.interpolation import interpolated, resampled, shifted
 from pyehl.surfaces.options import Options
 from pyehl.surfaces.prepare import Preparation, prepare
 from pyehl.surfaces.reading import Scan, read_scan

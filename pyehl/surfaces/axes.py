@@ -1,16 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Axes of a table of heights: a first line of x, a first column of y."""
+"""Where the heights of a text are: axes of a table (first line and column), or lists of points."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 
+from pyehl.errors import InputError
+from pyehl.surfaces.arrays import check_pixels
 from pyehl.surfaces.text_cells import BadCellError, Cells
 from pyehl.types import Array
 
 LEAST_PLACES = 5
-# Of a step: how far places may be from equal steps, for they are rounded
+# Of a step: how far places may be from equal steps or a grid, for they are rounded
 OFF = 0.02
 GROWING = 0.9
 """Least correlation with the number of the line of what may be an axis."""
@@ -139,3 +142,78 @@ def _rising(rows: Array, along: Array | None, across: Array | None) -> tuple[Arr
     if all(_is_numbering(axis) for axis in found):
         return rows, Axes(None, f"numbers of pixels and no heights: the first {names}")
     return rows, Axes((steps[0], steps[1]), f"places and no heights: the first {names}")
+
+
+MOST_COLUMNS = 8
+"""Of a list of points."""
+
+
+def is_list(rows: Array) -> bool:
+    """Whether rows of three numbers (n, 3) are points and no map: n is then far larger."""
+    return rows.ndim == 2 and rows.shape[1] == 3 and rows.shape[0] > 3
+
+
+def is_longer_list(path: Path, rows: Array) -> bool:
+    """Whether rows of few numbers are the x, y and z of points, and what else is known of them."""
+    lines, columns = rows.shape
+    if not (3 < columns <= MOST_COLUMNS and lines >= 4 * columns):
+        return False
+    try:
+        heights, _ = grid_of(path, rows[:, :3])
+    except InputError:
+        return False
+    return min(heights.shape) > 1 and heights.size <= 2 * lines
+
+
+def are_pixel_numbers(points: Array) -> bool:
+    """Whether x and y count pixels: whole numbers from 0 or 1 in steps of one."""
+    for axis in (0, 1):
+        places = np.unique(points[:, axis])
+        if places[0] not in (0.0, 1.0) or not (np.diff(places) == 1.0).all():
+            return False
+    return True
+
+
+def grid_of(path: Path, points: Array) -> tuple[Array, tuple[float, float]]:
+    """Heights (nx, ny) on the grid of points x, y, z (n, 3) in any order, and its steps.
+
+    Lengths are in the unit of the points. A point that is not there is NaN. InputError if the
+    places are no grid of equal steps, or a place is there twice.
+    """
+    indices, shape, steps = [], [], []
+    for axis, name in enumerate("xy"):
+        places = points[:, axis]
+        if not np.isfinite(places).all():
+            row = int(np.argmin(np.isfinite(places)))
+            raise InputError(f"{path}: point {row + 1} of the list has no {name}")
+        gaps = np.diff(np.unique(places))
+        # places of one line differ by rounding
+        gaps = gaps[gaps > OFF * gaps.max(initial=0.0)]
+        if not gaps.size:
+            raise InputError(f"{path}: all points of the list of x, y and z have the same {name}")
+        # the span knows it better than the places, which are rounded
+        span = float(np.ptp(places))
+        step = span / round(span / float(np.median(gaps)))
+        at = (places - places.min()) / step
+        index = np.rint(at).astype(np.int64)
+        worst = int(np.argmax(np.abs(at - index)))
+        if abs(at[worst] - index[worst]) > OFF:
+            raise InputError(
+                f"{path}: point {worst + 1} of the list of x, y and z, {name} = {places[worst]:.6g}"
+                f", is off the grid of steps of {step:.6g}; a map needs equal steps"
+            )
+        indices.append(index)
+        shape.append(int(index.max()) + 1)
+        steps.append(step)
+    check_pixels(str(path), (shape[0], shape[1]))
+    heights = np.full(shape, np.nan)
+    flat = np.ravel_multi_index(indices, shape)
+    first, count = np.unique(flat, return_counts=True)
+    if first.size < flat.size:
+        i, j = np.unravel_index(first[np.argmax(count)], shape)
+        raise InputError(
+            f"{path}: the place number {i + 1} along x, {j + 1} along y is in the list of x, y and "
+            f"z {count.max()} times"
+        )
+    heights.ravel()[flat] = points[:, 2]
+    return heights, (steps[0], steps[1])

@@ -12,10 +12,9 @@ import numpy as np
 
 from pyehl import lengths
 from pyehl.errors import InputError
-from pyehl.surfaces.finding import SAMPLES, Finding, line_steps
 from pyehl.surfaces.holes import MAD_TO_SIGMA
-from pyehl.surfaces.levelling import DEGREES, level
-from pyehl.surfaces.local_findings import dust, stitching
+from pyehl.surfaces.local_findings import SAMPLES, Finding, dust, line_steps, stitching
+from pyehl.surfaces.map_steps import DEGREES, level
 from pyehl.types import Array
 
 MOST_FORM = 0.5

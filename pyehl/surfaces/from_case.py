@@ -10,10 +10,9 @@ from typing import Any
 
 from pyehl.case.surface_group import Surface as Keys
 from pyehl.errors import FileError, InputError
-from pyehl.surfaces.filters import filtered
+from pyehl.surfaces.arrays import PREDICTION_COPIES, check_pixels
+from pyehl.surfaces.filters import filtered, shift_across
 from pyehl.surfaces.generators import fractal, harmonic
-from pyehl.surfaces.interpolation import shift_across
-from pyehl.surfaces.memory import PREDICTION_COPIES, check_pixels
 from pyehl.surfaces.options import NEUTRAL, Options
 from pyehl.surfaces.prepare import prepare
 from pyehl.surfaces.profile import scan_of_profile

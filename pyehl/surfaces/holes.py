@@ -14,7 +14,7 @@ import numpy as np
 import scipy
 
 from pyehl.errors import InputError
-from pyehl.surfaces.levelling import level
+from pyehl.surfaces.map_steps import level
 from pyehl.types import Array, Mask
 
 MAX_MISSING = 0.1

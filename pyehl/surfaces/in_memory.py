@@ -16,7 +16,7 @@ from pyehl.case.surface_group import Surface as Keys
 from pyehl.errors import InputError
 from pyehl.given import heights_of, real_numbers
 from pyehl.surfaces.holes import filled
-from pyehl.surfaces.seams import mirrored
+from pyehl.surfaces.map_steps import mirrored
 from pyehl.surfaces.tile import Topography
 from pyehl.types import Array
 

@@ -11,11 +11,9 @@ from typing import Any
 import numpy as np
 
 from pyehl.errors import EhlError, InputError, NoMemoryError
-from pyehl.surfaces.binary_variants import nms_missing, plain_tmd
+from pyehl.surfaces.arrays import check_pixels
 from pyehl.surfaces.found import Found
-from pyehl.surfaces.gwy_bare import data_fields
-from pyehl.surfaces.memory import check_pixels
-from pyehl.surfaces.x3p_variants import plain_x3p
+from pyehl.surfaces.variants import data_fields, nms_missing, plain_tmd, plain_x3p
 
 INSTALL = "pip install 'pyehl[surfaces]', or pip install SurfaceTopography"
 ELSE = "; save the heights in m as .npy or text, and give surface.length_x and surface.length_y"

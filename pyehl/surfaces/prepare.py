@@ -14,9 +14,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from pyehl.errors import InputError
-from pyehl.surfaces import cutting, findings, holes, levelling, seams
+from pyehl.surfaces import findings, holes, map_steps
+from pyehl.surfaces.arrays import check_pixels
 from pyehl.surfaces.local_findings import dust_points
-from pyehl.surfaces.memory import check_pixels
 from pyehl.surfaces.options import NEUTRAL, Options, defaults
 from pyehl.surfaces.reading import Scan
 from pyehl.surfaces.working_map import Record, Step, WorkingMap
@@ -66,7 +66,7 @@ class Preparation:
         """Where on the prepared map pixel (i, j) of the tile is: x, y from its corner [m]."""
         nx, ny = self.prepared.shape
         if self.options.edges == "mirror":
-            i, j = seams.unmirrored(i, j, (nx, ny))
+            i, j = map_steps.unmirrored(i, j, (nx, ny))
         elif self.options.edges == "window":
             i, j = i % nx, (j + ny // 2) % ny
         return (i % nx) * self.pixel[0], (j % ny) * self.pixel[1]
@@ -81,7 +81,7 @@ def prepare(scan: Scan, options: Options = NEUTRAL) -> Preparation:
     work, options, why = _prepared(scan, options, keep=True)
     prepared = work.z
     _join(work, options, why)
-    tile = seams.mirrored(work.z) if options.edges == "mirror" else work.z
+    tile = map_steps.mirrored(work.z) if options.edges == "mirror" else work.z
     return Preparation(scan, options, work.record(options), prepared, work.pixel, tile)
 
 
@@ -106,7 +106,7 @@ def _prepared(
     check_pixels(scan.origin, work.z.shape)
     if any(options.crop):
         work.do("crop", ", ".join(f"{v:g}" for v in options.crop),
-                cutting.cropped(work.z, work.pixel, options.crop))  # fmt: skip
+                map_steps.cropped(work.z, work.pixel, options.crop))  # fmt: skip
     tiles = 4 if keep and options.edges == "mirror" else 1
     check_pixels(scan.origin, work.z.shape, tiles, way=SMALLER)
     if options.sign < 0:
@@ -125,7 +125,7 @@ def _prepared(
     if options.align_lines != "none":
         _tell(scan, "align_lines")
         work.begin()
-        levelling.align_lines(work.own(), options.align_lines)
+        map_steps.align_lines(work.own(), options.align_lines)
         work.do("align_lines", options.align_lines, work.z)
     if valid is not None:
         _tell(scan, "fill")
@@ -133,7 +133,7 @@ def _prepared(
     if options.detrend != "none":
         _tell(scan, "detrend")
         work.begin()
-        levelling.level(work.own(), options.detrend, valid)
+        map_steps.level(work.own(), options.detrend, valid)
         work.do("detrend", options.detrend, work.z, why["detrend"])
     _tell(scan, "findings")
     periodic = options.edges == "periodic"
@@ -143,7 +143,7 @@ def _prepared(
     )
     if options.rotate % 360.0 != 0.0:
         _tell(scan, "rotate")
-        turned, pixel = cutting.rotated(work.z, work.pixel, options.rotate)
+        turned, pixel = map_steps.rotated(work.z, work.pixel, options.rotate)
         work.do("rotate", f"{options.rotate:g}", turned, pixel=pixel)
     z = work.own()
     z -= z.mean()
@@ -157,10 +157,10 @@ def _join(work: WorkingMap, options: Options, why: dict[str, str]) -> None:
     if options.edges == "mirror":
         work.do("edges", "mirror", prepared, why["edges"])
     elif options.edges == "window":
-        tile = seams.windowed(prepared)
-        work.do("edges", "window", tile, why["edges"], changed=seams.rim(tile.shape))
+        tile = map_steps.windowed(prepared)
+        work.do("edges", "window", tile, why["edges"], changed=map_steps.rim(tile.shape))
         tile -= tile.mean()
-    elif (steep := seams.jump(prepared)) > JUMP:
+    elif (steep := map_steps.jump(prepared)) > JUMP:
         note = (
             f"the edges do not match: steps across them are {steep:.3g} times those inside; "
             "if the map is not periodic, surface.edges = 'mirror'"

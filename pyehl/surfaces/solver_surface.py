@@ -11,13 +11,13 @@ from pyehl.case.surface_group import Surface as Keys
 from pyehl.errors import InputError
 from pyehl.extension import surface_functions
 from pyehl.library import returned
+from pyehl.surfaces.filters import shift_across
 from pyehl.surfaces.from_case import GROUPS, moved, scan_of, whole
 from pyehl.surfaces.in_memory import given, part_of
-from pyehl.surfaces.interpolation import shift_across
+from pyehl.surfaces.map_steps import mirrored
 from pyehl.surfaces.options import NEUTRAL, Options
 from pyehl.surfaces.prepare import consume
 from pyehl.surfaces.reading import plain_array
-from pyehl.surfaces.seams import mirrored
 from pyehl.surfaces.tile import Topography
 from pyehl.surfaces.working_map import Record
 from pyehl.theory.operating import OperatingPoint

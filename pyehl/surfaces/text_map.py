@@ -7,9 +7,15 @@ from pathlib import Path
 import numpy as np
 
 from pyehl.errors import InputError
-from pyehl.surfaces.axes import Axes, without_axes
+from pyehl.surfaces.axes import (
+    Axes,
+    are_pixel_numbers,
+    grid_of,
+    is_list,
+    is_longer_list,
+    without_axes,
+)
 from pyehl.surfaces.found import Found, unit_of
-from pyehl.surfaces.point_list import are_pixel_numbers, grid_of, is_list, is_longer_list
 from pyehl.surfaces.text_cells import BLANKS, Cells
 from pyehl.surfaces.text_header import OWN_PERIODIC, OWN_SIZE, Header, header_of
 from pyehl.surfaces.text_table import Table, tables_of

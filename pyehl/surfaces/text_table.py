@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from pyehl.errors import InputError
-from pyehl.surfaces.memory import check_pixels
+from pyehl.surfaces.arrays import check_pixels
 from pyehl.surfaces.text_cells import BadCellError, Cells, cells_of, count_numbers, uncommented
 from pyehl.surfaces.text_file import lines_of
 from pyehl.surfaces.text_header import header_of

@@ -10,7 +10,7 @@ import numpy as np
 from pyehl import lengths
 from pyehl.errors import InputError
 from pyehl.surfaces import areal
-from pyehl.surfaces.finding import Finding
+from pyehl.surfaces.local_findings import Finding
 from pyehl.surfaces.options import Options
 from pyehl.surfaces.reading import Scan
 from pyehl.types import Array

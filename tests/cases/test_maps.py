@@ -15,8 +15,8 @@ import scipy.fft
 from pyehl import Case, surfaces
 from pyehl.solver import solver_on_heights
 from pyehl.surfaces import Topography
+from pyehl.surfaces.map_steps import mirrored
 from pyehl.surfaces.reading import read_scan
-from pyehl.surfaces.seams import mirrored
 
 # A light load, which 65 x 65 nodes carry; at rest the heights of the tile on the nodes are the
 # field RR

@@ -13,7 +13,7 @@ from pyehl.prediction.breakdown import advise
 from pyehl.prediction.cost import seconds_of
 from pyehl.surfaces import Options, Scan, Topography, fractal, prepare
 from pyehl.surfaces.findings import find
-from pyehl.surfaces.levelling import align_lines, level
+from pyehl.surfaces.map_steps import align_lines, level
 from pyehl.theory.operating import OperatingPoint
 
 PIXEL = 5e-6

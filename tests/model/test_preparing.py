@@ -9,10 +9,8 @@ import pytest
 from pyehl import surfaces
 from pyehl.surfaces import Options, Scan, Topography, prepare
 from pyehl.surfaces.areal import areal_numbers, extent, texture_aspect_ratio
-from pyehl.surfaces.cutting import cropped, rotated
 from pyehl.surfaces.holes import filled, prominence
-from pyehl.surfaces.levelling import level
-from pyehl.surfaces.seams import jump, mirrored, unmirrored, windowed
+from pyehl.surfaces.map_steps import cropped, jump, level, mirrored, rotated, unmirrored, windowed
 from pyehl.surfaces.writing import write_map
 
 PIXEL = (1e-6, 1e-6)

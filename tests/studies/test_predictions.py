@@ -10,8 +10,7 @@ import pytest
 import pyehl
 from pyehl.prediction import smooth
 from pyehl.prediction.predict import predict
-from pyehl.studies.outputs import TRACKS
-from pyehl.studies.tasks import Task, execute
+from pyehl.studies.tasks import TRACKS, Task, execute
 from pyehl.surfaces import from_case as from_case_surface
 from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant

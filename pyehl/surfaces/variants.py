@@ -1,17 +1,67 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""X3P files (ISO 25178-72) that are right, and not as SurfaceTopography 1.27 expects them.
+"""Files of instruments that are right, and not as SurfaceTopography 1.27 expects them.
 
-x3ptools (R) writes the revision with an en dash and folds all into a folder; the standard allows
-heights in the XML itself. The module needs NumPy alone, so that it could be part of a reader of
-SurfaceTopography as it is.
+TMD, NMS, X3P (ISO 25178-72: x3ptools of R writes the revision with an en dash and folds all into a
+folder; the standard allows heights in the XML itself), and Gwyddion files whose data have no units. The
+functions need NumPy alone, so that they could be part of the readers of SurfaceTopography.
 """
 
 import io
 import re
+import struct
 import zipfile
+from pathlib import Path
+from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
+from numpy.typing import NDArray
+
+TMD_MAGIC = b"Binary TrueMap Data File v2.0"
+TMD_BEGIN = 32
+"""Bytes of the first line of a TMD file."""
+TMD_COMMENT = b"Created by TrueMap v6\r\n\0"
+"""Comment of TrueMap, which is the only one that SurfaceTopography reads."""
+NMS_POINTS, NMS_DATA = 1368, 3468
+"""Where a NMS file has its numbers of points, and its heights."""
+NMS_MISSING = 2**16 - 1
+
+
+def plain_tmd(data: bytes) -> bytes | None:
+    """Give a TMD file with the comment of TrueMap in place of its own, which may be empty.
+
+    The comment ends with the first zero byte, as GelSight's own reader has it; None for files that
+    are plain already, or none of the format.
+    """
+    if not data.startswith(TMD_MAGIC):
+        return None
+    end = data.find(b"\0", TMD_BEGIN)
+    # the comment as text, its zero byte behind it; none at all; padded to 24 bytes
+    for begin in (end + 1, TMD_BEGIN, TMD_BEGIN + len(TMD_COMMENT)):
+        if begin < TMD_BEGIN or begin + 24 > len(data):
+            continue
+        nx, ny = struct.unpack_from("<II", data, begin)
+        if nx and ny and begin + 24 + 4 * nx * ny == len(data):
+            if begin == TMD_BEGIN + len(TMD_COMMENT):
+                return None
+            return data[:TMD_BEGIN] + TMD_COMMENT + data[begin:]
+    return None
+
+
+def nms_missing(path: Path) -> NDArray[np.bool_] | None:
+    """Where (nx, ny) a NMS file has no heights: the largest whole number of two bytes.
+
+    The scale of its heights ends at the number below. None if the file is shorter than it says.
+    """
+    with path.open("rb") as stream:
+        stream.seek(NMS_POINTS)
+        nx, ny = struct.unpack("<II", stream.read(8))
+        stream.seek(NMS_DATA)
+        data = np.frombuffer(stream.read(2 * nx * ny), "<u2")
+    if data.size != nx * ny:
+        return None
+    return (data == NMS_MISSING).reshape(ny, nx).T
+
 
 REVISION = "ISO5436 - 2000"
 _DASHES = re.compile(r"[\s‐-―−_-]+")
@@ -126,3 +176,69 @@ def _like(element: ElementTree.Element, name: str) -> str:
     """Name in the namespace of an element."""
     space, brace, _ = element.tag.rpartition("}")
     return f"{space}{brace}{name}"
+
+
+MAGIC = b"GWYP"
+_ATOMS = {"b": "<b", "c": "<c", "i": "<i", "q": "<q", "d": "<d"}
+_ARRAYS = {"C": "S1", "I": "<i4", "Q": "<i8", "D": "<f8"}
+
+
+def data_fields(data: bytes) -> dict[str, dict[str, Any]]:
+    """Give the data fields of the channels of a Gwyddion file, by their title or number.
+
+    Each has ``xres``, ``yres``, ``xreal``, ``yreal``, ``data`` and, where the file names them,
+    ``si_unit_xy`` and ``si_unit_z``. ValueError if the file is none, or ends too early.
+    """
+    if not data.startswith(MAGIC):
+        raise ValueError("it does not begin as a Gwyddion file")
+    try:
+        (_, container), _ = _object(data, len(MAGIC))
+    except (struct.error, IndexError, ValueError) as error:
+        raise ValueError(f"it ends within an item: {error}") from None
+    fields = {}
+    for key, value in container.items():
+        if (found := re.fullmatch(r"/(\d+)/data", key)) and value[0] == "GwyDataField":
+            title = container.get(f"/{found[1]}/data/title")
+            fields[str(title or found[1])] = value[1]
+    return fields
+
+
+def _text(data: bytes, at: int) -> tuple[str, int]:
+    end = data.index(b"\0", at)
+    return data[at:end].decode("utf-8", "replace"), end + 1
+
+
+def _object(data: bytes, at: int) -> tuple[tuple[str, dict[str, Any]], int]:
+    """Name and items of an object, and where it ends."""
+    name, at = _text(data, at)
+    (size,) = struct.unpack_from("<I", data, at)
+    at += 4
+    end = at + size
+    if end > len(data):
+        raise ValueError(f"{name} has {size} bytes")
+    items: dict[str, Any] = {}
+    while at < end:
+        key, at = _text(data, at)
+        kind, at = chr(data[at]), at + 1
+        items[key], at = _value(data, kind, at)
+    return (name, items), at
+
+
+def _value(data: bytes, kind: str, at: int) -> tuple[Any, int]:
+    """Value of a kind, and where it ends."""
+    if kind in _ATOMS:
+        return struct.unpack_from(_ATOMS[kind], data, at)[0], at + struct.calcsize(_ATOMS[kind])
+    if kind == "s":
+        return _text(data, at)
+    if kind == "o":
+        return _object(data, at)
+    (count,) = struct.unpack_from("<I", data, at)
+    at += 4
+    if kind in _ARRAYS:
+        dtype = np.dtype(_ARRAYS[kind])
+        return np.frombuffer(data, dtype, count, at), at + count * dtype.itemsize
+    items = []
+    for _ in range(count):
+        item, at = _text(data, at) if kind == "S" else _object(data, at)
+        items.append(item)
+    return items, at

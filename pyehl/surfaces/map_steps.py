@@ -1,0 +1,251 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Steps of a preparation that need nothing but the map: cut, turn, level, and join its edges.
+
+A tile is repeated over and over. Where opposite edges of a map do not match, the heights jump, a
+step of infinite slope that the surface does not have, and that holds the film up or breaks it.
+"""
+
+import math
+import warnings
+
+import numpy as np
+import scipy
+
+from pyehl.errors import InputError
+from pyehl.types import Array, Mask
+
+LEAST_PIXELS = 4
+
+LINES = 64
+"""Lines of a map that are worked on together."""
+
+MARGIN = 12
+"""Pixels around a map that repeat its edge: splines forget by a factor of 3.7 a pixel."""
+
+
+def cropped(
+    heights: Array, pixel: tuple[float, float], bounds: tuple[float, float, float, float]
+) -> Array:
+    """Part of a map (nx, ny) with a pixel size along x and y [m].
+
+    `bounds` are (x_min, x_max, y_min, y_max) [m], rounded to whole pixels; a maximum of 0 is the
+    far edge. InputError if the part reaches beyond the map, or less than 4 x 4 pixels are left.
+    """
+    cuts = []
+    for axis, name in enumerate("xy"):
+        n, size = heights.shape[axis], heights.shape[axis] * pixel[axis]
+        low, high = bounds[2 * axis], bounds[2 * axis + 1] or size
+        if high > size * (1.0 + 1e-9):
+            raise InputError(
+                f"surface.crop_{name}_max = {high:g} m reaches beyond the map, which is "
+                f"{size:g} m long in {name}"
+            )
+        first, last = round(low / pixel[axis]), min(n, round(high / pixel[axis]))
+        if last - first < LEAST_PIXELS:
+            raise InputError(
+                f"surface.crop_{name}_min = {low:g} and crop_{name}_max = {high:g} m leave "
+                f"{max(0, last - first)} pixels of {pixel[axis]:.3g} m; {LEAST_PIXELS} are needed"
+            )
+        cuts.append(slice(first, last))
+    return np.ascontiguousarray(heights[tuple(cuts)])
+
+
+def rotated(
+    heights: Array, pixel: tuple[float, float], angle: float
+) -> tuple[Array, tuple[float, float]]:
+    """Map (nx, ny), none missing, turned about its middle, counter-clockwise seen from above.
+
+    What pointed along x points in the direction `angle` [degrees] afterwards: a lay along x turned
+    by 90 degrees lies across the motion. Quarter turns move pixels and change nothing else; any
+    other angle interpolates (cubic splines) and keeps the largest upright rectangle inside the
+    turned map, so that nothing is made up at its corners. Its pixels [m] are then square, the
+    smaller of the two sizes.
+    """
+    quarters = round(angle / 90.0)
+    if abs(angle - 90.0 * quarters) < 1e-9:
+        turned = np.ascontiguousarray(np.rot90(heights, -quarters, axes=(1, 0)))
+        return turned, pixel if quarters % 2 == 0 else (pixel[1], pixel[0])
+    size_x, size_y = (n * p for n, p in zip(heights.shape, pixel, strict=True))
+    width, height = _inside(size_x, size_y, math.radians(angle))
+    step = min(pixel)
+    nx, ny = int(width / step), int(height / step)
+    if min(nx, ny) < LEAST_PIXELS:
+        raise InputError(f"surface.rotate = {angle:g}: no rectangle of 4 x 4 pixels is left inside")
+    y = (np.arange(ny) - 0.5 * (ny - 1)) * step
+    c, s = math.cos(math.radians(angle)), math.sin(math.radians(angle))
+    # the margin takes what the splines feel of the end of the map
+    splines = np.pad(heights, MARGIN, mode="edge")
+    scipy.ndimage.spline_filter(splines, order=3, output=splines, mode="mirror")
+    turned = np.empty((nx, ny))
+    for first in range(0, nx, LINES):
+        # a few lines at a time: the places alone would take twice the memory of the map
+        x = (np.arange(first, min(nx, first + LINES)) - 0.5 * (nx - 1))[:, None] * step
+        at = [
+            (c * x + s * y) / pixel[0] + 0.5 * (splines.shape[0] - 1),
+            (c * y - s * x) / pixel[1] + 0.5 * (splines.shape[1] - 1),
+        ]
+        scipy.ndimage.map_coordinates(
+            splines, at, turned[first : first + LINES], order=3, mode="mirror", prefilter=False
+        )
+    return turned, (step, step)
+
+
+def _inside(width: float, height: float, angle: float) -> tuple[float, float]:
+    """Sides of the largest upright rectangle inside a rectangle that is turned."""
+    s, c = abs(math.sin(angle)), abs(math.cos(angle))
+    long, short = max(width, height), min(width, height)
+    if short <= 2.0 * s * c * long or abs(s - c) < 1e-12:
+        # two opposite corners touch the long sides
+        half = 0.5 * short
+        return (half / s, half / c) if width >= height else (half / c, half / s)
+    determinant = c * c - s * s
+    return (width * c - height * s) / determinant, (height * c - width * s) / determinant
+
+
+DEGREES = {"centre": 0, "tilt": 1, "curvature": 2}
+"""Total degree of the polynomial in x and y that each word takes off."""
+
+
+def _factors(heights: Array, degree: int, valid: Mask | None) -> tuple[Array, Array, Array]:
+    """Give the polynomial nearest to a map as a product: powers of x, coefficients, powers of y."""
+    nx, ny = heights.shape
+    good = valid
+    if valid is None and np.isfinite(heights.sum()):
+        count = heights.size
+    else:
+        good = np.isfinite(heights) if valid is None else valid & np.isfinite(heights)
+        count = int(np.count_nonzero(good))
+    powers = [(a, b) for a in range(degree + 1) for b in range(degree + 1 - a)]
+    # Sums over the map are products of matrices: the basis is a product of one in x and one in y
+    x = np.vander(np.linspace(-1.0, 1.0, nx), 2 * degree + 1, increasing=True)
+    y = np.vander(np.linspace(-1.0, 1.0, ny), 2 * degree + 1, increasing=True)
+    if good is None:
+        moments = np.outer(x.sum(axis=0), y.sum(axis=0))
+        right = x.T @ heights @ y
+    else:
+        moments = x.T @ good.astype(float) @ y
+        right = x.T @ np.where(good, heights, 0.0) @ y
+    matrix = np.array([[moments[a + c, b + d] for c, d in powers] for a, b in powers])
+    if count < len(powers) or np.linalg.cond(matrix) > 1e12:
+        raise InputError(
+            f"surface.detrend: {count} heights lie so that a polynomial of degree "
+            f"{degree} cannot be determined from them"
+        )
+    values = np.linalg.solve(matrix, [right[a, b] for a, b in powers])
+    coefficient = np.zeros((degree + 1, degree + 1))
+    for (a, b), value in zip(powers, values, strict=True):
+        coefficient[a, b] = value
+    return x[:, : degree + 1], coefficient, y[:, : degree + 1]
+
+
+def align_lines(heights: Array, along: str) -> None:
+    """Put the lines of a scan along x or y level with each other, in place.
+
+    The median of what each line is above the plane of the map becomes 0. Points that are NaN stay
+    so. What the surface itself has in its line medians goes with the offsets: waves across the
+    lines that are as long as a line.
+    """
+    axis = "xy".index(along)
+    flat = heights.copy()
+    level(flat, "tilt")
+    with warnings.catch_warnings():
+        # a line without a point stays as it is
+        warnings.simplefilter("ignore", RuntimeWarning)
+        offsets = np.nan_to_num(np.nanmedian(flat, axis=axis))
+    heights -= np.expand_dims(offsets, axis)
+
+
+def level(heights: Array, what: str, valid: Mask | None = None) -> None:
+    """Take the mean (`centre`), plane (`tilt`) or `curvature` off a map in place.
+
+    A least-squares polynomial over the points that count (`valid`; default: all that are numbers);
+    missing points stay missing. InputError if too few points are left to tell the polynomial.
+    """
+    # the large parts go first, so that rounding is that of what remains
+    for degree in sorted({0, DEGREES[what]}):
+        x, coefficient, y = _factors(heights, degree, valid)
+        lines = coefficient @ y.T
+        for first in range(0, heights.shape[0], LINES):
+            part = slice(first, first + LINES)
+            for power, line in zip(x[part].T, lines, strict=True):
+                heights[part] -= power[:, np.newaxis] * line
+
+
+RIM = 0.1
+"""Share of each side over which 'window' brings the heights down."""
+
+
+def mirrored(heights: Array) -> Array:
+    """Tile (2 nx, 2 ny) of twice the size on each side: the map (nx, ny) and its mirror images.
+
+    Reflected about the middle between two pixels (the symmetry of a cosine transform), so that
+    every height occurs four times: mean, rms and every other number of the height distribution are
+    those of the map. Heights are continuous across every seam. The slope across a seam keeps its
+    magnitude and changes its sign, with one step of zero between: a fold, no jump. Its spectrum
+    falls with the fourth power of the wavenumber, no slower than that of a rough surface, that of
+    a jump with the second.
+
+    The middle of the map lies on the tile's row 0, so that it passes the centre of the contact.
+    """
+    nx, ny = heights.shape
+    half = ny // 2
+    tile = np.empty((2 * nx, 2 * ny))
+    tile[:nx, : ny - half] = heights[:, half:]
+    tile[:nx, ny - half : 2 * ny - half] = heights[:, ::-1]
+    tile[:nx, 2 * ny - half :] = heights[:, :half]
+    tile[nx:] = tile[nx - 1 :: -1]
+    return tile
+
+
+def unmirrored(i: int, j: int, shape: tuple[int, int]) -> tuple[int, int]:
+    """Pixel of the map (nx, ny) = `shape` that pixel (i, j) of its mirrored tile shows."""
+    nx, ny = shape
+    i, j = i % (2 * nx), (j + ny // 2) % (2 * ny)
+    return (i if i < nx else 2 * nx - 1 - i), (j if j < ny else 2 * ny - 1 - j)
+
+
+def windowed(heights: Array) -> Array:
+    """Map brought down to its mean along its rim by a raised cosine over a tenth of each side.
+
+    Inside nothing changes; the rim loses roughness, so that the rms falls.
+    """
+    half = heights.shape[1] // 2
+    mean = float(heights.mean())
+    tile = np.roll(heights, -half, axis=1)
+    tile -= mean
+    tile *= _taper(heights.shape[0])[:, np.newaxis]
+    tile *= np.roll(_taper(heights.shape[1]), -half)
+    tile += mean
+    return tile
+
+
+def rim(shape: tuple[int, int]) -> int:
+    """Points (nx, ny) of a map that `windowed` brings down."""
+    inside = [int(np.count_nonzero(_taper(n) == 1.0)) for n in shape]
+    return shape[0] * shape[1] - inside[0] * inside[1]
+
+
+def _taper(n: int) -> Array:
+    """Tukey window of n points, zero half a pixel outside of both ends."""
+    distance = (np.minimum(np.arange(n), np.arange(n)[::-1]) + 0.5) / n
+    return np.where(distance < RIM, 0.5 - 0.5 * np.cos(np.pi * distance / RIM), 1.0)
+
+
+def jump(heights: Array) -> float:
+    """Rms step across the seams of a tile over the rms step between neighbours inside.
+
+    About 1 for a periodic surface, many for a map that is none.
+    """
+    ratios = []
+    for axis in (0, 1):
+        z = np.moveaxis(heights, axis, 0)
+        square = 0.0
+        for first in range(0, heights.shape[0], LINES):
+            # a few lines at a time; along x with the next one
+            part = heights[first : first + LINES + (axis == 0)]
+            steps = np.diff(part, axis=axis)
+            square += float(np.einsum("ij,ij->", steps, steps))
+        inside = float(np.sqrt(square / (heights.size - heights.size // z.shape[0])))
+        seam = float(np.sqrt(np.mean((z[0] - z[-1]) ** 2)))
+        ratios.append(seam / inside if inside > 0.0 else 0.0)
+    return max(ratios)
