@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from pyehl.prediction.deformed import RISE
+from pyehl.prediction.friction import RISE
 from pyehl.subsurface.passage import INNER, Profile, Row, in_layer, largest, share_above
 
 # Depth down to which the layer reaches, over that of the largest smooth shear

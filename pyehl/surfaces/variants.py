@@ -2,8 +2,8 @@
 """Files of instruments that are right, and not as SurfaceTopography 1.27 expects them.
 
 TMD, NMS, X3P (ISO 25178-72: x3ptools of R writes the revision with an en dash and folds all into a
-folder; the standard allows heights in the XML itself), and Gwyddion files whose data have no units. The
-functions need NumPy alone, so that they could be part of the readers of SurfaceTopography.
+folder; the standard allows heights in the XML itself), and Gwyddion files whose data have no units.
+The functions need NumPy alone, so that they could be part of the readers of SurfaceTopography.
 """
 
 import io
