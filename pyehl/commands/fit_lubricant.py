@@ -29,6 +29,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help=f"{', '.join(PARAMETERS)}, {OF_FILM}; default by the case and the data",
     )
     parser.add_argument(
+        "--between",
+        type=float,
+        nargs=2,
+        metavar=("MIN", "MAX"),
+        help="slide-to-roll ratios, or velocities in m/s, of the points of a rig that are used",
+    )
+    parser.add_argument(
         "--points", type=int, default=129, help="nodes along X of the contacts (default 129)"
     )
     parser.add_argument("-o", "--output", type=Path, metavar="DIR", help="result folder")
@@ -68,6 +75,7 @@ def execute(args: argparse.Namespace) -> int:
         args.case,
         args.overrides,
         law=args.law,
+        between=None if args.between is None else tuple(args.between),
         points=args.points,
         output=args.output,
         force=args.force,

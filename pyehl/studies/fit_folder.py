@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A lubricant fitted to a measured curve, and its result folder."""
 
+import math
 import os
 from dataclasses import replace
 
@@ -12,10 +13,11 @@ from pyehl.given import Option, check_kind, path_of
 from pyehl.rigs.quantities import FILM, FRICTION, SLIP, SPEED
 from pyehl.rigs.reading import is_rig, read_rig
 from pyehl.studies.film_fit import fit_coefficient
-from pyehl.studies.measured_friction import read_measured
+from pyehl.studies.measured_friction import Measured, read_measured
 from pyehl.studies.rig_comparison import measured_curve
 from pyehl.studies.shear_fit import PARAMETERS, Fit, fit_law
 from pyehl.theory.operating import OperatingPoint
+from pyehl.types import Settings
 
 KEY = "contact.slide_to_roll"
 OF_FILM = "pressure-viscosity"
@@ -27,6 +29,7 @@ def fit_lubricant(
     case: Case | str | os.PathLike[str],
     *options: Option,
     law: str = "",
+    between: tuple[float, float] | None = None,
     points: int = 129,
     output: str | os.PathLike[str] | None = None,
     force: bool = False,
@@ -52,6 +55,9 @@ def fit_lubricant(
         'eyring', 'limiting' (the limiting coefficient) or 'carreau'; '': that of the case, and
         'eyring' where the case has none. 'pressure-viscosity': the coefficient from films over
         speed of a rig, also where the file has films alone.
+    between
+        Least and largest slide-to-roll ratio [-] or mean velocity [m/s] of the points of a rig that
+        are used; None: all.
     points
         Nodes along X of the contacts.
     output
@@ -95,21 +101,7 @@ def fit_lubricant(
     laws = (*PARAMETERS, OF_FILM)
     if law not in laws:
         raise InputError(f"law = {law}: expected one of {', '.join(laws)}{did_you_mean(law, laws)}")
-    left_out: list[str] = []
-    if law == OF_FILM or is_rig(path):
-        quantity, over = (FILM, SPEED) if law == OF_FILM else (FRICTION, SLIP)
-        measured, left_out = measured_curve(path, settings, quantity, over)
-    else:
-        measured = read_measured(path, KEY)
-    if law != OF_FILM and (measured.abscissa, measured.ordinate) != (KEY, "mu"):
-        raise InputError(
-            f"{path}:1: error: the columns are {measured.abscissa} and {measured.ordinate}\n"
-            f"expected: {KEY} and mu, and error, which may be missing"
-        )
-    if law != OF_FILM and measured.places.max() > 2.0:
-        raise InputError(f"{path}: error: {KEY} = {measured.places.max():g}\nexpected: at most 2")
-    if measured.friction.min() <= 0.0:
-        raise InputError(f"{path}: error: mu = {measured.friction.min():g}\nexpected: above 0")
+    measured, left_out = _measured(path, settings, law, between)
     if not OperatingPoint.from_settings(settings).si:
         raise InputError(
             "a contact given by moes_m and moes_l has no sliding speed in m/s\nexpected: load, "
@@ -127,6 +119,33 @@ def fit_lubricant(
     if place is not None:
         _write(found, place)
     return found
+
+
+def _measured(
+    path: str, settings: Settings, law: str, between: tuple[float, float] | None
+) -> tuple[Measured, list[str]]:
+    """Read the curve that a law is fitted to, and what of the file is left out."""
+    left_out: list[str] = []
+    if law == OF_FILM or is_rig(path):
+        quantity, over = (FILM, SPEED) if law == OF_FILM else (FRICTION, SLIP)
+        ends = between or (-math.inf, math.inf)
+        measured, left_out = measured_curve(path, settings, quantity, over, ends)
+    elif between is not None:
+        raise InputError(f"{path}: between is for the file of a rig")
+    else:
+        measured = read_measured(path, KEY)
+    if law == OF_FILM:
+        return measured, left_out
+    if (measured.abscissa, measured.ordinate) != (KEY, "mu"):
+        raise InputError(
+            f"{path}:1: error: the columns are {measured.abscissa} and {measured.ordinate}\n"
+            f"expected: {KEY} and mu, and error, which may be missing"
+        )
+    if measured.places.max() > 2.0:
+        raise InputError(f"{path}: error: {KEY} = {measured.places.max():g}\nexpected: at most 2")
+    if measured.friction.min() <= 0.0:
+        raise InputError(f"{path}: error: mu = {measured.friction.min():g}\nexpected: above 0")
+    return measured, left_out
 
 
 def _has_friction(path: str) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -129,9 +129,15 @@ def rig_curves(path: str, settings: Settings, vary: Sequence[str]) -> dict[Quant
 
 
 def measured_curve(
-    path: str, settings: Settings, quantity: Quantity, over: Quantity
+    path: str,
+    settings: Settings,
+    quantity: Quantity,
+    over: Quantity,
+    between: tuple[float, float] = (-math.inf, math.inf),
 ) -> tuple[Measured, list[str]]:
     """Give what a rig measured of a quantity over a condition, and the steps that are left out.
+
+    Of values of the condition `between` two alone.
 
     Raises
     ------
@@ -146,11 +152,22 @@ def measured_curve(
             f"{path}: error: no column of {quantity.known_as[0]}; columns: {', '.join(columns)}\n"
             f"expected: {quantity.name} over {over.name}"
         )
-    curve = averaged(used, quantity, over)
+    within = [_within(step, over, *between) for step in used]
+    curve = averaged(within, quantity, over)
+    if not curve.places.size:
+        raise InputError(f"{path}: error: no point between {between[0]:g} and {between[1]:g}")
     measured = _above_0(curve)
     if lost := curve.places.size - measured.places.size:
         left_out.append(f"{lost} points that are not above 0")
     return measured, left_out
+
+
+def _within(step: Step, over: Quantity, low: float, high: float) -> Step:
+    if over.name not in step.columns:
+        return step
+    places = step.columns[over.name]
+    keep = (places >= low) & (places <= high)
+    return replace(step, columns={name: v[keep] for name, v in step.columns.items()})
 
 
 def _value(settings: Settings, name: str) -> object:

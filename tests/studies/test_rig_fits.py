@@ -65,7 +65,7 @@ def test_alpha_is_in_its_interval(case: Path, solved: np.ndarray, tmp_path: Path
     for _ in range(40):
         noise = 1.0 + 0.03 * random.standard_normal((3, SPEEDS.size))
         file = films(tmp_path / "films.txt", solved * noise)
-        (alpha,) = pyehl.fit_lubricant(file, case, points=65).parameters
+        (alpha,) = pyehl.fit_lubricant(file, case).parameters
         inside += alpha.low < ALPHA < alpha.high
         widths.append(0.5 * np.log(alpha.high / alpha.low))
     # fewer than 34 of 40 have a probability of 0.3 %
@@ -104,7 +104,7 @@ def test_eyring_stress_is_in_its_interval(tmp_path: Path) -> None:
     random, inside = np.random.default_rng(5), 0
     head = "Step Time (s)\tTraction Coeff (-)\tLube RTD Temp (degC)\tBall Load (N)\t"
     head += "Rolling Speed (mm/s)\tSRR (%)"
-    for _ in range(8):
+    for _ in range(40):
         lines = ["MTM311 Test Data File"]
         for step in range(1, 5):
             noise = 1.0 + 0.02 * random.standard_normal(ratios.size)
@@ -118,7 +118,7 @@ def test_eyring_stress_is_in_its_interval(tmp_path: Path) -> None:
         file.write_text("\n".join(lines), encoding="utf-8")
         (stress,) = pyehl.fit_lubricant(file, case, law="eyring", points=33).parameters
         inside += stress.low < STRESS < stress.high
-    assert inside >= 6
+    assert inside >= 34
 
 
 def test_stribeck_beside_a_rig(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
