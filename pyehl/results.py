@@ -285,16 +285,9 @@ def load(folder: str | os.PathLike[str]) -> xr.Dataset:
         )
     prediction = summary.get("kind") == "prediction"
     files = list(PREDICTION) if prediction else [field.file for field in SOLUTION]
-    arrays = {
-        name: read_array(folder / f"{name}.npy")
-        for name in files
-        if (folder / f"{name}.npy").is_file()
-    }
-    tables = {
-        name: _table(folder / f"{name}.csv")
-        for name in (PREDICTION_TABLES if prediction else SOLUTION_TABLES)
-        if (folder / f"{name}.csv").is_file()
-    }
+    names = PREDICTION_TABLES if prediction else SOLUTION_TABLES
+    arrays = {n: read_array(p) for n in files if (p := folder / f"{n}.npy").is_file()}
+    tables = {n: _table(p) for n in names if (p := folder / f"{n}.csv").is_file()}
     make = prediction_dataset if prediction else _solution_dataset
     return make(summary, case, arrays, tables)
 

@@ -285,13 +285,8 @@ class OperatingPoint:
     @property
     def speed_parameter(self) -> float:
         """lambda_bar = 12 eta0 u R^2/(a^3 p_h) [-], for a circle (128 pi^3/(3 M^4))^(1/3)."""
-        return (
-            12.0
-            * self.viscosity
-            * self.mean_velocity
-            * self.radius**2
-            / (self.hertz_radius**3 * self.hertz_pressure)
-        )
+        a, u = self.hertz_radius, self.mean_velocity
+        return 12.0 * self.viscosity * u * self.radius**2 / (a**3 * self.hertz_pressure)
 
     @property
     def film_scale(self) -> float:

@@ -170,7 +170,7 @@ SLOW = {
 }
 
 
-@pytest.mark.parametrize("points", [257, 513])
+@pytest.mark.parametrize("points", [257, pytest.param(513, marks=pytest.mark.long)])
 def test_load_share_that_changes_slowly(solve, points):
     """Of a film little thicker than the boundary film: its error counts the residual that is left.
 

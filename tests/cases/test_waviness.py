@@ -41,7 +41,12 @@ def small(scheme: str) -> WavinessRow:
 
 def of_size(points: int, *, equal: bool) -> list[Any]:
     rows = [row for row in WAVINESS if (row.points == points) == equal]
-    return [pytest.param(row, id=identify(row)) for row in rows]
+    # of each scheme one row per grid is always run, the others with the long tests
+    first = {(row.points, row.scheme): row for row in reversed(rows)}.values()
+    return [
+        pytest.param(row, id=identify(row), marks=[] if row in first else pytest.mark.long)
+        for row in rows
+    ]
 
 
 def check(row: WavinessRow, done: Any, table: Any) -> None:

@@ -264,6 +264,7 @@ def test_every_subcommand_is_in_the_reference(root: Path):
     assert listed == modules - {"arguments", "watching"}
 
 
+@pytest.mark.long
 def test_friction_of_both_oils_in_the_readme(root: Path):
     """Friction of Table 1 with an Eyring stress, and the ratio of a Newtonian oil."""
     text = (root / "README.md").read_text(encoding="utf-8")

@@ -35,6 +35,9 @@ print("loaded:", *sys.modules)
 )
 def test_heavy_modules_are_left_alone(cases, tmp_path, words, absent):
     given = [str(cases / word) if word.endswith(".nml") else word for word in words]
+    if words[0] == "predict":
+        # nothing is solved
+        given += ["--set", "psd.smooth=hertz"]
     done = subprocess.run(
         [sys.executable, "-P", "-c", INSIDE, *given],
         cwd=tmp_path, capture_output=True, text=True, check=False,

@@ -8,6 +8,8 @@ from document_text import plain
 
 from pyehl.studies.plan import formula_film
 
+LONG = ("ridges across it", "tile 1", "tile 8")
+
 
 @pytest.fixture(scope="module")
 def evidence(script):
@@ -36,7 +38,12 @@ def dry(script):
 
 
 @pytest.mark.parametrize(
-    "surface", ["ridges along the motion", "ridges across it", "tile 1", "tile 6", "tile 8"]
+    "surface",
+    [
+        "ridges along the motion",
+        "tile 6",
+        *(pytest.param(name, marks=pytest.mark.long) for name in LONG),
+    ],
 )
 def test_rough_balls_at_vanishing_speed(dry, surface):
     """Area and pressure of the dry solver within 3 %; of tile 8, with streaks, the pressure."""

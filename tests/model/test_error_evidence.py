@@ -89,6 +89,7 @@ def test_waves_beside_the_centre_line_on_the_page(root: Path, beside):
     assert f"at Y = 0.625 to {more[0]}, {more[1]} and {more[2]}." in text
 
 
+@pytest.mark.long
 def test_this_build_makes_a_narrow_contact(root: Path, script):
     """A row of ends.csv."""
     made = script("docs/evidence/errors_ellipses/make.py").ends((0.1, 200.0, 10.0, 257))

@@ -58,6 +58,7 @@ def test_table_is_what_is_predicted(evidence, table, name):
     assert abs(ours - row["mu_ratio"]) <= model_error(ours)
 
 
+@pytest.mark.long
 def test_load_is_kept_in_rings(root: Path, evidence, table, monkeypatch):
     """One ring over the whole contact would lower the friction by what the theory says."""
     compare, _ = evidence
@@ -72,6 +73,7 @@ def test_load_is_kept_in_rings(root: Path, evidence, table, monkeypatch):
     assert said in text
 
 
+@pytest.mark.long
 def test_waves_that_a_coarse_grid_leaves_out_are_in_its_error(evidence):
     """257 x 257 nodes against 513 x 513: the error from two grids does not know these waves."""
     compare, folder = evidence
@@ -98,6 +100,7 @@ def test_stated_error_covers_nine_of_ten(table):
     assert sum(error <= 1.0 for error in errors) >= 0.9 * len(known)
 
 
+@pytest.mark.long
 def test_page_of_the_theory_prints_the_bands(root: Path):
     """What each octave adds without slip and with 1 %, and what is below and above a/16."""
     text = plain(root / "docs" / "theory" / "prediction-compared.md")

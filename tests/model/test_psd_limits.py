@@ -46,7 +46,7 @@ def test_overflow_is_said(table_1):
 
 
 def test_lost_load_is_said():
-    n, side = 64, 40 * POINT.hertz_radius
+    n, side = 64, 20 * POINT.hertz_radius
     x = np.arange(n) / n
     hill = np.outer(np.cos(2 * np.pi * x), np.cos(2 * np.pi * x)) * 2e-4
     rough = Topography(hill, (side, side))

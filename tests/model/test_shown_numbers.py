@@ -35,6 +35,7 @@ def says(root: Path):
     return check
 
 
+@pytest.mark.long
 def test_smooth_contact_of_the_readme(says, cases: Path):
     found = summary_of(pyehl.solve(cases / "table1.nml", {"surface.kind": "smooth"}))
     whole, grid, domain = (
@@ -69,6 +70,7 @@ def test_tutorial(says, cases: Path):
     )
 
 
+@pytest.mark.long
 def test_measured_surface(says, cases: Path):
     found = pyehl.predict(cases / "scan.nml", {"surface.outliers": 100}, tracks=4)
     steps = found.summary["surface_preparation"]["steps"]
@@ -100,6 +102,7 @@ def test_alpha_over_the_temperature(says, cases: Path):
     )
 
 
+@pytest.mark.long
 def test_traction_near_the_origin(says, cases: Path):
     """In proportion to the ratio below 1e-6, and no more at 1e-5."""
     slopes = [
@@ -114,6 +117,7 @@ def test_traction_near_the_origin(says, cases: Path):
     says("docs/howto/traction.md", "above h_c/σ = 2 nearly all of the load is on the film")
 
 
+@pytest.mark.long
 def test_fitted_shear_law(says, cases: Path):
     case = pyehl.Case(cases / "traction.nml", ["grid.points=65"])
     (found,) = pyehl.fit_lubricant(cases / "traction.csv", case).parameters
@@ -121,6 +125,7 @@ def test_fitted_shear_law(says, cases: Path):
     says("docs/howto/lubricants.md", f"finds {value} MPa with a 95 % interval from {low} to {high}")
 
 
+@pytest.mark.long
 def test_heat_of_the_gears(says, cases: Path):
     smooth = {f"{group}.kind": "smooth" for group in ("surface", "second_surface")}
     gears = cases / "gear_pair.nml"
@@ -144,6 +149,7 @@ def test_ellipses_outside_the_range(says, cases: Path, name: str, case: str):
     )
 
 
+@pytest.mark.long
 def test_limits(says, cases: Path):
     """Scatter over the scan lines, and the viscosity of a high pressure."""
     found = pyehl.predict(cases / "table1.nml").summary

@@ -50,6 +50,7 @@ def test_film_that_a_loss_leaves(evidence, page):
     assert f"Between 1 and 1.2 there are {last['points']} points." in page
 
 
+@pytest.mark.long
 def test_the_predictions_are_those_of_this_build(evidence, known):
     row = known["1", 6.0, "consistent"]
     found = evidence.predicted(1, 6.0, "consistent")

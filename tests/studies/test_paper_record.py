@@ -40,6 +40,7 @@ def test_numbers_of_the_howto_are_of_the_record(
     assert f"scatter by {below} %" in item
 
 
+@pytest.mark.long
 def test_this_build_makes_the_record(tmp_path: Path, made: dict[str, Any], rows: Any):
     """Those pieces that need no simulation."""
     found = [

@@ -137,14 +137,14 @@ def test_brief_predictions_have_no_advice(cases: Path):
     assert brief.below == pyehl.predict(case).below
 
 
+def smooth_contact(moes_m: float) -> smooth.SmoothContact:
+    return smooth.solve_contact(pyehl.Case.from_text("", [f"contact.moes_m={moes_m}"]).resolve())
+
+
 def test_high_loads_take_a_finer_grid():
     """Above M = 2000 the usual grid has nothing to extrapolate from, above 4000 no solution."""
 
-    def solved(moes_m: float) -> smooth.SmoothContact:
-        case = pyehl.Case.from_text("", [f"contact.moes_m={moes_m}"])
-        return smooth.solve_contact(case.resolve())
-
-    usual, high = solved(2000.0), solved(2500.0)
+    usual, high = smooth_contact(2000.0), smooth_contact(2500.0)
     assert "257 x 257 nodes, extrapolated" in usual.source
     assert "513 x 513 nodes, extrapolated" in high.source
     for contact, moes_m in ((usual, 2000.0), (high, 2500.0)):
@@ -154,5 +154,9 @@ def test_high_loads_take_a_finer_grid():
         # the formula is good to a per cent; without extrapolation the film is 10 % low
         assert contact.central_film == pytest.approx(formula, rel=0.015)
     assert high.central_film_error < 0.05 * high.central_film
+
+
+@pytest.mark.long
+def test_a_load_beyond_all_grids_is_said():
     with pytest.raises(pyehl.EhlError, match=r"on 1025 x 1025 nodes: .*; a lighter load"):
-        solved(60000.0)
+        smooth_contact(60000.0)
