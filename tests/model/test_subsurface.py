@@ -122,10 +122,12 @@ def test_friction_brings_the_shear_to_the_surface(friction: float, *, on_surface
 def test_line_contact_with_friction(z: float) -> None:
     """All components by McEwen's closed form (Johnson 1985, eqs 4.49 and 7.8), mu = 0.3.
 
-    Within 0.05 of the edge the grid resolves it from a depth of six mesh sizes on.
+    The pressure of a node is the mean over its cell, as the deflections of the solver take it.
     """
-    half_space, pressure = line()
-    mu = 0.3
+    half_space, _ = line()
+    mu, ends = 0.3, np.clip(np.append(X, 2.0 * X[-1] - X[-2]) - 0.5 * (X[1] - X[0]), -1.0, 1.0)
+    integral = 0.5 * (ends * np.sqrt(1.0 - ends**2) + np.arcsin(ends))
+    pressure = (np.diff(integral) / (X[1] - X[0]))[:, np.newaxis] * np.ones(4)
     stress = half_space.layer(z).under(pressure, mu * pressure)[:, :, 0]
     square = 1.0 - X**2 + z**2
     root = np.sqrt(square**2 + 4.0 * X**2 * z**2)
@@ -138,9 +140,7 @@ def test_line_contact_with_friction(z: float) -> None:
     by_traction = n * (2.0 - (z**2 - m**2) / (m**2 + n**2)) - 2.0 * X
     exact = {0: along + mu * by_traction, 2: normal + mu * shear, 4: shear + mu * along}
     for component, values in exact.items():
-        off = np.abs(stress[component] - values)
-        assert off[np.abs(np.abs(X) - 1.0) > 0.05].max() < 0.005
-        assert off.max() < (0.005 if z >= 0.1 else 0.02)
+        assert np.abs(stress[component] - values).max() < 0.005
     top = np.hypot(0.5 * (exact[0] - exact[2]), exact[4]).max()
     found = np.hypot(0.5 * (stress[0] - stress[2]), stress[4]).max()
     assert found == pytest.approx(top, rel=5e-3)
@@ -365,7 +365,7 @@ def test_predicted_contact() -> None:
     added = float(below.near_surface_shear_inner - below.near_surface_shear_inner_smooth)
     assert float(below.near_surface_shear_inner_error) == pytest.approx(0.15 * added, rel=0.3)
     assert float(below.near_surface_shear_error) >= float(below.near_surface_shear_inner_error)
-    assert "% within 0.8 semi-axes" in text(below)
+    assert "% within 0.6 semi-axes" in text(below)
     # a point is followed through the whole contact, over several lengths of the tile
     assert float(below.sigma_zz_amplitude.max()) > 0.5
 
