@@ -25,6 +25,8 @@ from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Array, Settings
 
 KEY = "pressure_viscosity"
+# Keys, and how keys begin, that tell the coefficient; the viscosity of the inlet is resolved
+TELLS = KEY, "roelands_z", "name", "kinematic_", "vogel_", "dicke_", "inlet_law"
 LAWS = ("roelands", "barus")
 # Speeds and coefficients of the table, and the largest coefficient over the middle one
 SPEEDS, COEFFICIENTS, SPAN = 5, 3, 1.5
@@ -143,8 +145,11 @@ def fit_coefficient(settings: Settings, measured: Measured, points: int) -> Fit:
 def _base(settings: Settings, points: int) -> dict[str, dict[str, object]]:
     """Give what the contacts share; what a case gave in place of the coefficient is left out."""
     groups = smooth_base(settings, points)
-    for key in ("roelands_z", KEY):
-        groups["lubricant"].pop(key, None)
+    groups["lubricant"] = {
+        key: value
+        for key, value in groups["lubricant"].items()
+        if not key.startswith(TELLS) and key != "temperature"
+    }
     groups["contact"]["slide_to_roll"] = settings["contact"]["slide_to_roll"]
     return groups
 

@@ -85,9 +85,7 @@ class Fit:
         return {
             "kind": "fit",
             "schema_version": schema.VERSION,
-            "shear_law": self.law or None,
-            "fitted": [p.key for p in self.parameters],
-            "quantity": self.quantity,
+            **({"shear_law": self.law} if self.law else {"fitted": self.parameters[0].key}),
             "residual_rms": self.residual_rms,
             "points": self.points,
         }

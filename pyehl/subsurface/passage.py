@@ -22,9 +22,9 @@ from pyehl.types import Array
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-# Distance from the centre within which the largest shear is reported apart [semi-axes]: the
-# roughness moves the edge of the contact to and fro
-INNER = 0.8
+# Distance from the centre within which the largest shear is reported apart [semi-axes]: further out
+# the edge of the contact and the pressure spike count, which the roughness moves to and fro
+INNER = 0.6
 
 
 @dataclass(slots=True)

@@ -53,7 +53,7 @@ def facts(data: xr.Dataset) -> list[tuple[str, str]]:
             percent(f"{name}_error", name)
             for name in ("near_surface_shear", "near_surface_shear_inner")
         )
-        words += f", +- {at_edge} ({inner} within 0.8 semi-axes)"
+        words += f", +- {at_edge} ({inner} within 0.6 semi-axes)"
     found.append(("near", words))
     if "near_surface_share" in data:
         words = (

@@ -121,6 +121,24 @@ def test_eyring_stress_is_in_its_interval(tmp_path: Path) -> None:
     assert inside >= 34
 
 
+def test_record_of_measured_films(root: Path) -> None:
+    """The coefficient and the residual are those of the page; fringe orders are as it says."""
+    folder = root / "docs" / "evidence" / "rig"
+    page = (folder / "README.md").read_text(encoding="utf-8")
+    data, case = folder / "nynas-t3-40.csv", folder / "nynas-t3.nml"
+    fit = pyehl.fit_lubricant(data, case, between=(0.13, 1.0))
+    (alpha,) = fit.parameters
+    interval = f"{alpha.value * 1e9:.1f} ({alpha.low * 1e9:.1f} to {alpha.high * 1e9:.1f})"
+    off = np.sqrt(np.mean((fit.fitted / fit.measured - 1.0) ** 2))
+    assert (
+        f"| 3.2 | {interval} | {fit.residual_rms * 1e9:.1f} nm, {off:.1%} |".replace("%", " %")
+        in page
+    )
+    assert np.abs(fit.fitted - fit.measured).max() < 1.25e-9
+    hot = pd.read_csv(folder / "nynas-t3-80.csv", comment="#")
+    assert (hot["average film (nm)"] > 200).sum() == 7
+
+
 def test_stribeck_beside_a_rig(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Films and friction of a curve, measured 5 % lower, deviate by 5.3 %; the range is said."""
     case = Path(__file__).resolve().parents[2] / "cases" / "mtm.nml"
