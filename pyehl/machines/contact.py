@@ -19,6 +19,7 @@ from pyehl.types import Settings
 LINE, ELLIPSE = "line", "ellipse"
 # R_x/R_y of an ellipse as wide as a line is near it: half widths agree within 1 %
 WIDE = 0.01
+OUTSIDE = " outside its range of "
 LINES = "a line by formulas: the solver has no lines"
 LONGEST = 30.0
 """Largest ratio of the semi-axes of an ellipse that the solver takes."""
@@ -207,4 +208,4 @@ def film_of(contact: Contact, machine: Machine) -> Film:
 def _beyond(*formulas: FilmEstimate) -> str:
     """Name the numbers with which formulas are outside of their ranges."""
     found = {f.name: [text.partition(" =")[0] for text in f.outside] for f in formulas if f.outside}
-    return "; ".join(f"{name} outside its range of {', '.join(of)}" for name, of in found.items())
+    return "; ".join(f"{name}{OUTSIDE}{', '.join(of)}" for name, of in found.items())

@@ -25,6 +25,7 @@ from pyehl.plots.style import save
 from pyehl.prediction.options import unpredictable
 from pyehl.studies.gather import Outcome, Watcher, gather
 from pyehl.studies.journal import FILES as JOURNAL
+from pyehl.studies.journal import NAME
 from pyehl.studies.plan import TaskList
 from pyehl.studies.pool import check_jobs
 from pyehl.studies.study import contents
@@ -124,23 +125,38 @@ def perform(
 
     InputError if it holds another one or something else; FileError if it cannot be written.
     """
+    outcome = Outcome({})
+    names = (*JOURNAL, *FILES) if todo.tasks.tasks else FILES
     place = None
     if folder is not None:
-        place = Destination(Path(folder), command, (*JOURNAL, *FILES), inputs, force=force)
-    outcome = Outcome({})
+        place = Destination(Path(folder), command, names, inputs, force=force)
     if todo.tasks.tasks:
         outcome = gather(todo.tasks.tasks, todo.identity(), place, watcher=watcher, **how)
-    elif place is not None:
+        found = todo.result(outcome.rows)
+        if place is not None:
+            _write(Path(place.folder), todo.machine, found, names)
+        return found, outcome
+    if place is not None:
+        if (Path(place.folder) / NAME).exists():
+            raise InputError(
+                f"{place.folder}: error: holds contacts that were solved or predicted, which "
+                f"formulas would replace\nexpected: another folder"
+            )
         place.check()
-    found = todo.result(outcome.rows)
-    if folder is not None:
-        folder = Path(folder)
-        folder.mkdir(parents=True, exist_ok=True)
-        write_csv(folder / CSV, list(found.table), found.table.itertuples(index=False, name=None))
-        write_json(folder / SUMMARY, {k: finite(v) for k, v in found.summary.items()})
-        (folder / CASE).write_text(todo.machine.settings(), encoding="utf-8")
-        save(pictures.figure(found.kind, found.table, found.summary), folder / PICTURE)
+    found = todo.result({})
+    if place is not None:
+        with place.fresh() as fresh:
+            _write(fresh, todo.machine, found, names)
     return found, outcome
+
+
+def _write(folder: Path, machine: Machine, found: MachineResult, names: tuple[str, ...]) -> None:
+    """Write the files of a result."""
+    write_csv(folder / CSV, list(found.table), found.table.itertuples(index=False, name=None))
+    save(pictures.figure(found.kind, found.table, found.summary), folder / PICTURE)
+    (folder / CASE).write_text(machine.settings(), encoding="utf-8")
+    values = {name: finite(value) for name, value in found.summary.items()}
+    write_json(folder / SUMMARY, {**values, "files": list(names)})
 
 
 def _call(

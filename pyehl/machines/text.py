@@ -2,10 +2,12 @@
 """What ``pyehl bearing`` and ``pyehl gear`` print."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import pandas as pd
+
+from pyehl.machines.contact import OUTSIDE
 
 # Columns that are printed: label, factor, digits; of words 0 for the factor
 SHOWN: dict[str, tuple[str, float, int]] = {
@@ -48,8 +50,8 @@ SUMS: dict[str, tuple[str, float, str, str]] = {
     "torque_N_m": ("torque of the contacts", 1e3, ".2f", "N mm"),
     "loss_factor": ("loss factor H_V", 1.0, ".4f", ""),
     "mu_mean": ("mean coefficient of friction", 1.0, ".4f", ""),
-    "sliding_power_W": ("loss of sliding", 1.0, ".1f", "W"),
-    "rolling_power_W": ("loss of rolling", 1.0, ".1f", "W"),
+    "sliding_power_W": ("power of sliding", 1.0, ".1f", "W"),
+    "rolling_power_W": ("power of rolling", 1.0, ".1f", "W"),
     "efficiency": ("efficiency of the mesh", 100.0, ".3f", "%"),
 }
 # Of the friction, which a Newtonian oil does not have
@@ -76,11 +78,25 @@ def report(kind: str, table: pd.DataFrame, summary: Mapping[str, Any]) -> str:
                 missing = "give a lubricant.shear_law"
             text = f"not reported: {missing}"
         lines.append(f"{label:<30}{text}".rstrip())
-    notes = list(dict.fromkeys(str(note) for note in table.get("note", ()) if note))
+    notes = _together(str(note) for note in table["note"] if note)
     notes = [*notes[:NOTES], *([f"and {len(notes) - NOTES} more"] if len(notes) > NOTES else [])]
     lines += [f"note       {note}" for note in notes]
+    if summary.get("lambda_ratio_least", math.inf) < 1.0 and "h_min_rough_m" not in table:
+        lines.append(
+            "solids     least Lambda below 1: the surfaces touch, which no friction here has"
+        )
     lines += [f"lines      {summary['lines']}"] if "lines" in summary else []
     return "\n".join([*lines, f"left out   {summary['left_out']}"])
+
+
+def _together(notes: Iterable[str]) -> list[str]:
+    """Say once of each formula outside of which ranges it is."""
+    found: dict[str, dict[str, None]] = {}
+    for note in notes:
+        for part in note.split("; "):
+            name, outside, numbers = part.partition(OUTSIDE)
+            found.setdefault(name + outside, {}).update(dict.fromkeys(numbers.split(", ")))
+    return [start + ", ".join(numbers) for start, numbers in found.items()]
 
 
 def _cell(value: Any, factor: float, digits: int) -> str:  # noqa: ANN401 (a number or a word)

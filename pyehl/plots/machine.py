@@ -72,5 +72,6 @@ def _gear(table: pd.DataFrame, summary: Mapping[str, Any]) -> Figure:
 
 def _sigma(ax: Any, summary: Mapping[str, Any]) -> None:  # noqa: ANN401 (axes)
     """Mark three times the rms height, Lambda = 3."""
-    if summary["rms_height_m"] > 0.0:
+    # not where the films would be flat beside it
+    if 0.0 < 3e9 * summary["rms_height_m"] < 1.5 * ax.get_ylim()[1]:
         ax.axhline(3e9 * summary["rms_height_m"], lw=0.8, ls=":", color=GREY, label="Lambda = 3")

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from document_text import fences, is_shown
 
 import pyehl
 from pyehl import cli
@@ -398,6 +399,8 @@ def test_solved_contacts_and_resuming(tmp_path: Path):
     assert again.table.equals(solved.table)
     with pytest.raises(pyehl.InputError, match="another study"):
         bearing(*options, {"ball_bearing.clearance": 1e-6}, run="solve", output=folder)
+    with pytest.raises(pyehl.InputError, match="formulas would replace"):
+        bearing(*options, output=folder)
     assert solved.data["h_c_m"].attrs["units"] == "m"
 
 
@@ -493,6 +496,20 @@ def test_case_files_by_formulas(root: Path, tmp_path: Path, name: str, capfd):
     text = (folder / "machine.nml").read_text()
     assert text.startswith(f"&{group}\n")
     assert cli.main([command, str(folder / "machine.nml"), "--json"]) == 0
+
+
+@pytest.mark.parametrize("page", ["bearing", "gear"])
+def test_pages_show_what_is_printed(root: Path, page: str, monkeypatch, capfd):
+    monkeypatch.chdir(root)
+    path = root / "docs" / "howto" / f"{page}.md"
+    blocks = [text for language, text in fences(path) if language == "console"]
+    for block in blocks:
+        command, *shown = block.removeprefix("$ pyehl ").splitlines()
+        assert cli.main(command.split()) == 0
+        printed = capfd.readouterr().out.splitlines()
+        missing = [s for s in shown if s != "..." and not any(is_shown(s, p) for p in printed)]
+        assert not missing
+    assert len(blocks) == 1
 
 
 def test_prediction_needs_a_rough_surface():
