@@ -46,16 +46,22 @@ class BallBearing:
 
 @dataclass(slots=True)
 class RollerBearing:
-    """``&roller_bearing``: one row of cylindrical rollers."""
+    """``&roller_bearing``: one row of cylindrical or tapered rollers."""
 
     bore: float = real(0.0, "m", LENGTH, "bore, for the pitch diameter alone")
     outer_diameter: float = real(0.0, "m", LENGTH, "outside diameter, for the pitch diameter alone")
     pitch_diameter: float = real(
         0.0, "m", LENGTH, "of the circle of roller axes; 0: mean of bore and outside diameter"
     )
-    roller_diameter: float = real(0.0, "m", LENGTH, "diameter of a roller")
+    roller_diameter: float = real(0.0, "m", LENGTH, "diameter of a roller at half its length")
     roller_length: float = real(0.0, "m", LENGTH, "effective length of a roller")
     rollers: int = whole(0, "0 or [3, 400]", "number of rollers")
+    contact_angle: float = real(
+        0.0, "deg", "0 or [1, 45]", "half angle of a tapered outer raceway; 0: cylindrical"
+    )
+    roller_angle: float = real(
+        0.0, "deg", "[0, 10]", "half of the included angle of a tapered roller"
+    )
     clearance: float = real(
         0.0,
         "m",
@@ -63,6 +69,7 @@ class RollerBearing:
         "radial internal clearance (diametral play) in operation; negative: preload",
     )
     radial_load: float = real(0.0, "N", "[0, 1e7]", "radial load of the bearing")
+    axial_load: float = real(0.0, "N", "[0, 1e7]", "axial load, of tapered rollers")
     inner_speed: float = real(0.0, "1/min", SPEED, "rotational speed of the inner ring")
     outer_speed: float = real(0.0, "1/min", SPEED, "rotational speed of the outer ring")
 

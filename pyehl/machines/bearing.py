@@ -28,6 +28,8 @@ RINGS = {"inner": 1.0, "outer": -1.0}
 STATIC = {BALL: 4.2e9, ROLLER: 4.0e9}
 # Largest contact angle without load [deg]
 STEEPEST = 60.0
+# Share by which the axial load of a tapered bearing exceeds that of a single loaded roller
+APART = 1e-3
 # Of bearing steel [kg/m^3]
 DENSITY = 7800.0
 # rad/s of 1/min
@@ -112,34 +114,67 @@ def ball_bearing(machine: Machine) -> Bearing:
 
 
 def roller_bearing(machine: Machine) -> Bearing:
-    """Give the contacts of a cylindrical roller bearing; InputError at the key that fits not."""
+    """Give the contacts of a cylindrical or tapered roller bearing; InputError as `ball_bearing`.
+
+    Cones roll on each other round their common apex. The flange pushes along the axis of a tapered
+    roller, so that both raceways carry the same load Q, and the flange 2 Q sin(roller_angle).
+    """
     v = machine.values
     machine.wants("roller_diameter", "roller_length", "rollers")
     d, pitch = v.roller_diameter, _pitch(machine, v.roller_diameter, v.rollers, "rollers")
     speed = _speed(machine)
-    machine.wants("radial_load")
+    outer, half = math.radians(v.contact_angle), math.radians(v.roller_angle)
+    loads = v.radial_load, v.axial_load
+    _check_rollers(machine)
+    angles = {"inner": outer - 2.0 * half, "outer": outer}
+    axis = outer - half
     stiffness = roller_stiffness(machine.reduced_modulus, v.roller_length)
-    u = 0.25 * speed * pitch * (1.0 - (d / pitch) ** 2)
+    u = 0.25 * speed * pitch * (1.0 - (d * math.cos(axis) / pitch) ** 2)
 
-    def contact(place: str, load: float, sign: float) -> Contact:
-        radii = (0.5 * d, math.inf, _raceway(pitch, d, 0.0, sign), math.inf)
+    def contact(place: str, load: float, name: str) -> Contact:
+        # of cones in the plane across the raceway, at half the length of the roller
+        raceway = 0.5 * (RINGS[name] * pitch - d * math.cos(axis)) / math.cos(angles[name])
+        radii = (0.5 * d / math.cos(half), math.inf, raceway, math.inf)
         return Contact(place, load, u, 0.0, radii, length=v.roller_length)
 
     if v.clearance < 0.0:
-        load = stiffness * (-0.5 * v.clearance) ** ROLLER
-        pressure = contact("", load, 1.0).line(machine.reduced_modulus).hertz_pressure
+        load = stiffness * (-0.5 * v.clearance * math.cos(outer)) ** ROLLER
+        pressure = contact("", load, "inner").line(machine.reduced_modulus).hertz_pressure
         # p_h goes with Q^(1/2), Q with delta^(10/9)
         _check_preload(machine, pressure, STATIC[ROLLER], 2.0 / ROLLER)
-    ring = equilibrium(stiffness, ROLLER, v.rollers, v.clearance, (v.radial_load, 0.0))
+    ring = equilibrium(stiffness, ROLLER, v.rollers, v.clearance, loads, angle=outer)
     found = Bearing(speed, ring)
     for number, azimuth in enumerate(azimuths(v.rollers)):
         load = float(ring.loads[number])
-        for name, sign in RINGS.items() if load > 0.0 else ():
-            one = contact(f"roller {number + 1}, {name} ring", load, sign)
-            found.add(number + 1, float(azimuth), 0.0, name, one)
-    _facts(machine, found, pitch, d, 0.25 * math.pi * d**2 * v.roller_length, 0.0)
-    found.facts.update(clearance_m=v.clearance)
+        for name, angle in angles.items() if load > 0.0 else ():
+            one = contact(f"roller {number + 1}, {name} ring", load, name)
+            found.add(number + 1, float(azimuth), angle, name, one)
+    _facts(machine, found, pitch, d, 0.25 * math.pi * d**2 * v.roller_length, axis)
+    found.facts["clearance_m"] = v.clearance
+    if half > 0.0:
+        found.facts["flange_load_max_N"] = 2.0 * math.sin(half) * found.facts["load_max_N"]
     return found
+
+
+def _check_rollers(machine: Machine) -> None:
+    """Refuse loads that such rollers cannot carry, and angles that fit not."""
+    v = machine.values
+    if v.contact_angle == 0.0:
+        machine.wants("radial_load")
+        for key in ("axial_load", "roller_angle"):
+            if getattr(v, key) > 0.0:
+                what = f"cylindrical rollers with {key} = {getattr(v, key):g}"
+                machine.refuse(key, what, "a contact_angle above 0, or none of it")
+        return
+    if 2.0 * v.roller_angle > v.contact_angle:
+        what = f"a roller_angle of {v.roller_angle:g} deg leaves no cone on the inner ring"
+        machine.refuse("roller_angle", what, f"at most {0.5 * v.contact_angle:g} deg")
+    least = v.radial_load * math.tan(math.radians(v.contact_angle))
+    if v.axial_load <= least * (1.0 + APART):
+        what = f"an axial load of {v.axial_load:g} N: tapered rollers push the rings apart"
+        machine.refuse(
+            "axial_load", what, f"more than {least:.5g} N, that of preload or counter bearing"
+        )
 
 
 def _raceway(pitch: float, element: float, angle: float, sign: float) -> float:

@@ -76,6 +76,7 @@ def equilibrium(
     clearance: float,
     load: tuple[float, float],
     centres: float = math.inf,
+    angle: float = 0.0,
 ) -> Equilibrium:
     """Find the displacement of the ring at which its elements carry a radial and an axial load.
 
@@ -88,9 +89,12 @@ def equilibrium(
     clearance
         Diametral play [m].
     load
-        Radial and axial load [N], neither negative; rollers carry no axial one.
+        Radial and axial load [N], neither negative.
     centres
         Distance of the centres of both grooves without load [m]; infinite for rollers.
+    angle
+        Contact angle of rollers [rad]. With one the axial load exceeds tan(angle) times the radial
+        one, without one it is 0.
     """
     radial_load, axial_load = load
     psi = azimuths(count)
@@ -100,7 +104,8 @@ def equilibrium(
     def state(radial: float, axial: float) -> tuple[Array, Array]:
         play = radial * cosines - 0.5 * clearance
         if math.isinf(centres):
-            return stiffness * np.maximum(play, 0.0) ** power, np.zeros(count)
+            approach = play * math.cos(angle) + axial * math.sin(angle)
+            return stiffness * np.maximum(approach, 0.0) ** power, np.full(count, angle)
         across = centres + play
         # the distance of the centres less what it is without load, without cancellation
         distance = np.hypot(axial, across)
@@ -128,10 +133,11 @@ def equilibrium(
 
 
 def _root(miss: Callable[[float], float], unit: float) -> float:
-    """Root of a rising function that is not positive at 0; `unit` is a first guess of its size."""
+    """Root of a rising function; `unit` is a first guess of its size."""
     from scipy.optimize import brentq  # noqa: PLC0415 (takes as long to load as all the rest)
 
-    high = unit
-    while miss(high) < 0.0:
-        high *= 2.0
-    return float(brentq(miss, 0.0, high, xtol=1e-16 * high, rtol=4.0 * np.finfo(float).eps))
+    far, sign = unit, -1.0 if miss(0.0) > 0.0 else 1.0
+    while sign * miss(sign * far) < 0.0:
+        far *= 2.0
+    rtol = 4.0 * np.finfo(float).eps
+    return float(brentq(miss, 0.0, sign * far, xtol=1e-16 * far, rtol=rtol))

@@ -175,6 +175,41 @@ def _stiffness(angle):
     return ball_stiffness(E_STEEL, shapes)
 
 
+TAPERED = ROLLERS | {
+    "roller_bearing.contact_angle": 15.0,
+    "roller_bearing.roller_angle": 2.0,
+    "roller_bearing.axial_load": 2000.0,
+}
+
+
+def test_tapered_rollers():
+    """Equilibrium from a small to a full load zone; Q = F_a/(Z sin alpha); cones on one apex."""
+    least = 3000.0 * math.tan(math.radians(15.0))
+    loaded = []
+    for axial in (1.002 * least, 1.2 * least, 2.0 * least, 20.0 * least):
+        _, found = made(TAPERED, {"roller_bearing.axial_load": axial})
+        assert forces(found.ring) == pytest.approx((3000.0, axial), rel=1e-10)
+        loaded.append(found.facts["elements_loaded"])
+    assert loaded == sorted(loaded)
+    assert (loaded[0], loaded[-1]) == (3.0, 13.0)
+    _, found = made(TAPERED, {"roller_bearing.radial_load": 0.0})
+    assert found.ring.loads == pytest.approx(2000.0 / (13 * math.sin(math.radians(15.0))))
+    # three forces on a roller: both raceways and the flange, along its axis and across it
+    load, flange = found.facts["load_max_N"], found.facts["flange_load_max_N"]
+    outer, inner, axis = (math.radians(a) for a in (15.0, 11.0, 13.0))
+    assert load * (math.cos(outer) - math.cos(inner)) == pytest.approx(-flange * math.sin(axis))
+    assert load * (math.sin(outer) - math.sin(inner)) == pytest.approx(flange * math.cos(axis))
+    # with the axial load of the load zone of the cylindrical bearing it is that
+    _, straight = made(ROLLERS)
+    angle = math.radians(1.0)
+    thin = {"roller_bearing.contact_angle": 1.0, "roller_bearing.roller_angle": 0.0}
+    axial = straight.ring.loads.sum() * math.tan(angle)
+    _, nearly = made(TAPERED, thin, {"roller_bearing.axial_load": float(axial)})
+    across = nearly.ring.loads * math.cos(angle)
+    assert across == pytest.approx(straight.ring.loads, rel=1e-9, abs=1e-6)
+    assert nearly.contacts[0].radius == pytest.approx(straight.contacts[0].radius, rel=1e-3)
+
+
 def test_hertz_stiffness():
     """Two equal circles in series: delta = 2 a^2/R with a^3 = 3 w R/(2 E')."""
     load, radius = 100.0, 0.01
@@ -331,6 +366,51 @@ def test_friction_of_lines_and_ellipses():
     assert np.all((warm.table["mu"] < cold.table["mu"]) | warm.table["mu"].isna())
 
 
+def test_friction_by_formulas_beside_solved_contacts(root: Path):
+    """The page says 3 %: crowned flanks on 129 nodes, whose films are 7 to 14 % thinner."""
+    options = {
+        "spur_gear.crowning_1": 2e-4,
+        "spur_gear.torque": 40.0,
+        "spur_gear.stations": 5,
+        "grid.points": 129,
+    }
+    path = root / "cases" / "fzg_c.nml"
+    formula, solved = (
+        pyehl.gear(path, options, run=run, jobs=1).table for run in ("film", "solve")
+    )
+    assert set(solved["status"]) == {"converged"}
+    ratio = (formula["mu"] / solved["mu"]).dropna()
+    assert len(ratio) == len(formula) - 1
+    assert ratio.between(0.97, 1.03).all()
+    assert (formula["h_c_m"] / solved["h_c_m"]).between(1.0, 1.15).all()
+    assert "within 3 %" in (root / "docs" / "howto" / "gear.md").read_text()
+
+
+def test_rolling_resistance_beside_solved_contacts(root: Path):
+    """Both formulas beside a 6204 with a short and a long inlet, as the page has it."""
+    page = (root / "docs" / "howto" / "bearing.md").read_text()
+    case = root / "cases" / "ball_bearing.nml"
+    point = pyehl.OperatingPoint.from_settings(pyehl.Case(case).resolve())
+    shape, radius, alpha = point.ellipse, point.radius, point.pressure_viscosity
+    moment = 7.5 * shape.ellipticity**2 * shape.kernel_ratio**0.25 / point.moes_m
+    load = 0.5 * math.pi * point.hertz_radius * point.hertz_pressure
+    flow = alpha * point.viscosity * point.mean_velocity / radius
+    line = 4.318 * radius / alpha * flow**0.658
+    line *= (load / (point.reduced_modulus * radius)) ** 0.0126
+    shares = []
+    for inlet in (-2.5, -10.0):
+        ds = pyehl.solve(case, {"grid.x_inlet": inlet})
+        p, h = ds.P.values, ds.H.values
+        middle = p.shape[1] // 2
+        row = 0.25 * np.sum((h[1:, middle] + h[:-1, middle]) * np.diff(p[:, middle]))
+        solved = row * point.hertz_pressure * point.film_scale
+        shares.append((float(ds.rolling_moment) / moment, 1.0 - line / solved))
+    assert "0.81 and 1.02 of it" in page
+    assert [share for share, _ in shares] == pytest.approx([0.81, 1.02], abs=0.006)
+    assert "11 to 30 %" in page
+    assert [below for _, below in shares] == pytest.approx([0.11, 0.30], abs=0.006)
+
+
 def test_trial_of_a_gear_pair():
     """302 N m, FVA 3 at 60 degC; ellipses of a made-up crown had 229 to 356 nm, 0.036 to 0.043."""
     found = gear(FZG, OIL, {"spur_gear.torque": 302.0})
@@ -426,6 +506,9 @@ BAD = {
         "is a clearance of",
         "one of the two",
     ),
+    "cylinders": (ROLLERS, {"roller_bearing.axial_load": 10.0}, "cylindrical", "contact_angle"),
+    "cone": (TAPERED, {"roller_bearing.roller_angle": 8.0}, "no cone", "at most 7.5"),
+    "apart by rollers": (TAPERED, {"roller_bearing.axial_load": 803.0}, "apart", "803.85"),
     "undercut": (FZG, {"spur_gear.profile_shift_1": -0.2}, "undercut", "at least 0.065"),
     "tight": (FZG, {"spur_gear.centre_distance": 0.0914}, "without backlash", "0.0915"),
     "apart": (FZG, {"spur_gear.centre_distance": 0.0955}, "contact ratio", "1 to 2"),
