@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from pyehl.api import check, film, predict, solve
     from pyehl.case import Case
     from pyehl.errors import EhlError, FileError, InputError, NotConverged
+    from pyehl.machines.perform import bearing, gear
     from pyehl.measured_response.folder import response
     from pyehl.netcdf import export
     from pyehl.plots.folder import plot
@@ -52,10 +53,12 @@ __all__ = [
     "Prediction",
     "Solver",
     "Topography",
+    "bearing",
     "check",
     "export",
     "film",
     "fit_lubricant",
+    "gear",
     "load",
     "lubricants",
     "plot",
@@ -78,10 +81,12 @@ _HOMES = {
     "Prediction": "prediction.result",
     "Solver": "solver",
     "Topography": "surfaces.tile",
+    "bearing": "machines.perform",
     "check": "api",
     "export": "netcdf",
     "film": "api",
     "fit_lubricant": "studies.fit_folder",
+    "gear": "machines.perform",
     "load": "results",
     "lubricants": "studies.oil_list",
     "plot": "plots.folder",

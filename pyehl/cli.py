@@ -28,6 +28,8 @@ SUBCOMMANDS = {
     "app": "an interactive contact, in the browser",
     "sweep": "many cases with one table of results",
     "compare": "results against a table of references",
+    "bearing": "film of every contact of a rolling bearing, and its torque",
+    "gear": "film along the path of contact of a gear pair, and its loss",
     "stress": "stress below the surface under a result, smooth or rough",
     "response": "measure what the contact makes of small waves of roughness",
     "surface": "write the surface of a case as a height map",

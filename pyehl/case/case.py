@@ -117,8 +117,12 @@ class Case:
 
     def smooth(self) -> Case:
         """Give the case of the smooth contact: everything but its rough surfaces."""
-        rough = [name for name in ("second_surface", "surface") if name in self.resolve()]
-        return self.with_options({f"{name}.kind": "smooth" for name in rough})
+        groups = self.resolve()
+        rough = [name for name in ("second_surface", "surface") if name in groups]
+        options = {f"{name}.kind": "smooth" for name in rough}
+        # a finish is that of a fractal surface
+        options |= {f"{name}.finish": "none" for name in rough if groups[name]["finish"] != "none"}
+        return self.with_options(options)
 
     def __repr__(self) -> str:
         """Operating point, surface and grid in one line."""

@@ -6,6 +6,7 @@ from contextlib import suppress
 
 from pyehl.case import contact, density, grid, lubricant, radii, surfaces, temperature
 from pyehl.case.draft import Draft
+from pyehl.case.settings import GROUPS, MACHINES
 from pyehl.errors import InputError
 
 Step = Callable[[Draft], None]
@@ -17,6 +18,15 @@ def check_time(draft: Draft) -> None:
     if time.steps != 0 and time.max_periods != 0:
         what = "time.max_periods contradicts time.steps"
         draft.refuse("time.max_periods", what, "one of the two, the other 0")
+
+
+def check_no_machine(draft: Draft) -> None:
+    """Refuse a machine element where one contact is wanted."""
+    for kind in MACHINES:
+        if name := draft.first_given(key.name for key in GROUPS[kind]):
+            command = "gear" if kind == "spur_gear" else "bearing"
+            what = f"&{kind} is no contact, but a machine element with many"
+            draft.refuse(name, what, f"'pyehl {command}', or a case without &{kind}")
 
 
 COMPLETIONS: tuple[Step, ...] = (
@@ -32,6 +42,7 @@ COMPLETIONS: tuple[Step, ...] = (
     surfaces.complete,
 )
 STEPS: tuple[Step, ...] = (
+    check_no_machine,
     *COMPLETIONS[:6],
     contact.check_operating_point,
     grid.complete,

@@ -3,7 +3,7 @@
 
 from collections.abc import Iterable
 
-from pyehl.case.settings import GROUPS, KEYS
+from pyehl.case.settings import GROUPS, KEYS, MACHINES
 
 BODIES = (
     "E and nu of each body are keys of &bodies (modulus_1, poisson_1, modulus_2, poisson_2); "
@@ -88,8 +88,8 @@ def unknown_group(name: str, prefix: str = "") -> str:
 
 
 def groups(prefix: str) -> str:
-    """List the groups, each with a prefix."""
-    return ", ".join(prefix + group for group in GROUPS)
+    """List the groups of a contact, each with a prefix."""
+    return ", ".join(prefix + group for group in GROUPS if group not in MACHINES)
 
 
 def did_you_mean(name: str, names: Iterable[str], prefix: str = "") -> str:

@@ -8,6 +8,7 @@ from typing import Any
 from pyehl.case.groups import Bodies, Contact, Grid, Output, Psd, Solver, Time
 from pyehl.case.key import Key, Value
 from pyehl.case.lubricant_group import Lubricant
+from pyehl.case.machine_groups import BallBearing, RollerBearing, SpurGear
 from pyehl.case.surface_group import Surface
 
 
@@ -25,6 +26,9 @@ class Settings:
     solver: Solver = field(default_factory=Solver)
     psd: Psd = field(default_factory=Psd)
     output: Output = field(default_factory=Output)
+    ball_bearing: BallBearing = field(default_factory=BallBearing)
+    roller_bearing: RollerBearing = field(default_factory=RollerBearing)
+    spur_gear: SpurGear = field(default_factory=SpurGear)
 
     def value(self, key: Key) -> Value:
         """Give the value of a key."""
@@ -52,3 +56,5 @@ GROUPS: dict[str, list[Key]] = {
     for group in fields(Settings)
 }
 """Keys by group."""
+MACHINES = ("ball_bearing", "roller_bearing", "spur_gear")
+"""Groups of machine elements, from which the contacts follow; no case of one contact has them."""

@@ -6,7 +6,7 @@ from functools import cache
 
 from pyehl.case.key import Key, Value
 from pyehl.case.number import to_text
-from pyehl.case.settings import GROUPS, Settings
+from pyehl.case.settings import GROUPS, MACHINES, Settings
 
 OPTIONAL = (
     *("name", "table", "inlet_law"),
@@ -32,7 +32,7 @@ def case_text(settings: Settings, given: Collection[str]) -> str:
     """
     blocks = []
     for group, keys in GROUPS.items():
-        if (
+        if group in MACHINES or (
             group == "second_surface"
             and settings.second_surface.kind == "smooth"
             and not any(name.startswith("second_surface.") for name in given)

@@ -88,9 +88,11 @@ class Terminal(Watcher):
         print(f"interrupted; the same command resumes it in {folder}", file=sys.stderr)
 
 
-def add_worker_arguments(parser: argparse.ArgumentParser) -> None:
-    """Arguments of all subcommands that run many cases."""
-    parser.add_argument("-o", "--output", metavar="DIR", required=True, help="folder of the study")
+def add_worker_arguments(parser: argparse.ArgumentParser, *, required: bool = True) -> None:
+    """Arguments of all subcommands that run many cases; whether they want a folder."""
+    parser.add_argument(
+        "-o", "--output", metavar="DIR", required=required, help="folder of the study"
+    )
     add_force(parser)
     parser.add_argument(
         "--jobs", type=int, default=0, metavar="N", help="worker processes (default: processors)"

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from pyehl import namelist
 from pyehl.case.resolve import resolve
-from pyehl.case.settings import KEYS
+from pyehl.case.settings import KEYS, MACHINES
 from pyehl.errors import InputError
 
 CASES = Path(__file__).resolve().parents[2] / "cases"
@@ -146,7 +146,7 @@ def made(folder: Path) -> dict[str, tuple[str, list[str]]]:
         found[f"file: {path.name}"] = (path.read_text(), [])
     for base, text in BASES.items():
         written = resolve(text, str(folder / "case.nml"))
-        for key in KEYS.values():
+        for key in (k for k in KEYS.values() if k.group not in MACHINES):
             for number, value in enumerate(values(key.allowed, key.default)):
                 option = f"{key.name}={value}"
                 found[f"{base}: {option}"] = (text, [option])

@@ -26,6 +26,7 @@ LAYERS = [
     ["run"],
     ["api"],
     ["studies", "subsurface"],
+    ["machines"],
     ["measured_response"],
     ["reports"],
     ["app"],
@@ -121,7 +122,7 @@ def test_benchmarks_and_the_paper_use_what_is_public(root: Path, folder: str):
 
 
 # What subcommands share
-SHARED = ("commands.arguments", "commands.watching")
+SHARED = ("commands.arguments", "commands.machine", "commands.watching")
 
 
 def test_nobody_imports_a_command(graph: dict[str, set[str]]):

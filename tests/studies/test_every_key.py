@@ -11,6 +11,7 @@ import pytest
 import pyehl
 from pyehl.app.position import from_case
 from pyehl.case import KEYS, trusted
+from pyehl.case.settings import MACHINES
 from pyehl.handle import SolverHandle
 from pyehl.prediction.smooth import solve_contact
 from pyehl.prediction.smooth_case import OF_RUN, smooth_case
@@ -165,7 +166,7 @@ VALUES: dict[str, tuple[Any, Mapping[str, Any]]] = {
 TABLE = "lubricant.table"
 ROUGH = {"surface.kind": "harmonic", "surface.amplitude_over_film": 0.1}
 # Groups that are no part of a smooth contact; but a velocity ratio is a slide-to-roll ratio
-OTHERS = ("surface", "second_surface", "time", "psd", "output")
+OTHERS = ("surface", "second_surface", "time", "psd", "output", *MACHINES)
 
 
 def test_every_key_has_a_value():

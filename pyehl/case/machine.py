@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A file that describes a machine element: its group, and the cases of its contacts."""
+
+import copy
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, NoReturn
+
+from pyehl.case.complete import complete
+from pyehl.case.draft import Draft
+from pyehl.case.file import read_text
+from pyehl.case.key import Value
+from pyehl.case.number import short, to_text
+from pyehl.case.reader import read
+from pyehl.case.settings import GROUPS, KEYS, MACHINES
+from pyehl.case.writer import case_text
+from pyehl.errors import InputError
+from pyehl.given import Option, options_of, path_of
+
+# What the machine says of each contact, and no key
+FOLLOWS = (
+    *(f"contact.{key}" for key in ("moes_m", "moes_l", "radius_ratio", "load", "mean_velocity")),
+    *(f"contact.{key}" for key in ("radius", "radius_x", "radius_y", "reduced_modulus")),
+    *(f"contact.{key}" for key in ("angle", "slide_to_roll")),
+    *(f"bodies.radius_{key}" for key in ("x1", "y1", "x2", "y2")),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Machine:
+    """A machine element, with the keys that its contacts share.
+
+    Attributes
+    ----------
+    kind
+        Its group, one of `MACHINES`.
+    values
+        The group, typed.
+    """
+
+    kind: str
+    values: Any
+    draft: Draft
+
+    @property
+    def reduced_modulus(self) -> float:
+        """E' of ``&bodies`` [Pa], 2/E' = sum of (1 - nu^2)/E."""
+        b = self.draft.settings.bodies
+        one, other = (1.0 - b.poisson_1**2) / b.modulus_1, (1.0 - b.poisson_2**2) / b.modulus_2
+        return 2.0 / (one + other)
+
+    def refuse(self, key: str, what: str, expected: str) -> NoReturn:
+        """Refuse the machine at a key of its group, whether it was given or not."""
+        name = f"{self.kind}.{key}"
+        self.draft.refuse(name if name in self.draft.given else self._first(), what, expected)
+
+    def is_given(self, key: str) -> bool:
+        """Whether a key of its group was given."""
+        return f"{self.kind}.{key}" in self.draft.given
+
+    def _first(self) -> str:
+        return self.draft.first_given(key.name for key in GROUPS[self.kind])
+
+    def wants(self, *keys: str) -> None:
+        """Refuse a machine without some keys, all of which have to be positive."""
+        for key in keys:
+            if getattr(self.values, key) == 0:
+                known = KEYS[f"{self.kind}.{key}"]
+                what = f"{known.name} is not given" if not self.is_given(key) else f"{key} is 0"
+                self.refuse(key, what, f"{known.meaning}: {known.expected.replace('0 or ', '')}")
+
+    def settings(self) -> str:
+        """Give the group as it holds, every value spelled out, as lines of a namelist."""
+        lines = (
+            f"   {key.key} = {to_text(getattr(self.values, key.key))} ! {key.meaning}"
+            for key in GROUPS[self.kind]
+        )
+        return "\n".join([f"&{self.kind}", *lines, "/\n"])
+
+    def case_text(self, contact: Mapping[str, Value], place: str = "") -> str:
+        """Give the resolved case of one contact, of values by ``group.key``.
+
+        InputError, which points to the machine, if there is no such contact; `place` says which.
+        """
+        draft = Draft(copy.deepcopy(self.draft.settings), self.draft.sources)
+        origin = self.draft.given[self._first()]
+        draft.given = {
+            name: where
+            for name, where in self.draft.given.items()
+            if KEYS[name].group not in MACHINES
+        }
+        for name, value in contact.items():
+            key = KEYS[name]
+            if isinstance(value, float) and not key.allows(value):
+                what = f"{place}: {name} = {short(value)}"
+                self.draft.refuse(self._first(), what, key.expected)
+            draft.settings.set(key, value)
+            draft.given[name] = origin
+        complete(draft)
+        return case_text(draft.settings, draft.given)
+
+
+def read_machine(
+    path: Any,  # noqa: ANN401 (a path, or an ellipsis for none)
+    options: Iterable[Option],
+    kinds: Sequence[str],
+) -> Machine:
+    """Read a file with one of some groups of machines, or without a file the options alone.
+
+    InputError with file, line and column if it is not acceptable.
+    """
+    texts = options_of(options)
+    if path is ...:
+        draft = read("", "machine", texts)
+    else:
+        name = path_of(path, "case")
+        draft = read(read_text(name, "the name of a case file"), name, texts)
+    found = [k for k in MACHINES if any(n.partition(".")[0] == k for n in draft.given)]
+    wanted = " or ".join(f"&{kind}" for kind in kinds)
+    if not found:
+        raise InputError(
+            f"{draft.sources[0].name}: error: there is no {wanted}\nexpected: {wanted}"
+        )
+    first = [draft.first_given(key.name for key in GROUPS[kind]) for kind in found]
+    if len(found) > 1:
+        draft.contradict(first[1], first[0], "one machine in a file")
+    if found[0] not in kinds:
+        command = "gear" if found[0] == "spur_gear" else "bearing"
+        draft.refuse(first[0], f"&{found[0]} is no {wanted}", f"'pyehl {command}' takes it")
+    if rival := draft.first_given(FOLLOWS):
+        draft.contradict(rival, first[0], f"one of them: {rival} follows from &{found[0]}")
+    return Machine(found[0], getattr(draft.settings, found[0]), draft)

@@ -1,0 +1,271 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Rolling bearings: from dimensions, loads and speeds to the contacts of every element.
+
+Radii and speeds as in Harris & Kotzalas, *Essential Concepts of Bearing Technology*. Elements roll
+freely: both surfaces of a contact have the same velocity.
+"""
+
+import math
+from dataclasses import dataclass, field
+from typing import Any
+
+from pyehl.case.machine import Machine
+from pyehl.machines.contact import Contact
+from pyehl.machines.equilibrium import (
+    BALL,
+    ROLLER,
+    Equilibrium,
+    azimuths,
+    ball_stiffness,
+    equilibrium,
+    roller_stiffness,
+)
+from pyehl.theory.ellipse import Ellipse, ellipse
+
+RINGS = {"inner": 1.0, "outer": -1.0}
+"""And the sign of the curvature of their raceways."""
+# Maximum pressure at the static rating of bearings (ISO 76) [Pa]
+STATIC = {BALL: 4.2e9, ROLLER: 4.0e9}
+# Largest contact angle without load [deg]
+STEEPEST = 60.0
+# Share by which the axial load of a tapered bearing exceeds that of a single loaded roller
+APART = 1e-3
+# Of bearing steel [kg/m^3]
+DENSITY = 7800.0
+# rad/s of 1/min
+TURN = 2.0 * math.pi / 60.0
+
+
+@dataclass(frozen=True, slots=True)
+class Bearing:
+    """A bearing under its load.
+
+    Attributes
+    ----------
+    speed
+        Angular velocity of one ring against the other [rad/s].
+    ring
+        Its equilibrium.
+    contacts
+        Those that carry load.
+    places
+        Of each of them the number of the element, azimuth and contact angle [deg], and the ring.
+    facts
+        Numbers of the whole bearing by name.
+    """
+
+    speed: float
+    ring: Equilibrium
+    contacts: list[Contact] = field(default_factory=list)
+    places: list[dict[str, Any]] = field(default_factory=list)
+    facts: dict[str, float] = field(default_factory=dict)
+
+    def add(self, number: int, azimuth: float, angle: float, ring: str, contact: Contact) -> None:
+        """Add a contact, of angles [rad]."""
+        self.contacts.append(contact)
+        angles = {"azimuth_deg": math.degrees(azimuth), "contact_angle_deg": math.degrees(angle)}
+        self.places.append({"element": number, "ring": ring, **angles})
+
+
+def ball_bearing(machine: Machine) -> Bearing:
+    """Give the contacts of a ball bearing; InputError at the key that does not fit."""
+    v = machine.values
+    machine.wants("ball_diameter", "balls")
+    d, pitch = v.ball_diameter, _pitch(machine, v.ball_diameter, v.balls, "balls")
+    speed = _speed(machine)
+    grooves = {"inner": v.osculation_inner * d, "outer": v.osculation_outer * d}
+    centres = sum(grooves.values()) - d
+    clearance = _ball_clearance(machine, centres)
+    if v.radial_load == v.axial_load == 0.0:
+        machine.refuse("radial_load", "the bearing has no load", "a radial_load or axial_load [N]")
+    if v.axial_load == 0.0 and v.contact_angle > 0.0:
+        what = "an angular-contact bearing without axial load: its rings come apart"
+        machine.refuse("contact_angle", what, "an axial_load above 0, that of the preload at least")
+    free = math.acos(1.0 - 0.5 * clearance / centres) if clearance > 0.0 < v.axial_load else 0.0
+    shapes: list[tuple[float, Ellipse]] = []
+    for name, sign in RINGS.items():
+        radius = 1.0 / (2.0 / d + 1.0 / _raceway(pitch, d, free, sign))
+        shapes.append((radius, ellipse(radius * (2.0 / d - 1.0 / grooves[name]))))
+    stiffness = ball_stiffness(machine.reduced_modulus, shapes)
+    if clearance < 0.0:
+        load = stiffness * (-0.5 * clearance) ** BALL
+        radius, shape = shapes[0]
+        a = (1.5 * load * radius / (machine.reduced_modulus * shape.load_share)) ** (1.0 / 3.0)
+        pressure = 1.5 * load / (math.pi * shape.ellipticity * a**2)
+        # p_h goes with Q^(1/3), Q with delta^(3/2)
+        _check_preload(machine, pressure, STATIC[BALL], 2.0)
+    ring = equilibrium(stiffness, BALL, v.balls, clearance, (v.radial_load, v.axial_load), centres)
+    found = Bearing(speed, ring)
+    for number, azimuth in enumerate(azimuths(v.balls)):
+        load, angle = float(ring.loads[number]), float(ring.angles[number])
+        if load == 0.0:
+            continue
+        u = 0.25 * speed * pitch * (1.0 - (d * math.cos(angle) / pitch) ** 2)
+        for name, sign in RINGS.items():
+            radii = (0.5 * d, 0.5 * d, _raceway(pitch, d, angle, sign), -grooves[name])
+            # the outer raceway controls the spin, which then is on the inner ring (Jones 1959)
+            spin = speed * math.sin(angle) if name == "inner" else 0.0
+            place = f"ball {number + 1}, {name} ring"
+            contact = Contact(place, load, u, 0.0, radii, spin=spin)
+            found.add(number + 1, float(azimuth), angle, name, contact)
+    _facts(machine, found, pitch, d, math.pi / 6.0 * d**3, free)
+    found.facts.update(clearance_m=clearance, contact_angle_free_deg=math.degrees(free))
+    return found
+
+
+def roller_bearing(machine: Machine) -> Bearing:
+    """Give the contacts of a cylindrical or tapered roller bearing; InputError as `ball_bearing`.
+
+    Cones roll on each other round their common apex. The flange pushes along the axis of a tapered
+    roller, so that both raceways carry the same load Q, and the flange 2 Q sin(roller_angle).
+    """
+    v = machine.values
+    machine.wants("roller_diameter", "roller_length", "rollers")
+    d, pitch = v.roller_diameter, _pitch(machine, v.roller_diameter, v.rollers, "rollers")
+    speed = _speed(machine)
+    outer, half = math.radians(v.contact_angle), math.radians(v.roller_angle)
+    loads = v.radial_load, v.axial_load
+    _check_rollers(machine)
+    angles = {"inner": outer - 2.0 * half, "outer": outer}
+    axis = outer - half
+    stiffness = roller_stiffness(machine.reduced_modulus, v.roller_length)
+    u = 0.25 * speed * pitch * (1.0 - (d * math.cos(axis) / pitch) ** 2)
+
+    def contact(place: str, load: float, name: str) -> Contact:
+        # of cones in the plane across the raceway, at half the length of the roller
+        raceway = 0.5 * (RINGS[name] * pitch - d * math.cos(axis)) / math.cos(angles[name])
+        radii = (0.5 * d / math.cos(half), math.inf, raceway, math.inf)
+        return Contact(place, load, u, 0.0, radii, length=v.roller_length)
+
+    if v.clearance < 0.0:
+        load = stiffness * (-0.5 * v.clearance * math.cos(outer)) ** ROLLER
+        pressure = contact("", load, "inner").line(machine.reduced_modulus).hertz_pressure
+        # p_h goes with Q^(1/2), Q with delta^(10/9)
+        _check_preload(machine, pressure, STATIC[ROLLER], 2.0 / ROLLER)
+    ring = equilibrium(stiffness, ROLLER, v.rollers, v.clearance, loads, angle=outer)
+    found = Bearing(speed, ring)
+    for number, azimuth in enumerate(azimuths(v.rollers)):
+        load = float(ring.loads[number])
+        for name, angle in angles.items() if load > 0.0 else ():
+            one = contact(f"roller {number + 1}, {name} ring", load, name)
+            found.add(number + 1, float(azimuth), angle, name, one)
+    _facts(machine, found, pitch, d, 0.25 * math.pi * d**2 * v.roller_length, axis)
+    found.facts["clearance_m"] = v.clearance
+    if half > 0.0:
+        found.facts["flange_load_max_N"] = 2.0 * math.sin(half) * found.facts["load_max_N"]
+    return found
+
+
+def _check_rollers(machine: Machine) -> None:
+    """Refuse loads that such rollers cannot carry, and angles that fit not."""
+    v = machine.values
+    if v.contact_angle == 0.0:
+        machine.wants("radial_load")
+        for key in ("axial_load", "roller_angle"):
+            if getattr(v, key) > 0.0:
+                what = f"cylindrical rollers with {key} = {getattr(v, key):g}"
+                machine.refuse(key, what, "a contact_angle above 0, or none of it")
+        return
+    if 2.0 * v.roller_angle > v.contact_angle:
+        what = f"a roller_angle of {v.roller_angle:g} deg leaves no cone on the inner ring"
+        machine.refuse("roller_angle", what, f"at most {0.5 * v.contact_angle:g} deg")
+    least = v.radial_load * math.tan(math.radians(v.contact_angle))
+    if v.axial_load <= least * (1.0 + APART):
+        what = f"an axial load of {v.axial_load:g} N: tapered rollers push the rings apart"
+        machine.refuse(
+            "axial_load", what, f"more than {least:.5g} N, that of preload or counter bearing"
+        )
+
+
+def _raceway(pitch: float, element: float, angle: float, sign: float) -> float:
+    """Radius of a raceway in the plane of rolling [m], at a contact angle [rad]."""
+    return 0.5 * (sign * pitch / math.cos(angle) - element)
+
+
+def _pitch(machine: Machine, element: float, count: int, elements: str) -> float:
+    """Pitch diameter [m]; refuse elements that do not fit round it, or between shaft and housing.
+
+    The bore and the outside diameter are those of catalogues, and the rings lie between.
+    """
+    v = machine.values
+    pitch = v.pitch_diameter
+    name = "ball_diameter" if elements == "balls" else "roller_diameter"
+    if pitch == 0.0:
+        if not (v.bore and v.outer_diameter):
+            what = f"{machine.kind}.pitch_diameter is not given"
+            expected = "pitch_diameter, or bore and outer_diameter, whose mean it then is"
+            machine.refuse("pitch_diameter", what, expected)
+        pitch = 0.5 * (v.bore + v.outer_diameter)
+    if v.bore and v.outer_diameter:
+        room = 0.5 * (v.outer_diameter - v.bore)
+        if element >= room:
+            what = f"{elements} of {element:.4g} m between a bore of {v.bore:.4g} m and "
+            what += f"{v.outer_diameter:.4g} m outside leave no rings"
+            machine.refuse(name, what, f"{name} below {max(room, 0.0):.4g} m")
+    if element >= pitch:
+        what = f"{elements} of {element:.4g} m do not fit round a pitch diameter of {pitch:.4g} m"
+        machine.refuse(name, what, f"{name} below {pitch:.4g} m")
+    most = int(math.pi / math.asin(element / pitch))
+    if count > most:
+        what = f"{count} {elements} of {element:.4g} m do not fit round a pitch diameter of "
+        machine.refuse(elements, f"{what}{pitch:.4g} m", f"at most {most} {elements}")
+    return pitch
+
+
+def _speed(machine: Machine) -> float:
+    speed = TURN * abs(machine.values.inner_speed - machine.values.outer_speed)
+    if speed == 0.0:
+        what = "the rings do not turn against each other, and there is no film"
+        machine.refuse("inner_speed", what, "inner_speed or outer_speed [1/min]")
+    return speed
+
+
+def _ball_clearance(machine: Machine, centres: float) -> float:
+    """Diametral play [m], given or by the contact angle; `centres` as of `equilibrium`."""
+    v = machine.values
+    steepest = 2.0 * centres * (1.0 - math.cos(math.radians(STEEPEST)))
+    if v.contact_angle == 0.0:
+        if v.clearance > steepest:
+            what = f"a clearance of {v.clearance:.3g} m: the contact angle exceeds {STEEPEST:g} deg"
+            machine.refuse(
+                "clearance", what, f"clearance of at most {steepest:.3g} m; 10 um is 1e-5"
+            )
+        return float(v.clearance)
+    play = 2.0 * centres * (1.0 - math.cos(math.radians(v.contact_angle)))
+    if machine.is_given("clearance") and abs(v.clearance - play) > 1e-3 * play:
+        what = f"a contact angle of {v.contact_angle:g} deg is a clearance of {play:.4g} m"
+        machine.refuse("clearance", f"{what}, not {v.clearance:.4g} m", "one of the two")
+    return play
+
+
+def _check_preload(machine: Machine, pressure: float, limit: float, power: float) -> None:
+    """Refuse a negative clearance whose p_h alone exceeds a limit [Pa]; p_h^power goes with it."""
+    if pressure > limit:
+        least = machine.values.clearance * (limit / pressure) ** power
+        what = (
+            f"a clearance of {machine.values.clearance:.3g} m cannot be closed: without load the "
+            f"Hertz pressure is {pressure / 1e9:.3g} GPa, more than the static limit of "
+            f"{limit / 1e9:g} GPa (ISO 76)"
+        )
+        machine.refuse("clearance", what, f"clearance of at least {least:.2g} m; 10 um is 1e-5")
+
+
+def _facts(
+    machine: Machine, found: Bearing, pitch: float, d: float, volume: float, angle: float
+) -> None:
+    """Numbers of the whole bearing; `volume` is that of an element [m^3], `angle` [rad]."""
+    v, ring = machine.values, found.ring
+    share = d * math.cos(angle) / pitch
+    cage = 0.5 * (v.inner_speed * (1.0 - share) + v.outer_speed * (1.0 + share))
+    most = float(ring.loads.max())
+    found.facts.update(
+        pitch_diameter_m=pitch,
+        cage_speed_per_min=cage,
+        displacement_radial_m=ring.radial,
+        displacement_axial_m=ring.axial,
+        load_max_N=most,
+        elements_loaded=float((ring.loads > 0.0).sum()),
+        centrifugal_force_N=DENSITY * volume * 0.5 * pitch * (TURN * cage) ** 2,
+    )
+    if v.radial_load > 0.0:
+        found.facts["load_max_Z_over_F"] = most * len(ring.loads) / v.radial_load

@@ -1,0 +1,282 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Bearings and gears in one call: by formulas at once, or solved or predicted as one study."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from types import EllipsisType
+from typing import Any
+
+from pyehl import namelist
+from pyehl.arrays import write_csv
+from pyehl.case import files_of, trusted
+from pyehl.case.machine import Machine, read_machine
+from pyehl.destination import Destination, finite, write_json
+from pyehl.errors import InputError, did_you_mean
+from pyehl.given import Option, path_of
+from pyehl.machines.bearing import Bearing, ball_bearing, roller_bearing
+from pyehl.machines.contact import LONGEST, Film, film_of
+from pyehl.machines.gear import GearPair, gear_pair
+from pyehl.machines.result import MachineResult, row_of, sigma_of, summary_of, table_of
+from pyehl.plots import machine as pictures
+from pyehl.plots.style import save
+from pyehl.prediction.options import unpredictable
+from pyehl.studies.gather import Outcome, Watcher, gather
+from pyehl.studies.journal import FILES as JOURNAL
+from pyehl.studies.journal import NAME
+from pyehl.studies.plan import TaskList
+from pyehl.studies.pool import check_jobs
+from pyehl.studies.study import contents
+from pyehl.surfaces import rough_groups
+from pyehl.types import Row
+
+RUNS = ("film", "solve", "predict")
+CSV, SUMMARY, PICTURE, CASE = "contacts.csv", "summary.json", "contacts.png", "machine.nml"
+FILES = (CSV, SUMMARY, PICTURE, CASE)
+MAKERS: dict[str, Callable[[Machine], Bearing | GearPair]] = {
+    "ball_bearing": ball_bearing,
+    "roller_bearing": roller_bearing,
+    "spur_gear": gear_pair,
+}
+AnyCase = str | os.PathLike[str] | EllipsisType
+
+
+class Prepared:
+    """A machine element whose contacts are known, before any of them is solved.
+
+    Attributes
+    ----------
+    films
+        Its contacts with their films by formulas.
+    tasks
+        Those that are to be solved or predicted, each once.
+    number
+        Of the task of each contact; None for one by formulas.
+    """
+
+    def __init__(self, path: AnyCase, options: Any, kinds: tuple[str, ...], run: str) -> None:  # noqa: ANN401
+        if run not in RUNS:
+            expected = f"expected one of {', '.join(RUNS)}{did_you_mean(run, RUNS)}"
+            raise InputError(f"run = '{run}': {expected}")
+        self.run = run
+        self.machine = read_machine(path, options, kinds)
+        self.made = MAKERS[self.machine.kind](self.machine)
+        self.films: list[Film] = [film_of(one, self.machine) for one in self.made.contacts]
+        rough = rough_groups(self.films[0].settings)
+        if run == "predict" and not rough:
+            raise InputError(
+                "run = 'predict': both surfaces are smooth\nexpected: a finish of &surface, which "
+                "is on the elements or the pinion, or of &second_surface; or run = 'solve'"
+            )
+        self.tasks = TaskList()
+        numbers: dict[str, int] = {}
+        self.number: list[int | None] = []
+        for one in self.films:
+            if run == "film" or one.line is not None or one.ellipticity > LONGEST:
+                self.number.append(None)
+                continue
+            if one.text not in numbers:
+                case = trusted(one.text)
+                if run == "solve":
+                    case = case.smooth() if rough else case
+                elif why := unpredictable(one.settings):
+                    raise InputError(f"{one.contact.place}: {why}")
+                numbers[one.text] = self.tasks.add(len(numbers), case, run)
+            self.number.append(numbers[one.text])
+
+    def identity(self) -> dict[str, Any]:
+        """Give what makes this study another one than others, as values of JSON."""
+        texts = [task.text for task in self.tasks.tasks]
+        files = {name: None for text in texts for name in files_of(namelist.values(text))}
+        return {
+            "run": f"machine {self.run}",
+            "case": self.machine.settings() + texts[0],
+            "contacts": len(texts),
+            "file": contents(files),
+        }
+
+    def result(self, rows: Mapping[int, Row]) -> MachineResult:
+        """Give the result, from what was found of the tasks so far."""
+        missing: Row = {"status": "not run", "message": "the study was interrupted"}
+        sigma = sigma_of(self.films[0])
+        table = table_of(
+            [
+                row_of(film, sigma, None if n is None else rows.get(n, missing), place)
+                for film, n, place in zip(self.films, self.number, self.made.places, strict=True)
+            ]
+        )
+        summary = summary_of(self.machine, self.made, table, sigma)
+        return MachineResult(str(summary["kind"]), table, summary)
+
+
+def perform(
+    todo: Prepared,
+    folder: str | os.PathLike[str] | None,
+    command: str,
+    *,
+    inputs: tuple[str, ...] = (),
+    force: bool = False,
+    watcher: Watcher | None = None,
+    **how: Any,  # noqa: ANN401 (as of `gather`)
+) -> tuple[MachineResult, Outcome]:
+    """Do what is missing of a machine element, and write its folder.
+
+    InputError if it holds another one or something else; FileError if it cannot be written.
+    """
+    outcome = Outcome({})
+    names = (*JOURNAL, *FILES) if todo.tasks.tasks else FILES
+    place = None
+    if folder is not None:
+        place = Destination(Path(folder), command, names, inputs, force=force)
+    if todo.tasks.tasks:
+        outcome = gather(todo.tasks.tasks, todo.identity(), place, watcher=watcher, **how)
+        found = todo.result(outcome.rows)
+        if place is not None:
+            _write(Path(place.folder), todo.machine, found, names)
+        return found, outcome
+    if place is not None:
+        if (Path(place.folder) / NAME).exists():
+            raise InputError(
+                f"{place.folder}: error: holds contacts that were solved or predicted, which "
+                f"formulas would replace\nexpected: another folder"
+            )
+        place.check()
+    found = todo.result({})
+    if place is not None:
+        with place.fresh() as fresh:
+            _write(fresh, todo.machine, found, names)
+    return found, outcome
+
+
+def _write(folder: Path, machine: Machine, found: MachineResult, names: tuple[str, ...]) -> None:
+    """Write the files of a result."""
+    write_csv(folder / CSV, list(found.table), found.table.itertuples(index=False, name=None))
+    save(pictures.figure(found.kind, found.table, found.summary), folder / PICTURE)
+    (folder / CASE).write_text(machine.settings(), encoding="utf-8")
+    values = {name: finite(value) for name, value in found.summary.items()}
+    write_json(folder / SUMMARY, {**values, "files": list(names)})
+
+
+def _call(
+    command: str,
+    kinds: tuple[str, ...],
+    case: AnyCase,
+    options: tuple[Option, ...],
+    groups: Mapping[str, Mapping[str, Any]],
+    run: str,
+    output: str | os.PathLike[str] | None,
+    **how: Any,  # noqa: ANN401 (as of `gather`)
+) -> MachineResult:
+    check_jobs(how["jobs"])
+    todo = Prepared(case, [*options, groups], kinds, run)
+    folder = None if output is None else path_of(output, "output")
+    inputs = () if case is ... else (path_of(case, "case"),)
+    found, outcome = perform(todo, folder, command, inputs=inputs, **how)
+    if outcome.interrupted:
+        raise KeyboardInterrupt
+    return found
+
+
+def bearing(
+    case: AnyCase = ...,
+    *options: Option,
+    run: str = "film",
+    output: str | os.PathLike[str] | None = None,
+    force: bool = False,
+    jobs: int = 0,
+    scheduler: str = "",
+    **groups: Mapping[str, Any],
+) -> MachineResult:
+    """Compute the film of every contact of a rolling bearing.
+
+    Parameters
+    ----------
+    case
+        Path of a file with ``&ball_bearing`` or ``&roller_bearing``; without it the options alone.
+    *options
+        Values that replace those of the file, as of `Case`.
+    run
+        'film': formulas, at once; 'solve': smooth contacts; 'predict': with the roughness. Line
+        contacts are by formulas.
+    output
+        Folder for the table and the picture, and the journal from which an interrupted study is
+        resumed; None: nothing is kept on disk.
+    force
+        Other files may be in that folder; they stay.
+    jobs
+        Worker processes; 0: as many as processors.
+    scheduler
+        Address of a dask scheduler (extra ``cluster``), whose workers are used instead.
+    **groups
+        Values by key of their groups.
+
+    Returns
+    -------
+    MachineResult
+        With ``table``, a row for each element and ring that carries load, ``summary`` with the
+        friction torque of rolling and sliding in the contacts, ``data`` and ``plot()``.
+
+    Raises
+    ------
+    InputError
+        If the bearing cannot be built or loaded so, or `output` holds something else.
+    KeyboardInterrupt
+        If it was interrupted; `output` has all that was finished.
+
+    Examples
+    --------
+    >>> import pyehl
+    >>> found = pyehl.bearing("cases/bearing_6206.nml", {"ball_bearing.radial_load": 2000.0})
+    >>> found.table.ring.unique().tolist(), found.summary["left_out"][:4]
+    (['inner', 'outer'], 'cage')
+    """
+    kinds = ("ball_bearing", "roller_bearing")
+    how = {"force": force, "jobs": jobs, "scheduler": scheduler}
+    return _call("bearing", kinds, case, options, groups, run, output, **how)
+
+
+def gear(
+    case: AnyCase = ...,
+    *options: Option,
+    run: str = "film",
+    output: str | os.PathLike[str] | None = None,
+    force: bool = False,
+    jobs: int = 0,
+    scheduler: str = "",
+    **groups: Mapping[str, Any],
+) -> MachineResult:
+    """Compute the film along the path of contact of a pair of spur gears.
+
+    Parameters
+    ----------
+    case
+        Path of a file with ``&spur_gear``; without it the options alone.
+    *options
+        Values that replace those of the file, as of `Case`.
+    run, output, force, jobs, scheduler, **groups
+        As of `bearing`.
+
+    Returns
+    -------
+    MachineResult
+        With ``table``, a row for each station on the path of contact, ``summary`` with mean
+        coefficient of friction and loss, ``data`` and ``plot()``.
+
+    Raises
+    ------
+    InputError
+        If the gears cannot be made or do not mesh, or `output` holds something else.
+    KeyboardInterrupt
+        If it was interrupted; `output` has all that was finished.
+
+    Examples
+    --------
+    >>> import pyehl
+    >>> found = pyehl.gear("cases/fzg_c.nml")
+    >>> round(found.summary["contact_ratio"], 2)
+    1.44
+    """
+    how = {"force": force, "jobs": jobs, "scheduler": scheduler}
+    return _call("gear", ("spur_gear",), case, options, groups, run, output, **how)

@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What ``pyehl bearing`` and ``pyehl gear`` print."""
+
+import math
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import pandas as pd
+
+from pyehl.machines.contact import OUTSIDE
+
+# Columns that are printed: label, factor, digits; of words 0 for the factor
+SHOWN: dict[str, tuple[str, float, int]] = {
+    "element": ("element", 0.0, 0),
+    "ring": ("ring", 0.0, 0),
+    "azimuth_deg": ("azimuth", 1.0, 0),
+    "s_m": ("s [mm]", 1e3, 3),
+    "load_share": ("share", 1.0, 3),
+    "slide_to_roll": ("SRR", 1.0, 3),
+    "load_N": ("load [N]", 1.0, 1),
+    "hertz_pressure_Pa": ("p_h [GPa]", 1e-9, 3),
+    "ellipticity": ("kappa", 1.0, 2),
+    "moes_m": ("M", 1.0, 1),
+    "moes_l": ("L", 1.0, 2),
+    "h_c_m": ("h_c [nm]", 1e9, 1),
+    "h_c_error_m": ("+- [nm]", 1e9, 1),
+    "h_min_m": ("h_min [nm]", 1e9, 1),
+    "lambda_ratio": ("Lambda", 1.0, 2),
+    "h_min_rough_m": ("rough [nm]", 1e9, 1),
+    "mu": ("mu", 1.0, 4),
+    "flash_temperature_K": ("flash [K]", 1.0, 1),
+    "status": ("status", 0.0, 0),
+}
+# Sums that are printed: label, factor, format, unit
+SUMS: dict[str, tuple[str, float, str, str]] = {
+    "load_max_N": ("most loaded element", 1.0, ".1f", "N"),
+    "load_max_Z_over_F": ("  times Z/F", 1.0, ".3f", ""),
+    "contact_angle_free_deg": ("contact angle without load", 1.0, ".2f", "deg"),
+    "cage_speed_per_min": ("speed of the cage", 1.0, ".1f", "1/min"),
+    "centrifugal_force_N": ("centrifugal force (left out)", 1.0, ".2f", "N"),
+    "contact_ratio": ("contact ratio", 1.0, ".3f", ""),
+    "working_angle_deg": ("working pressure angle", 1.0, ".3f", "deg"),
+    "normal_force_N": ("normal force", 1.0, ".1f", "N"),
+    "hertz_pressure_max_Pa": ("maximum pressure", 1e-9, ".3f", "GPa"),
+    "h_min_least_m": ("minimum film", 1e9, ".1f", "nm"),
+    "rms_height_m": ("rms height of both surfaces", 1e9, ".1f", "nm"),
+    "lambda_ratio_least": ("least Lambda", 1.0, ".2f", ""),
+    "sliding_torque_N_m": ("torque of sliding", 1e3, ".2f", "N mm"),
+    "rolling_torque_N_m": ("torque of rolling", 1e3, ".2f", "N mm"),
+    "torque_N_m": ("torque of the contacts", 1e3, ".2f", "N mm"),
+    "loss_factor": ("loss factor H_V", 1.0, ".4f", ""),
+    "mu_mean": ("mean coefficient of friction", 1.0, ".4f", ""),
+    "sliding_power_W": ("power of sliding", 1.0, ".1f", "W"),
+    "rolling_power_W": ("power of rolling", 1.0, ".1f", "W"),
+    "efficiency": ("efficiency of the mesh", 100.0, ".3f", "%"),
+}
+# Of the friction, which a Newtonian oil does not have
+FRICTION = ("sliding_torque_N_m", "torque_N_m", "mu_mean")
+NOTES = 4
+
+
+def report(kind: str, table: pd.DataFrame, summary: Mapping[str, Any]) -> str:
+    """Return table and sums of a machine element as text."""
+    shown = {
+        label: [_cell(value, factor, digits) for value in table[name]]
+        for name, (label, factor, digits) in SHOWN.items()
+        if name in table and not (kind == "bearing" and name == "slide_to_roll")
+    }
+    lines = [pd.DataFrame(shown).to_string(index=False), ""]
+    for name, (label, factor, form, unit) in SUMS.items():
+        value = summary.get(name)
+        if value is None or (name == "rms_height_m" and value == 0.0):
+            continue
+        text = f"{value * factor:{form}} {unit}"
+        if math.isnan(value):
+            missing = "a contact has no result"
+            if name in FRICTION and table["h_c_m"].notna().all():
+                missing = "give a lubricant.shear_law"
+            text = f"not reported: {missing}"
+        lines.append(f"{label:<30}{text}".rstrip())
+    notes = _together(str(note) for note in table["note"] if note)
+    notes = [*notes[:NOTES], *([f"and {len(notes) - NOTES} more"] if len(notes) > NOTES else [])]
+    lines += [f"note       {note}" for note in notes]
+    if summary.get("lambda_ratio_least", math.inf) < 1.0 and "h_min_rough_m" not in table:
+        lines.append(
+            "solids     least Lambda below 1: the surfaces touch, which no friction here has"
+        )
+    lines += [f"lines      {summary['lines']}"] if "lines" in summary else []
+    return "\n".join([*lines, f"left out   {summary['left_out']}"])
+
+
+def _together(notes: Iterable[str]) -> list[str]:
+    """Say once of each formula outside of which ranges it is."""
+    found: dict[str, dict[str, None]] = {}
+    for note in notes:
+        for part in note.split("; "):
+            name, outside, numbers = part.partition(OUTSIDE)
+            found.setdefault(name + outside, {}).update(dict.fromkeys(numbers.split(", ")))
+    return [start + ", ".join(numbers) for start, numbers in found.items()]
+
+
+def _cell(value: Any, factor: float, digits: int) -> str:  # noqa: ANN401 (a number or a word)
+    if factor == 0.0:
+        return str(value)
+    if pd.isna(value):
+        return "-"
+    return "line" if math.isinf(value) else f"{value * factor:.{digits}f}"
