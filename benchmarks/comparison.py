@@ -9,7 +9,7 @@ from numpy import abs as absolute
 from numpy import asarray
 
 from pyehl.case import Case
-from pyehl.handle import SolverHandle
+from pyehl.handle import SolverHandle, results_of
 from pyehl.prediction.initial_condition import hand_over
 from pyehl.types import Row, Values
 
@@ -29,7 +29,7 @@ def solve(*options: str) -> dict[str, Any]:
     # what the solver does alone, nothing predicted
     with SolverHandle(Case.from_text("", [*options, "solver.threads=1"]).text) as solver:
         solver.run()
-        return solver.summary
+        return results_of(solver).values
 
 
 def solve_from_prediction(*options: str) -> dict[str, Any]:
@@ -38,7 +38,7 @@ def solve_from_prediction(*options: str) -> dict[str, Any]:
     with SolverHandle(case.text) as solver:
         hand_over(solver, case.resolve(), {}, whole=True)
         solver.run()
-        return solver.summary
+        return results_of(solver).values
 
 
 def compare(

@@ -62,14 +62,9 @@ class Destination:
     kept: tuple[str, ...] = ()  # other names in the folder that belong to this kind, and stay
     force: bool = False  # other files may be in the folder; they stay
 
-    def _step(self, step: bytes, made: str = "") -> str:
+    def _given(self) -> tuple[bytes, bytes, bytes, bytes, bytes, int]:
         lists = (_lines(self.names), _lines(self.inputs), _lines(self.kept))
-        folder, kind = os.fsencode(self.folder), self.kind.encode()
-        fresh, status, message = functions.place(
-            step, folder, kind, *lists, int(self.force), os.fsencode(made)
-        )
-        check(status, message)
-        return os.fsdecode(fresh.rstrip())
+        return os.fsencode(self.folder), self.kind.encode(), *lists, int(self.force)
 
     def check(self, *, resumes: bool = False) -> None:
         """Refuse a folder that must not be touched, or cannot be written.
@@ -77,7 +72,7 @@ class Destination:
         `resumes`: an earlier result is not replaced, but completed. InputError with the file in
         the way, and the way out.
         """
-        self._step(b"resume" if resumes else b"check")
+        check(*functions.check_folder(*self._given(), int(resumes)))
 
     @contextmanager
     def fresh(self) -> Iterator[Path]:
@@ -85,14 +80,16 @@ class Destination:
 
         InputError as `check`; FileError if the folder cannot be written.
         """
-        fresh = Path(self._step(b"begin"))
+        name, status, message = functions.begin_folder(*self._given())
+        check(status, message)
+        fresh = Path(os.fsdecode(name.rstrip()))
         try:
             with file_errors(self.folder):
                 yield fresh
         except BaseException:
             shutil.rmtree(fresh, ignore_errors=True)
             raise
-        self._step(b"finish", str(fresh))
+        check(*functions.finish_folder(*self._given(), os.fsencode(fresh)))
 
     def claim(self, values: Mapping[str, object]) -> None:
         """Make the folder, or resume in it; its summary says whose it is from the start.

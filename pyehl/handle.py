@@ -4,7 +4,7 @@
 One call at a time works on a solver: a call in another thread waits until it has ended.
 """
 
-import json
+import math
 import os
 import threading
 from collections.abc import Callable
@@ -17,9 +17,12 @@ from pyehl.errors import check
 from pyehl.extension import predicted
 from pyehl.extension import solvers as ehl
 from pyehl.given import path_of, text_of
-from pyehl.library import returned, whole
+from pyehl.library import returned
+from pyehl.reasons import Results
 from pyehl.types import Array
 
+# Bytes of names and number of values at first
+ROOM, MOST = 16384, 400
 NO_HEIGHTS = np.zeros((1, 1), order="F")
 
 
@@ -143,7 +146,7 @@ class SolverHandle:
     def interrupt(self) -> None:
         """Stop here; the results so far stay readable, with the status 'interrupted'."""
         with self._lock:
-            self._act("interrupt")
+            self._call(ehl.interrupt)
             self.done = True
 
     def resume(self, results: str | os.PathLike[str]) -> str:
@@ -156,7 +159,8 @@ class SolverHandle:
         InputError
             If the state is damaged, or belongs to another case.
         """
-        return self._act("resume", path_of(results, "the result folder"))[0]
+        folder = os.fsencode(path_of(results, "the result folder"))
+        return returned(*self._call(ehl.resume, folder))
 
     def checkpoint(
         self, results: str | os.PathLike[str], resumed: str | os.PathLike[str] = ""
@@ -182,7 +186,7 @@ class SolverHandle:
         """
         with self._lock:
             note = self._call(
-                ehl.keep,
+                ehl.keep_states,
                 os.fsencode(path_of(results, "the result folder")),
                 os.fsencode(path_of(resumed, "the folder to resume")),
                 *_arguments(self._given),
@@ -198,27 +202,21 @@ class SolverHandle:
         FileError
             If it cannot be written.
         """
-        return self._act("save" if at_once else "tick")[1]
+        return bool(*self._call(ehl.save_state, int(at_once)))
 
     def clear_checkpoint(self) -> None:
         """Remove the states: the run has ended."""
-        self._act("drop")
+        self._call(ehl.clear_states)
 
     @property
     def progress(self) -> str:
         """The state in one line."""
-        return self._text("progress")
+        return returned(*self._call(ehl.progress))
 
     @property
     def work(self) -> Work:
         """How much of a transient run is done, and how much there is."""
         return Work(*self._call(ehl.work))
-
-    @property
-    def summary(self) -> dict[str, Any]:
-        """The scalar results as in ``summary.json``; None for a number that does not exist."""
-        values: dict[str, Any] = json.loads(self._text("summary"))
-        return values
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -246,18 +244,55 @@ class SolverHandle:
         return values
 
     def _write(self, folder: str | os.PathLike[str]) -> None:
-        self._act("write", folder)
-
-    def _act(self, what: str, path: str | os.PathLike[str] = "") -> tuple[str, bool]:
-        note, has_state = self._call(ehl.act, what.encode(), os.fsencode(path))
-        return returned(note), bool(has_state)
-
-    def _text(self, what: str) -> str:
-        found, *_ = whole(lambda room: self._call(ehl.describe, what.encode(), room), 0)
-        return returned(found)
+        self._call(ehl.write_files, os.fsencode(folder))
 
 
-def take_prediction(solver: SolverHandle, left_out: float, unresolved: float, why: str) -> None:
+def results_of(solver: SolverHandle) -> Results:
+    """Give the scalar results of a solver, with codes of reasons in place of their words."""
+    return _listed(solver, of_plan=False)
+
+
+def plan_of(solver: SolverHandle) -> Results:
+    """Give the numbers of the plan of a solver."""
+    return _listed(solver, of_plan=True)
+
+
+def _listed(solver: SolverHandle, *, of_plan: bool) -> Results:
+    room, most = ROOM, MOST
+    while True:
+        names, kinds = np.empty(room, np.int32), np.empty(most, np.int32)
+        values = np.empty(most)
+        length, found = solver._call(ehl.results, int(of_plan), names, kinds, values)
+        if length <= room and found <= most:
+            text = names[:length].astype(np.uint8).tobytes().decode(errors="replace")
+            return _sorted(text.splitlines(), kinds[:found].tolist(), values[:found].tolist())
+        room, most = length, found
+
+
+def _sorted(lines: list[str], kinds: list[int], values: list[float]) -> Results:
+    """Sort what the library lists: a name, behind a tab a text; its kind; its value."""
+    found = Results({}, {}, {})
+    for line, kind, value in zip(lines, kinds, values, strict=True):
+        name, _, text = line.partition("\t")
+        match kind:
+            case 1:
+                found.values[name] = value if math.isfinite(value) else None
+            case 2:
+                found.values[name] = int(value)
+            case 3:
+                found.values[name] = bool(value)
+            case 4:
+                found.codes[name] = int(value)
+            case 5:
+                found.details[name] = value
+            case 6:
+                found.values[name] = text
+            case _:
+                found.details[name] = text
+    return found
+
+
+def take_prediction(solver: SolverHandle, left_out: float, unresolved: float) -> None:
     """Take what is predicted of the waves that the grid leaves out, for the error of mu_ratio.
 
     Parameters
@@ -267,10 +302,8 @@ def take_prediction(solver: SolverHandle, left_out: float, unresolved: float, wh
     left_out, unresolved
         Parts of mu_ratio in waves that the grid leaves out, and in those that it does not
         resolve [-]; NaN where there is no prediction.
-    why
-        Why there is none.
     """
-    solver._call(predicted.take_prediction, left_out, unresolved, why.encode())
+    solver._call(predicted.take_prediction, left_out, unresolved)
 
 
 def start_fronts(solver: SolverHandle) -> Array:

@@ -7,43 +7,21 @@ Arrays are float64 of shape (nx, ny) in Fortran order, first index X. Pressures 
 Hertz pressure p_h, lengths by the Hertz radius a, films and deflections by a^2/R.
 """
 
-import json
 import os
-from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from pyehl.errors import check
-from pyehl.extension import functions, lubricants
-from pyehl.given import text_of
+from pyehl.extension import functions
 from pyehl.types import Array
-
-# Bytes for a text at first
-ROOM = 32768
 
 
 def returned(value: bytes) -> str:
     """Text that the extension returned, without the blanks at its end."""
     return value.decode(errors="replace").rstrip()
-
-
-def whole(call: Callable[[NDArray[np.int32]], tuple[Any, ...]], place: int) -> tuple[Any, ...]:
-    """Call a function that puts a text into an array; its results, the length become the text.
-
-    Where the text is longer the function is called again. `place` is that of the length.
-    """
-    room = ROOM
-    while True:
-        buffer = np.empty(room, np.int32)
-        found = list(call(buffer))
-        room = found[place]
-        if room <= len(buffer):
-            found[place] = buffer[:room].astype(np.uint8).tobytes()
-            return tuple(found)
 
 
 def check_memory(what: str, size: float) -> None:
@@ -69,59 +47,6 @@ def checkpoint_case(results: str | os.PathLike[str]) -> Path:
     path, status, message = functions.checkpoint_case(os.fsencode(results))
     check(status, message)
     return Path(os.fsdecode(path.rstrip()))
-
-
-def alpha_origin(text: str) -> str:
-    """Say where the pressure-viscosity coefficient of a case is from; '' if it was given.
-
-    InputError if the text is no case.
-    """
-    note, status, message = lubricants.alpha_origin(text_of(text, "the text of a case"))
-    check(status, message)
-    return returned(note)
-
-
-WORTH = ("holds", "with care", "no result")
-"""What a result may be worth, in the order of fortran/run/assessment.f90."""
-
-
-@dataclass(frozen=True, slots=True)
-class Conclusion:
-    """What a solution or a prediction ends with.
-
-    Attributes
-    ----------
-    lines
-        What was found, by name, and behind it the assessment.
-    assessment
-        A word and the reason for it.
-    worth
-        One of `WORTH`.
-    """
-
-    lines: Mapping[str, str]
-    assessment: str
-    worth: str
-
-    def __str__(self) -> str:
-        """Give the lines as ``ehl`` prints them."""
-        return "\n".join(f"{name:11}{text}" for name, text in self.lines.items())
-
-
-def conclude(summary: Mapping[str, Any]) -> Conclusion:
-    """Give the last lines of a solution or a prediction from its summary, and judge it."""
-    told: dict[str, Any] = {}
-    for name, value in summary.items():
-        if isinstance(value, list) and all(isinstance(word, str) for word in value):
-            told[name] = ", ".join(value)
-        elif value is None or isinstance(value, bool | int | float | str):
-            told[name] = " ".join(value.split()) if isinstance(value, str) else value
-    text = json.dumps(told, indent=1, ensure_ascii=False)
-    given = text.encode(errors="replace")
-    behind, found, worth = whole(lambda room: functions.conclude(given, room), 1)
-    block, assessment = found[:behind], found[behind:]
-    lines = {line[:11].rstrip(): line[11:] for line in returned(block).splitlines()}
-    return Conclusion(lines, returned(assessment), WORTH[worth])
 
 
 def version() -> str:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from pyehl.case import Case
 from pyehl.errors import EhlError, InternalError
-from pyehl.handle import SolverHandle, start_fronts, take_prediction
+from pyehl.handle import SolverHandle, results_of, start_fronts, take_prediction
 from pyehl.surfaces import Topography
 
 if TYPE_CHECKING:
@@ -29,7 +29,14 @@ class Predictions:
         Its surfaces by group, where they are not made as the case says; of a large one a part.
     whole
         Whether none of `tiles` is a part of the surface alone.
+
+    Attributes
+    ----------
+    why_none
+        Why the waves that the grid leaves out are not predicted; '' where they are.
     """
+
+    why_none = ""
 
     def __init__(self, case: Case, tiles: Mapping[str, Topography], *, whole: bool) -> None:
         self._case, self._tiles, self._whole = case, tiles, whole
@@ -67,19 +74,15 @@ class Predictions:
 
     def tell(self, solver: SolverHandle) -> None:
         """Pass to a solver what is predicted, if the error of its mu_ratio asks for it."""
-        summary = {} if self._passed else solver.summary
-        if summary.get("mu_ratio") is None or not summary["variance_unresolved"]:
+        found_so_far = {} if self._passed else results_of(solver).values
+        if found_so_far.get("mu_ratio") is None or not found_so_far["variance_unresolved"]:
             return
         found = self._resolution_once()
         if isinstance(found, str):
             # a status without its message, which the plan has
             why = found.partition(": ")[0]
-            take_prediction(
-                solver,
-                math.nan,
-                math.nan,
-                f"the contribution of the omitted waves is not predicted ({why})",
-            )
+            self.why_none = f"the contribution of the omitted waves is not predicted ({why})"
+            take_prediction(solver, math.nan, math.nan)
         elif found is not None:
-            take_prediction(solver, found.left_out, found.unresolved, "")
+            take_prediction(solver, found.left_out, found.unresolved)
         self._passed = True

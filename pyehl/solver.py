@@ -7,9 +7,9 @@ Hertz pressure p_h, lengths by the Hertz radius a, films by a^2/R.
 
 from __future__ import annotations
 
-import json
 import os
 import tempfile
+import time
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,11 +18,16 @@ from typing import TYPE_CHECKING, Any
 from numpy.typing import ArrayLike
 
 from pyehl import display
+from pyehl.assessment import assess
 from pyehl.case import Case
+from pyehl.conclusion import conclude, resumption
 from pyehl.destination import Destination, write_json
 from pyehl.given import Option, heights_of, path_of
-from pyehl.handle import SolverHandle, Work
+from pyehl.handle import SolverHandle, Work, plan_of, results_of
+from pyehl.library import version
+from pyehl.plan_text import plan_text
 from pyehl.predictions import Predictions
+from pyehl.reasons import summary_of
 from pyehl.surfaces import (
     GROUPS,
     Record,
@@ -129,11 +134,12 @@ class Solver(SolverHandle):
         self, case: Case, heights: Mapping[str, Array], tiles: Mapping[str, Topography]
     ) -> None:
         """Start on a case with heights by group in place of its surfaces, made of `tiles`."""
-        self._case = case
+        self._started = time.perf_counter()
+        self._case, self._settings = case, case.resolve()
         # those that were in memory alone
         self._tiles = tiles
         self._preparations: dict[str, Record] = {}
-        own = gather(case.resolve(), heights, tiles)
+        own = gather(self._settings, heights, tiles)
         parts = self._take(own)
         self._predictions = Predictions(case, parts, whole=bool(heights) or not parts)
         options = [option for made in own.values() for option in made.options]
@@ -160,7 +166,7 @@ class Solver(SolverHandle):
 
     def __repr__(self) -> str:
         """Give the case and the state in one line."""
-        state = "closed" if self._handle == 0 else super().summary["status"]
+        state = "closed" if self._handle == 0 else results_of(self).values["status"]
         return f"Solver({self._case!r}, {state!r}, {self._calls} advances)"
 
     def _repr_html_(self) -> str:
@@ -183,7 +189,10 @@ class Solver(SolverHandle):
             Also predict what of the friction hangs on waves that the grid does not resolve; this
             solves the smooth contact.
         """
-        return "\n".join([self._text("plan"), *self._lines(predict=predict)])
+        return "\n".join([self._plan_text(), *self._lines(predict=predict)])
+
+    def _plan_text(self) -> str:
+        return plan_text(plan_of(self), self._settings)
 
     def _lines(self, *, predict: bool = True) -> list[str]:
         """Describe how a map was prepared, and what the grid does not resolve."""
@@ -193,7 +202,9 @@ class Solver(SolverHandle):
     @property
     def summary(self) -> dict[str, Any]:
         """The scalar results as in ``summary.json``; None for a number that does not exist."""
-        return super().summary | self._prepared()
+        why = self._predictions.why_none
+        values = summary_of(results_of(self), self._settings, why) | self._prepared()
+        return values | {"assessment": assess(values).text}
 
     def _prepared(self) -> dict[str, Any]:
         """Describe what was done to measured maps, by the name in a summary."""
@@ -202,12 +213,11 @@ class Solver(SolverHandle):
     def conclusion(self) -> str:
         """Describe the results of a run that has ended, with their errors, in a few lines."""
         self._predictions.tell(self)
-        return self._text("conclusion")
+        return str(conclude(self.summary))
 
     def resumption(self, results: str | os.PathLike[str]) -> str:
         """Describe how a run that was to write into a folder can go on; '' if it cannot."""
-        text = self._text("resumption")
-        return f"{text} {os.fspath(results)}" if text else ""
+        return resumption(self.summary["status"], os.fspath(results))
 
     def dataset(self) -> xarray.Dataset:
         """Give the results so far, the same as `pyehl.load` of the folder that `write` makes."""
@@ -252,18 +262,17 @@ class Solver(SolverHandle):
         """Write all files into an empty folder, with what the library does not know."""
         self._predictions.tell(self)
         self._write(folder)
-        if self._lines():
-            plan = folder / "plan.txt"
-            text = plan.read_text(encoding="utf-8").rstrip("\n")
-            plan.write_text("\n".join([text, *self._lines(), ""]), encoding="utf-8")
-        if not self._preparations and not self._tiles:
-            return
-        summary = folder / "summary.json"
-        values = json.loads(summary.read_text(encoding="utf-8")) | self._prepared()
-        names = [keep_beside(tile, folder / "case.nml", g) for g, tile in self._tiles.items()]
-        if names:
-            values["files"] = sorted([*values["files"], *names])
-        write_json(summary, values)
+        lines = [self._plan_text(), *self._lines()]
+        (folder / "plan.txt").write_text("\n".join([*lines, ""]), encoding="utf-8")
+        for group, tile in self._tiles.items():
+            keep_beside(tile, folder / "case.nml", group)
+        values = {
+            **self.summary,
+            "version": version(),
+            "wall_seconds": time.perf_counter() - self._started,
+            "files": sorted(["summary.json", *os.listdir(folder)]),
+        }
+        write_json(folder / "summary.json", values)
 
 
 def solver_on_heights(

@@ -3,23 +3,22 @@
 program ehl
    use, intrinsic :: iso_fortran_env, only: error_unit
    use ehl_arguments, only: arguments_t, get_arguments, help_text
-   use ehl_case, only: case_t, surface_case_t
+   use ehl_case, only: case_t
    use ehl_read_case, only: read_case_file
    use ehl_clock, only: clock_t, start_clock
    use ehl_checkpoint_folder, only: checkpoint_path, find_checkpoint
-   use ehl_conclusion, only: conclusion, resumption
    use ehl_destination, only: destination_t
    use ehl_kinds, only: dp
-   use ehl_plan_need, only: making_need
-   use ehl_plan_text, only: plan_text
-   use ehl_record, only: record_t
+   use ehl_memory, only: amount
+   use ehl_outcome, only: outcome_cycle_limit, outcome_failed, outcome_interrupted, outcome_unsettled
+   use ehl_plan_need, only: bytes_needed
    use ehl_result_folder, only: result_names, write_results
    use ehl_signals, only: stop_wanted, watch_signals
    use ehl_solver, only: solver_t
    use ehl_status, only: ehl_bad_input, status_t
    use ehl_streams, only: guard_streams
    use ehl_terminal, only: terminal_t
-   use ehl_text, only: newline
+   use ehl_text, only: newline, to_text
    use ehl_version, only: build_text, version
    implicit none (type, external)
 
@@ -31,8 +30,7 @@ program ehl
    type(destination_t) :: destination
    type(status_t) :: status, saving
    type(clock_t) :: clock
-   type(record_t) :: summary
-   character(len=:), allocatable :: note, case_file, fresh, hint
+   character(len=:), allocatable :: note, case_file, fresh
    real(dp), allocatable :: heights(:, :), second_heights(:, :)
 
    call guard_streams(status)
@@ -66,12 +64,13 @@ program ehl
    call end_if_failed()
    call watch_signals()
    if (.not. allocated(heights)) allocate (heights(0, 0), second_heights(0, 0))
-   call say_making(input%surface)
-   call say_making(input%second_surface)
    call solver%start(input, status, heights, second_heights)
    if (status%code == ehl_bad_input) status%message = arguments%case_file//": "//status%message
    call end_if_failed()
-   call terminal%say(plan_text(solver%run%plan))
+   associate (plan => solver%run%plan)
+      call terminal%say(to_text(plan%finest%nx)//" x "//to_text(plan%finest%full_ny())//" nodes, "//to_text(plan%levels)// &
+                        " levels, about "//amount(bytes_needed(plan, plan%threads))//" of memory")
+   end associate
    call end_if_mute()
    if (arguments%resume /= "") then
       call solver%resume(checkpoint_path(arguments%resume), note, status)
@@ -88,12 +87,11 @@ program ehl
    call end_if_failed()
    call solver%interrupt()
    call terminal%say(solver%progress())
-   call terminal%say(conclusion(solver%summary()))
    if (.not. solver%converged()) call terminal%checkpoints%save(solver, saving)
    if (saving%failed()) write (error_unit, "(a)") saving%message
    call destination%begin(fresh, status)
    call end_if_failed()
-   call write_results(fresh, input, solver, clock%seconds(), status)
+   call write_results(fresh, input, solver, status, clock%seconds())
    call end_if_failed()
    call destination%finish(fresh, status)
    call end_if_failed()
@@ -101,22 +99,15 @@ program ehl
    if (solver%converged()) call terminal%checkpoints%close()
    call terminal%checkpoints%release()
    if (solver%converged()) stop merge(exit_failed, exit_ok, terminal%failed), quiet=.true.
-   summary = solver%summary()
-   hint = resumption(summary%text("status"), "ehl")
-   if (terminal%checkpoints%has_state() .and. hint /= "") call terminal%say("state: " // checkpoint_path(arguments%folder) &
-                                                                            // newline // hint // arguments%folder)
+   ! one that would end the same way is no state to go on with
+   if (terminal%checkpoints%has_state() .and. any(solver%outcome() == [outcome_interrupted, outcome_failed, outcome_unsettled, &
+                                                                       outcome_cycle_limit])) then
+      call terminal%say("state: " // checkpoint_path(arguments%folder) // newline // "to resume: ehl --resume " // arguments%folder)
+   end if
    if (stop_wanted()) stop exit_interrupted, quiet=.true.
    stop exit_failed, quiet=.true.
 
 contains
-
-   !> What it takes to make a fractal surface
-   subroutine say_making(s)
-      type(surface_case_t), intent(in) :: s
-
-      if (s%kind /= "fractal") return
-      if (making_need(s%pixels) /= "") call terminal%say(making_need(s%pixels))
-   end subroutine say_making
 
    !> A text without the line end at its end
    pure function without_end(text) result(answer)

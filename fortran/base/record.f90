@@ -1,17 +1,24 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Named values in the order in which they were set, written as one JSON object
+!> Named values in the order in which they were set: what a run found, and codes of reasons that pyehl has the words for
 module ehl_record
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ehl_kinds, only: dp, not_known
    use ehl_text, only: newline, to_text
    implicit none (type, external)
    private
-   public :: record_t
+   public :: record_t, kind_real, kind_integer, kind_logical, kind_code, kind_detail, kind_text, kind_list, kind_note
 
-   !> One name and its value, already as JSON
+   !> What a value is: a result; the code of a status or a reason (ehl_reason); a number that the words of a reason need; a word; a
+   !> list of texts as JSON has it; a text that these words need
+   integer, parameter :: kind_real = 1, kind_integer = 2, kind_logical = 3, kind_code = 4, kind_detail = 5, kind_text = 6, &
+                         kind_list = 7, kind_note = 8
+
+   !> One name and its value
    type :: item_t
       character(len=:), allocatable :: name
-      character(len=:), allocatable :: value
+      integer :: kind = kind_real
+      real(dp) :: value = 0.0_dp
+      character(len=:), allocatable :: text
    end type item_t
 
    !> A small ordered collection of named values
@@ -19,38 +26,26 @@ module ehl_record
       private
       type(item_t), allocatable :: items(:)
    contains
-      !> call record%set(name, value): real(dp), integer, logical or character, or a list of
-      !> character, or several real(dp) under names with blanks between them; a name that is there already gets the new value
+      !> call record%set(name, value): real(dp), integer, logical or character, a list of character, or several real(dp) under names
+      !> with blanks between them; a name that is there already gets the new value
       generic :: set => set_real, set_reals, set_integer, set_logical, set_text, set_texts
-      procedure, private :: set_reals
-      procedure, private :: set_texts
-      procedure, private :: set_real
-      procedure, private :: set_integer
-      procedure, private :: set_logical
-      procedure, private :: set_text
+      procedure, private :: set_real, set_reals, set_integer, set_logical, set_text, set_texts
+      procedure :: set_code
+      procedure :: set_detail
+      procedure :: set_note
       procedure, private :: put
-      procedure, private :: value_of
-      !> What is there under a name
-      procedure :: has
       procedure :: number
-      procedure :: text => text_value
+      procedure :: list
       procedure :: to_json
-      procedure :: take_json
    end type record_t
 
 contains
 
-   !> Set a real value; nan and inf become null
    subroutine set_real(self, name, value)
       class(record_t), intent(inout) :: self
       character(len=*), intent(in) :: name
       real(dp), intent(in) :: value
-
-      if (ieee_is_finite(value)) then
-         call self%put(name, to_text(value))
-      else
-         call self%put(name, "null")
-      end if
+      call self%put(name, kind_real, value)
    end subroutine set_real
 
    !> Set several real values, one for each of the names
@@ -69,172 +64,166 @@ contains
       end do
    end subroutine set_reals
 
-   !> Set a list of texts; trailing blanks are dropped
-   subroutine set_texts(self, name, values)
-      class(record_t), intent(inout) :: self
-      character(len=*), intent(in) :: name
-      character(len=*), intent(in) :: values(:)
-      character(len=:), allocatable :: list
-      integer :: k
-
-      list = ""
-      do k = 1, size(values)
-         if (k > 1) list = list // ", "
-         list = list // json_text(trim(values(k)))
-      end do
-      call self%put(name, "[" // list // "]")
-   end subroutine set_texts
-
-   !> Set an integer value
    subroutine set_integer(self, name, value)
       class(record_t), intent(inout) :: self
       character(len=*), intent(in) :: name
       integer, intent(in) :: value
-      call self%put(name, to_text(value))
+      call self%put(name, kind_integer, real(value, dp))
    end subroutine set_integer
 
-   !> Set a truth value
    subroutine set_logical(self, name, value)
       class(record_t), intent(inout) :: self
       character(len=*), intent(in) :: name
       logical, intent(in) :: value
-
-      call self%put(name, trim(merge("true ", "false", value)))
+      call self%put(name, kind_logical, merge(1.0_dp, 0.0_dp, value))
    end subroutine set_logical
 
    !> Set a text; trailing blanks are dropped
-   subroutine set_text(self, name, value)
+   subroutine set_text(self, name, text)
       class(record_t), intent(inout) :: self
       character(len=*), intent(in) :: name
-      character(len=*), intent(in) :: value
-      call self%put(name, json_text(trim(value)))
+      character(len=*), intent(in) :: text
+      call self%put(name, kind_text, 0.0_dp, trim(text))
    end subroutine set_text
 
-   !> Store a value that is JSON already
-   subroutine put(self, name, value)
+   !> Set a list of texts without quotes in them; trailing blanks are dropped
+   subroutine set_texts(self, name, texts)
       class(record_t), intent(inout) :: self
       character(len=*), intent(in) :: name
-      character(len=*), intent(in) :: value
+      character(len=*), intent(in) :: texts(:)
+      character(len=:), allocatable :: list
       integer :: k
 
+      list = ""
+      do k = 1, size(texts)
+         if (k > 1) list = list//", "
+         list = list//'"'//trim(texts(k))//'"'
+      end do
+      call self%put(name, kind_list, 0.0_dp, "["//list//"]")
+   end subroutine set_texts
+
+   !> Set the code of a status or a reason, which has no place in JSON
+   subroutine set_code(self, name, code)
+      class(record_t), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: code
+      call self%put(name, kind_code, real(code, dp))
+   end subroutine set_code
+
+   !> Set a number that the words of a reason need, which has no place in JSON
+   subroutine set_detail(self, name, value)
+      class(record_t), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      real(dp), intent(in) :: value
+      call self%put(name, kind_detail, value)
+   end subroutine set_detail
+
+   !> Set a text that the words of a reason need, which has no place in JSON
+   subroutine set_note(self, name, text)
+      class(record_t), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      character(len=*), intent(in) :: text
+      call self%put(name, kind_note, 0.0_dp, text)
+   end subroutine set_note
+
+   subroutine put(self, name, kind, value, text)
+      class(record_t), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: kind
+      real(dp), intent(in) :: value
+      character(len=*), intent(in), optional :: text
+      type(item_t) :: item
+      integer :: k
+
+      item = item_t(name, kind, value, "")
+      if (present(text)) item%text = text
       if (.not. allocated(self%items)) allocate (self%items(0))
       do k = 1, size(self%items)
          if (self%items(k)%name == name) then
-            self%items(k)%value = value
+            self%items(k) = item
             return
          end if
       end do
-      self%items = [self%items, item_t(name, value)]
+      self%items = [self%items, item]
    end subroutine put
-
-   !> The value under a name, as JSON; empty where there is none
-   pure function value_of(self, name) result(value)
-      class(record_t), intent(in) :: self
-      character(len=*), intent(in) :: name
-      character(len=:), allocatable :: value
-      integer :: k
-
-      value = ""
-      if (.not. allocated(self%items)) return
-      do k = 1, size(self%items)
-         if (self%items(k)%name == name) value = self%items(k)%value
-      end do
-   end function value_of
-
-   !> Whether there is a value under a name, null included
-   pure logical function has(self, name)
-      class(record_t), intent(in) :: self
-      character(len=*), intent(in) :: name
-      has = len(self%value_of(name)) > 0
-   end function has
 
    !> The number under a name; NaN where there is none
    pure real(dp) function number(self, name)
       class(record_t), intent(in) :: self
       character(len=*), intent(in) :: name
-      character(len=:), allocatable :: value
-      integer :: stat
+      integer :: k
 
-      value = self%value_of(name)
-      read (value, *, iostat=stat) number
-      if (stat /= 0) number = not_known
+      number = not_known
+      if (.not. allocated(self%items)) return
+      do k = 1, size(self%items)
+         if (self%items(k)%name == name) number = self%items(k)%value
+      end do
    end function number
 
-   !> The text under a name, its escapes taken away; empty where there is none
-   pure function text_value(self, name) result(text)
+   !> Everything for a caller in another language: names one a line, with a text behind a tab; kinds and values
+   subroutine list(self, names, kinds, values)
       class(record_t), intent(in) :: self
-      character(len=*), intent(in) :: name
-      character(len=:), allocatable :: text
-      character(len=:), allocatable :: value
+      character(len=:), allocatable, intent(out) :: names
+      integer, allocatable, intent(out) :: kinds(:)
+      real(dp), allocatable, intent(out) :: values(:)
+      integer :: k
+
+      names = ""
+      allocate (kinds(0), values(0))
+      if (.not. allocated(self%items)) return
+      kinds = self%items%kind
+      values = self%items%value
+      do k = 1, size(self%items)
+         names = names//self%items(k)%name
+         if (any(kinds(k) == [kind_text, kind_note])) names = names//achar(9)//one_line(self%items(k)%text)
+         names = names//newline
+      end do
+   end subroutine list
+
+   !> A text in one line
+   pure function one_line(text)
+      character(len=*), intent(in) :: text
+      character(len=len(text)) :: one_line
       integer :: i
 
-      text = ""
-      value = self%value_of(name)
-      if (index(value, '"') /= 1) return
-      i = 2
-      do while (i < len(value))
-         if (value(i:i) == "\") i = i + 1
-         text = text // value(i:i)
-         i = i + 1
+      one_line = text
+      do i = 1, len(text)
+         if (text(i:i) == newline) one_line(i:i) = " "
       end do
-   end function text_value
+   end function one_line
 
-   !> The record as a JSON object, one value a line. Reals have as many digits as they need to
-   !> read back as the same number.
+   !> Results and texts as a JSON object, one value a line. Reals have as many digits as they need to read back as the same
+   !> number; nan and inf are null.
    function to_json(self) result(text)
       class(record_t), intent(in) :: self
       character(len=:), allocatable :: text
-      integer :: k
+      character(len=:), allocatable :: value
+      integer :: k, n
 
       text = "{"
-      if (allocated(self%items)) then
-         do k = 1, size(self%items)
-            if (k > 1) text = text // ","
-            text = text // newline // "  " // json_text(self%items(k)%name) // ": " &
-                   // self%items(k)%value
-         end do
-      end if
-      text = text // newline // "}" // newline
+      n = 0
+      if (allocated(self%items)) n = size(self%items)
+      do k = 1, n
+         associate (item => self%items(k))
+            select case (item%kind)
+            case (kind_real)
+               value = "null"
+               if (ieee_is_finite(item%value)) value = to_text(item%value)
+            case (kind_integer)
+               value = to_text(nint(item%value))
+            case (kind_logical)
+               value = trim(merge("true ", "false", item%value > 0.0_dp))
+            case (kind_text)
+               value = '"'//item%text//'"'
+            case (kind_list)
+               value = item%text
+            case default
+               cycle
+            end select
+            if (text /= "{") text = text//","
+            text = text//newline//'  "'//item%name//'": '//value
+         end associate
+      end do
+      text = text//newline//"}"//newline
    end function to_json
-
-   !> Take the values of a JSON object that has one value a line, as `to_json` writes it
-   subroutine take_json(self, text)
-      class(record_t), intent(inout) :: self
-      character(len=*), intent(in) :: text
-      integer :: start, last, first, colon
-
-      start = 1
-      do while (start <= len(text))
-         last = start + index(text(start:)//newline, newline) - 2
-         first = index(text(start:last), '"')
-         colon = index(text(start:last), '": ')
-         if (first > 0 .and. colon > first) then
-            first = start + first
-            colon = start + colon
-            call self%put(text(first:colon - 2), text(colon + 2:last - merge(1, 0, text(last:last) == ",")))
-         end if
-         start = last + 2
-      end do
-   end subroutine take_json
-
-   !> A JSON string with its escapes
-   pure function json_text(value) result(text)
-      character(len=*), intent(in) :: value
-      character(len=:), allocatable :: text
-      character(len=*), parameter :: hex = "0123456789abcdef"
-      integer :: i, code
-
-      text = '"'
-      do i = 1, len(value)
-         code = iachar(value(i:i))
-         if (value(i:i) == '"' .or. value(i:i) == "\") then
-            text = text // "\" // value(i:i)
-         else if (code < 32) then
-            text = text // "\u00" // hex(code/16 + 1:code/16 + 1) // hex(mod(code, 16) + 1:mod(code, 16) + 1)
-         else
-            text = text // value(i:i)
-         end if
-      end do
-      text = text // '"'
-   end function json_text
 end module ehl_record

@@ -5,26 +5,24 @@ module ehl_f2py_functions
    use ehl_case, only: case_t
    use ehl_checkpoint_folder, only: find_checkpoint
    use ehl_clock, only: clock_t, start_clock
-   use ehl_conclusion, only: conclusion
    use ehl_deflection, only: deflection_t
    use ehl_deflection_factory, only: new_deflection
    use ehl_destination, only: destination_t
    use ehl_grid, only: grid_t
-   use ehl_handles, only: put_text, fitted, reply
+   use ehl_handles, only: reply
    use ehl_heated_friction, only: heat_film, heated_t
-   use ehl_assessment, only: judge
    use ehl_kinds, only: pi
    use ehl_lubricant, only: lubricant_t
    use ehl_memory, only: check_memory, free_bytes
    use ehl_plan_heat, only: heat_plan_t, plan_given
    use ehl_read_case, only: read_case
-   use ehl_record, only: record_t
    use ehl_result_folder, only: result_names
    use ehl_status, only: status_t
    use ehl_version, only: build_text, version
    implicit none (type, external)
    private
-   public :: checkpoint_case, place, needs_memory, memory_left, about, conclude, deflection, heated
+   public :: checkpoint_case, check_folder, begin_folder, finish_folder, needs_memory, memory_left, about, deflection, &
+             frictional_heat
 
 contains
 
@@ -45,13 +43,25 @@ contains
       call reply(status, stat, message)
    end subroutine checkpoint_case
 
-   !> A step on the way of a result to its folder: 'check', 'resume' (a check for a result that is completed), 'begin',
-   !> which gives an empty folder `fresh`, or 'finish' with that. Lists have a line end behind each item.
-   subroutine place(step, folder, kind, names, inputs, kept, force, made, fresh, stat, message)
-      character(len=*), intent(in) :: step, folder, kind, names, inputs, kept
+   !> Refuse a folder for a result of some kind that must not be touched, or cannot be written; `completes`: an earlier result is
+   !> completed. Lists have a line end behind each item.
+   subroutine check_folder(folder, kind, names, inputs, kept, force, completes, stat, message)
+      character(len=*), intent(in) :: folder, kind, names, inputs, kept
+      integer(c_int), intent(in) :: force, completes
+      integer(c_int), intent(out) :: stat
+      character(len=4096), intent(out) :: message
+      type(destination_t) :: destination
+      type(status_t) :: status
+
+      destination = destination_of(folder, kind, names, inputs, kept, force)
+      call destination%check(status, resumes=completes /= 0)
+      call reply(status, stat, message)
+   end subroutine check_folder
+
+   !> An empty folder `fresh` for a result that goes to `folder`
+   subroutine begin_folder(folder, kind, names, inputs, kept, force, fresh, stat, message)
+      character(len=*), intent(in) :: folder, kind, names, inputs, kept
       integer(c_int), intent(in) :: force
-      !> The folder that 'begin' gave
-      character(len=*), intent(in) :: made
       character(len=4096), intent(out) :: fresh
       integer(c_int), intent(out) :: stat
       character(len=4096), intent(out) :: message
@@ -59,21 +69,37 @@ contains
       type(status_t) :: status
       character(len=:), allocatable :: path
 
-      fresh = ""
+      path = ""
+      destination = destination_of(folder, kind, names, inputs, kept, force)
+      call destination%begin(path, status)
+      fresh = path
+      call reply(status, stat, message)
+   end subroutine begin_folder
+
+   !> That folder takes its place
+   subroutine finish_folder(folder, kind, names, inputs, kept, force, fresh, stat, message)
+      character(len=*), intent(in) :: folder, kind, names, inputs, kept
+      integer(c_int), intent(in) :: force
+      character(len=*), intent(in) :: fresh
+      integer(c_int), intent(out) :: stat
+      character(len=4096), intent(out) :: message
+      type(destination_t) :: destination
+      type(status_t) :: status
+
+      destination = destination_of(folder, kind, names, inputs, kept, force)
+      call destination%finish(fresh, status)
+      call reply(status, stat, message)
+   end subroutine finish_folder
+
+   function destination_of(folder, kind, names, inputs, kept, force) result(destination)
+      character(len=*), intent(in) :: folder, kind, names, inputs, kept
+      integer(c_int), intent(in) :: force
+      type(destination_t) :: destination
+
       destination = destination_t(folder, kind, names, inputs, kept, force /= 0)
       ! the library knows what it writes
       if (kind == "solution") destination%names = result_names
-      select case (step)
-      case ("begin")
-         call destination%begin(path, status)
-         fresh = path
-      case ("finish")
-         call destination%finish(made, status)
-      case default
-         call destination%check(status, resumes=step == "resume")
-      end select
-      call reply(status, stat, message)
-   end subroutine place
+   end function destination_of
 
    !> Refuse what would not fit into the memory
    subroutine needs_memory(what, bytes, stat, message)
@@ -103,23 +129,6 @@ contains
       version_text = version
       compiler_text = build_text()
    end subroutine about
-
-   !> The last lines of a result from its summary (JSON, one value a line), the assessment, and what it is worth: see
-   !> ehl_assessment; the assessment begins behind so many bytes
-   subroutine conclude(summary, n, bytes, behind, length, worth)
-      character(len=*), intent(in) :: summary
-      integer(c_int), intent(in) :: n
-      integer(c_int), intent(inout) :: bytes(n)
-      integer(c_int), intent(out) :: behind, length, worth
-      type(record_t) :: record
-      character(len=:), allocatable :: text, line
-
-      call record%take_json(summary)
-      text = conclusion(record)
-      behind = int(len(text), c_int)
-      call judge(record, line, worth)
-      call put_text(text//line, bytes, length)
-   end subroutine conclude
 
    !> Elastic deflection w of the pressure p by one engine, and the mean seconds of an application
    subroutine deflection(engine, nx, ny, p, w, hx, hy, mirror, accuracy, threads, repeats, &
@@ -158,8 +167,9 @@ contains
    !> Friction with heat over that without it (NaN: not known), and the maximum increases of temperature of film and walls [K],
    !> of the contact of a case with the pressure and the film p, h(nx, ny), the first node at (x0, y0); mirror: the rows are
    !> those of Y >= 0; touching: 1 where the bodies touch at the boundary film. Whether the heat counts, and what a coefficient of
-   !> friction is then.
-   subroutine heated(text, nx, ny, p, h, touching, x0, y0, hx, hy, mirror, counts, ratio, rises, note, stat, message)
+   !> friction is then (ehl_reason), with the rise by estimate [K].
+   subroutine frictional_heat(text, nx, ny, p, h, touching, x0, y0, hx, hy, mirror, counts, ratio, rises, reason, estimate, &
+                              stat, message)
       character(len=*), intent(in) :: text
       integer(c_int), intent(in) :: nx, ny
       real(c_double), intent(inout) :: p(nx, ny), h(nx, ny)
@@ -167,8 +177,8 @@ contains
       real(c_double), intent(in) :: x0, y0, hx, hy
       integer(c_int), intent(in) :: mirror
       integer(c_int), intent(out) :: counts, stat
-      real(c_double), intent(out) :: ratio, rises(3)
-      character(len=256), intent(out) :: note
+      real(c_double), intent(out) :: ratio, rises(3), estimate
+      integer(c_int), intent(out) :: reason
       character(len=4096), intent(out) :: message
       type(case_t) :: input
       type(heat_plan_t) :: plan
@@ -179,11 +189,13 @@ contains
       counts = 0
       ratio = 1.0_c_double
       rises = 0.0_c_double
-      note = ""
+      reason = 0
+      estimate = 0.0_c_double
       call read_case(text, "the contact of a prediction", "", input, status)
       if (.not. status%failed()) call plan_given(input, plan, lubricant, status)
       if (.not. status%failed()) then
-         note = fitted(plan%note, len(note))
+         reason = plan%reason
+         estimate = plan%estimate
          if (plan%counts) then
             counts = 1
             call heat_film(plan%film, grid_t(nx=nx, ny=ny, x0=x0, y0=y0, hx=hx, hy=hy, mirror=mirror /= 0), lubricant, p, h, &
@@ -193,5 +205,5 @@ contains
          end if
       end if
       call reply(status, stat, message)
-   end subroutine heated
+   end subroutine frictional_heat
 end module ehl_f2py_functions

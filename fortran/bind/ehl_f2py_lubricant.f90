@@ -4,18 +4,17 @@
 !> `law` is 1 for Eyring and 2 for Carreau with `exponent` n; B and S are those of flow_factors.f90.
 module ehl_f2py_lubricant
    use, intrinsic :: iso_c_binding, only: c_double, c_int
-   use ehl_case, only: case_t, lubricant_case_t
+   use ehl_case, only: lubricant_case_t
    use ehl_case_law, only: make_lubricant
    use ehl_flow_factors, only: exact_factors, factors_t
-   use ehl_handles, only: fitted, reply
+   use ehl_handles, only: reply
    use ehl_lubricant, only: lubricant_t
-   use ehl_plan_lubricant, only: alpha_note
-   use ehl_read_case, only: read_case, read_lubricant
+   use ehl_read_case, only: read_lubricant
    use ehl_status, only: status_t
    use ehl_thinning, only: thinning_t
    implicit none (type, external)
    private
-   public :: properties, alpha_origin, flow_factors, sliding_stresses
+   public :: properties, flow_factors, sliding_stresses
 
 contains
 
@@ -40,23 +39,6 @@ contains
       end if
       call reply(status, stat, message)
    end subroutine properties
-
-   !> Where the pressure-viscosity coefficient of a case is from, if it was not given; blank where it was
-   subroutine alpha_origin(text, note, stat, message)
-      character(len=*), intent(in) :: text
-      character(len=512), intent(out) :: note
-      integer(c_int), intent(out) :: stat
-      character(len=4096), intent(out) :: message
-      type(case_t) :: input
-      character(len=:), allocatable :: found
-      type(status_t) :: status
-
-      found = ""
-      call read_case(text, "the case of a prediction", "", input, status)
-      if (.not. status%failed()) call alpha_note(input, found)
-      note = fitted(found, len(note))
-      call reply(status, stat, message)
-   end subroutine alpha_origin
 
    !> Flow factors through the film, n times: phi_x, phi_y, and of phi_x d ln(phi)/d ln(B), d ln(phi)/d ln(S) and
    !> d(phi S)/dS; NaNs where they are not found

@@ -4,7 +4,6 @@ module ehl_f2py_predicted
    use, intrinsic :: iso_c_binding, only: c_double, c_int
    use ehl_handles, only: reply, run_of, run_t
    use ehl_predicted_start, only: fronts_at_start => start_fronts
-   use ehl_ratio_error, only: waves_t
    use ehl_status, only: ehl_bad_input, status_t
    implicit none (type, external)
    private
@@ -13,18 +12,20 @@ module ehl_f2py_predicted
 contains
 
    !> Hand over what is predicted of mu_ratio: its parts in waves that the grid leaves out, and in those that it does not
-   !> resolve; NaN where there is no prediction, and why
-   subroutine take_prediction(handle, left_out, unresolved, why, stat, message)
+   !> resolve; NaN where there is no prediction
+   subroutine take_prediction(handle, left_out, unresolved, stat, message)
       integer(c_int), intent(in) :: handle
       real(c_double), intent(in) :: left_out, unresolved
-      character(len=*), intent(in) :: why
       integer(c_int), intent(out) :: stat
       character(len=4096), intent(out) :: message
       type(run_t), pointer :: run
       type(status_t) :: status
 
       call run_of(handle, run, status)
-      if (.not. status%failed()) run%solver%waves = waves_t(.true., left_out, unresolved, why)
+      if (.not. status%failed()) then
+         run%solver%knows_waves = .true.
+         run%solver%predicted_waves = [left_out, unresolved]
+      end if
       call reply(status, stat, message)
    end subroutine take_prediction
 

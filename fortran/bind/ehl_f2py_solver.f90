@@ -10,16 +10,16 @@ module ehl_f2py_solver
    use ehl_case, only: case_t
    use ehl_read_case, only: read_case
    use ehl_checkpoint_folder, only: checkpoint_path
-   use ehl_conclusion, only: conclusion, resumption
    use ehl_grid, only: grid_t
    use ehl_handles, only: drop_handle, new_handle, put_text, fitted, reply, run_of, run_t
-   use ehl_plan_text, only: plan_text
+   use ehl_plan_record, only: plan_record
    use ehl_result_folder, only: write_results
    use ehl_record, only: record_t
-   use ehl_status, only: ehl_bad_input, ehl_internal, status_t
+   use ehl_status, only: ehl_bad_input, status_t
    implicit none (type, external)
    private
-   public :: open_case, close_case, advance, act, keep, describe, work
+   public :: open_case, close_case, advance, interrupt, write_files, resume, keep_states, save_state, clear_states
+   public :: results, progress, work
    public :: grid_shape, axes, field
 
 contains
@@ -81,50 +81,85 @@ contains
       call reply(status, stat, message)
    end subroutine advance
 
-   !> "interrupt" a run, so that what there is stays readable; "write" the files of its result into an empty folder;
-   !> "resume" it from the newest state of the run with these results, before the first advance, which gives a note. Of
-   !> its own states: "tick" (save one if its time has come), "save", or "drop" them at a good end.
-   subroutine act(handle, what, path, note, has_state, stat, message)
+   !> End a run here; what there is stays readable
+   subroutine interrupt(handle, stat, message)
       integer(c_int), intent(in) :: handle
-      character(len=*), intent(in) :: what, path
+      integer(c_int), intent(out) :: stat
+      character(len=4096), intent(out) :: message
+      type(run_t), pointer :: run
+      type(status_t) :: status
+
+      call run_of(handle, run, status)
+      if (.not. status%failed()) call run%solver%interrupt()
+      call reply(status, stat, message)
+   end subroutine interrupt
+
+   !> Write the files of a result but its summary into an empty folder
+   subroutine write_files(handle, folder, stat, message)
+      integer(c_int), intent(in) :: handle
+      character(len=*), intent(in) :: folder
+      integer(c_int), intent(out) :: stat
+      character(len=4096), intent(out) :: message
+      type(run_t), pointer :: run
+      type(status_t) :: status
+
+      call run_of(handle, run, status)
+      if (.not. status%failed()) call write_results(folder, run%input, run%solver, status)
+      call reply(status, stat, message)
+   end subroutine write_files
+
+   !> Go on from the newest state of the run with these results, before the first advance, which gives a note
+   subroutine resume(handle, results, note, stat, message)
+      integer(c_int), intent(in) :: handle
+      character(len=*), intent(in) :: results
       character(len=4096), intent(out) :: note
-      !> Whether a state is there now, after "save"
-      integer(c_int), intent(out) :: has_state, stat
+      integer(c_int), intent(out) :: stat
       character(len=4096), intent(out) :: message
       type(run_t), pointer :: run
       type(status_t) :: status
       character(len=:), allocatable :: text
 
       text = ""
+      call run_of(handle, run, status)
+      if (.not. status%failed()) call run%solver%resume(checkpoint_path(results), text, status)
+      note = fitted(text, len(note))
+      call reply(status, stat, message)
+   end subroutine resume
+
+   !> Save the state of a run, at once or if its time has come; whether there is one then
+   subroutine save_state(handle, at_once, has_state, stat, message)
+      integer(c_int), intent(in) :: handle, at_once
+      integer(c_int), intent(out) :: has_state, stat
+      character(len=4096), intent(out) :: message
+      type(run_t), pointer :: run
+      type(status_t) :: status
+
       has_state = 0
       call run_of(handle, run, status)
       if (.not. status%failed()) then
-         select case (what)
-         case ("interrupt")
-            call run%solver%interrupt()
-         case ("write")
-            call write_results(path, run%input, run%solver, run%clock%seconds(), status)
-         case ("resume")
-            call run%solver%resume(checkpoint_path(path), text, status)
-         case ("tick")
-            if (run%checkpoints%is_due()) call run%checkpoints%save(run%solver, status)
-         case ("save")
-            call run%checkpoints%save(run%solver, status)
-            if (run%checkpoints%has_state()) has_state = 1
-         case ("drop")
-            call run%checkpoints%close()
-         case default
-            call status%fail(ehl_internal, "a run cannot '"//what//"'")
-         end select
+         if (at_once /= 0 .or. run%checkpoints%is_due()) call run%checkpoints%save(run%solver, status)
+         if (at_once /= 0) has_state = merge(1, 0, run%checkpoints%has_state())
       end if
-      note = fitted(text, len(note))
       call reply(status, stat, message)
-   end subroutine act
+   end subroutine save_state
+
+   !> Remove the states of a run that has come to a good end
+   subroutine clear_states(handle, stat, message)
+      integer(c_int), intent(in) :: handle
+      integer(c_int), intent(out) :: stat
+      character(len=4096), intent(out) :: message
+      type(run_t), pointer :: run
+      type(status_t) :: status
+
+      call run_of(handle, run, status)
+      if (.not. status%failed()) call run%checkpoints%close()
+      call reply(status, stat, message)
+   end subroutine clear_states
 
    !> Keep states of the run beside its results, at the interval of the case; `resumed` names the
    !> results of the run that is resumed; with has_heights and has_second on the surfaces of
    !> open_case too
-   subroutine keep(handle, results, resumed, has_heights, nx, ny, heights, has_second, mx, my, second, note, stat, message)
+   subroutine keep_states(handle, results, resumed, has_heights, nx, ny, heights, has_second, mx, my, second, note, stat, message)
       integer(c_int), intent(in) :: handle
       character(len=*), intent(in) :: results, resumed
       integer(c_int), intent(in) :: has_heights, nx, ny, has_second, mx, my
@@ -145,44 +180,57 @@ contains
          if (.not. status%failed()) note = fitted(text, len(note))
       end if
       call reply(status, stat, message)
-   end subroutine keep
+   end subroutine keep_states
 
-   !> The "plan" in a few lines, one line of "progress", the "conclusion" of a run that has ended, its "resumption", or the
-   !> "summary" as JSON
-   subroutine describe(handle, what, n, bytes, length, stat, message)
-      integer(c_int), intent(in) :: handle
-      character(len=*), intent(in) :: what
-      integer(c_int), intent(in) :: n
-      integer(c_int), intent(inout) :: bytes(n)
-      integer(c_int), intent(out) :: length
+   !> What was found so far, or the plan of it: names one a line, behind a tab a text; kinds as of ehl_record, and values
+   subroutine results(handle, of_plan, n, bytes, m, kinds, values, length, found, stat, message)
+      integer(c_int), intent(in) :: handle, of_plan
+      integer(c_int), intent(in) :: n, m
+      integer(c_int), intent(inout) :: bytes(n), kinds(m)
+      real(c_double), intent(inout) :: values(m)
+      !> Of the names, and how many there are: the caller asks again with larger arrays where they do not fit
+      integer(c_int), intent(out) :: length, found
       integer(c_int), intent(out) :: stat
       character(len=4096), intent(out) :: message
       type(run_t), pointer :: run
       type(record_t) :: record
       type(status_t) :: status
-      character(len=:), allocatable :: text
+      character(len=:), allocatable :: names
+      integer, allocatable :: all_kinds(:)
+      real(c_double), allocatable :: all_values(:)
 
-      text = ""
+      length = 0
+      found = 0
       call run_of(handle, run, status)
       if (.not. status%failed()) then
-         select case (what)
-         case ("plan")
-            text = plan_text(run%solver%run%plan)
-         case ("progress")
-            text = run%solver%progress()
-         case ("conclusion")
-            text = conclusion(run%solver%summary())
-         case ("resumption")
-            record = run%solver%summary()
-            text = resumption(record%text("status"), "pyehl run")
-         case default
-            record = run%solver%summary()
-            text = record%to_json()
-         end select
+         if (of_plan /= 0) then
+            record = plan_record(run%solver%run%plan)
+         else
+            record = run%solver%results()
+         end if
+         call record%list(names, all_kinds, all_values)
+         call put_text(names, bytes, length)
+         found = size(all_kinds)
+         kinds(:min(m, found)) = all_kinds(:min(m, found))
+         values(:min(m, found)) = all_values(:min(m, found))
       end if
-      call put_text(text, bytes, length)
       call reply(status, stat, message)
-   end subroutine describe
+   end subroutine results
+
+   !> One line about the state of a run
+   subroutine progress(handle, line, stat, message)
+      integer(c_int), intent(in) :: handle
+      character(len=512), intent(out) :: line
+      integer(c_int), intent(out) :: stat
+      character(len=4096), intent(out) :: message
+      type(run_t), pointer :: run
+      type(status_t) :: status
+
+      line = ""
+      call run_of(handle, run, status)
+      if (.not. status%failed()) line = fitted(run%solver%progress(), len(line))
+      call reply(status, stat, message)
+   end subroutine progress
 
    !> How much of a transient run is done, and how much there is until its earliest and its latest end, in time
    !> steps; both are 0 where it is not known

@@ -4,23 +4,14 @@ module ehl_f2py_surfaces
    use, intrinsic :: iso_c_binding, only: c_double, c_float, c_int
    use ehl_fractal, only: fractal_t, make_fractal
    use ehl_handles, only: reply
-   use ehl_plan_need, only: making_need
    use ehl_status, only: status_t
    use ehl_tile_filter, only: filter_heights, filter_t
    use ehl_wave_sum, only: add_between, add_driven, add_free, add_polynomials, moved_film
    implicit none (type, external)
    private
-   public :: making, fractal, filter_tile, driven_waves, waves_between, free_waves, polynomials, film_moved
+   public :: fractal, filter_tile, driven_waves, waves_between, free_waves, polynomials, film_moved
 
 contains
-
-   !> What it takes to make a fractal surface of so many pixels per side; empty where that is little
-   subroutine making(pixels, text)
-      integer(c_int), intent(in) :: pixels
-      character(len=256), intent(out) :: text
-
-      text = making_need(pixels)
-   end subroutine making
 
    !> Heights [m] of a fractal surface, heights(ny, nx); words: the seed, 32 bits each, the lowest first
    subroutine fractal(nx, ny, heights, length_x, length_y, rms_height, hurst, rolloff_wavenumber, lay_ratio, n, words, &

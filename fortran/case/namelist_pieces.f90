@@ -27,13 +27,13 @@ module ehl_namelist_pieces
    end type piece_t
 
    type :: token_t
-      !> 'w'ord, 's'tring, 'c'omment, 'e'nd, 'u'nfinished string, '=', '&' or '/'
+      !> 'w'ord, 's'tring, 'c'omment, 'e'nd, 'u'nfinished string, '=', ',', '&' or '/'
       character(len=1) :: kind = "e"
       integer :: first = 1, last = 0
    end type token_t
 
    !> What is between words, and what else ends one
-   character(len=*), parameter :: blanks = " ,"//achar(9)//achar(13)//newline, ends = blanks//"=/!&'"""
+   character(len=*), parameter :: blanks = " "//achar(9)//achar(13)//newline, ends = blanks//",=/!&'"""
 
 contains
 
@@ -54,7 +54,9 @@ contains
       type(token_t) :: token, next
       character(len=:), allocatable :: group
       integer :: position, n, k
+      logical :: behind_value
 
+      behind_value = .false.
       allocate (pieces(count([(text(k:k) == "=", k=1, len(text))])))
       n = 0
       group = ""
@@ -94,11 +96,14 @@ contains
                pieces(n)%value = pieces(n)%value//text(token%first:token%last)
                pieces(n)%values = pieces(n)%values + 1
             end if
+         case (",")
+            if (.not. behind_value) call refuse("a comma that follows no value", "key = value, or a list of values")
          case ("u")
             call refuse("a text without its second quote", "'...'")
          case default
             call refuse("'=' without a key", "key = value")
          end select
+         if (token%kind /= "c") behind_value = any(token%kind == ["w", "s"]) .and. position /= k
       end do
       call keep_pieces(pieces, [(k <= n, k=1, size(pieces))])
 
@@ -118,7 +123,7 @@ contains
          case ("!")
             found%kind = "c"
             found%last = found%first + index(text(found%first:)//newline, newline) - 2
-         case ("=", "/")
+         case ("=", "/", ",")
             found%kind = first
          case ("'", """")
             found%kind = "s"

@@ -18,10 +18,7 @@ module ehl_domain
    use ehl_scales, only: circle_factor
    implicit none (type, external)
    private
-   public :: domain_t, flooded_by_default, needed_domain, domain_cost, ratio_cost, too_small
-
-   !> Why an error has no part from the domain, where its cost is 1 or more
-   character(len=*), parameter :: too_small = "the domain is too small to determine the film of a flooded contact"
+   public :: domain_t, flooded_by_default, needed_domain, domain_cost, ratio_cost
 
    !> inlet <= X <= outlet, -side <= Y <= side [a]
    type :: domain_t

@@ -16,7 +16,6 @@ module ehl_plan
    use ehl_moving_surfaces, only: moving_surfaces_t
    use ehl_plan_friction, only: sliding_t
    use ehl_plan_heat, only: heat_plan_t, may_touch, plan_contact, plan_heat
-   use ehl_plan_lubricant, only: alpha_note, law_note
    use ehl_plan_surface, only: check_carried, make_surfaces
    use ehl_resolution, only: has_solution
    use ehl_scales, only: scales_t
@@ -51,8 +50,6 @@ module ehl_plan
       type(lubricant_t) :: lubricant
       !> Whether the smooth contact may touch at the boundary film
       logical :: touches = .false.
-      !> Law with constants of an oil, and the range of these
-      character(len=:), allocatable :: lubricant_note, alpha_note
       !> What absolute friction needs to know
       type(sliding_t) :: sliding
       !> The heat of it
@@ -111,8 +108,6 @@ contains
       call plan_contact(input, plan%contact, plan%scales, plan%point, plan%sliding, plan%lubricant, rho, film, status)
       if (status%failed()) return
       plan%flooded = input%grid%border == "flooded"
-      call law_note(input, plan%scales, plan%lubricant_note)
-      call alpha_note(input, plan%alpha_note)
       plan%heat = plan_heat(input, plan%contact, plan%scales, plan%sliding, plan%lubricant, film)
       film = plan%lubricant%shear%thinned_film(film, plan%point%speed_parameter)
       plan%touches = may_touch(plan%lubricant, film)

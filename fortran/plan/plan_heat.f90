@@ -11,9 +11,10 @@ module ehl_plan_heat
    use ehl_moes, only: operating_t
    use ehl_plan_friction, only: plan_sliding, sliding_t
    use ehl_plan_lubricant, only: plan_lubricant
+   use ehl_reason, only: friction_never, friction_newtonian, friction_no_slope, friction_no_sliding, friction_small, &
+                         friction_with_heat, reason_none
    use ehl_scales, only: scales_t
    use ehl_status, only: status_t
-   use ehl_text, only: fixed
    use ehl_wall_heat, only: heat_source, speed_of_rest, wall_strength
    implicit none (type, external)
    private
@@ -32,8 +33,9 @@ module ehl_plan_heat
       type(film_heat_t) :: film
       !> Rise of temperature up to which the viscosity was measured [K]; huge: not known
       real(dp) :: measured_rise = huge(1.0_dp)
-      !> What a coefficient of friction is, in words: with or without it, and why
-      character(len=:), allocatable :: note
+      !> What a coefficient of friction is: with or without it, and why (ehl_reason); rise of temperature by estimate [K]
+      integer :: reason = reason_none
+      real(dp) :: estimate = 0.0_dp
    end type heat_plan_t
 
 contains
@@ -54,14 +56,13 @@ contains
       associate (l => input%lubricant, heat => plan%film)
          heat%speed = abs(sliding%slide_to_roll)*sliding%mean_velocity
          if (l%thermal_friction == "never") then
-            plan%note = "isothermal: lubricant.thermal_friction is 'never'"
+            plan%reason = friction_never
             return
          else if (.not. knows_temperature(input)) then
-            plan%note = "isothermal: the viscosity by temperature is not known "// &
-                        "(lubricant.temperature_viscosity, or the viscosities of a data sheet)"
+            plan%reason = friction_no_slope
             return
          else if (.not. heat%speed > 0.0_dp) then
-            plan%note = "isothermal: there is no sliding that makes heat"
+            plan%reason = friction_no_sliding
             return
          end if
          heat%conductivity = l%thermal_conductivity
@@ -73,7 +74,7 @@ contains
          heat%strengths = [wall(1), wall(2)]
          stress = stress_at(0.0_dp)
          if (.not. lubricant%shear%thins() .and. stress > sliding%newtonian_limit) then
-            plan%note = "isothermal: the Newtonian stress is above lubricant.eyring_stress, its heat is not computed"
+            plan%reason = friction_newtonian
             return
          end if
          most = stress
@@ -83,11 +84,8 @@ contains
                 + most*heat%speed*film*scales%film/(12.0_dp*heat%conductivity)
          warm = stress_at(rise)
          plan%counts = l%thermal_friction == "always" .or. .not. stress - warm < min_change*stress
-         if (plan%counts) then
-            plan%note = "with the temperature of film and walls; pressure and film thickness are isothermal"
-         else
-            plan%note = "isothermal: by estimate a rise of "//fixed(rise, "es7.1e2")//" K changes it by less than 0.1 %"
-         end if
+         plan%estimate = rise
+         plan%reason = merge(friction_with_heat, friction_small, plan%counts)
       end associate
 
    contains

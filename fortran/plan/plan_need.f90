@@ -1,17 +1,16 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Memory and time that a plan needs, before it takes them
 module ehl_plan_need
-   use, intrinsic :: iso_fortran_env, only: int64
    use ehl_friction_mean, only: automatic_periods, periods_compared
    use ehl_kinds, only: dp
-   use ehl_memory, only: check_memory, amount
+   use ehl_memory, only: check_memory
    use ehl_plan, only: plan_t
    use ehl_status, only: status_t
-   use ehl_text, only: fixed, to_text
+   use ehl_text, only: to_text
    use ehl_predicted_start, only: steps_needed
    implicit none (type, external)
    private
-   public :: check_need, need_lines, making_need, max_periods
+   public :: bytes_needed, check_need, frames_kept, max_periods, seconds_needed
 
    !> Bytes per stored node of the finest grid, those of the coarser ones included, as measured on 513 x 513 nodes: the
    !> smooth contact; what the rough one takes besides; what Alcouffe coarsening takes
@@ -31,13 +30,8 @@ module ehl_plan_need
    !> Seconds per cube of the unknowns of the coarsest grid, which is solved directly, ten times or so in a smooth contact; they
    !> are what a long grid takes (0.5 s of 1.1 at kappa = 10 on 257 nodes)
    real(dp), parameter :: direct_seconds = 1.0e-9_dp
-   !> Semi-axes over each other from which smooth contacts may be restarted with damped cycles (3 to 9 times as long)
-   real(dp), parameter :: long = 1.5_dp
    !> Cycles of a stationary rough contact
    real(dp), parameter :: stationary_cycles = 20.0_dp
-
-   !> Bytes and seconds per pixel of a fractal surface that is made
-   real(dp), parameter :: making_bytes = 16.0_dp, making_seconds = 8.0e-8_dp
 
 contains
 
@@ -53,68 +47,20 @@ contains
       if (plan%target_error > 0.0_dp) what = "grid.max_points, with grid.target_error up to "
       what = what//to_text(plan%finest%nx)
       if (frames(plan, max_steps(plan)) > 0.0_dp) what = what//" with output.frame_interval = "//to_text(plan%frame_interval)
-      needed = bytes(plan, plan%threads)
+      needed = bytes_needed(plan, plan%threads)
       ! what the surfaces hold now is free no more
       needed = needed - plan%surfaces%bytes()
       call check_memory(what, needed, status)
    end subroutine check_need
 
-   !> The need in words, and how many frames are kept
-   function need_lines(plan) result(text)
+   !> Frames that are kept at the least and at the most
+   subroutine frames_kept(plan, least, most)
       type(plan_t), intent(in) :: plan
-      character(len=:), allocatable :: text
-      real(dp) :: least, most
+      real(dp), intent(out) :: least, most
 
-      text = "need       about "//amount(bytes(plan, 1))//" of memory and "//duration(seconds(plan))//" on one thread"
-      if (plan%contact%ellipticity > long .or. plan%contact%ellipticity < 1.0_dp/long) then
-         text = text//", up to ten times as long with damped cycles"
-      end if
-      if (plan%lubricant%boundary_film > 0.0_dp .and. .not. plan%surfaces%rough()) then
-         text = text//", up to thirty times as long with solid contact"
-      end if
-      if (plan%target_error > 0.0_dp) text = text//", if it comes to the finest grid"
-      if (plan%surfaces%move() .and. plan%steps == 0) text = text//", if it ends as early as it can"
-      text = text//new_line("a")
       least = frames(plan, steps(plan))
       most = frames(plan, max_steps(plan))
-      if (.not. most > 0.0_dp) return
-      text = text//"frames     "
-      if (plan%frame_interval > plan%finest%hx) then
-         text = text//"one in "//to_text(plan%frame_interval)//" a/u"
-      else
-         text = text//"after every step: output.frame_interval is no longer than a step"
-      end if
-      text = text//", about "//to_text(nint(least, int64))
-      if (most > least) text = text//", at most "//to_text(nint(most, int64))//","
-      text = text//" of P and H"//new_line("a")
-   end function need_lines
-
-   !> What it takes to make a fractal surface of so many pixels per side, in words; empty where it is done in no time
-   function making_need(pixels) result(text)
-      integer, intent(in) :: pixels
-      character(len=:), allocatable :: text
-      real(dp) :: all
-
-      text = ""
-      all = real(pixels, dp)**2
-      if (making_seconds*all < 1.0_dp) return
-      text = "surface    "//to_text(pixels)//" x "//to_text(pixels)//" pixels take about "//amount(making_bytes*all)// &
-             " of memory and "//duration(making_seconds*all)//" to make"
-   end function making_need
-
-   !> Seconds in words
-   function duration(seconds) result(text)
-      real(dp), intent(in) :: seconds
-      character(len=:), allocatable :: text
-
-      if (seconds < 1.0_dp) then
-         text = "less than a second"
-      else if (seconds < 3600.0_dp) then
-         text = to_text(nint(seconds))//" s"
-      else
-         text = fixed(seconds/3600.0_dp, "f16.1")//" h"
-      end if
-   end function duration
+   end subroutine frames_kept
 
    !> Time steps until the run can end
    real(dp) function steps(plan)
@@ -165,7 +111,7 @@ contains
    end function nodes
 
    !> Bytes of all grids, of the surfaces and of the frames
-   real(dp) function bytes(plan, threads)
+   real(dp) function bytes_needed(plan, threads) result(bytes)
       type(plan_t), intent(in) :: plan
       integer, intent(in) :: threads
 
@@ -178,10 +124,10 @@ contains
       bytes = bytes + plan%surfaces%bytes_on(plan%finest)
       if (plan%coarse_run) bytes = bytes*(1.0_dp + coarser_bytes)
       bytes = bytes + (written_bytes + 16.0_dp*frames(plan, max_steps(plan)))*plan%finest%nx*plan%finest%full_ny()
-   end function bytes
+   end function bytes_needed
 
    !> Seconds on one thread until the run can end
-   real(dp) function seconds(plan)
+   real(dp) function seconds_needed(plan) result(seconds)
       type(plan_t), intent(in) :: plan
       real(dp) :: cycles
 
@@ -189,5 +135,5 @@ contains
       if (plan%surfaces%rest()) cycles = stationary_cycles
       if (plan%coarse_run) cycles = cycles*(1.0_dp + coarser_seconds)
       seconds = nodes(plan)*(smooth_seconds + cycles*step_seconds) + direct_seconds*(real(plan%coarsest%nx, dp)*plan%coarsest%ny)**3
-   end function seconds
+   end function seconds_needed
 end module ehl_plan_need

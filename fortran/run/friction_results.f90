@@ -8,7 +8,8 @@ module ehl_friction_results
    use ehl_kinds, only: dp, not_known, pi
    use ehl_level, only: gap
    use ehl_plan, only: plan_t
-   use ehl_text, only: fixed, rounded
+   use ehl_reason, only: friction_above_limit, friction_no_size, friction_no_smooth, friction_not_converged, friction_rolling, &
+                         reason_none
    use ehl_touching, only: same_film
    use ehl_wall_heat, only: heat_source
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
@@ -20,8 +21,9 @@ module ehl_friction_results
    type :: friction_results_t
       !> Coefficients of the contact, and of the smooth one; the same without the heat of friction
       real(dp) :: mu(2) = not_known, mu_isothermal(2) = not_known
-      !> What the coefficients are, or why there are none
-      character(len=:), allocatable :: note
+      !> What the coefficients are, or why there are none; whether the film is hotter than where its viscosity was measured
+      integer :: reason = reason_none
+      logical :: beyond_measured = .false.
       !> Of the smooth contact: rolling moment [p_h a^3], mean shear rate [1/s], maximum shear stress [Pa]
       real(dp) :: rolling_moment = not_known, shear_rate = not_known, shear_stress = not_known
       !> Flash temperature [K]; maximum rises of film and walls with the heat of friction [K]
@@ -35,15 +37,15 @@ contains
       type(contact_run_t), intent(in) :: run
       !> Whether the smooth contact is converged, and the run
       logical, intent(in) :: good, converged
-      !> Why friction is not known where the bodies touch; empty where it is
-      character(len=*), intent(in) :: why_none
+      !> Why friction is not known where the bodies touch
+      integer, intent(in) :: why_none
       type(friction_results_t), intent(out) :: found
       !> Friction integral of the smooth contact; the friction over it, and that of the contact with heat over it without
       real(dp) :: friction, ratio, heat_ratio
       real(dp) :: speed, source(2)
       logical :: known, rough
 
-      known = why_none == ""
+      known = why_none == reason_none
       rough = run%plan%surfaces%rough()
       friction = merge(run%smooth%results(run%level())%m%friction, not_known, good .and. known)
       ratio = merge(not_known, 1.0_dp, rough)
@@ -65,27 +67,25 @@ contains
             end if
          end if
          if (.not. s%mean_velocity > 0.0_dp) then
-            found%note = "a ratio alone: moes_m and moes_l give no sliding speed in m/s"
+            found%reason = friction_no_size
          else if (.not. speed > 0.0_dp) then
-            found%note = "a ratio alone, that of vanishing sliding: there is no sliding, and rolling_moment_N_m resists the rolling"
+            found%reason = friction_rolling
          else if (.not. known) then
-            found%note = why_none
+            found%reason = why_none
          else if (.not. ieee_is_finite(friction)) then
-            found%note = "the smooth contact is not converged"
+            found%reason = friction_no_smooth
          else if (shear%thins() .or. found%shear_stress <= s%newtonian_limit) then
             found%mu_isothermal(2) = friction*shear%scale*plan%scales%length**2/s%load
-            found%note = plan%heat%note
+            found%reason = plan%heat%reason
          else
-            found%note = "a ratio alone: the Newtonian shear stress reaches "//fixed(found%shear_stress, "es8.1e2")// &
-                         " Pa, and oils shear thin above about "//rounded(1.0e-6_dp*s%newtonian_limit)// &
-                         " MPa (lubricant.eyring_stress): give a lubricant.shear_law"
+            found%reason = friction_above_limit
          end if
          found%mu_isothermal(1) = ratio*found%mu_isothermal(2)
          found%mu = found%mu_isothermal
          if (plan%heat%counts) then
             found%mu = found%mu*[heat_ratio, run%smooth_heat%ratio()]
             if (ieee_is_finite(found%mu_isothermal(2)) .and. .not. ieee_is_finite(found%mu(2))) then
-               found%note = "the temperature is not converged"
+               found%reason = friction_not_converged
             end if
          end if
          if (.not. ieee_is_finite(found%mu(1))) return
@@ -96,8 +96,7 @@ contains
          found%rises = run%smooth_heat%greatest
          if (rough) found%rises = run%rough_heat%greatest
          if (.not. ieee_is_finite(found%rises(1))) return
-         if (found%rises(1) > max(0.0_dp, plan%heat%measured_rise)) found%note = found%note// &
-            "; the film is hotter than the temperatures at which the viscosity was measured"
+         found%beyond_measured = found%rises(1) > max(0.0_dp, plan%heat%measured_rise)
       end associate
    end subroutine find_friction
 

@@ -25,8 +25,6 @@ contains
       associate (plan => run%plan, point => run%plan%point, scales => run%plan%scales, grid => run%grid)
          call record%set("moes_m moes_l alpha_bar speed_parameter hertz_pressure_Pa", &
                          [point%moes_m, point%moes_l, point%alpha_bar, point%speed_parameter, scales%pressure])
-         if (plan%alpha_note /= "") call record%set("pressure_viscosity_note", plan%alpha_note)
-         if (allocated(plan%lubricant_note)) call record%set("lubricant_note", plan%lubricant_note)
          if (scales%has_size()) call record%set("hertz_radius_m film_scale_m", [scales%length, scales%film])
          if (.not. plan%contact%is_round()) then
             call record%set("radius_ratio angle_deg ellipticity", &
@@ -217,7 +215,9 @@ contains
                                                "temperature_rise_wall_2_max_K", f%rises)
          call record%set("shear_rate_mean_per_s shear_stress_max_Pa flash_temperature_K", &
                          [f%shear_rate, f%shear_stress, f%flash])
-         call record%set("mu_note", f%note)
+         call record%set_code("mu_note", f%reason)
+         call record%set_detail("heat_estimate_K", plan%heat%estimate)
+         call record%set_detail("beyond_measured", merge(1.0_dp, 0.0_dp, f%beyond_measured))
          if (s%loading > 0.0_dp) call record%set("thermal_loading thermal_reduction inlet_viscosity_Pa_s", &
                                                  [s%loading, s%reduction, s%inlet_viscosity])
       end associate

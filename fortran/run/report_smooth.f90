@@ -2,13 +2,13 @@
 !> Results of the smooth contact by name, each with the error that its grids and its domain leave
 module ehl_report_smooth
    use ehl_contact_results, only: contact_results_t
-   use ehl_domain, only: too_small
    use ehl_grid_error, only: lone_grid_errors
    use ehl_kinds, only: dp, not_known, pi
    use ehl_level_result, only: extrapolated, limit_error, share_error, stated_errors
    use ehl_plan, only: plan_t
    use ehl_record, only: record_t
-   use ehl_resolution, only: better_grid, unresolved_inlet
+   use ehl_reason, only: reason_inlet, reason_no_limit, reason_no_solution, reason_none, reason_small_domain, reason_two_grids
+   use ehl_resolution, only: points_for_inlet, points_for_solution, why_no_solution
    use ehl_smooth_contact, only: smooth_contact_t
    implicit none (type, external)
    private
@@ -33,7 +33,8 @@ contains
       real(dp) :: values(4), error(2), limit(2), domain(2)
       logical :: coarser
       integer :: k
-      character(len=:), allocatable :: name, why
+      integer :: why
+      character(len=:), allocatable :: name
 
       m = smooth%results(n)%m
       values = [m%films(), m%pressure_maximum, m%friction]
@@ -61,15 +62,17 @@ contains
          name = trim(films(k))
          call record%set(name//"_extrapolated "//name//"_error "//name//"_error_grid "//name//"_error_domain", &
                          [limit(k), error(k) + domain(k), error(k), domain(k)])
-         if (good .and. .not. plan%domain_cost(k) < 1.0_dp) call record%set(name//"_error_note", too_small)
+         why = reason_none
+         if (good .and. .not. plan%domain_cost(k) < 1.0_dp) why = reason_small_domain
+         if (good .and. touches_for_grid(plan, smooth, n)) why = reason_inlet
+         if (k == 1 .and. .not. good) why = why_no_solution(plan%contact, plan%point, plan%finest)
+         call record%set_code(name//"_error_note", why)
       end do
-      if (good .and. touches_for_grid(plan, smooth, n)) then
-         do k = 1, 2
-            call record%set(trim(films(k))//"_error_note", unresolved_inlet(plan%inlet, plan%finest))
-         end do
-      end if
-      why = better_grid(plan%contact, plan%point, plan%finest)
-      if (.not. good .and. why /= "") call record%set("H_c_error_note", why)
+      call record%set_detail("finest_points", real(plan%finest%nx, dp))
+      call record%set_detail("finest_width", plan%finest%hx*(plan%finest%nx - 1))
+      call record%set_detail("points_for_solution", real(points_for_solution(plan%contact, plan%point, plan%finest), dp))
+      call record%set_detail("points_for_inlet", real(merge(points_for_inlet(plan%inlet, plan%finest), 0, &
+                                                            plan%lubricant%boundary_film > 0.0_dp), dp))
       call record%set("error_estimate", trim(merge("two grids", "a priori ", coarser)))
       call report_limits(record, plan, smooth, n, good)
       call record%set("H_c_algebraic_error H_min_algebraic_error", smooth%results(n)%algebraic)
@@ -91,13 +94,12 @@ contains
       type(smooth_contact_t), intent(in) :: smooth
       integer, intent(in) :: n
       logical, intent(in) :: good
-      character(len=:), allocatable :: note
+      integer :: note
       real(dp) :: error(2)
       logical :: known(2)
 
       error = 0.0_dp
-      note = "there is no solution"
-      if (good) note = "two coarser grids with a solution are needed"
+      note = merge(reason_two_grids, reason_no_solution, good)
       known = .false.
       if (good .and. n > 2) then
          associate (r => smooth%results(n - 2:n))
@@ -106,12 +108,12 @@ contains
          end associate
          if (known(1)) then
             known = [error(1) >= 0.0_dp, all(error >= 0.0_dp)]
-            note = "the change from grid to grid does not fall: no limit is in sight"
+            note = reason_no_limit
          end if
       end if
       if (.not. plan%domain_cost(1) < 1.0_dp) then
          known = .false.
-         if (good) note = too_small
+         if (good) note = reason_small_domain
       end if
       known(2) = known(2) .and. knows_friction(plan, smooth, n)
       associate (m => smooth%results(n)%m)
@@ -121,10 +123,10 @@ contains
       end associate
       where (.not. known) error = not_known
       call record%set("P_max_error", error(1))
-      if (.not. known(1)) call record%set("P_max_error_note", note)
+      call record%set_code("P_max_error_note", merge(reason_none, note, known(1)))
       call record%set("F_error", error(2))
-      if (good .and. touches_for_grid(plan, smooth, n)) note = unresolved_inlet(plan%inlet, plan%finest)
-      if (.not. known(2)) call record%set("F_error_note", note)
+      if (good .and. touches_for_grid(plan, smooth, n)) note = reason_inlet
+      call record%set_code("F_error_note", merge(reason_none, note, known(2)))
    end subroutine report_limits
 
    !> Whether friction is known: of the boundary film, too, where the bodies touch, and that they do so on any grid

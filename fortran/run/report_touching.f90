@@ -8,17 +8,15 @@ module ehl_report_touching
    use ehl_outcome, only: outcome_converged
    use ehl_plan, only: plan_t
    use ehl_record, only: record_t
+   use ehl_reason, only: reason_boundary_friction, reason_coarser_inlet, reason_coarser_none, reason_inlet, &
+                         reason_much_supplied, reason_no_solution, reason_none
    use ehl_report_smooth, only: touches_for_grid
-   use ehl_resolution, only: has_solution, unresolved_inlet
+   use ehl_resolution, only: has_solution
    use ehl_touching, only: at_depth, known_names, mostly_touching, much_supplied, touching_names
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    implicit none (type, external)
    private
    public :: report_touching, why_no_friction, load_share_of
-
-   !> Why there is no friction
-   character(len=*), parameter :: no_boundary_friction = "the bodies touch, and the friction there is not known: "// &
-                                                         "lubricant.boundary_friction and sliding are needed"
 
 contains
 
@@ -29,10 +27,10 @@ contains
       !> Whether the smooth contact is converged, and the run
       logical, intent(in) :: good, converged
       !> Why the run on the next coarser grid tells no error of a rough contact
-      character(len=*), intent(in) :: why_no_grid_error
+      integer, intent(in) :: why_no_grid_error
       !> As touching.f90 has them; the load share on the next coarser grid; its errors by the grid and by the end of the run
       real(dp) :: numbers(size(touching_names)), coarser, error, stop_error
-      character(len=:), allocatable :: note, why
+      integer :: note, why
       logical :: dry
       integer :: n
 
@@ -42,8 +40,8 @@ contains
       stop_error = not_known
       error = not_known
       n = run%level()
-      note = ""
-      why = "there is no solution on the next coarser grid"
+      note = reason_none
+      why = reason_coarser_none
       if (run%plan%surfaces%rough()) then
          if (converged) then
             numbers = touching_of(run)
@@ -66,26 +64,26 @@ contains
       associate (plan => run%plan)
          dry = plan%inlet%is_dry()
          if (.not. ieee_is_finite(numbers(1))) then
-            note = "there is no solution"
+            note = reason_no_solution
          else if (.not. plan%surfaces%rough() .and. touches_for_grid(run%plan, run%smooth, run%level())) then
-            note = unresolved_inlet(plan%inlet, run%grid)
+            note = reason_inlet
             numbers = not_known
             error = not_known
          else if (.not. ieee_is_finite(coarser)) then
             note = why
             error = not_known
          else if (plan%surfaces%rough() .and. .not. (dry .or. has_solution(plan%contact, plan%point, run%grid%coarser()))) then
-            note = "the next coarser grid does not resolve the inlet, and bodies touch on it for that"
+            note = reason_coarser_inlet
             error = not_known
          else if (.not. dry .and. numbers(1) > mostly_touching .and. numbers(3) > much_supplied) then
-            note = "most of the load is at a layer that would have to give much of the flow: the share may change on any grid"
+            note = reason_much_supplied
             error = not_known
          end if
          numbers([2, 5]) = numbers([2, 5])/(pi*plan%contact%ellipticity)
          call record%set("boundary_film contact_load_share contact_load_share_error contact_load_share_error_grid "// &
                          "contact_load_share_error_stop", &
                          [plan%lubricant%boundary_film, numbers(1), error + stop_error, error, stop_error])
-         call record%set("contact_load_share_error_note", note)
+         call record%set_code("contact_load_share_error_note", note)
          call record%set("contact_area_share layer_supply", numbers(2:3))
          if (.not. plan%lubricant%boundary_limit > 0.0_dp) return
          call record%set("load_share_at_hardness area_share_at_hardness plastic_depth_max_m flowing_load_share_at_hardness", &
@@ -93,21 +91,20 @@ contains
       end associate
    end subroutine report_touching
 
-   !> Why there is no friction; empty where it is known: everywhere in the film, or of the boundary film, too
-   function why_no_friction(run, converged) result(why)
+   !> Why there is no friction; none where it is known: everywhere in the film, or of the boundary film, too
+   integer function why_no_friction(run, converged) result(why)
       type(contact_run_t), intent(in) :: run
       logical, intent(in) :: converged
-      character(len=:), allocatable :: why
       real(dp) :: share
 
-      why = ""
-      if (touches_for_grid(run%plan, run%smooth, run%level())) why = unresolved_inlet(run%plan%inlet, run%grid)
+      why = reason_none
+      if (touches_for_grid(run%plan, run%smooth, run%level())) why = reason_inlet
       if (.not. run%plan%lubricant%boundary_film > 0.0_dp .or. run%plan%lubricant%boundary_stress > 0.0_dp) return
       share = 0.0_dp
       if (run%phase == phase_stationary) share = run%stationary%m%touching%load_share
       if (run%phase == phase_steps) share = run%transient%m%touching%load_share
       if (run%phase == phase_steps .and. converged) share = load_share_of(run)
-      if (max(share, run%smooth%results(run%level())%m%touching%load_share) > 0.0_dp) why = no_boundary_friction
+      if (max(share, run%smooth%results(run%level())%m%touching%load_share) > 0.0_dp) why = reason_boundary_friction
    end function why_no_friction
 
    !> What reynolds/touching.f90 reads off the contact of a run that has converged; in time steps means over the time of the mean

@@ -7,7 +7,6 @@ module ehl_result_folder
    use ehl_kinds, only: dp
    use ehl_npy, only: write_npy
    use ehl_record, only: record_t
-   use ehl_plan_text, only: plan_text
    use ehl_solver, only: field_length, solver_t
    use ehl_status, only: ehl_no_memory, status_t
    use ehl_text, only: newline
@@ -28,18 +27,19 @@ module ehl_result_folder
 contains
 
    !> Write everything that a solver knows into an empty folder. After a failure the folder is gone.
-   subroutine write_results(folder, input, solver, wall_seconds, status)
+   subroutine write_results(folder, input, solver, status, wall_seconds)
       character(len=*), intent(in) :: folder
       !> The resolved case
       type(case_t), intent(in) :: input
       type(solver_t), intent(inout) :: solver
-      real(dp), intent(in) :: wall_seconds
       type(status_t), intent(inout) :: status
+      !> With it the summary of `ehl`: numbers and single words; pyehl writes its own, with sentences
+      real(dp), intent(in), optional :: wall_seconds
       type(name_t), allocatable :: names(:)
       logical :: done
       integer :: k
 
-      call write_files(folder // "/", input, solver, wall_seconds, status)
+      call write_files(folder // "/", input, solver, status, wall_seconds)
       if (.not. status%failed()) return
       done = list_folder(folder, names)
       do k = 1, size(names)
@@ -49,29 +49,29 @@ contains
    end subroutine write_results
 
    !> The files of a result, into a folder whose name ends in '/'
-   subroutine write_files(folder, input, solver, wall_seconds, status)
+   subroutine write_files(folder, input, solver, status, wall_seconds)
       character(len=*), intent(in) :: folder
       type(case_t), intent(in) :: input
       type(solver_t), intent(inout) :: solver
-      real(dp), intent(in) :: wall_seconds
       type(status_t), intent(inout) :: status
+      real(dp), intent(in), optional :: wall_seconds
       type(record_t) :: summary
       type(name_t), allocatable :: names(:)
       character(len=field_length), allocatable :: files(:)
       logical :: done
       integer :: k
 
-      summary = solver%summary()
-      call summary%set("version", version)
-      call summary%set("wall_seconds", wall_seconds)
       call write_text(folder // "case.nml", input%text, status)
-      if (.not. status%failed()) call write_text(folder // "plan.txt", plan_text(solver%run%plan), status)
       if (.not. status%failed()) call solver%run%history%write_csv(folder // "history.csv", status)
       if (.not. status%failed() .and. input%output%fields) call write_fields(folder, solver, status)
+      if (status%failed() .or. .not. present(wall_seconds)) return
+      summary = solver%results()
+      call summary%set("version", version)
+      call summary%set("wall_seconds", wall_seconds)
       done = list_folder(folder, names)
       files = [character(len=field_length) :: (names(k)%text, k=1, size(names)), "summary.json"]
       call summary%set("files", files)
-      if (.not. status%failed()) call write_text(folder // "summary.json", summary%to_json(), status)
+      call write_text(folder // "summary.json", summary%to_json(), status)
    end subroutine write_files
 
    !> X and Y as vectors, fields as (nx, ny) matrices

@@ -15,7 +15,6 @@ module ehl_solver
    use ehl_plan, only: make_plan
    use ehl_plan_need, only: check_need
    use ehl_progress, only: progress_line, work_of
-   use ehl_ratio_error, only: waves_t
    use ehl_record, only: record_t
    use ehl_smooth_film, only: film_by_finer_grids, known_film
    use ehl_stationary_rough, only: solve_stationary
@@ -35,8 +34,10 @@ module ehl_solver
       !> Allocated while it runs; the state that it is to go on from
       type(contact_run_t), allocatable, private :: coarse
       type(checkpoint_t), private :: coarse_checkpoint
-      !> What is predicted of the waves that the grid does not resolve
-      type(waves_t) :: waves
+      !> Whether somebody tried to predict the parts of mu_ratio in waves that the grid leaves out, and in those that it does
+      !> not resolve, and what was found; NaN: nothing
+      logical :: knows_waves = .false.
+      real(dp) :: predicted_waves(2) = 0.0_dp
    contains
       procedure :: start
       procedure :: solve
@@ -50,7 +51,7 @@ module ehl_solver
       procedure :: resume
       procedure :: progress
       procedure :: work
-      procedure :: summary
+      procedure :: results
       procedure :: field
       procedure :: field_names
    end type solver_t
@@ -74,10 +75,11 @@ module ehl_solver
    interface
       !> All results but fields, by name; dimensionless but for the SI values. Only a converged run has
       !> results: otherwise they are null, and the last iterate stands under names that begin with "last_".
-      module function summary(self) result(record)
+      !> Reasons and what their words need are codes and numbers.
+      module function results(self) result(record)
          class(solver_t), intent(in) :: self
          type(record_t) :: record
-      end function summary
+      end function results
 
       !> Names of the fields there are: P and H; in a transient run also those of the smooth contact, the roughness
       !> RR and the deformed roughness A_d = H_smooth - H; where the heat of friction counts the rises of temperature

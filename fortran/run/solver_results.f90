@@ -1,19 +1,18 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Results of a run
 submodule (ehl_solver) ehl_solver_results
-   use ehl_domain, only: ratio_cost, too_small
+   use ehl_domain, only: ratio_cost
    use ehl_friction_results, only: find_friction, friction_results_t
-   use ehl_assessment, only: judge
    use ehl_kinds, only: not_known
    use ehl_level_result, only: film_errors, spike_grows
-   use ehl_no_result, only: why_no_result
    use ehl_outcome, only: outcome_names, outcome_target_missed
-   use ehl_ratio_error, only: ratio_error_t
+   use ehl_reason, only: reason_coarser_status, reason_few_positions, reason_moving_alone, reason_no_ratio, reason_none, &
+                         reason_not_predicted, reason_not_wanted, reason_not_yet, reason_nothing_carried, reason_prediction, &
+                         reason_pressures, reason_small_domain, reason_small_grid, reason_steps
    use ehl_report, only: report_friction, report_passage, report_stationary, report_scene, report_transient, report_waves
+   use ehl_report_end, only: report_end
    use ehl_report_smooth, only: report_smooth
    use ehl_report_touching, only: report_touching, why_no_friction
-   use ehl_surface_text, only: window_words
-   use ehl_text, only: newline
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    implicit none (type, external)
 
@@ -28,26 +27,23 @@ submodule (ehl_solver) ehl_solver_results
 
 contains
 
-   module procedure summary
-      logical :: good, converged, known, rough
+   module procedure results
+      logical :: good, converged, rough
       real(dp) :: ratio, stop_error
-      character(len=:), allocatable :: assessment, why, why_none
+      integer :: why_none
       type(friction_results_t) :: friction
-      integer :: worth
 
       converged = self%converged()
       why_none = why_no_friction(self%run, converged)
-      known = why_none == ""
       rough = self%run%is_rough()
       call record%set("kind", "solution")
       call record%set("schema_version", schema_version)
       call record%set("status", trim(outcome_names(self%outcome())))
       if (allocated(self%coarse)) then
-         why = why_no_result(self%run, self%coarse)
+         call report_end(record, self%run, self%coarse)
       else
-         why = why_no_result(self%run)
+         call report_end(record, self%run)
       end if
-      if (why /= "") call record%set("message", why)
       call record%set("converged", converged)
       ! the smooth results are good as soon as the rough contact has begun
       good = rough .or. self%run%smooth%solved .or. self%run%outcome == outcome_target_missed
@@ -56,22 +52,21 @@ contains
       ratio = not_known
       stop_error = not_known
       if (self%run%phase == phase_steps) then
-         call report_transient(record, self%run, converged, known, ratio, stop_error)
+         call report_transient(record, self%run, converged, why_none == reason_none, ratio, stop_error)
          call report_start(self, record)
          if (self%run%plan%surfaces%pass_once()) then
             call report_passage(record, self%run%plan%scales, self%run%transient%extremes, converged)
          end if
       end if
       if (rough) call report_waves(record, self%run)
-      if (self%run%phase == phase_stationary) call report_stationary(record, self%run, converged, known, ratio, stop_error)
+      if (self%run%phase == phase_stationary) call report_stationary(record, self%run, converged, why_none == reason_none, ratio, &
+                                                                     stop_error)
       if (self%run%plan%surfaces%rough()) call report_ratio(self, record, ratio, stop_error, why_none)
       call report_touching(record, self%run, good, converged, why_no_grid_error(self))
       call find_friction(self%run, good, converged, why_none, friction)
       call report_friction(record, self%run%plan, friction)
       call record%set("bytes", real(self%run%hierarchy%bytes(), dp) + self%run%plan%surfaces%bytes())
-      call judge(record, assessment, worth)
-      call record%set("assessment", assessment)
-   end procedure summary
+   end procedure results
 
    !> What the time steps began with
    subroutine report_start(self, record)
@@ -82,56 +77,63 @@ contains
          call record%set("start", "prediction")
       else
          call record%set("start", "front")
-         if (allocated(self%run%fallback_reason)) call record%set("start_note", "no prediction: "//self%run%fallback_reason)
+         if (allocated(self%run%fallback_reason)) call record%set_note("start_note", self%run%fallback_reason)
       end if
    end subroutine report_start
 
-   !> The friction ratio, that in the limit of fine grids, and its error with the parts of it
+   !> The friction ratio, that in the limit of fine grids, and its error: the sum of its parts, not known where one is not
    subroutine report_ratio(self, record, ratio, stop_error, why_none)
       type(solver_t), intent(in) :: self
       type(record_t), intent(inout) :: record
       !> NaN where they are not known
       real(dp), intent(in) :: ratio, stop_error
-      !> Why friction is not known where the bodies touch; empty where it is
-      character(len=*), intent(in) :: why_none
-      type(ratio_error_t) :: error
-      type(waves_t) :: waves
-      real(dp) :: limit, grid, domain
-      character(len=:), allocatable :: why
+      !> Why friction is not known where the bodies touch
+      integer, intent(in) :: why_none
+      character(len=*), parameter :: names(5) = [character(len=8) :: "grid", "stop", "window", "left_out", "domain"]
+      real(dp) :: limit, waves(2), parts(5)
+      integer :: why(5), why_no_waves, k
 
       limit = not_known
-      grid = not_known
+      parts = [not_known, stop_error, 0.0_dp, not_known, not_known]
       if (self%run%coarser%outcome == outcome_converged .and. ieee_is_finite(ratio)) then
          ! order 2 (Richardson), if both grids resolve the surface
          if (self%run%plan%extrapolates) limit = ratio + (ratio - self%run%coarser%ratio)/3.0_dp
-         if (has_limit(self, ratio)) grid = grid_error(self, ratio)
+         if (has_limit(self, ratio)) parts(1) = grid_error(self, ratio)
       end if
-      waves = waves_of(self)
+      call waves_of(self, waves, why_no_waves)
       why = why_no_grid_error(self)
-      if (why == "" .and. .not. ieee_is_finite(grid)) why = "pressures change so much from grid to grid that no limit is in sight"
+      if (why(1) == reason_none .and. .not. ieee_is_finite(parts(1))) why = reason_pressures
+      why(4) = why_no_waves
       if (.not. ieee_is_finite(ratio)) then
-         why = "there is no mu_ratio"
-         if (why_none /= "") why = why_none
-         waves = waves_t(.true., not_known, not_known, why)
+         why = merge(reason_no_ratio, why_none, why_none == reason_none)
+         waves = not_known
       end if
       call record%set("mu_ratio", ratio)
       call record%set("mu_ratio_extrapolated", limit)
-      call record%set("mu_ratio_unresolved", waves%unresolved)
-      call error%add(record, "mu_ratio_error_grid", grid, why)
-      call error%add(record, "mu_ratio_error_stop", stop_error, why)
-      associate (surfaces => self%run%plan%surfaces, mean => self%run%transient%mean)
-         if (surfaces%mismatch > 0.0_dp .and. ieee_is_finite(ratio)) call error%add(record, "mu_ratio_error_window", &
-            merge(mean%window_error(), not_known, surfaces%meets), window_words(surfaces))
+      call record%set("mu_ratio_unresolved", waves(2))
+      parts(4) = waves(1)
+      associate (surfaces => self%run%plan%surfaces, mean => self%run%transient%mean, cost => self%run%plan%domain_cost(1))
+         if (surfaces%mismatch > 0.0_dp .and. ieee_is_finite(ratio)) then
+            parts(3) = merge(mean%window_error(), not_known, surfaces%meets)
+            why(3) = reason_few_positions
+            call record%set_detail("repeats", real(surfaces%repeats, dp))
+            call record%set_detail("whole_periods", real(surfaces%whole, dp))
+         end if
+         if (cost < 1.0_dp) then
+            parts(5) = ratio_cost(cost, ratio)
+         else if (ieee_is_finite(ratio)) then
+            why(5) = reason_small_domain
+         end if
+         do k = 1, size(names)
+            if (k == 3 .and. .not. (surfaces%mismatch > 0.0_dp .and. ieee_is_finite(ratio))) cycle
+            call record%set("mu_ratio_error_"//trim(names(k)), abs(parts(k)))
+            if (.not. ieee_is_finite(parts(k))) call record%set_detail("why_"//trim(names(k)), real(why(k), dp))
+         end do
       end associate
-      call error%add(record, "mu_ratio_error_left_out", waves%left_out, waves%why)
-      domain = not_known
-      if (self%run%plan%domain_cost(1) < 1.0_dp) then
-         domain = ratio_cost(self%run%plan%domain_cost(1), ratio)
-      else if (ieee_is_finite(ratio)) then
-         why = too_small
-      end if
-      call error%add(record, "mu_ratio_error_domain", domain, why)
-      call error%report(record)
+      call record%set("mu_ratio_error", sum(abs(parts)))
+      if (why_no_grid_error(self) /= reason_coarser_status) return
+      call record%set_note("coarser_status", trim(outcome_names(self%run%coarser%outcome)))
+      if (allocated(self%run%coarser%message)) call record%set_note("coarser_message", self%run%coarser%message)
    end subroutine report_ratio
 
    !> Whether two grids tell of a limit of the friction ratio, and three of one of the smooth contact
@@ -161,60 +163,44 @@ contains
       grid_error = max(grid_error, ratio_cost(error(1), ratio))
    end function grid_error
 
-   !> What is known of the waves that the grid does not resolve. Only tiles have waves that are left out: what there is
-   !> of a single wave or a feature is on the grid.
-   function waves_of(self) result(waves)
+   !> What is known of the waves that the grid leaves out, and of those that it does not resolve: their parts of mu_ratio, or
+   !> why not. Only tiles have waves that are left out: what there is of a single wave or a feature is on the grid.
+   subroutine waves_of(self, waves, why)
       type(solver_t), intent(in) :: self
-      type(waves_t) :: waves
+      real(dp), intent(out) :: waves(2)
+      integer, intent(out) :: why
 
-      waves = self%waves
-      if (.not. waves%known) then
-         if (self%run%plan%surfaces%unresolved > rounding) waves%unresolved = not_known
-         waves%left_out = waves%unresolved
-         waves%why = "the contribution of the omitted waves is not predicted (pyehl run does)"
-         if (self%run%plan%surfaces%rest()) waves%why = &
-            "the contribution of the omitted waves is not predicted (for surfaces on the move alone)"
-      end if
-      if (.not. (self%run%plan%surfaces%left_out > rounding .and. self%run%plan%surfaces%has_spectrum())) waves%left_out = 0.0_dp
-   end function waves_of
+      associate (surfaces => self%run%plan%surfaces)
+         why = reason_prediction
+         waves = self%predicted_waves
+         if (.not. self%knows_waves) then
+            why = merge(reason_moving_alone, reason_not_predicted, surfaces%rest())
+            waves = merge(not_known, 0.0_dp, surfaces%unresolved > rounding)
+         end if
+         if (.not. (surfaces%left_out > rounding .and. surfaces%has_spectrum())) waves(1) = 0.0_dp
+      end associate
+   end subroutine waves_of
 
-   !> Why two grids give no error; empty where they do
-   function why_no_grid_error(self) result(why)
+   !> Why two grids give no error; none where they do
+   pure integer function why_no_grid_error(self) result(why)
       type(solver_t), intent(in) :: self
-      character(len=:), allocatable :: why
-      character(len=*), parameter :: alone = "there is no run on the next coarser grid"
 
-      why = ""
+      why = reason_none
       select case (self%run%coarser%outcome)
       case (outcome_converged)
          return
       case (outcome_running)
          if (.not. self%input%time%estimate_error) then
-            why = alone//": time.estimate_error is false"
+            why = reason_not_wanted
          else if (self%run%plan%surfaces%move() .and. self%run%plan%steps > 0) then
-            why = alone//", because of time.steps"
+            why = reason_steps
          else if (self%run%plan%coarse_run) then
-            why = alone//" yet"
-         else if (self%run%plan%levels > 2) then
-            why = alone//": it carries nothing of the surface"
+            why = reason_not_yet
          else
-            why = alone//": grid.points is too small for one"
+            why = merge(reason_nothing_carried, reason_small_grid, self%run%plan%levels > 2)
          end if
       case default
-         why = "the run on the next coarser grid ended with the status '"//trim(outcome_names(self%run%coarser%outcome))//"'"
-         if (allocated(self%run%coarser%message)) why = why//" ("//one_line(self%run%coarser%message)//")"
+         why = reason_coarser_status
       end select
    end function why_no_grid_error
-
-   !> A message in one line
-   pure function one_line(message) result(text)
-      character(len=*), intent(in) :: message
-      character(len=:), allocatable :: text
-      integer :: i
-
-      text = message
-      do i = 1, len(text)
-         if (text(i:i) == newline) text(i:i) = " "
-      end do
-   end function one_line
 end submodule ehl_solver_results

@@ -35,7 +35,7 @@ program example
    allocate (pressure(grid%nx, grid%full_ny()))
    call solver%field("P", pressure, status)
    call end_if_failed()
-   results = solver%summary()
+   results = solver%results()
    write (output_unit, "(a)") solver%progress(), results%to_json()
    if (.not. solver%converged() .or. maxval(pressure) < 1.0_dp) error stop 1
 

@@ -5,7 +5,7 @@ module test_record
    use ehl_files, only: process_mark, remove_file
    use ehl_kinds, only: dp, not_known
    use ehl_npy, only: read_npy, write_npy
-   use ehl_record, only: record_t
+   use ehl_record, only: kind_code, kind_detail, kind_integer, kind_list, kind_logical, kind_note, kind_real, kind_text, record_t
    use ehl_status, only: ehl_file, status_t
    use ehl_table, only: table_t
    use ehl_whole_file, only: read_text, write_text
@@ -22,26 +22,34 @@ contains
    end subroutine run_record
 
    subroutine record_to_json()
-      type(record_t) :: record, lists
+      type(record_t) :: record
       character(len=*), parameter :: lf = new_line("a")
+      character(len=:), allocatable :: names
+      integer, allocatable :: kinds(:)
+      real(dp), allocatable :: values(:)
 
       call is_text(record%to_json(), "{" // lf // "}" // lf, "empty record")
       call record%set("H_c", 0.1_dp)
       call record%set("cycles", 3)
       call record%set("si", .true.)
-      call record%set("status", 'a "word" \')
+      call record%set("status", "converged")
       call record%set("F", not_known)
       call record%set("cycles", 4)
-      call is_text(record%to_json(), "{" // lf // '  "H_c": 0.1,' // lf // '  "cycles": 4,' // lf &
-                   // '  "si": true,' // lf // '  "status": "a \"word\" \\",' // lf &
-                   // '  "F": null' // lf // "}" // lf, "record")
-      call is_text(record%text("status"), 'a "word" \', "text of a record")
-      call is_true(record%has("F") .and. .not. record%has("G"), "names of a record")
-      call lists%set("b", [character(len=4) :: 'x"', "long"])
-      call lists%set("c", [character(len=4) ::])
-      call lists%set("H_c H_min c F", [0.5_dp, not_known, 2.0_dp, 0.25_dp])
-      call is_text(lists%to_json(), "{" // lf // '  "b": ["x\"", "long"],' // lf // '  "c": 2.0,' // lf // '  "H_c": 0.5,' // lf &
-                   // '  "H_min": null,' // lf // '  "F": 0.25' // lf // "}" // lf, "lists in a record, several values at once")
+      call record%set("files", [character(len=4) :: "x", "long"])
+      call record%set("H_min c", [0.5_dp, 2.0_dp])
+      call record%set_code("F_note", 7)
+      call record%set_detail("points", 65.0_dp)
+      call record%set_note("why", "two"//lf//"lines")
+      call is_text(record%to_json(), "{" // lf // '  "H_c": 0.1,' // lf // '  "cycles": 4,' // lf // '  "si": true,' // lf &
+                   // '  "status": "converged",' // lf // '  "F": null,' // lf // '  "files": ["x", "long"],' // lf &
+                   // '  "H_min": 0.5,' // lf // '  "c": 2.0' // lf // "}" // lf, "record without codes, details and notes")
+      call is_close(record%number("H_min"), 0.5_dp, 0.0_dp, "number of a record")
+      call record%list(names, kinds, values)
+      call has_text(names, "status"//achar(9)//"converged"//lf//"F"//lf, "names with texts")
+      call has_text(names, "F_note"//lf//"points"//lf//"why"//achar(9)//"two lines"//lf, "names of codes, details and notes")
+      call is_true(all(kinds == [kind_real, kind_integer, kind_logical, kind_text, kind_real, kind_list, kind_real, kind_real, &
+                                 kind_code, kind_detail, kind_note]), "kinds")
+      call is_close(sum(values(2:3)) + sum(values(7:10)), 79.5_dp, 0.0_dp, "values")
    end subroutine record_to_json
 
    subroutine table_to_csv()

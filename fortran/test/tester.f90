@@ -14,7 +14,7 @@ program tester
    use test_policy, only: run_policy
    use test_predictor, only: run_predictor
    use test_record, only: run_record
-   use test_report, only: run_report
+   use test_lock, only: run_lock
    use test_reynolds, only: run_reynolds
    use test_solver, only: run_solver
    use test_surfaces, only: run_surfaces
@@ -33,8 +33,8 @@ program tester
       call run_record()
    case ("reynolds")
       call run_reynolds()
-   case ("report")
-      call run_report()
+   case ("lock")
+      call run_lock()
    case ("case")
       call run_case()
    case ("deflection")

@@ -7,9 +7,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from pyehl import lengths, library
+from pyehl import lengths
 from pyehl.api import predict
 from pyehl.commands.arguments import add_case_arguments, add_force
+from pyehl.conclusion import conclude
 from pyehl.prediction import folder, spectrum_assumed
 from pyehl.prediction.friction import TRACKS, error_name
 from pyehl.prediction.result import Prediction
@@ -49,7 +50,7 @@ def report(prediction: Prediction) -> str:
         if math.isfinite(f.cavitated_friction):
             line += f", at most {f.cavitated_friction:.1g} of the friction"
         lines.append(line)
-    return "\n".join([*lines, str(library.conclude(values))])
+    return "\n".join([*lines, str(conclude(values))])
 
 
 def _with_error(values: Mapping[str, Any], name: str, factor: float) -> str:

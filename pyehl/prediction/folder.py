@@ -16,8 +16,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pyehl import library, namelist, schema
+from pyehl import namelist, schema
 from pyehl.arrays import read_array, write_csv
+from pyehl.assessment import assess
 from pyehl.destination import Destination, finite, write_json
 from pyehl.errors import InputError
 from pyehl.prediction.bands import cutoff_error, records
@@ -32,6 +33,7 @@ from pyehl.prediction.second_surface import (
 )
 from pyehl.prediction.smooth import SmoothContact, contact_of
 from pyehl.prediction.smooth_case import smooth_case
+from pyehl.reasons import alpha_note
 from pyehl.theory.friction import absolute_friction
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.shear import ShearLaw
@@ -78,7 +80,7 @@ def summary_of(prediction: Prediction) -> dict[str, Any]:
         "viscosity_law": prediction.lubricant.viscosity_law,
         "roelands_z": prediction.lubricant.roelands_z or None,
         "load_balance": prediction.options.load_balance,
-        "pressure_viscosity_note": library.alpha_origin(prediction.text),
+        "pressure_viscosity_note": alpha_note(prediction.settings),
         "shear_law": prediction.lubricant.shear.law,
         "slide_to_roll": o.slide_to_roll,
         **absolute_friction(
@@ -128,7 +130,7 @@ def summary_of(prediction: Prediction) -> dict[str, Any]:
         values |= {"radius_ratio": o.radius_ratio, "semi_axis_y_m": o.semi_axis_y}
         values["ellipticity"] = o.ellipse.ellipticity
     found = {key: finite(value) for key, value in values.items()}
-    return found | {"assessment": library.conclude(found).assessment}
+    return found | {"assessment": assess(found).text}
 
 
 LOG = logging.getLogger(__name__)

@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 
 from pyehl.case import Case
 from pyehl.errors import EhlError
-from pyehl.handle import SolverHandle
+from pyehl.handle import SolverHandle, results_of
 from pyehl.prediction.smooth_case import FINEST, smooth_case
+from pyehl.reasons import words_of
 from pyehl.theory.film import circle_with_same_inlet
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -23,6 +24,7 @@ from pyehl.theory.shear import FlowFactors, ShearLaw, flow_factors
 from pyehl.theory.transport import Zone
 from pyehl.types import Array, Settings
 
+SHARE_NOTE = "contact_load_share_error_note"
 POINTS = 257
 """Nodes per side of the solution. Its film is scaled to the extrapolated central film, so that the
 inlet error of the grid (4 % at M = 1000) is not in it. Grids up to FINEST are tried where there is
@@ -176,14 +178,15 @@ def _on_grid(
     case = Case.from_text(text, [f"grid.points={points}", *options], origin="smooth contact")
     with SolverHandle(case.text) as solver:
         solver.run()
-        summary = solver.summary
+        found = results_of(solver)
+        summary = found.values
         if summary["status"] != "converged":
             return None, str(summary["status"])
         (x, y), pressure, film = solver.axes(), solver.field("P"), solver.field("H")
     where = f"solved on {points} x {points} nodes"
     # bodies that touch on a grid that does not resolve the inlet have no load share
     touches = summary.get("contact_load_share", 0.0) is None
-    why = str(summary["contact_load_share_error_note"]) if touches else ""
+    why = words_of(found, case.resolve())[found.codes[SHARE_NOTE]] if touches else ""
     return contact_of(summary, (x, y), pressure, film, where), why
 
 

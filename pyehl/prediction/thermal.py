@@ -10,13 +10,11 @@ import numpy as np
 from pyehl import namelist
 from pyehl.errors import check
 from pyehl.extension import functions
-from pyehl.library import returned
 from pyehl.prediction.smooth import SmoothContact
+from pyehl.reasons import NOT_CONVERGED, heat_words
 from pyehl.theory.heat import Heat
 from pyehl.theory.lubricant import Lubricant
 from pyehl.types import Array, Mask, Settings
-
-NOT_SOLVED = "the temperature is not converged"
 
 
 def heat_of(settings: Settings, contact: SmoothContact, lubricant: Lubricant) -> Heat:
@@ -54,7 +52,7 @@ class HeatOf:
             "lubricant": {**self.settings["lubricant"], **law},
         }
         x, y = self.x, self.y
-        counts, ratio, rises, note, status, message = functions.heated(
+        counts, ratio, rises, reason, estimate, status, message = functions.frictional_heat(
             namelist.text_of(groups).encode(),
             np.array(pressure, order="F"),
             np.array(film, order="F"),
@@ -66,16 +64,17 @@ class HeatOf:
             int(self.even),
         )
         check(status, message)
+        words = heat_words(reason, estimate)
         if not counts:
-            return Heat(note=returned(note))
+            return Heat(note=words)
         first, second, third = map(float, rises)
-        words = returned(note) if np.isfinite(ratio) else NOT_SOLVED
-        return Heat(float(ratio), (first, second, third), words)
+        note = words if np.isfinite(ratio) else NOT_CONVERGED
+        return Heat(float(ratio), (first, second, third), note)
 
 
 def mean_heat(parts: Sequence[Heat], weights: Sequence[float]) -> Heat:
     """Heat of a rough contact in some positions: of friction a mean, of the rises the greatest."""
     ratio = float(np.average([part.ratio for part in parts], weights=weights))
     first, second, third = (float(v) for v in np.max([part.rises for part in parts], axis=0))
-    note = parts[0].note if math.isfinite(ratio) else NOT_SOLVED
+    note = parts[0].note if math.isfinite(ratio) else NOT_CONVERGED
     return Heat(ratio, (first, second, third), note, rough=math.isfinite(first))

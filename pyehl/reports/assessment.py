@@ -3,7 +3,7 @@
 
 from typing import NamedTuple
 
-from pyehl import library
+from pyehl.conclusion import conclude
 from pyehl.display import with_error
 from pyehl.types import Values
 
@@ -36,7 +36,7 @@ class Assessment(NamedTuple):
 
 def numbers_of(summary: Values) -> dict[str, str]:
     """Give names and values of what was found; nothing where there is no result."""
-    conclusion = library.conclude(summary)
+    conclusion = conclude(summary)
     if conclusion.worth == "no result":
         return {}
     found = {
@@ -77,7 +77,7 @@ def _predicted(s: Values) -> dict[str, str]:
 
 def assess(summary: Values) -> Assessment:
     """Assess a result as its last lines do."""
-    conclusion = library.conclude(summary)
+    conclusion = conclude(summary)
     word, _, why = _signs(conclusion.assessment).partition(": ")
     hint = ""
     if summary.get("film_breakdown"):

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from pyehl import library
+from pyehl.assessment import NO_INLET
+from pyehl.conclusion import Conclusion, conclude
 from pyehl.prediction.friction import BEYOND, deformed_surfaces
 from pyehl.prediction.mixed_lubrication import NO_FRICTION
 from pyehl.prediction.options import KNOWN_RATIO
@@ -26,8 +27,6 @@ from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.transition import BREAKDOWN, FULL_FILM, MIXED, OUTSIDE, UNSOLVED, Curve
 from pyehl.types import Settings, Values
 
-# How a run begins to report that its grid is the reason for contact
-NO_INLET = "the grid does not resolve the inlet"
 _NUMBERS = """
 h_c_m h_c_error_m h_min_m h_min_error_m lambda_ratio lambda_ratio_central lambda_ratio_deformed
 lambda_ratio_deformed_error rms_deformed_m rms_deformed_error_m p_rise_rms_Pa p_rise_rms_error_Pa
@@ -148,7 +147,7 @@ def _row(
     return values | {"assessment": values[CONCLUSION].assessment}
 
 
-def _conclude(settings: Settings, values: Values) -> library.Conclusion:
+def _conclude(settings: Settings, values: Values) -> Conclusion:
     """Give the last lines of a point, from its columns."""
     status = values["status"]
     if status in (FULL_FILM, MIXED, OUTSIDE):
@@ -159,7 +158,7 @@ def _conclude(settings: Settings, values: Values) -> library.Conclusion:
     more = {"status": status, "message": message, "mu_ratio_error_note": note, "shear_law": law}
     # the ratio of smooth surfaces is no finding
     left_out = () if values["surfaces"] else ("mu_ratio",)
-    return library.conclude({k: v for k, v in values.items() if k not in left_out} | more)
+    return conclude({k: v for k, v in values.items() if k not in left_out} | more)
 
 
 def _film(smooth: Values, operating: OperatingPoint) -> dict[str, Any]:

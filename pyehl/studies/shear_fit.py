@@ -16,7 +16,7 @@ import numpy as np
 from pyehl import namelist, schema
 from pyehl.case import KEYS, resolve
 from pyehl.errors import EhlError, InputError
-from pyehl.handle import SolverHandle
+from pyehl.handle import SolverHandle, results_of
 from pyehl.prediction.smooth import SmoothContact, solve_contact
 from pyehl.prediction.smooth_case import without_surface
 from pyehl.studies.measured_friction import Measured
@@ -251,7 +251,7 @@ def _friction(
     text = resolve(namelist.text_of(groups), "the contact of the fit")
     with SolverHandle(text) as solver:
         solver.run()
-        summary = solver.summary
+        summary = results_of(solver).values
     if summary["status"] != "converged" or summary["mu"] is None:
         listed = ", ".join(f"{k} = {v:.4g}" for k, v in zip(keys, values, strict=True))
         raise EhlError(

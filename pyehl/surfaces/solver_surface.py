@@ -9,8 +9,7 @@ import numpy as np
 
 from pyehl.case.surface_group import Surface as Keys
 from pyehl.errors import InputError
-from pyehl.extension import surface_functions
-from pyehl.library import returned
+from pyehl.plan_text import making_text
 from pyehl.surfaces.filters import shift_across
 from pyehl.surfaces.from_case import GROUPS, moved, scan_of, whole
 from pyehl.surfaces.in_memory import given, part_of
@@ -83,8 +82,7 @@ def for_solver(settings: Settings, group: str = "surface") -> SolverSurface:
         )
         return SolverSurface(np.asfortranarray(moved(made, surface).heights))
     if s.kind == "fractal":
-        need = returned(surface_functions.making(s.pixels))
-        if need:
+        if need := making_text(s.pixels):
             LOG.info(need)
     if s.kind != "map":
         return SolverSurface()

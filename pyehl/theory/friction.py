@@ -4,6 +4,7 @@
 import math
 from typing import Any
 
+from pyehl.reasons import NO_SIZE, VANISHING, above_limit
 from pyehl.theory.heat import Heat, flash_temperature
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -41,12 +42,9 @@ def absolute_friction(
     rate = stress = rise = nothing
     smooth = nothing
     if not operating.si:
-        note = "a ratio alone: moes_m and moes_l give no sliding speed in m/s"
+        note = NO_SIZE
     elif speed == 0.0:
-        note = (
-            "a ratio alone, that of vanishing sliding: there is no sliding; 'pyehl run' has the "
-            "rolling moment"
-        )
+        note = f"{VANISHING}; 'pyehl run' has the rolling moment"
     else:
         rate = speed / film
         p = operating.hertz_pressure
@@ -57,11 +55,7 @@ def absolute_friction(
         elif math.isnan(stress):
             note = "a ratio alone: the film of the smooth contact is not known"
         else:
-            note = (
-                f"a ratio alone: the Newtonian shear stress reaches {stress:.1E} Pa, and oils "
-                f"shear thin above about {law.eyring_stress * 1e-6:.3g} MPa "
-                "(lubricant.eyring_stress): give a lubricant.shear_law"
-            )
+            note = above_limit(stress, law.eyring_stress)
     mu = mu_ratio * smooth * heat.ratio
     if heat.rough and math.isfinite(smooth):
         note = f"{note}; {OF_ROUGH}"

@@ -42,6 +42,12 @@ class Run:
         """Whether the run came to a good end, by its word and by its exit status."""
         return self.summary["status"] == "converged" and self.code == 0
 
+    @property
+    def plan(self) -> str:
+        """The plan of the run in words."""
+        with pyehl.Solver(self.folder / "case.nml") as solver:
+            return solver.describe()
+
     def field(self, name: str) -> Array:
         """X, Y, P or H, in Hertz units."""
         return np.load(self.folder / f"{name}.npy")
@@ -51,9 +57,10 @@ Solve = Callable[..., Run]
 
 
 @pytest.fixture(scope="session")
-def solve(ehl: str, tmp_path_factory: pytest.TempPathFactory) -> Solve:
+def solve(drivers: dict[str, list[str]], tmp_path_factory: pytest.TempPathFactory) -> Solve:
     """Run the program: ``solve((M, L), points, {"group.key": value})``.
 
+    The summary of `ehl` has numbers; with `words` the run is by ``pyehl run``, with sentences.
     Without an operating point (None) the contact is that of the settings, in SI units by default.
     Fields are written only if asked for. A run that takes longer than `timeout` seconds fails.
     """
@@ -69,21 +76,22 @@ def solve(ehl: str, tmp_path_factory: pytest.TempPathFactory) -> Solve:
         *,
         fields: bool = False,
         timeout: float = 600.0,
+        words: bool = False,
     ) -> Run:
         values: dict[str, object] = {"grid.points": points, "output.fields": fields}
         if point is not None:
             values |= {"contact.moes_m": point[0], "contact.moes_l": point[1]}
         values |= settings or {}
-        words = {
+        options = {
             f"{key}={f'.{value}.'.lower() if isinstance(value, bool) else value}"
             for key, value in values.items()
         }
-        key = tuple(sorted(words))
+        key = ("pyehl" if words else "ehl", *sorted(options))
         if key not in runs:
-            runs[key] = start(key, timeout)
+            runs[key] = start(key[0], key[1:], timeout)
         return runs[key]
 
-    def start(words: tuple[str, ...], timeout: float) -> Run:
+    def start(driver: str, words: tuple[str, ...], timeout: float) -> Run:
         folder = place / f"{len(runs)}"
         options = [part for word in words for part in ("--set", word)]
         name = "case.nml"
@@ -92,7 +100,7 @@ def solve(ehl: str, tmp_path_factory: pytest.TempPathFactory) -> Solve:
             (place / name).write_text(pyehl.Case.from_text("", words).text)
         began = time.monotonic()
         done = subprocess.run(
-            [ehl, name, "-o", folder.name, "--quiet", *options],
+            [*drivers[driver], name, "-o", folder.name, "--quiet", *options],
             cwd=place,
             env=environment,
             capture_output=True,

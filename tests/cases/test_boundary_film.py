@@ -67,7 +67,7 @@ def test_full_film_changes_no_bit(solve, scene):
 def test_smooth_dry_limit_is_hertz(solve, root):
     """A layer of five times the film that the inlet would make."""
     slow = {"contact.mean_velocity": 0.05, "lubricant.boundary_film": 1e-7}
-    done = solve(None, 257, STEEL | slow, fields=True)
+    done = solve(None, 257, STEEL | slow, fields=True, words=True)
     assert done.converged
     hertz = np.sqrt(np.maximum(0.0, 1.0 - done.field("X")[:, None] ** 2 - done.field("Y") ** 2))
     # a film of 1e-2 a^2/R changes the pressure at the edge
@@ -118,7 +118,7 @@ TRACTION = {
 )
 def test_inlet_that_a_grid_does_not_resolve(solve, points):
     """No load share and no friction there; the error of the film is that of the inlet."""
-    done = solve(None, points, TRACTION)
+    done = solve(None, points, TRACTION, words=True)
     assert done.converged
     for name in ("h_c_m", "h_c_error_m"):
         assert done[name] > 0.0
@@ -196,9 +196,9 @@ TEMPERATURES = tuple(f"temperature_rise{part}_max_K" for part in ("", "_wall_1",
 def test_layer_that_touches_nothing_changes_no_bit_of_friction_with_heat(solve, scene):
     """Heat is not switched off with it."""
     light = HOT | scene | {"contact.load": 20.0}
-    without = solve(None, 65, light)
+    without = solve(None, 65, light, words=True)
     layer = {"lubricant.boundary_film": 1e-8, "lubricant.boundary_friction": 0.1}
-    with_film = solve(None, 65, light | layer)
+    with_film = solve(None, 65, light | layer, words=True)
     assert with_film["contact_load_share"] in (0.0, None)
     for name in ("mu", "mu_isothermal", "mu_smooth", "mu_smooth_isothermal", *TEMPERATURES):
         assert with_film[name] == without[name], name
@@ -312,7 +312,7 @@ def test_hardness_dry_limit(solve, root, dry, name, points, velocity, layer, har
     """Pressure, and what of the load is at the limit, of a dry solver with a limit of pressure."""
     rest = {"contact.mean_velocity": velocity, "lubricant.boundary_film": layer}
     rest |= {"contact.hardness": hardness}
-    done = solve(None, points, of_shape(STEEL | REST | rest | scene), fields=True)
+    done = solve(None, points, of_shape(STEEL | REST | rest | scene), fields=True, words=True)
     assert done.converged
     limit = hardness / done["hertz_pressure_Pa"]
     hard, elastic = (dry.dry_pressure(done.summary, done.field, most) for most in (limit, None))
@@ -381,7 +381,9 @@ def test_mixed_film(solve):
         "lubricant.boundary_friction": 0.1,
         "surface.amplitude": 0.03,
     }
-    fine, coarse = (solve(None, points, STEEL | known, fields=True) for points in (129, 65))
+    fine, coarse = (
+        solve(None, points, STEEL | known, fields=True, words=True) for points in (129, 65)
+    )
     assert fine.converged
     assert coarse.converged
     share = fine["contact_load_share"]
@@ -403,7 +405,7 @@ def test_mixed_film(solve):
     # pressure in the sense of the load balance
     assert abs(fine["load_error"]) <= 1e-6
     assert fine["contact_load_share_error_note"] == ""
-    unknown = solve(None, 129, STEEL | known | {"lubricant.boundary_friction": 0.0})
+    unknown = solve(None, 129, STEEL | known | {"lubricant.boundary_friction": 0.0}, words=True)
     # the run ends with the ratio of another friction, so that the mean is over other steps
     assert unknown["contact_load_share"] == pytest.approx(share, rel=0.05)
     assert unknown["mu_ratio"] is None
@@ -428,7 +430,7 @@ def test_single_nodes_that_touch(solve):
 @pytest.mark.long
 def test_contact_of_a_coarse_grid(solve):
     """Where a grid does not resolve the inlet bodies touch on it, and no error is told."""
-    done = solve(None, 129, STEEL | MIXED)
+    done = solve(None, 129, STEEL | MIXED, words=True)
     assert done.converged
     assert done["contact_load_share"] > 0.1
     assert done["contact_load_share_error"] is None
@@ -439,7 +441,7 @@ def test_contact_of_a_coarse_grid(solve):
 
 def test_a_layer_that_would_have_to_give_much(solve):
     """A thick one on a coarse grid: the assessment says that the model ends there."""
-    done = solve(None, 65, STEEL | MIXED | {"lubricant.boundary_film": 8e-8})
+    done = solve(None, 65, STEEL | MIXED | {"lubricant.boundary_film": 8e-8}, words=True)
     assert done.converged
     assert done["layer_supply"] > 0.1
     assert "the layer would have to give" in done["assessment"]
@@ -461,7 +463,9 @@ def test_no_error_where_a_layer_that_gives_much_carries_most(solve, root):
         "time.scheme": "'paper'",
     }
     default_domain = {key: value for key, value in STEEL.items() if key not in DOMAIN}
-    runs = [solve(None, points, default_domain | MIXED | wave) for points in (33, 65, 129)]
+    runs = [
+        solve(None, points, default_domain | MIXED | wave, words=True) for points in (33, 65, 129)
+    ]
     for done in runs:
         assert done.converged
         assert done["contact_load_share"] > 0.5
@@ -472,7 +476,7 @@ def test_no_error_where_a_layer_that_gives_much_carries_most(solve, root):
     assert said in plain(root / "docs" / "robustness.md")
 
 
-def test_both_drivers_say_the_same(solve, tmp_path):
+def test_both_drivers_find_the_same(solve, tmp_path):
     values = STEEL | MIXED | {"lubricant.boundary_friction": 0.1, "time.steps": 12}
     done = solve(None, 65, values)
     settings = {k: v.strip("'") if isinstance(v, str) else v for k, v in values.items()}

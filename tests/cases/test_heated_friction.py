@@ -32,7 +32,7 @@ FAST = {
 
 def test_as_another_program_on_the_fields(solve, root):
     """Another program: 0.0330, isothermal 0.0563; 69 K in the film, 35 K on the walls' mean."""
-    done = solve(None, 257, FAST)
+    done = solve(None, 257, FAST, words=True)
     assert done["mu_isothermal"] == pytest.approx(0.0563, rel=6e-3)
     assert done["mu"] == pytest.approx(0.0330, rel=6e-3)
     assert done["temperature_rise_max_K"] == pytest.approx(69.0, abs=0.6)
@@ -68,13 +68,13 @@ def test_traction_rises_and_falls(solve, root, srr, mu):
 def test_where_it_does_not_count(solve):
     """Slow sliding: not computed, and it would change nothing that could be told."""
     slow = FAST | {"contact.slide_to_roll": 5e-5}
-    left_out = solve(None, 65, slow)
+    left_out = solve(None, 65, slow, words=True)
     always = solve(None, 65, slow | {"lubricant.thermal_friction": "always"})
     assert "temperature_rise_max_K" not in left_out.summary
     assert "less than 0.1 %" in left_out["mu_note"]
     assert left_out["mu"] == left_out["mu_isothermal"] == always["mu_isothermal"]
     assert 0.999 * left_out["mu"] < always["mu"] < left_out["mu"]
-    never = solve(None, 65, FAST | {"lubricant.thermal_friction": "never"})
+    never = solve(None, 65, FAST | {"lubricant.thermal_friction": "never"}, words=True)
     assert never["mu"] == never["mu_isothermal"]
     assert "never" in never["mu_note"]
 

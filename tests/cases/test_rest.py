@@ -53,7 +53,7 @@ def test_it_lies_where_x_start_says(solve):
     # rounding of the cosine's argument
     assert done.field("RR") == pytest.approx(expected, abs=1e-12 * done["amplitude"])
     assert done.field("A_d") == pytest.approx(done.field("H_smooth") - done.field("H"), abs=1e-15)
-    assert "x_start = 0.1000" in (done.folder / "plan.txt").read_text()
+    assert "x_start = 0.1000" in done.plan
 
 
 def test_error_by_the_coarser_grid(solve):

@@ -373,8 +373,6 @@ def test_malformed_case(tmp_path: Path, capsys, monkeypatch, name, marked, optio
     assert [path.name for path in tmp_path.iterdir()] == ["case.nml"]
 
 
-# Commas that a namelist may have
-TAKEN = ("two commas", "comma first")
 # Faults of the text before any name is read, and of the operating point, whose quantity is named
 NAMELESS = (
     *("open quote", "unit with a slash", "no free volume", "a liquid without a volume"),
@@ -385,8 +383,6 @@ NAMELESS = (
 @pytest.mark.parametrize(("name", "marked", "options", "parts"), FAULTS, ids=[f[0] for f in FAULTS])
 def test_program_refuses_it(drive, tmp_path: Path, name, marked, options, parts):
     """Without line and column, but with the key or the unknown name, and what was expected."""
-    if name in TAKEN:
-        pytest.skip("a namelist may be so")
     (tmp_path / "case.nml").write_bytes(place(marked)[0].encode())
     done = drive("ehl", *words_of(options))
     assert (done.returncode, done.stdout) == (2, "")

@@ -5,12 +5,12 @@ import contextlib
 import json
 import os
 import random
-import re
 import shutil
 import signal
 import subprocess
 import time
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -33,18 +33,16 @@ FRACTAL = (
 OFTEN = ["--set", "output.checkpoint_interval=1e-3"]
 
 
-def results(folder: Path) -> dict[str, bytes]:
+def results(folder: Path) -> tuple[dict[str, Any], dict[str, bytes]]:
     """All results that do not depend on time, threads and on how often the state is kept."""
     files = {path.name: path.read_bytes() for path in folder.iterdir()}
-    summary = json.loads(files["summary.json"])
-    free = {"threads", "bytes"} | {name for name in summary if "seconds" in name}
+    summary = json.loads(files.pop("summary.json"))
+    free = {"threads", "bytes", "files"} | {name for name in summary if "seconds" in name}
     if summary.get("variance_unresolved"):
         # Python also predicts what the grid does not resolve, and counts what it leaves out
         free |= {"mu_ratio_unresolved", "mu_ratio_error_left_out"}
         free |= {"mu_ratio_error", "mu_ratio_error_note", "assessment"}
-    files["summary.json"] = json.dumps(
-        {name: value for name, value in summary.items() if name not in free}
-    ).encode()
+    summary = {name: value for name, value in summary.items() if name not in free}
     # that of pyehl has the meanings of the keys
     case = Case(folder / "case.nml").resolve()
     for group, key in (
@@ -54,16 +52,20 @@ def results(folder: Path) -> dict[str, bytes]:
     ):
         del case[group][key]
     files["case.nml"] = json.dumps(case).encode()
-    told = re.sub(rb"(?m)^(predicted|warning: more than).*\n", b"", files["plan.txt"]).rstrip()
-    files["plan.txt"] = re.sub(rb"threads \d+", b"", told)
-    return files
+    # of pyehl alone
+    files.pop("plan.txt", None)
+    return summary, files
 
 
 def same(one: Path, other: Path) -> None:
     """Both folders hold the same results, bit by bit."""
-    first, second = results(one), results(other)
+    (numbers, first), (others, second) = results(one), results(other)
     assert set(first) == set(second)
     assert [name for name in first if first[name] != second[name]] == []
+    # `ehl` writes no sentences
+    fewer, more = sorted((numbers, others), key=len)
+    assert len(fewer) > 40
+    assert {name: more.get(name, "nothing") for name in fewer} == fewer
 
 
 def stop_after_steps(drive, tmp_path: Path, driver: str, steps: int, *words: str) -> None:
@@ -116,10 +118,11 @@ def test_only_what_could_end_otherwise_is_offered(
     (tmp_path / "case.nml").write_text(WAVE.format(points=65, extra=f"wavelength = 1.0 {extra}"))
     done = drive(driver, "case.nml", "-o", "out", "--set", options)
     assert done.returncode == 1
-    assert f"assessment {assessment}" in done.stdout
     *_, last = done.stdout.splitlines()
     assert last.endswith("--resume out") == bool(says)
-    assert says in last
+    if driver == "pyehl":
+        assert f"assessment {assessment}" in done.stdout
+        assert says in last
 
 
 @pytest.mark.parametrize("first", ["ehl", "pyehl"])

@@ -1,0 +1,34 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Locks that fail
+module test_lock
+   use check, only: is_equal, is_true
+   use ehl_lock, only: lock, lock_t, unlock
+   use ehl_status, only: ehl_internal, status_t
+   implicit none (type, external)
+   private
+   public :: run_lock
+
+   !> Open, and no mutex at all
+   type(lock_t), target :: good, none
+
+contains
+
+   !> What the system says is told, and the lock is not held then
+   subroutine run_lock()
+      type(status_t) :: fine, bad
+
+      call lock(good, fine)
+      call unlock(good, fine)
+      call lock(good, fine)
+      call unlock(good, fine)
+      call is_true(.not. fine%failed(), "lock and unlock")
+      none%mutex = -1
+      call lock(none, bad)
+      call is_equal(bad%code, ehl_internal, "lock that is no mutex")
+      ! after a failure it is not taken: were it, this would wait for ever
+      call lock(good, bad)
+      call lock(good, fine)
+      call unlock(good, fine)
+      call is_true(.not. fine%failed(), "lock after a failure")
+   end subroutine run_lock
+end module test_lock

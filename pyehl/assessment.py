@@ -1,0 +1,273 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a solution or a prediction is worth to an engineer: one line, from its summary."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from pyehl.number_text import fixed, percent, rounded
+
+HOLDS, WITH_CARE, NO_RESULT = "holds", "with care", "no result"
+# Pressure [Pa] from which bearing steel keeps a dent of 1e-4 of the diameter of the ball
+# (ISO 76:2006); the solids of the model stay elastic
+YIELDS = 4.2e9
+# Film [m] of the size of the films that additives leave on steel and of what a scan does not show
+MOLECULAR = 10e-9
+# Film over roughness below which surfaces touch, and from which they do not (Tallian 1967)
+TOUCHING, APART = 1.0, 3.0
+# A result whose error is a larger share of it is to be taken with care
+WELL_KNOWN = 0.05
+# Correlation of two surfaces above which they are no pair of independent ones
+ALIKE = 0.5
+# Status of a prediction whose film is known, and whose pressures are beyond the model
+BEYOND = "beyond linear response"
+RESULTS = ("converged", "predicted", "target missed", BEYOND)
+# Flash temperature [K] above which an oil is thinner than computed, where its heat is left out
+HOT = 10.0
+# Contact radius and film over the radius of curvature from which the theory of small ones is named,
+# and mean strain over the former (Tabor 1951)
+SLENDER_CONTACT, SLENDER_FILM, MEAN_STRAIN = 0.1, 0.01, 0.2
+# Share of the flow that the boundary film may give (as fortran/reynolds/touching.f90)
+MUCH_SUPPLIED = 0.1
+# How the reason begins for which a grid makes bodies touch
+NO_INLET = "the grid does not resolve the inlet"
+
+
+@dataclass(frozen=True, slots=True)
+class Assessment:
+    """What a result is worth.
+
+    Attributes
+    ----------
+    text
+        'no result', 'film breakdown', 'beyond the solids', 'unresolved inlet', 'mixed film',
+        'yielding solids', 'thin film', 'unresolved waves' or 'full film', the reason, and what else
+        there is to know.
+    worth
+        'holds', 'with care' or 'no result'.
+    """
+
+    text: str
+    worth: str
+
+
+class Summary:
+    """Numbers and words of a summary; NaN and '' where there are none."""
+
+    def __init__(self, values: Mapping[str, Any]) -> None:
+        self.values = values
+
+    def number(self, name: str) -> float:
+        """Give a number; NaN where it is not known."""
+        value = self.values.get(name)
+        return float(value) if isinstance(value, int | float) and value is not True else math.nan
+
+    def text(self, name: str) -> str:
+        """Give words in one line, those of a list with commas; '' where there are none."""
+        value = self.values.get(name)
+        if isinstance(value, list) and all(isinstance(word, str) for word in value):
+            return ", ".join(value)
+        return " ".join(value.split()) if isinstance(value, str) else ""
+
+    def has(self, name: str) -> bool:
+        """Whether there is such a quantity, known or not."""
+        return name in self.values
+
+    def known(self, name: str) -> bool:
+        """Whether a number is known."""
+        return math.isfinite(self.number(name))
+
+
+def assess(values: Mapping[str, Any]) -> Assessment:
+    """Assess a solution or a prediction from its summary."""
+    s = Summary(values)
+    status, message = s.text("status"), s.text("message")
+    # a run whose smooth contact is solved
+    if status == "film breakdown" or (status == "negative film" and s.known("H_c")):
+        return Assessment(f"film breakdown: {message}".rstrip(), NO_RESULT)
+    if status not in RESULTS:
+        why = f": {message}" if message else ""
+        return Assessment(f"no result: the status is '{status}'{why}", NO_RESULT)
+    doubts = [*_pressure(s), *_contact(s), *_yielding(s), *_waves(s)]
+    more = [*_errors(s), *_heat(s), *_two_alike(s), *_slenderness(s)]
+    if s.text("surface_findings"):
+        more.append(f"the map is not roughness alone: {s.text('surface_findings')}")
+    if status == "target missed":
+        more.insert(0, "grid.target_error is missed")
+    if status == BEYOND:
+        more.insert(0, f"mu_r/mu_s is not known: {message}")
+    text = "; ".join(doubts) or f"full film: {_minimum_film(s)}"
+    worth = WITH_CARE if doubts or more else HOLDS
+    return Assessment(f"{text}; but {'; '.join(more)}" if more else text, worth)
+
+
+def _pressure(s: Summary) -> list[str]:
+    """Pressure at which the solids yield."""
+    if s.has("load_share_at_hardness"):
+        return []
+    rough = s.number("p_max_rough_Pa")
+    pressure = rough if _finite_above(rough, 0.0) else s.number("p_max_Pa")
+    if not _finite_above(pressure, YIELDS):
+        return []
+    return [
+        f"beyond the solids: the pressure reaches {rounded(pressure * 1e-9)} GPa, bearing steel "
+        f"yields above {rounded(YIELDS * 1e-9, 2)} GPa (ISO 76), and the solids of the model do not"
+    ]
+
+
+def _contact(s: Summary) -> list[str]:
+    """Bodies that touch at a boundary film, or a film that is thin."""
+    share = s.number("contact_load_share")
+    if not _finite_above(share, 0.0):
+        note = s.text("H_c_error_note")
+        return [*_film(s), *([f"unresolved inlet: {note}"] if note.startswith(NO_INLET) else [])]
+    error, supply = s.number("contact_load_share_error"), s.number("layer_supply")
+    known = f"an error of {percent(error)} of the load" if math.isfinite(error) else ""
+    found = [
+        f"mixed film: {percent(share)} of the load is carried at the boundary film, with "
+        f"{known or 'an error that is not known'}"
+    ]
+    if _finite_above(supply, MUCH_SUPPLIED):
+        found.append(
+            f"the layer would have to give {percent(supply)} of the flow, where the model ends"
+        )
+    return found
+
+
+def _yielding(s: Summary) -> list[str]:
+    """Solids that yield at their hardness."""
+    share = s.number("load_share_at_hardness")
+    if not _finite_above(share, 0.0):
+        return []
+    return [
+        f"yielding solids: {percent(share)} of the load is carried at their hardness, and they "
+        f"give way by up to {rounded(s.number('plastic_depth_max_m') * 1e9)} nm, as in a first pass"
+    ]
+
+
+def _film(s: Summary) -> list[str]:
+    """Film that is thin beside molecules or beside the roughness."""
+    ratio = s.number("lambda_ratio")
+    if _finite_above(MOLECULAR, _least(s)):
+        return [
+            f"thin film: {_minimum_film(s)}, below {rounded(MOLECULAR * 1e9, 2)} nm, where "
+            "additives and what a scan does not show count, and asperities may touch"
+        ]
+    if _finite_above(TOUCHING, ratio):
+        return [
+            f"thin film: Lambda = {rounded(ratio)} is below {rounded(TOUCHING, 1)} for the "
+            f"undeformed roughness; {_minimum_film(s)}"
+        ]
+    return []
+
+
+def _waves(s: Summary) -> list[str]:
+    """Waves that the grid does not resolve."""
+    if not s.has("mu_ratio_unresolved"):
+        return []
+    predicted = abs(s.number("mu_ratio_unresolved"))
+    part, what = predicted / s.number("mu_ratio"), "mu_r/mu_s by prediction"
+    if not math.isfinite(predicted):
+        part, what = s.number("variance_unresolved"), "the variance of the surface"
+    if not _finite_above(part, WELL_KNOWN):
+        return []
+    return [f"unresolved waves: they hold {percent(part)} of {what}, give grid.points more nodes"]
+
+
+def _errors(s: Summary) -> list[str]:
+    """Errors that are large or not known, and a point outside of what a model was measured on."""
+    found = []
+    for name in ("H_c", "H_min", "mu_ratio"):
+        value = s.number(name)
+        if not math.isfinite(value):
+            continue
+        model = f"{name}_model_error"
+        share = s.number(model if s.has(model) else f"{name}_error") / abs(value or math.nan)
+        word = "mu_r/mu_s" if name == "mu_ratio" else name
+        if not math.isfinite(share):
+            found.append(f"the error of {word} is not known")
+        elif share > WELL_KNOWN:
+            found.append(f"{word} is known to {percent(share)} only")
+    note = s.text("pressure_viscosity_note")
+    if "estimate" in note:
+        found.append("alpha is an estimate (-17 to +12 % of the film)")
+    elif note:
+        found.append("alpha is that of another oil")
+    if s.text("outside_range"):
+        found.append(f"{s.text('outside_range')} outside of the range of the response")
+    return found
+
+
+def _heat(s: Summary) -> list[str]:
+    """Heat that is left out."""
+    rise = s.number("flash_temperature_K")
+    if not _finite_above(rise, HOT) or s.known("temperature_rise_max_K"):
+        return []
+    return [f"the surfaces warm by {rounded(rise)} K, and the oil of the model does not"]
+
+
+def _two_alike(s: Summary) -> list[str]:
+    """Two surfaces that move together and are much the same."""
+    correlation = s.number("surface_correlation")
+    if not _finite_above(abs(correlation), ALIKE):
+        return []
+    return [
+        f"the two surfaces move together and are alike (correlation {fixed(correlation, 2)}), so "
+        "that their waves add up"
+    ]
+
+
+def _slenderness(s: Summary) -> list[str]:
+    """Contact that is wide, or film that is thick, beside the radius.
+
+    The half-space, the parabolas of its bodies and the Reynolds equation are for small ones. The
+    mean strain of a dry contact is about 0.2 a/R (Tabor 1951).
+    """
+    radius = s.number("hertz_radius_m") or math.nan
+    wide = s.number("film_scale_m") / radius
+    thick = s.number("h_c_m") / radius * wide
+    ellipse = s.has("ellipticity")
+    if ellipse:
+        across = wide * s.number("ellipticity") * s.number("radius_ratio")
+        wide = across if across > wide or not math.isfinite(wide) else wide
+    found = []
+    if _finite_above(wide, SLENDER_CONTACT):
+        strain = "" if ellipse else f" (p_h/E' = {rounded(wide / math.pi, 2)})"
+        found.append(
+            f"the contact radius is {rounded(wide, 2)} of the radius of curvature{strain}, a "
+            f"strain of about {percent(MEAN_STRAIN * wide)}, and the half-space is for small "
+            "strains"
+        )
+    if _finite_above(thick, SLENDER_FILM):
+        found.append(
+            f"the film is {rounded(thick, 2)} of the radius, and the Reynolds equation is for "
+            "slender gaps"
+        )
+    return found
+
+
+def _minimum_film(s: Summary) -> str:
+    """Give the minimum film in words."""
+    film, ratio = _least(s), s.number("lambda_ratio")
+    if s.known("h_min_rough_m"):
+        return f"the minimum film over the roughness is {rounded(film * 1e9)} nm"
+    if math.isfinite(film):
+        text = f"the minimum film is {rounded(film * 1e9)} nm"
+        if s.has("lambda_ratio"):
+            return text
+        rms = rounded(film / APART * 1e9)
+        return f"{text}: Lambda = {rounded(APART, 1)} with an rms roughness of {rms} nm"
+    if math.isfinite(ratio):
+        return f"Lambda = {rounded(ratio)}"
+    return "smooth surfaces; the case gives no size in metres"
+
+
+def _least(s: Summary) -> float:
+    """Give the minimum film [m]: over the roughness where it is known."""
+    return s.number("h_min_rough_m" if s.known("h_min_rough_m") else "h_min_m")
+
+
+def _finite_above(a: float, b: float) -> bool:
+    """Whether a > b; not where one of them is not known."""
+    return math.isfinite(a) and math.isfinite(b) and a > b
