@@ -69,13 +69,23 @@ class Machine:
                 what = f"{known.name} is not given" if not self.is_given(key) else f"{key} is 0"
                 self.refuse(key, what, f"{known.meaning}: {known.expected.replace('0 or ', '')}")
 
-    def settings(self) -> str:
-        """Give the group as it holds, every value spelled out, as lines of a namelist."""
-        lines = (
-            f"   {key.key} = {to_text(getattr(self.values, key.key))} ! {key.meaning}"
-            for key in GROUPS[self.kind]
-        )
-        return "\n".join([f"&{self.kind}", *lines, "/\n"])
+    def text(self) -> str:
+        """Give it as namelist text: its group whole, of the others what was given."""
+        groups = {self.kind: [key.key for key in GROUPS[self.kind]]}
+        for given in self.draft.given:
+            group, _, name = given.partition(".")
+            if group not in MACHINES:
+                groups.setdefault(group, []).append(name)
+        blocks = []
+        for group, names in groups.items():
+            lines = []
+            for key in (KEYS[f"{group}.{name}"] for name in names):
+                value = self.draft.settings.value(key)
+                if key.kind == "path" and value:
+                    value = self.draft.absolute(key.name, str(value))
+                lines.append(f"   {key.key} = {to_text(value)} ! {key.meaning}")
+            blocks.append("\n".join([f"&{group}", *lines, "/\n"]))
+        return "".join(blocks)
 
     def case_text(self, contact: Mapping[str, Value], place: str = "") -> str:
         """Give the resolved case of one contact, of values by ``group.key``.

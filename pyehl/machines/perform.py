@@ -92,7 +92,8 @@ class Prepared:
         files = {name: None for text in texts for name in files_of(namelist.values(text))}
         return {
             "run": f"machine {self.run}",
-            "case": self.machine.settings() + texts[0],
+            "machine": self.machine.text(),
+            "case": texts[0],
             "contacts": len(texts),
             "file": contents(files),
         }
@@ -154,7 +155,7 @@ def _write(folder: Path, machine: Machine, found: MachineResult, names: tuple[st
     """Write the files of a result."""
     write_csv(folder / CSV, list(found.table), found.table.itertuples(index=False, name=None))
     save(pictures.figure(found.kind, found.table, found.summary), folder / PICTURE)
-    (folder / CASE).write_text(machine.settings(), encoding="utf-8")
+    (folder / CASE).write_text(machine.text(), encoding="utf-8")
     values = {name: finite(value) for name, value in found.summary.items()}
     write_json(folder / SUMMARY, {**values, "files": list(names)})
 

@@ -61,32 +61,47 @@ NOTES = 4
 
 def report(kind: str, table: pd.DataFrame, summary: Mapping[str, Any]) -> str:
     """Return table and sums of a machine element as text."""
-    shown = {
+    lines = [pd.DataFrame(cells(kind, table)).to_string(index=False), ""]
+    lines += [f"{label:<30}{text}".rstrip() for label, text in sums(table, summary).items()]
+    return "\n".join([*lines, *notes_of(table, summary)])
+
+
+def cells(kind: str, table: pd.DataFrame) -> dict[str, list[str]]:
+    """Give the columns that are printed as text, by their labels."""
+    return {
         label: [_cell(value, factor, digits) for value in table[name]]
         for name, (label, factor, digits) in SHOWN.items()
         if name in table and not (kind == "bearing" and name == "slide_to_roll")
     }
-    lines = [pd.DataFrame(shown).to_string(index=False), ""]
+
+
+def notes_of(table: pd.DataFrame, summary: Mapping[str, Any]) -> list[str]:
+    """Say what else to know, what is left out last."""
+    notes = _together(str(note) for note in table["note"] if isinstance(note, str) and note)
+    found = [*notes[:NOTES], *([f"and {len(notes) - NOTES} more"] if len(notes) > NOTES else [])]
+    found = [f"note       {note}" for note in found]
+    if summary.get("lambda_ratio_least", math.inf) < 1.0 and "h_min_rough_m" not in table:
+        found.append(
+            "solids     least Lambda below 1: the surfaces touch, which no friction here has"
+        )
+    found += [f"lines      {summary['lines']}"] if "lines" in summary else []
+    return [*found, f"left out   {summary['left_out']}"]
+
+
+def sums(table: pd.DataFrame, summary: Mapping[str, Any]) -> dict[str, str]:
+    """Give the sums of a machine element as text, by what they are."""
+    found = {}
     for name, (label, factor, form, unit) in SUMS.items():
         value = summary.get(name)
         if value is None or (name == "rms_height_m" and value == 0.0):
             continue
-        text = f"{value * factor:{form}} {unit}"
+        found[label] = f"{value * factor:{form}} {unit}".rstrip()
         if math.isnan(value):
             missing = "a contact has no result"
             if name in FRICTION and table["h_c_m"].notna().all():
                 missing = "give a lubricant.shear_law"
-            text = f"not reported: {missing}"
-        lines.append(f"{label:<30}{text}".rstrip())
-    notes = _together(str(note) for note in table["note"] if note)
-    notes = [*notes[:NOTES], *([f"and {len(notes) - NOTES} more"] if len(notes) > NOTES else [])]
-    lines += [f"note       {note}" for note in notes]
-    if summary.get("lambda_ratio_least", math.inf) < 1.0 and "h_min_rough_m" not in table:
-        lines.append(
-            "solids     least Lambda below 1: the surfaces touch, which no friction here has"
-        )
-    lines += [f"lines      {summary['lines']}"] if "lines" in summary else []
-    return "\n".join([*lines, f"left out   {summary['left_out']}"])
+            found[label] = f"not reported: {missing}"
+    return found
 
 
 def _together(notes: Iterable[str]) -> list[str]:

@@ -15,12 +15,15 @@ from pyehl import library, namelist
 from pyehl.destination import check_files, file_errors
 from pyehl.errors import FileError, InputError
 from pyehl.given import path_of
+from pyehl.machines.perform import CASE
 from pyehl.plots.folder import plot
 from pyehl.plots.style import png
 from pyehl.reports import browser, page
 from pyehl.reports.assessment import Assessment, assess, numbers_of
 from pyehl.reports.conditions import conditions, numbers
 from pyehl.reports.limits import limits, warnings
+from pyehl.reports.machine import KINDS as MACHINES
+from pyehl.reports.machine import machine_parts
 from pyehl.reports.page import Block
 from pyehl.reports.stress import stress_of, stress_parts
 from pyehl.reports.study import study_parts
@@ -32,7 +35,7 @@ from pyehl.studies.journal import NAME, read_header
 LARGEST = 2_000_000
 # Keys that name a file
 FILES = ("file", "table")
-EXPECTED = "expected: what -o of run, predict, stribeck, sweep or response named"
+EXPECTED = "expected: what -o of run, predict, stribeck, sweep, bearing, gear or response named"
 DOTS = (120, 100, 80, 60, 45)
 PICTURES = {
     "centre_lines": "Pressure and film through the centre, along and across the motion",
@@ -70,7 +73,8 @@ def report(
     Parameters
     ----------
     folder
-        Result folder of ``run``, ``predict``, ``stribeck``, ``sweep`` or ``response``.
+        Result folder of ``run``, ``predict``, ``stribeck``, ``sweep``, ``bearing``, ``gear`` or
+        ``response``.
     output
         File to write; one that `report` wrote is replaced; default ``report.html`` in the folder.
     stress
@@ -140,7 +144,7 @@ def _content(
     folder: Path, dpi: int, below: xr.Dataset | None
 ) -> tuple[str, Assessment, list[Block]]:
     """Give title, assessment and parts of the page of any result folder."""
-    if (folder / NAME).is_file():
+    if (folder / NAME).is_file() and "machine" not in (read_header(folder) or {}):
         return study_parts(folder)
     try:
         summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
@@ -152,6 +156,8 @@ def _content(
         raise FileError(f"{folder}: summary.json cannot be read: {error}") from error
     if summary.get("kind") == "response":
         return _response(folder, summary)
+    if summary.get("kind") in MACHINES:
+        return machine_parts(folder, summary)
     if summary.get("kind") not in ("solution", "prediction"):
         raise InputError(f"{folder}: a result of '{summary.get('kind')}' has no report\n{EXPECTED}")
     return _single(folder, summary, dpi, below)
@@ -196,8 +202,7 @@ def _files(folder: Path) -> set[str]:
     vary = header.get("vary", {})
     found = {str(v) for key in vary if key.rpartition(".")[2] in FILES for v in vary[key]}
     cases = [str(header.get("case", ""))]
-    if (folder / "case.nml").is_file():
-        cases.append(_text(folder / "case.nml"))
+    cases += [_text(folder / n) for n in ("case.nml", CASE) if (folder / n).is_file()]
     for case in cases:
         for group in namelist.values(case).values():
             found |= {str(group[key]) for key in FILES if group.get(key)}

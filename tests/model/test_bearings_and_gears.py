@@ -578,7 +578,19 @@ def test_case_files_by_formulas(root: Path, tmp_path: Path, name: str, capfd):
     # the resolved group reads back as the same machine
     text = (folder / "machine.nml").read_text()
     assert text.startswith(f"&{group}\n")
-    assert cli.main([command, str(folder / "machine.nml"), "--json"]) == 0
+    assert cli.main([command, str(folder / "machine.nml"), "-o", str(tmp_path / "again")]) == 0
+    tables = [(place / "contacts.csv").read_text() for place in (folder, tmp_path / "again")]
+    assert tables[0] == tables[1]
+    assert cli.main(["report", str(folder)]) == 0
+    shown = (folder / "report.html").read_text()
+    for word in ("least Lambda", "left out", f"&amp;{group}", "data:image/png"):
+        assert word in shown
+    # the page is ours, and goes with the result
+    assert (
+        cli.main([command, str(folder / "machine.nml"), "-o", str(tmp_path / "more"), "--json"])
+        == 0
+    )
+    assert '"kind": ' in capfd.readouterr().out
 
 
 @pytest.mark.parametrize("page", ["bearing", "gear"])
