@@ -19,10 +19,15 @@ TOUCHING, THICK = 1.0, 3.0
 
 def status_line(found: Film) -> str:
     """Say what the numbers are of."""
-    grid = f"{found.summary['points']} × {found.summary.get('points_y', found.summary['points'])}"
+    grid = _grid(found)
     if not found.converged:
         return f"No solution on {grid} nodes: the status is '{found.summary['status']}'."
     return f"Converged on {grid} nodes."
+
+
+def _grid(found: Film) -> str:
+    s = found.summary
+    return f"{s['points']} × {s.get('points_y', s['points'])}"
 
 
 def film_rows(found: Film) -> list[tuple[str, str]]:
@@ -57,7 +62,8 @@ def film_rows(found: Film) -> list[tuple[str, str]]:
     if found.converged:
         rows.append(("largest pressure", f"{s['p_max_Pa'] * 1e-9:.4g} GPa"))
         if s.get("mu_smooth") is not None:
-            rows.append(("friction μ_s, smooth", f"{s['mu_smooth']:.4f}"))
+            mu = f"{s['mu_smooth']:.4f} on {_grid(found)} nodes"
+            rows.append(("friction μ_s, smooth", mu))
     return rows
 
 
@@ -92,8 +98,9 @@ def rough_rows(found: Rough, film: Film | None = None) -> list[tuple[str, str]]:
     else:
         rows.append(("no prediction", f"{p.friction.status}: {p.friction.message}"))
     if s["mu"] is not None:
-        smooth = "" if s["mu_smooth"] is None else f"; smooth {s['mu_smooth']:.4f}"
-        rows.append(("friction μ", f"{s['mu']:.4f}{smooth}"))
+        # of the grid of the prediction, and not of the film that is shown above
+        of = f"; smooth {s['mu_smooth']:.4f}, {s['h_c_source']}" if s["mu_smooth"] is not None else ""
+        rows.append(("friction μ", f"{s['mu']:.4f}{of}"))
     if p.outside_range:
         rows.append(("outside of the range", ", ".join(p.outside_range)))
     # of the film that is shown above, whose grid is another than that of the prediction

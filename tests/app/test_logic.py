@@ -470,3 +470,9 @@ def test_contact_without_friction_of_the_layer():
         assert ("boundary_friction" in rows.get("μ_r/μ_s", "")) != known
         assert ("over the passage" in rows) == ("friction μ" in rows) == known
         assert not [row for row in rows.values() if "nan" in row]
+    # friction of the smooth contact stands twice, each time with its grid
+    assert "; smooth 0." in rows["friction μ"]
+    assert rows["friction μ"].endswith("solved on 257 x 257 nodes, extrapolated")
+    thick, _ = from_case(Case.from_text(text.format(friction).replace("1.2e-7", "1e-9")))
+    shown = dict(words.film_rows(answers.film(thick, 65, always)))
+    assert shown["friction μ_s, smooth"].endswith("on 65 × 65 nodes")
