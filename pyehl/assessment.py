@@ -121,7 +121,7 @@ def _contact(s: Summary) -> list[str]:
     share = s.number("contact_load_share")
     if not _finite_above(share, 0.0):
         note = s.text("H_c_error_note")
-        return [*_film(s), *([f"unresolved inlet: {note}"] if note.startswith(NO_INLET) else [])]
+        return [f"unresolved inlet: {note}"] if note.startswith(NO_INLET) else _film(s)
     error, supply = s.number("contact_load_share_error"), s.number("layer_supply")
     known = f"an error of {percent(error)} of the load" if math.isfinite(error) else ""
     found = [

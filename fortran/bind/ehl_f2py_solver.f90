@@ -133,11 +133,13 @@ contains
       character(len=4096), intent(out) :: message
       type(run_t), pointer :: run
       type(status_t) :: status
+      logical :: due
 
       has_state = 0
       call run_of(handle, run, status)
       if (.not. status%failed()) then
-         if (at_once /= 0 .or. run%checkpoints%is_due()) call run%checkpoints%save(run%solver, status)
+         due = run%checkpoints%is_due()
+         if (at_once /= 0 .or. due) call run%checkpoints%save(run%solver, status)
          if (at_once /= 0) has_state = merge(1, 0, run%checkpoints%has_state())
       end if
       call reply(status, stat, message)

@@ -97,7 +97,8 @@ contains
                pieces(n)%values = pieces(n)%values + 1
             end if
          case (",")
-            if (.not. behind_value) call refuse("a comma that follows no value", "key = value, or a list of values")
+            if (.not. behind_value) call refuse("a comma that follows no value in &"//group//last_key(), &
+                                                "key = value, or a list of values")
          case ("u")
             call refuse("a text without its second quote", "'...'")
          case default
@@ -144,6 +145,13 @@ contains
          end select
          at = found%last + 1
       end subroutine take
+
+      !> Key that stands before, if there is one
+      function last_key() result(words)
+         character(len=:), allocatable :: words
+         words = ""
+         if (has_key()) words = ", behind "//pieces(n)%name()
+      end function last_key
 
       !> Whether a piece is there that values can belong to
       logical function has_key()

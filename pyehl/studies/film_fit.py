@@ -16,7 +16,7 @@ from numpy.polynomial import chebyshev
 from pyehl import namelist
 from pyehl.case import KEYS, resolve
 from pyehl.errors import EhlError, InputError
-from pyehl.handle import SolverHandle
+from pyehl.handle import SolverHandle, results_of
 from pyehl.prediction.smooth import film_of
 from pyehl.prediction.smooth_case import FINEST
 from pyehl.studies.measured_friction import Measured
@@ -180,7 +180,7 @@ def _solved(case: str) -> tuple[float, bool, str]:
     text = resolve(case, "the contact of the fit")
     with SolverHandle(text) as solver:
         solver.run()
-        summary = solver.summary
+        summary = results_of(solver).values
     if summary["status"] != "converged":
         return math.nan, False, str(summary["status"])
     scale = OperatingPoint.from_settings(namelist.values(text)).film_scale

@@ -14,7 +14,7 @@ from document_text import plain
 from scipy.special import elliprd
 
 import pyehl
-from pyehl import library
+from pyehl.conclusion import conclude
 from pyehl.prediction.film_formulas import report
 from pyehl.schema import summary_of
 from pyehl.theory.ellipse import ellipse
@@ -87,7 +87,7 @@ def test_gear_pair(root: Path, drivers: dict[str, list[str]], tmp_path: Path):
     for formula in (f for f in pyehl.film(case).formulas if f["applies"]):
         least = f" {formula['h_min_m'] * 1e9:.1f} nm |" if formula["h_min_m"] else ""
         assert f"| {formula['h_c_m'] * 1e9:.1f} nm |{least}" in text
-    assert f"```text\n{library.conclude(record)}\n```" in text
+    assert f"```text\n{conclude(record)}\n```" in text
     least = [round(record[name] * 1e9) for name in ("h_min_m", "h_min_rough_m")]
     assert "minimum film from {} to {} nm".format(*least) in text
     assert 0.0 < abs(1.0 - record["mu_ratio"]) < 0.005

@@ -4,7 +4,7 @@
 import pytest
 
 import pyehl
-from pyehl import library
+from pyehl.conclusion import conclude
 
 
 # H_c in the limit of fine grids, from 257 and 513 nodes
@@ -15,7 +15,7 @@ def test_error_covers_and_says_something(moes_m: float, limit: float, points: in
     with pyehl.Solver(pyehl.Case.from_text("", settings)) as solver:
         assert solver.run()
         found = solver.summary
-        lines = library.conclude(found).lines
+        lines = conclude(found).lines
     miss = abs(found["H_c"] - limit)
     # the domain has an error of its own, for the film of an endless one
     assert miss <= found["H_c_error_grid"] * 1.05

@@ -131,6 +131,11 @@ def test_last_lines():
             NO_RESULT,
         ),
         (
+            {"H_c_error_note": "the grid does not resolve the inlet, and", "h_min_m": 2e-9},
+            "unresolved inlet: the grid does not resolve the inlet, and",
+            WITH_CARE,
+        ),
+        (
             {"pressure_viscosity_note": "alpha = 1 is an estimate"},
             "but alpha is an estimate (-17 to +12 % of the film)",
             WITH_CARE,
