@@ -60,7 +60,7 @@ def add_list(
     known: Sequence[str] = (),
 ) -> None:
     """Add an option of values with commas between: words, each one of `known`, or integers."""
-    least = 1 if name == "threads" else 3
+    minimum = 1 if name == "threads" else 3
 
     def read(text: str) -> list[str] | list[int]:
         words = text.split(",")
@@ -74,8 +74,8 @@ def add_list(
             numbers = [int(word) for word in words]
         except ValueError as error:
             raise argparse.ArgumentTypeError(f"'{text}' is not like 129,257") from error
-        if min(numbers) < least:
-            raise argparse.ArgumentTypeError(f"{min(numbers)}; expected: {least} or more")
+        if min(numbers) < minimum:
+            raise argparse.ArgumentTypeError(f"{min(numbers)}; expected: {minimum} or more")
         return numbers
 
     what = f"of {', '.join(known)}{what}" if known else what
@@ -90,14 +90,14 @@ def add_list(
 
 
 def add_number(
-    to: argparse.ArgumentParser, name: str, default: float, what: str = "", *, least: float = 0
+    to: argparse.ArgumentParser, name: str, default: float, what: str = "", *, minimum: float = 0
 ) -> None:
-    """Add an option that is a number of the type of its default, and at least `least`."""
+    """Add an option that is a number of the type of its default, and at least `minimum`."""
 
     def read(text: str) -> float:
         number = type(default)(text)
-        if isinstance(default, int) and number < least:
-            raise argparse.ArgumentTypeError(f"{text}; expected: {least} or more")
+        if isinstance(default, int) and number < minimum:
+            raise argparse.ArgumentTypeError(f"{text}; expected: {minimum} or more")
         return number
 
     read.__name__ = type(default).__name__

@@ -63,8 +63,8 @@ def campaign(folder: Path, *, seed: int = 1, kills: int = 200, inputs: int = 200
 
 
 def _row(name: str, trials: int, counts: dict[str, int], bad: list[str]) -> Row:
-    told = ", ".join(f"{count} {what}" for what, count in sorted(counts.items()))
-    return {"campaign": name, "trials": trials, "wrong": len(bad), "outcomes": told, "bad": bad}
+    reported = ", ".join(f"{count} {what}" for what, count in sorted(counts.items()))
+    return {"campaign": name, "trials": trials, "wrong": len(bad), "outcomes": reported, "bad": bad}
 
 
 def command(*words: str) -> list[str]:
@@ -238,7 +238,7 @@ def damage(folder: Path, generator: np.random.Generator) -> Found:
             if "Traceback" in done.stderr or done.returncode not in (0, 1, 2):
                 bad.append(f"region {region}, both {both}: {done.returncode} {done.stderr}")
             elif done.returncode == 2 or "damaged" in done.stderr.replace("--resume damaged", ""):
-                counts["told"] += 1
+                counts["reported"] += 1
             if done.returncode in (0, 1):
                 difference = same(whole, out)
                 counts["same bits" if not difference else "other bits"] += 1

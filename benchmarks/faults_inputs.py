@@ -168,22 +168,22 @@ def _one(kind: str, folder: Path, label: str, command: Command) -> str:  # noqa:
             status = command(words)
         except SystemExit as end:
             status = int(end.code or 0)
-    told = errors.getvalue()
-    if "Traceback" in told:
-        return f"bad: traceback\n{told}"
+    reported = errors.getvalue()
+    if "Traceback" in reported:
+        return f"bad: traceback\n{reported}"
     if status == 2:
         place = {"nml": "case.nml", "toml": "study.toml", "npy": "map.npy"}[kind]
-        # a case that can be read, and not solved, is told by its keys
-        if place not in told and not re.search(r"\w+\.\w+|&\w+|grid of", told):
-            return f"bad: refused without a place: {told}"
+        # a case that can be read, and not solved, is reported by its keys
+        if place not in reported and not re.search(r"\w+\.\w+|&\w+|grid of", reported):
+            return f"bad: refused without a place: {reported}"
         return f"bad: folder {out}" if out.exists() else "refused"
     if status not in (0, 1):
-        return f"bad: exit status {status}: {told}"
+        return f"bad: exit status {status}: {reported}"
     if words[0] != "run":
         return "accepted"
     if not (out / "summary.json").is_file():
         left = sorted(p.name for p in out.iterdir()) if out.exists() else []
-        return f"bad: exit status {status}, the folder holds {left}: {told}"
+        return f"bad: exit status {status}, the folder holds {left}: {reported}"
     json.loads((out / "summary.json").read_text(encoding="utf-8"))
     return "solved" if status == 0 else "not converged"
 

@@ -265,7 +265,7 @@ def main(words: Sequence[str] | None = None) -> int:
     """Run the script."""
     made = parser(__doc__)
     add_number(made, "seed", 1)
-    add_number(made, "count", 60, "how many contacts, of four kinds in turn", least=1)
+    add_number(made, "count", 60, "how many contacts, of four kinds in turn", minimum=1)
     made.add_argument(
         "--fine", action="store_true", help="on twice the nodes too, to check the stated errors"
     )

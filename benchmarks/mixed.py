@@ -10,7 +10,7 @@ summary must belong together (`contradictions`).
 import argparse
 import math
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -131,13 +131,19 @@ def _one(number: int, rng: np.random.Generator, grids: Sequence[int]) -> Contact
         return Contact(number, points, over, keys, surface)
 
 
+def _known(values: Iterable[Any]) -> list[float]:
+    """Give numbers, none where one of them is missing."""
+    found = list(values)
+    return [] if None in found else found
+
+
 def contradictions(found: Mapping[str, Any]) -> list[str]:
     """Say which numbers of a summary do not belong together."""
     wrong = []
 
     def product(mu: str, smooth: str) -> None:
-        values = [found.get(name) for name in (mu, smooth, "mu_ratio")]
-        if None not in values and not math.isclose(values[0], values[1] * values[2], rel_tol=SAME):
+        values = _known(found.get(name) for name in (mu, smooth, "mu_ratio"))
+        if values and not math.isclose(values[0], values[1] * values[2], rel_tol=SAME):
             wrong.append(f"{mu} = {smooth} mu_ratio")
 
     product("mu", "mu_smooth")
@@ -175,7 +181,7 @@ def work(args: argparse.Namespace) -> dict[str, object]:
 
 def compare(contact: Contact, *, simulate: bool) -> list[Row]:
     """Rows of a contact: smooth, as the roughness vanishes, and rough."""
-    head = {"contact": contact.number, "over": contact.over, "points": contact.points}
+    head: Row = {"contact": contact.number, "over": contact.over, "points": contact.points}
     head["values"] = {**contact.keys, **contact.surface}
     rough = predicted({**contact.keys, **contact.surface})
     none = predicted({**contact.keys, **contact.surface, "surface.rms_height": NO_HEIGHT})
@@ -247,7 +253,7 @@ def _stated(found: Mapping[str, Any], smooth: Mapping[str, Any], name: str) -> f
 
 
 def _film(smooth: Mapping[str, Any], name: str) -> float:
-    """A film of a solution as a prediction has it: extrapolated where it can be."""
+    """Give a film of a solution as a prediction has it: extrapolated where it can be."""
     if name == "p_max_Pa":
         return float(smooth[name])
     of = {"h_c_m": "H_c", "h_min_m": "H_min"}[name]
@@ -260,17 +266,15 @@ def of_pair(found: Mapping[str, Any], other: Mapping[str, Any]) -> Row:
     row = _both(found, other)
     if found["status"] == "failed" or other["status"] != "converged":
         return row
-    share, exact = found.get(SHARE), other.get(SHARE)
-    if None not in (share, exact):
-        stated = [found.get(f"{SHARE}_error"), other.get(f"{SHARE}_error")]
-        row["difference"] = abs(share - exact)
-        if None not in stated:
-            row["allowed"] = sum(stated) + POINTS_ERROR * max(share, exact)
+    if shares := _known(one.get(SHARE) for one in (found, other)):
+        row["difference"] = abs(shares[0] - shares[1])
+        if stated := _known(one.get(f"{SHARE}_error") for one in (found, other)):
+            row["allowed"] = sum(stated) + POINTS_ERROR * max(shares)
             if row["difference"] > row["allowed"] + 1e-3:
                 row["broken"].append("load share")
-    mu, friction = found.get("mu"), other.get("mu")
-    if None not in (mu, friction) and row["allowed"] is not None:
-        error = (found.get("mu_ratio_model_error") or math.inf) * (found["mu"] / found["mu_ratio"])
+    if (both := _known(one.get("mu") for one in (found, other))) and row["allowed"] is not None:
+        mu, friction = both
+        error = (found.get("mu_ratio_model_error") or math.inf) * (mu / found["mu_ratio"])
         row["mu_difference"] = abs(mu - friction)
         row["mu_allowed"] = error + POINTS_ERROR * max(mu, friction)
         row["mu_allowed"] += (other.get("mu_ratio_error") or 0.0) * friction
@@ -308,9 +312,9 @@ def summary(rows: Sequence[Row]) -> list[Row]:
 def main(words: Sequence[str] | None = None) -> int:
     """Run the script."""
     made = parser(__doc__, points=GRIDS)
-    add_number(made, "contacts", 100, "how many", least=1)
+    add_number(made, "contacts", 100, "how many", minimum=1)
     add_number(made, "seed", 1)
-    add_number(made, "simulate", 40, "of how many the rough contact is simulated", least=0)
+    add_number(made, "simulate", 40, "of how many the rough contact is simulated", minimum=0)
     return measure(work, made, words)
 
 

@@ -295,7 +295,7 @@ def main(words: Sequence[str] | None = None) -> int:
     names = list(dict.fromkeys(problem.name for problem in CASES))
     add_list(made, "cases", USUAL, "; wave: of Fig. 2, fractal: of Table 1", names)
     made.add_argument("--scheme", choices=("narrow", "paper"), default="narrow")
-    add_number(made, "steps", STEPS, "timed steps", least=1)
+    add_number(made, "steps", STEPS, "timed steps", minimum=1)
     front = "X of the front of the roughness when the timed steps begin; that takes many steps on "
     add_number(made, "front", FILLED, f"{front}fine grids where the contact is to be full")
     made.add_argument(

@@ -102,9 +102,9 @@ def _run(
     keep = folder / CASES if fields else None
     todo = plan(study_of(family, cases, fields=fields), keep)
     rows = []
-    for task, case, told in zip(todo.tasks, cases, _solved(todo, folder, jobs), strict=True):
+    for task, case, reported in zip(todo.tasks, cases, _solved(todo, folder, jobs), strict=True):
         row: Row = {"family": family, "moes_m": case.moes_m, "moes_l": case.moes_l}
-        row |= {"values": dict(case.values)} | {name: told.get(name) for name in KEPT}
+        row |= {"values": dict(case.values)} | {name: reported.get(name) for name in KEPT}
         row["outcome"] = _outcome(row)
         row |= {"difference": None, "allowed": None, "strict_status": None, "wrong": False}
         if fields and row["outcome"] in ("converged", ENDED):
@@ -152,11 +152,11 @@ def _check(
             more["time.steps"] = row["steps"]
         strict.append(more)
     todo = plan(study_of(family, cases, strict))
-    for row, told in zip(rows, _solved(todo, folder, jobs), strict=True):
+    for row, reported in zip(rows, _solved(todo, folder, jobs), strict=True):
         if not finer:
-            judge(row, told)
+            judge(row, reported)
         name = "share_finer" if finer else "share_strict"
-        judge_share(row, name, told)
+        judge_share(row, name, reported)
 
 
 def summary(rows: Sequence[Row]) -> list[Row]:
@@ -215,7 +215,7 @@ def work(args: argparse.Namespace) -> int:
 def main(words: Sequence[str] | None = None) -> int:
     """Run the script."""
     made = parser(__doc__, points=GRIDS)
-    add_number(made, "cases", 500, "how many", least=1)
+    add_number(made, "cases", 500, "how many", minimum=1)
     add_number(made, "seed", 1)
     made.add_argument(
         "--shear-law",
@@ -228,7 +228,7 @@ def main(words: Sequence[str] | None = None) -> int:
         action="store_true",
         help="all cases with one of a thickness of its own; needs a --shear-law",
     )
-    add_number(made, "jobs", 2, "worker processes", least=1)
+    add_number(made, "jobs", 2, "worker processes", minimum=1)
     add_force(made)
     made.add_argument(
         "-o",

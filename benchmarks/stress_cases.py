@@ -131,9 +131,9 @@ def _one(family: str, generator: np.random.Generator, grids: Sequence[int]) -> S
 def _wave(case: StressCase, generator: np.random.Generator, *, at_rest: bool) -> dict[str, Value]:
     velocity = 0.0 if at_rest else float(generator.choice(VELOCITIES))
     # the grid carries waves of more than two nodes, in time too
-    least = 2.2 * case.mesh
-    along = [w for w in WAVELENGTHS if w > least * max(1.0, velocity)]
-    across = [w for w in WAVELENGTHS if w > least]
+    minimum = 2.2 * case.mesh
+    along = [w for w in WAVELENGTHS if w > minimum * max(1.0, velocity)]
+    across = [w for w in WAVELENGTHS if w > minimum]
     wave_x = float(generator.choice([*along, LONGEST_X]))
     wave_y = float(generator.choice([*across, LONGEST_Y]))
     return {
@@ -165,8 +165,8 @@ def _fractal(case: StressCase, generator: np.random.Generator) -> dict[str, Valu
 
 def _feature(case: StressCase, generator: np.random.Generator) -> dict[str, Value]:
     velocity = float(generator.choice(VELOCITIES))
-    least = 4.0 * case.mesh
-    wide = [w for w in WAVELENGTHS if least <= w <= 2.0]
+    minimum = 4.0 * case.mesh
+    wide = [w for w in WAVELENGTHS if minimum <= w <= 2.0]
     return {
         "surface.kind": str(generator.choice(("dent", "bump", "ridge", "groove"))),
         "surface.amplitude_over_film": float(f"{generator.uniform(0.0, 1.2):.3g}"),

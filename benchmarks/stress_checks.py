@@ -51,12 +51,12 @@ def judge(row: Row, strict: Mapping[str, Any]) -> None:
     row["wrong"] = row.get("wrong", False) or row["difference"] > row["allowed"]
 
 
-def judge_share(row: dict[str, Any], name: str, told: Mapping[str, Any]) -> None:
+def judge_share(row: dict[str, Any], name: str, reported: Mapping[str, Any]) -> None:
     """Set `name` of a row to the load share of another run, and `wrong` if its error is exceeded.
 
     Where no error is stated, `UNKNOWN_ERROR` is allowed.
     """
-    value, other = row["contact_load_share"], told.get("contact_load_share")
+    value, other = row["contact_load_share"], reported.get("contact_load_share")
     row[name] = other
     if None in (value, other):
         return
@@ -81,14 +81,14 @@ def broken(folder: Path) -> str:
     cell = float(data["X"][1] - data["X"][0]) * float(data["Y"][1] - data["Y"][0])
     last = "history_" if "history_load_share" in data else "contact_"
     share = pressure[touching].sum() / pressure.sum()
-    told = float(data[f"{last}load_share"].to_numpy().flat[-1])
+    reported = float(data[f"{last}load_share"].to_numpy().flat[-1])
     given = data[f"{last.removeprefix('contact_')}layer_supply"].to_numpy().flat[-1]
     carried = pressure.sum() * cell / (2.0 * np.pi / 3.0) + float(data["load_beyond"])
     conditions = {
         "P >= 0": pressure.min() >= 0.0,
         "film of the layer": mass.min() >= 1.0 - HELD,
         "load": abs(carried - 1.0) <= LOAD,
-        "load share": abs(share - told) <= LOAD,
+        "load share": abs(share - reported) <= LOAD,
         "N <= 0": given >= -HELD,
     }
     return ", ".join(name for name, holds in conditions.items() if not holds)

@@ -234,7 +234,7 @@ def add_errors(rows: Sequence[Row], quantities: Sequence[str]) -> None:
 
 
 def cheapest(rows: Sequence[Row]) -> list[Row]:
-    """Give the setting of least seconds for each of `LEVELS`, by problem and quantity.
+    """Give the setting of fewest seconds for each of `LEVELS`, by problem and quantity.
 
     An error below the bar of the reference counts as the bar.
     """
@@ -252,7 +252,7 @@ def cheapest(rows: Sequence[Row]) -> list[Row]:
     return found
 
 
-def told(row: Row) -> str:
+def best_of(row: Row) -> str:
     """Give a row of `cheapest` in a line."""
     best, how = row["best"], "none of these"
     if best is not None:
@@ -265,7 +265,7 @@ def work(args: argparse.Namespace) -> Row:
     """Measure, print and draw."""
     rows = work_rows(args.problems, grids=args.points, threads=args.threads, full=args.full)
     best = cheapest(rows)
-    show(rows, COLUMNS, *map(told, best))
+    show(rows, COLUMNS, *map(best_of, best))
     answer: Row = {"cheapest": best, "rows": rows}
     if "wave" in args.problems:
         share = answer["share_of_deflection"] = share_of_deflection()

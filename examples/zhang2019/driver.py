@@ -59,7 +59,7 @@ def reproduce(
 
     The folder gets ``report.html``, a folder for each piece and ``studies``; what is there of the
     same level is not computed again. `machine` are lines of the report, `watch` gives the watcher
-    of a study, `done` is told each piece, `references` are compared with in place of those of the
+    of a study, `done` takes each piece, `references` are compared with in place of those of the
     paper. InputError if there is no such piece, or the folder holds something else; FileError if
     something cannot be written; KeyboardInterrupt if somebody stopped it: what was finished is
     kept.

@@ -102,7 +102,7 @@ class Check:
     name: str  # what it is, in words
     found: float  # ours; NaN where there is none
     expected: float  # theirs
-    tolerance: float | None  # allowed deviation; None: told, not judged
+    tolerance: float | None  # allowed deviation; None: reported, not judged
     why: str  # what the tolerance is, or why there is none
     source: str  # where theirs is from
     # Title of the `Finding` that shows why the paper is not reproduced, should it not be

@@ -43,8 +43,8 @@ def parser() -> argparse.ArgumentParser:
         )
     level = made.add_mutually_exclusive_group()
     for name, minutes in MINUTES.items():
-        told = f"at most {minutes} minutes on two idle cores; left out: {LEVELS[name].leaves_out}"
-        level.add_argument(f"--{name}", dest="level", action="store_const", const=name, help=told)
+        text = f"at most {minutes} minutes on two idle cores; left out: {LEVELS[name].leaves_out}"
+        level.add_argument(f"--{name}", dest="level", action="store_const", const=name, help=text)
     made.set_defaults(level="quick")
     made.add_argument("-o", "--output", metavar="DIR", required=True, help="folder of the report")
     add_force(made)

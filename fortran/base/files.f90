@@ -137,7 +137,7 @@ contains
    end function may_write
 
    !> Whether a path is a file: no folder, device or pipe, which might never end, or never begin. One that cannot be
-   !> opened counts as a file: reading it tells why.
+   !> opened counts as a file: reading it reports why.
    logical function is_file(path)
       character(len=*), intent(in) :: path
       !> Do not wait for the other end of a pipe (Linux)

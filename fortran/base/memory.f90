@@ -35,7 +35,7 @@ contains
       text = amount_buffer(bytes)
    end function amount
 
-   !> Bytes that the machine, the control groups of the process and its address space still have; huge where nobody tells
+   !> Bytes that the machine, the control groups of the process and its address space still have; huge where none is reported
    real(dp) function free_bytes(root) result(free)
       !> Folder that /proc and /sys are in: empty, but in tests
       character(len=*), intent(in) :: root

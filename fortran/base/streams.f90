@@ -57,7 +57,7 @@ contains
       end do
    end subroutine guard_streams
 
-   !> Write a line to standard output; false where that fails, which the library of gfortran does not tell
+   !> Write a line to standard output; false where that fails, which the library of gfortran does not report
    logical function put_line(text)
       character(len=*), intent(in) :: text
       integer(c_int), parameter :: output = 1

@@ -2,7 +2,7 @@
 !> Text: numbers as text, lower case, lines, and the nearest of several words
 !>
 !> Threads make texts side by side. The length of a function's result that is allocatable is in static memory (gfortran), so
-!> numbers as text have a length that their arguments tell. tests/core/test_threads.py refuses the others where they matter.
+!> numbers as text have a length that follows from their arguments. tests/core/test_threads.py refuses the others where they matter.
 module ehl_text
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_kinds, only: dp

@@ -72,7 +72,7 @@ module ehl_case
       !> Whether it was given, is an estimate from a data sheet, or the default beside a viscosity that was given
       character(len=word_length) :: alpha_origin = "given"
       character(len=word_length) :: viscosity_law = "roelands"
-      !> The law that gives viscosity and pressure-viscosity coefficient at the inlet, where viscosity_law does not tell it
+      !> The law that gives viscosity and pressure-viscosity coefficient at the inlet, where viscosity_law does not give it
       character(len=word_length) :: inlet_law = ""
       !> Set by the reader
       real(dp) :: roelands_z = 0.0_dp

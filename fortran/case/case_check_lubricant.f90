@@ -19,7 +19,7 @@ module ehl_case_check_lubricant
 
    !> Relative difference of values that is none
    real(dp), parameter :: rounding = 1.0e-6_dp
-   !> Maximum pressure at which a law must tell a viscosity, over the Hertz pressure
+   !> Maximum pressure at which a law must give a viscosity, over the Hertz pressure
    real(dp), parameter :: beyond_hertz = 1.5_dp
    !> Roelands exponents of liquids: water has 0.04, mineral oils 0.6
    real(dp), parameter :: least_z = 1.0e-3_dp, largest_z = 2.0_dp
@@ -138,7 +138,7 @@ contains
       end subroutine check_heat
    end subroutine check_lubricant
 
-   !> Viscosity and pressure-viscosity coefficient must be those of the law or the data sheet that tells them
+   !> Viscosity and pressure-viscosity coefficient must be those of the law or the data sheet that gives them
    subroutine check_inlet(source, input, status)
       type(case_source_t), intent(in) :: source
       type(case_t), intent(in) :: input

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What one key of a case alone cannot tell: keys that exclude each other, operating points and domains that cannot be
+!> Checks of several keys of a case together: keys that exclude each other, operating points and domains that cannot be
 !> solved, and values that pyehl has to complete
 module ehl_case_checks
    use ehl_case, only: case_t, surface_case_t

@@ -77,7 +77,7 @@ contains
       end associate
    end subroutine complete_contact
 
-   !> Viscosity, pressure-viscosity coefficient and fall with temperature at the inlet by a law that tells them; exponent of
+   !> Viscosity, pressure-viscosity coefficient and fall with temperature at the inlet by a law that gives them; exponent of
    !> Roelands
    subroutine complete_lubricant(source, input, status)
       type(case_source_t), intent(in) :: source

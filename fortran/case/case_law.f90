@@ -31,14 +31,14 @@ contains
       if (law == "" .and. l%viscosity_law /= "roelands" .and. l%viscosity_law /= "barus") law = l%viscosity_law
    end function own_law
 
-   !> Whether a law tells the viscosity of the inlet, or how it rises with pressure
+   !> Whether a law gives the viscosity of the inlet, or how it rises with pressure
    pure logical function uses_law(l, name)
       type(lubricant_case_t), intent(in) :: l
       character(len=*), intent(in) :: name
       uses_law = own_law(l) == name .or. l%viscosity_law == name
    end function uses_law
 
-   !> Whether a law of viscosity or density tells how the oil changes with temperature
+   !> Whether a law of viscosity or density says how the oil changes with temperature
    pure logical function knows_temperature(l)
       type(lubricant_case_t), intent(in) :: l
       knows_temperature = own_law(l) /= "" .or. l%density_law == "murnaghan" .or. l%density_law == "tait"

@@ -30,7 +30,7 @@ module ehl_contact
 
 contains
 
-   !> Whether nothing tells X from Y
+   !> Whether nothing distinguishes X from Y
    pure logical function is_round(self)
       class(contact_t), intent(in) :: self
       is_round = .not. abs(self%radius_ratio - 1.0_dp) > 0.0_dp

@@ -64,7 +64,7 @@ contains
       where (p > cavity_pressure) dipole = max(dipole, boundary%touching(:, j))
    end subroutine mark_touching_dipoles
 
-   !> Last touching node of row j whose film is below the layer; 2 if there is none
+   !> Last touching node of row j whose film is below the boundary film; 2 if there is none
    pure integer function last_touching(boundary, mass_content, j) result(i)
       type(boundary_film_t), intent(in) :: boundary
       !> Shape (nx)

@@ -1,11 +1,11 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Contact at a boundary film: a layer of lubricant on the surfaces that pressure does not squeeze out. With N(P) the
-!> left-hand side of the Reynolds equation (reynolds.f90) and H_b the film of the layer at P = 0,
+!> Contact at a boundary film: lubricant on the surfaces that pressure does not squeeze out. With N(P) the
+!> left-hand side of the Reynolds equation (reynolds.f90) and H_b the boundary film at P = 0,
 !>
 !>    P >= 0,   N <= 0,   rho H >= H_b,   one of the three an equality at every node:
 !>
-!> cavitated (P = 0), flowing (N = 0) or touching (rho H = H_b). What N lacks at touching nodes is lubricant that the layer
-!> gives. The layer is an amount of lubricant: it yields to pressure as the lubricant does, and passes a zone of touching nodes
+!> cavitated (P = 0), flowing (N = 0) or touching (rho H = H_b). What N lacks at touching nodes is lubricant that the boundary film
+!> gives. It is an amount of lubricant: it yields to pressure as the lubricant does, and passes a zone of touching nodes
 !> without gaining or losing any. With H >= H_b instead it would be squeezed out of the first half of a contact and lift the
 !> second half by rho(P_max).
 !>
@@ -18,8 +18,8 @@
 !> deflection alone, or the deflection and the Poiseuille term.
 !>
 !> Solids with a hardness sustain no more than the maximum pressure P_Y. A node yields where P = P_Y and it requires more: the
-!> elastic film H is below the layer, or below what the lubricant needs. The solids yield by what is missing, D >= 0, so that
-!> rho (H + D) is that of the layer, or more where N = 0 then. Such a node keeps its pressure until D would be negative.
+!> elastic film H is below the boundary film or what the lubricant needs. The solids yield by what is missing, D >= 0, so that
+!> rho (H + D) is that of the boundary film, or more where N = 0 then. Such a node keeps its pressure until D would be negative.
 !>
 !> Every level has one. Without setup, or with H_b = 0, it is inactive: no node touches, and its procedures change nothing.
 module ehl_boundary_film
@@ -31,8 +31,8 @@ module ehl_boundary_film
    private
    public :: boundary_film_t
 
-   !> A touching node lifts off where it would by more than a share of the layer: behind a zone of touching nodes the lubricant
-   !> has the film of the layer, too, and rounding would decide on their states. What flows on to such a node and not on from it
+   !> A touching node lifts off by more than a share of the boundary film: behind a zone of touching nodes the lubricant
+   !> has the boundary film, too, and rounding would decide on their states. What flows on to such a node and not on from it
    !> is lost, so the share is small. Of a steady problem that has not converged the residuals would decide; it is larger there.
    real(dp), parameter :: min_lift = 1.0e-4_dp, max_lift = 1.0e-2_dp
    !> The same over the residual (rms) of a steady problem
@@ -49,7 +49,7 @@ module ehl_boundary_film
       real(dp) :: max_pressure = 0.0_dp
       !> Factor of the equation of touching nodes
       real(dp) :: rate = 0.0_dp
-      !> Share of the layer that a touching node may be lifted by, by the present residual
+      !> Share of the boundary film that a touching node may be lifted by, by the present residual
       real(dp), private :: lift = min_lift
       !> Whether the states of the nodes stay, on a coarse level
       logical :: frozen = .false.
@@ -57,7 +57,7 @@ module ehl_boundary_film
       real(dp), allocatable :: touching(:, :)
       !> rho (H + D) where a node yields, else 0; of size 0 where none may
       real(dp), allocatable :: yield_mass(:, :)
-      !> Film that the lubricant flows through: that of an iterate may be below the layer
+      !> Film that the lubricant flows through: that of an iterate may be below the boundary film
       real(dp), allocatable :: film(:, :)
       !> Residuals of touching nodes, else 0, from which those of the coarse level are made
       real(dp), allocatable :: touching_residual(:, :)
@@ -169,7 +169,7 @@ contains
       if (self%yields) self%touching(:, j) = merge(1.0_dp, self%touching(:, j), self%yield_mass(:, j) > 0.0_dp)
    end subroutine find_row
 
-   !> Nodes of row j that yield, with their mass content: that at which N = 0, but no less than that of the layer
+   !> Nodes of row j that yield, with their mass content: that at which N = 0, but no less than that of the boundary film
    pure subroutine find_yielding(self, p, weights, j, residual, mass_content)
       class(boundary_film_t), intent(inout) :: self
       !> Pressure, and the wedge term's factors of rho H at a node and at those upstream of it, shape (nx), (0:..., nx)

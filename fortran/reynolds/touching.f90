@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> What is read off a solution with contact at a boundary film (boundary_film.f90). Bodies touch where there is pressure and the
-!> film is that of the layer, to 1 % of it: behind a touching node the lubricant may flow with the film that the layer leaves, which
-!> is contact as well.
+!> film is the boundary film, to 1 % of it: behind a touching node the lubricant may flow with the boundary film that it
+!> leaves, which is contact as well.
 module ehl_touching
    use ehl_kinds, only: dp
    use ehl_level, only: gap_row, level_t
@@ -12,7 +12,7 @@ module ehl_touching
    private
    public :: touching_t, measure_touching, same_film, mostly_touching, much_supplied, touches, touching_names, known_names, at_depth
 
-   !> Bodies touch where the film is that of the layer to this share of it
+   !> Solid contact where the film is the boundary film to this share of it
    real(dp), parameter :: same_film = 1.0e-2_dp
 
    !> Share of the flow that a boundary film would have to give from which on a contact is not the one of the model: a choice
@@ -31,10 +31,10 @@ module ehl_touching
    type :: touching_t
       !> iint P dX dY where the bodies touch, over that of the contact; their area there [a^2]
       real(dp) :: load_share = 0.0_dp, area = 0.0_dp
-      !> What the layer gives at touching nodes, over what flows along with the surfaces through the line X = 0
+      !> What the boundary film gives at touching nodes, over what flows along with the surfaces through the line X = 0
       real(dp) :: supply = 0.0_dp
       !> Share of the load where the solids yield, their area there [a^2], the largest depth by which they yield [a^2/R], and
-      !> the part of that share where the film is above the layer
+      !> the part of that share where the film is above the boundary film
       real(dp) :: hard_share = 0.0_dp, hard_area = 0.0_dp, depth = 0.0_dp, flowing_share = 0.0_dp
    contains
       procedure :: numbers

@@ -144,7 +144,7 @@ contains
          if (state >= 0) exit
       end do
       if (self%newest == missing .and. state == missing) return
-      ! with the older one missing, the newest tells what is wrong
+      ! with the older one missing, the newest says what is wrong
       if (state == missing) then
          state = self%newest
          k = 1
@@ -243,7 +243,7 @@ contains
       read (lun, iostat=stat) version
       if (stat == 0 .and. version /= magic .and. index(version, family) == 1) what_is = other_version
       close (lun)
-      ! what is damaged may tell any length
+      ! what is damaged may have any length
       if (what_is == other_version) return
       if (.not. is_sealed(prefix//name)) return
       call open_sealed(prefix//name, "read", lun, status)

@@ -137,7 +137,7 @@ contains
                        abs(self%m%load_error) <= small_load_error
    end function may_scale_load
 
-   !> Whether the present share is solved; the first cycle cannot tell
+   !> Whether the present share is solved; the first cycle does not show it
    pure logical function converged(self)
       class(stationary_t), intent(in) :: self
       real(dp) :: wanted

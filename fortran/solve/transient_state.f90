@@ -251,7 +251,7 @@ contains
       self%film_checksum = sum(1.0_dp/level%h)
    end subroutine accept
 
-   !> Go on with a state that was read into this run. `same` tells whether its film follows from its pressure: it does
+   !> Go on with a state that was read into this run. `same`: whether its film follows from its pressure: it does
    !> not when the surface, or the program, is another one.
    subroutine restore(self, level, surfaces, same)
       class(transient_t), intent(inout) :: self

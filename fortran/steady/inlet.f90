@@ -17,24 +17,24 @@ module ehl_inlet
    private
    public :: inlet_t
 
-   !> c, and the largest e of a grid that tells which part of the load is at the boundary film
+   !> c, and the largest e of a grid that determines which part of the load is at the boundary film
    real(dp), parameter :: factor = 1.3_dp, resolved_share = 0.12_dp
    !> Load share, and its part of the friction, up to which it hardly matters whether the grid is the reason: films grow as
    !> grids become finer, and no share is wrong by more than itself
    real(dp), parameter :: small_share = 0.05_dp, small_friction = 0.1_dp
    !> What the formula may be off; minimum film of a smooth contact over the central one
-   real(dp), parameter :: formula_error = 0.15_dp, thinnest = 0.3_dp
+   real(dp), parameter :: formula_error = 0.15_dp, min_over_central = 0.3_dp
    !> Relative change of the load share by a relative change of the film; error of what is left of the load, at the edge of a
    !> contact that touches nearly everywhere
    real(dp), parameter :: share_by_film = 8.0_dp, edge_error = 0.5_dp
    !> Error of the load share over s (1 - s) r/H: what the residual r (rms, of the wedge term) leaves open adds up along a
-   !> touching zone and moves its edge, by a node in several cycles, so that changes per cycle tell little. It covers 135 of
+   !> touching zone and moves its edge, by a node in several cycles, so that changes per cycle say little. It covers 135 of
    !> 138 results (M from 100 to 2500, boundary films of 0.4 to 1.1 times the film, against a residual 10 to 1000 times smaller)
    real(dp), parameter :: share_by_residual = 80.0_dp
 
    type :: inlet_t
       !> Central film by formula and boundary film, both under the Hertz pressure [a^2/R]; 0: there is no boundary film
-      real(dp) :: film = 0.0_dp, layer = 0.0_dp
+      real(dp) :: film = 0.0_dp, boundary_film = 0.0_dp
       !> Shear stress of the boundary film over its pressure, as lubricant_t has it
       real(dp) :: stress = 0.0_dp
    contains
@@ -60,7 +60,7 @@ contains
    !> Whether the boundary film is thicker than what the inlet makes, whatever the grid
    pure logical function is_dry(self)
       class(inlet_t), intent(in) :: self
-      is_dry = self%layer >= (1.0_dp + formula_error)*self%film
+      is_dry = self%boundary_film >= (1.0_dp + formula_error)*self%film
    end function is_dry
 
    !> Whether a contact may touch on a grid of mesh size h for that: there the film is thinner by more than is missed of H
@@ -71,11 +71,11 @@ contains
       in_doubt = .false.
       if (.not. self%film > 0.0_dp .or. self%is_dry()) return
       associate (e => self%missed(h))
-         in_doubt = e > resolved_share .and. self%layer > thinnest*(1.0_dp - 2.0_dp*e)*self%film
+         in_doubt = e > resolved_share .and. self%boundary_film > min_over_central*(1.0_dp - 2.0_dp*e)*self%film
       end associate
    end function in_doubt
 
-   !> Whether a solution on a grid of mesh size h tells which part of the load is at the boundary film
+   !> Whether a solution on a grid of mesh size h determines which part of the load is at the boundary film
    pure logical function resolves(self, m, h)
       class(inlet_t), intent(in) :: self
       type(contact_results_t), intent(in) :: m

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What the levels of a nested iteration know of the smooth contact, and what two of them tell of the error
+!> What the levels of a nested iteration know of the smooth contact, and the error by two of them
 module ehl_level_result
    use ehl_contact_results, only: contact_results_t
    use ehl_inlet, only: inlet_t

@@ -74,15 +74,15 @@ contains
    pure logical function counts_share(options, m)
       type(steady_options_t), intent(in) :: options
       type(contact_results_t), intent(in) :: m
-      counts_share = rests_on_layer(m) .or. (options%inlet%film > 0.0_dp .and. m%touching%load_share > 0.0_dp .and. &
+      counts_share = rests_on_boundary_film(m) .or. (options%inlet%film > 0.0_dp .and. m%touching%load_share > 0.0_dp .and. &
                                                 m%touching%supply <= much_supplied)
    end function counts_share
 
    !> Whether a boundary film carries most of the load; where it would have to give much contact is not well posed
-   pure logical function rests_on_layer(m)
+   pure logical function rests_on_boundary_film(m)
       type(contact_results_t), intent(in) :: m
-      rests_on_layer = m%touching%load_share > mostly_touching .and. m%touching%supply <= much_supplied
-   end function rests_on_layer
+      rests_on_boundary_film = m%touching%load_share > mostly_touching .and. m%touching%supply <= much_supplied
+   end function rests_on_boundary_film
 
    !> Algebraic errors of H_c and H_min that the present level deserves
    pure function wanted(options, results, n, m)
@@ -92,7 +92,7 @@ contains
       type(contact_results_t), intent(in) :: m
       real(dp) :: wanted(2), values(2), least
 
-      least = merge(start_tolerance, min_error, rests_on_layer(m))
+      least = merge(start_tolerance, min_error, rests_on_boundary_film(m))
       values = m%films()
       if (has_coarser(results, n)) then
          wanted = options%accuracy*max(film_errors(m, results(n - 1)%m, results(n)%mesh, options%inlet), least*values)

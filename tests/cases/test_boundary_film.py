@@ -38,7 +38,7 @@ def dry(script):
 
 
 @pytest.mark.parametrize(
-    "scene",
+    "case",
     [
         {},
         WAVE | {"time.steps": 20},
@@ -47,9 +47,9 @@ def dry(script):
     ],
     ids=["smooth", "wave", "rest", "eyring"],
 )
-def test_full_film_changes_no_bit(solve, scene):
+def test_full_film_changes_no_bit(solve, case):
     """With a boundary film below every film of the contact."""
-    full = STEEL | {"contact.load": 20.0} | scene
+    full = STEEL | {"contact.load": 20.0} | case
     without = solve(None, 65, full, fields=True)
     with_film = solve(None, 65, full | {"lubricant.boundary_film": 1e-9}, fields=True)
     assert without["status"] == with_film["status"]
@@ -192,10 +192,10 @@ HOT = STEEL | {
 TEMPERATURES = tuple(f"temperature_rise{part}_max_K" for part in ("", "_wall_1", "_wall_2"))
 
 
-@pytest.mark.parametrize("scene", [{}, WAVE | {"time.steps": 20}], ids=["smooth", "wave"])
-def test_layer_that_touches_nothing_changes_no_bit_of_friction_with_heat(solve, scene):
+@pytest.mark.parametrize("case", [{}, WAVE | {"time.steps": 20}], ids=["smooth", "wave"])
+def test_layer_that_touches_nothing_changes_no_bit_of_friction_with_heat(solve, case):
     """Heat is not switched off with it."""
-    light = HOT | scene | {"contact.load": 20.0}
+    light = HOT | case | {"contact.load": 20.0}
     without = solve(None, 65, light, words=True)
     layer = {"lubricant.boundary_film": 1e-8, "lubricant.boundary_friction": 0.1}
     with_film = solve(None, 65, light | layer, words=True)
@@ -204,7 +204,7 @@ def test_layer_that_touches_nothing_changes_no_bit_of_friction_with_heat(solve, 
         assert with_film[name] == without[name], name
     assert with_film["mu_note"] == without["mu_note"]
     assert without["mu_smooth"] < 0.9 * without["mu_smooth_isothermal"]
-    if scene:
+    if case:
         ratio = with_film.history["heat_ratio"]
         assert np.array_equal(ratio, without.history["heat_ratio"], equal_nan=True)
 
@@ -295,7 +295,7 @@ BOTH_ROUGH = {
 
 
 @pytest.mark.parametrize(
-    ("name", "points", "velocity", "layer", "hardness", "scene"),
+    ("name", "points", "velocity", "layer", "hardness", "case"),
     [
         ("pressed flat", 129, 0.02, 2e-8, 1.15 * HERTZ, {}),
         ("with valleys", 129, 0.005, 1e-8, 1.35 * HERTZ, VALLEYS),
@@ -308,11 +308,11 @@ BOTH_ROUGH = {
     ],
     ids=["flat", "valleys", "fine, flat", "fine, valleys", "ellipse", "two surfaces"],
 )
-def test_hardness_dry_limit(solve, root, dry, name, points, velocity, layer, hardness, scene):
+def test_hardness_dry_limit(solve, root, dry, name, points, velocity, layer, hardness, case):
     """Pressure, and what of the load is at the limit, of a dry solver with a limit of pressure."""
     rest = {"contact.mean_velocity": velocity, "lubricant.boundary_film": layer}
     rest |= {"contact.hardness": hardness}
-    done = solve(None, points, of_shape(STEEL | REST | rest | scene), fields=True, words=True)
+    done = solve(None, points, of_shape(STEEL | REST | rest | case), fields=True, words=True)
     assert done.converged
     limit = hardness / done["hertz_pressure_Pa"]
     hard, elastic = (dry.dry_pressure(done.summary, done.field, most) for most in (limit, None))
@@ -320,7 +320,7 @@ def test_hardness_dry_limit(solve, root, dry, name, points, velocity, layer, har
     assert pressure.max() == pytest.approx(limit, rel=1e-9)
     share = hard[hard >= limit * (1.0 - 1e-9)].sum() / hard.sum()
     # the dry contact is that of the last time step
-    moving = "time.steps" in scene
+    moving = "time.steps" in case
     at_limit = done.history["hard_load_share"][-1] if moving else done["load_share_at_hardness"]
     # two nodes of the ellipse are one hundredth of its share
     assert at_limit == pytest.approx(share, rel=0.02 if name == "ellipse" else 0.01)
@@ -342,9 +342,9 @@ def of_shape(settings: dict) -> dict:
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("scene", [{}, REST, MIXED], ids=["smooth", "rest", "wave"])
-def test_hardness_above_all_pressures_changes_no_bit(solve, scene):
-    touching = STEEL | {"contact.mean_velocity": 0.05, "lubricant.boundary_film": 3e-8} | scene
+@pytest.mark.parametrize("case", [{}, REST, MIXED], ids=["smooth", "rest", "wave"])
+def test_hardness_above_all_pressures_changes_no_bit(solve, case):
+    touching = STEEL | {"contact.mean_velocity": 0.05, "lubricant.boundary_film": 3e-8} | case
     elastic = solve(None, 65, touching, fields=True)
     hard = solve(None, 65, touching | {"contact.hardness": 1e12}, fields=True)
     # 65 nodes may not resolve the inlet: the bodies touch there, and no load share is told
@@ -489,15 +489,15 @@ def test_both_drivers_find_the_same(solve, tmp_path):
 
 
 @pytest.mark.parametrize(
-    "scene",
+    "case",
     [
         ELLIPSE,
         {"second_surface.kind": "'harmonic'", "second_surface.amplitude": 0.01},
     ],
     ids=["ellipse", "two surfaces"],
 )
-def test_other_scenes(solve, scene):
-    done = solve(None, 65, of_shape(STEEL | MIXED | scene | {"time.max_periods": 3}))
+def test_other_cases(solve, case):
+    done = solve(None, 65, of_shape(STEEL | MIXED | case | {"time.max_periods": 3}))
     assert done["status"] in ("converged", "not settled")
     assert done.history["load_share"].max() > 0.05
     assert (done.history["load_share"] <= 1.0 + 1e-12).all()

@@ -19,7 +19,7 @@ from pyehl.studies.curve import CONTACT, CONTACT_EHL, EMPIRICAL, UNITS
 from pyehl.theory.friction import OF_ROUGH
 from pyehl.theory.transition import BREAKDOWN, FULL_FILM, Curve, lift_off
 
-SCENE = """
+TEXT = """
 &contact load = 20.0 mean_velocity = {} radius = 0.0127 slide_to_roll = 0.1 /
 &lubricant shear_law = 'eyring' boundary_film = {} boundary_friction = {} /
 &surface kind = 'fractal' rms_height = 3e-8 seed = 11 length_x = 1.2e-4 length_y = 1.2e-4
@@ -28,7 +28,7 @@ SCENE = """
 
 
 def predicted(layer: float, friction: float = 0.1, velocity: float = 0.3):
-    text = SCENE.format(velocity, layer, friction if layer else 0.0)
+    text = TEXT.format(velocity, layer, friction if layer else 0.0)
     return summary_of(text)
 
 
@@ -50,7 +50,7 @@ def test_full_film_is_as_without_a_layer():
 
 def test_error_of_the_smooth_film_is_one_of_the_load_share():
     """Of a surface that is nearly smooth there is hardly another."""
-    text = SCENE.format(0.1, 3e-8, 0.1).replace("rms_height = 3e-8", "rms_height = 1e-11")
+    text = TEXT.format(0.1, 3e-8, 0.1).replace("rms_height = 3e-8", "rms_height = 1e-11")
     found = summary_of(text)
     assert found["contact_load_share"] > 0.0
     assert found["contact_load_share_error"] > 0.1 * found["contact_load_share"]
@@ -77,7 +77,7 @@ def test_share_grows_with_the_layer_up_to_dry_contact():
 def test_smooth_films_are_those_of_a_run_with_the_layer(velocity, layer):
     """Films, pressure and Lambda, as of a run and on a curve; a layer of no contact costs none."""
     values = predicted(layer, velocity=velocity)
-    case = pyehl.Case.from_text(SCENE.format(velocity, layer, 0.1), {"grid.points": 257})
+    case = pyehl.Case.from_text(TEXT.format(velocity, layer, 0.1), {"grid.points": 257})
     run = scalars_of(pyehl.solve(case.with_options({"surface.kind": "smooth"})))
     for name in ("c", "min"):
         error = run[f"H_{name}_error"] * run["film_scale_m"]
@@ -94,7 +94,7 @@ def test_smooth_films_are_those_of_a_run_with_the_layer(velocity, layer):
 def test_smooth_contact_with_the_layer_that_does_not_converge(monkeypatch):
     """No films of another contact in place of its own."""
     monkeypatch.setattr(smooth, "_solved_with_layer", lambda *_: (None, "it does not converge"))
-    settings = pyehl.Case.from_text(SCENE.format(0.3, 1.2e-7, 0.1)).resolve()
+    settings = pyehl.Case.from_text(TEXT.format(0.3, 1.2e-7, 0.1)).resolve()
     prediction = predict(settings, tracks=1)
     summary = prediction.summary
     names = "h_c_m", "h_min_m", "h_c_error_m", "p_max_Pa", "lambda_ratio", "lambda_ratio_deformed"
@@ -148,7 +148,7 @@ def test_picture_of_a_curve_without_friction():
 
 def test_curve_says_why_it_has_no_friction(tmp_path, capsys):
     case = tmp_path / "case.nml"
-    case.write_text(SCENE.format(0.3, 1.2e-7, 0.0) + "&grid points = 65 /\n")
+    case.write_text(TEXT.format(0.3, 1.2e-7, 0.0) + "&grid points = 65 /\n")
     words = ["stribeck", str(case), "--speed", "0.3", "--jobs", "1", "-o"]
     assert cli.main([*words, str(tmp_path / "out")]) == 0
     assert "mu         none: the bodies touch, and the friction" in capsys.readouterr().out
@@ -156,7 +156,7 @@ def test_curve_says_why_it_has_no_friction(tmp_path, capsys):
     assert (tmp_path / "out" / "stribeck.png").is_file()
 
 
-HOT = SCENE.format(3.0, "{}", 0.1).replace("&lubricant", "&lubricant temperature_viscosity = 0.04")
+HOT = TEXT.format(3.0, "{}", 0.1).replace("&lubricant", "&lubricant temperature_viscosity = 0.04")
 
 
 def test_layer_that_touches_nothing_changes_no_bit_of_friction_with_heat():
@@ -187,12 +187,13 @@ def test_heat_where_bodies_touch():
         assert summary["temperature_rise_max_K"] > full["temperature_rise_max_K"]
 
 
-@pytest.mark.parametrize("heat", ["auto", "never"])
-def test_friction_of_a_curve_is_its_ratio_times_that_of_the_smooth_contact(heat):
+@pytest.mark.parametrize(("heat", "surfaces"), [("auto", 2), ("never", 1)])
+def test_friction_of_a_curve_is_its_ratio_times_that_of_the_smooth_contact(heat, surfaces):
     """In every row, or mu_smooth is missing and the row says why."""
     case = pyehl.Case.from_text(HOT.format(1.2e-7) + "&grid points = 65 /\n")
     case = case.with_options({"lubricant.thermal_friction": heat})
-    curve = pyehl.stribeck(case, {"contact.mean_velocity": [0.1, 0.3, 3.0]}, surfaces=2, jobs=1)
+    speeds = {"contact.mean_velocity": [0.3, 3.0]}
+    curve = pyehl.stribeck(case, speeds, surfaces=surfaces, jobs=1)
     isothermal = curve.mu_ratio.values * curve.mu_smooth_isothermal.values
     assert curve.mu_isothermal.values == pytest.approx(isothermal, rel=1e-12)
     assert "mixed film" in curve.status.values
@@ -207,7 +208,7 @@ def test_friction_of_a_curve_is_its_ratio_times_that_of_the_smooth_contact(heat)
 
 def test_smooth_contact_of_a_curve_resolves_its_inlet():
     """On more nodes than the case has where it may touch, and on those of the case elsewhere."""
-    case = pyehl.Case.from_text(SCENE.format(0.02, 1e-8, 0.1) + "&grid points = 65 /\n")
+    case = pyehl.Case.from_text(TEXT.format(0.02, 1e-8, 0.1) + "&grid points = 65 /\n")
     points = touching_points(case.resolve())
     assert points > 65
     alone = case.with_options({"surface.kind": "smooth"})
@@ -225,7 +226,7 @@ def test_smooth_contact_of_a_curve_resolves_its_inlet():
 def test_contact_where_a_full_film_breaks_down(tmp_path, capsys):
     """Numbers of a full film are none then, and neither table nor pictures need them."""
     case = tmp_path / "case.nml"
-    case.write_text(SCENE.format(0.02, 2e-8, 0.1).replace("rms_height = 3e-8", "rms_height = 1e-7"))
+    case.write_text(TEXT.format(0.02, 2e-8, 0.1).replace("rms_height = 3e-8", "rms_height = 1e-7"))
     assert cli.main(["predict", str(case), "-o", str(tmp_path / "out"), "--tracks", "1"]) == 0
     summary = scalars_of(pyehl.load(tmp_path / "out"))
     assert summary["message"].startswith("partial film")
@@ -288,7 +289,7 @@ def test_no_contact_stays_known_outside_the_range(cases):
 
 
 def test_hardness_is_left_out():
-    text = SCENE.format(0.3, 1.2e-7, 0.1)
+    text = TEXT.format(0.3, 1.2e-7, 0.1)
     hard = text.replace("&contact ", "&contact hardness = 3e9 ", 1)
     assert hard != text
     elastic, left = (summary_of(t) for t in (text, hard))
@@ -298,7 +299,7 @@ def test_hardness_is_left_out():
 
 
 def test_two_surfaces_have_none_and_say_why():
-    text = SCENE.format(0.3, 1.2e-7, 0.1)
+    text = TEXT.format(0.3, 1.2e-7, 0.1)
     second = text[text.index("&surface") :].replace("surface", "second_surface").replace("11", "12")
     summary = summary_of(text + second)
     assert summary["contact_load_share"] is None
@@ -365,7 +366,7 @@ def test_lift_off_with_its_error():
 
 @pytest.mark.long
 def test_curve_with_a_layer():
-    case = pyehl.Case.from_text(SCENE.format(0.3, 1e-7, 0.1) + "&grid points = 65 /\n")
+    case = pyehl.Case.from_text(TEXT.format(0.3, 1e-7, 0.1) + "&grid points = 65 /\n")
     curve = pyehl.stribeck(case, {"contact.mean_velocity": [0.2, 1.2]}, jobs=1)
     assert curve.status.values[0] == "mixed film"
     # of the faster one M is below the range of the response

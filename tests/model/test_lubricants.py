@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Oils by name, laws with constants of an oil, tables of measured values, alpha* and alpha_film."""
 
-import json
 import math
-import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -366,17 +364,3 @@ def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
     capsys.readouterr()
     assert cli.main(["lubricants", "fva4"]) == 2
     assert "did you mean 'fva3'" in capsys.readouterr().err
-
-
-def test_both_programs_take_an_oil(drivers: dict[str, list[str]], tmp_path: Path, table: Path):
-    case = tmp_path / "case.nml"
-    case.write_text("&contact load = 50.0 /\n&lubricant table = 'oil.csv' /\n&grid points = 65 /\n")
-    found = []
-    resolved = tmp_path / "resolved.nml"
-    resolved.write_text(pyehl.Case(case).text)
-    for (name, command), text in zip(drivers.items(), (resolved, case), strict=True):
-        folder = tmp_path / name
-        subprocess.run([*command, str(text), "-o", str(folder)], check=True, capture_output=True)
-        summary = json.loads((folder / "summary.json").read_text())
-        found.append((summary["H_c"], summary["lubricant_note"]))
-    assert found[0] == found[1]

@@ -4,37 +4,11 @@
 import re
 from pathlib import Path
 
-import pytest
 from machines import KINDS, draw
-
-
-@pytest.fixture(scope="module")
-def evidence(script):
-    return script("docs/evidence/machines/make.py")
 
 
 def text_of(root: Path, name: str) -> str:
     return (root / "docs" / name).read_text(encoding="utf-8")
-
-
-def test_the_record_is_of_the_contacts_that_the_command_draws(evidence):
-    rows, runs = evidence.read(), evidence.read("runs.csv")
-    assert len(rows) == sum(run["count"] for run in runs)
-    assert len({run["seed"] for run in runs}) == len(runs) >= 3
-    for run in runs:
-        mine = [row for row in rows if row["seed"] == run["seed"]]
-        drawn = draw(run["count"], run["seed"])
-        assert [row["number"] for row in mine] == list(range(run["count"]))
-        assert [row["kind"] for row in mine] == [contact.kind for contact in drawn]
-        for row, contact in zip(mine, drawn, strict=True):
-            assert row["law"] == contact.values["lubricant.shear_law"]
-            assert row["ellipticity"] == pytest.approx(contact.ellipticity, rel=1e-5)
-            assert row["hertz_pressure_Pa"] == pytest.approx(contact.pressure, rel=1e-5)
-            if row["status"] != "converged":
-                assert row["message"]
-            # only what converged is checked, and all of it
-            is_checked = run["fine"] and row["status"] == "converged"
-            assert (row["fine_status"] is not None) == is_checked
 
 
 def test_pages_have_the_constants_of_the_sources(root: Path):
