@@ -63,6 +63,7 @@ OUTSIDE = {
     "fortran/README.md": "/fortran.md",
     "tests/README.md": "/tests.md",
     "CHANGELOG.md": "/changelog.md",
+    "CONTRIBUTING.md": "/contributing.md",
 }
 
 
