@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Polygon, Rectangle
+from PIL import Image
 
 import pyehl
 from pyehl.plots import contact, style
@@ -79,6 +80,8 @@ def film_map(ax: Axes, data: Any) -> None:  # noqa: ANN401
     """Draw the film of the rough contact, and where it is measured."""
     scales = scales_of(data)
     contact.contours(data.X.values, data.Y.values, data.H.values, scales, ax=ax)
+    for part in ax.collections:
+        part.set_rasterized(True)
     inside = Outline().inside(data.X.values, data.Y.values)
     film = np.where(inside, data.H.values, np.inf)
     i, j = np.unravel_index(int(np.argmin(film)), film.shape)
@@ -88,24 +91,29 @@ def film_map(ax: Axes, data: Any) -> None:  # noqa: ANN401
         ((0.0, 0.0), r"$h_\mathrm{c}$", (0.02, 0.05)),
         (lowest, r"$h_\mathrm{min}$", (0.24, 1.22 * np.sign(lowest[1]) * unit)),
     ):
-        ax.plot(*place, "+", color="black", ms=5)
+        ax.plot(*place, "+", color="white", ms=5)
         line = {"arrowstyle": "-", "lw": 0.6, "shrinkA": 0, "shrinkB": 2}
+        far = "min" in name
         ax.annotate(
-            name, place, at, ha="center", va="center", arrowprops=line if "min" in name else None
-        )
+            name, place, at, ha="center", va="center",
+            color="black" if far else "white", arrowprops=line if far else None,
+        )  # fmt: skip
 
 
 def main() -> None:
     """Solve the contact and draw it."""
     data = pyehl.solve(CASE, CHANGES)
-    with style.page_width(0.175):
-        figure = style.new_figure(0.175 / style.INCH, 0.056 / style.INCH)
+    with style.styled():
+        figure = style.new_figure(style.PAGE, 0.056 / style.INCH)
         left, middle, right = figure.subplots(1, 3, width_ratios=(1.0, 1.2, 1.0))
         sketch(left)
         films(middle, data)
         film_map(right, data)
-        style.save(figure, HERE / "contact.svg")
-        style.save(figure, HERE / "contact.png", dpi=200)
+        style.save(figure, HERE / "contact.svg", dpi=200)
+        # of the first page of the site, which is to be light
+        path = style.save(figure, HERE / "contact.png", dpi=160)
+    with Image.open(path) as picture:
+        picture.convert("RGB").quantize(128).save(path, optimize=True)
 
 
 if __name__ == "__main__":
