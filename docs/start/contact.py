@@ -51,7 +51,7 @@ def sketch(ax: Axes) -> None:
     ax.text(0.0, 0.56, "$u_1$", ha="center", va="bottom")
     arrow(ax, (0.35, -0.2), (-0.35, -0.2))
     ax.text(0.42, -0.2, "$u_2$", va="center")
-    ax.text(-1.1, 1.12, "ball, rough", va="center")
+    ax.text(-1.1, 1.12, "ball", va="center")
     ax.text(-1.38, -0.2, "disc", va="center")
     ax.annotate(
         "oil", (-0.85, 0.1), (-1.42, 0.42), va="center",

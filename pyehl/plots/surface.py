@@ -293,8 +293,7 @@ def _map(ax: Axes, heights: Array, size: tuple[float, float], title: str) -> Non
     bar = ax.figure.colorbar(image, ax=ax, fraction=0.046, extend="both")
     bar.set_label(f"height [{name}]")
     rms = float(np.nanstd(heights)) * unit
-    peak = float(np.nanmax(np.abs(heights))) * unit
-    head = f"{ax.get_title(loc='left')} {title},\nrms {rms:.3g}, peak {peak:.3g} {name}"
+    head = f"{ax.get_title(loc='left')} {title},\nrms {rms:.3g} {name}"
     ax.set_title(head, loc="left")
     style.few_ticks(ax)
     ax.set(xlabel=f"x [{length}]", ylabel=f"y [{length}]")
@@ -329,7 +328,7 @@ def _spectra(
         ends += [float(q[0]), float(q[-1])]
     ax.set(xlabel="|q| [rad/µm]", ylabel=C_ISO)
     style.label_decades(ax.xaxis, ax.yaxis)
-    ax.legend(loc="lower left")
+    ax.legend(loc="upper right")
     if conditions is None:
         return
     radius, moes_m, moes_l, convention = conditions
