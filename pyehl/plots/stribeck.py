@@ -103,7 +103,7 @@ def _scale(ax: Axes, places: Array) -> None:
     if places.min() > 0.0 and places.max() >= WIDE * places.min():
         ax.set_xscale("log")
         ax.set_xlim(places.min() / 1.1, places.max() * 1.1)
-        style.label_log_ticks(ax.xaxis)
+        style.label_decades(ax.xaxis)
     elif np.ptp(places) > 0.0:
         room = 0.04 * float(np.ptp(places))
         ax.set_xlim(places.min() - room, places.max() + room)

@@ -147,7 +147,7 @@ def test_ellipses_outside_the_range(says, cases: Path, name: str, case: str):
     says(
         f"docs/howto/{name}.md",
         f"the ellipticity, {kappa:.1f}, is outside the range in which the prediction",
-        f"(../theory/prediction-ellipses.md), {least:.1f} to {most:.0f}.",
+        f"(../theory/prediction-compared.md), {least:.1f} to {most:.0f}.",
     )
 
 
@@ -169,10 +169,10 @@ def test_limits(says, cases: Path):
 def test_constants_of_the_prediction(says):
     """Where a film ends, what the inlet makes, what oblique waves take."""
     ends, film, least = second_order.FILM_ENDS, second_order.INLET_FILM, second_order.QUADRATIC
-    says("docs/glossary.md", f"the waves take more than {ends:g} times the smooth film")
+    says("docs/conventions.md", f"the waves take more than {ends:g} times the smooth film")
     says("docs/theory/prediction.md", f"first order exceeds {ends:g} times the smooth film")
     says(
-        "docs/theory/prediction-second-order.md",
+        "docs/theory/prediction-response.md",
         f"regains ${film:g}\\,t_1^2/H$",
         f"Beyond a loss of ${least:g}\\,H$",
         f"at ${ends:g}\\,H$ it ends",
