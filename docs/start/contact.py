@@ -25,6 +25,11 @@ CHANGES = {
 STEEL, DISC, OIL = "#C9CED6", "#AEB6C2", "#F6E3B4"
 
 
+def on_one_line(path: Path) -> None:
+    """Write an SVG file without the ends of its lines, which say nothing."""
+    path.write_text(" ".join(path.read_text(encoding="utf-8").split()) + "\n", encoding="utf-8")
+
+
 def arrow(ax: Axes, tip: tuple[float, float], tail: tuple[float, float], **more: Any) -> None:  # noqa: ANN401
     """Draw an arrow between two places."""
     how = {"arrowstyle": "-|>", "lw": 1.2, "color": "black", "shrinkA": 0, "shrinkB": 0, **more}
@@ -109,7 +114,7 @@ def main() -> None:
         sketch(left)
         films(middle, data)
         film_map(right, data)
-        style.save(figure, HERE / "contact.svg", dpi=200)
+        on_one_line(style.save(figure, HERE / "contact.svg", dpi=200))
         # of the first page of the site, which is to be light
         path = style.save(figure, HERE / "contact.png", dpi=160)
     with Image.open(path) as picture:

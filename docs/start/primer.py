@@ -7,6 +7,7 @@ import csv
 from pathlib import Path
 
 import numpy as np
+from contact import on_one_line
 
 import pyehl
 from pyehl.plots import contact, style
@@ -31,7 +32,7 @@ def lines() -> None:
     ax.set_xlabel("x [mm], motion →")
     twin = next(other for other in figure.axes if other is not ax)
     figure.legend(handles=[*ax.get_lines(), *twin.get_lines()], loc="outside lower center", ncols=3)
-    style.save(figure, HERE / "ehl.svg")
+    on_one_line(style.save(figure, HERE / "ehl.svg"))
 
 
 @style.styled()
@@ -47,7 +48,7 @@ def moes() -> None:
     ax.set(xlabel="M", ylabel=r"$H_\mathrm{c} = h_\mathrm{c}R/a^2$")
     ax.grid(visible=True)
     ax.legend()
-    style.save(figure, HERE / "moes.svg")
+    on_one_line(style.save(figure, HERE / "moes.svg"))
 
 
 def style_colours() -> tuple[str, str, str]:
@@ -74,7 +75,7 @@ def regimes() -> None:
     twin.plot(speed, share, "s--", color=style.VERMILLION)
     twin.set_ylim(0.0, 1.0)
     style.y_label(twin, "load share of solid contact", style.VERMILLION)
-    style.save(figure, HERE / "regimes.svg")
+    on_one_line(style.save(figure, HERE / "regimes.svg"))
 
 
 if __name__ == "__main__":
