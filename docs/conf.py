@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Sphinx: ``sphinx-build -W docs build/docs``, with pyehl installed."""
 
+import html
 import re
 import sys
 from importlib.metadata import version as version_of
 from pathlib import Path
+from typing import Any
 
+from docutils import nodes
 from sphinx.application import Sphinx
 
 sys.path.insert(0, str(Path(__file__).parent / "_ext"))
@@ -26,7 +29,7 @@ extensions = [
 ]
 source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
 # FORD makes pages of ford.md, see below
-exclude_patterns = ["_build", "_ext", "examples", "ford.md"]
+exclude_patterns = ["_build", "_ext", "_static", "examples", "ford.md"]
 # The list of measurements may be empty; blocks without a lexer of their own are plain text
 suppress_warnings = ["toc.empty_glob", "misc.highlighting_failure"]
 
@@ -51,11 +54,16 @@ sphinx_gallery_conf = {
     "show_memory": False,
     "plot_gallery": True,
     "min_reported_time": 1,
+    # its page takes scripts from a network
+    "write_computation_times": False,
 }
 
 html_theme = "furo"
 html_math_renderer = "mathml"
 html_title = f"pyehl {release}"
+html_static_path = ["_static"]
+html_css_files = ["site.css"]
+html_copy_source = False
 
 # Documents outside of this folder, and the pages that include them
 OUTSIDE = {
@@ -63,6 +71,7 @@ OUTSIDE = {
     "fortran/README.md": "/fortran.md",
     "tests/README.md": "/tests.md",
     "CHANGELOG.md": "/changelog.md",
+    "CONTRIBUTING.md": "/contributing.md",
 }
 
 
@@ -72,6 +81,28 @@ def lead_to_pages(app: Sphinx, name: str, source: list[str]) -> None:
         source[0] = re.sub(rf"\]\((?:\.\./)+{re.escape(outside)}", f"]({page}", source[0])
 
 
+LONGEST = 155
+"""Letters of a description that search engines show."""
+
+
+def describe(
+    app: Sphinx, page: str, template: str, context: dict[str, Any], doctree: nodes.document | None
+) -> None:
+    """Take the first paragraph as the description of a page; name the examples' thumbnails."""
+    if doctree is None:
+        return
+    first = next(iter(doctree.findall(nodes.paragraph)), None)
+    words = context["title"] if first is None else " ".join(first.astext().split())
+    if len(words) > LONGEST:
+        words = words[:LONGEST].rpartition(" ")[0] + " …"
+    tag = f'<meta name="description" content="{html.escape(words)}" />'
+    context["metatags"] = context.get("metatags", "") + tag
+    context["body"] = re.sub(
+        r'(tooltip="([^"]*)">\s*<img )alt=""', r'\1alt="\2"', context.get("body", "")
+    )
+
+
 def setup(app: Sphinx) -> None:
-    """Register what changes the sources."""
+    """Register what changes the sources and the pages."""
     app.connect("source-read", lead_to_pages)
+    app.connect("html-page-context", describe)

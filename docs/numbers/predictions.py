@@ -9,8 +9,17 @@ from records import Values, largest, of, percent, read, span
 from pyehl.theory.operating import OperatingPoint
 
 
-def introduction() -> Values:
-    """The number of surfaces in the picture."""
+def measured() -> Values:
+    """Mean films beside a dimple by interferometry, and those of pyehl."""
+    rows = [
+        row
+        for row in read("films/table.csv")
+        if row["source"] == "measured" and row["quantity"] in ("plateau", "behind", "ahead")
+    ]
+    off = 100.0 * np.abs(of(rows, "pyehl_nm") / of(rows, "theirs_nm") - 1.0)
+    worst = rows[int(off.argmax())]
+    assert (worst["quantity"], worst["ssr"]) == ("ahead", "-0.5")
+    count, middle, most = len(rows), f"{np.median(off):.0f}", f"{off.max():.0f}"
     return locals()
 
 

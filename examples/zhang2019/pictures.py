@@ -155,7 +155,7 @@ def flow(steps: Sequence[Step], result: str) -> Figure:
             step.field.T, origin="lower", cmap=style.DIVERGING if step.signed else style.SEQUENTIAL,
             vmin=low, vmax=top,
         )  # fmt: skip
-        style.colour_bar(image, ax, step.unit, shrink=0.8)
+        style.colour_bar(image, ax, step.unit)
         arrow = r"  $\longrightarrow$" if k + 1 < len(steps) else ""
         ax.set_title(f"{k + 1}. {step.title}{arrow}", fontsize="medium", loc="left")
         ax.set_xticks([])
@@ -203,7 +203,7 @@ def deformed(x: Array, y: Array, inside: Mask, fields: Mapping[str, Array]) -> F
         ax.set_xlabel("$X$")
         style.hertz_ticks(ax)
     maps[0].set_ylabel("$Y$")
-    figure.colorbar(image, ax=maps, shrink=0.8, label="height [nm]", extend="both")
+    figure.colorbar(image, ax=maps, label="height [nm]", extend="both")
     half = len(fields) // 2
     histogram = figure.add_subplot(grid[1, :half])
     middle = figure.add_subplot(grid[1, half:])

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Cycles that are taken back, damped and accelerated (docs/theory/full-multigrid.md)
+!> Cycles that are taken back, damped and accelerated (docs/theory/coarse-grids.md)
 submodule (ehl_smooth_contact) ehl_cycle_guard
    implicit none (type, external)
 

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Full multigrid for the smooth contact (Venner & Lubrecht 2000; docs/theory/full-multigrid.md)
+!> Full multigrid for the smooth contact (Venner & Lubrecht 2000; docs/theory/coarse-grids.md)
 module ehl_fmg
    use ehl_contact_results, only: contact_results_t
    use ehl_contact_run, only: contact_run_t

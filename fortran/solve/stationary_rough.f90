@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The contact with a stationary rough surface (docs/theory/full-multigrid.md#stationary-roughness)
+!> The contact with a stationary rough surface (docs/theory/coarse-grids.md#stationary-roughness)
 module ehl_stationary_rough
    use ehl_clock, only: clock_t, start_clock
    use ehl_contact_results, only: contact_results_t

@@ -55,10 +55,10 @@ def film_map(found: Film) -> Map:
     middle = int(np.argmin(np.abs(x))), int(np.argmin(np.abs(y)))
     central = float(film[middle])
     point = found.point
-    scales = Scales(point.hertz_radius, point.hertz_pressure, point.film_scale)
-    red, green, caption = fringe_spacings(1e-3 * central, scales)
+    scales = Scales(point.hertz_radius, point.hertz_pressure, point.film_scale, thin=True)
+    red, green = fringe_spacings(central, scales)
     factor = math.ceil(PIXELS / max(film.shape))
-    fine = scipy.ndimage.zoom(film * 1e-3, factor, order=1, grid_mode=True, mode="nearest")
+    fine = scipy.ndimage.zoom(film, factor, order=1, grid_mode=True, mode="nearest")
     colours = (255.0 * fringe_colours(fine, red, green)).round().astype(np.uint8)
     rgba = np.full((*colours.shape[:2], 4), 255, dtype=np.uint8)
     rgba[..., :3] = colours
@@ -74,7 +74,7 @@ def film_map(found: Film) -> Map:
         float(y[-1] - y[0] + step_y),
         x,
         y,
-        caption.replace(r"$\Delta h$ [$\mu$m]", "Δh [µm]"),
+        f"a fringe for {red:.3g} nm of film in red, {green:.3g} nm in green",
     )
 
 

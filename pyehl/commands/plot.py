@@ -31,8 +31,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--width",
         metavar="WIDTH",
         default="",
-        help="of the figures, as 84mm or 3.3in for a column of a journal; letters of 7 points "
-        "(default: as wide as their panels want)",
+        help="of the figures, as 84mm or 3.3in for a column of a journal; letters of 8 points "
+        "(default: 85 mm, with panels side by side 175 mm)",
     )
     parser.add_argument(
         "--movie",

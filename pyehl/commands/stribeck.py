@@ -127,7 +127,6 @@ def draw(
 ) -> None:
     """Draw the curves of a table."""
     from pyehl.plots.stribeck import (  # noqa: PLC0415 (matplotlib takes long to import)
-        ABSCISSAE,
         Points,
         draw_stribeck,
         draw_traction,
@@ -146,7 +145,7 @@ def draw(
         if beyond := measured.outside(curve.column(measured.abscissa)):
             words = f"{beyond} of {len(measured.places)} measured points are beyond the curve"
             print(f"note: {words}", file=sys.stderr)
-        over = {name: measured.over(name, curve) for name in (*ABSCISSAE, key)}
+        over = {name: measured.over(name, curve) for name in (key,)}
         overlay = Points(over, measured.friction, measured.error)
     settings = plan.points[0].settings
     kinds = [f"'{settings[group]['kind']}'" for group in rough_groups(settings)] or ["'smooth'"]

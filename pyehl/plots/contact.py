@@ -11,6 +11,8 @@ import numpy as np
 import scipy
 from matplotlib import colormaps
 from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import ListedColormap, Normalize
 
 from pyehl.plots import style
 from pyehl.plots.outline import CIRCLE, Outline
@@ -24,10 +26,10 @@ THINNEST, THICKEST = 0.9e-7, 1.2e-6
 RED_SHARE = 0.9
 # Fringes after which the contrast has faded, as under filtered light
 COHERENT_FRINGES = 8.0
-# Half side of the film maps [a]
+# Half sides of the maps over those of the contact
 VIEW = 1.3
-# Maps that are so much higher than broad have few ticks, and captions of several lines
-SLENDER = 3.0
+# Largest film of the colours over that at the centre
+SHOWN = 1.6
 
 
 def pressure_and_film(
@@ -79,20 +81,19 @@ def pressure_and_film(
     return ax
 
 
-def fringe_spacings(central: float, scales: style.Scales | None) -> tuple[float, float, str]:
-    """Difference in film from fringe to fringe in red and in green, and a caption.
+def fringe_spacings(central: float, scales: style.Scales | None) -> tuple[float, float]:
+    """Difference in film from fringe to fringe in red and in green.
 
     Parameters
     ----------
     central
-        Central film, in um with scales and in Hertz units without.
+        Central film, in the unit of films with scales and in Hertz units without.
     """
-    if scales is not None and THINNEST <= central * 1e-6 <= THICKEST:
-        red, green = (1e6 * light / (2.0 * REFRACTIVE_INDEX) for light in (RED, GREEN))
-        return red, green, f"{RED * 1e9:.0f} and {GREEN * 1e9:.0f} nm, n = {REFRACTIVE_INDEX:g}"
-    red, green = RED_SHARE * central, RED_SHARE * central * GREEN / RED
-    of = "ΔH" if scales is None else "Δh [µm]"
-    return red, green, f"fringes {of} = {red:.2g} and {green:.2g}"
+    metre = 1.0 if scales is None else style.film_unit(scales)[0] / scales.film
+    if scales is not None and THINNEST <= central / metre <= THICKEST:
+        red, green = (metre * light / (2.0 * REFRACTIVE_INDEX) for light in (RED, GREEN))
+        return red, green
+    return RED_SHARE * central, RED_SHARE * central * GREEN / RED
 
 
 def fringe_colours(film: Array, red: float, green: float) -> Array:
@@ -114,7 +115,9 @@ def fringe_colours(film: Array, red: float, green: float) -> Array:
         colours[..., channel] = 0.5 * (1.0 - contrast * np.cos(2.0 * np.pi * film / spacing))
     # a little of the red light lightens the dark green for those who see no red
     colours[..., 2] = 0.15 * colours[..., 0]
-    return colours
+    # white where there are no fringes any more
+    faded = (1.0 - np.exp(-((film / (COHERENT_FRINGES * red)) ** 2)))[..., np.newaxis] ** 2
+    return np.asarray(colours + faded * (1.0 - colours))
 
 
 def _central(x: Array, y: Array, h: Array) -> float:
@@ -129,16 +132,16 @@ def _frame(ax: Axes, x: Array, y: Array, scales: style.Scales | None, outline: O
     unit, label_x = style.axis_unit(scales, "x")
     _, label_y = style.axis_unit(scales, "y")
     ax.add_patch(outline.patch(unit, ls="--", lw=0.9, ec=style.VERMILLION))
-    along, across = (VIEW * reach for reach in outline.reach)
     ax.set_aspect("equal")
-    ax.set(xlim=(max(x[0], -along) * unit, min(x[-1], along) * unit))
-    ax.set(ylim=(max(y[0], -across) * unit, min(y[-1], across) * unit), xlabel=label_x)
-    ax.set(ylabel=label_y)
-    if scales is None:
+    across, up, _ = outline.seen(x, y, np.empty((x.size, y.size)))
+    wide, high = outline.view(VIEW)
+    ax.set(xlim=(max(across[0], -wide) * unit, min(across[-1], wide) * unit))
+    ax.set(ylim=(max(up[0], -high) * unit, min(up[-1], high) * unit))
+    style.place_labels(ax, label_x, label_y, outline)
+    if scales is None and not outline.slender:
         style.hertz_ticks(ax, outline)
-    elif outline.slender > SLENDER:
-        ax.locator_params(axis="x", nbins=2)
-        ax.tick_params(axis="x", rotation=90)
+    else:
+        style.few_ticks(ax)
 
 
 def pressure_map(
@@ -154,15 +157,18 @@ def pressure_map(
     ax = style.axes_or_new(ax, 4.2, 3.6)
     unit_p, label = style.pressure_unit(scales)
     unit, _ = style.axis_unit(scales, "x")
+    across, up, seen = outline.seen(x, y, pressure * unit_p)
     image = ax.imshow(
-        pressure.T * unit_p,
-        origin="lower",
-        extent=style.extent_of(x, y, unit),
-        cmap=style.SEQUENTIAL,
+        seen.T, origin="lower", extent=style.extent_of(across, up, unit), cmap=style.SEQUENTIAL
     )
-    style.colour_bar(image, ax, label, shrink=0.9, slender=outline.slender)
+    _bar(image, ax, label, outline)
     _frame(ax, x, y, scales, outline)
     return ax
+
+
+def _bar(image: ScalarMappable, ax: Axes, label: str, outline: Outline) -> None:
+    wide, high = outline.view(VIEW)
+    style.colour_bar(image, ax, label, slender=high / wide)
 
 
 def interferogram(
@@ -171,11 +177,11 @@ def interferogram(
     film: Array,
     scales: style.Scales | None = None,
     *,
-    fringes: tuple[float, float, str] | None = None,
+    fringes: tuple[float, float] | None = None,
     outline: Outline = CIRCLE,
     ax: Axes | None = None,
 ) -> Axes:
-    """Film as interference fringes in red and green.
+    """Film as interference fringes in red and green, with their scale.
 
     Parameters
     ----------
@@ -196,26 +202,24 @@ def interferogram(
     ValueError
         If the film at the centre is not a positive number and `fringes` are not given.
     """
-    ax = style.axes_or_new(ax, 3.6, 3.6)
-    unit_h, _ = style.film_unit(scales)
+    ax = style.axes_or_new(ax, 4.2, 3.6)
+    unit_h, label = style.film_unit(scales)
     unit, _ = style.axis_unit(scales, "x")
     h = film * unit_h
-    red, green, caption = fringes or fringe_spacings(_central(x, y, h), scales)
-    inner_x, inner_y = (
-        np.abs(place) <= VIEW * reach for place, reach in zip((x, y), outline.reach, strict=True)
-    )
-    view = h[np.ix_(inner_x, inner_y)]
-    factor = max(1, math.ceil(900 / max(view.shape)))
-    fine = scipy.ndimage.zoom(view, factor, order=1, grid_mode=True, mode="nearest")
-    extent = style.extent_of(x[inner_x], y[inner_y], unit)
+    central = _central(x, y, h) if fringes is None else 0.0
+    red, green = fringes or fringe_spacings(central, scales)
+    across, up, seen = outline.seen(x, y, h)
+    wide, high = outline.view(VIEW)
+    columns, rows = np.abs(across) <= wide, np.abs(up) <= high
+    seen = seen[np.ix_(columns, rows)]
+    factor = max(1, math.ceil(900 / max(seen.shape)))
+    fine = scipy.ndimage.zoom(seen, factor, order=1, grid_mode=True, mode="nearest")
+    extent = style.extent_of(across[columns], up[rows], unit)
     colours = fringe_colours(fine, red, green).transpose(1, 0, 2)
     ax.imshow(colours, origin="lower", extent=extent, interpolation="antialiased")
-    if outline.slender > SLENDER:
-        caption = caption.replace(" and ", " and\n").replace(", ", ",\n")
-    ax.text(
-        0.03, 0.03, caption, transform=ax.transAxes, fontsize="small",
-        bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 2.0},
-    )  # fmt: skip
+    top = SHOWN * (central or red / RED_SHARE)
+    shades = ListedColormap(fringe_colours(np.linspace(0.0, top, 512), red, green))
+    _bar(ScalarMappable(Normalize(0.0, top), shades), ax, label, outline)
     _frame(ax, x, y, scales, outline)
     return ax
 
@@ -258,10 +262,11 @@ def contours(
     central, least = _central(x, y, h), float(h.min())
     step = _round_step(max((central - least) / 4.0, central / 20.0))
     first = step * math.floor(least / step)
-    levels = np.arange(first, 1.6 * central + 0.5 * step, step)
+    levels = np.arange(first, SHOWN * central + 0.5 * step, step)
     shades = colormaps[style.SEQUENTIAL].with_extremes(over="white")
-    filled = ax.contourf(x * unit, y * unit, h.T, levels=levels, cmap=shades, extend="max")
-    ax.contour(x * unit, y * unit, h.T, levels=levels, colors="black", linewidths=0.3, alpha=0.6)
-    style.colour_bar(filled, ax, label, shrink=0.9, slender=outline.slender)
+    across, up, seen = outline.seen(x * unit, y * unit, h)
+    filled = ax.contourf(across, up, seen.T, levels=levels, cmap=shades, extend="max")
+    ax.contour(across, up, seen.T, levels=levels, colors="black", linewidths=0.3, alpha=0.6)
+    _bar(filled, ax, label, outline)
     _frame(ax, x, y, scales, outline)
     return ax

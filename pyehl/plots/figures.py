@@ -8,13 +8,24 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from pyehl import namelist
 from pyehl.plots import contact, surface, transient
-from pyehl.plots.outline import CIRCLE, Outline
-from pyehl.plots.panels import headline, no_second_label, panels
-from pyehl.plots.style import BLUE, VERMILLION, Scales, film_unit, nearest, pressure_unit
+from pyehl.plots.outline import Outline
+from pyehl.plots.panels import headline, no_numbers_below, no_second_label, panels, rows
+from pyehl.plots.style import (
+    BLUE,
+    THIN,
+    VERMILLION,
+    Scales,
+    film_unit,
+    nearest,
+    pressure_unit,
+    styled,
+)
 from pyehl.schema import summary_of
 from pyehl.surfaces import Topography, wavenumbers
 from pyehl.theory.ellipse import ellipse
@@ -28,25 +39,25 @@ if TYPE_CHECKING:
 
 def scales_of(data: xr.Dataset, units: str = "auto") -> Scales | None:
     """Scales of a solution for `units`: 'si', 'hertz', or 'auto' for SI when the case has them."""
-    operating = OperatingPoint.from_settings(namelist.values(data.attrs["case"]))
-    if units == "si" or (units == "auto" and operating.si):
-        return Scales(operating.hertz_radius, operating.hertz_pressure, operating.film_scale)
+    point = OperatingPoint.from_settings(namelist.values(data.attrs["case"]))
+    if units == "si" or (units == "auto" and point.si):
+        thin = float(summary_of(data).get("H_c") or 0.0) * point.film_scale < THIN
+        return Scales(point.hertz_radius, point.hertz_pressure, point.film_scale, thin)
     return None
 
 
-def _size(data: xr.Dataset, count: int, broad: float) -> tuple[float, float]:
-    """Width and height [in] of so many maps with equal axes; `broad`: width of those of a circle.
+def _maps(count: int, conditions: str, outline: Outline, lines: float = 0.0) -> Figure:
+    """Make a figure with so many maps of the contact, those of a slender one below one another.
 
-    As narrow as maps of a wide contact and their colour bars are, and the title still is; higher,
-    so that they are as broad.
+    `lines`: height over width of a panel that follows the maps of a slender contact; 0: none.
     """
-    slender = Outline.of(data).slender
-    height = 3.6 * min(2.0, max(1.0, slender))
-    if slender <= 1.0:
-        return broad * count / 2, height
-    return min(broad * count / 2, max(6.4, count * ((height - 1.0) / slender + 1.4))), height
+    if not outline.slender:
+        return panels(count, (1.0, 1.0 if count == 1 else 0.92), conditions, sharey=True)
+    wide, high = outline.view(contact.VIEW)
+    return rows([high / wide] * count + ([lines] if lines else []), conditions)
 
 
+@styled()
 def solution_figures(data: xr.Dataset, units: str = "auto") -> dict[str, Figure]:
     """All figures of a solution, by the names of their files.
 
@@ -71,7 +82,7 @@ def solution_figures(data: xr.Dataset, units: str = "auto") -> dict[str, Figure]
 
 
 def _centre_lines(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
-    figure = panels(2, (8.0, 3.5), title)
+    figure = panels(2, (1.0, 0.85), title)
     left, right = figure.axes
     x, y, p, h = (data[name].values for name in "XYPH")
     i, j = nearest(x, 0.0), nearest(y, 0.0)
@@ -85,10 +96,9 @@ def _centre_lines(data: xr.Dataset, scales: Scales | None, title: str) -> Figure
 
 
 def _film(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
-    """Film as fringes and as contours; of an ellipse the pressure, too."""
+    """Film as fringes and as contours; of a slender contact pressure and lines along it, too."""
     outline = Outline.of(data)
-    count = 2 if outline == CIRCLE else 3
-    figure = panels(count, _size(data, count, 7.2), title, sharey=True)
+    figure = _maps(3 if outline.slender else 2, title, outline, lines=0.28)
     left, right, *more = figure.axes
     x, y, film = (data[name].values for name in "XYH")
     fringes = None
@@ -97,17 +107,31 @@ def _film(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
         fringes = contact.fringe_spacings(central * film_unit(scales)[0], scales)
     contact.interferogram(x, y, film, scales, fringes=fringes, outline=outline, ax=left)
     contact.contours(x, y, film, scales, outline=outline, ax=right)
-    for ax in more:
-        contact.pressure_map(x, y, data["P"].values, scales, outline=outline, ax=ax)
-    for ax in (right, *more):
-        no_second_label(ax)
+    if more:
+        pressure = data["P"].values
+        contact.pressure_map(x, y, pressure, scales, outline=outline, ax=more[0])
+        name, place, at = ("y", y, np.s_[nearest(x, 0.0), :]) if outline.turned else (
+            "x", x, np.s_[:, nearest(y, 0.0)]
+        )  # fmt: skip
+        half = outline.chords[outline.turned]
+        limits = left.get_xlim()
+        contact.pressure_and_film(
+            place, pressure[at], film[at], scales, name=name, half=half, ax=more[1]
+        )
+        more[1].set_xlim(limits)
+        more[1].xaxis.set_major_locator(MaxNLocator(4))
+        if not outline.turned:
+            more[1].set_xlabel(left.get_xlabel())
+        no_numbers_below(left, right, more[0])
+    else:
+        no_second_label(right)
     return figure
 
 
 def _deformed(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
-    figure = panels(2, _size(data, 2, 8.2), title, sharey=True)
     x, y, rough, deformed = (data[name].values for name in ("X", "Y", "RR", "A_d"))
     outline = Outline.of(data)
+    figure = _maps(2, title, outline)
     top = transient.roughness_top(x, y, rough, deformed, outline=outline)
     names = ("(a) undeformed,", "(b) deformed,")
     for ax, field, name in zip(list(figure.axes), (rough, deformed), names, strict=True):
@@ -115,12 +139,20 @@ def _deformed(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
             x, y, field, scales,
             top=top, name=name, bar=field is deformed, outline=outline, ax=ax,
         )  # fmt: skip
-    no_second_label(figure.axes[1])
+    _once(list(figure.axes), outline)
     return figure
 
 
+def _once(axes: list[Axes], outline: Outline) -> None:
+    """Leave out what two maps of a contact have in common."""
+    if outline.slender:
+        no_numbers_below(axes[0])
+    else:
+        no_second_label(axes[1])
+
+
 def _rough_and_smooth(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
-    figure = panels(2, (7.6, 3.4), title)
+    figure = panels(2, (1.0, 0.85), title)
     left, right = figure.axes
     x, row = data["X"].values, nearest(data["Y"].values, 0.0)
     for ax, name, unit, colour in (
@@ -137,7 +169,7 @@ def _rough_and_smooth(data: xr.Dataset, scales: Scales | None, title: str) -> Fi
 
 
 def _friction(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
-    figure = panels(1, (6.4, 3.6), title)
+    figure = panels(1, (1.0, 0.75), title)
     settings, about = namelist.values(data.attrs["case"]), summary_of(data)
     transient.friction_history(
         data.history_T.values,
@@ -152,7 +184,7 @@ def _friction(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
 
 
 def _extremes(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
-    figure = panels(1, (6.4, 3.8), title)
+    figure = panels(1, (1.0, 0.8), title)
     films = {
         "minimum film": data.history_H_min.values,
         "film at the centre": data.history_H_c.values,
@@ -188,12 +220,13 @@ def prediction_pictures(
     return found
 
 
+@styled()
 def _spectra(
     about: Mapping[str, Any], arrays: Mapping[str, Array], prefix: str, title: str
 ) -> Figure:
     """Draw heights and spectra of the rough surface whose names begin with a prefix."""
     tile, deformed = _tile(about, arrays, prefix), arrays[f"{prefix}deformed"]
-    figure = panels(3, (11.6, 3.2), title, room=(0.8, 1.9, 0.8))
+    figure = panels(3, (1.0, 0.9), title, room=(0.55, 1.3, 0.65))
     first, second, third = figure.axes
     third.set_box_aspect(1.0)
     surface.heights(tile, ax=first)
@@ -204,12 +237,17 @@ def _spectra(
     return figure
 
 
+@styled()
 def _roughness(
     about: Mapping[str, Any], arrays: Mapping[str, Array], prefix: str, title: str
 ) -> Figure:
     """Draw the rough surface whose names begin with a prefix inside the contact."""
     tile, deformed = _tile(about, arrays, prefix), arrays[f"{prefix}deformed"]
-    figure = panels(2, (7.2, 3.4), title, sharey=True, room=(0.75, 0.35, 1.15))
+    outline = Outline(about.get("ellipticity", 1.0))
+    if outline.slender:
+        figure = _maps(2, title, outline)
+    else:
+        figure = panels(2, (1.0, 0.85), title, sharey=True, room=(0.55, 0.25, 0.85))
     for ax, values, name in zip(
         list(figure.axes),
         (tile.heights, deformed),
@@ -219,7 +257,7 @@ def _roughness(
         last = values is deformed
         a, kappa = about["hertz_radius_m"], about.get("ellipticity", 1.0)
         surface.roughness(tile, values, a, name=name, bar=last, ellipticity=kappa, ax=ax)
-    no_second_label(figure.axes[1])
+    _once(list(figure.axes), outline)
     return figure
 
 
@@ -240,8 +278,9 @@ def _flattened(about: Mapping[str, Any], tile: Topography) -> Array:
     return np.asarray(np.fft.irfft2(part, s=tile.shape))
 
 
+@styled()
 def _passage(tables: Mapping[str, Mapping[str, Array]], length: float, title: str) -> Figure:
-    figure = panels(2, (7.6, 3.2), title, room=(0.9, 1.05, 0.15))
+    figure = panels(2, (1.0, 0.8), title, room=(0.7, 0.9, 0.1))
     left, right = figure.axes
     shift, ratio = tables["passage"]["shift_m"], tables["passage"]["mu_ratio"]
     second = tables["passage"].get("second_shift_m")

@@ -90,8 +90,8 @@ def plot(
     dpi
         Dots per inch.
     width
-        Of the figures [m], such as 0.084 for a column of a journal, with letters of 7 points; 0: as
-        wide as their panels want.
+        Of the figures [m], such as 0.084 for a column of a journal, with letters of 8 points; 0: a
+        column of 85 mm or a page of 175 mm, by their panels.
 
     Returns
     -------

@@ -5,7 +5,17 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from pyehl.plots.style import BLUE, GREEN, VERMILLION, letter, new_figure, points
+from pyehl.plots.style import (
+    BLUE,
+    COLUMN,
+    GREEN,
+    PAGE,
+    VERMILLION,
+    letter,
+    new_figure,
+    points,
+    styled,
+)
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.shear import ShearLaw, shear_stress
 from pyehl.types import Array
@@ -19,6 +29,7 @@ STRESSES = (1e3, 2e8)
 COLOURS = (BLUE, GREEN, VERMILLION)
 
 
+@styled()
 def draw_oil(
     name: str, lubricant: Lubricant, measured: tuple[float, float, float], limit: float | None
 ) -> Figure:
@@ -28,7 +39,7 @@ def draw_oil(
     measurements, beyond which lines are dashed; infinite where they are not known. `limit` is the
     limiting shear stress over pressure, None where neither is known.
     """
-    figure = new_figure(9.0, 4.0)
+    figure = new_figure(PAGE, 2.7)
     left, right = figure.subplots(1, 2)
     p = np.linspace(0.0, HIGHEST, 301)
     for rise, colour in zip(RISES, COLOURS, strict=True):
@@ -41,7 +52,7 @@ def draw_oil(
         beyond = ~known if inside else p >= 0.0
         left.semilogy(1e-9 * p[beyond], eta[beyond], "--", color=colour, lw=1)
     left.set(xlabel="p [GPa]", ylabel=r"$\eta$ [Pa s]")
-    left.legend(fontsize="small", title="dashed: beyond the range", title_fontsize="small")
+    left.legend(title="dashed: beyond the range", title_fontsize=8)
     law = ShearLaw() if limit is None else ShearLaw("limiting", limiting_coefficient=limit)
     rate = np.geomspace(1.0, 1e8, 200)
     for pressure, colour in zip(PRESSURES, COLOURS, strict=True):
@@ -58,12 +69,13 @@ def draw_oil(
     right.set(xlabel=r"$\dot\gamma$ [1/s]", ylabel=r"$\tau$ [Pa]")
     words = "Newtonian" if limit is None else f"dotted: Newtonian; limit {limit:g} p"
     title = f"{lubricant.temperature:g} °C; {words}"
-    right.legend(fontsize="small", title=title, title_fontsize="small", loc="lower right")
+    right.legend(title=title, loc="lower right", title_fontsize=8)
     letter([left, right])
-    figure.suptitle(name, fontsize="medium")
+    figure.set_label(name)
     return figure
 
 
+@styled()
 def draw_fit(
     slide_to_roll: Array, measured: Array, error: Array, curve: tuple[Array, Array], words: str
 ) -> Figure:
@@ -75,6 +87,7 @@ def draw_fit(
     return figure
 
 
+@styled()
 def draw_film_fit(
     speeds: Array, measured: Array, error: Array, curve: tuple[Array, Array], words: str
 ) -> Figure:
@@ -89,9 +102,9 @@ def draw_film_fit(
 def _measured_and_fitted(
     places: Array, measured: Array, error: Array, curve: tuple[Array, Array], words: str
 ) -> tuple[Figure, Axes]:
-    figure = new_figure(6.0, 4.2)
+    figure = new_figure(COLUMN, 2.5)
     ax = figure.subplots()
-    how = {"fmt": "k^", "ms": 5, "mfc": "none", "capsize": 2, "lw": 0.8}
+    how = {"fmt": "k^", "ms": 4, "mfc": "none", "capsize": 2, "lw": 0.8}
     points(ax, places, measured, error, **how)
     ax.plot([], [], "k^", mfc="none", label="measured")
     ax.plot(*curve, "o-", ms=3, color=BLUE, label=words)

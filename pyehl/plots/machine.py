@@ -8,11 +8,13 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from pyehl.plots.style import BLUE, GREEN, GREY, VERMILLION, new_figure
+from pyehl.plots.style import BLUE, GREEN, GREY, PAGE, VERMILLION, new_figure, styled
 
+LABELS = {"h_c_m": r"$h_\mathrm{c}$", "h_min_m": r"$h_\mathrm{min}$"}
 COLOURS = {"inner": BLUE, "outer": VERMILLION}
 
 
+@styled()
 def figure(kind: str, table: pd.DataFrame, summary: Mapping[str, Any]) -> Figure:
     """Draw the table of a machine element.
 
@@ -23,7 +25,7 @@ def figure(kind: str, table: pd.DataFrame, summary: Mapping[str, Any]) -> Figure
 
 
 def _bearing(table: pd.DataFrame, summary: Mapping[str, Any]) -> Figure:
-    made = new_figure(7.0, 3.0)
+    made = new_figure(PAGE, 2.8)
     film, pressure = made.subplots(1, 2)
     for ring, part in table.groupby("ring", sort=False):
         azimuth = (part["azimuth_deg"] + 180.0) % 360.0 - 180.0
@@ -32,25 +34,25 @@ def _bearing(table: pd.DataFrame, summary: Mapping[str, Any]) -> Figure:
         colour = COLOURS[str(ring)]
         for name, line in (("h_c_m", "-"), ("h_min_m", "--")):
             y = part[name].to_numpy(float)[order] * 1e9
-            film.plot(x, y, f"o{line}", ms=3, color=colour, label=f"{name[:-2]}, {ring} ring")
+            film.plot(x, y, f"o{line}", ms=3, color=colour, label=f"{LABELS[name]}, {ring} ring")
         y = part["hertz_pressure_Pa"].to_numpy(float)[order] * 1e-9
         pressure.plot(x, y, "o-", ms=3, color=colour, label=f"{ring} ring")
     _sigma(film, summary)
     film.set(ylabel="film [nm]", ylim=(0.0, None))
-    pressure.set(ylabel="p_h [GPa]", ylim=(0.0, None))
+    pressure.set(ylabel=r"$p_\mathrm{h}$ [GPa]", ylim=(0.0, None))
     for ax in (film, pressure):
         ax.set(xlabel="azimuth from the radial load [deg]")
-        ax.legend(frameon=False, fontsize="small")
+        ax.legend()
     return made
 
 
 def _gear(table: pd.DataFrame, summary: Mapping[str, Any]) -> Figure:
-    made = new_figure(7.0, 5.0)
+    made = new_figure(PAGE, 4.6)
     (film, pressure), (slide, friction) = made.subplots(2, 2, sharex=True)
     x = table["s_m"].to_numpy(float) * 1e3
     for ax, name, factor, label, colour in (
-        (film, "h_c_m", 1e9, "h_c", BLUE),
-        (film, "h_min_m", 1e9, "h_min", VERMILLION),
+        (film, "h_c_m", 1e9, LABELS["h_c_m"], BLUE),
+        (film, "h_min_m", 1e9, LABELS["h_min_m"], VERMILLION),
         (pressure, "hertz_pressure_Pa", 1e-9, "p_h", BLUE),
         (slide, "slide_to_roll", 1.0, "SRR", BLUE),
         (friction, "mu", 1.0, "mu", GREEN),
@@ -59,8 +61,8 @@ def _gear(table: pd.DataFrame, summary: Mapping[str, Any]) -> Figure:
             ax.plot(x, table[name].to_numpy(float) * factor, color=colour, label=label)
     _sigma(film, summary)
     film.set(ylabel="film [nm]", ylim=(0.0, None))
-    film.legend(frameon=False, fontsize="small")
-    pressure.set(ylabel="p_h [GPa]", ylim=(0.0, None))
+    film.legend()
+    pressure.set(ylabel=r"$p_\mathrm{h}$ [GPa]", ylim=(0.0, None))
     slide.set(ylabel="slide-to-roll ratio [-]")
     friction.set(ylabel="coefficient of friction [-]", ylim=(0.0, None))
     for ax in (slide, friction):
@@ -74,4 +76,4 @@ def _sigma(ax: Any, summary: Mapping[str, Any]) -> None:  # noqa: ANN401 (axes)
     """Mark three times the rms height, Lambda = 3."""
     # not where the films would be flat beside it
     if 0.0 < 3e9 * summary["rms_height_m"] < 1.5 * ax.get_ylim()[1]:
-        ax.axhline(3e9 * summary["rms_height_m"], lw=0.8, ls=":", color=GREY, label="Lambda = 3")
+        ax.axhline(3e9 * summary["rms_height_m"], lw=0.8, ls=":", color=GREY, label="Λ = 3")

@@ -15,13 +15,13 @@ from pyehl.plots import contact, transient
 from pyehl.plots.figures import scales_of
 from pyehl.plots.outline import Outline
 from pyehl.plots.panels import headline
-from pyehl.plots.style import film_unit, nearest, new_figure
+from pyehl.plots.style import PAGE, film_unit, nearest, new_figure, styled
 from pyehl.results import settings_of
 from pyehl.schema import summary_of
 from pyehl.theory.operating import OperatingPoint
 
 SUFFIXES = ("gif", "mp4")
-FRAME_SECONDS, DPI = 0.08, 100
+FRAME_SECONDS, DPI = 0.08, 150
 # A GIF counts hundredths of a second, and viewers slow down frames that are shorter
 LEAST_SECONDS, MOST_SECONDS = 0.02, 10.0
 
@@ -74,9 +74,10 @@ def movie(
     fringes = contact.fringe_spacings(central, scales)
     deformed = smooth[:, :, np.newaxis] - data["frame_H"].values
     top = transient.roughness_top(x, y, *np.moveaxis(deformed, 2, 0), outline=outline)
-    figure = new_figure(11.6, 3.9)
+    figure = new_figure(PAGE, 2.6)
     title = f"{headline(summary_of(data), scales)}\n{_pace(data, seconds, si=scales is not None)}"
 
+    @styled()
     def draw(frame: int) -> list[Artist]:
         figure.clear()
         left, middle, right = figure.subplots(1, 3)
@@ -89,9 +90,9 @@ def movie(
         middle.set_xlim(left.get_xlim())
         transient.roughness(
             x, y, deformed[:, :, frame], scales,
-            top=top, name="deformed roughness,", bar=True, outline=outline, ax=right,
+            top=top, name="deformed,", bar=True, outline=outline, ax=right,
         )  # fmt: skip
-        figure.suptitle(f"{title};  T = {times[frame]:.2f}", fontsize="medium")
+        figure.suptitle(f"{title};  T = {times[frame]:.2f}")
         return []
 
     path = target / f"movie.{suffix}"

@@ -17,6 +17,10 @@ if TYPE_CHECKING:
     import xarray as xr
 
 Array = NDArray[np.floating[Any]]
+# Long over short side of a slender contact
+SLENDER = 2.5
+# Least height of a map over its width
+FLATTEST = 0.11
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,10 +51,31 @@ class Outline:
         return math.hypot(c, self.ellipticity * s), math.hypot(s, self.ellipticity * c)
 
     @property
-    def slender(self) -> float:
-        """How much further it reaches along y than along x."""
+    def turned(self) -> bool:
+        """Whether pictures show y from left to right, and the motion from below to above."""
         along, across = self.reach
-        return across / along
+        return across > SLENDER * along
+
+    @property
+    def slender(self) -> bool:
+        """Whether one side is so much longer that maps are drawn below one another."""
+        along, across = self.reach
+        return max(along, across) > SLENDER * min(along, across)
+
+    @property
+    def box(self) -> tuple[float, float]:
+        """How far it reaches to the right and up in a picture."""
+        along, across = self.reach
+        return (across, along) if self.turned else (along, across)
+
+    def view(self, margin: float) -> tuple[float, float]:
+        """Half width and half height of a map with a margin [a]; one that is not too flat."""
+        wide, high = (margin * reach for reach in self.box)
+        return wide, max(high, FLATTEST * wide)
+
+    def seen(self, x: Array, y: Array, field: Array) -> tuple[Array, Array, Array]:
+        """Places from left to right, from below to above, and a field of them."""
+        return (y, x, field.swapaxes(0, 1)) if self.turned else (x, y, field)
 
     @property
     def chords(self) -> tuple[float, float]:
@@ -68,7 +93,9 @@ class Outline:
     def patch(self, radius: float, **style: Any) -> Ellipse:  # noqa: ANN401
         """Draw it, `radius` being a in the unit of the axes."""
         size = 2.0 * radius, 2.0 * self.ellipticity * radius
-        return Ellipse((0.0, 0.0), *size, angle=self.angle, fill=False, **style)
+        # x and y change places: a reflection
+        size, angle = (size[::-1], -self.angle) if self.turned else (size, self.angle)
+        return Ellipse((0.0, 0.0), *size, angle=angle, fill=False, **style)
 
 
 CIRCLE = Outline()

@@ -1,83 +1,105 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Panels side by side under a line that says what they show."""
+"""Panels side by side, or below one another, and the conditions that a picture is of."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from pyehl.plots.style import LARGE_PER_INCH, PAGE_WIDTH, Scales, letter, new_figure, wrapped
+from pyehl.plots.style import COLUMN, PAGE, PAGE_WIDTH, THIN, VERMILLION, Picture, Scales, letter
+from pyehl.plots.style import new_figure as laid_out
 
-# Room below and above a row of panels, and of one more line above them [in]
-BELOW, ABOVE, LINE = 0.52, 0.57, 0.17
+# Room below and above a row of panels [in]
+BELOW, ABOVE = 0.42, 0.22
+# Beside and between panels below one another [in]
+LEFT, RIGHT, GAP = 0.6, 0.8, 0.12
 # Panels narrower than this are put below one another [in]
 LEAST_PANEL = 2.0
 
 
 def headline(summary: Mapping[str, Any], scales: Scales | None = None) -> str:
-    """M, L, p_h, film and direction of motion in one line; the status unless it is a good one.
+    """M, L, p_h and film in one line; the status in capitals unless it is a good one.
 
     Of the scalars of a solution or a prediction, with scales in SI units, else in Hertz units.
     """
     parts = [f"M = {summary['moes_m']:.4g}", f"L = {summary['moes_l']:.4g}"]
     parts.append(f"Hertz pressure {summary['hertz_pressure_Pa'] * 1e-9:.3g} GPa")
-    for name, word in (("c", "film"), ("min", "minimum")):
+    for name, word in (("c", "central film"), ("min", "minimum film")):
         si, big = summary.get(f"h_{name}_m"), summary.get(f"H_{name}")
         if si is None and scales is not None and big is not None:
             si = big * scales.film
         if si is not None and (scales is not None or big is None):
-            parts.append(f"{word} {si * 1e6:.3g} µm")
+            parts.append(f"{word} {si * 1e9:.4g} nm" if si < THIN else f"{word} {si * 1e6:.3g} µm")
         elif big is not None:
             parts.append(f"{word} H = {big:.3g}")
     if summary["status"] not in ("converged", "predicted"):
         parts.append(str(summary["status"]).upper())
-    return ",  ".join(parts) + ",  motion →"
+    return ",  ".join(parts)
 
 
 def panels(
     count: int,
     size: tuple[float, float],
-    title: str,
+    conditions: str,
     *,
     sharey: bool = False,
     room: tuple[float, float, float] | None = None,
 ) -> Figure:
-    """Make a figure with panels side by side.
+    """Make a figure with panels of a width over height, one column or one page wide.
 
-    `room`: left of, between and right of the panels in inches, where it is known. Then nothing is
-    measured, which takes as long as to draw.
+    `conditions` are its label, which goes into the metadata of a file; those of a run that failed
+    stand above the panels. `room`: left of, between and right of panels side by side in inches,
+    where it is known. Then nothing is measured, which takes as long as to draw.
     """
-    page = PAGE_WIDTH.get()
-    if page:
-        return _on_page(count, size, wrapped(title, page), page, sharey=sharey)
-    title = wrapped(title, size[0], LARGE_PER_INCH)
-    if room is None:
-        figure = new_figure(*size)
+    width = page(count)
+    columns = 1 if width < count * LEAST_PANEL else count
+    rows, height = count // columns, max(LEAST_PANEL, width / columns * size[1] / size[0])
+    if room is None or columns < count or failed(conditions):
+        figure = laid_out(width, rows * height)
     else:
-        more = LINE * title.count("\n")
-        (width, height), (left, between, right) = (size[0], size[1] + more), room
+        left, between, right = room
         panel = (width - left - right - (count - 1) * between) / count
-        top = 1.0 - (ABOVE + more) / height
-        figure = Figure(figsize=(width, height))
+        figure = Picture(figsize=(width, height))
         figure.subplots_adjust(
-            left / width, BELOW / height, 1.0 - right / width, top, between / panel
+            left / width, BELOW / height, 1.0 - right / width, 1.0 - ABOVE / height, between / panel
         )
-    letter(list(figure.subplots(1, count, sharey=sharey, squeeze=False)[0]))
-    figure.suptitle(title, fontsize="medium")
-    return figure
+    figure.subplots(rows, columns, sharey=sharey, squeeze=False)
+    return _told(figure, conditions)
 
 
-def _on_page(
-    count: int, size: tuple[float, float], title: str, width: float, *, sharey: bool
-) -> Figure:
-    """Make a figure as wide as a page, its panels below one another where they would be small."""
-    columns = count if width >= count * LEAST_PANEL else 1
-    rows = count // columns
-    height = max(LEAST_PANEL, size[1] * width / columns * count / size[0])
-    figure = new_figure(width, rows * height)
-    letter(list(figure.subplots(rows, columns, sharey=sharey, squeeze=False).ravel()))
-    figure.suptitle(title, fontsize="medium")
+def rows(heights: Sequence[float], conditions: str) -> Figure:
+    """Make a figure with panels below one another, so high as said over their width.
+
+    All are equally wide, with room for a colour bar at the right.
+    """
+    width = page(2)
+    wide = width - LEFT - RIGHT
+    high = BELOW + sum(wide * height + ABOVE + GAP for height in heights)
+    top = high + (0.2 if failed(conditions) else 0.0)
+    figure = Picture(figsize=(width, top))
+    for height in heights:
+        high -= wide * height + ABOVE + GAP
+        bottom = high + GAP
+        figure.add_axes((LEFT / width, bottom / top, wide / width, wide * height / top))
+    return _told(figure, conditions)
+
+
+def page(count: int) -> float:
+    """Width of a figure of so many panels [in]."""
+    return PAGE_WIDTH.get() or (COLUMN if count == 1 else PAGE)
+
+
+def failed(conditions: str) -> bool:
+    """Whether they end with the status of a run that failed."""
+    return conditions.rpartition(",  ")[2].isupper()
+
+
+def _told(figure: Figure, conditions: str) -> Figure:
+    letter(figure.axes)
+    if failed(conditions):
+        figure.suptitle(conditions.rpartition(",  ")[2].lower(), color=VERMILLION)
+    figure.set_label(conditions)
     return figure
 
 
@@ -86,3 +108,10 @@ def no_second_label(ax: Axes) -> None:
     place = ax.get_subplotspec()
     if place is not None and not place.is_first_col():
         ax.set_ylabel("")
+
+
+def no_numbers_below(*axes: Axes) -> None:
+    """Leave out numbers and label of x axes that panels below have, too."""
+    for ax in axes:
+        ax.tick_params(labelbottom=False)
+        ax.set_xlabel("")

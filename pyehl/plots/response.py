@@ -8,11 +8,12 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter
 
-from pyehl.plots.style import GREY, SEQUENTIAL, letter, new_figure
+from pyehl.plots.style import GREY, PAGE, SEQUENTIAL, letter, new_figure, styled
 from pyehl.theory.amplitude import amplitude_ratio, wavelength_parameter
 from pyehl.types import Array, Complex
 
 
+@styled()
 def response_figure(
     waves: Mapping[str, Array], lines: Mapping[float, tuple[Array, Complex]], label: str
 ) -> Figure:
@@ -21,12 +22,12 @@ def response_figure(
     `waves`: nabla_2, direction [deg], amplitude and lag [deg] of the measured waves, (m,);
     `lines`: by direction [deg] the shipped response, nabla_2 (n,) and T (n,).
     """
-    figure = new_figure(9.0, 4.0)
+    figure = new_figure(PAGE, 3.0)
     axes: Any = figure.subplots(1, 2, sharex=True)
     colours: Any = {"cmap": SEQUENTIAL, "vmin": 0.0, "vmax": 90.0}
     for ax, name in zip(axes, ("amplitude", "lag"), strict=True):
         places = waves[name] if name == "amplitude" else _turned(waves, lines)
-        dots = ax.scatter(waves["nabla_2"], places, c=waves["direction"], s=14, **colours)
+        dots = ax.scatter(waves["nabla_2"], places, c=waves["direction"], s=8, **colours)
         for direction, (nabla, t) in lines.items():
             values = np.abs(t) if name == "amplitude" else _lag(t)
             colour = dots.cmap(dots.norm(direction))
@@ -41,9 +42,9 @@ def response_figure(
     axes[0].plot(nabla, paper, color=GREY, ls="--", lw=1, label=r"$1/(1 + 0.15x + 0.015x^2)$")
     axes[0].set_ylabel(r"$|T|$ at $X = Y = 0$")
     axes[1].set_ylabel(r"lag of the film wave [$\degree$]")
-    axes[0].legend(fontsize="small", frameon=False)
+    axes[0].legend()
     figure.colorbar(dots, ax=axes[1], label=r"crests to across the motion [$\degree$]")
-    figure.suptitle(label, fontsize="medium")
+    figure.set_label(label)
     letter(axes)
     return figure
 

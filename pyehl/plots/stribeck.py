@@ -1,31 +1,34 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pictures of Stribeck curves and of traction curves.
 
-Friction over Hersey number, Lambda and theta_2 side by side, below it contact at a boundary film;
-friction and temperature over the slide-to-roll ratio.
+Friction over what was varied, with Lambda above, and contact at a boundary film below it; friction
+and temperature over the slide-to-roll ratio.
 """
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from textwrap import wrap
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from pyehl.plots import style
+from pyehl.plots.panels import page
+from pyehl.plots.surface import RATIO
 from pyehl.theory import stribeck
 from pyehl.theory.transition import Curve
 from pyehl.types import Array
 
-ABSCISSAE = {
-    "hersey": r"Hersey number $\eta_0 \bar u R/w$",
-    "lambda_ratio": r"$\Lambda = h_\mathrm{min}/\sigma$",
-    "theta_2": r"$\theta_2$",
+LABELS = {
+    "contact.mean_velocity": r"mean velocity $\bar u$ [m/s]",
+    "lubricant.viscosity": r"viscosity $\eta_0$ [Pa s]",
+    "contact.load": "load w [N]",
+    "lubricant.temperature": "temperature [°C]",
+    "contact.slide_to_roll": "slide-to-roll ratio",
 }
 COLOURS = (style.BLUE, style.VERMILLION, style.GREEN, "#CC79A7", "#E69F00", "#56B4E9")
+# Longest over shortest place from which on the axis is logarithmic
+WIDE = 3.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,57 +45,87 @@ class Points:
         style.points(ax, self.places[abscissa], self.friction, self.error, **how)
 
 
+@style.styled()
 def draw_stribeck(
-    curves: Sequence[Curve], surface: str, measured: Points | None = None, law: str = ""
+    curves: Sequence[Curve], conditions: str, measured: Points | None = None, law: str = ""
 ) -> Figure:
-    """Draw friction over all abscissae, a coefficient or a ratio mu_r/mu_s.
+    """Draw friction over what was varied, a coefficient or a ratio mu_r/mu_s.
 
-    `surface` says what the surface is in a few words; measured friction is laid over, and over
-    theta_2 the curve of Zhang et al. 2019; `law` says what an empirical curve is.
+    `conditions` go into the metadata of a file, with what an empirical `law` is. Measured friction
+    is laid over, and over a ratio the curve of Zhang et al. 2019. Of one curve Lambda stands above.
     """
-    absolute = curves[0].absolute
-    # smooth surfaces have neither Lambda nor theta_2
-    shown = {
-        name: label
-        for name, label in ABSCISSAE.items()
-        if any(np.isfinite(curve.column(name)).any() for curve in curves)
-    }
+    absolute, key = curves[0].absolute, curves[0].key
     # none of two surfaces without full simulations
     shares = ("contact_load_share", "contact_load_share_ehl")
     contact = any(_known(curve, name) for curve in curves for name in shares)
     # none with solid contact whose friction is not known
     friction = not contact or any(_has_friction(curve) for curve in curves)
     rows = friction + 2 * contact
-    figure = style.new_figure(11.5 if len(shown) > 1 else 7.0, 2.9 + 1.5 * rows)
-    panels = figure.subplots(rows, len(shown), sharex="col", sharey="row", squeeze=False)
-    axes = panels[0]
+    width = page(1)
+    figure = style.new_figure(width, 0.6 + width * (0.68 * friction + 0.9 * contact))
+    heights = [1.5] * friction + [1.0] * 2 * contact
+    axes = figure.subplots(rows, 1, sharex=True, squeeze=False, height_ratios=heights)[:, 0]
+    coloured = list(zip(curves, COLOURS * 9, strict=False))
     if contact:
-        draw_contact(panels[friction:], list(shown), list(zip(curves, COLOURS * 9, strict=False)))
-    for ax, (name, label) in zip(axes, shown.items(), strict=True):
-        for curve, colour in zip(curves if friction else [], COLOURS * 9, strict=False):
-            _draw_curve(ax, curve, name, colour)
-        _shade(ax, curves, name)
-        if measured is not None:
-            measured.draw(ax, name)
-        if name == "theta_2" and friction and not absolute:
-            _draw_eq_16(ax)
-        ax.set_xscale("log")
-        style.label_log_ticks(ax.xaxis)
-        panels[-1, list(axes).index(ax)].set_xlabel(label)
-        ax.grid(visible=True, which="major", color="0.92", lw=0.6)
-        ax.set_axisbelow(True)
+        draw_contact(axes[-2], axes[-1], coloured)
+    _scale(axes[-1], np.concatenate([curve.places for curve in curves]))
+    axes[-1].set_xlabel(LABELS.get(key, key))
     if friction:
-        axes[0].set_ylabel(r"$\mu$" if absolute else r"$\mu_r/\mu_s$")
-    style.letter(axes)
-    # the last panel has all that the others have
-    handles, labels = axes[-1].get_legend_handles_labels()
-    unique = dict(zip(labels, handles, strict=True))
-    figure.legend(
-        unique.values(), unique.keys(), loc="outside lower center", ncols=5, fontsize="small"
-    )
-    words = "; ".join(f"{c.label + ': ' if c.label else ''}{c.ends}" for c in curves if c.ends)
-    figure.suptitle("\n".join((surface, words, *wrap(law, 100))), fontsize="medium")
+        for curve, colour in coloured:
+            _draw_curve(axes[0], curve, colour)
+        if not absolute:
+            _draw_eq_16(axes[0], curves)
+        if measured is not None:
+            measured.draw(axes[0], key)
+        axes[0].set_ylabel(r"$\mu$" if absolute else RATIO)
+    _shade(axes[0], curves)
+    for ax in axes:
+        ax.grid(visible=True, which="major")
+    style.letter(list(axes))
+    if len(curves) == 1:
+        _lambda_above(axes[0], curves[0])
+    style.legend_below(figure, axes[0])
+    words = (f"{c.label + ': ' if c.label else ''}{c.ends}" for c in curves if c.ends)
+    figure.set_label("; ".join(filter(None, (conditions, *words, law))))
     return figure
+
+
+def _named(curve: Curve) -> str:
+    """Name of a curve in words; '' for the only one."""
+    name = curve.label
+    for key, words in LABELS.items():
+        name = name.replace(key, words)
+    return name
+
+
+def _scale(ax: Axes, places: Array) -> None:
+    """Make the x axis logarithmic where places reach far, with numbers that are read."""
+    if places.min() > 0.0 and places.max() >= WIDE * places.min():
+        ax.set_xscale("log")
+        ax.set_xlim(places.min() / 1.1, places.max() * 1.1)
+        style.label_decades(ax.xaxis)
+    elif np.ptp(places) > 0.0:
+        room = 0.04 * float(np.ptp(places))
+        ax.set_xlim(places.min() - room, places.max() + room)
+
+
+def _lambda_above(ax: Axes, curve: Curve) -> None:
+    """Put Lambda above the axes where it rises or falls all along the curve."""
+    x, found = curve.places, curve.column("lambda_ratio")
+    known = np.isfinite(found) & (found > 0.0)
+    x, found = x[known], found[known]
+    if found.size < 2 or np.unique(np.sign(np.diff(found))).size > 1:
+        return
+    log = ax.get_xscale() == "log"
+    order = np.argsort(found)
+    decades = 10.0 ** np.arange(np.floor(np.log10(found.min())), np.log10(found.max()) + 1)
+    values = np.outer(decades, (1.0, 2.0, 5.0)).ravel()
+    values = values[(found.min() <= values) & (values <= found.max())]
+    at = np.interp(np.log(values), np.log(found[order]), np.log(x[order]) if log else x[order])
+    above = ax.secondary_xaxis("top")
+    above.set_xticks(np.exp(at) if log else at, [f"{value:g}" for value in values])
+    above.set_xticks([], minor=True)
+    above.set_xlabel(r"$\Lambda = h_\mathrm{min}/\sigma$")
 
 
 def _known(curve: Curve, name: str) -> bool:
@@ -105,11 +138,10 @@ def _has_friction(curve: Curve) -> bool:
     return empirical or _known(curve, "mu_ratio") or _known(curve, "mu_ratio_ehl")
 
 
-def _draw_curve(ax: Axes, curve: Curve, name: str, colour: str) -> None:
-    x, y = curve.column(name), curve.friction()
+def _draw_curve(ax: Axes, curve: Curve, colour: str) -> None:
+    x, y = curve.places, curve.friction()
     known = np.isfinite(x) & np.isfinite(y)
-    tail = f" ({curve.label})" if curve.label else ""
-    ax.plot(x[known], y[known], "o-", ms=3, lw=1.2, color=colour, label=f"prediction{tail}")
+    ax.plot(x[known], y[known], "o-", color=colour, label=_named(curve) or "prediction")
     for width, alpha, label in (
         (curve.friction("mu_ratio_spread"), 0.15, "spread over the surfaces"),
         (curve.friction("mu_ratio_model_error"), 0.35, "error of the model"),
@@ -118,18 +150,18 @@ def _draw_curve(ax: Axes, curve: Curve, name: str, colour: str) -> None:
     if curve.absolute and "mu_empirical" in curve.table:
         empirical = curve.column("mu_empirical")
         there = np.isfinite(x) & np.isfinite(empirical)
-        ax.plot(x[there], empirical[there], "--", lw=1.2, color=colour, label=f"empirical{tail}")
+        ax.plot(x[there], empirical[there], "--", color=colour, label="empirical")
     full = curve.friction("mu_ratio_ehl")
     if np.isfinite(full).any():
         how = {"fmt": "s", "ms": 5, "mfc": "white", "color": colour, "capsize": 3}
         error = curve.friction("mu_ratio_ehl_error")
-        style.points(ax, x, full, error, label=f"full simulation{tail}", **how)
+        style.points(ax, x, full, error, label="full simulation", **how)
 
 
-def _shade(ax: Axes, curves: Sequence[Curve], name: str) -> None:
+def _shade(ax: Axes, curves: Sequence[Curve]) -> None:
     """Shade where the film breaks down: up to half-way to the first point of full film."""
     for curve in curves:
-        x = curve.column(name)
+        x = curve.places
         ends = np.isin(np.arange(x.size), curve.broken)
         broken = ends & np.isfinite(x)
         if not broken.any():
@@ -138,45 +170,48 @@ def _shade(ax: Axes, curves: Sequence[Curve], name: str) -> None:
         others = x[~ends & np.isfinite(x) & np.isfinite(curve.friction())]
         above = others[others > high]
         if above.size:
-            high = float(np.sqrt(high * above.min()))
+            high = _middle(ax, high, float(above.min()))
         below = others[others < low]
-        low = float(np.sqrt(low * below.max())) if below.size else min(low, ax.get_xlim()[0])
+        low = _middle(ax, low, float(below.max())) if below.size else min(low, ax.get_xlim()[0])
+        high = high if above.size else max(high, ax.get_xlim()[1])
         ax.axvspan(low, high, color=style.GREY, alpha=0.2, lw=0, label="no full film")
 
 
-def _draw_eq_16(ax: Axes) -> None:
-    low, high = ax.get_xlim()
-    theta = np.geomspace(max(low, 0.3), max(high, 0.6), 100)
-    bottom, top = ax.get_ylim()
-    ratio = stribeck.relative_friction(theta)
-    shown = ratio < top
-    ax.plot(theta[shown], ratio[shown], "--", lw=1, color="black", label="harmonic waves (eq. 16)")
-    ax.set(xlim=(low, high), ylim=(min(bottom, float(ratio.min()) - 0.02), top))
+def _middle(ax: Axes, low: float, high: float) -> float:
+    """Middle between two places, as the axis shows it."""
+    return float(np.sqrt(low * high)) if ax.get_xscale() == "log" else 0.5 * (low + high)
 
 
-def draw_contact(
-    panels: NDArray[Any], abscissae: Sequence[str], curves: Sequence[tuple[Curve, str]]
-) -> None:
-    """Draw shares of load and area on the first row of panels (2, n), minimum film on the second.
+def _draw_eq_16(ax: Axes, curves: Sequence[Curve]) -> None:
+    """Draw the ratio of harmonic waves with theta_2 of each point; axes keep their ends."""
+    limits = ax.get_ylim()
+    for curve in curves:
+        theta = curve.column("theta_2")
+        known = np.isfinite(theta)
+        ratio = stribeck.relative_friction(theta[known])
+        ax.plot(
+            curve.places[known], ratio, "--", lw=1, color="black", label="harmonic waves (eq. 16)"
+        )
+    ax.set_ylim(limits[0], limits[1])
+
+
+def draw_contact(share: Axes, film: Axes, curves: Sequence[tuple[Curve, str]]) -> None:
+    """Draw shares of load and area on one axes, minimum film on the other.
 
     Lines are predictions, squares and diamonds full simulations.
     """
-    for (share, film), name in zip(panels.T, abscissae, strict=True):
-        for curve, colour in curves:
-            x = curve.column(name)
-            _band(share, x, curve, "contact_load_share", colour)
-            share.plot(x, curve.column("contact_area_share"), "--", lw=1, color=colour)
-            _points(share, x, curve, "contact_load_share_ehl", colour)
-            _points(share, x, curve, "contact_area_share_ehl", colour, marker="D")
-            _band(film, x, curve, "h_min_rough_m", colour, 1e9)
-            _points(film, x, curve, "h_min_rough_ehl_m", colour, 1e9)
-        share.set_ylim(-0.03, 1.03)
-        film.set_ylim(bottom=0.0)
-        for ax in (share, film):
-            ax.grid(visible=True, which="major", color="0.92", lw=0.6)
-            ax.set_axisbelow(True)
-    panels[0, 0].set_ylabel("load, area (dashed)")
-    panels[1, 0].set_ylabel("minimum film [nm]")
+    for curve, colour in curves:
+        x = curve.places
+        _band(share, x, curve, "contact_load_share", colour)
+        share.plot(x, curve.column("contact_area_share"), "--", lw=1, color=colour)
+        _points(share, x, curve, "contact_load_share_ehl", colour)
+        _points(share, x, curve, "contact_area_share_ehl", colour, marker="D")
+        _band(film, x, curve, "h_min_rough_m", colour, 1e9)
+        _points(film, x, curve, "h_min_rough_ehl_m", colour, 1e9)
+    share.set_ylim(-0.03, 1.03)
+    film.set_ylim(bottom=0.0)
+    share.set_ylabel("load, area (dashed)")
+    film.set_ylabel("minimum film [nm]")
 
 
 def _band(ax: Axes, x: Array, curve: Curve, name: str, colour: str, factor: float = 1.0) -> None:
@@ -199,22 +234,23 @@ def _error(name: str) -> str:
     return name.removesuffix("_m") + ("_error_m" if name.endswith("_m") else "_error")
 
 
+@style.styled()
 def draw_traction(
     curves: Sequence[Curve],
-    surface: str,
+    conditions: str,
     measured: Points | None = None,
     law: str = "",
 ) -> Figure:
     """Draw coefficients of friction, and the maximum temperature increase where it was computed.
 
-    Without sliding there is no friction of sliding. `surface` says what the surface is; measured
-    friction is laid over; `law` says what an empirical curve is.
+    Without sliding there is no friction of sliding. `conditions` and `law` as of `draw_stribeck`;
+    measured friction is laid over.
     """
     warm = any(np.isfinite(curve.column("temperature_rise_max_K")).any() for curve in curves)
-    figure = style.new_figure(10.0 if warm else 6.0, 4.4)
-    axes = figure.subplots(1, 2 if warm else 1, squeeze=False)[0]
+    width = page(1)
+    figure = style.new_figure(width, width * (1.25 if warm else 0.8))
+    axes = figure.subplots(2 if warm else 1, 1, sharex=True, squeeze=False)[:, 0]
     for curve, colour in zip(curves, COLOURS * 9, strict=False):
-        tail = f" ({curve.label})" if curve.label else ""
         slip = curve.places
         resting = slip == 0.0
         for name, line, words in (
@@ -227,7 +263,11 @@ def draw_traction(
             mu = np.where(resting, 0.0, curve.column(name))
             known = np.isfinite(mu)
             axes[0].plot(
-                slip[known], mu[known], line, ms=3, lw=1.2, color=colour, label=f"{words}{tail}"
+                slip[known],
+                mu[known],
+                line,
+                color=colour,
+                label=(name == "mu" and _named(curve)) or words,
             )
         if warm:
             rise = np.where(resting, 0.0, curve.column("temperature_rise_max_K"))
@@ -236,15 +276,14 @@ def draw_traction(
     if measured is not None:
         measured.draw(axes[0], "contact.slide_to_roll")
     for ax in axes:
-        ax.set_xlabel("slide-to-roll ratio")
-        ax.grid(visible=True, which="major", color="0.92", lw=0.6)
-        ax.set_axisbelow(True)
+        ax.grid(visible=True, which="major")
         ax.set_ylim(bottom=0.0)
+    axes[-1].set_xlabel("slide-to-roll ratio")
     axes[0].set_ylabel(r"$\mu$")
     if warm:
-        axes[1].set_ylabel("maximum temperature increase of the film [K]")
-        style.letter(axes)
-    axes[0].legend(fontsize="small")
-    words = "; ".join(f"{c.label + ': ' if c.label else ''}{c.ends}" for c in curves if c.ends)
-    figure.suptitle("\n".join((surface, words, *wrap(law, 90))), fontsize="medium")
+        axes[1].set_ylabel("maximum increase of\nfilm temperature [K]")
+        style.letter(list(axes))
+    style.legend_below(figure, axes[0])
+    ends = (f"{c.label + ': ' if c.label else ''}{c.ends}" for c in curves if c.ends)
+    figure.set_label("; ".join(filter(None, (conditions, *ends, law))))
     return figure

@@ -7,7 +7,19 @@ from typing import NamedTuple
 import numpy as np
 from matplotlib.figure import Figure
 
-from pyehl.plots.style import BLUE, GREEN, GREY, VERMILLION, letter, new_figure, points
+from pyehl.plots.style import (
+    BLUE,
+    COLUMN,
+    GREEN,
+    GREY,
+    PAGE,
+    VERMILLION,
+    legend_below,
+    letter,
+    new_figure,
+    points,
+    styled,
+)
 from pyehl.types import Array
 
 COLOURS = (BLUE, VERMILLION, GREEN, "#CC79A7", "#E69F00", "#56B4E9", GREY)
@@ -25,9 +37,12 @@ class Line(NamedTuple):
     errors: Array
 
 
-def study_figure(panels: Sequence[tuple[str, Sequence[Line]]], abscissa: str, title: str) -> Figure:
+@styled()
+def study_figure(
+    panels: Sequence[tuple[str, Sequence[Line]]], abscissa: str, conditions: str
+) -> Figure:
     """Draw a panel for each result, given as its label and its lines, over an abscissa."""
-    figure = new_figure(1.0 + 3.4 * len(panels), 3.4)
+    figure = new_figure(COLUMN if len(panels) == 1 else PAGE, 2.5)
     axes = figure.subplots(1, len(panels), squeeze=False)[0]
     for ax, (label, lines) in zip(axes, panels, strict=True):
         for k, line in enumerate(lines):
@@ -37,8 +52,6 @@ def study_figure(panels: Sequence[tuple[str, Sequence[Line]]], abscissa: str, ti
                 line.values,
                 line.errors,
                 fmt=f"{MARKERS[k % len(MARKERS)]}-",
-                ms=4,
-                lw=1.2,
                 capsize=2,
                 color=COLOURS[k % len(COLOURS)],
                 label=line.label,
@@ -47,9 +60,9 @@ def study_figure(panels: Sequence[tuple[str, Sequence[Line]]], abscissa: str, ti
         if places.min() > 0.0 and places.max() > WIDE * places.min():
             ax.set_xscale("log")
         ax.set(xlabel=abscissa, ylabel=label)
-        ax.grid(visible=True, color="0.92", lw=0.6)
+        ax.grid(visible=True)
     letter(axes)
     if len(panels[0][1]) > 1:
-        axes[0].legend(fontsize="small")
-    figure.suptitle(title, fontsize="medium")
+        legend_below(figure, axes[0])
+    figure.set_label(conditions)
     return figure

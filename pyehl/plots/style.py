@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What all pictures share: sizes, colours, units, letters.
+"""What all pictures share: the style sheet, sizes, colours, units, letters.
 
-Maps are colour-blind safe; lengths are in mm, films in um, pressures in GPa when scales are given,
+Figures are drawn for print: letters of 8 points, one column or one page wide, no titles. Maps are
+colour-blind safe; lengths are in mm, films in nm or um, pressures in GPa when scales are given,
 else in Hertz units. Labels are plain text where it says the same: to set mathematics takes as long
 as the rest of a panel.
 """
 
 import io
 import math
-import re
 import zlib
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -23,8 +23,9 @@ from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm
+from matplotlib.contour import ContourSet
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
+from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullFormatter
 from numpy.typing import NDArray
 
 from pyehl import lengths
@@ -32,8 +33,27 @@ from pyehl.destination import mark, new_file
 from pyehl.plots.outline import CIRCLE, Outline
 from pyehl.types import Array
 
-DPI = 150
+DPI = 200
 INCH = 0.0254
+# Widths of a column and of a page of a journal [in]
+COLUMN, PAGE = 0.085 / INCH, 0.175 / INCH
+STYLE: Any = {
+    **dict.fromkeys(("font.size", "axes.titlesize", "axes.labelsize", "legend.fontsize"), 8.0),
+    **dict.fromkeys(("xtick.labelsize", "ytick.labelsize"), 8.0),
+    **dict.fromkeys(("axes.linewidth", "xtick.major.width", "ytick.major.width"), 0.6),
+    **dict.fromkeys(("xtick.minor.width", "ytick.minor.width"), 0.4),
+    "lines.linewidth": 1.2,
+    "lines.markersize": 3.0,
+    "legend.frameon": False,
+    "legend.handlelength": 1.6,
+    "legend.columnspacing": 1.2,
+    "grid.color": "0.92",
+    "grid.linewidth": 0.5,
+    "axes.grid": False,
+    "axes.axisbelow": True,
+    "mathtext.default": "it",
+}
+"""The style sheet."""
 # For PNG files: twice as fast as the usual way, and as small
 COMPRESSION = {"compress_type": zlib.Z_RLE}
 # Okabe & Ito: distinguishable by everybody
@@ -44,6 +64,10 @@ SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 POWERS = FuncFormatter(lambda value, _: "10" + f"{math.log10(value):.0f}".translate(SUPERSCRIPTS))
 
 
+# Films [m] below this are shown in nm
+THIN = 1e-6
+
+
 @dataclass(frozen=True, slots=True)
 class Scales:
     """What turns Hertz units into SI: a [m], p_h [Pa], a^2/R_x [m]."""
@@ -51,49 +75,49 @@ class Scales:
     radius: float
     pressure: float
     film: float
+    thin: bool = False  # films are shown in nm, else in um
 
 
-# Width of the page that figures are drawn for [in]; 0: as wide as their panels want
+# Width of the page that figures are drawn for [in]; 0: a column or a page, by their panels
 PAGE_WIDTH: ContextVar[float] = ContextVar("PAGE_WIDTH", default=0.0)
-# Letters as journals want them in their columns [pt], and how many go into an inch
-PAGE_FONT, LETTERS_PER_INCH = 7.0, 17.0
-# As many of the others
-LARGE_PER_INCH = 13.3
 # Long over short side of a map from which the latter has one number alone
 SLENDER = 4.0
+# Letters of 8 points in an inch, and as many as a sign of a legend and the gaps beside it take
+LETTERS_PER_INCH, HANDLE = 14.0, 7
+# Height over width of a map from which on it is flat
+FLAT = 0.5
+
+
+@contextmanager
+def styled() -> Iterator[None]:
+    """Draw by the style sheet; also a decorator."""
+    with rc_context(STYLE):
+        yield
+
+
+class Picture(Figure):
+    """A figure of the style sheet; ticks and the layout are made when it is drawn."""
+
+    def draw(self, renderer: Any) -> None:  # noqa: ANN401
+        """Draw it by the style sheet."""
+        with rc_context(STYLE):
+            super().draw(renderer)
 
 
 @contextmanager
 def page_width(metres: float) -> Iterator[None]:
-    """Draw figures so wide, with letters of `PAGE_FONT`; 0: as wide as their panels want."""
-    if not metres:
-        yield
-        return
+    """Draw figures so wide; 0: a column or a page, by their panels."""
     token = PAGE_WIDTH.set(metres / INCH)
     try:
-        with rc_context({"font.size": PAGE_FONT, "axes.linewidth": 0.6, "lines.linewidth": 1.0}):
+        with rc_context(STYLE):
             yield
     finally:
         PAGE_WIDTH.reset(token)
 
 
-def wrapped(title: str, width: float, per_inch: float = LETTERS_PER_INCH) -> str:
-    """Break a line of parts, ',  ' between them, so that it fits a width in inches."""
-    lines: list[str] = []
-    for part in title.split(",  "):
-        joined = f"{lines[-1]},  {part}" if lines else part
-        # what mathematics is written with is not seen
-        seen = len(re.sub(r"\\[a-z]+|[${}]", "", joined))
-        if lines and seen <= width * per_inch:
-            lines[-1] = joined
-        else:
-            lines.append(part)
-    return ",\n".join(lines)
-
-
 def new_figure(width: float, height: float) -> Figure:
     """Make an empty figure of a size in inches, laid out by itself."""
-    return Figure(figsize=(width, height), layout="constrained")
+    return Picture(figsize=(width, height), layout="constrained")
 
 
 def axes_or_new(ax: Axes | None, width: float, height: float) -> Axes:
@@ -112,16 +136,38 @@ def not_known(ax: Axes) -> None:
 
 
 def colour_bar(
-    image: ScalarMappable, ax: Axes, label: str, *, shrink: float = 1.0, slender: float = 1.0
+    image: ScalarMappable, ax: Axes, label: str, *, slender: float = 1.0, above: bool = False
 ) -> None:
-    """Put a colour bar beside axes, so much shorter than they are.
+    """Put a colour bar beside axes, as high as they are.
 
-    `slender`: height of the axes over their width, where they are slender.
+    `slender`: height of the axes over their width; `above`: the label stands above the bar, as
+    beside a flat map, where there is no room along the bar.
     """
-    unit = math.sqrt(max(1.0, slender))
-    beside = ax.inset_axes((1.0 + 0.04 * unit, 0.5 - 0.5 * shrink, 0.05 * unit, shrink))
-    powers = POWERS if isinstance(image.norm, LogNorm) else None
-    ax.figure.colorbar(image, cax=beside, format=powers).set_label(label)
+    broad = 0.05 * min(1.0, max(slender, 0.3))
+    beside = ax.inset_axes((1.0 + 0.8 * broad, 0.0, broad, 1.0))
+    log = isinstance(image.norm, LogNorm)
+    bar = ax.figure.colorbar(image, cax=beside, format=POWERS if log else None)
+    most = 3 if slender < FLAT else 7
+    if isinstance(image, ContourSet):
+        levels = list(image.levels)
+        bar.set_ticks(levels[:: math.ceil(len(levels) / most)])
+    elif not log:
+        bar.locator = MaxNLocator(most)
+        bar.update_ticks()
+    if above or slender < FLAT:
+        beside.set_title(label, loc="left" if above else "right", y=1.0)
+    else:
+        bar.set_label(label)
+
+
+def legend_below(figure: Figure, ax: Axes) -> None:
+    """Say below the panels what is drawn in one of them, each thing once."""
+    handles, labels = ax.get_legend_handles_labels()
+    unique = dict(zip(labels, handles, strict=True))
+    if unique:
+        letters = figure.get_figwidth() * LETTERS_PER_INCH
+        columns = max(1, int(letters // (HANDLE + max(map(len, unique)))))
+        figure.legend(unique.values(), unique.keys(), loc="outside lower center", ncols=columns)
 
 
 def y_label(ax: Axes, label: str, colour: str) -> None:
@@ -130,7 +176,7 @@ def y_label(ax: Axes, label: str, colour: str) -> None:
     ax.tick_params(axis="y", colors=colour)
 
 
-def label_decades(*axes: Axis) -> None:
+def label_decades(*axes: Axis, most: int = 9) -> None:
     """Label the decades of logarithmic axes as `POWERS` does, or numbers between where few are."""
     for axis in axes:
         low, high = axis.get_view_interval()
@@ -138,21 +184,25 @@ def label_decades(*axes: Axis) -> None:
             axis.set_major_formatter(POWERS)
             axis.set_minor_formatter(NullFormatter())
         else:
-            label_log_ticks(axis)
+            label_log_ticks(axis, most)
 
 
 def few_ticks(ax: Axes) -> None:
-    """Leave one number on the short side of a slender map, where more would lie on each other."""
-    for axis, other in ((ax.xaxis, ax.yaxis), (ax.yaxis, ax.xaxis)):
-        (low, high), long = axis.get_view_interval(), np.ptp(other.get_view_interval())
-        if SLENDER * (high - low) < long:
-            place = 0.0 if low < 0.0 else float(high)
+    """Give each axis of a map as many numbers as there is room for."""
+    wide, high = (float(np.ptp(axis.get_view_interval())) for axis in (ax.xaxis, ax.yaxis))
+    for axis, share in ((ax.xaxis, wide / high), (ax.yaxis, high / wide)):
+        low, top = axis.get_view_interval()
+        if share < 1.0 / SLENDER:
+            place = 0.0 if low < 0.0 else float(top)
             axis.set_ticks([place], [f"{place:.3g}"])
+        else:
+            axis.set_major_locator(MaxNLocator(4 if share > 2.0 else 2 if share < 0.7 else 3))
 
 
 def contact_heights(
-    heights: Array,
-    extent: tuple[float, float, float, float],
+    heights: NDArray[np.floating[Any]],
+    x: NDArray[np.floating[Any]],
+    y: NDArray[np.floating[Any]],
     radius: float,
     top: float,
     unit: str,
@@ -162,23 +212,34 @@ def contact_heights(
     ax: Axes,
     outline: Outline = CIRCLE,
 ) -> None:
-    """Draw heights inside the Hertz ellipse, with a colour bar or not; the title gives their rms.
+    """Draw heights inside the Hertz ellipse, with a colour bar or not; their rms stands above.
 
     Heights (nx, ny) are in `unit`, NaN outside of the ellipse, `top` is the largest of the scale;
-    outer edges of the map and semi-axis along the motion in the unit of the axes.
+    places x (nx,), y (ny,) and semi-axis along the motion are in the unit of the axes.
     """
+    across, up, seen = outline.seen(x, y, heights)
     image = ax.imshow(
-        heights.T, origin="lower", extent=extent, cmap=DIVERGING, vmin=-top, vmax=top,
+        seen.T, origin="lower", extent=extent_of(across, up), cmap=DIVERGING, vmin=-top, vmax=top,
         interpolation="nearest",
     )  # fmt: skip
     ax.add_patch(outline.patch(radius, lw=0.8, ec=GREY))
     rms = float(np.nanstd(heights))
-    ax.set_title(f"{name} rms {rms:.3g} {unit}".strip(), loc="left", fontsize="medium", y=1.0)
-    along, across = outline.reach
-    ax.set(xlim=(-1.05 * along * radius, 1.05 * along * radius))
-    ax.set(ylim=(-1.05 * across * radius, 1.05 * across * radius))
+    ax.set_title(f"{name} rms {rms:.3g} {unit}".strip(), loc="left", y=1.0)
+    wide, high = (half * radius for half in outline.view(1.05))
+    ax.set(xlim=(-wide, wide), ylim=(-high, high))
     if bar:
-        colour_bar(image, ax, f"height [{unit}]", shrink=0.85, slender=outline.slender)
+        colour_bar(image, ax, f"height [{unit}]", slender=high / wide)
+
+
+def place_labels(ax: Axes, x: str, y: str, outline: Outline) -> None:
+    """Label the axes of a map with what is along and across the motion, and its direction."""
+    if outline.turned:
+        ax.set(xlabel=y, ylabel=x)
+        name = ax.get_title(loc="left")
+        above = f"{name}{',' * (len(name) > 3)} motion ↑".strip()
+        ax.set_title(above, loc="left", y=1.0)
+    else:
+        ax.set(xlabel=f"{x}, motion →", ylabel=y)
 
 
 def extent_of(
@@ -194,13 +255,17 @@ def extent_of(
 def save(figure: Figure, path: str | Path, dpi: int = DPI, command: str = "plot") -> Path:
     """Write a figure as PNG (or what the suffix says), whole or not at all; returns the path.
 
-    It says whose picture it is (`command`). FileError if it cannot be written.
+    Its metadata say whose picture it is (`command`), and its conditions, the label of the figure.
+    FileError if it cannot be written.
     """
     path = Path(path)
     options: dict[str, Any] = {"metadata": {"Creator": mark(command)}}
     if path.suffix == ".png":
         options = {"metadata": {"Software": mark(command)}, "pil_kwargs": COMPRESSION}
     # fonts are put into PDF files as TrueType
+    if words := str(figure.get_label()):
+        field = {".png": "Description", ".svg": "Description", ".pdf": "Subject"}.get(path.suffix)
+        options["metadata"] |= {field: words} if field else {}
     with new_file(path) as partial, rc_context({"pdf.fonttype": 42, "ps.fonttype": 42}):
         figure.savefig(partial, dpi=dpi, **options)
     return path
@@ -219,7 +284,7 @@ def letter(axes: Sequence[Axes]) -> None:
     if len(axes) > 1:
         for mark, ax in zip("abcdef", axes, strict=False):
             # at a given height nothing is measured to keep clear of what is above the axes
-            ax.set_title(f"({mark})", loc="left", fontsize="medium", y=1.0)
+            ax.set_title(f"({mark})", loc="left", y=1.0)
 
 
 def axis_unit(scales: Scales | None, name: str) -> tuple[float, str]:
@@ -240,28 +305,30 @@ def film_unit(scales: Scales | None) -> tuple[float, str]:
     """Factor from films in a^2/R to the unit of an axis, and its label."""
     if scales is None:
         return 1.0, "H = hR/a²"
-    return scales.film * 1e6, "h [µm]"
+    return scales.film * (1e9 if scales.thin else 1e6), "h [nm]" if scales.thin else "h [µm]"
 
 
 def hertz_ticks(ax: Axes, outline: Outline = CIRCLE) -> None:
     """Mark the contact radius and its half on both axes, of an ellipse how far it reaches."""
-    if outline == CIRCLE:
-        ax.set_xticks([-1.0, -0.5, 0.0, 0.5, 1.0])
-        ax.set_yticks([-1.0, -0.5, 0.0, 0.5, 1.0])
-    else:
-        along, across = outline.reach
-        ax.set_xticks([-along, 0.0, along], [f"{-along:.3g}", "0", f"{along:.3g}"])
-        ax.set_yticks([-across, 0.0, across], [f"{-across:.3g}", "0", f"{across:.3g}"])
+    for axis, reach in zip((ax.xaxis, ax.yaxis), outline.box, strict=True):
+        places = reach * np.array([-1.0, -0.5, 0.0, 0.5, 1.0] if outline == CIRCLE else [-1, 0, 1])
+        axis.set_ticks(places, [f"{place:.3g}".replace("-", "−") for place in places])
 
 
-def label_log_ticks(axis: Axis) -> None:
-    """Label 1, 2 and 5 of each decade of a logarithmic axis where there are few decades."""
+def label_log_ticks(axis: Axis, most: int = 9) -> None:
+    """Label 1, 2 and 5 of each decade of a logarithmic axis where there are few decades.
+
+    At most so many of them.
+    """
     low, high = axis.get_view_interval()
     if high < 100.0 * low:
         decades = 10.0 ** np.arange(math.floor(math.log10(low)), math.log10(high))
-        places = np.outer(decades, (1.0, 2.0, 5.0))
-        few = np.count_nonzero((low <= places) & (places <= high)) < 2
-        axis.set_major_locator(MaxNLocator(3) if few else LogLocator(subs=(1.0, 2.0, 5.0)))
+        places = np.outer(decades, (1.0, 2.0, 5.0)).ravel()
+        places = places[(low <= places) & (places <= high)]
+        if places.size < 2:
+            axis.set_major_locator(MaxNLocator(min(3, most - 1)))
+        else:
+            axis.set_major_locator(FixedLocator(places[:: math.ceil(places.size / most)].tolist()))
         axis.set_major_formatter(FuncFormatter(lambda value, _: _short(value)))
         axis.set_minor_formatter(NullFormatter())
 

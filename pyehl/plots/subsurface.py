@@ -67,9 +67,7 @@ def over_depth(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     if rough:
         smooth = data.principal_shear_smooth.values * factor
         ax.plot(smooth, z, "--", color=style.GREY, label="smooth")
-        ax.legend(
-            fontsize="small", frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2
-        )
+        ax.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2)
     ax.set(yscale="log", ylim=(z[-1], z[0]), xlabel=label, ylabel=f"depth z [{unit}]")
     ax.set_xlim(left=0.0)
     ax.yaxis.set_major_formatter("{x:g}")
@@ -77,10 +75,11 @@ def over_depth(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     return ax
 
 
+@style.styled()
 def stress_figures(data: xr.Dataset) -> dict[str, Figure]:
     """Give both pictures by the names of their files."""
     figures = {}
-    for name, draw, width in (("section", section, 4.6), ("depth", over_depth, 3.4)):
-        figures[name] = style.new_figure(width, 3.0)
+    for name, draw in (("section", section), ("depth", over_depth)):
+        figures[name] = style.new_figure(style.COLUMN, 0.75 * style.COLUMN)
         draw(data, figures[name].add_subplot())
     return figures

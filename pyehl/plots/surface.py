@@ -26,6 +26,8 @@ from pyehl.types import Array
 FLOOR = 1e-10
 # Most places of a map along each side: more are not seen
 PLACES = 1201
+C_ISO = r"$C_\mathrm{iso}$ [m⁴]"
+RATIO = r"$\mu_r/\mu_s$"
 # Powers of ten beyond which they stand above an axis, so that its numbers are short
 SHORT = (-3, 4)
 SHOWN = 0.005
@@ -43,7 +45,8 @@ def heights(topography: Topography, *, ax: Axes | None = None) -> Axes:
     image = ax.imshow(
         z.T * unit, origin="lower", extent=extent, cmap=style.DIVERGING, vmin=-top, vmax=top
     )
-    style.colour_bar(image, ax, f"height [{name}]")
+    slender = topography.length_y / topography.length_x
+    style.colour_bar(image, ax, f"height [{name}]", slender=slender, above=True)
     style.few_ticks(ax)
     ax.set(xlabel=f"x [{length}]", ylabel=f"y [{length}]")
     return ax
@@ -59,7 +62,8 @@ def spectrum_map(topography: Topography, *, ax: Axes | None = None) -> Axes:
         np.maximum(c2d, FLOOR * most).T, origin="lower", extent=extent, cmap=style.SEQUENTIAL,
         norm=LogNorm(vmin=FLOOR * most, vmax=most),
     )  # fmt: skip
-    style.colour_bar(image, ax, "spectrum [m⁴]")
+    slender = float(np.ptp(qy) / np.ptp(qx))
+    style.colour_bar(image, ax, "C2D [m⁴]", slender=slender, above=True)
     style.few_ticks(ax)
     ax.set(xlabel="q along x [rad/µm]", ylabel="q along y [rad/µm]")
     return ax
@@ -83,10 +87,10 @@ def spectrum_line(
     ax = style.axes_or_new(ax, 3.8, 3.0)
     q, c_iso = psd_isotropic(topography)
     shown = c_iso > FLOOR * float(psd_2d(topography)[2].max())
-    ax.loglog(q[shown], c_iso[shown], "o", ms=2.5, color=style.BLUE, label="isotropic spectrum")
-    ax.set_xlabel("|q| [rad/m]")
-    style.y_label(ax, "isotropic spectrum [m⁴]", style.BLUE)
-    style.label_decades(ax.xaxis, ax.yaxis)
+    ax.loglog(1e-6 * q[shown], c_iso[shown], ".", ms=2.5, color=style.BLUE)
+    ax.set_xlabel("|q| [rad/µm]")
+    style.y_label(ax, C_ISO, style.BLUE)
+    style.label_decades(ax.xaxis, ax.yaxis, most=3)
     twin = ax.twinx()
     for values, line, mark, label in (
         (deformed, "-", "o", "|T|"),
@@ -96,10 +100,10 @@ def spectrum_line(
         share = np.sqrt(psd_isotropic(part)[1][shown] / c_iso[shown])
         # a single wave is a point
         marker = mark if share.size == 1 else ""
-        twin.plot(q[shown], share, line, marker=marker, color=style.VERMILLION, lw=1.4, label=label)
-    style.y_label(twin, "response at the centre (rms)", style.VERMILLION)
-    # the spectrum falls and the response rises: below both there is room
-    twin.legend(loc="lower center", fontsize="small")
+        twin.plot(
+            1e-6 * q[shown], share, line, marker=marker, color=style.VERMILLION, lw=1.4, label=label
+        )
+    style.y_label(twin, "|T|; dashed |1 − T|", style.VERMILLION)
     return ax
 
 
@@ -146,14 +150,14 @@ def roughness(
     at = np.ix_(i % nx, j % ny)
     top = float(np.abs(topography.heights[at][inside]).max())
     unit, label = style.height_unit(top)
-    extent = style.extent_of(i * (px / a), j * (py / a))
     shown = np.where(inside, values[at], np.nan) * unit
-    outline = Outline(ellipticity)
+    outline, mm = Outline(ellipticity), 1e3
     style.contact_heights(
-        shown, extent, 1.0, top * unit, label, name=name, bar=bar, ax=ax, outline=outline
-    )
-    ax.set(xlabel="x/a", ylabel="y/a")
-    style.hertz_ticks(ax, outline)
+        shown, i * px * mm, j * py * mm, a * mm, top * unit, label,
+        name=name, bar=bar, ax=ax, outline=outline,
+    )  # fmt: skip
+    style.place_labels(ax, "x [mm]", "y [mm]", outline)
+    style.few_ticks(ax)
     return ax
 
 
@@ -203,13 +207,13 @@ def passage(
         ax.axhline(mean, color=style.VERMILLION, lw=1.0, ls="--", label=f"mean {mean:.3f}")
     if not known.any():
         style.not_known(ax)
-        ax.set(xlabel=name, ylabel="relative friction")
+        ax.set(xlabel=name, ylabel=RATIO)
         return ax
     ax.axhline(1.0, color=style.GREY, lw=0.8, ls=":", label="smooth")
     ax.set(xlim=(0.0, length * scale), xlabel=name)
-    ax.set(ylabel="relative friction")
+    ax.set(ylabel=RATIO)
     ax.ticklabel_format(axis="y", scilimits=SHORT)
-    ax.legend(loc="best", fontsize="small")
+    ax.legend(loc="best")
     return ax
 
 
@@ -222,7 +226,7 @@ def octaves(bands: Sequence[tuple[float, float, float]], *, ax: Axes | None = No
         Longest and shortest wavelength [m] and rise [-] of each octave; NaN where it is not known.
     """
     ax = style.axes_or_new(ax, 3.8, 2.9)
-    ax.set(xlabel="wavelength of the component [μm]", ylabel="contribution to relative friction")
+    ax.set(xlabel="wavelength of the component [μm]", ylabel=f"contribution to {RATIO}")
     known = sorted((band for band in bands if math.isfinite(band[2])), reverse=True)
     if not known:
         style.not_known(ax)
@@ -239,10 +243,11 @@ def octaves(bands: Sequence[tuple[float, float, float]], *, ax: Axes | None = No
     style.label_decades(ax.xaxis)
     # a power of ten above the panel would lie on its letter: for large contributions alone
     ax.ticklabel_format(axis="y", scilimits=(-9, SHORT[1]))
-    ax.legend(fontsize="small", frameon=False)
+    ax.legend()
     return ax
 
 
+@style.styled()
 def before_and_after(
     surface: Topography, conditions: tuple[float, float, float, str] | None = None
 ) -> Figure:
@@ -252,7 +257,7 @@ def before_and_after(
     A_d/A_i is drawn over the spectrum, for waves along x.
     """
     made = surface.preparation
-    figure = style.new_figure(10.2 if made else 7.0, 2.9)
+    figure = style.new_figure(style.PAGE, 2.3 if made else 2.8)
     axes = list(figure.subplots(1, 3 if made else 2))
     style.letter(axes)
     lengths = (surface.length_x, surface.length_y)
@@ -288,9 +293,8 @@ def _map(ax: Axes, heights: Array, size: tuple[float, float], title: str) -> Non
     bar = ax.figure.colorbar(image, ax=ax, fraction=0.046, extend="both")
     bar.set_label(f"height [{name}]")
     rms = float(np.nanstd(heights)) * unit
-    peak = float(np.nanmax(np.abs(heights))) * unit
-    head = f"{ax.get_title(loc='left')} {title}\nrms {rms:.3g}, peak {peak:.3g} {name}"
-    ax.set_title(head, fontsize="small", loc="left")
+    head = f"{ax.get_title(loc='left')} {title},\nrms {rms:.3g} {name}"
+    ax.set_title(head, loc="left")
     style.few_ticks(ax)
     ax.set(xlabel=f"x [{length}]", ylabel=f"y [{length}]")
 
@@ -320,17 +324,17 @@ def _spectra(
     for label, colour, tile in curves:
         q, c_iso = psd_isotropic(tile)
         shown = c_iso > c_iso.max() * 1e-14
-        ax.loglog(q[shown], c_iso[shown], "-", lw=1.2, color=colour, label=label)
+        ax.loglog(1e-6 * q[shown], c_iso[shown], "-", color=colour, label=label)
         ends += [float(q[0]), float(q[-1])]
-    ax.set(xlabel="|q| [rad/m]", ylabel="isotropic spectrum [m⁴]")
-    style.label_decades(ax.xaxis)
-    ax.legend(loc="lower left", fontsize="small")
+    ax.set(xlabel="|q| [rad/µm]", ylabel=C_ISO)
+    style.label_decades(ax.xaxis, ax.yaxis)
+    ax.legend(loc="upper right")
     if conditions is None:
         return
     radius, moes_m, moes_l, convention = conditions
     twin = ax.twinx()
     line = np.geomspace(min(ends), max(ends), 200)
     ratio = component_amplitude_ratio(line, 0.0, radius, moes_m, moes_l, convention=convention)
-    twin.plot(line, ratio, color=style.VERMILLION, lw=1.4)
+    twin.plot(1e-6 * line, ratio, color=style.VERMILLION, lw=1.4)
     twin.set_ylim(0.0, 1.02)
     style.y_label(twin, r"$A_d/A_i$", style.VERMILLION)

@@ -86,7 +86,8 @@ def friction_history(
         ax.plot([end - period, end], [mean, mean], color=style.VERMILLION, lw=2.0, label=label)
     ax.set_xlim(float(time[0]), end)
     low, high = min(1.0, float(ratio.min())), max(float(ratio.max()), formula or 1.0)
-    ax.set(ylim=(low - 0.05 * (high - low), high + 0.05 * (high - low)), xlabel="T = t u/a")
+    # above the lines is room for what they are
+    ax.set(ylim=(low - 0.05 * (high - low), high + 0.3 * (high - low)), xlabel="T = t u/a")
     ax.set_ylabel(r"$\mu_r/\mu_s$")
     if seconds > 0.0:
         scale = seconds * 1e3
@@ -99,7 +100,7 @@ def friction_history(
 
         top = ax.secondary_xaxis("top", functions=(milliseconds, back))
         top.set_xlabel("t [ms]")
-    ax.legend(loc="best", fontsize="small")
+    ax.legend(loc="upper center", ncols=4 if formula is None else 2)
     return ax
 
 
@@ -126,7 +127,7 @@ def extremes_history(
     """
     ax = style.axes_or_new(ax, 5.4, 3.4)
     factor, label = style.pressure_unit(scales)
-    ax.plot(time, pressure * factor, color=style.BLUE, lw=1.4, label="largest pressure")
+    ax.plot(time, pressure * factor, color=style.BLUE, lw=1.4, label="maximum pressure")
     ax.set_xlabel("T = t u/a")
     style.y_label(ax, label, style.BLUE)
     ax.set_xlim(float(time[0]), float(time[-1]))
@@ -137,8 +138,8 @@ def extremes_history(
     twin.set_ylim(0.0, 1.1 * max(float(v.max()) for v in films.values()) * factor)
     style.y_label(twin, label, style.VERMILLION)
     ax.legend(
-        handles=[*ax.get_lines(), *twin.get_lines()], loc="lower center", ncols=3,
-        bbox_to_anchor=(0.5, 1.0), fontsize="small", frameon=False,
+        handles=[*ax.get_lines(), *twin.get_lines()], loc="lower center", ncols=2,
+        bbox_to_anchor=(0.5, 1.0),
     )  # fmt: skip
     return ax
 
@@ -196,14 +197,16 @@ def roughness(
         unit *= scales.film
     unit_x, label_x = style.axis_unit(scales, "x")
     _, label_y = style.axis_unit(scales, "y")
-    extent = style.extent_of(within_x, within_y, unit_x)
     shown = np.where(circle, heights[at], np.nan) * unit
     style.contact_heights(
-        shown, extent, unit_x, top * unit, label, name=name, bar=bar, ax=ax, outline=outline
-    )
-    ax.set(xlabel=label_x, ylabel=label_y)
-    if scales is None:
+        shown, within_x * unit_x, within_y * unit_x, unit_x, top * unit, label,
+        name=name, bar=bar, ax=ax, outline=outline,
+    )  # fmt: skip
+    style.place_labels(ax, label_x, label_y, outline)
+    if scales is None and not outline.slender:
         style.hertz_ticks(ax, outline)
+    else:
+        style.few_ticks(ax)
     return ax
 
 
@@ -237,5 +240,5 @@ def profiles(
     ax.plot(x * unit_x, rough * unit[0], color=colour, lw=1.3, label="rough")
     ax.plot(x * unit_x, smooth * unit[0], "--", color="black", lw=0.9, label="smooth")
     ax.set(xlabel=label_x, ylabel=unit[1], xlim=(-1.5 * unit_x, 1.5 * unit_x))
-    ax.legend(loc="best", fontsize="small", framealpha=0.9)
+    ax.legend(loc="best", framealpha=0.9)
     return ax

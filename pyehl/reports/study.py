@@ -174,7 +174,7 @@ def _pictures(
     """Give the picture of a curve as it was drawn, else the results over the first key."""
     drawn = folder / "stribeck.png"
     if drawn.is_file():
-        words = "Friction over the Hersey number, the film ratio Lambda and theta_2"
+        words = "Friction over what is varied"
         return [page.picture(drawn.read_bytes(), f"{words}; the numbers are in the table.", words)]
     if rows.empty or not pd.api.types.is_numeric_dtype(rows[keys[0]]):
         return []

@@ -42,7 +42,7 @@ def test_as_another_program_on_the_fields(solve, root):
     assert walls[0] < walls[1]
     assert done["flash_temperature_K"] == pytest.approx(np.mean(walls), rel=0.03)
     assert "temperature" in done["mu_note"]
-    text = (root / "docs/theory/temperature-friction.md").read_text(encoding="utf-8")
+    text = (root / "docs/theory/temperature.md").read_text(encoding="utf-8")
     for said in (
         f"| {done['mu']:.4f}; isothermal {done['mu_isothermal']:.4f} |",
         f"| {done['temperature_rise_max_K']:.1f} K; {np.mean(walls):.1f} K |",
@@ -60,7 +60,7 @@ def test_as_another_program_on_the_fields(solve, root):
 def test_traction_rises_and_falls(solve, root, srr, mu):
     done = solve(None, 257, FAST | {"contact.slide_to_roll": srr})
     assert done["mu"] == pytest.approx(mu, abs=6e-4)
-    text = (root / "docs/theory/temperature-friction.md").read_text(encoding="utf-8")
+    text = (root / "docs/theory/temperature.md").read_text(encoding="utf-8")
     (row,) = re.findall(r"ratios 0.03 and 1 \| (.*?) \|", text)
     assert f"{done['mu']:.4f}" in row
 

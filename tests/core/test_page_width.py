@@ -10,7 +10,7 @@ from PIL import Image
 import pyehl
 from pyehl.cli import main
 from pyehl.plots.movie import movie
-from pyehl.plots.style import DPI, new_figure, page_width, save, wrapped
+from pyehl.plots.style import DPI, PAGE, new_figure, page_width, save
 
 POINTS_PER_MM = 72.0 / 25.4
 
@@ -63,26 +63,29 @@ def test_narrow_figures_have_their_panels_below_one_another(moving):
     assert left.get_position().y0 > right.get_position().y1
     left, right = wide.axes[:2]
     assert left.get_position().x1 < right.get_position().x0
-    assert usual.get_figwidth() == pytest.approx(7.2)
-    assert {text.get_fontsize() for text in narrow.axes[0].get_xticklabels()} == {7.0}
+    assert usual.get_figwidth() == pytest.approx(PAGE)
+    for figure in (narrow, usual):
+        figure.canvas.draw()
+        assert {text.get_fontsize() for text in figure.axes[0].get_xticklabels()} == {8.0}
     # what was drawn for a page does not change what is drawn after it
-    assert new_figure(2.0, 2.0).subplots().title.get_fontsize() > 7.0
+    assert new_figure(2.0, 2.0).subplots().title.get_fontsize() > 8.0
 
 
 def test_every_figure_names_its_conditions(moving):
     for width in (0.0, 0.084):
         for name, figure in pyehl.plot(moving, width=width).items():
-            title = figure.get_suptitle()
-            assert "M =" in title, name
-            assert "Hertz pressure" in title, name
+            told = figure.get_label()
+            assert "M =" in told, name
+            assert "Hertz pressure" in told, name
+            assert figure.get_suptitle() == "", name
 
 
-def test_titles_are_broken_between_parts():
-    title = ",  ".join(["$M$ = 1000", "$L$ = 10.02", "$p_h$ = 1.66 GPa", r"$h_{\min}$ = 0.08"])
-    lines = wrapped(title, 1.7).split(",\n")
-    assert len(lines) == 2
-    assert ",  ".join(lines) == title
-    assert wrapped(title, 8.0) == title
+def test_files_name_their_conditions(moving, tmp_path):
+    pyehl.plot(moving, tmp_path)
+    with Image.open(tmp_path / "film.png") as picture:
+        assert "M =" in picture.text["Description"]
+    pyehl.plot(moving, tmp_path, format="svg")
+    assert "Hertz pressure" in (tmp_path / "film.svg").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize(

@@ -68,7 +68,7 @@ def test_load_is_kept_in_rings(root: Path, evidence, table, monkeypatch):
         100.0 * (1.0 - compare.predictions(rows[name])[0] / table[name]["prediction"])
         for name in ("t1s21", "m120l12", "m250l6")
     ]
-    text = plain(root / "docs" / "theory" / "prediction-second-order.md")
+    text = plain(root / "docs" / "theory" / "prediction-response.md")
     said = "t1s21, m120l12 and m250l6 by {:.1f}, {:.1f} and {:.1f} %".format(*lower)
     assert said in text
 

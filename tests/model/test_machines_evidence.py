@@ -25,7 +25,7 @@ def test_pages_have_the_constants_of_the_sources(root: Path):
     largest = constant("case/case_grid.f90", "largest_ratio")
     assert f"from 1/4 to {largest:g}:" in text_of(root, "theory/discretisation.md")
     assert f"up to {largest:g} times as long" in text_of(root, "theory/relaxation.md")
-    cycles = text_of(root, "theory/full-multigrid.md")
+    cycles = text_of(root, "theory/coarse-grids.md")
     steady = "solve/cycle_guard.f90"
     assert f"more than {constant(steady, 'stalled'):g} of the residual" in cycles
     max_residual = constant("solve/smooth_contact.f90", "max_residual")
@@ -43,7 +43,7 @@ def test_pages_have_the_constants_of_the_sources(root: Path):
 
 def test_damping_is_that_of_the_sources(root: Path):
     source = (root / "fortran/multigrid/cycle.f90").read_text(encoding="utf-8")
-    page = text_of(root, "theory/full-multigrid.md")
+    page = text_of(root, "theory/coarse-grids.md")
     columns = []
     for name in ("log_change", "sweep", "correction"):
         stated = rf"damped_{name}\(most_damping\) = (?:usual_log_change/)?\[([^]]*)\]"

@@ -1,24 +1,42 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pictures: what they show, on fields that are known."""
 
+import dataclasses
 import io
 import itertools
 import json
 import struct
 
 import numpy as np
+import pandas as pd
 import pytest
 import reference
+import xarray as xr
 from matplotlib import pyplot
+from matplotlib.axes import Axes
 from matplotlib.image import imread
+from matplotlib.text import Text
 from matplotlib.transforms import Bbox
 
 from pyehl import Case, cli, namelist
-from pyehl.plots import contact, figures, folder, panels, style, surface, transient
+from pyehl.plots import (
+    contact,
+    figures,
+    folder,
+    lubricant,
+    panels,
+    stribeck,
+    study,
+    style,
+    surface,
+    transient,
+)
 from pyehl.prediction.folder import destination, draw, write
 from pyehl.prediction.predict import predict
 from pyehl.surfaces import Topography
+from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.transition import Curve
 
 
 @pytest.fixture(scope="module")
@@ -72,8 +90,8 @@ def test_a_tile_of_nanometres_is_drawn_as_far_as_it_can_be_seen():
     assert max(image.get_array().shape) <= surface.PLACES
     assert min(image.get_array().shape) > surface.PLACES / 2
     left, right, _, _ = image.get_extent()
-    assert right == pytest.approx(1.0, abs=2e-3)
-    assert left == pytest.approx(-1.0, abs=2e-3)
+    assert right == pytest.approx(0.1, abs=2e-4)
+    assert left == pytest.approx(-0.1, abs=2e-4)
     assert "one of 289 pixels" in ax.get_title(loc="left")
     shown = float(np.nanstd(image.get_array().filled(np.nan)))
     assert shown == pytest.approx(1e9 * tile.rms_height, rel=1e-3)
@@ -102,15 +120,20 @@ def test_interferogram(fields, scales, si):
     thin = contact.fringe_colours(np.array(h / 3), *spacings)
     assert middle.max() > 0.5
     assert np.abs(middle - thin).max() > 0.3
-    assert ("532 nm" in ax.texts[0].get_text()) == si
+    # the scale has the colours of the map
+    (bar,) = (other for other in ax.child_axes)
+    assert bar.get_ylim() == pytest.approx((0.0, 1.6 * h), rel=0.02)
+    assert bar.get_ylabel() == ("h [µm]" if si else "H = hR/a²")
 
 
 def test_thin_and_thick_films_have_fringes_of_their_own(scales):
     for central in (0.02, 5.0):
-        red, green, caption = contact.fringe_spacings(central, scales)
+        red, green = contact.fringe_spacings(central, scales)
         assert red == pytest.approx(0.9 * central)
         assert green < red
-        assert "nm" not in caption
+    # the same light in the unit of thin films
+    thin = dataclasses.replace(scales, thin=True)
+    assert contact.fringe_spacings(200.0, thin) == pytest.approx((633.0 / 3.0, 532.0 / 3.0))
 
 
 def test_contours(fields, scales):
@@ -159,20 +182,22 @@ def clear(ax):
     return boxes and all(one[1] < other[0] for one, other in itertools.pairwise(boxes))
 
 
+@style.styled()
 @pytest.mark.parametrize("count", [1, 2, 3, 5, 8])
 def test_wavelengths_of_few_octaves_are_readable(count):
-    figure = panels.panels(2, (7.6, 3.2), "octaves", room=(0.9, 1.05, 0.15))
+    figure = panels.panels(2, (1.0, 0.8), "octaves", room=(0.7, 0.9, 0.1))
     ax = figure.axes[1]
     surface.octaves([(1.2e-4 / 2**k, 0.6e-4 / 2**k, 0.01) for k in range(count)], ax=ax)
     figure.savefig(io.BytesIO(), dpi=100)
     assert clear(ax)
 
 
+@style.styled()
 @pytest.mark.parametrize("sides", [(8.0, 1.0), (1.0, 8.0), (1.0, 1.0)])
 def test_slender_maps_are_readable(sides):
     heights = np.random.default_rng(1).normal(scale=1e-8, size=(24, 24))
     tile = Topography(heights, tuple(3.6e-4 * side for side in sides))
-    figure = panels.panels(3, (11.6, 3.2), "tile", room=(0.8, 1.9, 0.8))
+    figure = panels.panels(3, (1.0, 0.9), "tile", room=(0.55, 1.3, 0.65))
     surface.heights(tile, ax=figure.axes[0])
     surface.spectrum_map(tile, ax=figure.axes[1])
     surface.spectrum_line(tile, heights, heights, ax=figure.axes[2])
@@ -180,31 +205,137 @@ def test_slender_maps_are_readable(sides):
     assert all(clear(ax) for ax in figure.axes[:3])
 
 
-@pytest.mark.parametrize("room", [None, (0.75, 0.35, 1.15)])
-@pytest.mark.parametrize("width", [6.4, 7.2, 8.0])
-def test_headline_is_as_wide_as_the_figure(width, room):
-    """Its lines lie in the figure, above the letters of the panels."""
-    about = {"moes_m": 412.9, "moes_l": 10.73, "hertz_pressure_Pa": 0.997e9, "h_c_m": 1.32e-7}
-    about |= {"h_min_m": 8.74e-8, "status": "beyond linear response"}
-    figure = panels.panels(2, (width, 3.4), panels.headline(about), room=room)
-    figure.savefig(io.BytesIO(), dpi=100)
-    title = next(t for t in figure.texts if "motion" in t.get_text()).get_window_extent()
-    assert 0.0 <= title.x0 < title.x1 <= figure.bbox.x1
-    assert title.y1 <= figure.bbox.y1
-    letters = [ax._left_title.get_window_extent() for ax in figure.axes]
-    assert max(box.y1 for box in letters) <= title.y0
+def test_only_a_failed_run_has_words_above_its_panels():
+    for status, words in (("converged", ""), ("negative film", "negative film")):
+        about = {"moes_m": 412.9, "moes_l": 10.73, "hertz_pressure_Pa": 0.997e9, "status": status}
+        figure = panels.panels(2, (1.0, 0.8), panels.headline(about))
+        assert figure.get_suptitle() == words
+        assert "M = 412.9" in figure.get_label()
+
+
+def written(figure):
+    """Boxes of all texts that are seen, by what they say."""
+    figure.savefig(io.BytesIO(), dpi=figure.dpi)
+    numbers = {}
+    for ax in figure.findobj(Axes):
+        for axis in (ax.xaxis, ax.yaxis):
+            low, high = sorted(axis.get_view_interval())
+            margin = 1e-6 * (high - low)
+            for tick in (*axis.get_major_ticks(), *axis.get_minor_ticks()):
+                inside = low - margin <= tick.get_loc() <= high + margin
+                for label in (tick.label1, tick.label2):
+                    numbers[label] = inside and ax.get_visible() and label.get_visible()
+    return [
+        (text.get_text(), text.get_window_extent())
+        for text in figure.findobj(Text)
+        if text.get_text().strip() and text.get_visible() and numbers.get(text, True)
+    ]
+
+
+def assert_apart(figure, name):
+    """No two texts lie on each other, and all are inside of the picture."""
+    found = written(figure)
+    assert len(found) > 5, name
+    for (one, box), (other, next_to) in itertools.combinations(found, 2):
+        assert not box.shrunk(0.98, 0.8).overlaps(next_to.shrunk(0.98, 0.8)), (name, one, other)
+    for text, box in found:
+        inside = figure.bbox.x0 - 1 <= box.x0 and box.x1 <= figure.bbox.x1 + 1
+        assert inside, (name, text)
+        assert figure.bbox.y0 - 1 <= box.y0, (name, text)
+        assert box.y1 <= figure.bbox.y1 + 1, (name, text)
+
+
+@pytest.mark.parametrize("units", ["si", "hertz"])
+@pytest.mark.parametrize("kappa", [0.1, 0.3, 0.45, 1.0, 2.0, 3.0, 6.0, 10.0, 25.0])
+def test_no_texts_of_a_solution_collide(kappa, units):
+    """Pictures of smooth and rough contacts that are narrow, round and wide."""
+    x = kappa * 0.0 + np.linspace(-2.5, 1.5, 65) * max(1.0, 0.3 / kappa)
+    y = np.linspace(-1.6, 1.6, 65) * max(1.0, kappa)
+    inside = np.maximum(0.0, 1.0 - x[:, None] ** 2 - (y[None, :] / kappa) ** 2)
+    film = 0.03 + 0.5 * np.maximum(0.0, x[:, None] ** 2 + (y[None, :] / kappa) ** 2 - 1.0)
+    waves = 0.004 * np.cos(6.0 * x)[:, None] * np.cos(6.0 * y / kappa)
+    time = np.linspace(0.0, 4.0, 50)
+    fields = {"P": np.sqrt(inside), "H": film + waves, "RR": 2.0 * waves, "A_d": -waves}
+    fields |= {"P_smooth": np.sqrt(inside), "H_smooth": film}
+    data = xr.Dataset(
+        {name: (("X", "Y"), values) for name, values in fields.items()}
+        | {f"history_{n}": ("history", v) for n, v in (("T", time), ("mu_ratio", 1 + 0.1 * time))}
+        | {f"history_{n}": ("history", 1 + 0.1 * time) for n in ("P_max", "H_min", "H_c")}
+        | {"ellipticity": kappa, "H_c": 0.03, "H_min": 0.02, "P_rise_max": 0.1, "T_mean": 1.0}
+        | {"mu_ratio": 1.2, "moes_m": 1e3, "moes_l": 10.0, "hertz_pressure_Pa": 1.66e9},
+        {"X": x, "Y": y},
+        {"status": "converged", "case": namelist.text_of(Case().resolve())},
+    )
+    made = figures.solution_figures(data, units)
+    assert len(made) == 6
+    for name, figure in made.items():
+        assert_apart(figure, name)
+
+
+@pytest.mark.parametrize("kappa", [0.1, 1.0, 10.0])
+def test_no_texts_of_a_rough_surface_collide(kappa):
+    """The roughness in a contact, its spectrum and what the octaves add."""
+    heights = np.random.default_rng(1).normal(scale=1e-8, size=(48, 48))
+    about = {"moes_m": 1e3, "moes_l": 10.0, "hertz_pressure_Pa": 1.66e9, "status": "predicted"}
+    about |= {"hertz_radius_m": 2e-4, "ellipticity": kappa, "length_x_m": 8e-4, "length_y_m": 8e-4}
+    about |= {"film_scale_m": 1e-5, "surface": "fractal"}
+    arrays = {"surface": heights, "deformed": 0.3 * heights, "delta_p": 1e16 * heights}
+    shift = np.linspace(0.0, 7.9e-4, 64)
+    bands = {"longest_m": [8e-4, 4e-4], "shortest_m": [4e-4, 2e-4], "rise": [-2e-4, 3e-4]}
+    tables = {
+        "passage": {"shift_m": shift, "mu_ratio": 1.0 + 0.01 * np.sin(1e4 * shift)},
+        "bands": {name: np.array(values) for name, values in bands.items()},
+    }
+    for name, figure in figures.prediction_figures(about, arrays, tables).items():
+        assert_apart(figure, name)
+
+
+@pytest.mark.parametrize("key", ["contact.mean_velocity", "lubricant.temperature"])
+@pytest.mark.parametrize("count", [1, 3])
+@pytest.mark.parametrize("contact", [True, False])
+def test_no_texts_of_a_curve_collide(key, count, contact):
+    """Stribeck and traction curves with all that can be drawn over them."""
+    places = np.array([0.02, 0.1, 0.5, 2.0, 10.0]) * (10.0 if "temp" in key else 1.0)
+    names = "mu mu_ratio mu_smooth mu_isothermal mu_empirical mu_ratio_spread mu_ratio_model_error"
+    columns = dict.fromkeys(f"{names} mu_ratio_ehl mu_ratio_ehl_error theta_2".split(), 1.0)
+    columns |= {"lambda_ratio": 2.0 * places**0.7, "temperature_rise_max_K": 10.0 * places}
+    columns |= {"contact_load_share": 0.5 if contact else None, "contact_load_share_ehl": None}
+    extra = ("contact_load_share_error", "contact_area_share", "contact_area_share_ehl")
+    columns |= dict.fromkeys((*extra, "contact_load_share_ehl_error"), 0.1)
+    columns |= dict.fromkeys(("h_min_rough_m", "h_min_rough_error_m", "h_min_rough_ehl_m"), 1e-8)
+    statuses = ["film breakdown", *["full film"] * 4]
+    table = pd.DataFrame({key: places, "status": statuses} | columns)
+    labels = [""] if count == 1 else [f"contact.slide_to_roll = 0.{k}" for k in range(count)]
+    for absolute in (True, False):
+        curves = [Curve(label, key, table, absolute) for label in labels]
+        measured = stribeck.Points({key: places}, 0.9 + 0.0 * places, 0.05 + 0.0 * places)
+        assert_apart(stribeck.draw_stribeck(curves, "ball", measured), (key, count, absolute))
+    slip = table.rename(columns={key: "contact.slide_to_roll"})
+    curves = [Curve(label, "contact.slide_to_roll", slip, absolute=True) for label in labels]
+    assert_apart(stribeck.draw_traction(curves, "ball"), "traction")
+
+
+def test_no_texts_of_lubricants_and_studies_collide():
+    oil = Lubricant()
+    assert_apart(lubricant.draw_oil("oil", oil, (0.0, 100.0, 1e9), 0.05), "oil")
+    line = np.linspace(0.0, 1.0, 5)
+    assert_apart(lubricant.draw_fit(line, line, 0.1 * line, (line, line), "fitted"), "fit")
+    lines = [study.Line(f"contact.load = {k}00", line + 0.1, 1e-7 * line, line) for k in range(4)]
+    for count in (1, 3):
+        figure = study.study_figure([("h_c [m]", lines)] * count, "load [N]", "first case")
+        assert_apart(figure, count)
 
 
 def test_headline():
     about = {"moes_m": 1000.0, "moes_l": 10.0, "hertz_pressure_Pa": 1.66e9, "status": "converged"}
     title = panels.headline(about | {"H_c": 0.0243, "H_min": 0.008})
-    for part in ("M = 1000", "L = 10", "1.66 GPa", "= 0.0243", "= 0.008", "motion"):
+    for part in ("M = 1000", "L = 10", "1.66 GPa", "= 0.0243", "= 0.008"):
         assert part in title
     title = panels.headline(
         about | {"H_c": 0.0243, "h_c_m": 2.3e-7, "h_min_m": 8e-8}, style.Scales(1.0, 1.0, 1.0)
     )
-    assert "film 0.23 µm" in title
-    assert "minimum 0.08 µm" in title
+    assert "central film 230 nm" in title
+    assert "minimum film 80 nm" in title
     assert "FILM" in panels.headline(about | {"status": "negative film"})
 
 
@@ -259,9 +390,8 @@ def test_writing_in_the_pictures_of_a_prediction_is_whole(settings, rms, length,
     made = figures.prediction_figures(result.summary, result.arrays, result.tables)
     assert len(made) == 3
     for figure in made.values():
-        figure.canvas.draw()
-        title = figure.get_suptitle()
-        assert "motion" in title
+        figure.savefig(io.BytesIO(), dpi=figure.dpi)
+        assert "M = " in figure.get_label()
         panels = [ax for ax in figure.axes if ax.get_subplotspec() is not None]
         boxes = {}
         for ax in panels:
@@ -299,7 +429,7 @@ def test_files_of_all_formats(fields, tmp_path):
     path = style.save(figure, tmp_path / "a.png")
     data = path.read_bytes()
     width, height = struct.unpack(">II", data[16:24])
-    assert (width, height) == (1080, 495)
+    assert (width, height) == (1440, 660)
     for suffix, magic in (("pdf", b"%PDF"), ("svg", b"<?xml")):
         (path,) = folder.save_all({"b": figure}, tmp_path, suffix)
         assert path.name == f"b.{suffix}"
@@ -324,7 +454,7 @@ def test_subcommand_at_other_resolutions_and_formats(settings, tmp_path, capsys)
     write(predict(settings), destination(tmp_path / "out"))
     assert run_subcommand(tmp_path / "out", None, "--dpi", "100") == 0
     data = (tmp_path / "out" / "roughness.png").read_bytes()
-    assert struct.unpack(">II", data[16:24]) == (720, 340)
+    assert struct.unpack(">II", data[16:24])[0] == round(100 * style.PAGE - 0.5)
     assert run_subcommand(tmp_path / "out", None, "--dpi", "1") == 2
     assert "dpi = 1:" in capsys.readouterr().err
     assert run_subcommand(tmp_path / "out", None, "--format", "svg") == 0

@@ -15,10 +15,10 @@ import sys
 from typing import Any
 
 import matplotlib as mpl
-import matplotlib.pyplot as plt
 import numpy as np
 
 from cases import HERE, case, read, surface
+from pyehl.plots.style import PAGE, new_figure, save, styled
 from pyehl.prediction.model import Model
 from pyehl.prediction.options import ModelOptions, model_error
 from pyehl.prediction.passage_friction import run
@@ -146,10 +146,11 @@ def fine_lines() -> list[str]:
     return found
 
 
+@styled()
 def draw(table: list[dict[str, Any]]) -> None:
     """Draw the deviations over the ellipticity."""
-    mpl.use("Agg")
-    figure, axes = plt.subplots(1, 2, figsize=(8.6, 3.9), layout="constrained")
+    figure = new_figure(PAGE, 3.2)
+    axes = figure.subplots(1, 2)
     ratio, error, before, model, kappa = (
         np.array([r[name] for r in table], dtype=float)
         for name in ("mu_ratio", "mu_ratio_error", "predicted_before", "model_error", "ellipticity")
@@ -158,7 +159,7 @@ def draw(table: list[dict[str, Any]]) -> None:
     line = np.array([1.0, 2.6])
     axes[0].plot(line, line, color="0.6", linewidth=1)
     axes[0].errorbar(ratio, before, xerr=error, yerr=model, fmt="none", ecolor="0.5", linewidth=1)
-    dots = axes[0].scatter(ratio, before, s=28, **colours)
+    dots = axes[0].scatter(ratio, before, s=14, **colours)
     axes[0].set(
         xlim=line,
         ylim=line,
@@ -169,7 +170,7 @@ def draw(table: list[dict[str, Any]]) -> None:
     axes[1].axhline(0.0, color="0.6", linewidth=1)
     off = before - ratio
     axes[1].errorbar(kappa, off, yerr=error, fmt="none", ecolor="0.5", linewidth=1)
-    axes[1].scatter(kappa, off, s=28, **colours)
+    axes[1].scatter(kappa, off, s=14, **colours)
     axes[1].set(
         xscale="log",
         xlabel=r"ellipticity $\kappa$: semi-axis across the motion over $a$",
@@ -181,7 +182,7 @@ def draw(table: list[dict[str, Any]]) -> None:
     axes[1].xaxis.set_minor_locator(mpl.ticker.NullLocator())
     bar = figure.colorbar(dots, ax=axes[1], label=r"$\kappa$", ticks=[-1.0, 0.0, 1.0, 2.0])
     bar.ax.set_yticklabels(["0.5", "1", "2", "4"])
-    figure.savefig(HERE / "ellipse.png", dpi=120)
+    save(figure, HERE / "ellipse.png")
 
 
 if __name__ == "__main__":

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import pyehl
-from pyehl.plots.style import BLUE, VERMILLION, new_figure, save
+from pyehl.plots.style import BLUE, PAGE, VERMILLION, new_figure, save, styled
 
 HERE = Path(__file__).resolve().parent
 CASE = HERE / "dimple.nml"
@@ -211,24 +211,27 @@ def vary(name: str, data: dict[Key, Array], found: dict[Key, Array]) -> None:
     write(HERE / f"{name}.csv", ("ssr", "instant", "quantity", "stored_nm", "changed_nm"), rows)
 
 
+@styled()
 def draw(source: str, data: dict[Key, Array], found: dict[Key, Array]) -> None:
     """Draw the profiles of all instants."""
-    figure = new_figure(12.0, 4.6)
+    figure = new_figure(PAGE, 3.4)
     axes = figure.subplots(2, 5, sharex=True, sharey=True)
     for line, ssr in zip(axes, RADIUS, strict=True):
         for instant, ax in enumerate(line, 1):
             key = source, ssr, instant
-            ax.plot(*data[key], "o-", ms=2.0, lw=0.7, color=VERMILLION, label=source)
-            ax.plot(*found[key], lw=1.2, color=BLUE, label="pyehl")
-            ax.set_title(f"slide-to-roll {ssr}, instant {instant}", fontsize="small")
-            ax.grid(visible=True, color="0.92", lw=0.6)
-    axes[0, 0].set(xlim=(-160.0, 165.0), ylim=(100.0, 400.0))
+            ax.plot(*data[key], "o-", ms=1.5, lw=0.6, color=VERMILLION, label=source)
+            ax.plot(*found[key], lw=1.0, color=BLUE, label="pyehl")
+            ax.text(
+                0.5, 0.93, f"SRR {ssr}, {instant}", transform=ax.transAxes, ha="center", va="top"
+            )
+            ax.grid(visible=True)
+    axes[0, 0].set(xlim=(-160.0, 165.0), ylim=(100.0, 430.0))
     for ax in axes[-1]:
         ax.set_xlabel(r"$x$ [µm]")
     for ax in axes[:, 0]:
         ax.set_ylabel("film [nm]")
     figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
-    save(figure, HERE / f"{source}.png", 90)
+    save(figure, HERE / f"{source}.png")
 
 
 def lines(rows: Iterable[Sequence[str]], source: str) -> Iterator[str]:

@@ -12,11 +12,11 @@ import csv
 from typing import Any
 
 import matplotlib as mpl
-import matplotlib.pyplot as plt
 import numpy as np
 
 import pyehl
 from cases import HERE, case, rows, surfaces
+from pyehl.plots.style import COLUMN, new_figure, save, styled
 from pyehl.theory.operating import OperatingPoint
 
 PARTS = ("grid", "stop", "window", "left_out")
@@ -76,10 +76,11 @@ def report(table: list[dict[str, Any]]) -> None:
     print(f"covered by the stated error: {sum(row['covered'] for row in table)} of {len(table)}")
 
 
+@styled()
 def draw(table: list[dict[str, Any]]) -> None:
     """Draw the predictions against the simulations."""
-    mpl.use("Agg")
-    figure, ax = plt.subplots(figsize=(5.2, 4.6), layout="constrained")
+    figure = new_figure(COLUMN, COLUMN)
+    ax = figure.subplots()
     line = np.array([0.95, 2.6])
     ax.plot(line, line, color="0.6", linewidth=1, zorder=0)
     for kinds, marker in (("fractal", "o"), ("wave", "s"), ("worn", "^")):
@@ -95,7 +96,7 @@ def draw(table: list[dict[str, Any]]) -> None:
             xerr=[row["mu_ratio_error"] for row in part],
             yerr=[row["model_error"] for row in part],
             fmt=marker,
-            markersize=5,
+            markersize=3,
             linewidth=1,
             label=f"fractal and {kinds}",
         )
@@ -105,19 +106,15 @@ def draw(table: list[dict[str, Any]]) -> None:
         xlim=line,
         ylim=line,
         xlabel=r"$\mu_r/\mu_s$ by full simulation",
-        ylabel=r"$\mu_r/\mu_s$ predicted before, with its stated error",
+        ylabel=r"$\mu_r/\mu_s$ predicted before",
     )
     ticks = [1.0, 1.2, 1.5, 2.0, 2.5]
     for axis in (ax.xaxis, ax.yaxis):
         axis.set_major_locator(mpl.ticker.FixedLocator(ticks))
         axis.set_major_formatter(mpl.ticker.FormatStrFormatter("%g"))
         axis.set_minor_locator(mpl.ticker.NullLocator())
-    slips = [row["slide_to_roll"] for row in table]
-    ax.set_title(
-        f"{len(table)} pairs of rough surfaces, SRR = {min(slips):g} to {max(slips):g}", fontsize=10
-    )
     ax.legend(frameon=False, loc="upper left")
-    figure.savefig(HERE / "pairs.png", dpi=120)
+    save(figure, HERE / "pairs.png")
 
 
 def main() -> None:

@@ -11,10 +11,10 @@ from __future__ import annotations
 import csv
 
 import matplotlib as mpl
-import matplotlib.pyplot as plt
 import numpy as np
 
 from cases import HERE, case, rows, surface
+from pyehl.plots.style import COLUMN, new_figure, save, styled
 from pyehl.prediction.model import Model
 from pyehl.prediction.options import ModelOptions, model_error
 from pyehl.prediction.passage_friction import run
@@ -105,10 +105,11 @@ def report(table: list[dict[str, float]]) -> None:
         print(f"cases {words}: {covered} of {len(known)} covered by it")
 
 
+@styled()
 def draw(table: list[dict[str, float]]) -> None:
     """Draw prediction and model of the paper against the simulation."""
-    mpl.use("Agg")
-    figure, ax = plt.subplots(figsize=(5.2, 4.6), layout="constrained")
+    figure = new_figure(COLUMN, COLUMN)
+    ax = figure.subplots()
     x = np.array([r["mu_ratio_1025"] or r["mu_ratio"] for r in table])
     errors = [
         r["mu_ratio_error_1025"] if r["mu_ratio_1025"] else r["mu_ratio_error"] for r in table
@@ -118,16 +119,19 @@ def draw(table: list[dict[str, float]]) -> None:
     paper = np.array([r["paper"] for r in table])
     line = np.array([0.85, 6.0])
     ax.plot(line, line, color="0.6", linewidth=1, zorder=0)
-    ax.errorbar(
-        x, ours, xerr=error, fmt="o", color="C0", markersize=5, label="prediction by the response"
-    )
-    ax.plot(x, paper, "s", color="C3", markerfacecolor="none", label="model of the paper")
+    ax.errorbar(x, ours, xerr=error, fmt="o", color="C0", markersize=3, label="prediction")
+    rolling = np.array([float(r["velocity_ratio"]) == 1.0 for r in table])
+    for part, face, words in ((rolling, "C3", "rolling"), (~rolling, "none", "slip")):
+        ax.plot(
+            x[part], paper[part], "s", color="C3", markersize=3, markerfacecolor=face,
+            label=f"model of the paper, {words}",
+        )  # fmt: skip
     ax.set(
         xscale="log",
         yscale="log",
         xlim=line,
         ylim=line,
-        xlabel=r"$\mu_r/\mu_s$ by full simulation, 513 × 513 or 1025 × 1025 nodes",
+        xlabel=r"$\mu_r/\mu_s$ by full simulation",
         ylabel=r"$\mu_r/\mu_s$ predicted",
     )
     ticks = [0.9, 1.0, 1.2, 1.5, 2.0, 3.0, 5.0]
@@ -135,11 +139,8 @@ def draw(table: list[dict[str, float]]) -> None:
         axis.set_major_locator(mpl.ticker.FixedLocator(ticks))
         axis.set_major_formatter(mpl.ticker.FormatStrFormatter("%g"))
         axis.set_minor_locator(mpl.ticker.NullLocator())
-    m, ell = ([float(row[name]) for row in table] for name in ("moes_m", "moes_l"))
-    ranges = f"M = {min(m):g} to {max(m):g}, L = {min(ell):g} to {max(ell):g}"
-    ax.set_title(f"{len(table)} rough surfaces, {ranges}", fontsize=10)
     ax.legend(frameon=False, loc="upper left")
-    figure.savefig(HERE / "prediction.png", dpi=120)
+    save(figure, HERE / "prediction.png")
 
 
 if __name__ == "__main__":

@@ -17,7 +17,17 @@ import numpy as np
 
 import pyehl
 from pyehl.cli import main as command
-from pyehl.plots.style import BLUE, GREEN, VERMILLION, label_log_ticks, letter, new_figure, save
+from pyehl.plots.style import (
+    BLUE,
+    GREEN,
+    PAGE,
+    VERMILLION,
+    label_log_ticks,
+    letter,
+    new_figure,
+    save,
+    styled,
+)
 from pyehl.surfaces import filtered
 
 HERE = Path(__file__).resolve().parent
@@ -85,41 +95,40 @@ def rows(
             yield row
 
 
+@styled()
 def draw(found: list[dict[str, str]], path: Path) -> None:
-    """Draw coefficient (Eyring) and ratio (Newtonian) over Hersey number, Lambda and theta_2."""
-    figure = new_figure(11.0, 6.6)
-    axes = figure.subplots(2, 3, sharey="row")
-    places = {"hersey": "Hersey number", "lambda_ratio": r"$\Lambda$", "theta_2": r"$\theta_2$"}
+    """Draw coefficient (Eyring) and ratio (Newtonian) over the speed."""
+    figure = new_figure(PAGE, 3.6)
+    axes = figure.subplots(1, 2)
     styles = dict(zip(SURFACES, (":", "-", "--"), strict=True))
-    for line, law, ordinate in zip(axes, LAWS, ("mu", "mu_ratio"), strict=True):
-        for ax, (name, label) in zip(line, places.items(), strict=True):
-            for surface in SURFACES:
-                for slip, colour in zip(SLIPS, (BLUE, VERMILLION, GREEN), strict=True):
-                    points = [
-                        (float(row[name]), float(row[ordinate]))
-                        for row in rows(found, surface, law, slip)
-                        if row[name] and row[ordinate]
-                    ]
-                    if points:
-                        ax.plot(
-                            *zip(*points, strict=True),
-                            styles[surface],
-                            marker="o",
-                            ms=2.5,
-                            lw=1.1,
-                            color=colour,
-                            label=f"{surface}, slide-to-roll ratio {slip}",
-                        )
-            ax.set_xscale("log")
-            label_log_ticks(ax)
-            ax.set_xlabel(label)
-            ax.grid(visible=True, color="0.92", lw=0.6)
-    axes[0, 0].set_ylabel(r"$\mu$ (Eyring, 5 MPa, with heat)")
-    axes[1, 0].set_ylabel(r"$\mu_r/\mu_s$ (Newtonian)")
-    letter(list(axes.ravel()))
-    handles, labels = axes[0, 0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=3, fontsize="small")
-    save(figure, path, 110)
+    for ax, law, ordinate in zip(axes, LAWS, ("mu", "mu_ratio"), strict=True):
+        for surface in SURFACES:
+            for slip, colour in zip(SLIPS, (BLUE, VERMILLION, GREEN), strict=True):
+                points = [
+                    (float(row[KEYS[0]]), float(row[ordinate]))
+                    for row in rows(found, surface, law, slip)
+                    if row[ordinate]
+                ]
+                if points:
+                    ax.plot(
+                        *zip(*points, strict=True),
+                        styles[surface],
+                        marker="o",
+                        ms=2.5,
+                        lw=1.1,
+                        color=colour,
+                        label=f"{surface}, SRR {slip}",
+                    )
+        ax.set_xscale("log")
+        label_log_ticks(ax.xaxis)
+        ax.set_xlabel(r"mean velocity $\bar u$ [m/s]")
+        ax.grid(visible=True)
+    axes[0].set_ylabel(r"$\mu$ (Eyring, 5 MPa, with heat)")
+    axes[1].set_ylabel(r"$\mu_r/\mu_s$ (Newtonian)")
+    letter(list(axes))
+    handles, labels = axes[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=3)
+    save(figure, path)
 
 
 def main(folder: Path) -> None:
