@@ -54,7 +54,12 @@ def _contact(v: Values) -> Iterator[str]:
     )
     if v["has_size"]:
         yield f"{INDENT}a = {power(v['length'], 4)} m, p_h = {power(v['pressure'], 4)} Pa"
-    if not v["round"]:
+    if v["line"]:
+        yield (
+            "line       M and L are those of a line, a = b half its width; the round contact with "
+            f"the same speed parameter has M = {digits(v['round_m'])}"
+        )
+    elif not v["round"]:
         yield (
             "ellipse    semi-axis across the motion over a, that along it: "
             f"{digits(v['ellipticity'])}; R_x/R_y = {digits(v['radius_ratio'])}"
@@ -244,11 +249,15 @@ def _domain(v: Values) -> Iterator[str]:
     if v["domain_cost"] < 1.0:
         cost = f"it costs at most {fixed(100.0 * v['domain_cost'], 2)} % of the flooded film"
     inlet, outlet, side = (digits(v[name]) for name in ("x_inlet", "x_outlet", "y_extent"))
-    yield f"domain     {inlet} <= X <= {outlet}, |Y| <= {side}; {cost}"
+    sides = "" if v["line"] else f", |Y| <= {side}"
+    yield f"domain     {inlet} <= X <= {outlet}{sides}; {cost}"
     pressure = "the pressure of a fully flooded contact" if v["flooded"] else "P = 0"
     half = "the whole of it is solved"
     if v["mirror"]:
         half = "symmetric in Y: the half Y >= 0 is solved"
+    if v["line"]:
+        width = v["strip_width"]
+        half = f"a strip of {digits(width)} that repeats along Y" if width else "one row of nodes"
     yield f"{INDENT}at its border {pressure}; {half}"
 
 
@@ -320,7 +329,8 @@ def _levels(v: Values) -> Iterator[str]:
         if level == v["start_level"]:
             use = "solution, from the Hertz pressure"
         yield f"{level:5d}{points:8d}{points * rows:16d}{mesh:11.6f}   {use}"
-        points, rows, mesh = 2 * points - 1, 2 * rows - 1, 0.5 * mesh
+        points, mesh = 2 * points - 1, 0.5 * mesh
+        rows = 2 * rows if v["strip_width"] else 2 * rows - 1
 
 
 def _too_coarse(v: Values) -> Iterator[str]:

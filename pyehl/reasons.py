@@ -53,11 +53,13 @@ REASONS = {
     35: "isothermal: the Newtonian stress is above lubricant.eyring_stress, its heat is not "
     "computed",
     36: "isothermal: by estimate a rise of {rise} K changes it by less than 0.1 %",
+    37: "isothermal: a wall at rest under an infinite line warms for ever",
     41: NO_SIZE,
     42: VANISHING + ", and rolling_moment_N_m resists the rolling",
     43: "the smooth contact is not converged",
     44: "{above_limit}",
     45: NOT_CONVERGED,
+    46: VANISHING + ", and rolling_moment_N resists the rolling",
 }
 HOTTER = "; the film is hotter than the temperatures at which the viscosity was measured"
 PARTS = ("grid", "stop", "window", "left_out", "domain")

@@ -23,6 +23,7 @@ from pyehl.arrays import read_array
 from pyehl.errors import FileError, InputError
 from pyehl.given import path_of
 from pyehl.schema import QUANTITIES, VERSION
+from pyehl.theory.line_contact import LineContact, contact_of
 from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Array
 
@@ -39,7 +40,7 @@ class Field:
     meaning: str
     scaled: str
 
-    def scale(self, point: OperatingPoint) -> float:
+    def scale(self, point: OperatingPoint | LineContact) -> float:
         """Hertz unit of the values in SI units."""
         if self.si_unit == "Pa":
             return point.hertz_pressure
@@ -89,6 +90,7 @@ PREDICTION_TABLES = ("passage", "spectrum", "bands")
 SUFFIXES = {
     "_rad_per_m": "rad/m",
     "_per_s": "1/s",
+    "_N_per_m": "N/m",
     "_Pa_s": "Pa s",
     "_K": "K",
     "_m4": "m4",
@@ -101,7 +103,7 @@ SUFFIXES = {
 
 # What is a number has a unit in the schema; T, the time at the end, has the name of a coordinate
 SCALARS = {q.name: q for q in QUANTITIES if q.unit and q.name not in {f.name for f in SOLUTION}}
-SI = {"s", "m", "Pa", "N", "K", "Pa s", "1/s", "1/Pa", "m/s", "byte"}
+SI = {"s", "m", "Pa", "N", "N/m", "K", "Pa s", "1/s", "1/Pa", "m/s", "byte"}
 
 
 def settings_of(data: xr.Dataset) -> dict[str, dict[str, Any]]:
@@ -155,7 +157,7 @@ def _solution_dataset(
 ) -> xr.Dataset:
     """Dataset of a folder of ``ehl`` and ``pyehl run``; `arrays` by the names of their files."""
     settings = namelist.values(case)
-    point = OperatingPoint.from_settings(settings) if "load" in settings["contact"] else None
+    point = contact_of(settings) if "mean_velocity" in settings["contact"] else None
     found: dict[str, xr.Variable] = {}
     for field in SOLUTION:
         if field.file not in arrays:

@@ -45,12 +45,15 @@ sp | assessment | | what the result is worth: a word, the reason, and what else 
 s | version | | version of the library
 sp | wall_seconds | s | time of the run
 s | bytes | byte | memory of the solver
+sf | shape | | 'line' of an infinite line contact, whose integrals are per length of it
 spfr | moes_m | - | Moes load M
 spfr | moes_l | - | Moes material number L
+sf | moes_m_line | - | Moes load M of a line
+sf | moes_l_line | - | Moes material number L of a line
 sf | alpha_bar | - | alpha p_h
 sf | speed_parameter | - | 12 eta0 u R^2/(a^3 p_h)
 spf | hertz_pressure_Pa | Pa | p_h
-spf | hertz_radius_m | m | a, of an ellipse its semi-axis along the motion
+spf | hertz_radius_m | m | a; of an ellipse its semi-axis along the motion, of a line half its width
 spf | film_scale_m | m | a^2/R
 spf | radius_ratio | - | R_x/R_y of an elliptical contact
 spfr | ellipticity | - | semi-axis of the dry contact across the motion over that along it
@@ -58,6 +61,7 @@ spf | semi_axis_y_m | m | semi-axis of the dry contact across the motion
 sf | angle_deg | deg | by which an elliptical contact is turned counter-clockwise against the motion
 pf | si | | whether the case was given in SI units
 f | load_N | N | load w
+f | load_per_length_N_per_m | N/m | load w of a line, per length
 f | mean_velocity_m_per_s | m/s | mean velocity u
 f | radius_m | m | reduced radius R, of an elliptical contact R_x
 f | reduced_modulus_Pa | Pa | E', 2/E' = sum of (1 - nu^2)/E
@@ -186,6 +190,7 @@ sp | shear_rate_mean_per_s | 1/s | mean shear rate
 sp | shear_stress_max_Pa | Pa | largest shear stress
 s | rolling_moment | p_h a^3 | iint H/2 dP/dX of the smooth contact, which resists the rolling
 s | rolling_moment_N_m | N m | the same
+s | rolling_moment_N | N | the same of a line, per length
 spt | shear_law | | law of the shear stress
 sp | slide_to_roll | - | (u1 - u2)/u
 t | residual_rms | - | root mean square of fitted less measured mu

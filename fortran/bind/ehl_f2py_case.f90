@@ -22,9 +22,9 @@ module ehl_f2py_case
 contains
 
    !> Hertz pressure [Pa] and radius [m], Moes numbers, M of the round contact, half lengths of the contact [a]
-   subroutine operating(si, radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, viscosity, alpha, moes_m, &
+   subroutine operating(line, si, radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, viscosity, alpha, moes_m, &
                         moes_l, hertz_pressure, hertz_radius, m, l, round_m, reach, even)
-      integer(c_int), intent(in) :: si
+      integer(c_int), intent(in) :: line, si
       real(c_double), intent(in) :: radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, viscosity, alpha, &
                                     moes_m, moes_l
       real(c_double), intent(out) :: hertz_pressure, hertz_radius, m, l, round_m, reach(2)
@@ -34,7 +34,8 @@ contains
       type(scales_t) :: scales
       type(operating_t) :: point
 
-      call take(input, si, radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, viscosity, alpha, moes_m, moes_l)
+      call take(input, line, si, radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, viscosity, alpha, moes_m, &
+                moes_l)
       call find_contact(input, contact, scales, point)
       hertz_pressure = scales%pressure
       hertz_radius = scales%length
@@ -46,9 +47,10 @@ contains
    end subroutine operating
 
    !> Border (0: find, 1: zero, 2: flooded), domain (NaN: find) and nodes (0: find)
-   subroutine grid_defaults(si, radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, viscosity, alpha, moes_m, &
-                            moes_l, border, smooth, domain, points, points_y, border_out, domain_out, points_out, points_y_out)
-      integer(c_int), intent(in) :: si
+   subroutine grid_defaults(line, si, radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, viscosity, alpha, &
+                            moes_m, moes_l, border, smooth, domain, points, points_y, border_out, domain_out, points_out, &
+                            points_y_out)
+      integer(c_int), intent(in) :: line, si
       real(c_double), intent(in) :: radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, viscosity, alpha, &
                                     moes_m, moes_l
       integer(c_int), intent(in) :: border, smooth, points, points_y
@@ -60,7 +62,8 @@ contains
       type(scales_t) :: scales
       type(operating_t) :: point
 
-      call take(input, si, radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, viscosity, alpha, moes_m, moes_l)
+      call take(input, line, si, radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, viscosity, alpha, moes_m, &
+                moes_l)
       call find_contact(input, contact, scales, point)
       associate (grid => input%grid)
          grid%border = merge("flooded", "zero   ", border == 2)
@@ -77,15 +80,19 @@ contains
       end associate
    end subroutine grid_defaults
 
-   !> What makes the contact
-   pure subroutine take(input, si, radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, viscosity, alpha, &
+   !> What makes the contact; of a line the load per length, and its M and L
+   pure subroutine take(input, line, si, radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, viscosity, alpha, &
                         moes_m, moes_l)
       type(case_t), intent(inout) :: input
-      integer(c_int), intent(in) :: si
+      integer(c_int), intent(in) :: line, si
       real(c_double), intent(in) :: radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, viscosity, alpha, &
                                     moes_m, moes_l
 
       input%contact%si = si /= 0
+      if (line /= 0) input%contact%shape = "line"
+      input%contact%load_per_length = load
+      input%contact%moes_m_line = moes_m
+      input%contact%moes_l_line = moes_l
       input%contact%radius_ratio = radius_ratio
       input%contact%angle = angle
       input%contact%load = load

@@ -22,8 +22,12 @@ module ehl_case
       !> Whether the case was given in SI: then load, mean_velocity, radius and reduced_modulus
       !> hold, else moes_m and moes_l. Not a key; set by the reader.
       logical :: si = .true.
+      !> A point or an infinite line, which has keys of its own
+      character(len=word_length) :: shape = "point"
       real(dp) :: moes_m = 1000.0_dp, moes_l = 10.0_dp
+      real(dp) :: moes_m_line = 20.0_dp, moes_l_line = 10.0_dp
       real(dp) :: load = 600.0_dp
+      real(dp) :: load_per_length = 2.0e5_dp
       real(dp) :: mean_velocity = 0.84_dp
       !> Of a round contact
       real(dp) :: radius = 0.018_dp
@@ -45,6 +49,10 @@ module ehl_case
       real(dp) :: thermal_conductivity = 46.0_dp, thermal_diffusivity = 1.25e-5_dp
       !> Of body 2
       real(dp) :: thermal_conductivity_2 = 0.0_dp, thermal_diffusivity_2 = 0.0_dp
+   contains
+      procedure :: is_line
+      procedure :: size_of_load
+      procedure :: moes_numbers
    end type contact_case_t
 
    !> &bodies: what makes the reduced radii and the reduced modulus; it rules where one of its keys is given
@@ -227,6 +235,26 @@ module ehl_case
    end type case_t
 
 contains
+
+   !> Whether the contact is an infinite line
+   pure logical function is_line(self)
+      class(contact_case_t), intent(in) :: self
+      is_line = self%shape == "line"
+   end function is_line
+
+   !> Load [N], of a line per length [N/m]
+   pure real(dp) function size_of_load(self)
+      class(contact_case_t), intent(in) :: self
+      size_of_load = merge(self%load_per_length, self%load, self%is_line())
+   end function size_of_load
+
+   !> M and L, those of a line for a line
+   pure function moes_numbers(self) result(numbers)
+      class(contact_case_t), intent(in) :: self
+      real(dp) :: numbers(2)
+      numbers = [self%moes_m, self%moes_l]
+      if (self%is_line()) numbers = [self%moes_m_line, self%moes_l_line]
+   end function moes_numbers
 
    !> Whether a kind of surface is a single feature
    pure logical function is_feature(kind)

@@ -5,6 +5,7 @@ module ehl_case_checks
    use ehl_case, only: case_t, surface_case_t
    use ehl_case_check_lubricant, only: check_lubricant
    use ehl_case_check_surface, only: check_surfaces
+   use ehl_case_check_line, only: check_line
    use ehl_case_defaults, only: moes_keys, si_keys, sliding, velocity_ratio
    use ehl_case_point, only: find_contact
    use ehl_case_source, only: case_source_t
@@ -39,20 +40,25 @@ contains
       type(status_t), intent(inout) :: status
       character(len=:), allocatable :: moes, si
 
+      call check_line(source, input, status)
       moes = source%first_given("contact", moes_keys)
       si = source%first_given("contact", si_keys)
       if (moes /= "" .and. si /= "") call source%contradict(moes, si, "moes_m, moes_l and radius_ratio, or "//si_units, status)
       associate (c => input%contact)
          if (source%given("contact.radius") .and. (c%radius_x > 0.0_dp .or. c%radius_y > 0.0_dp)) then
-           call source%contradict("contact.radius", source%first_given("contact", si_keys(5:)), &
+           call source%contradict("contact.radius", source%first_given("contact", si_keys(6:)), &
                                    "radius of a round contact, or radius_x and radius_y", status)
          end if
          if ((c%radius_x > 0.0_dp) .neqv. (c%radius_y > 0.0_dp)) then
-           call source%refuse(source%first_given("contact", si_keys(5:)), "one of contact.radius_x and radius_y", &
+           call source%refuse(source%first_given("contact", si_keys(6:)), "one of contact.radius_x and radius_y", &
                                "both, or contact.radius of a round contact", status)
          end if
       end associate
-      call need(source%first_given("bodies"), "contact", si_keys(4:6), "reduced radii and modulus alone")
+      if (input%contact%is_line()) then
+         call need(source%first_given("bodies"), "contact", si_keys(4:5), "reduced radius and modulus alone")
+      else
+         call need(source%first_given("bodies"), "contact", si_keys(5:7), "reduced radii and modulus alone")
+      end if
       call need(if_given("lubricant.name"), "lubricant", [character(len=18) :: "viscosity", "pressure_viscosity", &
                                                           "viscosity_law"], "the constants of the oil")
       call need(if_given("lubricant.kinematic_viscosity_40"), "lubricant", &
@@ -108,7 +114,10 @@ contains
       type(operating_t) :: point
 
       call check_bodies(source, input, status)
-      call source%check_range("contact.radius_ratio", input%contact%radius_ratio, "contact.radius_y", "radius_x/radius_y", status)
+      if (.not. input%contact%is_line()) then
+         call source%check_range("contact.radius_ratio", input%contact%radius_ratio, "contact.radius_y", "radius_x/radius_y", &
+                                 status)
+      end if
       if (status%failed()) return
       call find_contact(input, contact, scales, point)
       call check_point(source, input, scales, point, status)
@@ -131,7 +140,7 @@ contains
       if (.not. input%bodies%given) return
       associate (b => input%bodies, c => input%contact)
          call agree("radius_x", 1.0_dp/c%radius_x, curvature(b%radius_x1) + curvature(b%radius_x2))
-         call agree("radius_y", 1.0_dp/c%radius_y, curvature(b%radius_y1) + curvature(b%radius_y2))
+         if (.not. c%is_line()) call agree("radius_y", 1.0_dp/c%radius_y, curvature(b%radius_y1) + curvature(b%radius_y2))
          call agree("reduced_modulus", 2.0_dp/c%reduced_modulus, (1.0_dp - b%poisson_1**2)/b%modulus_1 &
                     + (1.0_dp - b%poisson_2**2)/b%modulus_2)
       end associate
@@ -163,11 +172,12 @@ contains
       real(dp) :: least
 
       key = merge("contact.load  ", "contact.moes_m", input%contact%si)
+      if (input%contact%is_line()) key = merge("contact.load_per_length", "contact.moes_m_line    ", input%contact%si)
       if (.not. input%contact%si) then
          call check_largest()
-         if (input%contact%moes_l > 0.0_dp .and. .not. input%lubricant%pressure_viscosity > 0.0_dp) then
-           call source%contradict("lubricant.pressure_viscosity", "contact.moes_l", &
-                                   "moes_l = 0.0, or a pressure_viscosity above 0", status)
+         if (point%moes_l > 0.0_dp .and. .not. input%lubricant%pressure_viscosity > 0.0_dp) then
+           call source%contradict("lubricant.pressure_viscosity", trim(merge("contact.moes_l_line", "contact.moes_l     ", &
+                                   input%contact%is_line())), "an L of 0, or a pressure_viscosity above 0", status)
          end if
          return
       end if
@@ -210,7 +220,7 @@ contains
          "'zero': the pressure far from a turned contact is not known", status)
       ends = [-input%grid%x_inlet, input%grid%x_outlet, input%grid%y_extent]
       reach = contact%reach([1, 1, 2])
-      do k = 1, 3
+      do k = 1, merge(2, 3, contact%is_line())
          if (ends(k) < beyond_contact*reach(k)) call source%refuse(trim(borders(k)), trim(borders(k))//" is "//short(ends(k))// &
             " a from the centre, and the contact reaches to "//short(reach(k))//" a", "at least "// &
             short(beyond_contact*reach(k))//" a", status)
@@ -239,6 +249,7 @@ contains
                                " or less; the nearest are "//to_text(below)//" and "//to_text(above), status)
             return
          end if
+         if (input%contact%is_line()) return
          call find_levels(nx, nx, levels, intervals)
          step = 2*((nx - 1)/intervals(1))
          if (mod(ny - 1, step) == 0 .and. has_levels(nx, ny)) return

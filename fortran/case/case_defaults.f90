@@ -19,11 +19,17 @@ module ehl_case_defaults
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    implicit none (type, external)
    private
-   public :: complete, inlet, latest_start, make_isotherms, moes_keys, roelands_exponent, si_keys, sliding, velocity_ratio, &
+   public :: complete, inlet, latest_start, line_keys, make_isotherms, moes_keys, point_keys, roelands_exponent, si_keys, &
+             sliding, velocity_ratio, &
              waits
 
-   character(len=16), parameter :: moes_keys(3) = [character(len=16) :: "moes_m", "moes_l", "radius_ratio"], &
-      si_keys(6) = [character(len=16) :: "load", "mean_velocity", "radius", "reduced_modulus", "radius_x", "radius_y"]
+   character(len=16), parameter :: moes_keys(5) = [character(len=16) :: "moes_m", "moes_l", "radius_ratio", "moes_m_line", &
+                                                   "moes_l_line"], &
+      si_keys(7) = [character(len=16) :: "load", "load_per_length", "mean_velocity", "radius", "reduced_modulus", "radius_x", &
+                    "radius_y"], &
+      !> Keys of a line, and what a point has in their place
+      line_keys(3) = [character(len=16) :: "moes_m_line", "moes_l_line", "load_per_length"], &
+      point_keys(7) = [character(len=16) :: "moes_m", "moes_l", "load", "radius_ratio", "radius_x", "radius_y", "angle"]
    !> Size of the tile of Table 1 of Zhang et al. 2019 [m]
    real(dp), parameter :: fractal_length = 8.29e-4_dp
    !> Time in which the film made in the inlet passes the contact [a/u]

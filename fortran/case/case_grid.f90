@@ -54,8 +54,8 @@ contains
       integer :: levels, intervals(2), halved, multiple
       real(dp) :: wanted
 
-      rows = grid%points
-      if (contact%is_round()) return
+      rows = merge(1, grid%points, contact%is_line())
+      if (contact%is_round() .or. contact%is_line()) return
       call find_levels(rows, rows, levels, intervals)
       if (levels == 0) return
       halved = (rows - 1)/intervals(1)

@@ -105,14 +105,18 @@ contains
       character(len=line_length), intent(inout) :: lines(:)
       logical, intent(out) :: good
       integer :: stat
-      real(dp), pointer :: moes_m, moes_l, radius_ratio, load, mean_velocity, radius, radius_x, radius_y, reduced_modulus, &
+      character(len=word_length), pointer :: shape
+      real(dp), pointer :: moes_m, moes_l, moes_m_line, moes_l_line, radius_ratio, load, load_per_length, mean_velocity, radius, &
+         radius_x, radius_y, reduced_modulus, &
          hardness, angle, slide_to_roll, thermal_conductivity, thermal_diffusivity, thermal_conductivity_2, &
          thermal_diffusivity_2
       integer, pointer :: rough_surface
-      namelist /contact/ moes_m, moes_l, radius_ratio, load, mean_velocity, radius, radius_x, radius_y, reduced_modulus, &
+      namelist /contact/ shape, moes_m, moes_l, moes_m_line, moes_l_line, radius_ratio, load, load_per_length, mean_velocity, &
+         radius, radius_x, radius_y, reduced_modulus, &
          hardness, angle, slide_to_roll, rough_surface, thermal_conductivity, thermal_diffusivity, thermal_conductivity_2, &
          thermal_diffusivity_2
 
+      shape => v%shape; moes_m_line => v%moes_m_line; moes_l_line => v%moes_l_line; load_per_length => v%load_per_length
       moes_m => v%moes_m; moes_l => v%moes_l; radius_ratio => v%radius_ratio; load => v%load
       mean_velocity => v%mean_velocity; radius => v%radius; radius_x => v%radius_x; radius_y => v%radius_y
       reduced_modulus => v%reduced_modulus; hardness => v%hardness; angle => v%angle; slide_to_roll => v%slide_to_roll

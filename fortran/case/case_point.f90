@@ -3,9 +3,9 @@
 module ehl_case_point
    use ehl_case, only: case_t
    use ehl_contact, only: contact_t
-   use ehl_contact_factory, only: hertz_scales, new_contact
+   use ehl_contact_factory, only: new_contact
    use ehl_kinds, only: dp, pi
-   use ehl_moes, only: operating_from_moes, operating_from_si, operating_t
+   use ehl_moes, only: operating_t
    use ehl_scales, only: scales_t
    implicit none (type, external)
    private
@@ -19,14 +19,16 @@ contains
       class(contact_t), allocatable, intent(out) :: contact
       type(scales_t), intent(out) :: scales
       type(operating_t), intent(out) :: point
+      real(dp) :: numbers(2)
 
-      call new_contact(input%contact%radius_ratio, input%contact%angle*pi/180.0_dp, contact)
+      call new_contact(input%contact%radius_ratio, input%contact%angle*pi/180.0_dp, contact, input%contact%is_line())
       associate (c => input%contact, l => input%lubricant)
          if (c%si) then
-            scales = hertz_scales(contact, c%load, c%radius_x, c%reduced_modulus)
+            scales = contact%scales(c%size_of_load(), c%radius_x, c%reduced_modulus)
             point = operating_point(input, contact, scales, l%viscosity)
          else
-            point = operating_from_moes(c%moes_m, c%moes_l, contact%ellipticity, contact%kernel_factor)
+            numbers = c%moes_numbers()
+            point = contact%operating(numbers(1), numbers(2))
             if (point%alpha_bar > 0.0_dp) scales%pressure = point%alpha_bar/l%pressure_viscosity
          end if
       end associate
@@ -39,11 +41,13 @@ contains
       type(scales_t), intent(in) :: scales
       real(dp), intent(in) :: viscosity
       type(operating_t) :: point
+      real(dp) :: speed
 
-      associate (c => input%contact)
-         point = operating_from_si(c%load, c%mean_velocity, c%radius_x, c%reduced_modulus, viscosity, &
-                                   input%lubricant%pressure_viscosity, scales%pressure, contact%ellipticity, &
-                                   contact%kernel_factor)
+      associate (c => input%contact, alpha => input%lubricant%pressure_viscosity)
+         speed = viscosity*c%mean_velocity/(c%reduced_modulus*c%radius_x)
+         point = contact%operating(contact%moes_load(c%size_of_load(), c%radius_x, c%reduced_modulus, speed), &
+                                   alpha*c%reduced_modulus*(2.0_dp*speed)**0.25_dp)
+         point%alpha_bar = alpha*scales%pressure
       end associate
    end function operating_point
 end module ehl_case_point

@@ -8,7 +8,8 @@ module ehl_case_ranges
    public :: range_of, allows, words_of
 
    character(len=*), parameter :: contact_ranges = &
-      "moes_m (0, 1e6]; moes_l [0, 100]; radius_ratio [0.004, 250]; load (0, 1e5]; mean_velocity (0, 200]; " &
+      "shape point|line; moes_m (0, 1e6]; moes_l [0, 100]; moes_m_line (0, 1e4]; moes_l_line [0, 100]; " &
+      // "radius_ratio [0.004, 250]; load (0, 1e5]; load_per_length (0, 1e9]; mean_velocity (0, 200]; " &
       // "radius [1e-5, 10]; radius_x 0 or [1e-5, 1000]; radius_y 0 or [1e-5, 1000]; reduced_modulus [1e4, 2e12]; " &
       // "hardness 0 or [1e5, 1e12]; angle [-90, 90]; slide_to_roll [-2, 2]; rough_surface [1, 2]; " &
       // "thermal_conductivity [0.1, 500]; thermal_diffusivity [1e-8, 1e-3]; " &

@@ -83,8 +83,18 @@ contains
       associate (c => input%contact)
          select case (name)
          case ("contact.moes_m", "contact.moes_l", "contact.radius_ratio")
-            holds = .not. c%si
-         case ("contact.load", "contact.mean_velocity", "contact.reduced_modulus")
+            holds = .not. (c%si .or. c%is_line())
+         case ("contact.moes_m_line", "contact.moes_l_line")
+            holds = c%is_line() .and. .not. c%si
+         case ("contact.load")
+            holds = c%si .and. .not. c%is_line()
+         case ("contact.load_per_length")
+            holds = c%si .and. c%is_line()
+         case ("contact.shape")
+            holds = c%is_line()
+         case ("contact.angle", "grid.y_extent", "grid.points_y", "solver.deflection")
+            holds = .not. c%is_line()
+         case ("contact.mean_velocity", "contact.reduced_modulus")
             holds = c%si
          case ("contact.radius")
             holds = c%si .and. c%round

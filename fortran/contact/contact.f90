@@ -5,12 +5,15 @@
 module ehl_contact
    use ehl_film_formula, only: film_central_formula
    use ehl_kinds, only: dp, pi
-   use ehl_scales, only: circle_factor
+   use ehl_moes, only: operating_from_moes, operating_t
+   use ehl_scales, only: circle_factor, scales_from_si, scales_t
    implicit none (type, external)
    private
    public :: contact_t
 
    type :: contact_t
+      !> Integrals over the contact are in a^2, or for a line in b
+      integer :: dimensions = 2
       !> Semi-axis of the dry contact across the motion over that along it; D = R_x/R_y
       real(dp) :: ellipticity = 1.0_dp, radius_ratio = 1.0_dp
       !> Angle of the principal axes against X and Y [rad], counter-clockwise; how far the dry contact reaches along X and Y
@@ -23,7 +26,13 @@ module ehl_contact
    contains
       procedure :: is_round
       procedure :: is_even
+      procedure :: is_line
+      procedure :: scales
+      procedure :: moes_load
+      procedure :: operating
       procedure :: film_formula
+      procedure :: area
+      procedure :: flash_area
       procedure :: gap_row
       procedure :: pressure_row
    end type contact_t
@@ -41,6 +50,54 @@ contains
       class(contact_t), intent(in) :: self
       is_even = .not. abs(self%angle) > 0.0_dp
    end function is_even
+
+   !> Whether it is an infinite line, and all values are per length of it
+   pure logical function is_line(self)
+      class(contact_t), intent(in) :: self
+      is_line = self%dimensions == 1
+   end function is_line
+
+   !> The scales of the contact in SI units
+   pure function scales(self, load, radius, reduced_modulus)
+      class(contact_t), intent(in) :: self
+      !> Load [N], of a line per length [N/m]; reduced radius R_x in the plane of the motion [m], reduced modulus E' [Pa] with
+      !> 2/E' = sum (1 - nu^2)/E
+      real(dp), intent(in) :: load, radius, reduced_modulus
+      type(scales_t) :: scales
+      scales = scales_from_si(load, radius, reduced_modulus, self%ellipticity, self%kernel_factor)
+   end function scales
+
+   !> Moes load parameter M by R_x
+   pure real(dp) function moes_load(self, load, radius, reduced_modulus, speed)
+      class(contact_t), intent(in) :: self
+      !> As for scales; U = eta0 u/(E' R)
+      real(dp), intent(in) :: load, radius, reduced_modulus, speed
+
+      associate (unused => self)
+      end associate
+      moes_load = load/(reduced_modulus*radius**2)*(2.0_dp*speed)**(-0.75_dp)
+   end function moes_load
+
+   !> Operating point by M and L
+   pure function operating(self, moes_m, moes_l) result(point)
+      class(contact_t), intent(in) :: self
+      real(dp), intent(in) :: moes_m, moes_l
+      type(operating_t) :: point
+      point = operating_from_moes(moes_m, moes_l, self%ellipticity, self%kernel_factor)
+   end function operating
+
+   !> Area of the dry contact [a^dimensions]
+   pure real(dp) function area(self)
+      class(contact_t), intent(in) :: self
+      area = pi*self%ellipticity
+   end function area
+
+   !> Area over which the mean of a Hertz pressure is 2/3 of its maximum, for a scale of lengths [m]
+   pure real(dp) function flash_area(self, length)
+      class(contact_t), intent(in) :: self
+      real(dp), intent(in) :: length
+      flash_area = pi*length**2*self%ellipticity
+   end function flash_area
 
    !> Gap of the undeformed bodies in the columns x of a row at y, 0 where they touch: X^2/2 + Y^2/2
    pure subroutine gap_row(self, x, y, values)

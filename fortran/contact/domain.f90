@@ -14,6 +14,7 @@
 module ehl_domain
    use ehl_contact, only: contact_t
    use ehl_kinds, only: dp, pi
+   use ehl_line_domain, only: line_cost, line_ends
    use ehl_moes, only: operating_t
    use ehl_scales, only: circle_factor
    implicit none (type, external)
@@ -63,7 +64,7 @@ contains
    pure logical function flooded_by_default(contact, point)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point
-      flooded_by_default = point%round_m < first_usual .or. elongation(contact) > too_wide
+      flooded_by_default = contact%is_line() .or. point%round_m < first_usual .or. elongation(contact) > too_wide
    end function flooded_by_default
 
    !> The domain of a contact: that of Zhang et al. 2019, its sides further out around an ellipse, or with a flooded border
@@ -73,8 +74,13 @@ contains
       type(operating_t), intent(in) :: point
       logical, intent(in) :: flooded
       type(domain_t) :: domain
-      real(dp) :: cost(2), wanted, unit, width
+      real(dp) :: cost(2), wanted, unit, width, ends(2)
 
+      if (contact%is_line()) then
+         ends = line_ends(contact, point)
+         domain = domain_t(ends(1), ends(2), 0.0_dp)
+         return
+      end if
       domain%side = domain%side*sides_over_round(contact)
       domain%inlet = domain%inlet*contact%reach(1)
       domain%outlet = domain%outlet*contact%reach(1)
@@ -128,6 +134,10 @@ contains
       real(dp) :: cost(2)
       real(dp) :: film, length, whole, inlet, load, sides, side, wide, width
 
+      if (contact%is_line()) then
+         cost = line_cost(contact, point, domain%inlet, flooded)
+         return
+      end if
       side = domain%side/sides_over_round(contact)
       width = contact%ellipticity*contact%kernel_factor/circle_factor
       film = contact%film_formula(point%moes_m, point%moes_l)

@@ -62,6 +62,9 @@ contains
       class(contact_t), intent(in) :: contact
       real(dp) :: half, potential
 
+      ! under an infinite line a wall at rest warms for ever
+      speed_of_rest = 0.0_dp
+      if (contact%is_line()) return
       call find_source(contact, half, potential)
       speed_of_rest = half*(2.0_dp*pi*fast_integral/potential)**2/pi
    end function speed_of_rest
@@ -75,6 +78,10 @@ contains
 
       source = 1.0_dp
       if (contact%is_round()) return
+      if (contact%is_line()) then
+         source(2) = huge(1.0_dp)
+         return
+      end if
       call find_source(contact, half, potential)
       source = [half, potential/(0.5_dp*pi**2*half)]
    end function heat_source

@@ -4,7 +4,9 @@ module ehl_deflection_factory
    use ehl_status, only: status_t, ehl_bad_input
    use ehl_deflection, only: deflection_t
    use ehl_fft, only: fft_deflection_t
+   use ehl_grid, only: grid_t
    use ehl_mlmi, only: mlmi_deflection_t
+   use ehl_row_sum, only: row_sum_t
    implicit none (type, external)
    private
    public :: new_deflection, deflection_engines
@@ -13,14 +15,25 @@ module ehl_deflection_factory
    character(len=*), parameter :: deflection_engines(*) = [character(len=6) :: &
       "mlmi", "fft"]
 
+   !> Nodes of a row up to which a sum costs less than an FFT with its plans
+   integer, parameter :: short = 1025
+
 contains
 
    !> Engine of a name, still to be set up for a grid
-   subroutine new_deflection(engine, deflection, status)
+   subroutine new_deflection(engine, deflection, status, grid)
       character(len=*), intent(in) :: engine
       class(deflection_t), allocatable, intent(out) :: deflection
       type(status_t), intent(inout) :: status
+      !> That it is for: a short row needs no engine
+      type(grid_t), intent(in), optional :: grid
 
+      if (present(grid)) then
+         if (grid%is_row() .and. grid%nx <= short) then
+            allocate (row_sum_t :: deflection)
+            return
+         end if
+      end if
       select case (engine)
       case ("mlmi")
          allocate (mlmi_deflection_t :: deflection)

@@ -7,7 +7,8 @@
 !> 1..ny go to spectra, then a few columns at a time are gathered, padded, transformed along
 !> Y, multiplied and transformed back while they are in the cache, and only the rows wanted
 !> return to X. Rows of zero pressure are skipped. On a folded grid columns are completed by
-!> their mirror image; FFTW's cosine transforms took three times as long as that.
+!> their mirror image; FFTW's cosine transforms took three times as long as that. A strip repeats along Y by itself: its columns
+!> are not padded, and one row has none.
 module ehl_fft
    use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr, c_associated, c_f_pointer, &
       c_int, c_size_t, c_double_complex
@@ -16,9 +17,9 @@ module ehl_fft
    use ehl_grid, only: grid_t
    use ehl_status, only: status_t, ehl_no_memory, ehl_internal
    use ehl_deflection, only: deflection_t
-   use ehl_kernel, only: fill_kernel
+   use ehl_kernel, only: fill_grid_kernel, fill_kernel
    use ehl_fftw, only: fftw_alloc_real, fftw_alloc_complex, fftw_free, &
-      fftw_plan_r2r_2d, fftw_plan_dft_r2c_1d, fftw_plan_dft_c2r_1d, fftw_plan_many_dft, &
+      fftw_plan_r2r_1d, fftw_plan_r2r_2d, fftw_plan_dft_r2c_1d, fftw_plan_dft_c2r_1d, fftw_plan_many_dft, &
       fftw_execute_r2r, fftw_execute_dft_r2c, fftw_execute_dft_c2r, fftw_execute_dft, FFTW_ESTIMATE, &
       FFTW_REDFT00, FFTW_FORWARD, FFTW_BACKWARD
    use ehl_fftw_planner, only: drop_plan, good_size, lock_planner, unlock_planner
@@ -76,6 +77,7 @@ contains
       self%threads = max(1, threads)
       self%lx = 2*good_size(grid%nx - 1)
       self%ly = 2*good_size(grid%full_ny() - 1)
+      if (grid%periodic) self%ly = grid%ny
       self%nk = self%lx/2 + 1
       call reserve(self, status)
       if (status%failed()) return
@@ -88,7 +90,7 @@ contains
          call status%fail(ehl_internal, "FFTW made no plan for the deflection")
          return
       end if
-      call transform_kernel(self, factor, grid%hx, grid%hy, status)
+      call transform_kernel(self, grid, factor, status)
    end subroutine setup
 
    !> W = K P
@@ -110,9 +112,13 @@ contains
       end do
       call rows_to_spectra(self%nx, self%ny, self%lx, self%nk, first, last, self%threads, &
                            self%row_forward, p, self%row, self%spectrum)
-      call convolve_columns(self%ny, self%ly, self%nk, first, last, self%mirror, self%threads, &
-                            self%column_forward, self%column_backward, self%kernel, &
-                            self%spectrum, self%columns)
+      if (self%ny == 1) then
+         self%spectrum(:, 1) = self%spectrum(:, 1)*self%kernel(1, :)
+      else
+         call convolve_columns(self%ny, self%ly, self%nk, first, last, self%mirror, self%threads, &
+                               self%column_forward, self%column_backward, self%kernel, &
+                               self%spectrum, self%columns)
+      end if
       call spectra_to_rows(self%nx, self%ny, self%lx, self%nk, self%threads, &
                            self%row_backward, self%spectrum, self%row, w)
    end subroutine apply
@@ -263,25 +269,37 @@ contains
    end subroutine make_plans
 
    !> Cosine transform of the kernel, scaled for a forward and a backward transform
-   subroutine transform_kernel(self, factor, hx, hy, status)
+   subroutine transform_kernel(self, grid, factor, status)
       type(fft_deflection_t), intent(inout) :: self
-      real(dp), intent(in) :: factor, hx, hy
+      type(grid_t), intent(in) :: grid
+      real(dp), intent(in) :: factor
       type(status_t), intent(inout) :: status
       type(c_ptr) :: plan
       real(dp), pointer, contiguous :: in_place(:, :)
+      real(dp), allocatable :: table(:, :)
 
       in_place => self%kernel
       call lock_planner(status)
       if (status%failed()) return
-      plan = fftw_plan_r2r_2d(self%nk, self%ly/2 + 1, self%kernel, in_place, &
-                              FFTW_REDFT00, FFTW_REDFT00, FFTW_ESTIMATE)
+      if (grid%is_row()) then
+         plan = fftw_plan_r2r_1d(self%nk, self%kernel, in_place, FFTW_REDFT00, FFTW_ESTIMATE)
+      else
+         plan = fftw_plan_r2r_2d(self%nk, self%ly/2 + 1, self%kernel, in_place, &
+                                 FFTW_REDFT00, FFTW_REDFT00, FFTW_ESTIMATE)
+      end if
       call unlock_planner(status)
       if (.not. c_associated(plan)) then
          call status%fail(ehl_internal, "FFTW made no plan for the kernel of the deflection")
          return
       end if
       ! the first index of the table is the offset in Y
-      call fill_kernel(self%kernel, factor, hy, hx, [1, 1])
+      if (grid%periodic) then
+         allocate (table(self%nk, self%ly/2 + 1))
+         call fill_grid_kernel(grid, factor, table)
+         self%kernel(:, :) = transpose(table)
+      else
+         call fill_kernel(self%kernel, factor, grid%hy, grid%hx, [1, 1])
+      end if
       call fftw_execute_r2r(plan, self%kernel, in_place)
       self%kernel = self%kernel/(real(self%lx, dp)*real(self%ly, dp))
       call drop_plan(plan)

@@ -3,10 +3,11 @@
 !> pressure on one cell of hx x hy (Love 1929; Venner & Lubrecht 2000, eq. 5.4). The factor k_b in front of the integral of
 !> 1/r is that of the contact, whose size the lengths are scaled by.
 module ehl_kernel
+   use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
-   public :: kernel_coefficient, fill_kernel
+   public :: coefficient, fill_grid_kernel, fill_kernel, kernel_coefficient
 
    !> Cells further away than this many mesh sizes are integrated by Gauss points: the exact
    !> formula is a second difference and loses (r/h)^2 in accuracy there, the quadrature
@@ -17,6 +18,114 @@ module ehl_kernel
    real(dp), parameter :: outer = 5.0_dp/18.0_dp, inner = 8.0_dp/18.0_dp
 
 contains
+
+   !> Deflection at a node of a grid by a unit pressure on the cell di columns and dj rows away, which is one of the whole plane,
+   !> or of a strip with its repetitions
+   pure real(dp) function coefficient(grid, factor, di, dj)
+      type(grid_t), intent(in) :: grid
+      real(dp), intent(in) :: factor
+      integer, intent(in) :: di, dj
+
+      if (grid%is_row()) then
+         coefficient = row_coefficient(grid, factor, di)
+      else if (grid%periodic) then
+         coefficient = strip_coefficient(grid, factor, di, dj)
+      else
+         coefficient = kernel_coefficient(factor, di, dj, grid%hx, grid%hy)
+      end if
+   end function coefficient
+
+   !> Table of these: k(1 + di, 1 + dj), for all that the array has room for
+   pure subroutine fill_grid_kernel(grid, factor, k)
+      type(grid_t), intent(in) :: grid
+      real(dp), intent(in) :: factor
+      real(dp), contiguous, intent(out) :: k(:, :)
+      real(dp) :: around(0:grid%ny - 1)
+      integer :: i, j
+
+      if (grid%is_row()) then
+         k = spread([(row_coefficient(grid, factor, i - 1), i=1, size(k, 1))], 2, size(k, 2))
+      else if (grid%periodic) then
+         do i = 1, size(k, 1)
+            around = strip_column(grid, factor, i - 1)
+            do j = 1, size(k, 2)
+               k(i, j) = around(modulo(j - 1, grid%ny))
+            end do
+         end do
+      else
+         call fill_kernel(k, factor, grid%hx, grid%hy, [1, 1])
+      end if
+   end subroutine fill_grid_kernel
+
+   !> Of a strip with one row: -2 k_b int ln|X - X'| dX' over a cell, as the difference of its ends or, where that loses
+   !> (x/h)^2 in accuracy, by three Gauss points
+   elemental real(dp) function row_coefficient(grid, factor, di)
+      type(grid_t), intent(in) :: grid
+      real(dp), intent(in) :: factor
+      integer, intent(in) :: di
+      real(dp) :: x
+
+      associate (h => grid%hx)
+         x = abs(di)*h
+         if (x > far*h) then
+            row_coefficient = h*(inner*log(x) + outer*(log(x - node*h) + log(x + node*h)))
+         else
+            row_coefficient = whole(x + 0.5_dp*h) - whole(x - 0.5_dp*h)
+         end if
+      end associate
+      row_coefficient = -2.0_dp*factor*row_coefficient
+   end function row_coefficient
+
+   !> Of a strip with several rows
+   pure real(dp) function strip_coefficient(grid, factor, di, dj)
+      type(grid_t), intent(in) :: grid
+      real(dp), intent(in) :: factor
+      integer, intent(in) :: di, dj
+      real(dp) :: around(0:grid%ny - 1)
+
+      around = strip_column(grid, factor, di)
+      strip_coefficient = around(modulo(dj, grid%ny))
+   end function strip_coefficient
+
+   !> Coefficients of all rows of a strip by their distance: those of a cell and its repetitions, whose sum over the rows is the
+   !> logarithm. Repetitions that are far away: midpoint rule backwards, sum f(m) = int f dm + f'(m)/24 at the end between
+   !> two; what does not vary over the rows is left to the logarithm.
+   pure function strip_column(grid, factor, di) result(around)
+      type(grid_t), intent(in) :: grid
+      real(dp), intent(in) :: factor
+      integer, intent(in) :: di
+      real(dp) :: around(0:grid%ny - 1)
+      integer, parameter :: images = 4
+      real(dp) :: x, y, u, width, tail
+      integer :: j, m, near, side
+
+      associate (hx => grid%hx, hy => grid%hy)
+         width = grid%ny*hy
+         x = abs(di)*hx
+         do j = 0, grid%ny - 1
+            ! the nearest repetition, so that either side is the same to the bit
+            near = min(j, grid%ny - j)
+            y = near*hy
+            around(j) = 0.0_dp
+            do m = -images, images
+               around(j) = around(j) + kernel_coefficient(factor, di, near + m*grid%ny, hx, hy)
+            end do
+            tail = 0.0_dp
+            do side = -1, 1, 2
+               u = (images + 0.5_dp)*width + side*y
+               tail = tail - log(u + hypot(x, u))/width - width*u/(24.0_dp*hypot(x, u)**3)
+            end do
+            around(j) = around(j) + factor*hx*hy*tail
+         end do
+         around = around + (row_coefficient(grid, factor, di) - sum(around))/grid%ny
+      end associate
+   end function strip_column
+
+   !> Antiderivative of ln|x|, odd in x
+   elemental real(dp) function whole(x)
+      real(dp), intent(in) :: x
+      whole = x*(log(abs(x)) - 1.0_dp)
+   end function whole
 
    !> The factor times the integral of 1/r over a cell of hx x hy whose centre is at
    !> (di*hx, dj*hy) from the node; even in di and in dj

@@ -1,10 +1,11 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> A uniform grid over the contact, whole or folded at the symmetry line Y = 0
+!> A uniform grid over the contact: whole, folded at the symmetry line Y = 0, or a strip that repeats along Y. One row is a strip
+!> on which nothing varies along Y.
 module ehl_grid
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
-   public :: grid_t, new_grid, find_levels, coarsest_most
+   public :: grid_t, new_grid, new_strip, find_levels, coarsest_most
 
    !> Fewest and most intervals per side of the coarsest grid, which is solved directly
    integer, parameter :: coarsest_fewest = 16, coarsest_most = 32
@@ -20,6 +21,8 @@ module ehl_grid
       real(dp) :: hx = 0.0_dp, hy = 0.0_dp
       !> Only Y >= 0 is stored: row 1 lies on Y = 0 and the field continues as its mirror image
       logical :: mirror = .false.
+      !> The field repeats along Y: row 1 follows on row ny, and integrals are means over Y
+      logical :: periodic = .false.
    contains
       procedure :: x => x_of
       procedure :: y => y_of
@@ -30,8 +33,13 @@ module ehl_grid
       procedure :: finer
       procedure :: weight
       procedure :: cell
-      procedure, nopass :: south
+      procedure :: south
+      procedure :: north
       procedure :: first_inner
+      procedure :: last_inner
+      procedure :: inner_rows
+      procedure :: is_row
+      procedure :: images
       procedure :: is_border
       procedure :: full_ny
       procedure :: unfold
@@ -60,6 +68,22 @@ contains
          grid%y0 = -y_extent
       end if
    end function new_grid
+
+   !> Grid of nx x ny nodes over a strip of a width that repeats along Y, with a row at Y = 0; one row has square cells
+   pure function new_strip(nx, ny, x_inlet, x_outlet, width) result(grid)
+      integer, intent(in) :: nx, ny
+      real(dp), intent(in) :: x_inlet, x_outlet, width
+      type(grid_t) :: grid
+
+      grid%nx = nx
+      grid%ny = ny
+      grid%x0 = x_inlet
+      grid%hx = (x_outlet - x_inlet)/(nx - 1)
+      grid%hy = grid%hx
+      if (ny > 1) grid%hy = width/ny
+      grid%y0 = -(ny/2)*grid%hy
+      grid%periodic = .true.
+   end function new_strip
 
    !> Levels that a grid of nx x ny nodes has, and intervals of the sides of the coarsest one; no levels where halving
    !> does not end at even numbers, that of the shorter side at `coarsest_most` or less
@@ -112,15 +136,30 @@ contains
       integer, intent(in) :: step(2)
       type(grid_t) :: grid
 
+      if (self%periodic) then
+         grid = strip_like(self, (self%nx - 1)/step(1) + 1, max(1, self%ny/step(2)), step(1)*self%hx)
+         return
+      end if
       grid = grid_t((self%nx - 1)/step(1) + 1, (self%ny - 1)/step(2) + 1, self%x0, self%y0, step(1)*self%hx, step(2)*self%hy, &
                     self%mirror)
    end function coarsened
+
+   !> A strip over the same domain as another
+   pure function strip_like(other, nx, ny, hx) result(grid)
+      class(grid_t), intent(in) :: other
+      integer, intent(in) :: nx, ny
+      real(dp), intent(in) :: hx
+      type(grid_t) :: grid
+
+      grid = grid_t(nx, ny, other%x0, other%y0, hx, other%hy*other%ny/ny, periodic=.true.)
+      if (ny == 1) grid%hy = hx
+   end function strip_like
 
    !> Intervals along X and along Y of the whole domain
    pure function intervals(self)
       class(grid_t), intent(in) :: self
       integer :: intervals(2)
-      intervals = [self%nx, self%full_ny()] - 1
+      intervals = [self%nx - 1, merge(self%ny, self%full_ny() - 1, self%periodic)]
    end function intervals
 
    !> The grid of half the mesh size
@@ -128,16 +167,21 @@ contains
       class(grid_t), intent(in) :: self
       type(grid_t) :: grid
 
+      if (self%periodic) then
+         grid = strip_like(self, 2*self%nx - 1, merge(1, 2*self%ny, self%ny == 1), 0.5_dp*self%hx)
+         return
+      end if
       grid = grid_t(2*self%nx - 1, 2*self%ny - 1, self%x0, self%y0, 0.5_dp*self%hx, 0.5_dp*self%hy, self%mirror)
    end function finer
 
    !> Area that row j stands for in a sum over the whole contact, per node:
-   !> hx*hy, twice that for rows that have a mirror image
+   !> hx*hy, twice that for rows that have a mirror image; of a strip as a mean over Y
    elemental real(dp) function weight(self, j)
       class(grid_t), intent(in) :: self
       integer, intent(in) :: j
       weight = self%hx*self%hy
       if (self%mirror .and. j > 1) weight = 2.0_dp*weight
+      if (self%periodic) weight = self%hx/self%ny
    end function weight
 
    !> Area of a node's cell in row j; of its half in row 1 of a folded grid
@@ -148,23 +192,56 @@ contains
       if (self%mirror .and. j == 1) cell = 0.5_dp*cell
    end function cell
 
-   !> The row below row j: on a folded grid row 0 is row 2
-   elemental integer function south(j)
+   !> The row below row j: row 0 is row 2 of a folded grid, and the last row of a strip
+   elemental integer function south(self, j)
+      class(grid_t), intent(in) :: self
       integer, intent(in) :: j
-      south = merge(2, j - 1, j == 1)
+      south = merge(merge(self%ny, 2, self%periodic), j - 1, j == 1)
    end function south
 
-   !> First row that is no border row; the last one is ny-1
+   !> The row above row j
+   elemental integer function north(self, j)
+      class(grid_t), intent(in) :: self
+      integer, intent(in) :: j
+      north = merge(1, j + 1, self%periodic .and. j == self%ny)
+   end function north
+
+   !> How many rows of the whole domain row j stands for
+   elemental integer function images(self, j)
+      class(grid_t), intent(in) :: self
+      integer, intent(in) :: j
+      images = merge(2, 1, self%mirror .and. j > 1)
+   end function images
+
+   !> First row that is no border row
    pure integer function first_inner(self)
       class(grid_t), intent(in) :: self
-      first_inner = merge(1, 2, self%mirror)
+      first_inner = merge(1, 2, self%mirror .or. self%periodic)
    end function first_inner
+
+   !> Last one
+   pure integer function last_inner(self)
+      class(grid_t), intent(in) :: self
+      last_inner = merge(self%ny, self%ny - 1, self%periodic)
+   end function last_inner
+
+   !> Whether nothing varies along Y
+   pure logical function is_row(self)
+      class(grid_t), intent(in) :: self
+      is_row = self%ny == 1
+   end function is_row
+
+   !> Rows of the whole domain that are no border rows
+   pure integer function inner_rows(self)
+      class(grid_t), intent(in) :: self
+      inner_rows = merge(self%ny, self%full_ny() - 2, self%periodic)
+   end function inner_rows
 
    !> Whether row j is a border, where P is given
    elemental logical function is_border(self, j)
       class(grid_t), intent(in) :: self
       integer, intent(in) :: j
-      is_border = j < self%first_inner() .or. j == self%ny
+      is_border = j < self%first_inner() .or. j > self%last_inner()
    end function is_border
 
    !> Rows of the unfolded grid

@@ -108,7 +108,7 @@ contains
          level%p = level%p - weights(k)*self%dg(:, :, k)
          h00 = h00 - weights(k)*self%h00_dg(k)
       end do
-      do j = level%grid%first_inner(), level%grid%ny - 1
+      do j = level%grid%first_inner(), level%grid%last_inner()
          call cavitate(level%p(2:level%grid%nx - 1, j))
       end do
       level%h00 = h00

@@ -27,7 +27,7 @@ contains
       !> Shape (nx) of the coarse grid
       real(dp), intent(out) :: values(:)
       real(dp) :: mean_y(size(fine, 1))
-      integer :: i, l, nx
+      integer :: i, l, below, nx
 
       nx = coarse%nx
       l = step(2)*(j - 1) + 1
@@ -36,7 +36,9 @@ contains
       if (step(2) == 1) then
          mean_y = fine(:, l)
       else
-         mean_y = 0.25_dp*(fine(:, coarse%south(l)) + fine(:, l + 1)) + 0.5_dp*fine(:, l)
+         below = coarse%south(l)
+         if (coarse%periodic .and. l == 1) below = size(fine, 2)
+         mean_y = 0.25_dp*(fine(:, below) + fine(:, l + 1)) + 0.5_dp*fine(:, l)
       end if
       if (step(1) == 1) then
          values(2:nx - 1) = mean_y(2:nx - 1)
@@ -57,13 +59,15 @@ contains
       !> Shape (nx) of the fine grid
       real(dp), intent(out) :: row(:)
       real(dp) :: middle(coarse%nx)
-      integer :: i, l
+      integer :: i, l, next
 
       if (step(2) == 1) then
          middle = values(:, j)
       else
          l = (j + 1)/2
-         middle = 0.5_dp*(values(:, l) + values(:, min(l + mod(j + 1, 2), coarse%ny)))
+         next = min(l + mod(j + 1, 2), coarse%ny)
+         if (coarse%periodic .and. mod(j, 2) == 0) next = coarse%north(l)
+         middle = 0.5_dp*(values(:, l) + values(:, next))
       end if
       row(::step(1)) = middle
       if (step(1) == 1) return

@@ -108,7 +108,7 @@ contains
       call separate_touching(fine%boundary, fine%residual)
       !$omp parallel do default(none) shared(fine, coarse, step, transfer) private(i, operator_row, residual) &
       !$omp num_threads(coarse%threads) if(coarse%parallel) schedule(static)
-      do j = coarse%grid%first_inner(), coarse%grid%ny - 1
+      do j = coarse%grid%first_inner(), coarse%grid%last_inner()
          call reynolds_operator(coarse, j, operator_row)
          if (coarse%poiseuille%frozen) then
             ! integrated over the cells: row 1 of a folded grid consists of half cells
@@ -144,14 +144,14 @@ contains
       integer :: i, j, first, last
 
       first = fine%grid%first_inner()
-      last = fine%grid%ny - 1
+      last = fine%grid%last_inner()
       limit = dependent_from*min(fine%grid%hx, fine%grid%hy)**2
       coarsening%free = 0.0_dp
       coarsening%dependent = 0.0_dp
       !$omp parallel do default(none) shared(fine, coarsening, first, last, limit) private(i, largest) &
       !$omp num_threads(fine%threads) if(fine%parallel) schedule(static)
       do j = first, last
-         call fine%flow%max_neighbour_conductance(j, fine%grid%south(j), largest)
+         call fine%flow%max_neighbour_conductance(j, fine%grid%south(j), fine%grid%north(j), largest)
          do i = 2, fine%grid%nx - 1
             if (fine%p(i, j) > cavity_pressure) coarsening%free(i, j) = 1.0_dp
             if (largest(i) >= limit) coarsening%dependent(i, j) = 1.0_dp
@@ -186,7 +186,7 @@ contains
       a%five = .true.
       !$omp parallel do default(none) shared(level, a) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
-      do j = 1, level%grid%ny - 1
+      do j = 1, level%grid%last_inner()
          call level%poiseuille%integrate(level%flow, j, j, a)
       end do
       !$omp end parallel do

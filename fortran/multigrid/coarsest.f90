@@ -6,7 +6,7 @@ module ehl_coarsest
    use ehl_film, only: refresh
    use ehl_force_balance, only: missing_load
    use ehl_grid, only: grid_t
-   use ehl_kernel, only: fill_kernel
+   use ehl_kernel, only: fill_grid_kernel
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
    use ehl_node_state, only: cavitate, cavity_pressure
@@ -66,7 +66,7 @@ contains
 
       if (status%failed()) return
       self%first = grid%first_inner()
-      self%last = grid%ny - 1
+      self%last = grid%last_inner()
       self%n = (grid%nx - 2)*(self%last - self%first + 1)
       allocate (self%k(self%n, grid%nx*grid%ny), self%lu(self%n + 1, self%n + 1), &
                 self%jacobian(self%n + 1, self%n + 1), self%pivot(self%n + 1), &
@@ -76,7 +76,7 @@ contains
          call status%fail(ehl_no_memory, "no memory for the coarsest level")
          return
       end if
-      call fill_kernel(kernel, factor, grid%hx, grid%hy, [1, 1])
+      call fill_grid_kernel(grid, factor, kernel)
       do l = self%first, self%last
          do k = 2, grid%nx - 1
             col = unknown(self, grid%nx, k, l)
@@ -210,7 +210,7 @@ contains
          end do
       end do
       self%residual(self%n + 1) = missing_load(level)
-      norm = sqrt(norm/((level%grid%nx - 2)*(level%grid%full_ny() - 2)) + self%residual(self%n + 1)**2)
+      norm = sqrt(norm/((level%grid%nx - 2)*level%grid%inner_rows()) + self%residual(self%n + 1)**2)
    end subroutine find_residual
 
    !> Jacobian of the residual's operator, factored

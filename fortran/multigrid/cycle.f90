@@ -3,12 +3,14 @@
 module ehl_cycle
    use ehl_coarse_problem, only: coarsening_alcouffe, coarsening_classical, correct, restrict_problem
    use ehl_film, only: refresh, update_coefficients
+   use ehl_grid, only: grid_t
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
    use ehl_node_state, only: cavitate
    use ehl_relaxation, only: usual_log_change, relax
    use ehl_reynolds, only: update_residual
+   use ehl_row_relaxation, only: relax_row
    implicit none (type, external)
    private
    public :: cycle_options_t, damped_cycle, finest_cycle, most_damping, prolong_solution
@@ -139,7 +141,11 @@ contains
       integer :: k
 
       do k = 1, times
-         call relax(grids%levels(n), grids%workspaces(n), options%max_log_change, options%relaxation_factor)
+         if (grids%levels(n)%grid%is_row()) then
+            call relax_row(grids%levels(n), grids%workspaces(n), options%max_log_change, options%relaxation_factor)
+         else
+            call relax(grids%levels(n), grids%workspaces(n), options%max_log_change, options%relaxation_factor)
+         end if
          call refresh(grids%levels(n))
       end do
    end subroutine sweep
@@ -150,8 +156,8 @@ contains
       type(level_t), intent(inout) :: fine
       integer :: j
 
-      call refine(coarse%p, coarse%grid%mirror, fine%p)
-      call refine(coarse%h - coarse%h00 - coarse%film_rhs, coarse%grid%mirror, fine%h)
+      call refine(coarse%p, coarse%grid, fine%p)
+      call refine(coarse%h - coarse%h00 - coarse%film_rhs, coarse%grid, fine%h)
       fine%h00 = coarse%h00
       do j = 1, fine%grid%ny
          call cavitate(fine%p(:, j))
@@ -161,11 +167,10 @@ contains
    end subroutine prolong_solution
 
    !> Cubic interpolation of a field, row by row
-   pure subroutine refine(values, mirror, fine)
-      !> Shape of the coarse grid
+   pure subroutine refine(values, grid, fine)
       real(dp), intent(in) :: values(:, :)
-      !> Whether the grid is folded at Y = 0
-      logical, intent(in) :: mirror
+      !> The coarse grid
+      type(grid_t), intent(in) :: grid
       !> Shape of the fine grid
       real(dp), intent(out) :: fine(:, :)
       integer :: l, n, below
@@ -174,9 +179,17 @@ contains
       do l = 1, n
          call refine_line(values(:, l), fine(:, 2*l - 1))
       end do
+      if (grid%periodic) then
+         do l = 2, size(fine, 2), 2
+            associate (row => modulo([l - 4, l - 2, l, l + 2], size(fine, 2)) + 1)
+               fine(:, l) = (9.0_dp*(fine(:, row(2)) + fine(:, row(3))) - fine(:, row(1)) - fine(:, row(4)))/16.0_dp
+            end associate
+         end do
+         return
+      end if
       do l = 1, n - 1
          below = 2*l - 3
-         if (l == 1) below = merge(3, 1, mirror)
+         if (l == 1) below = merge(3, 1, grid%mirror)
          fine(:, 2*l) = (9.0_dp*(fine(:, 2*l - 1) + fine(:, 2*l + 1)) - fine(:, below) &
                          - fine(:, min(2*l + 3, size(fine, 2))))/16.0_dp
       end do

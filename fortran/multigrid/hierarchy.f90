@@ -115,7 +115,7 @@ contains
          level%threads = threads_that_pay(level%grid, self%threads)
          call level%setup(status)
          call self%workspaces(k)%setup(level%grid, level%kernel_factor, level%threads, status)
-         call new_deflection(self%engine, level%engine, status)
+         call new_deflection(self%engine, level%engine, status, level%grid)
          if (status%failed()) return
          call level%engine%setup(level%grid, level%kernel_factor, deflection_accuracy(level%grid), level%threads, status)
       end associate

@@ -67,7 +67,7 @@ contains
       possible = mod(intervals, 4) == 0 .and. intervals/2 >= [fewest_columns, fewest_rows]
       ratio = grid%hy/grid%hx
       step = 1
-      if (ratio > long .and. possible(1)) then
+      if (possible(1) .and. (ratio > long .or. grid%is_row())) then
          step(1) = 2
       else if (ratio < 1.0_dp/long .and. possible(2)) then
          step(2) = 2

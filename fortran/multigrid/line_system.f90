@@ -77,7 +77,7 @@ contains
       integer, intent(in) :: j
 
       associate (p => level%p)
-         i = max(last_flowing(p(:, level%grid%south(j))), last_flowing(p(:, j)), last_flowing(p(:, j + 1)))
+         i = max(last_flowing(p(:, level%grid%south(j))), last_flowing(p(:, j)), last_flowing(p(:, level%grid%north(j))))
       end associate
       ! 2 where there is no such node
       i = min(i + 1, level%grid%nx - 1)

@@ -63,7 +63,7 @@ contains
       integer :: colour, block, blocks, first, last, start, me
 
       first = level%grid%first_inner()
-      last = level%grid%ny - 1
+      last = level%grid%last_inner()
       call mark_dipoles(level, space, first, last)
       if (level%wedge%squeeze > 0.0_dp) call find_smoothing_weights(level, space, first, last)
       do colour = 0, 1
@@ -91,16 +91,18 @@ contains
       type(workspace_t), intent(inout) :: space
       integer, intent(in) :: first, last
       real(dp) :: limit, largest(level%grid%nx)
-      integer :: i, j, below
+      integer :: i, j, below, above
 
       limit = merge(switch_thinning, switch, level%flow%depends_on_gradient)*level%grid%hy**2
-      !$omp parallel do default(none) shared(level, space, first, last, limit) private(i, below, largest) &
+      !$omp parallel do default(none) shared(level, space, first, last, limit) private(i, below, above, largest) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = first, last
          below = level%grid%south(j)
-         call level%flow%max_neighbour_conductance(j, below, largest)
-         call max_flowing_conductance(level%boundary, level%p, level%flow%eps(:, :, level%flow%dir_y), j, below, largest)
-         call flowing_around(level%p(:, below), level%p(:, j), level%p(:, j + 1), space%dipole(:, j))
+         above = level%grid%north(j)
+         call level%flow%max_neighbour_conductance(j, below, above, largest)
+         call max_flowing_conductance(level%boundary, level%p, level%flow%eps(:, :, level%flow%dir_y), j, below, above, &
+                                      largest)
+         call flowing_around(level%p(:, below), level%p(:, j), level%p(:, above), space%dipole(:, j))
          call mark_touching_dipoles(level%boundary, level%p(:, j), j, space%dipole(:, j))
          do i = 2, level%grid%nx - 1
             space%dipole(i, j) = merge(space%dipole(i, j), 0.0_dp, largest(i) < limit)
@@ -116,18 +118,19 @@ contains
       type(workspace_t), intent(inout) :: space
       integer, intent(in) :: first, last
       real(dp) :: scale, share, largest(level%grid%nx)
-      integer :: i, j, k, below, nx, across
+      integer :: i, j, k, below, above, nx, across
 
       nx = level%grid%nx
       across = level%flow%dir_y
       scale = 1.0_dp/(weak*level%wedge%squeeze*min(level%grid%hx, level%grid%hy)**2)
       !$omp parallel do default(none) shared(level, space, first, last, scale, nx, across) &
-      !$omp private(i, k, below, share, largest) &
+      !$omp private(i, k, below, above, share, largest) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = first, last
          below = level%grid%south(j)
-         largest = max(level%flow%eps(:, below, across), level%flow%eps(:, j, across), level%flow%eps(:, j + 1, across))
-         call max_flowing_conductance_row(level%boundary, level%flow%eps(:, :, across), j, below, largest)
+         above = level%grid%north(j)
+         largest = max(level%flow%eps(:, below, across), level%flow%eps(:, j, across), level%flow%eps(:, above, across))
+         call max_flowing_conductance_row(level%boundary, level%flow%eps(:, :, across), j, below, above, largest)
          do i = 1 + around, nx - around
             share = largest(i)
             do k = 1, around
@@ -241,6 +244,7 @@ contains
          do k = -reach, reach
             row = j + k
             if (row < 1 .and. level%grid%mirror) row = 2 - row
+            if (level%grid%periodic) row = modulo(row - 1, level%grid%ny) + 1
             if (row < first .or. row > last) cycle
             do i = from(j), to(j)
                smooth(i) = smooth(i) + binomial(k)*space%mean_change(i, row)
@@ -268,7 +272,7 @@ contains
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = first, last
          call apply_row(space%shares, space%change(:, level%grid%south(j)), space%change(:, j), &
-                        space%change(:, j + 1), level%p(:, j), after)
+                        space%change(:, level%grid%north(j)), level%p(:, j), after)
          call level%boundary%limit_pressure(level%p(2:nx - 1, j), 2, j, after(2:nx - 1))
          call change_flowing(after(2:nx - 1), level%p(2:nx - 1, j))
       end do

@@ -14,18 +14,18 @@ module ehl_touching_nodes
 contains
 
    !> Of each node of row j and its four neighbours, in columns 2 to nx-1: the largest conductance of those that flow
-   pure subroutine max_flowing_conductance(boundary, p, eps, j, south, values)
+   pure subroutine max_flowing_conductance(boundary, p, eps, j, south, north, values)
       type(boundary_film_t), intent(in) :: boundary
       !> Pressure and conductance along Y, shape (nx, ny)
       real(dp), contiguous, intent(in) :: p(:, :), eps(:, :)
-      integer, intent(in) :: j, south
+      integer, intent(in) :: j, south, north
       !> Shape (nx)
       real(dp), contiguous, intent(inout) :: values(:)
       integer :: i
 
       if (.not. boundary%active) return
       do i = 2, size(values) - 1
-         values(i) = max(of(i, j), of(i - 1, j), of(i + 1, j), of(i, j + 1), of(i, south))
+         values(i) = max(of(i, j), of(i - 1, j), of(i + 1, j), of(i, north), of(i, south))
       end do
 
    contains
@@ -37,18 +37,18 @@ contains
       end function of
    end subroutine max_flowing_conductance
 
-   !> Of three rows, south, j and j+1: the largest conductance of each column, as if nothing could flow at a touching node
-   pure subroutine max_flowing_conductance_row(boundary, eps, j, south, values)
+   !> Of three rows, south, j and north: the largest conductance of each column, as if nothing could flow at a touching node
+   pure subroutine max_flowing_conductance_row(boundary, eps, j, south, north, values)
       type(boundary_film_t), intent(in) :: boundary
       !> Shape (nx, ny)
       real(dp), contiguous, intent(in) :: eps(:, :)
-      integer, intent(in) :: j, south
+      integer, intent(in) :: j, south, north
       !> Shape (nx)
       real(dp), contiguous, intent(inout) :: values(:)
 
       if (.not. boundary%active) return
       values = max(eps(:, south)*(1.0_dp - boundary%touching(:, south)), eps(:, j)*(1.0_dp - boundary%touching(:, j)), &
-                   eps(:, j + 1)*(1.0_dp - boundary%touching(:, j + 1)))
+                   eps(:, north)*(1.0_dp - boundary%touching(:, north)))
    end subroutine max_flowing_conductance_row
 
    !> Nodes of row j that touch change distributively, beside a cavity, too

@@ -3,15 +3,17 @@
 module ehl_workspace
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_grid, only: grid_t
-   use ehl_kernel, only: kernel_coefficient
-   use ehl_kinds, only: dp
+   use ehl_kernel, only: coefficient
+   use ehl_kinds, only: dp, pi
    use ehl_status, only: ehl_no_memory, status_t
    implicit none (type, external)
    private
-   public :: workspace_t, line_work_t, near_reach, line_fields, line_width
+   public :: workspace_t, line_work_t, near_reach, line_fields, line_width, row_reach, row_below, row_above
 
    !> The line systems know the deflection kernel up to this distance along X
    integer, parameter :: near_reach = 2
+   !> The equations of a grid of one row know it as far as this, and couple so many nodes before and behind a node
+   integer, parameter :: row_reach = 15, row_below = row_reach + 2, row_above = row_reach + 1
    !> Numbers per node that the line systems are made from
    integer, parameter :: line_fields = 10
    !> Lines relaxed side by side
@@ -38,6 +40,9 @@ module ehl_workspace
       real(dp) :: shares(2) = 0.25_dp
       !> Kernel near the source: itself, and for the distributive (dipole) change
       real(dp) :: near(-near_reach:near_reach) = 0.0_dp, near_dipole(-near_reach:near_reach) = 0.0_dp
+      !> Of a grid of one row, which has no line systems: its equations (-row_below:row_above, nx), and the kernel
+      real(dp), allocatable :: band(:, :)
+      real(dp) :: near_row(-row_reach:row_reach) = 0.0_dp
       !> Line systems, one a thread
       type(line_work_t), allocatable :: lines(:)
       !> For coarse problems only: pressure and film that the problem of this level starts from, and their changes by its solution
@@ -63,6 +68,12 @@ contains
       if (status%failed()) return
       associate (nx => grid%nx, ny => grid%ny)
          allocate (self%dipole(nx, ny), self%change(nx, ny), source=0.0_dp, stat=stat)
+         if (grid%is_row()) then
+            if (stat == 0) allocate (self%band(-row_below:row_above, nx), source=0.0_dp, stat=stat)
+            self%near_row = kernel_of_row(grid, factor)
+            if (stat /= 0) call status%fail(ehl_no_memory, "no memory for the relaxation of a grid level")
+            return
+         end if
          if (stat == 0) allocate (self%lines(threads), stat=stat)
          do d = 1, threads
             if (stat == 0) allocate (self%lines(d)%fields(line_width, line_fields, -1:nx + 2), &
@@ -78,13 +89,30 @@ contains
       associate (hx => grid%hx, hy => grid%hy)
          self%shares = 0.5_dp*([max(hx, hy), hx]/(hx + max(hx, hy)))
          do d = -near_reach, near_reach
-            self%near(d) = kernel_coefficient(factor, d, 0, hx, hy)
-            self%near_dipole(d) = self%near(d) - (self%shares(1)*(kernel_coefficient(factor, d - 1, 0, hx, hy) &
-                                                                + kernel_coefficient(factor, d + 1, 0, hx, hy)) &
-                                                  + self%shares(2)*2.0_dp*kernel_coefficient(factor, d, 1, hx, hy))
+            self%near(d) = coefficient(grid, factor, d, 0)
+            self%near_dipole(d) = self%near(d) - (self%shares(1)*(coefficient(grid, factor, d - 1, 0) &
+                                                                + coefficient(grid, factor, d + 1, 0)) &
+                                                  + self%shares(2)*2.0_dp*coefficient(grid, factor, d, 1))
          end do
       end associate
    end subroutine setup
+
+   !> The kernel near the source as the equations of one row have it: over its value beyond their reach, for a constant more is
+   !> H00 and the logarithm falls so slowly that they would see its end, and for smooth changes stiffer than that by a share of
+   !> what the whole contact adds. Without it these are made so much too large on fine grids that cycles diverge; 2 cycles a
+   !> level with this share and width, from M = 0.5 to 500 on 65 to 4097 nodes.
+   pure function kernel_of_row(grid, factor) result(near)
+      type(grid_t), intent(in) :: grid
+      real(dp), intent(in) :: factor
+      real(dp) :: near(-row_reach:row_reach)
+      real(dp), parameter :: share = 0.3_dp, width = row_reach/3.0_dp
+      integer :: d
+
+      near = [(coefficient(grid, factor, d, 0), d=-row_reach, row_reach)] - coefficient(grid, factor, row_reach + 1, 0)
+      ! 4 k_b (1 - reach): sums of the kernel over its value at the edge of the contact, less what is within reach
+      near = near + share*4.0_dp*factor*max(0.0_dp, 1.0_dp - (row_reach + 1)*grid%hx) &
+             *[(exp(-(d/width)**2), d=-row_reach, row_reach)]/(width*sqrt(pi))
+   end function kernel_of_row
 
    !> Allocate what a level needs once there is a finer one
    subroutine prepare_coarse(self, status)
@@ -122,6 +150,7 @@ contains
 
       numbers = 0
       if (allocated(self%dipole)) numbers = 2*size(self%dipole, kind=int64)
+      if (allocated(self%band)) numbers = numbers + size(self%band, kind=int64)
       if (allocated(self%p_start)) numbers = numbers + 4*size(self%p_start, kind=int64)
       if (allocated(self%raw_change)) numbers = numbers + 3*size(self%raw_change, kind=int64)
       if (allocated(self%lines)) then

@@ -6,7 +6,7 @@ module ehl_moes
    use ehl_scales, only: circle_factor
    implicit none (type, external)
    private
-   public :: operating_t, operating_from_moes, operating_from_si
+   public :: operating_t, operating_from_moes, round_load
 
    !> Operating point. Dimensionless unless a unit is given.
    type :: operating_t
@@ -39,31 +39,9 @@ contains
       point%speed_parameter = (128.0_dp*pi**3/(3.0_dp*point%round_m**4))**(1.0_dp/3.0_dp)
    end function operating_from_moes
 
-   !> Operating point from SI input; 2/E' = sum (1 - nu^2)/E (Zhang et al. 2019, notation)
-   pure function operating_from_si(load, mean_velocity, radius, reduced_modulus, viscosity, &
-                                   alpha, hertz_pressure, ellipticity, kernel_factor) result(point)
-      !> Normal load w [N]
-      real(dp), intent(in) :: load
-      !> Mean velocity (u1 + u2)/2 [m/s]
-      real(dp), intent(in) :: mean_velocity
-      !> Reduced radius R_x in the plane of the motion [m]
-      real(dp), intent(in) :: radius
-      !> Reduced modulus E' [Pa]
-      real(dp), intent(in) :: reduced_modulus
-      !> Viscosity eta0 [Pa s] and pressure-viscosity coefficient alpha [1/Pa] at ambient pressure
-      real(dp), intent(in) :: viscosity, alpha
-      !> Hertz pressure p_h [Pa]
-      real(dp), intent(in) :: hertz_pressure
-      !> kappa and k_b of the contact
-      real(dp), intent(in) :: ellipticity, kernel_factor
-      type(operating_t) :: point
-      real(dp) :: speed, load_2d
-
-      speed = viscosity*mean_velocity/(reduced_modulus*radius)
-      load_2d = load/(reduced_modulus*radius**2)
-      point = operating_from_moes(load_2d*(2.0_dp*speed)**(-0.75_dp), &
-                                  alpha*reduced_modulus*(2.0_dp*speed)**0.25_dp, ellipticity, &
-                                  kernel_factor)
-      point%alpha_bar = alpha*hertz_pressure
-   end function operating_from_si
+   !> M of the round contact with a speed parameter
+   pure real(dp) function round_load(speed_parameter)
+      real(dp), intent(in) :: speed_parameter
+      round_load = (128.0_dp*pi**3/(3.0_dp*speed_parameter**3))**0.25_dp
+   end function round_load
 end module ehl_moes

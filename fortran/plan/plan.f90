@@ -8,7 +8,7 @@ module ehl_plan
    use ehl_domain, only: domain_cost, domain_t
    use ehl_friction_mean, only: automatic_periods
    use ehl_grid_error, only: relative_errors
-   use ehl_grid, only: coarsest_most, find_levels, grid_t, new_grid
+   use ehl_grid, only: coarsest_most, find_levels, grid_t, new_grid, new_strip
    use ehl_inlet, only: inlet_t
    use ehl_kinds, only: dp
    use ehl_lubricant, only: lubricant_t
@@ -31,6 +31,8 @@ module ehl_plan
 
    !> Nested iteration starts on a grid of at least that many nodes a side that has a solution
    integer, parameter :: start_fewest = 33
+   !> Intervals of the coarsest grid of a line
+   integer, parameter :: coarsest_of_line = 64
    !> Lengths of thick films, (2 H_c)^(1/2) [a], and largest mesh of the coarsest grid in terms of them
    real(dp), parameter :: thick_film = 0.8_dp, coarsest_mesh = 0.9_dp
    !> A-priori error of H_c of grids that resolve the inlet: a smooth contact that fails there is restarted with damped cycles
@@ -115,6 +117,8 @@ contains
                                                                          plan%lubricant%boundary_stress)
       plan%film_expected = max(film, plan%lubricant%boundary_film)
       plan%engine = trim(input%solver%deflection)
+      ! a row has no multi-integration
+      if (plan%contact%is_line()) plan%engine = "fft"
       plan%accuracy = input%solver%accuracy
       plan%max_cycles = input%solver%max_cycles
       plan%newtonian_circle = plan%contact%is_round() .and. .not. plan%lubricant%shear%thins_flow()
@@ -208,9 +212,12 @@ contains
          plan%cycle_letter = input%solver%cycle(1:1)
          plan%step_cycle_letter = plan%cycle_letter
       end if
+      ! sweeps of one row are all but Newton steps
+      if (plan%contact%is_line() .and. input%solver%cycle == "auto") plan%cycle_letter = "V"
       plan%cycle = cycle_of(plan%cycle_letter)
+      if (plan%contact%is_line()) plan%cycle%pre = 1
       plan%second_cycle = plan%cycle
-      if (input%solver%cycle == "auto" .and. .not. (plan%surfaces%rough() .or. plan%touches)) then
+      if (plan%cycle%full .and. input%solver%cycle == "auto" .and. .not. (plan%surfaces%rough() .or. plan%touches)) then
          ! The first leaves so little that is smooth that one visit to the coarser levels will do. Not before rough runs:
          ! the error of the smooth friction is one of the ratio.
          plan%second_cycle = cycle_of("V")
@@ -220,7 +227,7 @@ contains
       plan%step_cycle = cycle_of(plan%step_cycle_letter)
       plan%step_cycle%pre = 1
       plan%step_cycle%post = 2
-      plan%coarsening_may_change = input%solver%coarsening == "auto"
+      plan%coarsening_may_change = input%solver%coarsening == "auto" .and. .not. plan%contact%is_line()
       plan%step_cycle%coarsening = merge(coarsening_alcouffe, coarsening_classical, &
                                          input%solver%coarsening == "alcouffe")
    end subroutine pick_cycle
@@ -242,11 +249,19 @@ contains
       type(grid_t) :: grid
       logical :: mirror
       integer :: intervals(2), level
-      real(dp) :: film
+      real(dp) :: film, width
 
       if (status%failed()) return
       mirror = input%solver%symmetry == "auto" .and. plan%contact%is_even() .and. plan%surfaces%even_in_y()
-      call find_levels(input%grid%points, input%grid%points_y, plan%levels, intervals)
+      call find_levels(input%grid%points, merge(input%grid%points, input%grid%points_y, plan%contact%is_line()), plan%levels, &
+                       intervals)
+      if (plan%contact%is_line()) then
+         ! one row of nodes is solved directly on a finer grid for next to nothing
+         do while (intervals(1) < merge(coarsest_most, coarsest_of_line, plan%surfaces%width() > 0.0_dp) .and. plan%levels > 1)
+            intervals = 2*intervals
+            plan%levels = plan%levels - 1
+         end do
+      end if
       ! a coarsest grid that does not resolve a thick film corrects it at random
       film = sqrt(2.0_dp*plan%film_expected)
       if (plan%levels > 1 .and. 2*minval(intervals) <= coarsest_most .and. film > thick_film .and. &
@@ -265,7 +280,18 @@ contains
          end do
       end if
       associate (g => input%grid)
-         plan%coarsest = new_grid(intervals(1) + 1, intervals(2) + 1, g%x_inlet, g%x_outlet, g%y_extent, mirror)
+         if (plan%contact%is_line()) then
+            width = plan%surfaces%width()
+            if (width < 0.0_dp) then
+               call status%fail(ehl_bad_input, "the two surfaces of a line contact have no width in common"//new_line("a")// &
+                                "expected: lengths across the motion one of which is a whole multiple of the other")
+               return
+            end if
+            plan%coarsest = new_strip(intervals(1) + 1, rows_of_strip(width, (g%x_outlet - g%x_inlet)/intervals(1)), g%x_inlet, &
+                                      g%x_outlet, width)
+         else
+            plan%coarsest = new_grid(intervals(1) + 1, intervals(2) + 1, g%x_inlet, g%x_outlet, g%y_extent, mirror)
+         end if
          plan%domain_cost = domain_cost(plan%contact, plan%point, domain_t(g%x_inlet, g%x_outlet, g%y_extent), plan%flooded)
       end associate
       grid = plan%coarsest
@@ -282,4 +308,11 @@ contains
                             plan%contact%reach(2) > wide*plan%contact%reach(1)
       end associate
    end subroutine pick_grids
+
+   !> Rows of the coarsest grid of a strip with cells that are nearly square: an even number, or one where nothing varies along Y
+   pure integer function rows_of_strip(width, mesh)
+      real(dp), intent(in) :: width, mesh
+      rows_of_strip = 1
+      if (width > 0.0_dp) rows_of_strip = 2*max(1, nint(0.5_dp*width/mesh))
+   end function rows_of_strip
 end module ehl_plan

@@ -60,7 +60,7 @@ contains
       if (.not. input%contact%si) return
       associate (c => input%contact, l => input%lubricant)
          sliding%mean_velocity = c%mean_velocity
-         sliding%load = c%load
+         sliding%load = c%size_of_load()
          sliding%inlet_viscosity = l%viscosity
          if (.not. l%thermal_reduction) return
          sliding%loading = thermal_loading(l%temperature_viscosity, l%viscosity, c%mean_velocity, l%thermal_conductivity)

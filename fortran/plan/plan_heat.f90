@@ -12,7 +12,7 @@ module ehl_plan_heat
    use ehl_plan_friction, only: plan_sliding, sliding_t
    use ehl_plan_lubricant, only: plan_lubricant
    use ehl_reason, only: friction_never, friction_newtonian, friction_no_slope, friction_no_sliding, friction_small, &
-                         friction_with_heat, reason_none
+                         friction_wall_at_rest, friction_with_heat, reason_none
    use ehl_scales, only: scales_t
    use ehl_status, only: status_t
    use ehl_wall_heat, only: heat_source, speed_of_rest, wall_strength
@@ -60,6 +60,9 @@ contains
             return
          else if (.not. knows_temperature(input)) then
             plan%reason = friction_no_slope
+            return
+         else if (contact%is_line() .and. .not. minval(abs(sliding%speeds())) > 0.0_dp) then
+            plan%reason = friction_wall_at_rest
             return
          else if (.not. heat%speed > 0.0_dp) then
             plan%reason = friction_no_sliding

@@ -30,6 +30,8 @@ contains
                           scales%pressure])
          call record%set("has_size", scales%has_size())
          call record%set("round", contact%is_round())
+         call record%set("line", contact%is_line())
+         call record%set("round_m", point%round_m)
          call record%set("ellipticity radius_ratio", [contact%ellipticity, contact%radius_ratio])
          call record%set("slide_to_roll mean_velocity heat_estimate_K thermal_loading thermal_reduction inlet_viscosity", &
                          [s%slide_to_roll, s%mean_velocity, plan%heat%estimate, s%loading, s%reduction, s%inlet_viscosity])
@@ -52,6 +54,7 @@ contains
          call record%set("stored_rows", finest%ny)
          call record%set("coarsest_points", g%nx)
          call record%set("coarsest_rows", g%ny)
+         call record%set("strip_width", merge(g%ny*g%hy, 0.0_dp, g%periodic .and. .not. g%is_row()))
       end associate
       call record%set("levels", plan%levels)
       call record%set("start_level", plan%start)

@@ -6,7 +6,7 @@ module ehl_plan_surface
    use ehl_feature, only: feature_t, new_feature
    use ehl_fractal, only: fractal_t, make_fractal
    use ehl_grid, only: grid_t
-   use ehl_harmonic, only: new_harmonic
+   use ehl_harmonic, only: endless, new_harmonic
    use ehl_height_map, only: height_map_t
    use ehl_kinds, only: dp
    use ehl_map_file, only: check_heights, read_map
@@ -23,6 +23,9 @@ module ehl_plan_surface
    !> Length over which the front of a map fades [a]
    real(dp), parameter :: map_front = 0.5_dp
 
+   !> Wavelength across the motion from which on a wave on a line is one that does not vary there
+   real(dp), parameter :: transverse = 1.0e6_dp
+
 contains
 
    !> The surfaces of a case; one of no height beside one that has some is smooth
@@ -33,15 +36,19 @@ contains
       type(status_t), intent(inout) :: status
       !> Heights of the maps of both [m], X first, in place of files; of size 0: none
       real(dp), intent(in), optional :: heights(:, :), second_heights(:, :)
+      type(surface_case_t) :: s(2)
       logical :: none(2)
 
+      s = [input%surface, input%second_surface]
+      ! a transverse wave takes no rows of a strip
+      where (s%wavelength_y >= transverse .and. input%contact%is_line()) s%wavelength_y = endless
       none = [has_no_height(input%surface), has_no_height(input%second_surface)]
       if (present(heights)) none(1) = none(1) .and. size(heights) == 0
       if (present(second_heights)) none(2) = none(2) .and. size(second_heights) == 0
-      if (none(2) .or. .not. none(1)) call add_surface("surface", input%surface, input%contact%si, scales, surfaces, status, &
+      if (none(2) .or. .not. none(1)) call add_surface("surface", s(1), input%contact%si, scales, surfaces, status, &
                                                        heights)
-      if (none(1) .or. .not. none(2)) call add_surface("second_surface", input%second_surface, input%contact%si, scales, &
-                                                       surfaces, status, second_heights)
+      if (none(1) .or. .not. none(2)) call add_surface("second_surface", s(2), input%contact%si, scales, surfaces, status, &
+                                                       second_heights)
    end subroutine make_surfaces
 
    !> The surface of a group; none where it is smooth

@@ -12,6 +12,7 @@ module ehl_far_field
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp, pi
    use ehl_level, only: level_t
+   use ehl_line_inlet, only: set_line_border
    implicit none (type, external)
    private
    public :: far_field_t
@@ -26,6 +27,8 @@ module ehl_far_field
 
    type :: far_field_t
       private
+      !> Whether the contact is an infinite line, whose inlet is another (ehl_line_inlet)
+      logical :: line = .false.
       !> D = R_x/R_y; where the film ruptures, and the share of u
       real(dp) :: radius_ratio = 1.0_dp, rupture = round_rupture, share = round_share
       !> u at equal steps of the angle; not allocated in a round contact
@@ -48,8 +51,9 @@ contains
       real(dp) :: state(2), k(2, 4), angle, ratio, step
       integer :: n
 
+      self%line = contact%is_line()
       self%radius_ratio = contact%radius_ratio
-      if (contact%is_round()) return
+      if (contact%is_round() .or. self%line) return
       if (allocated(self%u)) deallocate (self%u)
       allocate (self%u(0:steps))
       step = pi/steps
@@ -90,6 +94,10 @@ contains
       real(dp) :: speed_parameter
       integer :: i, j
 
+      if (self%line) then
+         call set_line_border(level, load)
+         return
+      end if
       speed_parameter = 1.0_dp/level%flow%inverse_speed
       associate (grid => level%grid)
          do j = 1, grid%ny

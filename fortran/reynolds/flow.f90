@@ -101,17 +101,17 @@ contains
    end subroutine setup
 
    !> Largest conductance along Y of each node of row j and its four neighbours, in columns 2 to nx-1
-   pure subroutine max_neighbour_conductance(self, j, south, values)
+   pure subroutine max_neighbour_conductance(self, j, south, north, values)
       class(flow_t), intent(in) :: self
-      !> The row, and the one below it
-      integer, intent(in) :: j, south
+      !> The row, and those below and above it
+      integer, intent(in) :: j, south, north
       !> Shape (nx)
       real(dp), contiguous, intent(inout) :: values(:)
       integer :: i
 
       do i = 2, size(values) - 1
          values(i) = max(self%eps(i, j, self%dir_y), self%eps(i - 1, j, self%dir_y), self%eps(i + 1, j, self%dir_y), &
-                         self%eps(i, j + 1, self%dir_y), self%eps(i, south, self%dir_y))
+                         self%eps(i, north, self%dir_y), self%eps(i, south, self%dir_y))
       end do
    end subroutine max_neighbour_conductance
 

@@ -75,7 +75,7 @@ contains
       !> Shape (nx)
       real(dp), intent(inout) :: values(:)
       real(dp) :: rx, ry
-      integer :: i, south, nx
+      integer :: i, south, north, nx
 
       nx = self%grid%nx
       if (self%frozen) then
@@ -84,13 +84,15 @@ contains
          return
       end if
       south = self%grid%south(j)
+      north = self%grid%north(j)
       rx = 0.5_dp/self%grid%hx**2
       ry = 0.5_dp/self%grid%hy**2
+      if (self%grid%is_row()) ry = 0.0_dp
       associate (ex => flow%eps(:, :, dir_x), ey => flow%eps(:, :, flow%dir_y))
          do i = 2, nx - 1
             values(i) = rx*((ex(i + 1, j) + ex(i, j))*(p(i + 1, j) - p(i, j)) &
                             + (ex(i - 1, j) + ex(i, j))*(p(i - 1, j) - p(i, j))) &
-                        + ry*((ey(i, j + 1) + ey(i, j))*(p(i, j + 1) - p(i, j)) &
+                        + ry*((ey(i, north) + ey(i, j))*(p(i, north) - p(i, j)) &
                               + (ey(i, south) + ey(i, j))*(p(i, south) - p(i, j)))
          end do
       end associate
@@ -107,15 +109,17 @@ contains
       integer, intent(in) :: j, first, last
       type(line_terms_t), intent(inout) :: terms
       real(dp) :: rx, ry, north, south, pn, ps
-      integer :: i, k, below
+      integer :: i, k, below, above
 
       if (self%frozen) then
          call frozen_line_row(self, p, rhs, j, first, last, terms)
          return
       end if
       below = self%grid%south(j)
+      above = self%grid%north(j)
       rx = 0.5_dp/self%grid%hx**2
       ry = 0.5_dp/self%grid%hy**2
+      if (self%grid%is_row()) ry = 0.0_dp
       associate (ex => flow%eps(:, :, dir_x), ey => flow%eps(:, :, flow%dir_y))
          do i = max(first - 1, 1), min(last, self%grid%nx - 1)
             k = i - first + 1
@@ -124,9 +128,9 @@ contains
          end do
          do i = max(first, 2), min(last, self%grid%nx - 1)
             k = i - first + 1
-            north = ry*(ey(i, j + 1) + ey(i, j))
+            north = ry*(ey(i, above) + ey(i, j))
             south = ry*(ey(i, below) + ey(i, j))
-            pn = p(i, j + 1) - p(i, j)
+            pn = p(i, above) - p(i, j)
             ps = p(i, below) - p(i, j)
             terms%rest(k) = rhs(i) - north*pn - south*ps - terms%east(k)*(p(i + 1, j) - p(i, j)) &
                             - terms%east(k - 1)*(p(i - 1, j) - p(i, j))
@@ -144,9 +148,13 @@ contains
       class(flow_t), intent(in) :: flow
       integer, intent(in) :: j, first, last
       type(line_terms_t), intent(inout) :: terms
-      integer :: i, k, below
+      integer :: i, k, below, above
+      real(dp) :: ry
 
       below = self%grid%south(j)
+      above = self%grid%north(j)
+      ry = 0.5_dp/self%grid%hy**2
+      if (self%grid%is_row()) ry = 0.0_dp
       associate (tx => flow%tangent(:, :, dir_x), ty => flow%tangent(:, :, flow%dir_y), &
                  ey => flow%eps(:, :, flow%dir_y), slope => flow%dlneps_dp(:, :, flow%dir_y))
          do i = max(first - 1, 1), min(last, self%grid%nx - 1)
@@ -155,7 +163,7 @@ contains
          do i = max(first, 2), min(last, self%grid%nx - 1)
             k = i - first + 1
             terms%other(k) = terms%other_rate(k)*ey(i, j)*slope(i, j) &
-                             - 0.5_dp/self%grid%hy**2*(ty(i, j + 1) + 2.0_dp*ty(i, j) + ty(i, below))
+                             - ry*(ty(i, above) + 2.0_dp*ty(i, j) + ty(i, below))
             terms%other_rate(k) = 0.0_dp
          end do
       end associate
@@ -209,13 +217,14 @@ contains
       rate = 0.0_dp
       excess = 0.0_dp
       direction = dir_x
-      neighbour(:, 1:4) = reshape([i + 1, j, i - 1, j, i, j + 1, i, self%grid%south(j)], [2, 4])
+      neighbour(:, 1:4) = reshape([i + 1, j, i - 1, j, i, self%grid%north(j), i, self%grid%south(j)], [2, 4])
       neighbour(:, 5:8) = reshape([i - 1, j + 1, i + 1, j + 1, i - 1, j - 1, i + 1, j - 1], [2, 4])
       if (.not. self%frozen) then
-         n = 4
+         n = merge(2, 4, self%grid%is_row())
          direction(1:4) = [dir_x, dir_x, flow%dir_y, flow%dir_y]
          coupling(1:4) = 0.5_dp/[self%grid%hx**2, self%grid%hx**2, self%grid%hy**2, self%grid%hy**2]
-         do m = 1, 4
+         coupling(n + 1:) = 0.0_dp
+         do m = 1, n
             sum_eps = flow%eps(i, j, direction(m)) + flow%eps(neighbour(1, m), neighbour(2, m), direction(m))
             coupling(m) = coupling(m)*sum_eps
             rate(m) = coupling(m)/sum_eps
@@ -286,6 +295,7 @@ contains
    !> What flows away from a node per pressure there, with the same conductance around; a factor of eps along X
    pure real(dp) function flow_rate(self)
       class(poiseuille_t), intent(in) :: self
-      flow_rate = 2.0_dp/self%grid%hx**2 + 2.0_dp/self%grid%hy**2
+      flow_rate = 2.0_dp/self%grid%hx**2
+      if (.not. self%grid%is_row()) flow_rate = flow_rate + 2.0_dp/self%grid%hy**2
    end function flow_rate
 end module ehl_poiseuille

@@ -27,7 +27,7 @@
 !> Zhang et al. 2019, eqs. 1, 7 and 8; the narrow scheme: Venner & Lubrecht 2000.
 module ehl_reynolds
    use ehl_flow, only: dir_x
-   use ehl_kernel, only: kernel_coefficient
+   use ehl_kernel, only: coefficient
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
    use ehl_node_state, only: zero_inactive_residual
@@ -78,14 +78,14 @@ contains
       integer :: i, j
 
       level%boundary%rate = level%wedge%rate()
-      stored = level%boundary%rate*kernel_coefficient(level%kernel_factor, 0, 0, level%grid%hx, level%grid%hy)
+      stored = level%boundary%rate*coefficient(level%grid, level%kernel_factor, 0, 0)
       flow = level%poiseuille%flow_rate()
       do i = 1, level%grid%nx
          weights(:, i) = level%wedge%weights(i)
       end do
       !$omp parallel do default(none) shared(level, stored, flow, weights) private(i, row, share, elastic) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
-      do j = level%grid%first_inner(), level%grid%ny - 1
+      do j = level%grid%first_inner(), level%grid%last_inner()
          call flow_operator(level, j, row)
          do i = 1, level%grid%nx
             row(i) = level%rhs(i, j) - row(i)
@@ -118,7 +118,7 @@ contains
          call level%boundary%residual_row(level%rhs(:, j), level%mass_content(:, j), j, level%residual(:, j))
          call zero_inactive_residual(level%p(:, j), level%residual(:, j))
          if (level%grid%is_border(j)) level%residual(:, j) = 0.0_dp
-         sums(j) = sum(level%residual(:, j)**2)*level%grid%weight(j)/(level%grid%hx*level%grid%hy)
+         sums(j) = sum(level%residual(:, j)**2)*level%grid%images(j)
       end do
       !$omp end parallel do
       rms = sqrt(sum(sums)/(real(level%grid%nx, dp)*level%grid%full_ny()))
@@ -134,7 +134,7 @@ contains
       integer :: j
 
       associate (grid => level%grid)
-         wedge = kernel_coefficient(level%kernel_factor, 0, 0, grid%hx, grid%hy)/grid%hx
+         wedge = coefficient(grid, level%kernel_factor, 0, 0)/grid%hx
          poiseuille = level%poiseuille%flow_rate()
          !$omp parallel do default(none) shared(level, sums, wedge, poiseuille) private(eps) &
          !$omp num_threads(level%threads) if(level%parallel) schedule(static)
@@ -142,7 +142,7 @@ contains
             eps = level%flow%eps(:, j, dir_x)
             call level%boundary%without_touching(1, j, eps)
             sums(j) = sum((level%residual(:, j)*wedge/(wedge + poiseuille*eps))**2) &
-                      *level%grid%weight(j)/(level%grid%hx*level%grid%hy)
+                      *level%grid%images(j)
          end do
          !$omp end parallel do
          film_residual = sqrt(sum(sums)/(real(grid%nx, dp)*grid%full_ny()))

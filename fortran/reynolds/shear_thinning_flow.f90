@@ -119,8 +119,8 @@ contains
       ry = 0.5_dp*self%gradient/self%grid%hy
       last = first + n - 1
       south = self%grid%south(j)
-      north = j + 1
-      if (j == size(p, 2)) north = south
+      north = self%grid%north(j)
+      if (north > size(p, 2)) north = south
       if (first == 1) s(1, 1) = 2.0_dp*rx*h(1)*(p(2, j) - p(1, j))
       if (last == size(p, 1)) s(n, 1) = 2.0_dp*rx*h(last)*(p(last, j) - p(last - 1, j))
       do i = max(first, 2), min(last, size(p, 1) - 1)

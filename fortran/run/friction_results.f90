@@ -5,10 +5,11 @@ module ehl_friction_results
    use ehl_contact_run, only: contact_run_t
    use ehl_grid, only: grid_t
    use ehl_heat, only: flash_temperature
-   use ehl_kinds, only: dp, not_known, pi
+   use ehl_kinds, only: dp, not_known
    use ehl_level, only: gap
    use ehl_plan, only: plan_t
    use ehl_reason, only: friction_above_limit, friction_no_size, friction_no_smooth, friction_not_converged, friction_rolling, &
+                         friction_rolling_line, &
                          reason_none
    use ehl_touching, only: same_film
    use ehl_wall_heat, only: heat_source
@@ -69,13 +70,13 @@ contains
          if (.not. s%mean_velocity > 0.0_dp) then
             found%reason = friction_no_size
          else if (.not. speed > 0.0_dp) then
-            found%reason = friction_rolling
+            found%reason = merge(friction_rolling_line, friction_rolling, plan%contact%is_line())
          else if (.not. known) then
             found%reason = why_none
          else if (.not. ieee_is_finite(friction)) then
             found%reason = friction_no_smooth
          else if (shear%thins() .or. found%shear_stress <= s%newtonian_limit) then
-            found%mu_isothermal(2) = friction*shear%scale*plan%scales%length**2/s%load
+            found%mu_isothermal(2) = friction*shear%scale*plan%scales%length**plan%contact%dimensions/s%load
             found%reason = plan%heat%reason
          else
             found%reason = friction_above_limit
@@ -90,7 +91,7 @@ contains
          end if
          if (.not. ieee_is_finite(found%mu(1))) return
          source = heat_source(plan%contact)
-         found%flash = flash_temperature(found%mu(1)*s%load*speed/(pi*plan%scales%length**2*plan%contact%ellipticity), &
+         found%flash = flash_temperature(found%mu(1)*s%load*speed/plan%contact%flash_area(plan%scales%length), &
                                          source(1)*plan%scales%length, source(2), s%speeds(), s%conductivity, s%diffusivity)
          if (.not. plan%heat%counts) return
          found%rises = run%smooth_heat%greatest

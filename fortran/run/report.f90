@@ -23,10 +23,14 @@ contains
       type(contact_run_t), intent(in) :: run
 
       associate (plan => run%plan, point => run%plan%point, scales => run%plan%scales, grid => run%grid)
-         call record%set("moes_m moes_l alpha_bar speed_parameter hertz_pressure_Pa", &
+         call record%set(trim(merge("moes_m_line moes_l_line", "moes_m moes_l          ", plan%contact%is_line()))// &
+                         " alpha_bar speed_parameter hertz_pressure_Pa", &
                          [point%moes_m, point%moes_l, point%alpha_bar, point%speed_parameter, scales%pressure])
          if (scales%has_size()) call record%set("hertz_radius_m film_scale_m", [scales%length, scales%film])
-         if (.not. plan%contact%is_round()) then
+         if (plan%contact%is_line()) then
+            call record%set("shape", "line")
+            if (.not. grid%is_row()) call record%set("points_y", grid%ny)
+         else if (.not. plan%contact%is_round()) then
             call record%set("radius_ratio angle_deg ellipticity", &
                             [plan%contact%radius_ratio, plan%contact%angle*180.0_dp/pi, plan%contact%ellipticity])
             if (scales%has_size()) call record%set("semi_axis_y_m", plan%contact%ellipticity*scales%length)
@@ -207,7 +211,8 @@ contains
 
       associate (scales => plan%scales, s => plan%sliding, f => friction)
          call record%set("rolling_moment", f%rolling_moment)
-         if (scales%has_size()) call record%set("rolling_moment_N_m", f%rolling_moment*scales%pressure*scales%length**3)
+         if (scales%has_size()) call record%set(trim(merge("rolling_moment_N  ", "rolling_moment_N_m", plan%contact%is_line())), &
+                                                f%rolling_moment*scales%pressure*scales%length**(1 + plan%contact%dimensions))
          call record%set("shear_law", trim(s%law))
          call record%set("slide_to_roll mu mu_smooth mu_isothermal mu_smooth_isothermal", &
                          [s%slide_to_roll, f%mu, f%mu_isothermal])

@@ -17,6 +17,8 @@ module ehl_report_smooth
    !> What a domain of twice the size would add to F, int 2/r^2 dA = 4 pi ln 2 over a gap of r^2/2 and the viscosity of
    !> the inlet. It counts for lubricants whose viscosity hardly rises with pressure.
    real(dp), parameter :: friction_beyond = 4.0_dp*pi*log(2.0_dp)
+   !> The same of a line from an inlet at 2.5 and an outlet at 1.5 on: int 2/X^2 dX over as much again on either side
+   real(dp), parameter :: line_friction_beyond = 1.0_dp/2.5_dp + 1.0_dp/1.5_dp
 
 contains
 
@@ -117,7 +119,8 @@ contains
       end if
       known(2) = known(2) .and. knows_friction(plan, smooth, n)
       associate (m => smooth%results(n)%m)
-         error = error + [m%pressure_maximum, m%friction]*plan%domain_cost(1) + [0.0_dp, friction_beyond]
+         error = error + [m%pressure_maximum, m%friction]*plan%domain_cost(1) &
+                 + [0.0_dp, merge(line_friction_beyond, friction_beyond, plan%contact%is_line())]
          ! the load that may or may not be at the boundary film
          if (n > 1) error(2) = error(2) + plan%lubricant%boundary_stress*m%load*share_error(smooth%results, n, plan%inlet)
       end associate

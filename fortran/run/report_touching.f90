@@ -79,7 +79,7 @@ contains
             note = reason_much_supplied
             error = not_known
          end if
-         numbers([2, 5]) = numbers([2, 5])/(pi*plan%contact%ellipticity)
+         numbers([2, 5]) = numbers([2, 5])/plan%contact%area()
          call record%set("boundary_film contact_load_share contact_load_share_error contact_load_share_error_grid "// &
                          "contact_load_share_error_stop", &
                          [plan%lubricant%boundary_film, numbers(1), error + stop_error, error, stop_error])

@@ -6,7 +6,10 @@ module ehl_harmonic
    use ehl_surface, only: aliased_below, surface_t
    implicit none (type, external)
    private
-   public :: new_harmonic
+   public :: new_harmonic, endless
+
+   !> Wavelength across the motion of a wave that does not vary there [a]
+   real(dp), parameter :: endless = 1.0e30_dp
 
    !> RR = A_i 10^(-10 max(0, (X - X_f)/lambda_x)^2) cos(2 pi (X - X_f)/lambda_x) cos(2 pi Y/lambda_y)
    type, extends(surface_t) :: harmonic_t
@@ -33,6 +36,7 @@ contains
       self%velocity_ratio = velocity_ratio
       self%x_start = x_start
       self%period = wavelength_x
+      if (wavelength_y < endless) self%period_y = wavelength_y
       self%front_length = wavelength_x
    end function new_harmonic
 
@@ -48,10 +52,11 @@ contains
       if (any(has < nodes) .or. any(has <= aliased_below)) unresolved = 1.0_dp
    end function unresolved
 
-   !> Of a product of two cosines
+   !> Of a product of two cosines, or of one
    pure real(dp) function rms_height(self)
       class(harmonic_t), intent(in) :: self
       rms_height = 0.5_dp*self%amplitude
+      if (.not. self%wavelength_y < endless) rms_height = sqrt(2.0_dp)*rms_height
    end function rms_height
 
    !> Of two equal waves by their distance along X; others have nothing in common

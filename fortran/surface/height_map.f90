@@ -72,6 +72,7 @@ contains
       self%period = length(1)
       self%front_length = front_length
       call self%waves%take(heights, scale, length, mirrored, status)
+      self%period_y = self%waves%length(2)
       if (status%failed()) return
       self%even_in_y = self%waves%even_in_y
       self%variance_whole = self%waves%variance(all_waves)

@@ -36,6 +36,7 @@ module ehl_rough_surfaces
       procedure :: count => count_surfaces
       procedure :: rough
       procedure :: even_in_y
+      procedure :: width
       procedure :: move_together
       procedure :: has_spectrum
       procedure :: same_on_grids
@@ -100,6 +101,22 @@ contains
       integer :: k
       even_in_y = all([(self%of(k)%surface%even_in_y, k=1, self%count())])
    end function even_in_y
+
+   !> Width of a strip of all of them, which repeats along Y; 0: nothing varies along Y, negative: they have none in common
+   pure real(dp) function width(self)
+      class(rough_surfaces_t), intent(in) :: self
+      real(dp), parameter :: rounding = 1.0e-9_dp
+      integer :: k
+
+      width = maxval([0.0_dp, (self%of(k)%surface%period_y, k=1, self%count())])
+      do k = 1, self%count()
+         associate (own => self%of(k)%surface%period_y)
+            if (.not. own > 0.0_dp) cycle
+            if (abs(width/own - nint(width/own)) > rounding*width/own) width = -1.0_dp
+         end associate
+         if (width < 0.0_dp) return
+      end do
+   end function width
 
    !> Whether there are two that are at one velocity, or at rest
    pure logical function move_together(self)

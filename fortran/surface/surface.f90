@@ -32,6 +32,8 @@ module ehl_surface
       logical :: passes_once = .false.
       !> Whether RR(X, -Y) = RR(X, Y), to the bit: half the domain is enough
       logical :: even_in_y = .true.
+      !> Length after which the pattern repeats along Y [a]; 0: it does not vary, or not repeat
+      real(dp) :: period_y = 0.0_dp
       !> Amplitude A_i of a wave, height or depth of a feature [a^2/R]; negative: it has none
       real(dp) :: amplitude = -1.0_dp
       !> Variance of the heights [(a^2/R)^2], and before their spectrum was cut; 0: not known

@@ -4,7 +4,7 @@ module test_deflection
    use check, only: is_true, is_close, is_equal, has_text
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_kinds, only: dp, pi
-   use ehl_grid, only: grid_t, new_grid
+   use ehl_grid, only: grid_t, new_grid, new_strip
    use ehl_status, only: status_t, ehl_bad_input
    use ehl_kernel, only: kernel_coefficient
    use ehl_deflection, only: deflection_t
@@ -24,6 +24,8 @@ contains
    subroutine run_deflection()
       call kernel_is_exact()
       call engines_give_hertz()
+      call row_is_hertz()
+      call strip_is_periodic()
       call fft_is_direct()
       call mlmi_is_direct()
       call folded_is_whole()
@@ -54,6 +56,72 @@ contains
          call is_close(parts/whole, 1.0_dp, 1.0e-12_dp, "kernel of nine cells")
       end do
    end subroutine kernel_is_exact
+
+   !> Under the Hertz pressure of a line W + X^2/2 does not vary, order 1.5; sum and FFT give the same
+   subroutine row_is_hertz()
+      class(deflection_t), allocatable :: engine
+      type(grid_t) :: grid
+      type(status_t) :: status
+      real(dp), allocatable :: p(:, :), w(:, :), other(:, :), x(:)
+      real(dp) :: error(2)
+      integer :: n
+
+      do n = 1, 2
+         grid = new_strip(256*2**n + 1, 1, -2.0_dp, 2.0_dp, 0.0_dp)
+         x = grid%columns()
+         allocate (p(grid%nx, 1), w(grid%nx, 1), other(grid%nx, 1))
+         p(:, 1) = sqrt(max(0.0_dp, 1.0_dp - x**2))
+         call new_deflection("fft", engine, status, grid)
+         call engine%setup(grid, 0.5_dp/pi, 0.0_dp, 1, status)
+         call engine%apply(p, w)
+         call new_deflection("fft", engine, status)
+         call engine%setup(grid, 0.5_dp/pi, 0.0_dp, 2, status)
+         call engine%apply(p, other)
+         call is_true(.not. status%failed(), "engines of a row")
+         call is_close(maxval(abs(w - other)), 0.0_dp, 1.0e-13_dp, "row: sum and FFT")
+         ! H00 of the dry contact is -(1 + 2 ln 2)/4
+         w(:, 1) = w(:, 1) + 0.5_dp*x**2 - 0.25_dp - 0.5_dp*log(2.0_dp)
+         error(n) = maxval(abs(w(:, 1)), mask=abs(x) < 0.8_dp)
+         deallocate (p, w, other)
+      end do
+      call is_close(error(2), 0.0_dp, 2.5e-5_dp, "row: Hertz, inside")
+      call is_true(error(2) < 0.4_dp*error(1), "row: Hertz converges")
+   end subroutine row_is_hertz
+
+   !> On a strip its mean over Y is that of a row, and a wave of one period across an endless length is deflected by
+   !> 2 pi k_b/q, to the second order of the cells: (q h)^2/24
+   subroutine strip_is_periodic()
+      class(deflection_t), allocatable :: engine
+      type(grid_t) :: grid, row
+      type(status_t) :: status
+      real(dp), allocatable :: p(:, :), w(:, :), of_row(:, :)
+      real(dp), parameter :: factor = 0.5_dp/pi, width = 0.75_dp
+      real(dp) :: q
+      integer :: j
+
+      grid = new_strip(513, 32, -6.0_dp, 6.0_dp, width)
+      row = new_strip(513, 1, -6.0_dp, 6.0_dp, 0.0_dp)
+      allocate (p(513, 32), w(513, 32), of_row(513, 1))
+      q = 2.0_dp*pi/width
+      do j = 1, grid%ny
+         p(:, j) = cos(q*grid%y(j))
+      end do
+      call new_deflection("fft", engine, status, grid)
+      call engine%setup(grid, factor, 0.0_dp, 2, status)
+      call engine%apply(p, w)
+      call is_close(maxval(abs(w(257, :)/p(257, :) - 2.0_dp*pi*factor/q), mask=abs(p(257, :)) > 0.5_dp), 0.0_dp, &
+                    2.0_dp*pi*factor/q*(q*grid%hy)**2/20.0_dp, "strip: a wave across")
+      call is_close(sum(w)/size(w), 0.0_dp, 1.0e-14_dp, "strip: no mean")
+      do j = 1, grid%ny
+         p(:, j) = (1.0_dp + 0.9_dp*p(:, j))*max(0.0_dp, 1.0_dp - grid%columns()**2)
+      end do
+      call engine%apply(p, w)
+      call new_deflection("fft", engine, status, row)
+      call engine%setup(row, factor, 0.0_dp, 1, status)
+      call engine%apply(reshape(sum(p, dim=2)/grid%ny, [513, 1]), of_row)
+      call is_close(maxval(abs(sum(w, dim=2)/grid%ny - of_row(:, 1))), 0.0_dp, 1.0e-12_dp, "strip: its mean is a row")
+      call is_true(.not. status%failed(), "engines of a strip")
+   end subroutine strip_is_periodic
 
    !> W = 1 - r^2/2 inside the contact, its continuation outside. A pressure that is constant
    !> in each cell errs most at the edge of the contact, where its slope is infinite: by 7.7e-4

@@ -8,7 +8,7 @@ module test_solver
    use ehl_case, only: case_t
    use ehl_read_case, only: read_case
    use ehl_contact, only: contact_t
-   use ehl_contact_factory, only: hertz_scales, new_contact
+   use ehl_contact_factory, only: new_contact
    use ehl_deflection, only: deflection_t
    use ehl_deflection_factory, only: new_deflection
    use ehl_film, only: update_coefficients
@@ -18,7 +18,7 @@ module test_solver
    use ehl_level, only: level_t
    use ehl_line_system, only: last_active, solve_lines
    use ehl_lubricant, only: density_dowson_higginson, new_lubricant, viscosity_roelands
-   use ehl_moes, only: operating_from_si, operating_t
+   use ehl_moes, only: operating_t
    use ehl_relaxation, only: usual_log_change, relax
    use ehl_solver, only: solver_t
    use ehl_scales, only: scales_t
@@ -59,11 +59,13 @@ contains
       type(operating_t) :: point
       class(contact_t), allocatable :: contact
       type(scales_t) :: scales
+      real(dp) :: speed
 
       call new_contact(1.0_dp, 0.0_dp, contact)
-      scales = hertz_scales(contact, 600.0_dp, 0.018_dp, 2.26e11_dp)
-      point = operating_from_si(600.0_dp, 0.84_dp, 0.018_dp, 2.26e11_dp, 0.04_dp, 2.2e-8_dp, scales%pressure, &
-                                contact%ellipticity, contact%kernel_factor)
+      scales = contact%scales(600.0_dp, 0.018_dp, 2.26e11_dp)
+      speed = 0.04_dp*0.84_dp/(2.26e11_dp*0.018_dp)
+      point = contact%operating(contact%moes_load(600.0_dp, 0.018_dp, 2.26e11_dp, speed), &
+                                2.2e-8_dp*2.26e11_dp*(2.0_dp*speed)**0.25_dp)
       call is_close(scales%length, 4.1540e-4_dp, 1.0e-8_dp, "Hertz radius")
       call is_close(scales%pressure, 1.6602e9_dp, 1.0e5_dp, "Hertz pressure")
       call is_close(point%moes_m, 1000.0_dp, 0.05_dp, "M")

@@ -3,7 +3,7 @@
 module ehl_time_levels
    use ehl_contact, only: contact_t
    use ehl_flow, only: dir_x
-   use ehl_kernel, only: kernel_coefficient
+   use ehl_kernel, only: coefficient
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
    implicit none (type, external)
@@ -62,7 +62,7 @@ contains
 
       time = 1.0_dp/level%wedge%squeeze
       ! by a change of pressure at one node, with rho = 1; of it flows away, with eps = 1
-      stored = level%wedge%squeeze*kernel_coefficient(level%kernel_factor, 0, 0, level%grid%hx, level%grid%hy)
+      stored = level%wedge%squeeze*coefficient(level%grid, level%kernel_factor, 0, 0)
       flow = level%poiseuille%flow_rate()
       !$omp parallel do default(none) shared(level, mass_content, p_before, time, stored, flow) private(i) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)

@@ -128,7 +128,9 @@ class Case:
         """Operating point, surface and grid in one line."""
         groups = self.resolve()
         contact = groups["contact"]
-        names = {"moes_m": "M", "moes_l": "L", "load": "load_N", "mean_velocity": "velocity_m_s"}
+        names = {"moes_m": "M", "moes_l": "L", "moes_m_line": "M_line", "moes_l_line": "L_line"}
+        names |= {"load": "load_N", "load_per_length": "load_N_per_m"}
+        names |= {"mean_velocity": "velocity_m_s"}
         facts = [f"{names[key]}={contact[key]:g}" for key in names if key in contact]
         kinds = (groups[name]["kind"] for name in ("surface", "second_surface") if name in groups)
         facts += [" and ".join(kinds), f"{groups['grid']['points']} points"]

@@ -4,7 +4,7 @@
 from collections.abc import Callable
 from contextlib import suppress
 
-from pyehl.case import contact, density, grid, lubricant, radii, surfaces, temperature
+from pyehl.case import contact, density, grid, line, lubricant, radii, surfaces, temperature
 from pyehl.case.draft import Draft
 from pyehl.case.settings import GROUPS, MACHINES
 from pyehl.errors import InputError
@@ -43,6 +43,7 @@ COMPLETIONS: tuple[Step, ...] = (
 )
 STEPS: tuple[Step, ...] = (
     check_no_machine,
+    line.check_keys,
     *COMPLETIONS[:6],
     contact.check_operating_point,
     grid.complete,

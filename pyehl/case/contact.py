@@ -10,8 +10,16 @@ from pyehl.case.groups import Contact
 from pyehl.case.number import short, to_text
 from pyehl.case.settings import KEYS
 
-MOES = ("moes_m", "moes_l", "radius_ratio")
-SI = ("load", "mean_velocity", "radius", "reduced_modulus", "radius_x", "radius_y")
+MOES = ("moes_m", "moes_l", "radius_ratio", "moes_m_line", "moes_l_line")
+SI = (
+    "load",
+    "load_per_length",
+    "mean_velocity",
+    "radius",
+    "reduced_modulus",
+    "radius_x",
+    "radius_y",
+)
 # Largest M of a round contact with the same equations
 MOST_M = 1e5
 # Least p_h/E' of a contact that can be meant: 0.1 MPa between steel bodies
@@ -22,6 +30,7 @@ ROUNDING = 1e-9
 # the radii of bodies around that of the ball
 COMMON = {
     "contact.load": 3.0,
+    "contact.load_per_length": 3.0,
     "contact.mean_velocity": 2.0,
     "contact.radius": 1.0,
     "contact.reduced_modulus": 0.5,
@@ -58,11 +67,12 @@ def check_operating_point(draft: Draft) -> None:
         f"{short(point.round_m)}"
     )
     if not c.si:
+        moes_m, moes_l = ("moes_m_line", "moes_l_line") if c.is_line else ("moes_m", "moes_l")
         if point.round_m > MOST_M:
-            draft.refuse("contact.moes_m", too_large, "a moes_m that makes it 1e5 at most")
-        if oil.pressure_viscosity <= 0.0 < c.moes_l:
-            expected = "moes_l = 0.0, or a pressure_viscosity above 0"
-            draft.contradict("lubricant.pressure_viscosity", "contact.moes_l", expected)
+            draft.refuse(f"contact.{moes_m}", too_large, f"a {moes_m} that makes it 1e5 at most")
+        if oil.pressure_viscosity <= 0.0 < point.moes_l:
+            expected = f"{moes_l} = 0.0, or a pressure_viscosity above 0"
+            draft.contradict("lubricant.pressure_viscosity", f"contact.{moes_l}", expected)
         return
     least = LEAST_STRAIN * c.reduced_modulus
     if not least <= point.pressure <= 2e10:

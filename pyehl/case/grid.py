@@ -34,7 +34,9 @@ def check_extent(draft: Draft) -> None:
         expected = "'zero': the pressure far from a turned contact is not known"
         draft.refuse("grid.border", what, expected)
     point = physics.point(draft.settings)
-    reaches = (point.reach_x, point.reach_x, point.reach_y)
+    # a line has no sides
+    reach_y = 0.0 if draft.settings.contact.is_line else point.reach_y
+    reaches = (point.reach_x, point.reach_x, reach_y)
     for end, value, reach in zip(ENDS, (-g.x_inlet, g.x_outlet, g.y_extent), reaches, strict=True):
         if value < BEYOND_CONTACT * reach:
             what = (
@@ -48,7 +50,8 @@ def check_points(draft: Draft) -> None:
     """Refuse nodes whose intervals cannot be halved down to those of a coarsest grid."""
     points = draft.settings.grid.points
     if _coarsest(points, points):
-        _check_rows(draft)
+        if not draft.settings.contact.is_line:
+            _check_rows(draft)
         return
     below = above = points
     while below > 17 and not _coarsest(below, below):

@@ -14,8 +14,15 @@ from pyehl.case.key import real, truth, whole, word
 class Contact:
     """``&contact``: the operating point, by its Moes numbers or in SI units."""
 
+    shape: str = word(
+        "point", "point|line", "point contact, or an infinite line with keys of its own"
+    )
     moes_m: float = real(1000.0, "-", "(0, 1e6]", "Moes load parameter M")
     moes_l: float = real(10.0, "-", "[0, 100]", "Moes material parameter L")
+    moes_m_line: float = real(
+        20.0, "-", "(0, 1e4]", "Moes load parameter M of a line, w/(E' R) (2U)^(-1/2)"
+    )
+    moes_l_line: float = real(10.0, "-", "[0, 100]", "Moes material parameter L of a line")
     radius_ratio: float = real(
         1.0,
         "-",
@@ -23,8 +30,9 @@ class Contact:
         "R_x/R_y of an elliptical contact, whose M and L are by R_x; 1: round",
     )
     load: float = real(600.0, "N", "(0, 1e5]", "load")
+    load_per_length: float = real(2e5, "N/m", "(0, 1e9]", "load on a line, per length")
     mean_velocity: float = real(0.84, "m/s", "(0, 200]", "mean velocity of the two surfaces")
-    radius: float = real(0.018, "m", "[1e-5, 10]", "reduced radius of a round contact")
+    radius: float = real(0.018, "m", "[1e-5, 10]", "reduced radius of a round or line contact")
     radius_x: float = real(
         0.0, "m", "0 or [1e-5, 1000]", "reduced radius in the plane of the motion; 0: radius"
     )
@@ -75,6 +83,11 @@ class Contact:
     """Whether load, mean_velocity, radius and reduced_modulus hold, else moes_m and moes_l."""
     round: bool = True
     """Whether `radius` holds, else radius_x and radius_y."""
+
+    @property
+    def is_line(self) -> bool:
+        """Whether the contact is an infinite line."""
+        return self.shape == "line"
 
 
 @dataclass(slots=True)

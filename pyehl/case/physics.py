@@ -43,9 +43,12 @@ class Domain(NamedTuple):
 def _contact(settings: Settings) -> tuple[float, ...]:
     """Give what makes the contact, in the order of the extension."""
     c, oil = settings.contact, settings.lubricant
+    load, moes_m, moes_l = c.load, c.moes_m, c.moes_l
+    if c.is_line:
+        load, moes_m, moes_l = c.load_per_length, c.moes_m_line, c.moes_l_line
     return (
-        *(c.si, c.radius_ratio, c.angle, c.load, c.mean_velocity, c.radius_x, c.reduced_modulus),
-        *(oil.viscosity, oil.pressure_viscosity, c.moes_m, c.moes_l),
+        *(c.is_line, c.si, c.radius_ratio, c.angle, load, c.mean_velocity, c.radius_x),
+        *(c.reduced_modulus, oil.viscosity, oil.pressure_viscosity, moes_m, moes_l),
     )
 
 

@@ -8,6 +8,7 @@ from pyehl.case.settings import KEYS
 # Relative difference of values that is none
 ROUNDING = 1e-6
 RIVALS = ("radius_x", "radius_y", "reduced_modulus", "radius", "moes_m", "moes_l", "radius_ratio")
+RIVALS_OF_LINE = ("radius", "reduced_modulus", "moes_m_line", "moes_l_line")
 
 
 def complete(draft: Draft) -> None:
@@ -16,7 +17,7 @@ def complete(draft: Draft) -> None:
     c = draft.settings.contact
     if not c.si:
         return
-    c.round = not (c.radius_x > 0.0 or c.radius_y > 0.0)
+    c.round = c.is_line or not (c.radius_x > 0.0 or c.radius_y > 0.0)
     if c.round:
         c.radius_x = c.radius_y = c.radius
     elif not (c.radius_x > 0.0 and c.radius_y > 0.0):
@@ -60,6 +61,9 @@ def _complete_bodies(draft: Draft) -> None:
             + (1.0 - b.poisson_2 * b.poisson_2) / b.modulus_2
         ),
     )
+    if c.is_line:
+        _complete_line(draft, first, follows[0], follows[2])
+        return
     # a resolved case has these with the bodies
     values = (c.radius_x, c.radius_y, c.reduced_modulus)
     agrees = [abs(v - f) <= ROUNDING * f for v, f in zip(values, follows, strict=True)]
@@ -72,6 +76,21 @@ def _complete_bodies(draft: Draft) -> None:
     _check_open(draft, "radius_y", b.radius_y1, b.radius_y2, c.radius_y)
     softer = "bodies.modulus_1" if b.modulus_1 < b.modulus_2 else "bodies.modulus_2"
     draft.check_range("contact.reduced_modulus", c.reduced_modulus, softer, "the bodies")
+
+
+def _complete_line(draft: Draft, first: str, radius: float, modulus: float) -> None:
+    """Take reduced radius and modulus of bodies that touch along a line."""
+    b, c = draft.settings.bodies, draft.settings.contact
+    agrees = [
+        abs(value - follows) <= ROUNDING * follows
+        for value, follows in ((c.radius, radius), (c.reduced_modulus, modulus))
+    ]
+    for name, agree in zip(RIVALS_OF_LINE, [*agrees, False, False], strict=True):
+        if not agree and draft.is_given("contact", name):
+            expected = "the bodies, or reduced radius and modulus, or Moes numbers"
+            draft.contradict(first, f"contact.{name}", expected)
+    _check_open(draft, "radius_x", b.radius_x1, b.radius_x2, radius)
+    c.radius, c.reduced_modulus = radius, modulus
 
 
 def _reduced(one: float, other: float) -> float:

@@ -13,6 +13,9 @@ OPTIONAL = (
     *("table_temperature", "table_pressure", "table_viscosity"),
 )
 """Keys of the lubricant that are written where they say something."""
+LINE_ALONE = ("shape", "load_per_length", "moes_m_line", "moes_l_line")
+POINT_ALONE = ("load", "moes_m", "moes_l", "radius_ratio", "angle")
+"""Keys of a line, and keys that a line does not have."""
 LAWS = {
     "vogel": "dicke",
     "dicke": "dicke",
@@ -96,16 +99,23 @@ def _unwritten(settings: Settings, group: str) -> frozenset[str]:
         return frozenset(_of_lubricant(settings))
     if group in ("surface", "second_surface"):
         return frozenset(_of_surface(settings, group))
+    if settings.contact.is_line:
+        # one row of nodes
+        return frozenset(
+            {"grid": ("y_extent", "points_y"), "solver": ("deflection",)}.get(group, ())
+        )
     return frozenset()
 
 
 def _of_contact(settings: Settings) -> Iterator[str]:
     c = settings.contact
+    yield from POINT_ALONE if c.is_line else LINE_ALONE
     if c.si:
-        yield from ("moes_m", "moes_l", "radius_ratio")
+        yield from ("moes_m", "moes_l", "radius_ratio", "moes_m_line", "moes_l_line")
         yield from ("radius_x", "radius_y") if c.round else ("radius",)
     else:
-        yield from ("load", "mean_velocity", "reduced_modulus", "radius", "radius_x", "radius_y")
+        yield from ("load", "load_per_length", "mean_velocity", "reduced_modulus")
+        yield from ("radius", "radius_x", "radius_y")
     for key in ("hardness", "thermal_conductivity_2", "thermal_diffusivity_2"):
         if getattr(c, key) <= 0.0:
             yield key

@@ -29,7 +29,7 @@ from pyehl.plots.style import (
 from pyehl.schema import summary_of
 from pyehl.surfaces import Topography, wavenumbers
 from pyehl.theory.ellipse import ellipse
-from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.line_contact import contact_of
 from pyehl.theory.transport import stiffness
 from pyehl.types import Array
 
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 
 def scales_of(data: xr.Dataset, units: str = "auto") -> Scales | None:
     """Scales of a solution for `units`: 'si', 'hertz', or 'auto' for SI when the case has them."""
-    point = OperatingPoint.from_settings(namelist.values(data.attrs["case"]))
+    point = contact_of(namelist.values(data.attrs["case"]))
     if units == "si" or (units == "auto" and point.si):
         thin = float(summary_of(data).get("H_c") or 0.0) * point.film_scale < THIN
         return Scales(point.hertz_radius, point.hertz_pressure, point.film_scale, thin)
@@ -66,13 +66,18 @@ def solution_figures(data: xr.Dataset, units: str = "auto") -> dict[str, Figure]
     scales = scales_of(data, units)
     title = headline(summary_of(data), scales)
     figures = {}
-    if "P" in data:
+    line = summary_of(data).get("shape") == "line"
+    if "P" in data and line:
+        # a line has no map
+        figures["pressure_and_film"] = _one_row(data, scales, title)
+    elif "P" in data:
         figures["centre_lines"] = _centre_lines(data, scales, title)
         # fringes and contours are those of a film
         if data.H.values[nearest(data.X.values, 0.0), nearest(data.Y.values, 0.0)] > 0.0:
             figures["film"] = _film(data, scales, title)
-    if "A_d" in data:
+    if "A_d" in data and not line:
         figures["deformed_roughness"] = _deformed(data, scales, title)
+    if "A_d" in data:
         figures["rough_and_smooth"] = _rough_and_smooth(data, scales, title)
     if "history_T" in data and data.sizes["history"] > 1:
         figures["friction"] = _friction(data, scales, title)
@@ -91,6 +96,18 @@ def _centre_lines(data: xr.Dataset, scales: Scales | None, title: str) -> Figure
     contact.pressure_and_film(y, p[i, :], h[i, :], scales, name="y", half=across, ax=right)
     twins = [ax for ax in figure.axes if ax not in (left, right)]
     lines = [*left.get_lines(), *twins[0].get_lines()]
+    figure.legend(handles=lines, loc="outside lower center", ncols=3)
+    return figure
+
+
+def _one_row(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
+    """Pressure and film over x of a line contact, in the middle of its strip."""
+    figure = panels(1, (1.0, 0.6), title)
+    (ax,) = figure.axes
+    row = nearest(data["Y"].values, 0.0)
+    pressure, film = (data[name].values[:, row] for name in "PH")
+    contact.pressure_and_film(data["X"].values, pressure, film, scales, ax=ax)
+    lines = [line for axes in figure.axes for line in axes.get_lines()]
     figure.legend(handles=lines, loc="outside lower center", ncols=3)
     return figure
 
@@ -177,7 +194,7 @@ def _friction(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
         period=float(about["T_mean"]),
         mean=about.get("mu_ratio"),
         formula=transient.eq_16(about, settings),
-        seconds=OperatingPoint.from_settings(settings).time_scale if scales else 0.0,
+        seconds=contact_of(settings).time_scale if scales else 0.0,
         ax=figure.axes[0],
     )
     return figure

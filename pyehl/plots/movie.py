@@ -56,6 +56,11 @@ def movie(
             "there are no frames to make a movie of\n"
             "expected: the result of a transient run with output.frame_interval, such as 0.05"
         )
+    if data.attrs.get("shape") == "line":
+        raise InputError(
+            "contact.shape = 'line': a movie is of maps, and a line has none\n"
+            "expected: 'pyehl plot' of its result"
+        )
     if not (math.isfinite(seconds) and LEAST_SECONDS <= seconds <= MOST_SECONDS):
         raise InputError(
             f"frame_seconds = {seconds:g}: expected {LEAST_SECONDS:g} ... {MOST_SECONDS:g} s"

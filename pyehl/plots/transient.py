@@ -36,7 +36,7 @@ def eq_16(summary: Mapping[str, Any], settings: Settings) -> float | None:
     film, amplitude = summary.get("H_c"), summary.get("amplitude")
     if settings.get("second_surface", {}).get("kind", "smooth") != "smooth":
         return None
-    elliptical = float(summary.get("ellipticity", 1.0)) != 1.0
+    elliptical = float(summary.get("ellipticity", 1.0)) != 1.0 or summary.get("shape") == "line"
     if surface["kind"] != "harmonic" or elliptical or not film or not amplitude:
         return None
     wavelength = float(surface["wavelength_x"])

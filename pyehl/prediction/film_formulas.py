@@ -8,7 +8,7 @@ from typing import Any
 
 from pyehl import display, schema, surfaces
 from pyehl.prediction.second_surface import composite_rms, sum_of
-from pyehl.theory import film, stribeck
+from pyehl.theory import film, line_contact, stribeck
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.moes_film import regime
 from pyehl.theory.operating import OperatingPoint
@@ -75,6 +75,8 @@ def sheet(settings: Settings) -> dict[str, Any]:
     ratio and (harmonic only) theta_2 with eq. 16. There are no formulas for an ellipse that is
     turned against the motion, and nothing of a film.
     """
+    if settings["contact"].get("shape") == "line":
+        return _line_sheet(settings)
     operating = OperatingPoint.from_settings(settings)
     angle = float(settings["contact"]["angle"])
     turned = angle != 0.0 and operating.radius_ratio != 1.0
@@ -106,22 +108,7 @@ def sheet(settings: Settings) -> dict[str, Any]:
         "g_e": operating.elasticity_parameter,
         "left_out": left_out(settings, lubricant),
         "regime": regime(operating.moes_m, operating.moes_l, operating.ellipse),
-        "formulas": [
-            {
-                "name": f.name,
-                "source": f.source,
-                "regime": f.regime,
-                "applies": f.applies,
-                "h_c_m": f.h_c,
-                "h_min_m": f.h_min if math.isfinite(f.h_min) else None,
-                "H_c": f.h_c / operating.film_scale,
-                "H_min": f.h_min / operating.film_scale if math.isfinite(f.h_min) else None,
-                "range": {name: list(bounds) for name, bounds in f.bounds.items()},
-                "outside": list(f.outside),
-                "note": f.note,
-            }
-            for f in films
-        ],
+        "formulas": [_record(f, operating.film_scale) for f in films],
     }
     if operating.radius_ratio != 1.0:
         result["radius_ratio"] = operating.radius_ratio
@@ -158,6 +145,70 @@ def sheet(settings: Settings) -> dict[str, Any]:
     return result
 
 
+def _line_sheet(settings: Settings) -> dict[str, Any]:
+    """Return the same of a line contact, which is smooth."""
+    line = line_contact.LineContact.from_settings(settings)
+    lubricant = Lubricant.from_settings(settings)
+    both = [settings[group] for group in surfaces.rough_groups(settings)]
+    kinds = [str(surface["kind"]) for surface in both]
+    result: dict[str, Any] = {
+        "kind": "film",
+        "schema_version": schema.VERSION,
+        "shape": "line",
+        "load_per_length_N_per_m": line.load_per_length,
+        "mean_velocity_m_per_s": line.mean_velocity,
+        "radius_m": line.radius,
+        "reduced_modulus_Pa": line.reduced_modulus,
+        "viscosity_Pa_s": line.viscosity,
+        "pressure_viscosity_per_Pa": line.pressure_viscosity,
+        "viscosity_ambient_Pa_s": lubricant.viscosity,
+        "thermal_reduction": line.thermal_reduction,
+        "si": line.si,
+        "moes_m_line": line.moes_m,
+        "moes_l_line": line.moes_l,
+        "U": line.speed,
+        "G": line.material,
+        "W": line.load_number,
+        "alpha_bar": line.alpha_bar,
+        "hertz_radius_m": line.half_width,
+        "hertz_pressure_Pa": line.hertz_pressure,
+        "film_scale_m": line.film_scale,
+        "speed_parameter": line.speed_parameter,
+        "left_out": left_out(settings, lubricant),
+        "regime": line_contact.regime(line.moes_m, line.moes_l),
+        "formulas": [_record(f, line.film_scale) for f in line_contact.estimates(line, lubricant)],
+        "surface": " and ".join(kinds) or "smooth",
+    }
+    # waves of a height over the film tell nothing of it
+    if kinds and set(kinds) <= {"map", "fractal"}:
+        h_c = line_contact.central_film(line, lubricant)
+        tiles = [
+            surfaces.from_settings({**settings, "surface": surface}, line, h_c) for surface in both
+        ]
+        together = sum_of(both, tiles, line.half_width) if len(tiles) == 2 else None
+        result["rms_height_m"] = sigma = composite_rms(tiles, together)
+        result["lambda_ratio_central"] = h_c / sigma if sigma > 0.0 else None
+    return result
+
+
+def _record(formula: film.FilmEstimate, scale: float) -> dict[str, Any]:
+    """Return what a formula gives, with films in metres and over a scale [m]."""
+    h_c, h_min = (h if math.isfinite(h) else None for h in (formula.h_c, formula.h_min))
+    return {
+        "name": formula.name,
+        "source": formula.source,
+        "regime": formula.regime,
+        "applies": formula.applies,
+        "h_c_m": h_c,
+        "h_min_m": h_min,
+        "H_c": None if h_c is None else h_c / scale,
+        "H_min": None if h_min is None else h_min / scale,
+        "range": {name: list(bounds) for name, bounds in formula.bounds.items()},
+        "outside": list(formula.outside),
+        "note": formula.note,
+    }
+
+
 def _heat(v: Mapping[str, Any]) -> list[str]:
     """Return what shear heating of the inlet does, in one line or none."""
     if v["thermal_reduction"] == 1.0:
@@ -166,6 +217,14 @@ def _heat(v: Mapping[str, Any]) -> list[str]:
         f"    of the inlet; {v['viscosity_ambient_Pa_s']:.5g} Pa s before shear heating, by which "
         f"the film is {v['thermal_reduction']:.4f} of the isothermal one (Gupta et al. 1992)"
     ]
+
+
+def _of_shape(v: Mapping[str, Any]) -> tuple[str, str, str]:
+    """Return letter of the axis, load with its unit and groups of the regime, if there are any."""
+    if v.get("shape") == "line":
+        return "b", f"{v['load_per_length_N_per_m']:12.5g} N/m", ""
+    groups = f"      g_V = {v['g_v']:.4g}, g_E = {v['g_e']:.4g}"
+    return "a", f"{v['load_N']:12.5g} N", groups
 
 
 def _cell(value: float | None, width: int, digits: int) -> str:
@@ -178,11 +237,16 @@ def _cell(value: float | None, width: int, digits: int) -> str:
 def report(values: Mapping[str, Any]) -> str:
     """Return the page that ``pyehl film`` prints, from the summary of a :func:`pyehl.film`."""
     v = values
+    line = v.get("shape") == "line"
+    moes_m, moes_l = ("moes_m_line", "moes_l_line") if line else ("moes_m", "moes_l")
     origin = "" if v["si"] else "  (made from M and L with the radius and modulus of a steel ball)"
-    if not v["si"] and v["moes_l"] == 0.0:
+    if not v["si"] and v[moes_l] == 0.0:
         origin = "  (made from M with the radius, modulus and speed of a steel ball)"
     along, across = "R  ", []
     axes = [f"  contact radius       a      {v['hertz_radius_m'] * 1e3:12.5g} mm"]
+    axis, load, groups = _of_shape(v)
+    if line:
+        axes = [f"  half width           b      {v['hertz_radius_m'] * 1e3:12.5g} mm"]
     if "radius_ratio" in v:
         along = "R_x"
         across = [
@@ -197,8 +261,8 @@ def report(values: Mapping[str, Any]) -> str:
         if v["angle_deg"]:
             axes.append(f"  both turned by              {v['angle_deg']:12.5g} deg")
     lines = [
-        f"Contact{origin}",
-        f"  load                 w      {v['load_N']:12.5g} N",
+        f"{'Line contact' if line else 'Contact'}{origin}",
+        f"  load                 w      {load}",
         f"  mean velocity        u      {v['mean_velocity_m_per_s']:12.5g} m/s",
         f"  reduced radius       {along}    {v['radius_m'] * 1e3:12.5g} mm",
         *across,
@@ -209,17 +273,16 @@ def report(values: Mapping[str, Any]) -> str:
         f"  pressure-viscosity   alpha  {v['pressure_viscosity_per_Pa'] * 1e9:12.5g} 1/GPa",
         "",
         "Dimensionless",
-        f"  Moes load            M      {v['moes_m']:12.5g}      U = {v['U']:.4g}",
-        f"  Moes material        L      {v['moes_l']:12.5g}      G = {v['G']:.4g}",
+        f"  Moes load            M      {v[moes_m]:12.5g}      U = {v['U']:.4g}",
+        f"  Moes material        L      {v[moes_l]:12.5g}      G = {v['G']:.4g}",
         f"  alpha p_h            a_bar  {v['alpha_bar']:12.5g}      W = {v['W']:.4g}",
-        f"  speed parameter             {v['speed_parameter']:12.5g}"
-        f"      g_V = {v['g_v']:.4g}, g_E = {v['g_e']:.4g}",
+        f"  speed parameter             {v['speed_parameter']:12.5g}{groups}",
         f"  regime                      {v['regime']}",
         "",
         "Dry contact (Hertz)",
         f"  maximum pressure     p_h    {v['hertz_pressure_Pa'] * 1e-9:12.5g} GPa",
         *axes,
-        f"  film unit            a^2/{along:4} {v['film_scale_m'] * 1e6:12.5g} um",
+        f"  film unit            {axis}^2/{along:4} {v['film_scale_m'] * 1e6:12.5g} um",
         "",
     ]
     if not v["formulas"]:

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, fields
 
 from pyehl.surfaces import FEATURES, rough_groups
-from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.operating import NO_LINE, OperatingPoint
 from pyehl.theory.response import fitted_range
 from pyehl.types import Settings
 
@@ -37,8 +37,10 @@ def unpredictable(settings: Settings) -> str:
 
 
 def turned(settings: Settings) -> str:
-    """Say why an elliptical contact has no response; '' where an axis lies along the motion."""
+    """Say why a line or an ellipse has no response; '' where an axis lies along the motion."""
     contact = settings["contact"]
+    if contact.get("shape") == "line":
+        return NO_LINE
     angle = float(contact["angle"])
     if angle == 0.0 or OperatingPoint.from_settings(settings).radius_ratio == 1.0:
         return ""

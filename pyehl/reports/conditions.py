@@ -5,22 +5,25 @@ from collections.abc import Mapping
 from typing import Any
 
 from pyehl.surfaces import rough_groups
+from pyehl.theory.line_contact import LineContact, contact_of
 from pyehl.theory.oils import oil
-from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Settings
 
 
 def conditions(settings: Settings) -> dict[str, str]:
     """Give names and values in SI units of a resolved case."""
-    point = OperatingPoint.from_settings(settings)
+    point = contact_of(settings)
     contact, lubricant = settings["contact"], settings["lubricant"]
     found = {}
     if not point.si:
         found["given as"] = "M and L; below with the radius and modulus of a steel ball"
-    found["load w"] = f"{point.load:.6g} N"
+    if isinstance(point, LineContact):
+        found["line contact, load per length w"] = f"{point.load_per_length:.6g} N/m"
+    else:
+        found["load w"] = f"{point.load:.6g} N"
     found["mean velocity u"] = f"{point.mean_velocity:.6g} m/s"
     found["slide-to-roll ratio"] = f"{point.slide_to_roll:.4g}"
-    if point.radius_ratio == 1.0:
+    if isinstance(point, LineContact) or point.radius_ratio == 1.0:
         found["reduced radius R"] = f"{point.radius * 1e3:.6g} mm"
     else:
         across = point.radius / point.radius_ratio
@@ -77,15 +80,18 @@ def surface_words(group: Mapping[str, Any]) -> str:
 
 def numbers(settings: Settings) -> dict[str, str]:
     """Give names and values of the numbers without units, and of the dry contact."""
-    point = OperatingPoint.from_settings(settings)
+    point = contact_of(settings)
+    line = isinstance(point, LineContact)
     found = {
-        "Moes load M": f"{point.moes_m:.5g}",
-        "Moes material L": f"{point.moes_l:.5g}",
+        "Moes load M of a line" if line else "Moes load M": f"{point.moes_m:.5g}",
+        "Moes material L of a line" if line else "Moes material L": f"{point.moes_l:.5g}",
         "U, G, W": f"{point.speed:.4g}, {point.material:.4g}, {point.load_number:.4g}",
         "Hertz pressure p_h": f"{point.hertz_pressure * 1e-9:.5g} GPa",
         "α p_h": f"{point.alpha_bar:.4g}",
     }
-    if point.radius_ratio == 1.0:
+    if isinstance(point, LineContact):
+        found["half width b of the contact"] = f"{point.half_width * 1e3:.5g} mm"
+    elif point.radius_ratio == 1.0:
         found["contact radius a"] = f"{point.hertz_radius * 1e3:.5g} mm"
     else:
         a, b = point.hertz_radius * 1e3, point.semi_axis_y * 1e3
@@ -94,5 +100,7 @@ def numbers(settings: Settings) -> dict[str, str]:
             if settings["contact"].get("angle")
             else f"{a:.5g} mm along, {b:.5g} mm across the motion"
         )
-    found["unit of films a²/R"] = f"{point.film_scale * 1e6:.5g} µm"
+    found["unit of films b²/R" if line else "unit of films a²/R"] = (
+        f"{point.film_scale * 1e6:.5g} µm"
+    )
     return found

@@ -2,7 +2,7 @@
 """Which of the limits of the model apply to a result, and what it warns of itself."""
 
 from pyehl.surfaces import FEATURES, rough_groups
-from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.line_contact import LineContact, contact_of
 from pyehl.types import Settings, Values
 
 # Rise of the temperature [K] above which an oil is thinner than computed: by a third at 0.04 1/K,
@@ -24,7 +24,7 @@ NOTES = {
 
 def limits(settings: Settings, summary: Values) -> list[str]:
     """Say which limits of the model apply to a result, a sentence or two each."""
-    point = OperatingPoint.from_settings(settings)
+    point = contact_of(settings)
     law, flow = settings["lubricant"]["shear_law"], settings["lubricant"]["flow"]
     rough = rough_groups(settings)
     predicted = summary.get("kind") == "prediction"
@@ -50,7 +50,9 @@ def limits(settings: Settings, summary: Values) -> list[str]:
         found.append("The shear law thins the friction alone: film and waves are Newtonian.")
     elif law == "limiting":
         found.append("The limiting stress bounds the friction alone, not the flow.")
-    if point.moes_m >= 500.0 and settings["grid"]["border"] != "flooded":
+    if (isinstance(point, LineContact) or point.moes_m >= 500.0) and settings["grid"][
+        "border"
+    ] != "flooded":
         found.append(
             "At the border of the domain P = 0, which takes a little of the film; what it takes is "
             "part of the stated error."
@@ -58,6 +60,11 @@ def limits(settings: Settings, summary: Values) -> list[str]:
     if point.hertz_pressure > HIGH_PRESSURE:
         found.append(
             "Above a Hertz pressure of 4 GPa few grids were tried; the status says what came of it."
+        )
+    if isinstance(point, LineContact):
+        found.append(
+            "The line is infinitely long: nothing is known of the ends of a roller, of its "
+            "profile or of misalignment."
         )
     if rough:
         found.append(

@@ -163,7 +163,7 @@ def _check_share(settings: Settings) -> None:
 def _check(settings: Settings, seeds: int, ehl: int) -> None:
     """Refuse what no curve can be made of."""
     groups = surfaces.rough_groups(settings)
-    why = unpredictable(settings) if groups else ""
+    why = unpredictable(settings) if groups else turned(settings)
     if why:
         raise InputError(why)
     if not groups and ehl:

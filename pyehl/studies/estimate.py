@@ -12,10 +12,12 @@ from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from pyehl.case.line import TRANSVERSE
 from pyehl.prediction.smooth import POINTS
 from pyehl.studies.pool import processors
 from pyehl.studies.tasks import Task
 from pyehl.surfaces import FEATURES, rough_groups
+from pyehl.theory.line_contact import contact_of
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.shear import ShearLaw
 from pyehl.types import Row, Settings
@@ -56,7 +58,8 @@ def seconds_of(settings: Settings, run: str, *, shared: bool = False, full: bool
     rough = [settings[group] for group in rough_groups(settings)]
     grid = settings["grid"]
     points = int(grid["points"])
-    aspect = (int(grid["points_y"]) - 1) / (points - 1)
+    line = settings["contact"].get("shape") == "line"
+    aspect = _strip(settings) if line else (int(grid["points_y"]) - 1) / (points - 1)
     if run == "predict":
         return _predict_seconds(settings, aspect, shared=shared, full=full)
     smooth = smooth_seconds(points, aspect)
@@ -70,6 +73,19 @@ def seconds_of(settings: Settings, run: str, *, shared: bool = False, full: bool
     hard = 1.0 if all(surface["kind"] == "harmonic" for surface in moving) else MANY_WAVES
     coarser = 9.0 / 8.0 if settings["time"]["estimate_error"] else 1.0
     return smooth + hard * coarser * STEP_NODE * points**2 * aspect * steps
+
+
+def _strip(settings: Settings) -> float:
+    """Rows of the strip of a line contact over its nodes along X; one row is next to nothing."""
+    grid, b = settings["grid"], contact_of(settings).hertz_radius
+    widths = [0.0]
+    for surface in (settings[group] for group in rough_groups(settings)):
+        if surface["kind"] == "harmonic":
+            widths.append(float(surface["wavelength_y"]) % TRANSVERSE)
+        elif surface["kind"] not in FEATURES:
+            widths.append(float(surface["length_y"]) / b)
+    domain = float(grid["x_outlet"]) - float(grid["x_inlet"])
+    return max(1.0 / int(grid["points"]), max(widths) / domain)
 
 
 def _predict_seconds(settings: Settings, aspect: float, *, shared: bool, full: bool) -> float:

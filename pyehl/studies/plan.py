@@ -20,6 +20,8 @@ from pyehl.studies.estimate import duration, seconds_of, wall_seconds
 from pyehl.studies.study import Point, Study
 from pyehl.studies.tasks import Task
 from pyehl.theory.film import central_film
+from pyehl.theory.line_contact import LineContact, contact_of
+from pyehl.theory.line_contact import central_film as central_film_of_line
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Settings
@@ -159,10 +161,12 @@ def _check(study: Study, case: Case, settings: Settings, checked: set[str]) -> N
     check_maps(settings, read=not known)
 
 
-def formula_film(settings: Settings) -> tuple[OperatingPoint, float]:
+def formula_film(settings: Settings) -> tuple[OperatingPoint | LineContact, float]:
     """Give the operating point of a resolved case and its central film by formula [m]."""
-    operating = OperatingPoint.from_settings(settings)
-    return operating, central_film(operating, Lubricant.from_settings(settings))
+    contact, lubricant = contact_of(settings), Lubricant.from_settings(settings)
+    if isinstance(contact, LineContact):
+        return contact, central_film_of_line(contact, lubricant)
+    return contact, central_film(contact, lubricant)
 
 
 def check_maps(settings: Settings, *, read: bool = True) -> None:

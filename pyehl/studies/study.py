@@ -27,8 +27,8 @@ RUNS = ("solve", "predict", "film")
 MAX_CASES = 1_000_000
 RESULTS = frozenset(quantity.name for quantity in QUANTITIES)
 ECHOED = frozenset(
-    "contact.moes_m contact.moes_l contact.radius_ratio contact.slide_to_roll "
-    "surface.seed surface.velocity_ratio".split()
+    "contact.moes_m contact.moes_l contact.moes_m_line contact.moes_l_line contact.radius_ratio "
+    "contact.slide_to_roll surface.seed surface.velocity_ratio".split()
 )
 """Keys whose results of the same name are their values."""
 # Keys, their types, and these in words

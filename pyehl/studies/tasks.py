@@ -22,6 +22,8 @@ from pyehl.prediction.predict import predict
 from pyehl.run import run
 from pyehl.solver import Solver
 from pyehl.theory.film import estimates
+from pyehl.theory.line_contact import LineContact
+from pyehl.theory.line_contact import estimates as estimates_of_line
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Row
@@ -51,7 +53,9 @@ def known(run: str) -> list[str]:
     names = [q.name for q in schema.QUANTITIES if kind in q.kinds]
     if run == "film":
         names.append("h_c_m")
-        for formula in estimates(OperatingPoint(), Lubricant()):
+        line = LineContact.from_moes(20.0, 10.0)
+        of_line = estimates_of_line(line, Lubricant())
+        for formula in [*estimates(OperatingPoint(), Lubricant()), *of_line]:
             names += film_columns(formula.name)
     return [*(name for name in names if name not in NOT_IN_A_TABLE), *LAST]
 

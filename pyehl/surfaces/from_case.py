@@ -19,8 +19,11 @@ from pyehl.surfaces.profile import scan_of_profile
 from pyehl.surfaces.profile_file import Profile, is_profile, read_profile
 from pyehl.surfaces.reading import Scan, read_scan
 from pyehl.surfaces.tile import Topography
+from pyehl.theory.line_contact import LineContact
 from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Settings
+
+Contact = OperatingPoint | LineContact
 
 GROUPS = ("surface", "second_surface")
 """Groups of a case that describe a surface each."""
@@ -65,7 +68,7 @@ def one_rough(settings: Settings) -> Settings:
     }
 
 
-def harmonic_amplitude(settings: Settings, operating: OperatingPoint, film: float) -> float:
+def harmonic_amplitude(settings: Settings, operating: Contact, film: float) -> float:
     """Amplitude A_i [m] of the harmonic surface of a resolved case with a smooth film h_c [m]."""
     surface = settings["surface"]
     amplitude = surface.get("amplitude")
@@ -74,7 +77,7 @@ def harmonic_amplitude(settings: Settings, operating: OperatingPoint, film: floa
     return float(surface["amplitude_over_film"]) * film
 
 
-def from_settings(settings: Settings, operating: OperatingPoint, film: float) -> Topography:
+def from_settings(settings: Settings, operating: Contact, film: float) -> Topography:
     """Make or read the surface of a resolved case.
 
     `film` is the central film h_c [m], of which the amplitude of a harmonic pattern may be a
@@ -84,7 +87,7 @@ def from_settings(settings: Settings, operating: OperatingPoint, film: float) ->
     return finished(whole(settings, operating, film), settings["surface"])
 
 
-def whole(settings: Settings, operating: OperatingPoint, film: float) -> Topography:
+def whole(settings: Settings, operating: Contact, film: float) -> Topography:
     """Give the surface on its first track, with all of its waves; else as :func:`from_settings`."""
     surface = settings["surface"]
     kind = str(surface["kind"])

@@ -19,7 +19,7 @@ from pyehl.surfaces.prepare import consume
 from pyehl.surfaces.reading import plain_array
 from pyehl.surfaces.tile import Topography
 from pyehl.surfaces.working_map import Record
-from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.line_contact import contact_of
 from pyehl.types import Array, Settings
 
 LOG = logging.getLogger(__name__)
@@ -77,9 +77,7 @@ def for_solver(settings: Settings, group: str = "surface") -> SolverSurface:
     surface, s = settings[group], Keys.of(settings[group])
     if s.kind == "fractal" and s.track:
         # the film is the scale of harmonic patterns alone
-        made = whole(
-            {**settings, "surface": surface}, OperatingPoint.from_settings(settings), film=0.0
-        )
+        made = whole({**settings, "surface": surface}, contact_of(settings), film=0.0)
         return SolverSurface(np.asfortranarray(moved(made, surface).heights))
     if s.kind == "fractal":
         if need := making_text(s.pixels):

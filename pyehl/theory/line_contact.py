@@ -5,17 +5,35 @@ M, W and p_h of a line are not those of a point contact: here a load is one per 
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Self
 
+from pyehl.case.groups import Contact
+from pyehl.case.key import typed
+from pyehl.case.lubricant_group import Lubricant as LubricantGroup
 from pyehl.errors import InputError
 from pyehl.given import positive
 from pyehl.theory.film import FilmEstimate, outside
+from pyehl.theory.heat import thermal_loading, thermal_reduction
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.moes_film import ALIKE
-from pyehl.theory.operating import REFERENCE_L, REFERENCE_MODULUS, REFERENCE_RADIUS
+from pyehl.theory.operating import (
+    REFERENCE_L,
+    REFERENCE_MODULUS,
+    REFERENCE_RADIUS,
+    OperatingPoint,
+)
+from pyehl.types import Settings
 
-__all__ = ["LineContact", "dowson_higginson", "estimates", "moes_film", "regime"]
+__all__ = [
+    "LineContact",
+    "central_film",
+    "contact_of",
+    "dowson_higginson",
+    "estimates",
+    "moes_film",
+    "regime",
+]
 
 # Conditions over which both formulas were compared with converged solutions
 COMPARED = {"M": (3.0, 100.0), "L": (5.0, 10.0)}
@@ -41,6 +59,10 @@ class LineContact:
         alpha [1/Pa]; 0 for the isoviscous limit L = 0.
     slide_to_roll
         (u1 - u2)/u [-], u the mean velocity.
+    si
+        Whether the SI values were given; False when they were made from (M, L).
+    thermal_reduction
+        Film over the isothermal one [-], which `viscosity` contains; 1 where it is not counted.
 
     Raises
     ------
@@ -62,6 +84,8 @@ class LineContact:
     viscosity: float = 0.04
     pressure_viscosity: float = 2.2e-8
     slide_to_roll: float = 0.0
+    si: bool = True
+    thermal_reduction: float = 1.0
 
     def __post_init__(self) -> None:
         """Check the numbers."""
@@ -104,7 +128,63 @@ class LineContact:
             viscosity=viscosity,
             pressure_viscosity=pressure_viscosity if moes_l > 0.0 else 0.0,
             slide_to_roll=slide_to_roll,
+            si=False,
         )
+
+    @classmethod
+    def from_settings(cls, settings: Settings) -> Self:
+        """From the groups ``contact`` and ``lubricant`` of a resolved case of a line.
+
+        With ``lubricant.thermal_reduction`` the viscosity is that of the warmer inlet.
+        """
+        c = typed(Contact, settings["contact"])
+        oil = typed(LubricantGroup, settings["lubricant"])
+        if "load_per_length" not in settings["contact"]:
+            return cls.from_moes(
+                c.moes_m_line,
+                c.moes_l_line,
+                viscosity=oil.viscosity,
+                pressure_viscosity=oil.pressure_viscosity,
+                slide_to_roll=c.slide_to_roll,
+            )
+        line = cls(
+            load_per_length=c.load_per_length,
+            mean_velocity=c.mean_velocity,
+            radius=c.radius,
+            reduced_modulus=c.reduced_modulus,
+            viscosity=oil.viscosity,
+            pressure_viscosity=oil.pressure_viscosity,
+            slide_to_roll=c.slide_to_roll,
+        )
+        if not oil.thermal_reduction:
+            return line
+        loading = thermal_loading(
+            oil.temperature_viscosity, oil.viscosity, c.mean_velocity, oil.thermal_conductivity
+        )
+        share = thermal_reduction(loading, line.hertz_pressure / c.reduced_modulus, c.slide_to_roll)
+        # the film rises with viscosity, nowhere by less than its 0.4th power
+        wanted, low, high = share * line.film, 2.5 * math.log(share), 0.0
+        for _ in range(60):
+            middle = 0.5 * (low + high)
+            thinner = replace(line, viscosity=oil.viscosity * math.exp(middle))
+            low, high = (middle, high) if thinner.film < wanted else (low, middle)
+        viscosity = oil.viscosity * math.exp(0.5 * (low + high))
+        return replace(line, viscosity=viscosity, thermal_reduction=share)
+
+    @property
+    def film(self) -> float:
+        """Central film of an incompressible lubricant by `moes_film` [m]."""
+        return moes_film(self.moes_m, self.moes_l) * self.film_scale
+
+    @property
+    def hertz_radius(self) -> float:
+        """Unit of lengths [m], as a point contact has it: the half width b."""
+        return self.half_width
+
+    @property
+    def sliding_speed(self) -> float:
+        """Sliding speed abs(u1 - u2) [m/s]."""
+        return abs(self.slide_to_roll) * self.mean_velocity
 
     @property
     def half_width(self) -> float:
@@ -163,6 +243,13 @@ class LineContact:
         return self.half_width / self.mean_velocity
 
 
+def contact_of(settings: Settings) -> OperatingPoint | LineContact:
+    """Give the point or line contact of a resolved case."""
+    if settings["contact"].get("shape") == "line":
+        return LineContact.from_settings(settings)
+    return OperatingPoint.from_settings(settings)
+
+
 def _asymptotes(moes_m: float, moes_l: float) -> tuple[float, float, float, float]:
     """Rigid and elastic, isoviscous and piezoviscous film numbers h/R (2U)^(-1/2) [-]."""
     if not (moes_m > 0.0 and moes_l >= 0.0):
@@ -192,6 +279,11 @@ def moes_film(moes_m: float, moes_l: float) -> float:
     return float(h_m * math.pi / (8.0 * moes_m))
 
 
+def central_film(line: LineContact, lubricant: Lubricant) -> float:
+    """Central film thickness h_c [m]: Moes over rho(p_h)/rho0."""
+    return line.film / float(lubricant.density_ratio(line.hertz_pressure))
+
+
 def regime(moes_m: float, moes_l: float) -> str:
     """Name the asymptote of the line that is nearest, as 'elastic-piezoviscous'.
 
@@ -219,13 +311,12 @@ def estimates(line: LineContact, lubricant: Lubricant) -> list[FilmEstimate]:
     """Give the formulas of a line; that with alpha as a factor is left out where alpha is 0."""
     beyond = outside({"M": line.moes_m, "L": line.moes_l}, COMPARED)
     here = regime(line.moes_m, line.moes_l)
-    h_c = moes_film(line.moes_m, line.moes_l) * line.film_scale
     found = [
         FilmEstimate(
             name="Moes, line",
             source="Wear 159 (1992) 57, divided by rho(p_h)/rho0",
             regime="",
-            h_c=h_c / float(lubricant.density_ratio(line.hertz_pressure)),
+            h_c=central_film(line, lubricant),
             h_min=math.nan,
             applies=True,
             bounds=COMPARED,

@@ -25,6 +25,10 @@ REFERENCE_RADIUS = 0.018
 REFERENCE_MODULUS = 2.26e11
 # and where L = 0, which has no speed either
 REFERENCE_L = 10.0
+NO_LINE = (
+    "contact.shape = 'line': line contacts have no prediction, response, curve or stress yet\n"
+    "expected: a point contact; run, solve, film, sweep, plot and report take lines"
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,6 +159,8 @@ class OperatingPoint:
         """
         c = typed(Contact, settings["contact"])
         oil = typed(LubricantGroup, settings["lubricant"])
+        if c.is_line:
+            raise InputError(NO_LINE)
         if "load" not in settings["contact"]:
             return cls.from_moes(
                 c.moes_m,

@@ -14,8 +14,9 @@ from pyehl.case import KEYS
 from pyehl.case.settings import GROUPS
 from pyehl.prediction.film_formulas import sheet
 
-UNITS = {"_N_m": "N m", "_Pa_s": "Pa s", "_per_Pa": "1/Pa", "_m_per_s": "m/s", "_per_s": "1/s",
-         "_Pa": "Pa", "_seconds": "s", "_N": "N", "_K": "K", "_m": "m"}  # fmt: skip
+UNITS = {"_N_per_m": "N/m", "_N_m": "N m", "_Pa_s": "Pa s", "_per_Pa": "1/Pa",
+         "_m_per_s": "m/s", "_per_s": "1/s", "_Pa": "Pa", "_seconds": "s", "_N": "N", "_K": "K",
+         "_m": "m"}  # fmt: skip
 
 
 def names(kind: str) -> set[str]:
@@ -61,6 +62,8 @@ SOLUTIONS = {
         f"{SI.replace('20.0', '20.0 hardness = 3e9')}&lubricant boundary_film = 1e-7 /\n"
     ),
     "ellipse": "&contact load = 20.0 radius_x = 0.01 radius_y = 0.02 /\n&grid points = 33 /\n",
+    "line": "&contact shape = 'line' /\n&grid points = 129 /\n",
+    "line by Moes numbers": "&contact shape = 'line' moes_m_line = 5.0 /\n&grid points = 129 /\n",
     "wave": SI + WAVE.format(""),
     "mean that has not settled": f"{MOES}{WAVE.format('')}&time max_periods = 1 /\n",
     "at rest": SI + WAVE.format("velocity_ratio = 0.0"),
@@ -109,8 +112,8 @@ def test_predictions(tmp_path: Path):
 
 def test_film_sheets():
     written = set()
-    ellipse = "&contact radius_x = 0.01 radius_y = 0.02 /"
-    for text in (*(f"&surface kind = '{k}' /" for k in ("smooth", "harmonic", "fractal")), ellipse):
+    shapes = "&contact radius_x = 0.01 radius_y = 0.02 /", "&contact shape = 'line' /"
+    for text in (*(f"&surface kind = '{k}' /" for k in ("smooth", "harmonic", "fractal")), *shapes):
         written |= set(sheet(pyehl.Case.from_text(text).resolve()))
     assert written == names("film")
 

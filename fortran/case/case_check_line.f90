@@ -1,0 +1,89 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Keys of a point beside a line contact, keys of a line beside a point, and what a line does not have
+module ehl_case_check_line
+   use ehl_case, only: case_t, is_feature, surface_case_t
+   use ehl_case_defaults, only: line_keys, point_keys
+   use ehl_case_source, only: case_source_t
+   use ehl_kinds, only: dp
+   use ehl_status, only: status_t
+   implicit none (type, external)
+   private
+   public :: check_line
+
+contains
+
+   !> Before a case is complete
+   subroutine check_line(source, input, status)
+      type(case_source_t), intent(in) :: source
+      type(case_t), intent(in) :: input
+      type(status_t), intent(inout) :: status
+      character(len=*), parameter :: shape = "contact.shape = 'line'"
+      character(len=:), allocatable :: key
+
+      if (.not. input%contact%is_line()) then
+         key = source%first_given("contact", line_keys)
+         if (key /= "") call source%refuse(key, key//" in a point contact", shape//", or "//key_of_point(key)// &
+                                           " of a point: M and L of a line are other numbers", status)
+         return
+      end if
+      key = source%first_given("contact", point_keys)
+      if (key /= "") call source%refuse(key, key//" with "//shape, key_of_line(key), status)
+      if (status%failed()) return
+      if (source%given("grid.y_extent")) key = "grid.y_extent"
+      if (source%given("grid.points_y")) key = "grid.points_y"
+      if (key /= "") call source%refuse(key, key//" with "//shape, "none: the strip is as wide as the surfaces "// &
+                                        "repeat, its cells are nearly square", status)
+      if (input%solver%coarsening == "alcouffe") call source%refuse("solver.coarsening", &
+         "solver.coarsening = 'alcouffe' with "//shape, "'auto' or 'classical'", status)
+      if (source%given("solver.deflection") .and. input%solver%deflection /= "fft") call source%refuse("solver.deflection", &
+         "solver.deflection = 'mlmi' with "//shape, "'fft': a strip that repeats has no multi-integration", status)
+      call check_rough("surface", input%surface)
+      call check_rough("second_surface", input%second_surface)
+      if (input%lubricant%thermal_friction == "always" .and. .not. abs(input%contact%slide_to_roll) < 2.0_dp) then
+         call source%refuse("lubricant.thermal_friction", "lubricant.thermal_friction = 'always' with a wall at rest under an "// &
+                            "infinite line, which warms for ever", "'auto' or 'never', or a slide_to_roll between -2 and 2", status)
+      end if
+
+   contains
+
+      !> What does not repeat across the motion is the same all along the line
+      subroutine check_rough(group, s)
+         character(len=*), intent(in) :: group
+         type(surface_case_t), intent(in) :: s
+         if (.not. is_feature(s%kind)) return
+         if (any(s%kind == ["ridge ", "groove"]) .and. .not. max(abs(s%angle), s%length, s%length_m) > 0.0_dp) return
+         call source%refuse(group//".kind", group//".kind = '"//trim(s%kind)//"' with "//shape, "an endless 'ridge' or "// &
+                            "'groove' with angle = 0.0, or a surface that repeats: 'harmonic', 'map' or 'fractal'", status)
+      end subroutine check_rough
+   end subroutine check_line
+
+   !> What a point contact has in place of a key of a line
+   pure function key_of_point(key) result(words)
+      character(len=*), intent(in) :: key
+      character(len=:), allocatable :: words
+
+      select case (key)
+      case ("contact.load_per_length")
+         words = "contact.load [N]"
+      case default
+         words = key(:len(key) - 5)
+      end select
+   end function key_of_point
+
+   !> What a line contact has in place of a key of a point
+   pure function key_of_line(key) result(words)
+      character(len=*), intent(in) :: key
+      character(len=:), allocatable :: words
+
+      select case (key)
+      case ("contact.load")
+         words = "contact.load_per_length [N/m]"
+      case ("contact.moes_m", "contact.moes_l")
+         words = key//"_line: M and L of a line are other numbers than those of a point"
+      case ("contact.radius_x", "contact.radius_y", "contact.radius_ratio")
+         words = "contact.radius alone: a line is not curved across the motion"
+      case default
+         words = "none: a line is perpendicular to the motion"
+      end select
+   end function key_of_line
+end module ehl_case_check_line

@@ -1,0 +1,161 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Relaxation of a grid of one row: Newton's linearised Reynolds equation (reynolds.f90) for all of its nodes, with the deflection
+!> up to `row_reach` nodes away. Smooth changes, whose deflection comes from further away, are what coarser grids are for.
+!>
+!> With d the changes of the pressure, r the residual, K(l) the deflection l nodes away, and per node i
+!>
+!>    dH(i) = sum K(i-k) d(k), |i-k| <= row_reach,    d(rho H)(i) = rho(i) dH(i) + [H d rho/dP](i) d(i)
+!>
+!>    sum over the neighbours m = i-1, i+1 of  e(m) (d(m) - d(i)) + (P(m) - P(i)) d e(m)  -  sum c(l) d(rho H)(i-l)  =  r(i)
+!>
+!> where d e(m) is the change of the coupling with P and H of either node. K: kernel_of_row of workspace.f90. An inactive node
+!> (node_state.f90) has d(i) = 0; a touching one (boundary_film.f90) rate d(rho H)(i) = -r(i).
+module ehl_row_relaxation
+   use ehl_flow, only: dir_x
+   use ehl_kinds, only: dp
+   use ehl_level, only: level_t
+   use ehl_line_system, only: last_active
+   use ehl_node_state, only: cavitate, cavity_pressure
+   use ehl_poiseuille, only: block_size, line_terms_t
+   use ehl_wedge, only: wedge_reach
+   use ehl_workspace, only: row_above, row_below, row_reach, workspace_t
+   implicit none (type, external)
+   private
+   public :: relax_row
+
+   !> Share of the changes that is made
+   real(dp), parameter :: omega = 0.8_dp
+
+contains
+
+   !> One sweep. Needs film and coefficients of the present pressure; leaves them out of date.
+   subroutine relax_row(level, space, max_log_change, relaxation_factor)
+      type(level_t), intent(inout) :: level
+      type(workspace_t), intent(inout) :: space
+      !> Largest change of the logarithm of a node's conductance
+      real(dp), intent(in) :: max_log_change
+      !> Share of the changes that is made
+      real(dp), intent(in) :: relaxation_factor
+      real(dp) :: change(level%grid%nx), after(level%grid%nx)
+      integer :: i, last
+
+      last = last_active(level, 1)
+      call find_residual(level, last, change)
+      call assemble(level, space%near_row, last, change, space%band)
+      call solve(space%band, last, change)
+      do i = 2, last
+         change(i) = change(i)/max(1.0_dp, abs(level%flow%dlneps_dp(i, 1, dir_x)*change(i))/max_log_change)
+         after(i) = level%p(i, 1) + omega*relaxation_factor*change(i)
+      end do
+      call cavitate(after(2:last))
+      call level%boundary%limit_pressure(level%p(2:last, 1), 2, 1, after(2:last))
+      level%p(2:last, 1) = after(2:last)
+   end subroutine relax_row
+
+   !> Right-hand side less operator at nodes 2 to `last`
+   pure subroutine find_residual(level, last, residual)
+      type(level_t), intent(in) :: level
+      integer, intent(in) :: last
+      !> Shape (nx)
+      real(dp), contiguous, intent(out) :: residual(:)
+
+      residual = 0.0_dp
+      call level%poiseuille%apply_row(level%p, level%flow, 1, residual)
+      call level%wedge%subtract_row(level%mass_content(:, 1), residual)
+      residual(2:last) = level%rhs(2:last, 1) - residual(2:last)
+      call level%boundary%residual_row(level%rhs(:, 1), level%mass_content(:, 1), 1, residual)
+   end subroutine find_residual
+
+   !> Equations of nodes 2 to `last`: those of band(l, i) belong to the changes at i + l
+   subroutine assemble(level, near, last, residual, band)
+      type(level_t), intent(in) :: level
+      real(dp), intent(in) :: near(-row_reach:row_reach)
+      integer, intent(in) :: last
+      real(dp), contiguous, intent(inout) :: residual(:)
+      real(dp), intent(inout) :: band(-row_below:row_above, level%grid%nx)
+      !> Of the changes of film and pressure at i + l
+      real(dp) :: film(-wedge_reach:1), local(-wedge_reach:1), c(0:wedge_reach), part
+      type(line_terms_t) :: terms
+      integer :: first, i, k, l
+
+      do first = 2, last, block_size
+         call level%poiseuille%line_row(level%p, level%flow, level%rhs(:, 1), 1, first, min(first + block_size - 1, last), terms)
+         do i = first, min(first + block_size - 1, last)
+            k = i - first + 1
+            band(:, i) = 0.0_dp
+            if (level%p(i, 1) <= cavity_pressure .and. residual(i) >= 0.0_dp) then
+               band(0, i) = 1.0_dp
+               residual(i) = 0.0_dp
+               cycle
+            end if
+            film = 0.0_dp
+            local = 0.0_dp
+            if (level%boundary%touches(i, 1)) then
+               film(0) = -level%boundary%rate*level%rho(i, 1)
+               local(0) = -level%boundary%rate*level%h_drho_dp(i, 1)
+            else
+               c = level%wedge%weights(i)
+               do l = 0, min(wedge_reach, i - 1)
+                  film(-l) = -c(l)*level%rho(i - l, 1)
+                  local(-l) = -c(l)*level%h_drho_dp(i - l, 1)
+               end do
+               call add_neighbour(1, terms%east(k), terms%east_rate(k))
+               call add_neighbour(-1, terms%east(k - 1), terms%east_rate(k - 1))
+            end if
+            do l = -wedge_reach, 1
+               band(l, i) = band(l, i) + local(l)
+               ! most have no change of the film at i + 1
+               if (.not. abs(film(l)) > 0.0_dp) cycle
+               band(l - row_reach:l + row_reach, i) = band(l - row_reach:l + row_reach, i) + film(l)*near
+            end do
+         end do
+      end do
+
+   contains
+
+      !> The coupling to the node at i + m, and its changes
+      subroutine add_neighbour(m, coupling, rate)
+         integer, intent(in) :: m
+         real(dp), intent(in) :: coupling, rate
+         integer :: n
+
+         local(m) = local(m) + coupling
+         local(0) = local(0) - coupling
+         part = rate*(level%p(i + m, 1) - level%p(i, 1))
+         do n = min(m, 0), max(m, 0)
+            associate (eps => level%flow%eps(i + n, 1, dir_x))
+               film(n) = film(n) + part*level%flow%film_exponent(i + n, 1, dir_x)*eps/level%boundary%film_at(level%h, i + n, 1)
+               local(n) = local(n) + part*eps*level%flow%dlneps_dp(i + n, 1, dir_x)
+            end associate
+         end do
+      end subroutine add_neighbour
+   end subroutine assemble
+
+   !> Solve the equations of nodes 2 to `last` in place, without pivoting: the film answers most to the pressure of its own node
+   pure subroutine solve(band, last, x)
+      real(dp), contiguous, intent(inout) :: band(-row_below:, :), x(:)
+      integer, intent(in) :: last
+      real(dp) :: t
+      integer :: i, k, l
+
+      do i = 2, last
+         do k = max(2, i - row_below), i - 1
+            t = band(k - i, i)
+            if (.not. abs(t) > 0.0_dp) cycle
+            !$omp simd
+            do l = 1, row_above
+               band(k - i + l, i) = band(k - i + l, i) - t*band(l, k)
+            end do
+            x(i) = x(i) - t*x(k)
+         end do
+         t = 1.0_dp/band(0, i)
+         band(1:row_above, i) = band(1:row_above, i)*t
+         x(i) = x(i)*t
+      end do
+      do i = last, 2, -1
+         do k = 1, min(row_above, last - i)
+            x(i) = x(i) - band(k, i)*x(i + k)
+         end do
+      end do
+   end subroutine solve
+end module ehl_row_relaxation

@@ -1,0 +1,52 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The flooded inlet of a line contact beyond the border of its domain. There the viscosity rises by alpha_bar P and the density
+!> hardly, and the flow q is that of the whole contact, so that the reduced pressure I follows from the film alone:
+!>
+!>    dI/dX = lambda_bar (H - q)/H^3,   H(X) = H_1 + (X^2 - X_1^2)/2 - (1/2) ln(X/X_1),   P = -ln(1 - alpha_bar I)/alpha_bar
+!>
+!> with the border at X_1; the last part of H is the deflection by the load, which is far away. With u = X_1/X the pressure at
+!> the border and the load that is carried beyond it are integrals over 0 < u < 1 of smooth functions.
+module ehl_line_inlet
+   use ehl_flow, only: dir_x
+   use ehl_kinds, only: dp
+   use ehl_level, only: level_t
+   implicit none (type, external)
+   private
+   public :: set_line_border
+
+   !> Points of the integrals
+   integer, parameter :: points = 64
+
+contains
+
+   !> Give the border the pressure of a flooded contact, and leave to the nodes the load that is not carried beyond it
+   subroutine set_line_border(level, load)
+      type(level_t), intent(inout) :: level
+      !> Load of the contact, int P dX
+      real(dp), intent(in) :: load
+      real(dp) :: x, u, film, rise, pressure, beyond, flow, level_of(1), slope(1)
+      integer :: i, k
+
+      associate (grid => level%grid)
+         i = 1 + nint(-grid%x0/grid%hx)
+         flow = level%mass_content(i, 1) - level%flow%eps(i, 1, dir_x)*(level%p(i + 1, 1) - level%p(i - 1, 1))/(2.0_dp*grid%hx)
+         x = abs(grid%x0)
+         pressure = 0.0_dp
+         beyond = 0.0_dp
+         do k = 1, points
+            u = (k - 0.5_dp)/points
+            film = level%h(1, 1) + 0.5_dp*x**2*(1.0_dp/u**2 - 1.0_dp) + 0.5_dp*log(u)
+            rise = (film - flow)/film**3*x/(u**2*level%flow%inverse_speed*points)
+            pressure = pressure + rise
+            beyond = beyond + rise*x*(1.0_dp/u - 1.0_dp)
+         end do
+         call level%lubricant%log_viscosity([0.0_dp], level_of, slope)
+         ! where that has no meaning the domain is far too small, and said to be
+         if (slope(1)*pressure > 0.0_dp .and. slope(1)*pressure < 1.0_dp) pressure = -log(1.0_dp - slope(1)*pressure)/slope(1)
+         level%p(1, :) = pressure
+         level%p(grid%nx, :) = 0.0_dp
+         ! half of the cell at the border lies beyond it
+         level%load = load - beyond + 0.5_dp*grid%hx*pressure
+      end associate
+   end subroutine set_line_border
+end module ehl_line_inlet

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a line contact has in place of the keys of a point, and what it does not have."""
+
+from pyehl.case.draft import Draft
+
+SHAPE = "contact.shape = 'line'"
+LINE_KEYS = ("load_per_length", "moes_m_line", "moes_l_line")
+APART = "M and L of a line are other numbers than those of a point"
+STRIP = "the strip is as wide as the surfaces repeat, its cells are nearly square"
+# Keys of a point, and what to give in their place
+POINT_KEYS = {
+    "contact.load": "contact.load_per_length [N/m]",
+    "contact.moes_m": f"contact.moes_m_line: {APART}",
+    "contact.moes_l": f"contact.moes_l_line: {APART}",
+    "contact.radius_x": "contact.radius: a line is not curved across the motion",
+    "contact.radius_y": "contact.radius alone: a line is not curved across the motion",
+    "contact.radius_ratio": "contact.radius alone: a line is not curved across the motion",
+    "contact.angle": "none: a line is perpendicular to the motion",
+    "bodies.radius_y1": "radii along the motion alone: a line is not curved across it",
+    "bodies.radius_y2": "radii along the motion alone: a line is not curved across it",
+    "grid.y_extent": f"none: {STRIP}",
+    "grid.points_y": f"none: {STRIP}",
+}
+TRANSVERSE = 1e6
+"""Wavelength across the motion of a wave that does not vary there [b]."""
+ENDLESS = (
+    "an endless 'ridge' or 'groove' with angle = 0.0, or a surface that repeats: 'harmonic', 'map' "
+    "or 'fractal'"
+)
+
+
+def check_keys(draft: Draft) -> None:
+    """Refuse keys of a point beside a line, keys of a line beside a point, and what is missing."""
+    s = draft.settings
+    if not s.contact.is_line:
+        name = draft.first_given(f"contact.{key}" for key in LINE_KEYS)
+        if name:
+            point = name.removesuffix("_line").replace("_per_length", "")
+            expected = f"{SHAPE}, or {point} of a point: {APART}"
+            draft.refuse(name, f"{name} in a point contact", expected)
+        return
+    for name, expected in POINT_KEYS.items():
+        # a flat body has the radius 0
+        flat = name.startswith("bodies.") and getattr(s.bodies, name[7:]) == 0.0
+        if name in draft.given and not flat:
+            draft.refuse(name, f"{name} with {SHAPE}", expected)
+    if s.solver.coarsening == "alcouffe":
+        what = f"solver.coarsening = 'alcouffe' with {SHAPE}"
+        draft.refuse("solver.coarsening", what, "'auto' or 'classical'")
+    if draft.is_given("solver", "deflection") and s.solver.deflection != "fft":
+        what = f"solver.deflection = 'mlmi' with {SHAPE}"
+        draft.refuse(
+            "solver.deflection", what, "'fft': a strip that repeats has no multi-integration"
+        )
+    for group in ("surface", "second_surface"):
+        surface = getattr(s, group)
+        endless = surface.kind in ("ridge", "groove") and not (
+            surface.angle or surface.length or surface.length_m
+        )
+        if surface.is_feature and not endless:
+            what = f"{group}.kind = '{surface.kind}' with {SHAPE}"
+            draft.refuse(f"{group}.kind", what, ENDLESS)
+    if s.lubricant.thermal_friction == "always" and abs(s.contact.slide_to_roll) >= 2.0:
+        what = (
+            "lubricant.thermal_friction = 'always' with a wall at rest under an infinite line, "
+            "which warms for ever"
+        )
+        expected = "'auto' or 'never', or a slide_to_roll between -2 and 2"
+        draft.refuse("lubricant.thermal_friction", what, expected)
