@@ -264,7 +264,7 @@ def _facts(
         displacement_radial_m=ring.radial,
         displacement_axial_m=ring.axial,
         load_max_N=most,
-        elements_loaded=float((ring.loads > 0.0).sum()),
+        elements_loaded=int((ring.loads > 0.0).sum()),
         centrifugal_force_N=DENSITY * volume * 0.5 * pitch * (TURN * cage) ** 2,
     )
     if v.radial_load > 0.0:

@@ -67,7 +67,7 @@ class Mesh:
         """Share of the load that the pair at a place on the path carries.
 
         'linear': from 1/3 to 2/3 while two pairs are in mesh and back (ISO/TR 13989-1, unmodified
-        profiles); 'equal': one half.
+        profiles, accuracy grade 7 or better); 'equal': one half.
         """
         begin, end = self.ends
         first, last = self.single

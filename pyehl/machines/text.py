@@ -55,7 +55,7 @@ SUMS: dict[str, tuple[str, float, str, str]] = {
     "efficiency": ("efficiency of the mesh", 100.0, ".3f", "%"),
 }
 # Of the friction, which a Newtonian oil does not have
-FRICTION = ("sliding_torque_N_m", "torque_N_m", "mu_mean")
+FRICTION = ("sliding_torque_N_m", "torque_N_m", "mu_mean", "sliding_power_W", "efficiency")
 NOTES = 4
 
 

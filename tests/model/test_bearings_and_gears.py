@@ -439,7 +439,11 @@ def test_sliding_in_a_groove():
     newtonian = bearing(BALLS)
     assert math.isnan(newtonian.summary["torque_N_m"])
     assert newtonian.summary["rolling_torque_N_m"] > 0.0
-    assert "shear_law" in repr(newtonian)
+    pair = gear(FZG)
+    for found in (newtonian, pair):
+        lines = repr(found).splitlines()
+        assert sum("not reported: give a lubricant.shear_law" in line for line in lines) == 3
+        assert not any("no result" in line or "nan" in line for line in lines)
 
 
 def test_rolling_resistance_of_a_line():
