@@ -115,9 +115,14 @@ class Profile:
 
 
 def profile(
-    loads: Loads, *, above: float | None, fatigue: Fatigue | None, progress: bool = False
+    loads: Loads,
+    *,
+    above: float | None,
+    fatigue: Fatigue | None,
+    at: Array | None = None,
+    progress: bool = False,
 ) -> Profile:
-    """Compute the stress at all depths; `above` [p_h]."""
+    """Compute the stress at all depths, `at` some [a] or by the waves; `above` [p_h]."""
     is_rough = loads.times.size > 0
     first = next(loads.rough(), loads.smooth)
     half_space = HalfSpace((loads.x.size, loads.y.size), loads.mesh, poisson=loads.poisson)
@@ -133,8 +138,8 @@ def profile(
             row_of(depth, layer, only, [loads.smooth], above, None if is_rough else fatigue)
         )
 
-    all_depths = depths(first.pressure, loads.mesh, loads.short_side)
-    if any(steep_edge(load.traction) for load in (loads.smooth, first)):
+    all_depths = depths(first.pressure, loads.mesh, loads.short_side) if at is None else at
+    if all_depths[0] == 0.0 and any(steep_edge(load.traction) for load in (loads.smooth, first)):
         # the stress at the surface grows with the number of nodes
         all_depths = all_depths[1:]
     for depth in tqdm(all_depths, desc="stress", delay=2.0, leave=False, disable=not progress):

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 import os
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -24,10 +25,13 @@ from pyehl.subsurface.half_space import COMPONENTS
 from pyehl.subsurface.loads import Loads, check_friction, loads_of
 from pyehl.subsurface.near_surface import near_surface
 from pyehl.subsurface.passage import Peak, Profile, largest, profile
+from pyehl.types import Array
 
 if TYPE_CHECKING:
     from pyehl.prediction.result import Prediction
 
+# Fewest depths of a profile
+FEWEST = 4
 STEEP = "not at depth 0: the traction ends in a step, where the stress at the surface is not finite"
 FILES = ("case.nml", "summary.json", "stress.nc", "section.png", "depth.png")
 
@@ -39,6 +43,7 @@ def stress(
     friction: str | float = "run",
     above: float | None = None,
     near: float | None = None,
+    depths: Sequence[float] | None = None,
     fatigue: str | None = None,
     torsion_limit: float | None = None,
     bending_limit: float | None = None,
@@ -68,6 +73,8 @@ def stress(
     near
         Depth of the near-surface volume under the dry contact [m]; default: a quarter of the depth
         of the largest shear of the smooth contact.
+    depths
+        Depths of the profile [m], ascending, four or more; None: by the waves of the pressure.
     fatigue
         'dang-van' or 'crossland', with `torsion_limit` and `bending_limit`, the fatigue limits of
         the material in fully reversed torsion and bending [Pa].
@@ -119,8 +126,8 @@ def stress(
     loads, summary = _loads(results, body, friction)
     case = str(summary.attrs["case"])
     si = loads.operating.si
-    if not si and (above or near or criterion):
-        raise InputError("above, near and fatigue are in SI units: give the case in SI units")
+    if not si and (above or near or criterion or depths):
+        raise InputError("above, near, depths, fatigue are in SI units: give the case in SI units")
     partial = incomplete(loads)
     if criterion and partial:
         raise InputError(f"fatigue = {fatigue!r}: {partial}")
@@ -129,6 +136,7 @@ def stress(
         loads,
         above=None if above is None else above / p_h,
         fatigue=criterion,
+        at=_depths(depths, a),
         progress=progress,
     )
     data = _dataset(loads, found)
@@ -153,11 +161,25 @@ def stress(
         "short_side": loads.short_side,
         "case": case,
     }
-    notes = {"cycle_note": partial, "surface_note": "" if found.rows[0].depth == 0.0 else STEEP}
+    notes = {
+        "cycle_note": partial,
+        "surface_note": STEEP if found.rows[0].depth > (depths[0] if depths else 0.0) / a else "",
+    }
     data.attrs |= {name: words for name, words in notes.items() if words}
     if place is not None:
         _write(data, place)
     return data
+
+
+def _depths(given: Sequence[float] | None, a: float) -> Array | None:
+    """Give depths [a]; InputError if they do not ascend from 0 on."""
+    if given is None:
+        return None
+    found = np.array(given, dtype=float)
+    right = found.ndim == 1 and found.size >= FEWEST and np.isfinite(found).all()
+    if not right or found[0] < 0.0 or (np.diff(found) <= 0.0).any():
+        raise InputError(f"depths = {given!r}: expected {FEWEST} or more ascending depths [m]")
+    return found / a
 
 
 def _criterion(name: str | None, torsion: float | None, bending: float | None) -> Fatigue | None:

@@ -25,9 +25,11 @@ sys.path.insert(0, str(HERE.parent / "thinning"))
 import rough  # noqa: E402
 
 import pyehl  # noqa: E402
+from pyehl.theory.operating import OperatingPoint  # noqa: E402
 
-# Frames of a period
-FRAMES = 24
+# Frames of a period, depth of the near-surface layer and depths of the profiles [a]
+FRAMES, NEAR = 24, 0.12
+DEPTHS = (0.012, 0.02, 0.035, 0.06, 0.09, 0.12, 0.36, 0.43, 0.5)
 COLUMNS = (
     "name points near_simulated near_predicted near_error near_smooth inner_simulated "
     "inner_predicted inner_error inner_smooth largest_simulated largest_predicted largest_smooth "
@@ -47,9 +49,13 @@ def solved(name: str, points: int) -> xr.Dataset:
 def row_of(name: str, last: xr.Dataset) -> dict[str, Any]:
     """Predict, and compare the stress with that below the frames of a simulation."""
     points = last.sizes["X"]
-    simulated = pyehl.stress(last, friction="none")
-    prediction = pyehl.predict(rough.case_of(rough.PLAN[name], points))
-    predicted = pyehl.stress(prediction, friction="none")
+    case = rough.case_of(rough.PLAN[name], points)
+    a = OperatingPoint.from_settings(case.resolve()).hertz_radius
+    depths = [a * z for z in DEPTHS]
+    simulated, predicted = (
+        pyehl.stress(found, friction="none", near=NEAR * a, depths=depths)
+        for found in (last, pyehl.predict(case))
+    )
     row = {"name": name, "points": points}
     for layer, value in (("near", "near_surface_shear"), ("inner", "near_surface_shear_inner")):
         row |= {
@@ -91,16 +97,14 @@ def main() -> None:
             writer.writerows([*kept, new])
     for row in rows():
         value = {k: float(v) for k, v in row.items() if k != "name"}
-        print(row["name"], row["points"], end="")
+        cells = [row["name"], f"{value['near_smooth']:.4f}"]
         for layer in ("near", "inner"):
             simulated, predicted = (value[f"{layer}_{of}"] for of in ("simulated", "predicted"))
-            print(
-                f"  {layer} {simulated:.4f} {predicted:.4f} ({predicted / simulated - 1.0:+.1%}, "
-                f"error {value[f'{layer}_error'] / predicted:.1%}), smooth "
-                f"{value[f'{layer}_smooth']:.4f}",
-                end="",
-            )
-        print()
+            cells += [f"{simulated:.4f}", f"{predicted:.4f}"]
+            cells += [f"{predicted / simulated - 1.0:+.1%}"]
+            cells += [f"{value[f'{layer}_error'] / predicted:.1%}"]
+        largest = value["largest_predicted"] / value["largest_simulated"] - 1.0
+        print(f"| {' | '.join([*cells, f'{largest:+.2%}'])} |".replace("%", " %"))
 
 
 if __name__ == "__main__":
