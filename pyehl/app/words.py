@@ -99,7 +99,11 @@ def rough_rows(found: Rough, film: Film | None = None) -> list[tuple[str, str]]:
         rows.append(("no prediction", f"{p.friction.status}: {p.friction.message}"))
     if s["mu"] is not None:
         # of the grid of the prediction, and not of the film that is shown above
-        of = f"; smooth {s['mu_smooth']:.4f}, {s['h_c_source']}" if s["mu_smooth"] is not None else ""
+        of = (
+            f"; smooth {s['mu_smooth']:.4f}, {s['h_c_source']}"
+            if s["mu_smooth"] is not None
+            else ""
+        )
         rows.append(("friction μ", f"{s['mu']:.4f}{of}"))
     if p.outside_range:
         rows.append(("outside of the range", ", ".join(p.outside_range)))
