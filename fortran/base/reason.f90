@@ -35,7 +35,8 @@ module ehl_reason
    !> wall at rest under a line has no steady temperature
    integer, parameter :: friction_with_heat = 31, friction_never = 32, friction_no_slope = 33, friction_no_sliding = 34, &
                          friction_newtonian = 35, friction_small = 36, friction_wall_at_rest = 37
-   !> Why there is none: no speeds in m/s; rolling, and that of a line; no smooth contact; a Newtonian stress that no oil has; no temperature
+   !> Why there is none: no speeds in m/s; rolling, and that of a line; no smooth contact; a Newtonian stress that no oil has;
+   !> no temperature
    integer, parameter :: friction_no_size = 41, friction_rolling = 42, friction_no_smooth = 43, friction_above_limit = 44, &
                          friction_not_converged = 45, friction_rolling_line = 46
 end module ehl_reason

@@ -53,6 +53,7 @@ contains
       call find_contact(input, contact, scales, point)
       call fill_grid(contact, point, input%surface%kind == "smooth" .and. input%second_surface%kind == "smooth", &
                      [(source%given("grid."//grid_keys(k)), k=1, size(grid_keys))], input%grid)
+      if (input%contact%is_line() .and. .not. source%given("solver.deflection")) input%solver%deflection = "fft"
       call complete_motion(source, input)
       call complete_surface(source, "surface", input%grid%x_inlet, input%surface)
       call complete_surface(source, "second_surface", input%grid%x_inlet, input%second_surface)

@@ -92,7 +92,7 @@ contains
             holds = c%si .and. c%is_line()
          case ("contact.shape")
             holds = c%is_line()
-         case ("contact.angle", "grid.y_extent", "grid.points_y", "solver.deflection")
+         case ("contact.angle", "grid.y_extent", "grid.points_y")
             holds = .not. c%is_line()
          case ("contact.mean_velocity", "contact.reduced_modulus")
             holds = c%si

@@ -117,8 +117,6 @@ contains
                                                                          plan%lubricant%boundary_stress)
       plan%film_expected = max(film, plan%lubricant%boundary_film)
       plan%engine = trim(input%solver%deflection)
-      ! a row has no multi-integration
-      if (plan%contact%is_line()) plan%engine = "fft"
       plan%accuracy = input%solver%accuracy
       plan%max_cycles = input%solver%max_cycles
       plan%newtonian_circle = plan%contact%is_round() .and. .not. plan%lubricant%shear%thins_flow()

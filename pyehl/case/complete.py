@@ -40,6 +40,7 @@ COMPLETIONS: tuple[Step, ...] = (
     contact.complete_kinematics,
     lubricant.complete,
     surfaces.complete,
+    line.complete,
 )
 STEPS: tuple[Step, ...] = (
     check_no_machine,
@@ -58,6 +59,7 @@ STEPS: tuple[Step, ...] = (
     grid.check_points,
     surfaces.complete,
     surfaces.check,
+    line.complete,
     check_time,
 )
 

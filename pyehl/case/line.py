@@ -29,6 +29,12 @@ ENDLESS = (
 )
 
 
+def complete(draft: Draft) -> None:
+    """Find the engine of the deflection, unless it is given."""
+    if draft.settings.contact.is_line and not draft.is_given("solver", "deflection"):
+        draft.settings.solver.deflection = "fft"
+
+
 def check_keys(draft: Draft) -> None:
     """Refuse keys of a point beside a line, keys of a line beside a point, and what is missing."""
     s = draft.settings

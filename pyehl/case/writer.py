@@ -100,10 +100,7 @@ def _unwritten(settings: Settings, group: str) -> frozenset[str]:
     if group in ("surface", "second_surface"):
         return frozenset(_of_surface(settings, group))
     if settings.contact.is_line:
-        # one row of nodes
-        return frozenset(
-            {"grid": ("y_extent", "points_y"), "solver": ("deflection",)}.get(group, ())
-        )
+        return frozenset(("y_extent", "points_y") if group == "grid" else ())
     return frozenset()
 
 
