@@ -27,7 +27,8 @@ def plan_text(plan: Results, settings: Settings) -> str:
         *_friction(v, settings),
         *_surfaces(v, settings),
         *_domain(v),
-        f"deflection {settings['solver']['deflection']}, threads {v['threads']}",
+        # a line has one engine, and no key for it
+        f"deflection {settings['solver'].get('deflection', 'fft')}, threads {v['threads']}",
         _cycles(v),
         _stop(v),
         *_need(v),

@@ -9,6 +9,7 @@ from typing import Any, NoReturn
 from pyehl.case.complete import complete
 from pyehl.case.draft import Draft
 from pyehl.case.file import read_text
+from pyehl.case.groups import Bodies
 from pyehl.case.key import Value
 from pyehl.case.number import short, to_text
 from pyehl.case.reader import read
@@ -87,18 +88,25 @@ class Machine:
             blocks.append("\n".join([f"&{group}", *lines, "/\n"]))
         return "".join(blocks)
 
-    def case_text(self, contact: Mapping[str, Value], place: str = "") -> str:
+    def case_text(
+        self, contact: Mapping[str, Value], place: str = "", *, bodies: bool = True
+    ) -> str:
         """Give the resolved case of one contact, of values by ``group.key``.
 
-        InputError, which points to the machine, if there is no such contact; `place` says which.
+        Without `bodies` it has the reduced modulus in their place. InputError, which points to the
+        machine, if there is no such contact; `place` says which.
         """
         draft = Draft(copy.deepcopy(self.draft.settings), self.draft.sources)
         origin = self.draft.given[self._first()]
+        skipped = MACHINES if bodies else (*MACHINES, "bodies")
         draft.given = {
             name: where
             for name, where in self.draft.given.items()
-            if KEYS[name].group not in MACHINES
+            if KEYS[name].group not in skipped
         }
+        if not bodies:
+            draft.settings.bodies = Bodies()
+            contact = {**contact, "contact.reduced_modulus": self.reduced_modulus}
         for name, value in contact.items():
             key = KEYS[name]
             if isinstance(value, float) and not key.allows(value):

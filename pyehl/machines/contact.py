@@ -2,14 +2,15 @@
 """One contact of a machine element: what the machine makes of it, and its film by formulas."""
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 
+from pyehl.case.key import Value
 from pyehl.case.machine import Machine
 from pyehl.namelist import values
 from pyehl.theory import film, line_contact
 from pyehl.theory.ellipse import ellipse
 from pyehl.theory.film import FilmEstimate
-from pyehl.theory.heat import thermal_loading, thermal_reduction
 from pyehl.theory.line_contact import LineContact
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.moes_film import regime
@@ -20,7 +21,7 @@ LINE, ELLIPSE = "line", "ellipse"
 # R_x/R_y of an ellipse as wide as a line is near it: half widths agree within 1 %
 WIDE = 0.01
 OUTSIDE = " outside its range of "
-LINES = "a line by formulas: the solver has no lines"
+LINES = "smooth solutions: the prediction has no line contacts"
 LONGEST = 30.0
 """Largest ratio of the semi-axes of an ellipse that the solver takes."""
 
@@ -76,30 +77,48 @@ class Contact:
         return LineContact(load, self.mean_velocity, self.radius, modulus)
 
     def case_text(self, machine: Machine) -> str:
-        """Give the resolved case of the contact.
-
-        The one place for line contacts: until the solver has them, that of a wide ellipse with the
-        p_h and, within 1 %, the half width of the line. It has the oil, the solids and their heat;
-        its film is not that of the line, and it is not solved.
-        """
-        radii, load = self.radii, self.load
-        if self.length:
-            shape = ellipse(WIDE)
-            pressure, kappa = self.line(machine.reduced_modulus).hertz_pressure, shape.ellipticity
-            semi_axis = math.pi * kappa * self.radius * pressure
-            semi_axis /= machine.reduced_modulus * shape.load_share
-            radii = (radii[0], self.radius / WIDE, radii[2], math.inf)
-            load = 2.0 / 3.0 * math.pi * kappa * semi_axis**2 * pressure
+        """Give the resolved case of the contact."""
+        if not self.length:
+            return self._ellipse_text(machine, self.load, self.radii)
         contact = {
-            "contact.load": load,
+            "contact.load_per_length": self.load / self.length,
+            "contact.radius": self.radius,
+            **self._motion(),
+        }
+        line: dict[str, Value] = {"contact.shape": LINE, **_rounded(contact)}
+        return machine.case_text(line, self.place, bodies=False)
+
+    def wide_text(self, machine: Machine) -> str:
+        """Give the case of a wide ellipse in place of a line, for the heat of a friction formula.
+
+        It has the p_h and, within 1 %, the half width of the line; its film is another one.
+        """
+        shape = ellipse(WIDE)
+        pressure, kappa = self.line(machine.reduced_modulus).hertz_pressure, shape.ellipticity
+        semi_axis = math.pi * kappa * self.radius * pressure
+        semi_axis /= machine.reduced_modulus * shape.load_share
+        load = 2.0 / 3.0 * math.pi * kappa * semi_axis**2 * pressure
+        radii = (self.radii[0], self.radius / WIDE, self.radii[2], math.inf)
+        return self._ellipse_text(machine, load, radii)
+
+    def _motion(self) -> dict[str, float]:
+        return {
             "contact.mean_velocity": self.mean_velocity,
             "contact.slide_to_roll": self.slide_to_roll,
         }
+
+    def _ellipse_text(
+        self, machine: Machine, load: float, radii: tuple[float, float, float, float]
+    ) -> str:
+        contact = {"contact.load": load, **self._motion()}
         for name, radius in zip(("x1", "y1", "x2", "y2"), radii, strict=True):
             contact[f"bodies.radius_{name}"] = radius if math.isfinite(radius) else 0.0
-        # elements that mirror each other have the same case
-        rounded = {name: float(f"{value:.10g}") for name, value in contact.items()}
-        return machine.case_text(rounded, self.place)
+        return machine.case_text(_rounded(contact), self.place)
+
+
+def _rounded(values: Mapping[str, float]) -> dict[str, float]:
+    """Round values, so that elements that mirror each other have the same case."""
+    return {name: float(f"{value:.10g}") for name, value in values.items()}
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,6 +141,8 @@ class Film:
         As :func:`pyehl.theory.moes_film.regime` names it.
     outside
         What is outside of the range of a formula that gives them, in words; '' if nothing is.
+    wide
+        The case of `point`, of a line.
     """
 
     contact: Contact
@@ -134,6 +155,7 @@ class Film:
     h_min: float
     regime: str
     outside: str
+    wide: Settings | None = None
 
     @property
     def hertz_pressure(self) -> float:
@@ -175,34 +197,14 @@ def film_of(contact: Contact, machine: Machine) -> Film:
         beyond = _beyond(central, least)
         h_c, h_min = central.h_c, least.h_min
         return Film(contact, text, settings, point, None, oil, h_c, h_min, name, beyond)
-    group = settings["lubricant"]
-    isothermal = {**settings, "lubricant": {**group, "thermal_reduction": False}}
-    point = OperatingPoint.from_settings(isothermal)
-    line = LineContact(
-        contact.load / contact.length,
-        contact.mean_velocity,
-        contact.radius,
-        point.reduced_modulus,
-        oil.viscosity,
-        oil.pressure_viscosity,
-        contact.slide_to_roll,
-    )
-    share = 1.0
-    if group["thermal_reduction"]:
-        loading = thermal_loading(
-            oil.temperature_viscosity,
-            oil.viscosity,
-            line.mean_velocity,
-            float(group["thermal_conductivity"]),
-        )
-        strain = line.hertz_pressure / line.reduced_modulus
-        share = thermal_reduction(loading, strain, line.slide_to_roll)
+    wide = values(contact.wide_text(machine))
+    wide["lubricant"] = {**wide["lubricant"], "thermal_reduction": False}
+    point, line = OperatingPoint.from_settings(wide), LineContact.from_settings(settings)
     formulas = line_contact.estimates(line, oil)
     beyond = _beyond(*formulas)
-    h_min = formulas[1].h_min if len(formulas) > 1 else math.nan
+    h_c, h_min = formulas[0].h_c, formulas[1].h_min if len(formulas) > 1 else math.nan
     name = line_contact.regime(line.moes_m, line.moes_l)
-    h_c = formulas[0].h_c * share
-    return Film(contact, text, settings, point, line, oil, h_c, h_min * share, name, beyond)
+    return Film(contact, text, settings, point, line, oil, h_c, h_min, name, beyond, wide)
 
 
 def _beyond(*formulas: FilmEstimate) -> str:

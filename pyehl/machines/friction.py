@@ -64,7 +64,7 @@ def _heat(film: Film, h_c: float) -> Heat:
     remaining = 1.0 - x[:, None] ** 2 - (y[None, :] / across if across else 0.0 * y[None, :]) ** 2
     pressure = np.sqrt(np.maximum(remaining, 0.0))
     films = np.full(pressure.shape, h_c / film.point.film_scale)
-    nodes = HeatOf(film.settings, film.lubricant, x, y, even=True)
+    nodes = HeatOf(film.wide or film.settings, film.lubricant, x, y, even=True)
     return nodes(pressure, films, np.zeros(pressure.shape, dtype=bool))
 
 

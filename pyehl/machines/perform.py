@@ -74,16 +74,17 @@ class Prepared:
         numbers: dict[str, int] = {}
         self.number: list[int | None] = []
         for one in self.films:
-            if run == "film" or one.line is not None or one.ellipticity > LONGEST:
+            if run == "film" or (one.line is None and one.ellipticity > LONGEST):
                 self.number.append(None)
                 continue
             if one.text not in numbers:
                 case = trusted(one.text)
-                if run == "solve":
+                done = "solve" if one.line is not None else run
+                if done == "solve":
                     case = case.smooth() if rough else case
                 elif why := unpredictable(one.settings):
                     raise InputError(f"{one.contact.place}: {why}")
-                numbers[one.text] = self.tasks.add(len(numbers), case, run)
+                numbers[one.text] = self.tasks.add(len(numbers), case, done)
             self.number.append(numbers[one.text])
 
     def identity(self) -> dict[str, Any]:
@@ -108,7 +109,7 @@ class Prepared:
                 for film, n, place in zip(self.films, self.number, self.made.places, strict=True)
             ]
         )
-        summary = summary_of(self.machine, self.made, table, sigma)
+        summary = summary_of(self.machine, self.made, table, sigma, self.run)
         return MachineResult(str(summary["kind"]), table, summary)
 
 
@@ -199,8 +200,8 @@ def bearing(
     *options
         Values that replace those of the file, as of `Case`.
     run
-        'film': formulas, at once; 'solve': smooth contacts; 'predict': with the roughness. Line
-        contacts are by formulas.
+        'film': formulas, at once; 'solve': smooth contacts; 'predict': with the roughness, lines
+        smooth.
     output
         Folder for the table and the picture, and the journal from which an interrupted study is
         resumed; None: nothing is kept on disk.

@@ -127,7 +127,7 @@ def sigma_of(film: Film) -> float:
     """Rms height of both surfaces of a contact together [m]; 0 for smooth ones."""
     tiles = [
         surfaces.from_settings(
-            {**film.settings, "surface": film.settings[group]}, film.point, film.h_c
+            {**film.settings, "surface": film.settings[group]}, film.line or film.point, film.h_c
         )
         for group in surfaces.rough_groups(film.settings)
     ]
@@ -192,7 +192,7 @@ def table_of(rows: Sequence[Mapping[str, Any]]) -> pd.DataFrame:
 
 
 def summary_of(
-    machine: Machine, made: Bearing | GearPair, table: pd.DataFrame, sigma: float
+    machine: Machine, made: Bearing | GearPair, table: pd.DataFrame, sigma: float, run: str
 ) -> dict[str, Any]:
     """Give the sums of a machine element."""
     kind = "gear" if isinstance(made, GearPair) else "bearing"
@@ -220,7 +220,7 @@ def summary_of(
             found[f"{name}_torque_N_m"] = power / made.speed
         found["torque_N_m"] = sum(powers.values()) / made.speed
     found["left_out"] = LEFT_OUT[kind]
-    if (table["shape"] == "line").any():
+    if run == "predict" and (table["shape"] == "line").any():
         found["lines"] = LINES
     return found
 

@@ -383,7 +383,38 @@ def test_friction_by_formulas_beside_solved_contacts(root: Path):
     assert len(ratio) == len(formula) - 1
     assert ratio.between(0.97, 1.03).all()
     assert (formula["h_c_m"] / solved["h_c_m"]).between(1.0, 1.15).all()
-    assert "within 3 %" in (root / "docs" / "howto" / "gear.md").read_text()
+
+
+def test_lines_are_solved(root: Path):
+    """The page says 4 % for films, 3 % for friction, a mean coefficient of 0.0357."""
+    page = (root / "docs" / "howto" / "gear.md").read_text()
+    path = root / "cases" / "fzg_c.nml"
+    options = {"spur_gear.stations": 9}
+    formula, solved = (pyehl.gear(path, options, run=run, jobs=1) for run in ("film", "solve"))
+    assert set(solved.table["shape"]) == {"line"}
+    assert set(solved.table["status"]) == {"converged"}
+    assert (formula.table["h_c_m"] / solved.table["h_c_m"]).between(0.96, 1.01).all()
+    assert (formula.table["mu"] / solved.table["mu"]).dropna().between(0.96, 1.04).all()
+    assert (solved.table["h_c_error_m"] < 0.015 * solved.table["h_c_m"]).all()
+    assert solved.summary["mu_mean"] == pytest.approx(0.0357, abs=2e-4)
+    for words in (
+        "films within 4 %",
+        "0.0357",
+        "lines and crowned flanks, have the same within 3 %",
+    ):
+        assert words in page
+    # rollers of another material: the line has the reduced modulus of the bodies
+    hybrid = {"bodies.modulus_1": 3.1e11, "bodies.poisson_1": 0.26}
+    rollers = bearing(ROLLERS, hybrid, run="solve", jobs=1).table
+    by_formula = bearing(ROLLERS, hybrid).table
+    assert rollers["hertz_pressure_Pa"].to_numpy() == pytest.approx(by_formula["hertz_pressure_Pa"])
+    steel = bearing(ROLLERS).table
+    assert (by_formula["hertz_pressure_Pa"] > 1.05 * steel["hertz_pressure_Pa"]).all()
+    # a prediction leaves lines smooth, and says so
+    rough = {"surface.kind": "fractal", "surface.rms_height": 2e-8}
+    predicted = bearing(ROLLERS, rough, run="predict", jobs=1)
+    assert set(predicted.table["status"]) == {"converged"}
+    assert "the prediction has no line contacts" in repr(predicted)
 
 
 def test_rolling_resistance_beside_solved_contacts(root: Path):
