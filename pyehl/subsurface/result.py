@@ -144,6 +144,12 @@ def stress(
     scalars = near_surface(found, near and near / a, above, predicted=predicted)
     for name, value, unit, meaning in scalars:
         _add(data, loads, name, value, unit, meaning)
+    if "near_surface_shear_error" in data:
+        # the layer may hold the largest shear, where its error is taken in
+        highest = float(data.near_surface_shear + data.near_surface_shear_error)
+        name, words = "principal_shear_max_error", "; near-surface layer of a prediction"
+        error = max(float(data[name]), highest - float(data.principal_shear_max))
+        _add(data, loads, name, error, "Pa", f"{data[name].long_name}{words}")
     if criterion:
         rows = found.rows
         equivalent = max(row.fatigue for row in rows) * p_h
