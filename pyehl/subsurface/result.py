@@ -25,7 +25,6 @@ from pyehl.subsurface.half_space import COMPONENTS
 from pyehl.subsurface.loads import Loads, check_friction, loads_of
 from pyehl.subsurface.near_surface import near_surface
 from pyehl.subsurface.passage import Peak, Profile, largest, profile
-from pyehl.types import Array
 
 if TYPE_CHECKING:
     from pyehl.prediction.result import Prediction
@@ -112,6 +111,7 @@ def stress(
     0.31
     """
     check_friction(friction)
+    _check_depths(depths)
     criterion = _criterion(fatigue, torsion_limit, bending_limit)
     for name, value in (("above", above), ("near", near), ("contamination", contamination)):
         if value is not None and not (math.isfinite(value) and value > 0.0):
@@ -136,7 +136,7 @@ def stress(
         loads,
         above=None if above is None else above / p_h,
         fatigue=criterion,
-        at=_depths(depths, a),
+        at=None if depths is None else np.array(depths) / a,
         progress=progress,
     )
     data = _dataset(loads, found)
@@ -144,6 +144,12 @@ def stress(
     scalars = near_surface(found, near and near / a, above, predicted=predicted)
     for name, value, unit, meaning in scalars:
         _add(data, loads, name, value, unit, meaning)
+    if "near_surface_shear_error" in data:
+        # the layer may hold the largest shear, where its error is taken in
+        highest = float(data.near_surface_shear + data.near_surface_shear_error)
+        name, words = "principal_shear_max_error", "; near-surface layer of a prediction"
+        error = max(float(data[name]), highest - float(data.principal_shear_max))
+        _add(data, loads, name, error, "Pa", f"{data[name].long_name}{words}")
     if criterion:
         rows = found.rows
         equivalent = max(row.fatigue for row in rows) * p_h
@@ -171,15 +177,14 @@ def stress(
     return data
 
 
-def _depths(given: Sequence[float] | None, a: float) -> Array | None:
-    """Give depths [a]; InputError if they do not ascend from 0 on."""
+def _check_depths(given: Sequence[float] | None) -> None:
+    """InputError if depths do not ascend from 0 on, or are too few."""
     if given is None:
-        return None
+        return
     found = np.array(given, dtype=float)
     right = found.ndim == 1 and found.size >= FEWEST and np.isfinite(found).all()
     if not right or found[0] < 0.0 or (np.diff(found) <= 0.0).any():
         raise InputError(f"depths = {given!r}: expected {FEWEST} or more ascending depths [m]")
-    return found / a
 
 
 def _criterion(name: str | None, torsion: float | None, bending: float | None) -> Fatigue | None:

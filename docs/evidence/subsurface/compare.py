@@ -29,7 +29,7 @@ from pyehl.theory.operating import OperatingPoint  # noqa: E402
 
 # Frames of a period, depth of the near-surface layer and depths of the profiles [a]
 FRAMES, NEAR = 24, 0.12
-DEPTHS = (0.012, 0.02, 0.035, 0.06, 0.09, 0.12, 0.36, 0.43, 0.5)
+DEPTHS = (0.012, 0.02, 0.035, 0.06, 0.09, 0.12, 0.36, 0.43, 0.5, 0.6)
 COLUMNS = (
     "name points near_simulated near_predicted near_error near_smooth inner_simulated "
     "inner_predicted inner_error inner_smooth largest_simulated largest_predicted largest_smooth "
