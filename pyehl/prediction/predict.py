@@ -122,8 +122,9 @@ def _surfaces(
     brief: bool,
 ) -> tuple[RoughSurface, ...]:
     """Make the rough surfaces of a resolved case, whose film is h_c [m]."""
-    rough = []
-    for group in surfaces.rough_groups(settings):
+    rough, groups = [], surfaces.rough_groups(settings)
+    beside = 0 if any(given.values()) else spectrum_assumed.number(settings, groups)
+    for group in groups:
         values = settings[group]
         tile = given[group]
         if tile is None:
@@ -131,7 +132,7 @@ def _surfaces(
         else:
             tile = surfaces.finished(tile, values)
         if not brief:
-            report_cost(tile, operating, group)
+            report_cost(tile, operating, group, beside)
         ratio, front = float(values["velocity_ratio"]), float(values["x_start"])
         rough.append(RoughSurface(tile, ratio, front, str(values["filter"]), (group,)))
     return tuple(rough)

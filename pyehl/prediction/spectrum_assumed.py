@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from pyehl import lengths
+from pyehl.case.surfaces import FINISHES
 from pyehl.types import Settings
 
 if TYPE_CHECKING:
@@ -21,6 +22,11 @@ def assumed(group: Mapping[str, Any]) -> bool:
         return False
     named = str(group.get("finish", "none")) != "none"
     return named or bool(group.get("ra", 0.0)) or bool(group.get("rq", 0.0))
+
+
+def number(groups: Mapping[str, Any], names: Sequence[str]) -> int:
+    """Count the predictions that `beside` makes."""
+    return len(LENGTHS) if any(assumed(groups[name]) for name in names) else 0
 
 
 def beside(
@@ -55,7 +61,11 @@ def report(rows: Sequence[Mapping[str, Any]]) -> list[str]:
     """Return the lines that ``pyehl predict`` prints."""
     if not rows:
         return []
-    lines = ["spectrum   not determined by Ra or a finish; with a roll-off of the spectrum at"]
+    typical = (f"{k} {lengths.length(f.rolloff, most='um')}" for k, f in FINISHES.items())
+    lines = [
+        f"spectrum   not determined by Ra; typical roll-offs: {', '.join(typical)};",
+        "           with a roll-off of the spectrum at",
+    ]
     for row in rows:
         where = "none" if row["rolloff_wavelength_m"] is None else (
             lengths.length(row["rolloff_wavelength_m"], most="um")

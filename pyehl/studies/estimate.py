@@ -12,6 +12,7 @@ from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from pyehl.prediction import spectrum_assumed
 from pyehl.case.line import TRANSVERSE
 from pyehl.prediction.smooth import POINTS
 from pyehl.studies.pool import processors
@@ -94,7 +95,9 @@ def _predict_seconds(settings: Settings, aspect: float, *, shared: bool, full: b
     thins = ShearLaw.from_settings(settings).in_flow
     sides = [int(s["pixels"]) if s["kind"] == "fractal" else 256 for s in rough]
     alone = sum(PREDICTION + PREDICTION_PIXEL * side**2 for side in sides)
-    alone *= (FULL if full else 1.0) * (PAIR if len(rough) > 1 else 1.0) * (THINS if thins else 1.0)
+    beside = spectrum_assumed.number(settings, rough_groups(settings))
+    alone *= (FULL + beside if full else 1.0) * (PAIR if len(rough) > 1 else 1.0)
+    alone *= THINS if thins else 1.0
     kappa = point.ellipse.ellipticity
     alone *= max(kappa, 1.0 / kappa) ** WIDER
     if settings["lubricant"]["boundary_film"] > 0.0:

@@ -93,7 +93,7 @@ def test_a_prediction_by_ra_shows_what_the_spectrum_does(tmp_path, capsys):
     command = ["predict", str(tmp_path / "case.nml"), "-o", str(tmp_path / "out"), "--no-plots"]
     assert cli.main([*command, "--tracks", "1"]) == 0
     out = capsys.readouterr().out
-    assert "spectrum   not determined by Ra or a finish" in out
+    assert "spectrum   not determined by Ra; typical roll-offs: ground 100 um, honed 60 um" in out
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     assert summary["status"] == "predicted"
     rows = summary["spectrum_beside"]
