@@ -13,6 +13,7 @@ from pathlib import Path
 import faults
 import faults_inputs
 import machines
+import mixed
 import numpy as np
 import pytest
 import skips
@@ -428,3 +429,26 @@ def test_cheapest_setting():
     assert found[0.01]["setting"] == "mean"
     assert found[0.001]["setting"] == "dear"
     assert math.isclose(sum(found), sum(workprec.LEVELS))
+
+
+def test_predictions_at_a_boundary_film_beside_solutions(tmp_path: Path, capsys):
+    """One contact that touches; its numbers belong together, and its load shares agree."""
+    (touching,) = [c for c in mixed.draw(4, 1, (65,)) if 0.7 < c.over < 0.9][:1]
+    rows = mixed.compare(touching, simulate=False)
+    assert [row["kind"] for row in rows] == ["smooth", "vanishing"]
+    assert not [row["broken"] for row in rows if row["wrong"]]
+    assert rows[1]["predicted_contact_load_share"] > 0.0
+    assert 0.0 < rows[1]["difference"] <= rows[1]["allowed"]
+    again = mixed.draw(2, 1, (65,))
+    assert again == mixed.draw(4, 1, (65,))[:2]
+
+
+def test_numbers_that_do_not_belong_together_are_told():
+    good = {"mu": 0.06, "mu_smooth": 0.05, "mu_ratio": 1.2, "mu_note": "", "contact_load_share": 0}
+    assert mixed.contradictions(good) == []
+    assert mixed.contradictions(good | {"mu_ratio": 1.3}) == ["mu = mu_smooth mu_ratio"]
+    lost = good | {"contact_load_share": None}
+    assert "friction without a load share" in mixed.contradictions(lost)
+    assert "no load share and no reason" in mixed.contradictions(lost)
+    assert "load share" in mixed.contradictions(good | {"contact_load_share": 1.1})
+    assert "not a number" in mixed.contradictions(good | {"mu_ratio": math.nan})
