@@ -143,3 +143,31 @@ def off(row: Row, name: str) -> bool:
     stated = row["contact_load_share_error"]
     allowed = max(float(stated), 1e-3) if stated else 0.03
     return abs(float(row["contact_load_share"]) - float(row[name])) > allowed
+
+
+def random_contacts_at_a_film() -> Values:
+    """Predictions of contacts at a boundary film beside solutions."""
+    rows = read("partial/campaign.csv")
+    heads = {
+        "smooth": "smooth contact under the prediction: film, pressure",
+        "vanishing": "prediction without roughness: load share",
+        "rough": "prediction of the rough contact: load share",
+    }
+    lines = "| | contacts | compared | touching | no number | outside of the stated errors |\n"
+    lines += "|---|---|---|---|---|---|"
+    heat = "solution: mu = mu_smooth mu_ratio"
+    for kind, head in heads.items():
+        mine = [row for row in rows if row["kind"] == kind]
+        share = [(r["predicted_contact_load_share"], r["solved_contact_load_share"]) for r in mine]
+        if kind == "smooth":
+            share = [(mine_solved, mine_solved) for _, mine_solved in share]
+        known = [pair for pair in share if all(pair)]
+        touching = sum(max(map(float, pair)) > 0.0 for pair in known)
+        wrong = sum(row["broken"] not in ("", heat) for row in mine)
+        lines += f"\n| {head} | {len(mine)} | {len(known)} | {touching} "
+        lines += f"| {len(mine) - len(known)} | {wrong} |"
+    heated = sum(row["broken"] == heat for row in rows)
+    without = [row for row in rows if row["kind"] == "rough" and not row["allowed"]]
+    friction = [row for row in rows if row["mu_allowed"] not in ("", "inf")]
+    missed = sum(float(row["mu_difference"]) > float(row["mu_allowed"]) for row in friction)
+    return locals()
