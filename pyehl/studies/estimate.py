@@ -12,8 +12,8 @@ from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from pyehl.prediction import spectrum_assumed
 from pyehl.case.line import TRANSVERSE
+from pyehl.prediction import spectrum_assumed
 from pyehl.prediction.smooth import POINTS
 from pyehl.studies.pool import processors
 from pyehl.studies.tasks import Task
