@@ -13,6 +13,8 @@ from pyehl.surfaces import fractal, profile_file
 from pyehl.surfaces.profile import fit, levelled
 from pyehl.surfaces.profile_file import Profile, is_profile, read_profile
 
+# of a prediction only the surface is looked at
+UNSOLVED = {"psd.smooth": "hertz"}
 N, DX = 600, 0.5e-6
 
 
@@ -158,7 +160,7 @@ def test_a_profile_as_ridges(tmp_path, z):
     path = tmp_path / "ridges.prf"
     path.write_text(mahr(z))
     case = pyehl.Case.from_text(f"&surface kind = 'map' file = '{path}' profile = 'ridges' /")
-    about = pyehl.predict(case, tracks=1).summary
+    about = pyehl.predict(case, UNSOLVED, tracks=1).summary
     flat = levelled(read_profile(path))
     assert about["rms_height_m"] == pytest.approx(flat.std(), rel=1e-6)
     assert about["length_x_m"] == pytest.approx(2 * N * DX)
@@ -176,7 +178,7 @@ def test_a_profile_as_an_isotropic_surface(tmp_path, z):
     case = pyehl.Case.from_text(
         f"&surface kind = 'map' file = '{path}' profile = 'isotropic' pixels = 128 /"
     )
-    result = pyehl.predict(case, tracks=1)
+    result = pyehl.predict(case, UNSOLVED, tracks=1)
     found = fit(read_profile(path))
     tile = result.surface
     assert tile.shape == (128, 128)
@@ -186,7 +188,7 @@ def test_a_profile_as_an_isotropic_surface(tmp_path, z):
     # along and across alike, and another seed is another surface
     slopes = [np.std(np.diff(tile.heights, axis=axis)) for axis in (0, 1)]
     assert slopes[0] == pytest.approx(slopes[1], rel=0.1)
-    other = pyehl.predict(case.with_options({"surface.seed": 2}), tracks=1).surface
+    other = pyehl.predict(case, UNSOLVED, {"surface.seed": 2}, tracks=1).surface
     assert abs(np.mean(other.heights * tile.heights)) < 0.5 * tile.rms_height**2
     assert f"{tile.rms_height:.2E} m" in str(pyehl.check(case))
 

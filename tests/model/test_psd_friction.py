@@ -165,7 +165,7 @@ def test_load_balance(table_1):
 
 def test_load_balance_follows_hertz():
     """Roughness that is one bump under the whole contact acts like a lighter smooth contact."""
-    n, side = 128, 40 * POINT.hertz_radius
+    n, side = 128, 24 * POINT.hertz_radius
     x = np.arange(n) / n
     hill = np.outer(np.cos(2 * np.pi * x), np.cos(2 * np.pi * x)) * 4e-6
     rough = Topography(hill, (side, side))
