@@ -65,8 +65,9 @@ def is_exempt(part: str) -> bool:
 
 @pytest.fixture
 def folder(root: Path, tmp_path: Path) -> Path:
-    """A folder with the case files, and a profile [µm] with places in mm."""
+    """A folder with the case files, those of the rig, and a profile [µm] with places in mm."""
     shutil.copytree(root / "cases", tmp_path / "cases")
+    shutil.copytree(root / "docs/evidence/rig", tmp_path / "docs/evidence/rig")
     z = np.cumsum(np.random.default_rng(1).normal(size=2000)) * 0.01
     rows = (f"{0.0005 * k:.4f};{v - z.mean():.4f}" for k, v in enumerate(z))
     (tmp_path / "profile.prf").write_text("X [mm];Z [um]\n" + "\n".join(rows) + "\n")
