@@ -205,15 +205,17 @@ contains
    subroutine pick_cycle(input, plan)
       type(case_t), intent(in) :: input
       type(plan_t), intent(inout) :: plan
+      logical :: row
 
       if (input%solver%cycle /= "auto") then
          plan%cycle_letter = input%solver%cycle(1:1)
          plan%step_cycle_letter = plan%cycle_letter
       end if
       ! sweeps of one row are all but Newton steps
-      if (plan%contact%is_line() .and. input%solver%cycle == "auto") plan%cycle_letter = "V"
+      row = plan%contact%is_line() .and. .not. plan%surfaces%width() > 0.0_dp
+      if (row .and. input%solver%cycle == "auto") plan%cycle_letter = "V"
       plan%cycle = cycle_of(plan%cycle_letter)
-      if (plan%contact%is_line()) plan%cycle%pre = 1
+      if (row) plan%cycle%pre = 1
       plan%second_cycle = plan%cycle
       if (plan%cycle%full .and. input%solver%cycle == "auto" .and. .not. (plan%surfaces%rough() .or. plan%touches)) then
          ! The first leaves so little that is smooth that one visit to the coarser levels will do. Not before rough runs:

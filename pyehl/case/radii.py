@@ -108,6 +108,9 @@ def _check_open(draft: Draft, name: str, one: float, other: float, reduced: floa
     if reduced > 0.0:
         draft.check_range(f"contact.{name}", reduced, key, "the bodies")
         return
+    if key not in draft.given:
+        # a flat body that nobody gave
+        key = draft.first_given(known for known in KEYS if known.startswith("bodies."))
     what = (
         f"bodies.{name}1 = {short(one)} and {name}2 = {short(other)}: the gap does not open in "
         "this direction"

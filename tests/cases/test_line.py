@@ -8,11 +8,13 @@ import subprocess
 import line_newton
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 import pyehl
 from pyehl.plots.figures import solution_figures
 from pyehl.reports.folder import report
 from pyehl.results import settings_of
+from pyehl.theory.ellipse import ellipse
 from pyehl.theory.line_contact import LineContact, moes_film
 
 # Film at X = 0 and least film, of an independent solver on -4 <= X <= 1.5 with P = 0 at both ends,
@@ -283,6 +285,31 @@ def test_strip_of_waves_across():
     assert float(long.amplitude_ratio) == pytest.approx(float(row.amplitude_ratio), rel=0.02)
     rises = [float(found.mu_ratio) - 1.0 for found in (row, long)]
     assert rises[1] == pytest.approx(0.5 * rises[0], rel=0.05)
+
+
+def test_strip_is_the_middle_of_a_wide_ellipse():
+    """Isotropic waves in an ellipse of kappa = 8, with the same a, p_h and speed parameter."""
+    ratio = brentq(lambda d: ellipse(d).ellipticity - 8.0, 1e-3, 0.5)
+    kernel = ellipse(ratio).kernel_ratio
+    line = LineContact.from_moes(20.0, 10.0)
+    round_m = (128.0 * math.pi**3 / (3.0 * line.speed_parameter**3)) ** 0.25
+    moes_m = 8.0 * round_m * kernel**0.25
+    moes_l = line.alpha_bar * math.pi / (1.5 * round_m) ** (1.0 / 3.0) / kernel**0.75
+    domain = {"grid.x_inlet": -2.5, "grid.x_outlet": 1.5, "grid.border": "zero"}
+    wave = {"surface.kind": "harmonic", "surface.wavelength": 1.0, "surface.amplitude": 0.004}
+    rolling = {"contact.slide_to_roll": 0.0, "time.estimate_error": False, "grid.points": 97}
+    wide = pyehl.Case(
+        contact={"moes_m": moes_m, "moes_l": moes_l, "radius_ratio": ratio},
+        grid={"points": 97, "y_extent": 9.0, "points_y": 433},
+    )
+    strip = pyehl.Case(contact={"shape": "line", "moes_m_line": 20.0, "moes_l_line": 10.0})
+    found = [pyehl.solve(case, domain, wave, rolling) for case in (wide, strip)]
+    speeds, films, kept = (
+        [float(f[name]) for f in found] for name in ("speed_parameter", "H_c", "amplitude_ratio")
+    )
+    assert speeds[0] == pytest.approx(speeds[1], rel=1e-6)
+    assert films[0] == pytest.approx(films[1], rel=0.01)
+    assert kept[0] == pytest.approx(kept[1], rel=0.01)
 
 
 def test_strip_carries_a_fractal_surface():
