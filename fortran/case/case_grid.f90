@@ -18,6 +18,10 @@ module ehl_case_grid
    integer, parameter :: fewest_rows = 8, few_rows = 32
    !> Least and largest ratio of the sides of a cell
    real(dp), parameter :: least_ratio = 0.25_dp, largest_ratio = 1.41_dp
+   !> Largest ratio in a smooth contact, as it is and over kappa: the film of a wide one varies across the motion over the length
+   !> of the contact there. Up to so much alpha p_h: beyond, the pressure spike on the oblique edge is a few nodes wide, and
+   !> cycles on such cells throw it about (docs/theory/relaxation.md).
+   real(dp), parameter :: largest_smooth = 2.8_dp, smooth_by_kappa = 0.5_dp, blunt_spike = 21.0_dp
    !> Largest a-priori error of H_c that the usual grid of a smooth contact may have
    real(dp), parameter :: most_missed = 0.05_dp
 
@@ -44,12 +48,14 @@ contains
          errors = relative_errors(contact, point, (grid%x_outlet - grid%x_inlet)/(grid%points - 1))
          if (errors(1) > most_missed) grid%points = 2*grid%points - 1
       end if
-      if (.not. grid%points_y > 0) grid%points_y = rows(contact, grid)
+      if (.not. grid%points_y > 0) grid%points_y = rows(contact, smooth .and. point%alpha_bar < blunt_spike, grid)
    end subroutine fill_grid
 
    !> Nodes along Y: as many as along X in a round contact, else as many as make cells of the shape wanted
-   pure integer function rows(contact, grid)
+   pure integer function rows(contact, blunt, grid)
       class(contact_t), intent(in) :: contact
+      !> Whether both surfaces are smooth and the pressure spike is no sharp one
+      logical, intent(in) :: blunt
       type(grid_case_t), intent(in) :: grid
       integer :: levels, intervals(2), halved, multiple
       real(dp) :: wanted
@@ -59,7 +65,8 @@ contains
       call find_levels(rows, rows, levels, intervals)
       if (levels == 0) return
       halved = (rows - 1)/intervals(1)
-      wanted = 2.0_dp*grid%y_extent*intervals(1)/(cell_ratio(contact%reach(2)/contact%reach(1))*(grid%x_outlet - grid%x_inlet))
+      wanted = 2.0_dp*grid%y_extent*intervals(1)/(cell_ratio(contact%reach(2)/contact%reach(1), blunt) &
+                                                  *(grid%x_outlet - grid%x_inlet))
       ! many rows are halved further, until they are few
       multiple = 2
       do while (wanted > 0.5_dp*multiple*few_rows)
@@ -70,8 +77,11 @@ contains
 
    !> Side of a cell along Y over that along X: cells longer along the longer axis reach the same error with fewer nodes, as
    !> long as multigrid converges as on square ones
-   pure real(dp) function cell_ratio(elongation)
+   pure real(dp) function cell_ratio(elongation, blunt)
       real(dp), intent(in) :: elongation
+      logical, intent(in) :: blunt
+
       cell_ratio = min(largest_ratio, max(least_ratio, elongation))
+      if (blunt) cell_ratio = max(cell_ratio, min(largest_smooth, smooth_by_kappa*elongation))
    end function cell_ratio
 end module ehl_case_grid

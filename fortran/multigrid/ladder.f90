@@ -13,8 +13,8 @@ module ehl_ladder
    private
    public :: find_ladder
 
-   !> Cells that are longer than that along one axis are long
-   real(dp), parameter :: long = 1.6_dp
+   !> Cells that are longer than that along Y, or along X, are coarsened along their short side alone
+   real(dp), parameter :: long_y = 3.0_dp, long_x = 1.6_dp
    !> Most unknowns of a grid that is solved directly, and fewest intervals along Y
    integer, parameter :: max_unknowns = 250, fewest_rows = 8
 
@@ -67,9 +67,9 @@ contains
       possible = mod(intervals, 4) == 0 .and. intervals/2 >= [fewest_columns, fewest_rows]
       ratio = grid%hy/grid%hx
       step = 1
-      if (possible(1) .and. (ratio > long .or. grid%is_row())) then
+      if (possible(1) .and. (ratio > long_y .or. grid%is_row())) then
          step(1) = 2
-      else if (ratio < 1.0_dp/long .and. possible(2)) then
+      else if (ratio < 1.0_dp/long_x .and. possible(2)) then
          step(2) = 2
       else if (all(possible)) then
          step = 2

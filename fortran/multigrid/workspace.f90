@@ -19,6 +19,9 @@ module ehl_workspace
    !> Lines relaxed side by side
    integer, parameter :: line_width = 8
 
+   !> Cells longer than that along Y are long
+   real(dp), parameter :: long = 1.6_dp
+
    !> Work space of one thread's line systems: what they are made from (line, number, node), nodes from
    !> -1; upper diagonals (line, diagonal, node) and changes (line, node), nodes from -3
    type :: line_work_t
@@ -36,7 +39,9 @@ module ehl_workspace
       real(dp), allocatable :: smoothing_weight(:, :), raw_change(:, :), mean_change(:, :)
       !> A distributive change takes from the nodes beside it along X and along Y these shares of what it gives to its own.
       !> On cells that are longer across the lines less goes to their far neighbours: a quarter to each would leave a
-      !> deflection that falls off slowly along them. Measured on cells of 1 to 1/4, 1.5 and 2.
+      !> deflection that falls off slowly along them. On long cells they go with 1/h^2, so that the second moments along X and
+      !> along Y, h_x^2 times the one and h_y^2 times the other, are alike as on square cells (docs/theory/relaxation.md). On
+      !> nearly square ones, where either serves, they go with 1/h. Measured on cells of 1 to 1/4, 1.41, 2, 2.8 and 4.
       real(dp) :: shares(2) = 0.25_dp
       !> Kernel near the source: itself, and for the distributive (dipole) change
       real(dp) :: near(-near_reach:near_reach) = 0.0_dp, near_dipole(-near_reach:near_reach) = 0.0_dp
@@ -88,6 +93,7 @@ contains
       end if
       associate (hx => grid%hx, hy => grid%hy)
          self%shares = 0.5_dp*([max(hx, hy), hx]/(hx + max(hx, hy)))
+         if (hy > long*hx) self%shares = 0.5_dp*([hy, hx]**2/(hx**2 + hy**2))
          do d = -near_reach, near_reach
             self%near(d) = coefficient(grid, factor, d, 0)
             self%near_dipole(d) = self%near(d) - (self%shares(1)*(coefficient(grid, factor, d - 1, 0) &

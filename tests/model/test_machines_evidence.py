@@ -19,12 +19,20 @@ def test_pages_have_the_constants_of_the_sources(root: Path):
         return float(found[1])
 
     grids = text_of(root, "theory/coarse-grids.md")
-    assert f"more than {constant('multigrid/ladder.f90', 'long'):g} times as long" in grids
+    for axis in "xy":
+        long = constant("multigrid/ladder.f90", f"long_{axis}")
+        assert f"more than {long:g} times as long along {axis.upper()}" in grids
     assert f"more than {constant('multigrid/ladder.f90', 'max_unknowns'):g} unknowns" in grids
     assert f"until {constant('case/case_grid.f90', 'few_rows'):g} intervals or fewer" in grids
     largest = constant("case/case_grid.f90", "largest_ratio")
     assert f"from 1/4 to {largest:g}:" in text_of(root, "theory/discretisation.md")
-    assert f"up to {largest:g} times as long" in text_of(root, "theory/relaxation.md")
+    sweeps = text_of(root, "theory/relaxation.md")
+    assert f"up to {largest:g} times as long" in sweeps
+    smooth = constant("case/case_grid.f90", "largest_smooth")
+    assert f"sharp pressure spike up to {smooth:g} times" in sweeps
+    assert f"beyond 1 : {constant('multigrid/workspace.f90', 'long'):g}" in sweeps
+    blunt = constant("case/case_grid.f90", "blunt_spike")
+    assert f"p_h$ of {blunt:g} default cells" in sweeps
     cycles = text_of(root, "theory/coarse-grids.md")
     steady = "solve/cycle_guard.f90"
     assert f"more than {constant(steady, 'stalled'):g} of the residual" in cycles

@@ -17,11 +17,13 @@ from numpy.typing import NDArray
 Field = NDArray[np.float64]
 Symbol = NDArray[np.complex128]
 
-CELLS = 1.0, 1.41, 2.0, 4.0
+CELLS = 1.0, 1.41, 2.0, 2.8, 4.0
 CONDUCTANCES = 0.0, 0.01, 0.1
 FACTOR = 2.0 / np.pi**2
 DIPOLE, SINGLE, STRONG, SWITCH = 0.7, 0.5, 10.0, 0.1
 """Factors of the changes, and switch, of fortran/multigrid/relaxation.f90."""
+LONG = 1.6
+"""Shares of a dipole go with 1/h^2 on longer cells, of fortran/multigrid/workspace.f90."""
 NODES = 40
 ALIASES = 20
 REACH = range(-2, 3)
@@ -46,7 +48,8 @@ def factor(x: Field, y: Field, ratio: float, conductance: float, *, dipole: bool
     """How much of an error a sweep leaves; conductance is eps/h_y^2, the unit of length h_x."""
     # in units of h_x, where the wedge term is 1 and so is the deflection: both go with 1/h_x
     eps = conductance * ratio**2
-    shares = np.array([max(1.0, ratio), 1.0]) / (2.0 * (1.0 + max(1.0, ratio))) * dipole
+    power = 2 if ratio > LONG else 1
+    shares = np.array([ratio**power, 1.0]) / (2.0 * (1.0 + ratio**power)) * dipole
     row = 1.0 - 2.0 * shares[0] * np.cos(x)
     change = row - 2.0 * shares[1] * np.cos(y)
     line = sum(
