@@ -27,7 +27,7 @@ def plan_text(plan: Results, settings: Settings) -> str:
         *_friction(v, settings),
         *_surfaces(v, settings),
         *_domain(v),
-        f"deflection {settings['solver']['deflection']}, threads {v['threads']}",
+        f"deflection {v['deflection']}, threads {v['threads']}",
         _cycles(v),
         _stop(v),
         *_need(v),
