@@ -27,8 +27,7 @@ def plan_text(plan: Results, settings: Settings) -> str:
         *_friction(v, settings),
         *_surfaces(v, settings),
         *_domain(v),
-        # a line has one engine, and no key for it
-        f"deflection {settings['solver'].get('deflection', 'fft')}, threads {v['threads']}",
+        f"deflection {v['deflection']}, threads {v['threads']}",
         _cycles(v),
         _stop(v),
         *_need(v),

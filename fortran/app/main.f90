@@ -102,7 +102,10 @@ program ehl
    ! one that would end the same way is no state to go on with
    if (terminal%checkpoints%has_state() .and. any(solver%outcome() == [outcome_interrupted, outcome_failed, outcome_unsettled, &
                                                                        outcome_cycle_limit])) then
-      call terminal%say("state: " // checkpoint_path(arguments%folder) // newline // "to resume: ehl --resume " // arguments%folder)
+      note = "to resume"
+      if (solver%outcome() == outcome_unsettled) note = "to go on with a larger time.max_periods or time.steps (--set)"
+      if (solver%outcome() == outcome_cycle_limit) note = "to go on with a larger solver.max_cycles (--set)"
+      call terminal%say("state: " // checkpoint_path(arguments%folder) // newline // note // ": ehl --resume " // arguments%folder)
    end if
    if (stop_wanted()) stop exit_interrupted, quiet=.true.
    stop exit_failed, quiet=.true.

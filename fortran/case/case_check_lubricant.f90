@@ -81,17 +81,8 @@ contains
       call check_inlet(source, input, status)
       call check_rise(source, input, scales, point, status)
       associate (l => input%lubricant, c => input%contact)
-         call refuse(l%range_temperature_max < l%range_temperature_min, "lubricant.range_temperature_max", &
-                     "below range_temperature_min", "a range of temperatures, or both 0")
-         call refuse(l%density_law == "tait" .and. source%given("lubricant.thermal_expansion") .and. .not. &
-                     l%kinematic_viscosity_40 > 0.0_dp, "lubricant.thermal_expansion", "Tait's law has its own", "tait_expansion")
-         call refuse(source%given("lubricant.density_15") .and. .not. l%kinematic_viscosity_40 > 0.0_dp, "lubricant.density_15", &
-                     "without the viscosities of the data sheet", "viscosity at the inlet alone")
          knows = knows_temperature(l) .or. l%temperature_viscosity > 0.0_dp
          call refuse(source%given("lubricant.temperature") .and. .not. knows, "lubricant.temperature", unknown, by_law)
-         call refuse(source%given("lubricant.thermal_expansion") .and. .not. knows, "lubricant.thermal_expansion", unknown, by_law)
-         call refuse(all(input%psd%viscosity_law /= [character(len=32) :: "roelands", "barus", l%viscosity_law]), &
-                     "psd.viscosity_law", "not that of the lubricant", "'roelands', 'barus' or that of the lubricant")
          call refuse((l%viscosity_law == "roelands" .or. input%psd%viscosity_law == "roelands") .and. &
                      l%pressure_viscosity > 0.0_dp .and. (l%roelands_z < least_z .or. l%roelands_z > largest_z), &
                      "lubricant.roelands_z", short(l%roelands_z)//", of viscosity, pressure_viscosity and roelands_p0", &

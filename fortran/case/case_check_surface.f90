@@ -48,19 +48,10 @@ contains
                      "a "//trim(s%kind)//" would begin inside the contact", &
                      "at most "//short(x_matters)//", where its front end is at time 0")
       end if
-      call refuse((feature .or. s%kind == "harmonic") .and. max(s%shortest_wavelength, s%longest_wavelength) > 0.0_dp, &
-                  trim(merge("shortest_wavelength", "longest_wavelength ", s%shortest_wavelength > 0.0_dp)), &
-                  "a "//trim(s%kind)//" surface has no spectrum to cut", "0, or kind = 'map' or 'fractal'")
       call refuse(s%longest_wavelength > 0.0_dp .and. s%shortest_wavelength >= s%longest_wavelength, "longest_wavelength", &
                   "not longer than shortest_wavelength", "a longest wavelength above the shortest one, or 0")
-      call refuse((max(s%ra, s%rq) > 0.0_dp .or. s%finish /= "none") .and. s%kind /= "fractal", "kind", &
-                  "ra, rq and finish are of a fractal surface", "'fractal'")
       call refuse(s%kind == "map" .and. trim(s%file) == "", "kind", "'map' without file", "file = '...'")
       call refuse(s%sign == 0, "sign", "0", "1 or -1")
-      call refuse(s%crop_x_max > 0.0_dp .and. s%crop_x_max <= s%crop_x_min, "crop_x_max", "not beyond crop_x_min", &
-                  "a larger value [m], or 0 for the end of the map")
-      call refuse(s%crop_y_max > 0.0_dp .and. s%crop_y_max <= s%crop_y_min, "crop_y_max", "not beyond crop_y_min", &
-                  "a larger value [m], or 0 for the end of the map")
       ! the heights of a tile that pyehl has made come from it, or are kept beside the results
       if (s%kind == "map" .and. trim(s%file) /= "" .and. .not. s%tile_x > 0.0_dp) call refuse(.not. is_file(trim(s%file)), &
          "file", "there is no file "//trim(s%file), "a height map: .npy, text or a file of an instrument")

@@ -58,6 +58,7 @@ contains
       end associate
       call record%set("levels", plan%levels)
       call record%set("start_level", plan%start)
+      call record%set("deflection", plan%engine)
       call record%set("threads", plan%threads)
       call record%set("target_error accuracy max_error time_tolerance frame_interval", &
                       [plan%target_error, plan%accuracy, max_error, plan%time_tolerance, plan%frame_interval])
