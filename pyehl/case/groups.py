@@ -138,8 +138,8 @@ class Grid:
     border: str = word(
         "zero",
         "flooded|zero",
-        "pressure of a flooded contact, or P = 0; default: the former below M = 500 or above "
-        "kappa = 4",
+        "pressure of a flooded contact, or P = 0; default: the former below M = 500, above "
+        "kappa = 4 and on a line",
     )
     target_error: float = real(
         0.0, "-", "0 or [1e-5, 0.1]", "relative error of H_c wanted; 0: solve on points as given"
