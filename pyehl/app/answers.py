@@ -18,10 +18,10 @@ from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Array
 
 COARSE, FINE = 129, (257, 513)
-"""Nodes a side while a knob moves, and when it rests."""
+"""Nodes a side while a control moves, and when it rests."""
 REST = 0.12
-"""A knob that has not been turned for so long rests [s]: a hand that drags a slider turns it more
-often, and a finer film may still come within 0.4 s."""
+"""A control that has not been changed for so long rests [s]: a hand that drags a slider changes it
+more often, and a finer film may still come within 0.4 s."""
 CURVES = {"mean velocity": "velocity", "slide-to-roll ratio": "slide_to_roll"}
 
 
@@ -107,7 +107,7 @@ def rough(position: Position) -> Rough:
 
 
 def follow(position: Position, known: dict[int, Film]) -> Callable[[Ticket], None]:
-    """Give the job of a position: coarse at once, the rest when the knob rests.
+    """Give the job of a position: coarse at once, the rest when the control rests.
 
     `known` are the last films of the page by their nodes a side, which the job brings up to date.
     """
@@ -133,7 +133,7 @@ def follow(position: Position, known: dict[int, Film]) -> Callable[[Ticket], Non
 
 
 def places(position: Position, over: str, count: int) -> list[float]:
-    """Values of a knob for a curve: a quarter to four times the speed, or ratios of 0 to 1.8."""
+    """Values of a control for a curve: a quarter to four times the speed, or ratios of 0 to 1.8."""
     if over == "slide_to_roll":
         return [float(f"{value:.3g}") for value in np.linspace(0.0, 1.8, count)]
     middle = float(position.values[over])
@@ -148,7 +148,7 @@ def curve(
     wanted: Callable[[], bool],
     points: int = COARSE,
 ) -> Iterator[list[CurvePoint]]:
-    """Compute a curve over a knob; yields all points so far, until it is not wanted any more."""
+    """Compute a curve over a control; yields all points so far, until it is not wanted any more."""
     found: list[CurvePoint] = []
     for value in values:
         made = _curve_point(position.turned(over, value), value, wanted, points)

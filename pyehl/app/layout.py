@@ -19,10 +19,10 @@ from bokeh.models import (
 )
 
 from pyehl.app.answers import CURVES
+from pyehl.app.controls import GROUPS, Value, shown
 from pyehl.app.figures import Pictures
-from pyehl.app.knobs import GROUPS, Value, shown
 from pyehl.app.position import Position
-from pyehl.app.widgets import ERROR, WIDTH, KnobWidget
+from pyehl.app.widgets import ERROR, WIDTH, ControlWidget
 
 SAVE = """
 const bytes = Uint8Array.from(atob(source.data.data[0]), c => c.charCodeAt(0));
@@ -49,7 +49,7 @@ MAPS = ".npy,.txt,.csv,.dat,.asc,.x3p,.sdf,.al3d,.opd,.plux,.sur,.gwy,.nc,.h5"
 TEMPLATE = """
 {% block contents %}
 <div style="display: flex">
-<div>{{ embed(roots.knobs) }}</div>
+<div>{{ embed(roots.controls) }}</div>
 <div>
 {{ embed(roots.tabs) }}
 {% for picture in pictures %}
@@ -102,10 +102,10 @@ class Layout:
     """All that is on the page but the pictures, by name."""
 
     def __init__(self, hears: _Hears, pictures: Pictures, start: Position) -> None:
-        self.knobs = {
-            knob.name: KnobWidget(knob, start.values[knob.name], hears.turned)
+        self.controls = {
+            control.name: ControlWidget(control, start.values[control.name], hears.turned)
             for group in GROUPS.values()
-            for knob in group
+            for control in group
         }
         self.status = Div(text="", name="status", width=350)
         self.note = Div(text="", name="note", width=WIDTH, styles={"font-size": "85%"})
@@ -136,7 +136,7 @@ class Layout:
         self.tabs = RadioButtonGroup(labels=[part["title"] for part in PICTURES], active=0)
         self.tabs.js_on_change("active", CustomJS(args={"tabs": self.tabs}, code=SHOW))
         self.roots = {
-            "knobs": self._left(start),
+            "controls": self._left(start),
             "tabs": self.tabs,
             "curves": self._curves(hears),
             **pictures.figures,
@@ -177,9 +177,9 @@ class Layout:
         parts: list[Any] = [self.note]
         for title, group in GROUPS.items():
             parts.append(Div(text=f"<b>{escape(title)}</b>"))
-            parts += [self.knobs[knob.name].layout for knob in group]
+            parts += [self.controls[control.name].layout for control in group]
         parts.append(self.map_box)
-        self.show_knobs(start.values)
+        self.show_controls(start.values)
         return column(*parts, width=WIDTH + 20)
 
     def _curves(self, hears: _Hears) -> Any:  # noqa: ANN401
@@ -208,10 +208,10 @@ class Layout:
             row(report, figures, self.figure_format, self.figure_width), self.errand,
         )  # fmt: skip
 
-    def show_knobs(self, values: Mapping[str, Value]) -> None:
-        """Show the knobs that matter."""
-        for name, knob in self.knobs.items():
-            knob.layout.visible = shown(name, values)
+    def show_controls(self, values: Mapping[str, Value]) -> None:
+        """Show the controls that matter."""
+        for name, control in self.controls.items():
+            control.layout.visible = shown(name, values)
         self.map_box.visible = values["surface"] == "map"
 
     def show_case(self, case: str, python: str) -> None:

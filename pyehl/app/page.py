@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""One page: its knobs, its worker, its pictures. Each tab of a browser has its own."""
+"""One page: its controls, its worker, its pictures. Each tab of a browser has its own."""
 
 import base64
 import threading
@@ -15,8 +15,8 @@ from bokeh.events import DocumentReady
 
 from pyehl.app import answers, downloads, words
 from pyehl.app.answers import COARSE, CURVES, FINE, Film, Rough
+from pyehl.app.controls import CONTROLS, Value
 from pyehl.app.figures import Pictures
-from pyehl.app.knobs import KNOBS, Value
 from pyehl.app.layout import PICTURES, TEMPLATE, Layout
 from pyehl.app.position import Position, from_case
 from pyehl.app.uploads import Uploads
@@ -37,7 +37,7 @@ class Page:
 
     def __init__(self, document: Document, start: Position, note: str = "") -> None:
         self.document, self.position = document, start
-        # where the knobs are: as the position, but for a map that is not there yet
+        # where the controls are: as the position, but for a map that is not there yet
         self._wish = start
         self.uploads = Uploads()
         # what was uploaded and could not be read yet, for want of a size
@@ -96,9 +96,9 @@ class Page:
         self.document.add_next_tick_callback(do)
 
     def turned(self, name: str, value: Value) -> None:
-        """Take a turned knob; what is wrong is said there, and the answer stays."""
+        """Take a changed control; what is wrong is said there, and the answer stays."""
         wish = self._wish.turned(name, value)
-        self.layout.show_knobs(wish.values)
+        self.layout.show_controls(wish.values)
         if name in ("map_x", "map_y") and self._pending is not None:
             self._wish = wish
             self.upload(*self._pending)
@@ -111,10 +111,10 @@ class Page:
             if tried.values["surface"] == "map" and name in ("surface", "map_x", "map_y"):
                 self.uploads.check(tried.file, tried.map_said())
         except InputError as error:
-            self.layout.knobs[name].say(self.uploads.nameless(str(error)))
+            self.layout.controls[name].say(self.uploads.nameless(str(error)))
             return
-        self.layout.knobs[name].say("")
-        self.layout.knobs["surface"].say(NO_MAP if missing else "")
+        self.layout.controls[name].say("")
+        self.layout.controls["surface"].say(NO_MAP if missing else "")
         self._wish, self.position = wish, tried
         self._moved()
 
@@ -169,7 +169,7 @@ class Page:
             self.layout.show_rough([(a, self.uploads.nameless(b)) for a, b in rows])
 
     def open_case(self, name: str, data: bytes) -> None:
-        """Put the knobs where an uploaded case file says."""
+        """Put the controls where an uploaded case file says."""
         try:
             text = data.decode("utf-8-sig")
             case = Case.from_text(text, origin=name)
@@ -180,9 +180,9 @@ class Page:
             return
         self.layout.open_error.text = ""
         self.layout.note.text = escape(note)
-        for knob, value in self.position.values.items():
-            self.layout.knobs[knob].set(value)
-        self.layout.show_knobs(self.position.values)
+        for control, value in self.position.values.items():
+            self.layout.controls[control].set(value)
+        self.layout.show_controls(self.position.values)
         self._moved()
 
     def upload(self, name: str, data: bytes) -> None:
@@ -198,15 +198,15 @@ class Page:
         self._pending = None
         self.layout.upload_error.text = ""
         self._wish = self.position = wish
-        self.layout.knobs["surface"].set("map")
-        self.layout.show_knobs(wish.values)
+        self.layout.controls["surface"].set("map")
+        self.layout.show_controls(wish.values)
         self._moved()
 
     def draw_curve(self, over: str) -> None:
-        """Compute a curve over a knob, point by point."""
-        knob = CURVES[over]
+        """Compute a curve over a control, point by point."""
+        control = CURVES[over]
         here = self.position
-        unit = KNOBS[knob].unit  # type: ignore[union-attr]
+        unit = CONTROLS[control].unit  # type: ignore[union-attr]
         label = f"{over} [{unit}]" if unit else over
         about = ", ".join(
             f"{name} = {here.values[key]:g} {unit}".strip()
@@ -215,12 +215,12 @@ class Page:
                 ("u", "velocity", "m/s"),
                 ("SRR", "slide_to_roll", ""),
             )
-            if key != knob
+            if key != control
         )
-        values = answers.places(here, knob, CURVE_POINTS)
+        values = answers.places(here, control, CURVE_POINTS)
 
         def job(ticket: Ticket) -> None:
-            for points in answers.curve(here, knob, values, ticket.newest):
+            for points in answers.curve(here, control, values, ticket.newest):
                 ticket.tell((points, values, label, about))
 
         self.curves.submit(job)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Where the knobs stand, and the case that belongs to it."""
+"""Where the controls stand, and the case that belongs to it."""
 
 import math
 from collections.abc import Mapping
@@ -8,14 +8,14 @@ from pathlib import Path
 from typing import Any, Self
 
 from pyehl import namelist
-from pyehl.app.knobs import GROUPS, KNOBS, Knob, Value
+from pyehl.app.controls import CONTROLS, GROUPS, Control, Value
 from pyehl.case import Case
 from pyehl.errors import InputError
 from pyehl.surfaces import rough_groups
 from pyehl.theory.oils import known_oils
 from pyehl.theory.operating import OperatingPoint
 
-# Keys that the knobs stand for; of an opened case all others are kept as they are
+# Keys that the controls stand for; of an opened case all others are kept as they are
 OWNED = {
     "bodies": None,
     "contact": {
@@ -52,17 +52,17 @@ DEFAULTS: dict[str, Value] = {
     "map_y": 0.0,
 }
 KINDS = ("smooth", "fractal", "map")
-_OF_SURFACE = tuple(knob.name for knob in GROUPS["Surface"])
+_OF_SURFACE = tuple(control.name for control in GROUPS["Surface"])
 
 
 @dataclass(frozen=True, slots=True)
 class Position:
-    """Values of all knobs, in their units; they are never changed, only replaced.
+    """Values of all controls, in their units; they are never changed, only replaced.
 
     Attributes
     ----------
     values
-        By the names of `pyehl.app.knobs.KNOBS`.
+        By the names of `pyehl.app.controls.CONTROLS`.
     base
         What else the case says, as namelist text.
     modulus
@@ -70,7 +70,7 @@ class Position:
     file
         Height map of the surface 'map'; '': none yet.
     oil
-        How the opened case gives its oil: the value of the knob then.
+        How the opened case gives its oil: the value of the control then.
     """
 
     values: Mapping[str, Value]
@@ -80,15 +80,15 @@ class Position:
     oil: Value = "at the inlet"
 
     def turned(self, name: str, value: Value) -> Self:
-        """Give the position with a knob turned."""
+        """Give the position with a control changed."""
         modulus = 0.0 if name in STEEL else self.modulus
         return replace(self, values={**self.values, name: value}, modulus=modulus)
 
     def _si(self, name: str) -> float:
-        knob = KNOBS[name]
-        assert isinstance(knob, Knob)
+        control = CONTROLS[name]
+        assert isinstance(control, Control)
         # the value of a decimal text, 22 1/GPa as 2.2e-8
-        return float(f"{float(self.values[name]) * knob.scale:.12g}")
+        return float(f"{float(self.values[name]) * control.scale:.12g}")
 
     def reduced_modulus(self) -> float:
         """E' [Pa]: 2/E' = sum of (1 - nu^2)/E. InputError where the moduli make none."""
@@ -106,7 +106,7 @@ class Position:
         return float(f"{2.0 / total:.12g}")
 
     def options(self, points: int) -> dict[str, Value]:
-        """Give the keys of the case that the knobs stand for."""
+        """Give the keys of the case that the controls stand for."""
         v = self.values
         found: dict[str, Value] = {
             "contact.load": self._si("load"),
@@ -159,9 +159,9 @@ class Position:
         if not self.file:
             raise InputError("there is no height map yet: expected an upload")
         found: dict[str, Value] = {"surface.kind": "map", "surface.file": self.file}
-        for knob, key in (("map_x", "length_x"), ("map_y", "length_y")):
-            if float(v[knob]) != 0.0:
-                found[f"surface.{key}"] = self._si(knob)
+        for control, key in (("map_x", "length_x"), ("map_y", "length_y")):
+            if float(v[control]) != 0.0:
+                found[f"surface.{key}"] = self._si(control)
         return found
 
     def case(self, points: int, *, smooth: bool = False) -> Case:
@@ -170,7 +170,7 @@ class Position:
         if self.values["oil"] != self.oil:
             lines = base.splitlines(keepends=True)
             base = "".join(line for line in lines if line.split(" =")[0].strip() not in OF_SHEET)
-        case = Case.from_text(base, self.options(points), origin="the knobs")
+        case = Case.from_text(base, self.options(points), origin="the controls")
         return case.smooth() if smooth else case
 
     def text(self, points: int) -> str:
@@ -181,8 +181,8 @@ class Position:
     @property
     def contact(self) -> tuple[object, ...]:
         """What the smooth contact depends on: positions with the same differ in the surface."""
-        knobs = [v for name, v in self.values.items() if name not in _OF_SURFACE]
-        return (*knobs, self.modulus, self.base, self.oil)
+        controls = [v for name, v in self.values.items() if name not in _OF_SURFACE]
+        return (*controls, self.modulus, self.base, self.oil)
 
     def map_said(self) -> dict[str, Value]:
         """Give what the case says of its height map, as `Uploads.check` takes it."""
@@ -198,7 +198,7 @@ class Position:
 
 
 def _kept(text: str) -> str:
-    """Give what the knobs do not stand for of a resolved case."""
+    """Give what the controls do not stand for of a resolved case."""
     groups = {}
     for group, keys in namelist.values(namelist.given(text)).items():
         owned = OWNED.get(group, set())
@@ -209,11 +209,11 @@ def _kept(text: str) -> str:
 
 
 def from_case(case: Case, files: Mapping[str, str] | None = None) -> tuple[Position, str]:
-    """Put the knobs where a case says; with a note on what is shown another way.
+    """Put the controls where a case says; with a note on what is shown another way.
 
     `files` are the maps that may be read, by their names; None: those of the case itself. A case
     by M and L becomes one in SI units with the radius and the modulus of a steel ball. InputError
-    if the case has what no knob stands for.
+    if the case has what no control stands for.
     """
     settings = case.resolve()
     if "second_surface" in rough_groups(settings):
@@ -231,8 +231,8 @@ def from_case(case: Case, files: Mapping[str, str] | None = None) -> tuple[Posit
     note = ""
     if not point.si:
         note = (
-            f"Given as M = {contact['moes_m']:g} and L = {contact['moes_l']:g}: the knobs show a "
-            "steel ball with these."
+            f"Given as M = {contact['moes_m']:g} and L = {contact['moes_l']:g}: the controls show "
+            "a steel ball with these."
         )
     values: dict[str, Value] = {**DEFAULTS, **STEEL}
     values |= {
@@ -270,7 +270,7 @@ def from_case(case: Case, files: Mapping[str, str] | None = None) -> tuple[Posit
 
 
 def _oil(lubricant: Mapping[str, Any]) -> dict[str, Value]:
-    """Give the knobs of the oil that are not always there."""
+    """Give the controls of the oil that are not always there."""
     found: dict[str, Value] = {"eyring_stress": _tidy(float(lubricant["eyring_stress"]) * 1e-6)}
     if lubricant["shear_law"] == "carreau":
         found["carreau_stress"] = _tidy(float(lubricant["carreau_stress"]) * 1e-6)

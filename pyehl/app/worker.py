@@ -12,7 +12,7 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-# A job that has been overtaken may go on for so long [s], so that something is seen while a knob
+# A job that has been overtaken may go on for so long [s], so that something is seen while a control
 # is turned without a pause
 GRACE = 0.4
 

@@ -17,7 +17,7 @@ from matplotlib.patches import Rectangle
 from pyehl.plots import style
 from pyehl.plots.outline import Outline
 from pyehl.surfaces import Topography, interpolated, psd_2d, psd_isotropic
-from pyehl.surfaces.holes import nearest
+from pyehl.surfaces.defects import nearest
 from pyehl.surfaces.local_findings import Finding
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.types import Array

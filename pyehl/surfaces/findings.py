@@ -12,7 +12,7 @@ import numpy as np
 
 from pyehl import lengths
 from pyehl.errors import InputError
-from pyehl.surfaces.holes import MAD_TO_SIGMA
+from pyehl.surfaces.defects import MAD_TO_SIGMA
 from pyehl.surfaces.local_findings import SAMPLES, Finding, dust, line_steps, stitching
 from pyehl.surfaces.map_steps import DEGREES, level
 from pyehl.types import Array

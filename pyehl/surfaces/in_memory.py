@@ -15,7 +15,7 @@ from pyehl.case import Case
 from pyehl.case.surface_group import Surface as Keys
 from pyehl.errors import InputError
 from pyehl.given import heights_of, real_numbers
-from pyehl.surfaces.holes import filled
+from pyehl.surfaces.defects import filled
 from pyehl.surfaces.map_steps import mirrored
 from pyehl.surfaces.tile import Topography
 from pyehl.types import Array

@@ -9,7 +9,7 @@ import numpy as np
 import scipy
 
 from pyehl import lengths
-from pyehl.surfaces.holes import MAD_TO_SIGMA
+from pyehl.surfaces.defects import MAD_TO_SIGMA
 from pyehl.types import Array, Mask
 
 SAMPLES = 512

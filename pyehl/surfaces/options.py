@@ -15,7 +15,7 @@ class Options:
 
     detrend: str = "auto"  # ``"none"``, ``"centre"``, ``"tilt"``, ``"curvature"`` or ``"auto"``
     fill: str = "harmonic"  # ``"harmonic"`` or ``"none"``, which refuses maps with missing points
-    # Threshold, see :func:`pyehl.surfaces.holes.prominence`; 0: none are removed
+    # Threshold, see :func:`pyehl.surfaces.defects.prominence`; 0: none are removed
     outliers: float = 0.0
     # ``"x"`` or ``"y"``: lines along it are put level with each other; ``"none"``
     align_lines: str = "none"

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from pyehl.errors import InputError
-from pyehl.surfaces import findings, holes, map_steps
+from pyehl.surfaces import defects, findings, map_steps
 from pyehl.surfaces.arrays import check_pixels
 from pyehl.surfaces.local_findings import dust_points
 from pyehl.surfaces.options import NEUTRAL, Options, defaults
@@ -115,9 +115,9 @@ def _prepared(
     valid = None if complete else np.isfinite(work.z)
     if options.outliers > 0.0:
         _tell(scan, "outliers")
-        spiky = holes.prominence(work.z) > options.outliers
+        spiky = defects.prominence(work.z) > options.outliers
         # a median of 5 x 5 points does not see specks of half as many
-        spiky |= dust_points(holes.levelled(work.z), options.outliers)
+        spiky |= dust_points(defects.levelled(work.z), options.outliers)
         valid = ~spiky if valid is None else valid & ~spiky
         work.begin()
         work.own()[spiky] = np.nan
@@ -180,7 +180,7 @@ def _fill(work: WorkingMap, options: Options, valid: Mask) -> None:
             f"column {j}, and surface.fill = 'none'; with 'harmonic' they are interpolated"
         )
     try:
-        full = holes.filled(work.z, work.pixel, (options.crop[0], options.crop[2]))
+        full = defects.filled(work.z, work.pixel, (options.crop[0], options.crop[2]))
     except ValueError as error:
         raise InputError(f"{work.origin}: {error}") from None
     why = "given" if options.outliers > 0.0 else "only the edges of the holes are known"

@@ -137,7 +137,7 @@ class Tab:
         )
 
     def rest(self, points: int = 513) -> None:
-        """Wait for the answer of where the knobs are, on a grid or a finer one."""
+        """Wait for the answer of where the controls are, on a grid or a finer one."""
 
         def there() -> bool:
             asked, shown, nodes = self.stamp() or (0, -1, 0)
@@ -146,7 +146,7 @@ class Tab:
         self.until(there)
 
     def type(self, name: str, text: str, *, wait: bool = True) -> None:
-        """Type into the field of a knob, as a person does."""
+        """Type into the field of a control, as a person does."""
         asked = self.stamp()[0]
         field = self.element(name, "input")
         old = field.get_attribute("value")
@@ -155,7 +155,7 @@ class Tab:
             self.until(lambda: self.stamp()[0] > asked or self.get(f"error_{name}", "text"))
 
     def curve(self) -> dict[str, list[float | None]]:
-        """Give the points of the film over a knob."""
+        """Give the points of the film over a control."""
         return self.run(
             "const data = Bokeh.documents[0].get_model_by_name('curve of film').data;"
             "return Object.fromEntries(['place', 'value'].map(k => [k, [...data[k]]]))"

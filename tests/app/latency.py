@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""From knob to new film, measured in the browser: a script, to be run where nothing else runs.
+"""From control to new film, measured in the browser: a script, to be run where nothing else runs.
 
     python tests/app/latency.py [TURNS]
 
 A slider is moved by the page's own JavaScript, and the time is taken until the browser has painted
-the film of that position on 129 x 129 nodes, and on 257 x 257, with the time for which a knob has
-to rest in it. Prints the median and the largest of each; exit status 1 if a median is too long.
+the film of that position on 129 x 129 nodes, and on 257 x 257, with the time for which a control
+has to rest in it. Prints the median and the largest of each; exit status 1 if a median is too long.
 """
 
 import statistics
@@ -39,7 +39,7 @@ slider.value = arguments[0];
 
 
 def measure(turns: int) -> dict[int, list[float]]:
-    """Seconds from knob to film, by the nodes a side."""
+    """Seconds from control to film, by the nodes a side."""
     served = Served(from_case(Case())[0])
     times: dict[int, list[float]] = {points: [] for points in ALLOWED}
     try:

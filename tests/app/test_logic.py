@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the page does, without a browser: knobs, cases, the worker, words, uploads."""
+"""What the page does, without a browser: controls, cases, the worker, words, uploads."""
 
 import resource
 import threading
@@ -13,7 +13,7 @@ from scipy.interpolate import RegularGridInterpolator
 import pyehl
 from pyehl import namelist
 from pyehl.app import answers, downloads, drawing, words
-from pyehl.app.knobs import KNOBS, STEPS, Knob
+from pyehl.app.controls import CONTROLS, STEPS, Control
 from pyehl.app.position import Position, from_case
 from pyehl.app.uploads import Uploads
 from pyehl.app.worker import Worker
@@ -32,31 +32,33 @@ def always() -> bool:
     return True
 
 
-@pytest.mark.parametrize("name", [name for name, knob in KNOBS.items() if isinstance(knob, Knob)])
+@pytest.mark.parametrize(
+    "name", [name for name, control in CONTROLS.items() if isinstance(control, Control)]
+)
 def test_sliders_reach_their_ends(name):
-    knob = KNOBS[name]
-    assert knob.at(0) == pytest.approx(knob.low)
-    assert knob.at(STEPS) == pytest.approx(knob.high)
-    values = [knob.at(place) for place in range(STEPS + 1)]
+    control = CONTROLS[name]
+    assert control.at(0) == pytest.approx(control.low)
+    assert control.at(STEPS) == pytest.approx(control.high)
+    values = [control.at(place) for place in range(STEPS + 1)]
     assert values == sorted(values)
     # three digits are less than a step of wide ranges
-    assert all(abs(knob.place(float(v)) - k) <= 3 for k, v in enumerate(values))
+    assert all(abs(control.place(float(v)) - k) <= 3 for k, v in enumerate(values))
 
 
 @pytest.mark.parametrize("text", ["", "abc", "1,5", "nan", "inf", "1e400"])
 def test_what_is_no_number_is_refused(text):
     with pytest.raises(InputError, match="load w = "):
-        KNOBS["load"].read(text)
+        CONTROLS["load"].read(text)
 
 
 def test_a_seed_is_a_whole_number():
     for text in ("1.5", "9" * 400):
         with pytest.raises(InputError, match="expected a whole number"):
-            KNOBS["seed"].read(text)
+            CONTROLS["seed"].read(text)
 
 
 def test_start_is_the_default_case(start):
-    """Untouched knobs are the case of all defaults, smooth, to the last bit."""
+    """Untouched controls are the case of all defaults, smooth, to the last bit."""
     ours, theirs = start.case(129).resolve(), Case(grid={"points": 129}).resolve()
     for group in ("contact", "lubricant", "grid", "surface"):
         assert ours[group] == theirs[group]
@@ -77,7 +79,7 @@ CASES = {
 
 @pytest.mark.parametrize("text", CASES.values(), ids=CASES)
 def test_opened_case_is_the_case(text):
-    """Knobs where a case says, and back: the same values of all keys."""
+    """Controls where a case says, and back: the same values of all keys."""
     case = Case.from_text(text, {"grid.points": 65})
     position, note = from_case(case)
     assert not note
@@ -85,7 +87,7 @@ def test_opened_case_is_the_case(text):
     for group, keys in theirs.items():
         for key, value in keys.items():
             if key == "alpha_origin":
-                continue  # the knob gives it as a number
+                continue  # the control gives it as a number
             assert ours[group][key] == (pytest.approx(value, rel=1e-11) if isinstance(value, float)
                                         else value), f"{group}.{key}"  # fmt: skip
     again, _ = from_case(Case.from_text(position.text(65)))
@@ -186,7 +188,7 @@ def test_moes_numbers_become_si(root: Path):
         ("&second_surface kind = 'fractal' /", "second_surface"),
     ],
 )
-def test_what_no_knob_stands_for_is_refused(text, why):
+def test_what_no_control_stands_for_is_refused(text, why):
     with pytest.raises(InputError, match=why):
         from_case(Case.from_text(text))
 
@@ -460,7 +462,7 @@ def test_a_thousand_turns_leave_nothing(start):
 
 
 def test_contact_without_friction_of_the_layer():
-    """Of an opened case that has a boundary film; the page has no knob for it."""
+    """Of an opened case that has a boundary film; the page has no control for it."""
     text = """&contact load = 20.0 mean_velocity = 0.3 radius = 0.0127 slide_to_roll = 0.1 /
     &lubricant shear_law = 'eyring' boundary_film = 1.2e-7 {} /
     &surface kind = 'fractal' rms_height = 3e-8 length_x = 1.2e-4 length_y = 1.2e-4 pixels = 64 /"""

@@ -62,7 +62,7 @@ def test_numbers_are_those_of_pyehl_run(tab, tmp_path, capsys):
     assert "Converged on 513 × 513 nodes" in tab.words("status")
 
 
-def test_wrong_input_is_said_at_its_knob(tab):
+def test_wrong_input_is_said_at_its_control(tab):
     tab.rest()
     answer, asked = rows_of(tab, "numbers"), tab.stamp()[0]
     for text, why in (("abc", "expected a number"), ("-5", "contact.load"), ("1e9", "1e9")):
@@ -141,7 +141,7 @@ def test_a_surface_that_is_turned_to_smooth_leaves_nothing(tab, page):
     tab.choose("surface", "smooth")
     tab.until(lambda: not tab.get("rough", "text"))
 
-    # as of a prediction that ended when the knob was turned already, before any newer answer
+    # as of a prediction that ended when the control was turned already, before any newer answer
     def comes_late():
         page._shown = 0
         answered(*late[-1])
@@ -244,7 +244,7 @@ def test_an_older_answer_never_comes_last(tab, page):
     assert all(after >= before for before, after in shown)
     assert tab.stamp()[0] == tab.stamp()[1]
     load = float(re.search(r"load = (\S+)", tab.get("case", "value"))[1])
-    assert load == pyehl.app.knobs.KNOBS["load"].at(209)
+    assert load == pyehl.app.controls.CONTROLS["load"].at(209)
     point = pyehl.OperatingPoint.from_settings(
         pyehl.Case.from_text(tab.get("case", "value")).resolve()
     )

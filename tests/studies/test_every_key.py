@@ -257,7 +257,7 @@ def test_the_grid_of_a_run_is_not_that_of_a_prediction():
 
 
 def test_the_app_keeps_every_key_but_its_own(tmp_path: Path):
-    """A case that is opened keeps what has no knob, in both of its contacts."""
+    """A case that is opened keeps what has no control, in both of its contacts."""
     for key in ("grid.x_inlet", "grid.y_extent", "solver.accuracy", "lubricant.density_law"):
         case = made(key, tmp_path)
         position, _ = from_case(case.with_options("surface.kind=smooth"))

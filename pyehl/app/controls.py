@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The knobs: names, units and ranges."""
+"""The controls: names, units and ranges."""
 
 import math
 from collections.abc import Mapping
@@ -15,7 +15,7 @@ STEPS = 400
 
 
 @dataclass(frozen=True, slots=True)
-class Knob:
+class Control:
     """A number that can be turned.
 
     `low` and `high` are the ends of the slider; what is typed may lie beyond them.
@@ -24,7 +24,7 @@ class Knob:
     name: str
     label: str
     unit: str
-    scale: float  # of the case file, for one unit of the knob
+    scale: float  # of the case file, for one unit of the control
     low: float
     high: float
     log: bool = True  # equal ratios over the slider
@@ -77,45 +77,45 @@ class Choice:
         return text
 
 
-GROUPS: dict[str, tuple[Knob | Choice, ...]] = {
+GROUPS: dict[str, tuple[Control | Choice, ...]] = {
     "Operation": (
-        Knob("load", "load w", "N", 1.0, 1.0, 5000.0),
-        Knob("velocity", "mean velocity u", "m/s", 1.0, 0.01, 20.0),
-        Knob("slide_to_roll", "slide-to-roll ratio", "", 1.0, 0.0, 2.0, log=False),
+        Control("load", "load w", "N", 1.0, 1.0, 5000.0),
+        Control("velocity", "mean velocity u", "m/s", 1.0, 0.01, 20.0),
+        Control("slide_to_roll", "slide-to-roll ratio", "", 1.0, 0.0, 2.0, log=False),
     ),
     "Bodies": (
-        Knob("radius_x", "reduced radius along, R_x", "mm", 1e-3, 1.0, 200.0),
-        Knob("radius_y", "reduced radius across, R_y", "mm", 1e-3, 1.0, 200.0),
-        Knob("modulus_1", "E of body 1", "GPa", 1e9, 10.0, 700.0),
-        Knob("poisson_1", "ν of body 1", "", 1.0, 0.0, 0.5, log=False),
-        Knob("modulus_2", "E of body 2", "GPa", 1e9, 10.0, 700.0),
-        Knob("poisson_2", "ν of body 2", "", 1.0, 0.0, 0.5, log=False),
+        Control("radius_x", "reduced radius along, R_x", "mm", 1e-3, 1.0, 200.0),
+        Control("radius_y", "reduced radius across, R_y", "mm", 1e-3, 1.0, 200.0),
+        Control("modulus_1", "E of body 1", "GPa", 1e9, 10.0, 700.0),
+        Control("poisson_1", "ν of body 1", "", 1.0, 0.0, 0.5, log=False),
+        Control("modulus_2", "E of body 2", "GPa", 1e9, 10.0, 700.0),
+        Control("poisson_2", "ν of body 2", "", 1.0, 0.0, 0.5, log=False),
     ),
     "Oil": (
         Choice("oil", "viscosity", ("at the inlet", "of the data sheet", "of an oil by name")),
         Choice("oil_name", "oil", tuple(known_oils())),
-        Knob("viscosity", "η₀ at the inlet", "Pa s", 1.0, 0.002, 1.0),
-        Knob("kinematic_40", "ν at 40 °C", "mm²/s", 1.0, 5.0, 1000.0),
-        Knob("kinematic_100", "ν at 100 °C", "mm²/s", 1.0, 1.5, 60.0),
-        Knob("temperature", "inlet temperature", "°C", 1.0, -20.0, 150.0, log=False),
-        Knob("alpha", "pressure-viscosity α", "1/GPa", 1e-9, 5.0, 40.0),
+        Control("viscosity", "η₀ at the inlet", "Pa s", 1.0, 0.002, 1.0),
+        Control("kinematic_40", "ν at 40 °C", "mm²/s", 1.0, 5.0, 1000.0),
+        Control("kinematic_100", "ν at 100 °C", "mm²/s", 1.0, 1.5, 60.0),
+        Control("temperature", "inlet temperature", "°C", 1.0, -20.0, 150.0, log=False),
+        Control("alpha", "pressure-viscosity α", "1/GPa", 1e-9, 5.0, 40.0),
         Choice("shear_law", "shear stress", ("newtonian", "eyring", "limiting", "carreau")),
-        Knob("eyring_stress", "Eyring stress", "MPa", 1e6, 0.5, 50.0),
-        Knob("carreau_stress", "Carreau stress G", "MPa", 1e6, 0.01, 50.0),
-        Knob("carreau_exponent", "Carreau exponent n", "", 1.0, 0.2, 1.0, log=False),
+        Control("eyring_stress", "Eyring stress", "MPa", 1e6, 0.5, 50.0),
+        Control("carreau_stress", "Carreau stress G", "MPa", 1e6, 0.01, 50.0),
+        Control("carreau_exponent", "Carreau exponent n", "", 1.0, 0.2, 1.0, log=False),
     ),
     "Surface": (
         Choice("surface", "surface", ("smooth", "fractal", "map")),
-        Knob("rms", "rms height σ", "nm", 1e-9, 1.0, 500.0),
-        Knob("hurst", "Hurst exponent", "", 1.0, 0.1, 1.0, log=False),
-        Knob("seed", "seed", "", 1.0, 1, 401, log=False, whole=True),
-        Knob("map_x", "map along x (0: of file)", "mm", 1e-3, 0, 4, log=False),
-        Knob("map_y", "map across (0: of file)", "mm", 1e-3, 0, 4, log=False),
+        Control("rms", "rms height σ", "nm", 1e-9, 1.0, 500.0),
+        Control("hurst", "Hurst exponent", "", 1.0, 0.1, 1.0, log=False),
+        Control("seed", "seed", "", 1.0, 1, 401, log=False, whole=True),
+        Control("map_x", "map along x (0: of file)", "mm", 1e-3, 0, 4, log=False),
+        Control("map_y", "map across (0: of file)", "mm", 1e-3, 0, 4, log=False),
     ),
 }
-KNOBS = {knob.name: knob for group in GROUPS.values() for knob in group}
+CONTROLS = {control.name: control for group in GROUPS.values() for control in group}
 
-# Which knobs are there for some values of another alone
+# Which controls are there for some values of another alone
 ONLY: dict[str, tuple[str, ...]] = {
     "oil_name": ("oil", "of an oil by name"),
     "viscosity": ("oil", "at the inlet"),
@@ -135,7 +135,7 @@ ONLY: dict[str, tuple[str, ...]] = {
 
 
 def shown(name: str, values: Mapping[str, Value]) -> bool:
-    """Whether a knob matters with these values."""
+    """Whether a control matters with these values."""
     if name not in ONLY:
         return True
     other, *words = ONLY[name]
