@@ -16,6 +16,12 @@ from pyehl.types import Settings, Values
 ALONE = "there is no run on the next coarser grid"
 NO_SIZE = "a ratio alone: moes_m and moes_l give no sliding speed in m/s"
 VANISHING = "a ratio alone, that of vanishing sliding: there is no sliding"
+WITH_HEAT = "with the temperature of film and walls; pressure and film thickness are isothermal"
+OF_ROUGH = (
+    "mu has the heat of the rough contact, and mu_smooth with its own is left out: "
+    "mu_isothermal = mu_ratio mu_smooth_isothermal"
+)
+"""Why there is no mu_smooth beside the mu of a rough contact where the heat counts."""
 NOT_CONVERGED = "the temperature is not converged"
 REASONS = {
     1: "there is no solution",
@@ -45,7 +51,7 @@ REASONS = {
     21: "the contribution of the omitted waves is not predicted (pyehl run does)",
     22: "the contribution of the omitted waves is not predicted (for surfaces on the move alone)",
     23: "{no_prediction}",
-    31: "with the temperature of film and walls; pressure and film thickness are isothermal",
+    31: WITH_HEAT,
     32: "isothermal: lubricant.thermal_friction is 'never'",
     33: "isothermal: the viscosity by temperature is not known "
     "(lubricant.temperature_viscosity, or the viscosities of a data sheet)",
@@ -54,6 +60,7 @@ REASONS = {
     "computed",
     36: "isothermal: by estimate a rise of {rise} K changes it by less than 0.1 %",
     37: "isothermal: a wall at rest under an infinite line warms for ever",
+    37: f"{WITH_HEAT}; {OF_ROUGH}",
     41: NO_SIZE,
     42: VANISHING + ", and rolling_moment_N_m resists the rolling",
     43: "the smooth contact is not converged",

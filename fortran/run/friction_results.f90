@@ -8,9 +8,8 @@ module ehl_friction_results
    use ehl_kinds, only: dp, not_known
    use ehl_level, only: gap
    use ehl_plan, only: plan_t
-   use ehl_reason, only: friction_above_limit, friction_no_size, friction_no_smooth, friction_not_converged, friction_rolling, &
-                         friction_rolling_line, &
-                         reason_none
+   use ehl_reason, only: friction_above_limit, friction_no_size, friction_no_smooth, friction_not_converged, friction_of_rough, &
+                         friction_rolling, friction_rolling_line, friction_with_heat, reason_none
    use ehl_touching, only: same_film
    use ehl_wall_heat, only: heat_source
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
@@ -87,6 +86,11 @@ contains
             found%mu = found%mu*[heat_ratio, run%smooth_heat%ratio()]
             if (ieee_is_finite(found%mu_isothermal(2)) .and. .not. ieee_is_finite(found%mu(2))) then
                found%reason = friction_not_converged
+            end if
+            ! mu_r/mu_s is isothermal, and the smooth contact has another heat: mu is not mu_r/mu_s of its friction
+            if (rough .and. found%reason == friction_with_heat) then
+               found%mu(2) = not_known
+               found%reason = friction_of_rough
             end if
          end if
          if (.not. ieee_is_finite(found%mu(1))) return

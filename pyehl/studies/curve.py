@@ -15,13 +15,14 @@ from pyehl.prediction.friction import BEYOND, deformed_surfaces
 from pyehl.prediction.mixed_lubrication import NO_FRICTION
 from pyehl.prediction.options import KNOWN_RATIO
 from pyehl.prediction.smooth import film_of
+from pyehl.reasons import OF_ROUGH
 from pyehl.results import unit_of
 from pyehl.studies.curve_pattern import Pattern, kept_pattern
 from pyehl.studies.curve_plan import CurvePlan, CurvePoint
 from pyehl.studies.tasks import FAILED, why_none
 from pyehl.theory import stribeck
 from pyehl.theory.film import central_film
-from pyehl.theory.friction import OF_ROUGH, absolute_friction
+from pyehl.theory.friction import absolute_friction
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.transition import BREAKDOWN, FULL_FILM, MIXED, OUTSIDE, UNSOLVED, Curve

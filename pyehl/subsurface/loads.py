@@ -149,6 +149,9 @@ def friction_of(
     if operating.sliding_speed == 0.0:
         return math.nan, math.nan, "without friction: pure rolling"
     mu = [_value(data, n) for n in ("mu_smooth", "mu_smooth_isothermal", "mu", "mu_isothermal")]
+    if math.isfinite(mu[1]) and not math.isfinite(mu[0]):
+        # the smooth contact under a rough one with heat: as warm as the rough one
+        mu[0] = mu[1] * mu[2] / mu[3]
     smooth = mu[0] if math.isfinite(mu[0]) else mu[2]
     if not math.isfinite(smooth):
         why = data.attrs.get("mu_note", "the result states no coefficient of friction")

@@ -4,17 +4,11 @@
 import math
 from typing import Any
 
-from pyehl.reasons import NO_SIZE, VANISHING, above_limit
+from pyehl.reasons import NO_SIZE, OF_ROUGH, VANISHING, above_limit
 from pyehl.theory.heat import Heat, flash_temperature
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.shear import shear_stress
-
-OF_ROUGH = (
-    "mu has the heat of the rough contact, and mu_smooth with its own is not computed: "
-    "mu_isothermal = mu_ratio mu_smooth_isothermal"
-)
-"""Why there is no mu_smooth where bodies touch and the heat counts."""
 
 
 def absolute_friction(

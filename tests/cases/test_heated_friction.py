@@ -152,7 +152,12 @@ def test_rough_contact(solve, velocity):
         done["mu_ratio"] * done["mu_smooth_isothermal"], rel=1e-12
     )
     assert done["mu"] < 0.8 * done["mu_isothermal"]
-    assert done["mu"] / done["mu_smooth"] == pytest.approx(done["mu_ratio"], rel=0.03)
+    assert done["mu"] / done["mu_isothermal"] == pytest.approx(
+        solve(None, 65, FAST | keys)["mu"] / solve(None, 65, FAST | keys)["mu_isothermal"], rel=0.03
+    )
+    # with two heats there would be a product that does not hold
+    assert done["mu_smooth"] is None
+    assert "mu_isothermal = mu_ratio mu_smooth_isothermal" in done["mu_note"]
     assert done["temperature_rise_max_K"] == pytest.approx(done.field(FILM).max(), rel=1e-12)
     if velocity:
         history = done.history
