@@ -16,7 +16,7 @@ from pyehl.handle import SolverHandle
 from pyehl.prediction.smooth import solve_contact
 from pyehl.prediction.smooth_case import OF_RUN, smooth_case
 from pyehl.studies.curve_plan import plan_curve
-from pyehl.studies.shear_fit import _base
+from pyehl.studies.shear_fit import smooth_base
 from pyehl.studies.vary import axis
 from pyehl.types import Array
 
@@ -218,7 +218,7 @@ def test_curves_and_fits_keep_every_key(key: str, tmp_path: Path):
     case = made(key, tmp_path)
     group, _, name = key.partition(".")
     wanted = case.resolve()[group][name]
-    fit = _base(case.resolve(), 65)
+    fit = smooth_base(case.resolve(), 65)
     taken = ("slide_to_roll", "rough_surface", "limiting_stress", "limiting_coefficient")
     if group != "bodies" and name not in taken:
         assert fit[group][name] == wanted
