@@ -12,7 +12,7 @@ import pyehl
 from pyehl.app.position import from_case
 from pyehl.case import KEYS, trusted
 from pyehl.case.settings import MACHINES
-from pyehl.handle import SolverHandle
+from pyehl.handle import SolverHandle, results_of
 from pyehl.prediction.smooth import solve_contact
 from pyehl.prediction.smooth_case import OF_RUN, smooth_case
 from pyehl.studies.curve_plan import plan_curve
@@ -182,7 +182,7 @@ def fields(text: str) -> tuple[Array, Array, str]:
     """P and H of a case, and the status."""
     with SolverHandle(text) as solver:
         solver.run()
-        return solver.field("P"), solver.field("H"), str(solver.summary["status"])
+        return solver.field("P"), solver.field("H"), str(results_of(solver).values["status"])
 
 
 def made(key: str, tmp_path: Path) -> pyehl.Case:
