@@ -60,7 +60,7 @@ REASONS = {
     "computed",
     36: "isothermal: by estimate a rise of {rise} K changes it by less than 0.1 %",
     37: "isothermal: a wall at rest under an infinite line warms for ever",
-    37: f"{WITH_HEAT}; {OF_ROUGH}",
+    38: f"{WITH_HEAT}; {OF_ROUGH}",
     41: NO_SIZE,
     42: VANISHING + ", and rolling_moment_N_m resists the rolling",
     43: "the smooth contact is not converged",

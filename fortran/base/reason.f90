@@ -30,11 +30,12 @@ module ehl_reason
    !> predicted, or nobody can for surfaces at rest, or as the caller says who tried
    integer, parameter :: reason_no_ratio = 19, reason_few_positions = 20, reason_not_predicted = 21, reason_moving_alone = 22, &
                          reason_prediction = 23
-   !> What a coefficient of friction is: with the heat of sliding, or with that of a rough contact; isothermal as wanted, or as nothing tells how the viscosity
+   !> What a coefficient of friction is: with the heat of sliding; isothermal as wanted, or as nothing tells how the viscosity
    !> falls, nothing slides, the stress is Newtonian and above the Eyring stress, the heat changes it by next to nothing, or a
-   !> wall at rest under a line has no steady temperature
+   !> wall at rest under a line has no steady temperature; with the heat of a rough contact
    integer, parameter :: friction_with_heat = 31, friction_never = 32, friction_no_slope = 33, friction_no_sliding = 34, &
-                         friction_newtonian = 35, friction_small = 36, friction_of_rough = 37, friction_wall_at_rest = 37
+                         friction_newtonian = 35, friction_small = 36, friction_wall_at_rest = 37, &
+                         friction_of_rough = 38
    !> Why there is none: no speeds in m/s; rolling, and that of a line; no smooth contact; a Newtonian stress that no oil has;
    !> no temperature
    integer, parameter :: friction_no_size = 41, friction_rolling = 42, friction_no_smooth = 43, friction_above_limit = 44, &
