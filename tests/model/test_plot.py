@@ -281,7 +281,7 @@ def test_no_texts_of_a_rough_surface_collide(kappa):
     about |= {"film_scale_m": 1e-5, "surface": "fractal"}
     arrays = {"surface": heights, "deformed": 0.3 * heights, "delta_p": 1e16 * heights}
     shift = np.linspace(0.0, 7.9e-4, 64)
-    bands = {"longest_m": [8e-4, 4e-4], "shortest_m": [4e-4, 2e-4], "rise": [-2e-4, 3e-4]}
+    bands = {"longest_m": [8e-4, 4e-4], "shortest_m": [4e-4, 2e-4], "increase": [-2e-4, 3e-4]}
     tables = {
         "passage": {"shift_m": shift, "mu_ratio": 1.0 + 0.01 * np.sin(1e4 * shift)},
         "bands": {name: np.array(values) for name, values in bands.items()},

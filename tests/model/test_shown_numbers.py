@@ -147,7 +147,7 @@ def test_ellipses_outside_the_range(says, cases: Path, name: str, case: str):
     says(
         f"docs/howto/{name}.md",
         f"the ellipticity, {kappa:.1f}, is outside the range in which the prediction",
-        f"(../theory/prediction-compared.md), {least:.1f} to {most:.0f}.",
+        f"(../theory/prediction-compared.md#ellipses), {least:.1f} to {most:.0f}.",
     )
 
 
