@@ -147,14 +147,14 @@ def test_rough_contact(solve, velocity):
     keys = {"surface.velocity_ratio": velocity, "contact.slide_to_roll": 0.3}
     if velocity == 0.0:
         keys |= {"contact.slide_to_roll": -2.0}
-    done = solve(None, 65, FAST | WAVE | keys, fields=True)
+    done = solve(None, 65, FAST | WAVE | keys, fields=True, words=True)
     assert done["mu_isothermal"] == pytest.approx(
         done["mu_ratio"] * done["mu_smooth_isothermal"], rel=1e-12
     )
     assert done["mu"] < 0.8 * done["mu_isothermal"]
-    assert done["mu"] / done["mu_isothermal"] == pytest.approx(
-        solve(None, 65, FAST | keys)["mu"] / solve(None, 65, FAST | keys)["mu_isothermal"], rel=0.03
-    )
+    slip = {"contact.slide_to_roll": keys["contact.slide_to_roll"]}
+    smooth = solve(None, 65, FAST | slip)
+    assert done["mu"] / smooth["mu"] == pytest.approx(done["mu_ratio"], rel=0.03)
     # with two heats there would be a product that does not hold
     assert done.summary.get("mu_smooth") is None
     assert "mu_isothermal = mu_ratio mu_smooth_isothermal" in done["mu_note"]
