@@ -22,8 +22,6 @@ def machine_ends() -> Values:
     assert one["status"] == "cycle limit"
     words = f"a {one['kind']} at {one['hertz_pressure_Pa'] / 1e9:.1f} GPa "
     words += f"(κ = {one['ellipticity']:.1f}, seed {one['seed']}, number {one['number']})"
-    grid = [covered(row, name, "error_grid") for row in rows for name in ("H_c", "H_min")]
-    checked = [each for each in grid if each is not None]
     found = {"H_c": "h_c", "H_min": "h_min"}
     known = [
         (row, name) for row in rows for name in found if covered(row, name, "error") is not None
@@ -37,7 +35,6 @@ def machine_ends() -> Values:
         lines[len(lines)] = f"{head}| {found[name]} | {wrong:.1f} % | {stated:.1f} %"
     (disc,) = (row for row in make.summary(rows) if row["contacts"] == "ball on disc")
     long = [row for row in rows if (row["seconds"] or 0.0) > 10.0]
-    none = sum(row["status"] != "converged" for row in long)
     wide = [row for row in rows if row["ellipticity"] > 4.0]
     ends = [sum(row["status"] == s for row in wide) for s in ("converged", "cycle limit")]
     assert sum(ends) == len(wide)
@@ -107,7 +104,6 @@ def laws() -> Values:
         numbers.append(sum(row["difference"] != "" for row in mine))
         numbers.append(sum(row["wrong"] == "True" for row in mine))
         lines[NAMES[law]] = " | ".join(map(str, numbers))
-    worst = max(float(r["difference"]) / float(r["allowed"]) for r in rows if r["difference"])
     failed = {
         law: {k for k, row in enumerate(mine) if row["outcome"] in FAILED}
         for law, mine in every.items()

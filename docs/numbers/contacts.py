@@ -82,11 +82,6 @@ def predicted_shares() -> Values:
     now = np.abs(of(seen, f"{share}_now") - of(seen, share))
     assert seen[int(now.argmax())]["name"] == "c11"
     covered = np.sum(now <= of(seen, "stated_error"))
-    high = sorted(
-        float(r[f"{share}_now"]) / float(r[share])
-        for r in seen
-        if r["name"] in ("c5", "c11", "c14")
-    )
     return locals()
 
 

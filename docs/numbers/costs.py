@@ -89,7 +89,6 @@ def workprec() -> Values:
     paper = [(over(s, "paper", n), over(s, "paper", n, "error")) for s in rough for n in GRIDS]
     dear, wrong = (max(part) for part in zip(*paper, strict=True))
     dear = round(100.0 * (dear - 1.0), -1)
-    by_chance = [f"{100.0 * number('wave', 'paper', n, 'error'):.1f} %" for n in (129, 257)]
     fft = [100.0 * (over(s, "fft", n) - 1.0) for s in (*rough, "smooth") for n in (129, 257)]
     fine = [100.0 * (over(s, "fft", 513) - 1.0) for s in (*rough, "smooth")]
     gain = [1.0 / over("wave", "default, extrapolated", n, "error") for n in (257, 513)]
@@ -97,7 +96,6 @@ def workprec() -> Values:
     assert more[0] < 1.1
     cost = [over("wave", "default, extrapolated", n) for n in (257, 513)]
     assert np.allclose(cost, [1.2, 1.125], rtol=0.0, atol=0.01)
-    whole = [number("fractal", f"default{end}", 513, "error") for end in ("", ", extrapolated")]
     second = [float(rows["smooth", "default", n, "2"]["seconds"]) for n in ("513", "1025")]
     first = [number("smooth", "default", n) for n in (513, 1025)]
     most = max(100.0 * (b / a - 1.0) for a, b in zip(first, second, strict=True))

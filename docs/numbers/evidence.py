@@ -55,8 +55,6 @@ def ellipse() -> Values:
     assert [r["name"] for r in rows if r["covered_before"] == "0"] == ["k040c", "k050b"]
     worst = sorted(rows, key=lambda row: -abs(float(row["deviation_percent"])))[:2]
     assert [row["name"] for row in worst] == ["r09", "k070"]
-    narrow = max(float(row[BEFORE]) for row in rows if float(row["ellipticity"]) <= 0.5)
-    both = [f"{float(r[BEFORE]):.1f}" for r in rows if r["name"] in ("k040e", "k060b")]
     (gain,) = (
         f"{row['predicted_gain']} of {row['gain']}"
         for row in read("ellipse/sides.csv")
@@ -196,12 +194,6 @@ def partial() -> Values:
     high = over[over > 1.2]
     assert high.size == 9
     wide = of(rows, "stated_error")[share > 0.1] / share[share > 0.1]
-    coarse = of(rows, "points") == 129
-    stated = [
-        (of(rows, "simulation_error") / np.maximum(found, 1e-9))[(found > 0.1) & part].max()
-        for part in (coarse, ~coarse)
-    ]
-    moes_m, slip = of(rows, "moes_m"), of(rows, "slide_to_roll")
     cases = read("partial/cases.csv")
     share_of_rms = TOUCHING_FILM_ERROR
     return locals()

@@ -91,7 +91,6 @@ def ellipses() -> Values:
         parts = [v for run, v in left[name].items() if run.split()[0] in kinds]
         return span((np.sqrt(np.mean(np.square(v))) for v in parts), f".{digits}f")
 
-    all_but = ("others", "narrow")
     gain = max(of(read("ellipse/sides.csv"), "predicted_gain"))
     rows = read("ellipse/table.csv")
     before, now = (of(rows, f"deviation{end}_percent") for end in ("_before", ""))
@@ -112,9 +111,6 @@ def slips() -> Values:
             place = f"{row['moes_m']}, {row['moes_l']}"
             worst[place] = max(worst.get(place, 0.0), float(np.hypot(real, imaginary)))
     middle = max(v for k, v in worst.items() if 200.0 <= float(k.split(",")[0]) <= 1000.0)
-    one, two = (
-        max(worst[k] for k in pair) for pair in (("2000, 15", "3000, 3"), ("100, 3", "100, 20"))
-    )
     return locals()
 
 
@@ -135,15 +131,6 @@ def compared() -> Values:
         percent(float(np.mean(of(fine, name))))
         for name in ("deviation_percent", "deviation_1025_percent")
     ]
-    return locals()
-
-
-def even_part() -> Values:
-    """The pressure of second order beside the even part of the simulated one."""
-    whole, cut = read("prediction/even.csv")
-    for row in (whole, cut):
-        share = float(row["effect_second"]) / float(row["effect_even"])
-        assert abs(share - 0.6) < 0.05
     return locals()
 
 

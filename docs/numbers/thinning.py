@@ -43,13 +43,10 @@ def thinning_waves() -> Values:
 
 
 def thinning_surfaces() -> Values:
-    """Summaries of the surfaces of e, f and i."""
-    lines = {
-        (letter, name): line
-        for letter, prediction in (("e", "predicted"), ("f", "predicted"), ("i", "committed"))
-        for name, line in summaries("simulated", letter, prediction).items()
+    """Summaries of the surfaces of i."""
+    return {
+        "lines": {("i", n): line for n, line in summaries("simulated", "i", "committed").items()}
     }
-    return locals()
 
 
 def deviations(table: str, names: str, prediction: str) -> Values:

@@ -450,7 +450,7 @@ def test_a_layer_that_would_have_to_give_much(solve):
 
 
 @pytest.mark.long
-def test_no_error_where_a_layer_that_gives_much_carries_most(solve, root):
+def test_no_error_where_a_layer_that_gives_much_carries_most(solve):
     """A wave of the stress campaign, whose load share two grids tell no error of."""
     wave = {
         "contact.load": 220.65341,
@@ -473,8 +473,6 @@ def test_no_error_where_a_layer_that_gives_much_carries_most(solve, root):
         assert done["layer_supply"] > 0.1
         assert done["contact_load_share_error"] is None
     assert "would have to give much of the flow" in runs[1]["contact_load_share_error_note"]
-    said = "{:.3f}, {:.3f} and {:.3f} on".format(*(done["contact_load_share"] for done in runs))
-    assert said in plain(root / "docs" / "robustness.md")
 
 
 def test_both_drivers_find_the_same(solve, tmp_path):

@@ -86,24 +86,6 @@ def test_measured_surface(says, cases: Path):
     assert steps[0]["points_changed"] == 3
 
 
-def test_alpha_over_the_temperature(says, cases: Path):
-    """By Roelands' law with a constant exponent, and what that makes of the film."""
-    oils = [
-        pyehl.Case(cases / "finish.nml", [f"lubricant.temperature={t}"]).resolve()["lubricant"]
-        for t in (40, 100)
-    ]
-    cold, hot = (oil["pressure_viscosity"] for oil in oils)
-    kept, film = (
-        pyehl.film(cases / "finish.nml", {"lubricant.temperature": 100, **more}).formulas[0]
-        for more in ({"lubricant.pressure_viscosity": cold}, {})
-    )
-    says(
-        "docs/howto/stribeck.md",
-        f"From 40 to 100 °C it falls by {100.0 * (1.0 - hot / cold):.0f} % for the ISO VG 46 oil",
-        f"thins the film by {100.0 * (1.0 - film['h_c_m'] / kept['h_c_m']):.0f} % more",
-    )
-
-
 @pytest.mark.long
 def test_traction_near_the_origin(says, cases: Path):
     """In proportion to the ratio below 1e-6, and no more at 1e-5."""
@@ -125,18 +107,6 @@ def test_fitted_shear_law(says, cases: Path):
     (found,) = pyehl.fit_lubricant(cases / "traction.csv", case).parameters
     value, low, high = (f"{1e-6 * v:.1f}" for v in (found.value, found.low, found.high))
     says("docs/howto/lubricants.md", f"finds {value} MPa with a 95 % interval from {low} to {high}")
-
-
-@pytest.mark.long
-def test_heat_of_the_gears(says, cases: Path):
-    smooth = {f"{group}.kind": "smooth" for group in ("surface", "second_surface")}
-    gears = cases / "gear_pair.nml"
-    ratio = [
-        summary_of(pyehl.solve(gears, smooth, {"lubricant.thermal_friction": when}))
-        for when in ("auto", "never")
-    ]
-    assert ratio[0]["mu"] / ratio[1]["mu"] == pytest.approx(0.75, abs=0.02)
-    says("docs/howto/gear.md", "which takes a quarter of it")
 
 
 @pytest.mark.parametrize(("name", "case"), [("gear", "gear_pair"), ("bearing", "ball_bearing")])
