@@ -20,6 +20,7 @@ from common import add_number, columns, measure, parser, say, show
 from pyehl.case import Case
 from pyehl.errors import InputError
 from pyehl.solver import Solver
+from pyehl.theory.line_contact import LineContact
 from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Row
 
@@ -29,6 +30,7 @@ WIDEST = 240.0
 """Largest R_y/R_x: an ellipse of kappa = 30."""
 WIDE = 4.0
 """Contacts of a larger kappa are wide."""
+SHAPES = ("ellipse", "line")
 LAWS = ("newtonian", "eyring", "carreau")
 SETTINGS: dict[str, Any] = {"solver.threads": 1}
 """Everything else is as by default."""
@@ -58,7 +60,7 @@ class Contact:
     """A contact of a machine, and the keys of its case."""
 
     kind: str
-    ellipticity: float  # semi-axis across the motion over that along it
+    ellipticity: float | None  # semi-axis across the motion over that along it; None: a line
     pressure: float  # of Hertz, maximum [Pa]
     values: Mapping[str, Any]
 
@@ -149,6 +151,44 @@ def _one(kind: str, rng: np.random.Generator) -> Contact:
     return Contact(kind, unloaded.ellipse.ellipticity, _point(keys, load).hertz_pressure, values)
 
 
+def draw_lines(count: int, seed: int) -> list[Contact]:
+    """Draw line contacts, in SI units and by M and L in turn: as `draw`."""
+    kinds = ("line, SI units", "line, M and L")
+    return [_line(kinds[k % 2], np.random.default_rng((seed, k))) for k in range(count)]
+
+
+def _line(kind: str, rng: np.random.Generator) -> Contact:
+    oil = {
+        "viscosity": _scale(rng, 0.004, 0.3),
+        "pressure_viscosity": rng.uniform(1.3e-8, 2.4e-8),
+    }
+    keys = {"contact.slide_to_roll": rng.uniform(0.0, 1.0)}
+    keys |= {f"lubricant.{name}": value for name, value in oil.items()}
+    words: dict[str, Any] = {"contact.shape": "line"}
+    words["lubricant.viscosity_law"] = str(rng.choice(("roelands", "barus")))
+    words["grid.border"] = str(rng.choice(("flooded", "zero"), p=(0.8, 0.2)))
+    if kind.endswith("units"):
+        si = {
+            "load_per_length": _scale(rng, 2e4, 1.5e6),
+            "radius": _scale(rng, 2e-3, 0.03),
+            "mean_velocity": _scale(rng, 0.05, 20.0),
+        }
+        keys |= {f"contact.{name}": value for name, value in si.items()}
+        words["contact.reduced_modulus"] = MODULUS
+        line = LineContact(reduced_modulus=MODULUS, si=True, **si, **oil)
+        law = words["lubricant.shear_law"] = str(rng.choice(LAWS))
+        if law != "newtonian":
+            keys[f"lubricant.{law}_stress"] = _scale(rng, 1e6, 1e7)
+        if law == "carreau":
+            keys["lubricant.carreau_exponent"] = rng.uniform(0.4, 0.9)
+    else:
+        moes = _scale(rng, 0.3, 1000.0), rng.uniform(0.0, 25.0)
+        keys |= {"contact.moes_m_line": moes[0], "contact.moes_l_line": moes[1]}
+        line = LineContact.from_moes(*moes, **oil)
+    rounded = {key: float(f"{value:.4g}") for key, value in keys.items()}
+    return Contact(kind, None, line.hertz_pressure, rounded | words)
+
+
 def _point(keys: Mapping[str, float], load: float) -> OperatingPoint:
     return OperatingPoint(
         load=load,
@@ -161,14 +201,15 @@ def _point(keys: Mapping[str, float], load: float) -> OperatingPoint:
     )
 
 
-def campaign(count: int, seed: int, *, fine: bool = False) -> list[Row]:
-    """Solve so many contacts of a seed; a row for each.
+def campaign(count: int, seed: int, *, fine: bool = False, shape: str = "ellipse") -> list[Row]:
+    """Solve so many contacts of a seed, one of `SHAPES`; a row for each.
 
     With `fine` each that converged is solved on twice the nodes, too: `H_c_fine` and `H_min_fine`
     are extrapolated from these.
     """
     rows: list[Row] = []
-    for number, contact in enumerate(draw(count, seed)):
+    contacts = draw_lines(count, seed) if shape == "line" else draw(count, seed)
+    for number, contact in enumerate(contacts):
         row = _solved(contact, {})
         row |= {"seed": seed, "number": number, "kind": contact.kind, "values": contact.values}
         row |= {"ellipticity": contact.ellipticity, "hertz_pressure_Pa": contact.pressure}
@@ -179,8 +220,10 @@ def campaign(count: int, seed: int, *, fine: bool = False) -> list[Row]:
             if finer["status"] == "converged":
                 row |= {f"{name}_fine": finer[f"{name}_extrapolated"] for name in QUANTITIES}
         say(
-            f"{number + 1} of {count}: {contact.kind}, kappa {contact.ellipticity:.1f}, "
-            f"{row['status']}" + (f", {row['seconds']:.2f} s" if row["seconds"] else "")
+            f"{number + 1} of {count}: {contact.kind}, "
+            + (f"kappa {contact.ellipticity:.1f}, " if contact.ellipticity else "")
+            + f"{row['status']}"
+            + (f", {row['seconds']:.2f} s" if row["seconds"] else "")
         )
         rows.append(row)
     return rows
@@ -226,8 +269,9 @@ def summary(rows: Sequence[Row]) -> list[Row]:
     """Count and time by kind, of the wide ones, and of all."""
     discs = [row["seconds"] for row in rows if row["kind"] == DISC and row["seconds"]]
     unit = statistics.median(discs) if discs else None
-    groups = {kind: [row for row in rows if row["kind"] == kind] for kind in KINDS}
-    groups[f"kappa > {WIDE:g}"] = [row for row in rows if row["ellipticity"] > WIDE]
+    kinds = dict.fromkeys([*KINDS, *(row["kind"] for row in rows)])
+    groups = {kind: [row for row in rows if row["kind"] == kind] for kind in kinds}
+    groups[f"kappa > {WIDE:g}"] = [row for row in rows if (row["ellipticity"] or 0.0) > WIDE]
     groups["all"] = list(rows)
     return [_counted(name, mine, unit) for name, mine in groups.items() if mine]
 
@@ -254,10 +298,10 @@ def _counted(name: str, rows: Sequence[Row], unit: float | None) -> Row:
 
 def work(args: argparse.Namespace) -> Row:
     """Measure and print."""
-    rows = campaign(args.count, args.seed, fine=args.fine)
+    rows = campaign(args.count, args.seed, fine=args.fine, shape=args.shape)
     found = summary(rows)
     show(found, COLUMNS, MEANING)
-    asked = {name: getattr(args, name) for name in ("seed", "count", "fine")}
+    asked = {name: getattr(args, name) for name in ("seed", "count", "fine", "shape")}
     return asked | {"summary": found, "rows": rows}
 
 
@@ -265,7 +309,10 @@ def main(words: Sequence[str] | None = None) -> int:
     """Run the script."""
     made = parser(__doc__)
     add_number(made, "seed", 1)
-    add_number(made, "count", 60, "how many contacts, of four kinds in turn", minimum=1)
+    add_number(made, "count", 60, "how many contacts, of all kinds in turn", minimum=1)
+    made.add_argument(
+        "--shape", choices=SHAPES, default=SHAPES[0], help="ellipse (default) or line"
+    )
     made.add_argument(
         "--fine", action="store_true", help="on twice the nodes too, to check the stated errors"
     )

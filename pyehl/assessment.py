@@ -130,7 +130,8 @@ def _contact(s: Summary) -> list[str]:
     ]
     if _finite_above(supply, MUCH_SUPPLIED):
         found.append(
-            f"the layer would have to give {percent(supply)} of the flow, where the model ends"
+            f"the boundary film would have to give {percent(supply)} of the flow, where the model "
+            "ends"
         )
     return found
 

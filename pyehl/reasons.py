@@ -35,8 +35,8 @@ REASONS = {
     "{narrow_y_extent}, grid.points_y = {narrow_points_y} and solver.max_cycles = 100 may do",
     8: "there is no solution on the next coarser grid",
     9: "the next coarser grid does not resolve the inlet, and bodies touch on it for that",
-    10: "most of the load is at a layer that would have to give much of the flow: the share may "
-    "change on any grid",
+    10: "most of the load is at a boundary film that would have to give much of the flow: the "
+    "share may change on any grid",
     11: "the bodies touch, and the friction there is not known: lubricant.boundary_friction and "
     "sliding are needed",
     12: ALONE + ": time.estimate_error is false",

@@ -47,6 +47,26 @@ def machine_ends() -> Values:
     return locals()
 
 
+def machine_lines() -> Values:
+    """Random line contacts: those without a result, and true errors over stated ones."""
+    make = script("machines/make.py")
+    rows = make.read(make.LINES)
+    failed = [row for row in rows if row["status"] != "converged"]
+    assert {row["law"] for row in failed} == {"eyring"}
+    known = [row for row in rows if row["fine_status"] == "converged"]
+    over = {
+        name: [abs(row[name] - row[f"{name}_fine"]) / row[f"{name}_error"] for row in known]
+        for name in ("H_c", "H_min")
+    }
+    h_c, h_min = (
+        {most: sum(ratio <= most for ratio in ratios) for most in (1.0, 1.1, 1.5, 2.0)}
+        for ratios in over.values()
+    )
+    largest = {name: max(ratios) for name, ratios in over.items()}
+    seconds = max(row["seconds"] for row in rows)
+    return locals()
+
+
 def borders() -> Values:
     """How far sides and cells change films, and what the error of the domain covers."""
     make = script("machines/make.py")

@@ -11,7 +11,8 @@ def machines() -> Values:
     make, modes = script("machines/make.py"), script("machines/modes.py")
     names = ("robustness", "speed", "sides", "by_border")
     return {name: "\n".join(getattr(make, name)()) for name in names} | {
-        "modes": "\n".join(modes.lines())
+        "lines": "\n".join(make.robustness(make.LINES)),
+        "modes": "\n".join(modes.lines()),
     }
 
 

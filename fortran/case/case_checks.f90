@@ -29,7 +29,8 @@ module ehl_case_checks
    !> Relative difference of values that is none, and of velocity ratios
    real(dp), parameter :: rounding = 1.0e-6_dp, same_velocity = 1.0e-9_dp
    character(len=*), parameter :: by_pyehl = "what 'pyehl check CASE.nml --resolved out.nml' writes, for ehl out.nml; or ", &
-      si_units = "load, mean_velocity, reduced_modulus and radius or radius_x and radius_y"
+      si_units = "load, mean_velocity, reduced_modulus and radius or radius_x and radius_y", &
+      of_line = "moes_m_line and moes_l_line, or load_per_length, mean_velocity, reduced_modulus and radius"
 
 contains
 
@@ -38,12 +39,16 @@ contains
       type(case_source_t), intent(in) :: source
       type(case_t), intent(in) :: input
       type(status_t), intent(inout) :: status
-      character(len=:), allocatable :: moes, si
+      character(len=:), allocatable :: moes, si, expected
 
       call check_line(source, input, status)
       moes = source%first_given("contact", moes_keys)
       si = source%first_given("contact", si_keys)
-      if (moes /= "" .and. si /= "") call source%contradict(moes, si, "moes_m, moes_l and radius_ratio, or "//si_units, status)
+      if (moes /= "" .and. si /= "") then
+         expected = "moes_m, moes_l and radius_ratio, or "//si_units
+         if (input%contact%is_line()) expected = of_line
+         call source%contradict(moes, si, expected, status)
+      end if
       associate (c => input%contact)
          if (source%given("contact.radius") .and. (c%radius_x > 0.0_dp .or. c%radius_y > 0.0_dp)) then
            call source%contradict("contact.radius", source%first_given("contact", si_keys(6:)), &

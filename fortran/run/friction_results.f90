@@ -87,8 +87,8 @@ contains
             if (ieee_is_finite(found%mu_isothermal(2)) .and. .not. ieee_is_finite(found%mu(2))) then
                found%reason = friction_not_converged
             end if
-            ! mu_r/mu_s is isothermal, and the smooth contact has another heat: mu is not mu_r/mu_s of its friction
-            if (rough .and. found%reason == friction_with_heat) then
+            ! mu_r/mu_s is isothermal, and the smooth contact has another heat: mu, if known, is not mu_r/mu_s of its friction
+            if (rough .and. found%reason == friction_with_heat .and. ieee_is_finite(found%mu(1))) then
                found%mu(2) = not_known
                found%reason = friction_of_rough
             end if

@@ -55,6 +55,11 @@ def check_kind(draft: Draft) -> None:
             "moes_m, moes_l and radius_ratio, or load, mean_velocity, reduced_modulus and radius "
             "or radius_x and radius_y"
         )
+        if draft.settings.contact.is_line:
+            expected = (
+                "moes_m_line and moes_l_line, or load_per_length, mean_velocity, reduced_modulus "
+                "and radius"
+            )
         draft.contradict(moes, si, expected)
 
 

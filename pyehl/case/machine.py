@@ -11,6 +11,7 @@ from pyehl.case.draft import Draft
 from pyehl.case.file import read_text
 from pyehl.case.groups import Bodies
 from pyehl.case.key import Value
+from pyehl.case.line import LINE_KEYS
 from pyehl.case.number import short, to_text
 from pyehl.case.reader import read
 from pyehl.case.settings import GROUPS, KEYS, MACHINES
@@ -21,10 +22,18 @@ from pyehl.given import Option, options_of, path_of
 # What the machine says of each contact, and no key
 FOLLOWS = (
     *(f"contact.{key}" for key in ("moes_m", "moes_l", "radius_ratio", "load", "mean_velocity")),
+    *(f"contact.{key}" for key in ("shape", *LINE_KEYS)),
     *(f"contact.{key}" for key in ("radius", "radius_x", "radius_y", "reduced_modulus")),
     *(f"contact.{key}" for key in ("angle", "slide_to_roll")),
     *(f"bodies.radius_{key}" for key in ("x1", "y1", "x2", "y2")),
 )
+# And what of the machine some of them follow from
+LOADS = ("radial_load", "axial_load", "torque")
+CAUSES = {
+    "load": LOADS,
+    "load_per_length": LOADS,
+    "mean_velocity": ("inner_speed", "outer_speed", "speed"),
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,13 +71,20 @@ class Machine:
     def _first(self) -> str:
         return self.draft.first_given(key.name for key in GROUPS[self.kind])
 
+    def _cause(self, name: str) -> str:
+        """Give the key of the machine that a key of a contact follows from, or its first one."""
+        keys = CAUSES.get(name.partition(".")[2], ())
+        given = [key for key in keys if self.is_given(key)]
+        return f"{self.kind}.{given[0]}" if given else self._first()
+
     def wants(self, *keys: str) -> None:
         """Refuse a machine without some keys, all of which have to be positive."""
         for key in keys:
             if getattr(self.values, key) == 0:
                 known = KEYS[f"{self.kind}.{key}"]
                 what = f"{known.name} is not given" if not self.is_given(key) else f"{key} is 0"
-                self.refuse(key, what, f"{known.meaning}: {known.expected.replace('0 or ', '')}")
+                positive = known.expected.replace("0 or ", "").replace("[0, ", "(0, ")
+                self.refuse(key, what, f"{known.meaning}: {positive}")
 
     def text(self) -> str:
         """Give it as namelist text: its group whole, of the others what was given."""
@@ -97,7 +113,6 @@ class Machine:
         machine, if there is no such contact; `place` says which.
         """
         draft = Draft(copy.deepcopy(self.draft.settings), self.draft.sources)
-        origin = self.draft.given[self._first()]
         skipped = MACHINES if bodies else (*MACHINES, "bodies")
         draft.given = {
             name: where
@@ -108,12 +123,12 @@ class Machine:
             draft.settings.bodies = Bodies()
             contact = {**contact, "contact.reduced_modulus": self.reduced_modulus}
         for name, value in contact.items():
-            key = KEYS[name]
+            key, cause = KEYS[name], self._cause(name)
             if isinstance(value, float) and not key.allows(value):
                 what = f"{place}: {name} = {short(value)}"
-                self.draft.refuse(self._first(), what, key.expected)
+                self.draft.refuse(cause, what, key.expected)
             draft.settings.set(key, value)
-            draft.given[name] = origin
+            draft.given[name] = self.draft.given[cause]
         complete(draft)
         return case_text(draft.settings, draft.given)
 

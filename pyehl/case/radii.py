@@ -38,8 +38,8 @@ def complete(draft: Draft) -> None:
     remedy = (
         f"radius_x of at most {short(250.0 * c.radius_y)} m"
         if c.radius_ratio > 1.0
-        else f"radius_y of at most {short(250.0 * c.radius_x)} m, as of a crowned roller; a line "
-        "contact is not solved"
+        else f"radius_y of at most {short(250.0 * c.radius_x)} m, as of a crowned roller; beyond "
+        "that contact.shape = 'line'"
     )
     expected = f"a ratio in {key.allowed}, an ellipse of at most 30 to 1: {remedy}"
     draft.refuse(name, f"radius_x/radius_y is {short(c.radius_ratio)}", expected)

@@ -20,6 +20,7 @@ from pyehl.types import Settings
 LINE, ELLIPSE = "line", "ellipse"
 # R_x/R_y of an ellipse as wide as a line is near it: half widths agree within 1 %
 WIDE = 0.01
+CROSSED = "minimum film above the central one: two formulas, of which one fails here"
 OUTSIDE = " outside its range of "
 LINES = "smooth solutions: the prediction has no line contacts"
 LONGEST = 30.0
@@ -196,6 +197,8 @@ def film_of(contact: Contact, machine: Machine) -> Film:
         name = regime(point.moes_m, point.moes_l, point.ellipse)
         beyond = _beyond(central, least)
         h_c, h_min = central.h_c, least.h_min
+        if h_min > h_c:
+            beyond = f"{beyond}; {CROSSED}".removeprefix("; ")
         return Film(contact, text, settings, point, None, oil, h_c, h_min, name, beyond)
     wide = values(contact.wide_text(machine))
     wide["lubricant"] = {**wide["lubricant"], "thermal_reduction": False}

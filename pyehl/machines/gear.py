@@ -18,6 +18,8 @@ from pyehl.types import Array
 # Backlash that is none, and tip thickness of a pointed tooth, over the module
 NOTHING = 1e-3
 TURN = 2.0 * math.pi / 60.0
+# R_x/R_y below which an ellipse is far longer than `LONGEST`
+SMALLEST_RATIO = 1e-3
 # Nearest station to an end of the path, over the base pitch
 WITHIN = 1e-6
 
@@ -259,7 +261,7 @@ def gear_pair(machine: Machine) -> GearPair:
 def _is_ellipse(contact: Contact, modulus: float, width: float) -> bool:
     """Whether the ellipse of crowned flanks ends within the face width, and is not too long."""
     ratio = contact.radius_ratio
-    if ratio == 0.0:
+    if ratio < SMALLEST_RATIO:
         return False
     shape = ellipse(ratio)
     cube = 1.5 * contact.load * contact.radius / (modulus * shape.load_share)

@@ -151,6 +151,8 @@ def row_of(film: Film, sigma: float, done: Row | None, place: Mapping[str, Any])
         "moes_m": film.moes[0],
         "moes_l": film.moes[1],
         "regime": film.regime,
+        # until something is found
+        **dict.fromkeys(("h_c_m", "h_min_m", "mu"), math.nan),
     }
     if done is None:
         sliding = traction(film, film.h_c)
@@ -166,9 +168,9 @@ def row_of(film: Film, sigma: float, done: Row | None, place: Mapping[str, Any])
         row |= {name: _number(done[name]) for name in FOUND if name in done}
         note = done.get("message") or ""
         row |= {"status": done["status"], "note": "" if done["status"] in RESULTS else note}
-    h_c = row.get("h_c_m", math.nan)
+    h_c = row["h_c_m"]
     if sigma > 0.0:
-        row["lambda_ratio"] = row.get("h_min_m", math.nan) / sigma
+        row["lambda_ratio"] = row["h_min_m"] / sigma
     if contact.slide_to_roll == 0.0 and contact.length == 0.0 and "ring" in place:
         sliding_power = groove_sliding(film, h_c) if h_c > 0.0 else math.nan
     else:
@@ -201,12 +203,12 @@ def summary_of(
     most, least = table["hertz_pressure_Pa"], table["h_min_m"]
     found |= {
         "hertz_pressure_max_Pa": float(most.max()),
-        "h_min_least_m": float(least.min(skipna=False)),
+        "h_min_m": float(least.min(skipna=False)),
     }
-    found["h_c_least_m"] = float(table["h_c_m"].min(skipna=False))
-    found["h_c_most_m"] = float(table["h_c_m"].max(skipna=False))
+    found["h_c_min_m"] = float(table["h_c_m"].min(skipna=False))
+    found["h_c_max_m"] = float(table["h_c_m"].max(skipna=False))
     if sigma > 0.0:
-        found["lambda_ratio_least"] = found["h_min_least_m"] / sigma
+        found["lambda_ratio_min"] = found["h_min_m"] / sigma
     sliding, rolling = table["sliding_power_W"], table["rolling_power_W"]
     if isinstance(made, GearPair):
         found |= _of_pair(made, table)

@@ -42,9 +42,9 @@ SUMS: dict[str, tuple[str, float, str, str]] = {
     "working_angle_deg": ("working pressure angle", 1.0, ".3f", "deg"),
     "normal_force_N": ("normal force", 1.0, ".1f", "N"),
     "hertz_pressure_max_Pa": ("maximum pressure", 1e-9, ".3f", "GPa"),
-    "h_min_least_m": ("minimum film", 1e9, ".1f", "nm"),
+    "h_min_m": ("minimum film", 1e9, ".1f", "nm"),
     "rms_height_m": ("rms height of both surfaces", 1e9, ".1f", "nm"),
-    "lambda_ratio_least": ("least Lambda", 1.0, ".2f", ""),
+    "lambda_ratio_min": ("minimum Lambda", 1.0, ".2f", ""),
     "sliding_torque_N_m": ("torque of sliding", 1e3, ".2f", "N mm"),
     "rolling_torque_N_m": ("torque of rolling", 1e3, ".2f", "N mm"),
     "torque_N_m": ("torque of the contacts", 1e3, ".2f", "N mm"),
@@ -57,6 +57,8 @@ SUMS: dict[str, tuple[str, float, str, str]] = {
 # Of the friction, which a Newtonian oil does not have
 FRICTION = ("sliding_torque_N_m", "torque_N_m", "mu_mean", "sliding_power_W", "efficiency")
 NOTES = 4
+# Maximum pressure at the static rating of ball bearings (ISO 76) [Pa]
+YIELDING = 4.2e9
 
 
 def report(kind: str, table: pd.DataFrame, summary: Mapping[str, Any]) -> str:
@@ -80,9 +82,11 @@ def notes_of(table: pd.DataFrame, summary: Mapping[str, Any]) -> list[str]:
     notes = _together(str(note) for note in table["note"] if isinstance(note, str) and note)
     found = [*notes[:NOTES], *([f"and {len(notes) - NOTES} more"] if len(notes) > NOTES else [])]
     found = [f"note       {note}" for note in found]
-    if summary.get("lambda_ratio_least", math.inf) < 1.0 and "h_min_rough_m" not in table:
+    if summary["hertz_pressure_max_Pa"] > YIELDING:
+        found.append("steel      yields: the static limit of bearings is 4.2 GPa (ISO 76)")
+    if summary.get("lambda_ratio_min", math.inf) < 1.0 and "h_min_rough_m" not in table:
         found.append(
-            "solids     least Lambda below 1: the surfaces touch, which no friction here has"
+            "solids     minimum Lambda below 1: the surfaces touch, which no friction here has"
         )
     found += [f"lines      {summary['lines']}"] if "lines" in summary else []
     return [*found, f"left out   {summary['left_out']}"]

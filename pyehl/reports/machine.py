@@ -50,8 +50,8 @@ def _assess(table: pd.DataFrame, summary: Mapping[str, Any]) -> Assessment:
     lost = int((~table["status"].isin(DONE)).sum())
     if lost:
         return Assessment("No result", f"{lost} of {len(table)} contacts have none.", "fail")
-    film = f"The minimum film is {summary['h_min_least_m'] * 1e9:.4g} nm"
-    ratio = summary.get("lambda_ratio_least")
+    film = f"The minimum film is {summary['h_min_m'] * 1e9:.4g} nm"
+    ratio = summary.get("lambda_ratio_min")
     if ratio is None:
         return Assessment("Smooth", f"{film}; no finish is given.", "pass")
     why = f"{film}, Λ {ratio:.3g}."

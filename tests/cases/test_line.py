@@ -4,6 +4,7 @@
 import json
 import math
 import subprocess
+from pathlib import Path
 
 import line_newton
 import numpy as np
@@ -392,3 +393,18 @@ def test_picture_and_report(root, tmp_path):
     assert "load per length w" in page
     assert "half width b of the contact" in page
     assert "infinitely long" in page
+
+
+def test_both_kinds_of_a_line(ehl: str, tmp_path: Path):
+    """What is expected names the keys of a line, by pyehl as by ehl."""
+    keys = {"contact.shape": "line", "contact.load_per_length": 1e5, "contact.moes_m_line": 10.0}
+    expected = "moes_m_line and moes_l_line, or load_per_length"
+    with pytest.raises(pyehl.InputError, match=expected):
+        pyehl.Case.from_text("", keys)
+    case = tmp_path / "case.nml"
+    case.write_text("&contact shape='line' load_per_length=1e5 moes_m_line=10 /\n")
+    found = subprocess.run(
+        [ehl, case, "-o", tmp_path / "out"], check=False, capture_output=True, text=True
+    )
+    assert found.returncode == 2
+    assert expected in found.stderr

@@ -12,6 +12,7 @@ import pyehl
 from pyehl import cli
 from pyehl.case.machine import read_machine
 from pyehl.machines.bearing import TURN, ball_bearing, roller_bearing
+from pyehl.machines.contact import CROSSED
 from pyehl.machines.equilibrium import (
     BALL,
     ROLLER,
@@ -21,6 +22,7 @@ from pyehl.machines.equilibrium import (
     roller_stiffness,
 )
 from pyehl.machines.gear import gear_pair
+from pyehl.machines.perform import Prepared
 from pyehl.theory.ellipse import ellipse
 
 E_STEEL = 2.06e11 / 0.91
@@ -618,7 +620,7 @@ def test_case_files_by_formulas(root: Path, tmp_path: Path, name: str, capfd):
     assert tables[0] == tables[1]
     assert cli.main(["report", str(folder)]) == 0
     shown = (folder / "report.html").read_text()
-    for word in ("least Lambda", "left out", f"&amp;{group}", "data:image/png"):
+    for word in ("minimum Lambda", "left out", f"&amp;{group}", "data:image/png"):
         assert word in shown
     # the page is ours, and goes with the result
     assert (
@@ -647,3 +649,50 @@ def test_prediction_needs_a_rough_surface():
         bearing(BALLS, run="predict")
     with pytest.raises(pyehl.InputError, match="did you mean 'solve'"):
         bearing(BALLS, run="slove")
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_interrupted_before_any_contact(root: Path, name: str):
+    """No film, no friction that needs it, and nothing in their place."""
+    path = root / "cases" / f"{name}.nml"
+    found = Prepared(path, [], (FILES[name][1],), "solve").result({})
+    assert not found.complete
+    assert set(found.table["status"]) == {"not run"}
+    assert found.table[["h_c_m", "h_min_m"]].isna().all(axis=None)
+    assert math.isnan(found.summary["h_min_m"])
+    assert "minimum film                  not reported: a contact has no result" in repr(found)
+
+
+def test_crown_of_a_nanometre_is_a_line():
+    tables = [gear(FZG, OIL, {"spur_gear.crowning_1": crown}).table for crown in (0.0, 1e-9)]
+    assert tables[0].equals(tables[1])
+
+
+def test_formulas_that_contradict_each_other():
+    """A minimum film above the central one, far beyond the ranges of both formulas, is noted."""
+    options = {"lubricant.viscosity": 0.004, "ball_bearing.inner_speed": 100.0}
+    for load, crossed in ((3000.0, True), (10.0, False)):
+        table = bearing(BALLS, options, {"ball_bearing.radial_load": load}).table
+        above = table["h_min_m"] > table["h_c_m"]
+        assert above.any() == crossed
+        assert (table["note"].str.contains(CROSSED) == above).all()
+
+
+def test_pressure_above_the_static_limit_is_noted():
+    for load, yields in ((3000.0, False), (30000.0, True)):
+        found = bearing(BALLS, {"ball_bearing.radial_load": load})
+        assert (found.summary["hertz_pressure_max_Pa"] > 4.2e9) == yields
+        assert ("steel      yields" in repr(found)) == yields
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "message"),
+    [
+        ("ball_bearing.radial_load", 3e6, "radial_load=3000000.*\n.*\n.*\\^"),
+        ("ball_bearing.inner_speed", 1e6, "inner_speed=1000000.*\n.*\n.*\\^"),
+        ("contact.shape", "line", "contact.shape follows from &ball_bearing"),
+    ],
+)
+def test_refused_at_what_causes_it(root: Path, key: str, value: object, message: str):
+    with pytest.raises(pyehl.InputError, match=message):
+        pyehl.bearing(root / "cases" / "bearing_6206.nml", {key: value})

@@ -300,6 +300,25 @@ def test_contacts_of_machines_have_the_pressure_that_was_drawn():
         assert 1.0 <= contact.ellipticity < 31.0
 
 
+def test_line_contacts(tmp_path: Path):
+    """Both kinds in turn, with the pressure of the case; twice the nodes change the film little."""
+    words = ["--shape", "line", "--seed", "3", "--count", "6", "--fine"]
+    assert machines.main([*words, "-o", str(tmp_path / "l.json")]) == 0
+    answer = json.loads((tmp_path / "l.json").read_text())
+    rows = answer["rows"]
+    assert [row["kind"] for row in rows] == ["line, SI units", "line, M and L"] * 3
+    assert [row["contacts"] for row in answer["summary"]] == [
+        *dict.fromkeys(r["kind"] for r in rows),
+        "all",
+    ]
+    for row in rows:
+        case = pyehl.Case.from_text("", row["values"])
+        line = machines.LineContact.from_settings(case.resolve())
+        assert line.hertz_pressure == pytest.approx(row["hertz_pressure_Pa"], rel=2e-3)
+        assert row["status"] == row["fine_status"] == "converged"
+        assert abs(row["H_c"] - row["H_c_fine"]) < 2.0 * row["H_c_error"]
+
+
 def test_contacts_that_are_no_case_are_counted():
     """So slow that M is beyond the largest one."""
     contact = machines.draw(1, 3)[0]

@@ -7,6 +7,8 @@ python benchmarks/machines.py --seed 3 -o seed3.json
 python benchmarks/machines.py --seed 4 --count 16 --fine -o seed4.json
 python docs/evidence/machines/make.py read seed1.json seed2.json seed3.json \
     seed4.json
+python benchmarks/machines.py --shape line --seed 1 --count 200 --fine -o lines.json
+python docs/evidence/machines/make.py lines lines.json
 python docs/evidence/machines/make.py sides    sides.csv
 python docs/evidence/machines/make.py border   border.csv
 python docs/evidence/machines/make.py show     prints the tables as the documents have them
@@ -30,6 +32,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "benchmarks"))
 from machines import SETTINGS, summary, timed
 
 HERE = Path(__file__).resolve().parent
+LINES = "lines.csv"
 COLUMNS = (
     *("seed", "number", "kind", "law", "ellipticity", "hertz_pressure_Pa", "moes_m", "moes_l"),
     *("points", "points_y", "status", "restarts", "cycles", "total_cycles", "seconds"),
@@ -104,14 +107,16 @@ def _value(name: str, text: str) -> float | int | str | None:
     return int(number) if number.is_integer() and "." not in text else number
 
 
-def collect(files: list[str]) -> None:
-    """Write the contacts and the runs they are from."""
+def collect(files: list[str], name: str = "contacts.csv") -> None:
+    """Write the contacts, and of ellipses the runs they are from."""
     answers = [json.loads(Path(file).read_text(encoding="utf-8")) for file in files]
     rows = [row for answer in answers for row in answer["rows"]]
     for row in rows:
-        row["law"] = row["values"]["lubricant.shear_law"]
+        row["law"] = row["values"].get("lubricant.shear_law", "newtonian")
         row["message"] = (row["message"] or "").partition("\n")[0]
-    write("contacts.csv", COLUMNS, rows)
+    write(name, COLUMNS, rows)
+    if name == LINES:
+        return
     runs = [answer | answer["machine"] | {"fine": int(answer["fine"])} for answer in answers]
     write("runs.csv", RUNS, runs)
 
@@ -183,14 +188,16 @@ def by_border() -> list[str]:
     return lines
 
 
-def robustness() -> list[str]:
+def robustness(name: str = "contacts.csv") -> list[str]:
     """Table of docs/robustness.md."""
     lines = [
         "| contacts | drawn | converged | began again | checked | h_c covered | h_min covered |",
         "|---|---|---|---|---|---|---|",
     ]
     names = ("drawn", "converged", "restarts", "checked", "h_c_covered", "h_min_covered")
-    return lines + [_line(row, [f"{row[name]}" for name in names]) for row in summary(read())]
+    return lines + [
+        _line(row, [f"{row[column]}" for column in names]) for row in summary(read(name))
+    ]
 
 
 def speed() -> list[str]:
@@ -243,6 +250,8 @@ def main(words: list[str]) -> None:
     """Do what is asked for."""
     if words[0] == "read":
         collect(words[1:])
+    elif words[0] == "lines":
+        collect(words[1:], LINES)
     elif words[0] in MEASURE:
         MEASURE[words[0]]()
     else:
