@@ -2,7 +2,6 @@
 """Friction of a contact on its Hertz pressure and a uniform film, by the shear law of the oil."""
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -17,30 +16,15 @@ from pyehl.types import Array
 NODES, ROWS, GAUSS = 129, 9, 40
 
 
-@dataclass(frozen=True, slots=True)
-class Traction:
-    """Friction of a contact whose surfaces slide along the motion.
+def traction(film: Film) -> tuple[float, float]:
+    """Coefficient of friction of sliding [-] and flash temperature [K] (Tian & Kennedy).
 
-    Attributes
-    ----------
-    mu
-        Coefficient of friction [-], with the heat where the case has it.
-    flash
-        Maximum increase of the temperature of the surfaces [K] (Tian & Kennedy).
-    note
-        What the coefficient is, or why there is none.
+    On p_h sqrt(1 - r^2) and a film h_c everywhere, with the heat where the case has it. NaN without
+    sliding along the motion, and mu for a Newtonian stress that is unphysical.
     """
-
-    mu: float = math.nan
-    flash: float = math.nan
-    note: str = ""
-
-
-def traction(film: Film, h_c: float) -> Traction:
-    """Give the friction of sliding on p_h sqrt(1 - r^2) and a film h_c [m] everywhere."""
-    point, oil = film.point, film.lubricant
-    if point.slide_to_roll == 0.0 or not h_c > 0.0:
-        return Traction(note="no sliding along the motion")
+    point, oil, h_c = film.point, film.lubricant, film.h_c
+    if point.slide_to_roll == 0.0:
+        return math.nan, math.nan
     p_h, speed = film.hertz_pressure, point.sliding_speed
     x, weights = np.polynomial.legendre.leggauss(GAUSS)
     angle = 0.25 * math.pi * (x + 1.0)  # r = sin(angle)
@@ -52,7 +36,7 @@ def traction(film: Film, h_c: float) -> Traction:
     mean = 0.25 * math.pi * float(np.sum(weights * stress * area))
     mu = mean / (p_h * (math.pi / 4.0 if film.line else 2.0 / 3.0))
     found = absolute_friction(point, oil, h_c, mu, 1.0, _heat(film, h_c))
-    return Traction(found["mu"], found["flash_temperature_K"], found["mu_note"])
+    return found["mu"], found["flash_temperature_K"]
 
 
 def _heat(film: Film, h_c: float) -> Heat:

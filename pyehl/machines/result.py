@@ -155,12 +155,12 @@ def row_of(film: Film, sigma: float, done: Row | None, place: Mapping[str, Any])
         **dict.fromkeys(("h_c_m", "h_min_m", "mu"), math.nan),
     }
     if done is None:
-        sliding = traction(film, film.h_c)
+        mu, flash = traction(film)
         row |= {
             "h_c_m": film.h_c,
             "h_min_m": film.h_min,
-            "mu": sliding.mu,
-            "flash_temperature_K": sliding.flash,
+            "mu": mu,
+            "flash_temperature_K": flash,
             "status": FORMULAS,
             "note": film.outside,
         }

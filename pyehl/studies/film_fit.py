@@ -25,8 +25,8 @@ from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Array, Settings
 
 KEY = "pressure_viscosity"
-# Keys, and how keys begin, that tell the coefficient; the viscosity of the inlet is resolved
-TELLS = KEY, "roelands_z", "name", "kinematic_", "vogel_", "dicke_", "inlet_law"
+# Keys, and how keys begin, that determine the coefficient; the viscosity of the inlet is resolved
+DETERMINING = KEY, "roelands_z", "name", "kinematic_", "vogel_", "dicke_", "inlet_law"
 LAWS = ("roelands", "barus")
 # Speeds and coefficients of the table, and the largest coefficient over the middle one
 SPEEDS, COEFFICIENTS, SPAN = 5, 3, 1.5
@@ -148,7 +148,7 @@ def _base(settings: Settings, points: int) -> dict[str, dict[str, object]]:
     groups["lubricant"] = {
         key: value
         for key, value in groups["lubricant"].items()
-        if not key.startswith(TELLS) and key != "temperature"
+        if not key.startswith(DETERMINING) and key != "temperature"
     }
     groups["contact"]["slide_to_roll"] = settings["contact"]["slide_to_roll"]
     return groups

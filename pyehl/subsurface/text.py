@@ -28,7 +28,7 @@ def facts(data: xr.Dataset) -> list[tuple[str, str]]:
     def length_of(name: str) -> float:
         return float(data[f"{name}_m"]) * 1e6 if si else float(data[name])
 
-    def told(name: str, end: str = "") -> str:
+    def quantity(name: str, end: str = "") -> str:
         depth = length_of(f"{name}{end}_depth")
         return f"{stress_of(name + end):.4g} {unit} at a depth of {depth:.3g} {length}"
 
@@ -39,11 +39,11 @@ def facts(data: xr.Dataset) -> list[tuple[str, str]]:
     error = percent("principal_shear_max_error", "principal_shear_max")
     found = [
         (f"body {data.attrs['body']}", body),
-        ("shear", f"{told('principal_shear_max')} (principal shear, +- {error})"),
-        ("von Mises", told("von_mises_max")),
+        ("shear", f"{quantity('principal_shear_max')} (principal shear, +- {error})"),
+        ("von Mises", quantity("von_mises_max")),
     ]
     if "ratio_to_smooth" in data:
-        words = f"{told('principal_shear_max', '_smooth')}; rough over smooth "
+        words = f"{quantity('principal_shear_max', '_smooth')}; rough over smooth "
         words += f"{float(data.ratio_to_smooth):.3f}; {data.attrs['instants']} instants"
         found.append(("smooth", words))
     layer = f"the layer down to {length_of('near_surface_depth'):.3g} {length}"
