@@ -7,8 +7,10 @@ python benchmarks/machines.py --seed 3 -o seed3.json
 python benchmarks/machines.py --seed 4 --count 16 --fine -o seed4.json
 python docs/evidence/machines/make.py read seed1.json seed2.json seed3.json \
     seed4.json
-python benchmarks/machines.py --shape line --seed 1 --count 200 --fine -o lines.json
-python docs/evidence/machines/make.py lines lines.json
+python benchmarks/machines.py --shape line --seed 1 --count 200 --fine -o lines1.json
+python benchmarks/machines.py --shape line --seed 7 --count 200 --fine -o lines7.json
+python benchmarks/machines.py --shape line --seed 12 --count 200 --fine -o lines12.json
+python docs/evidence/machines/make.py lines lines1.json lines7.json lines12.json
 python docs/evidence/machines/make.py sides    sides.csv
 python docs/evidence/machines/make.py border   border.csv
 python docs/evidence/machines/make.py show     prints the tables as the documents have them
