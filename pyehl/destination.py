@@ -7,6 +7,7 @@ for ``ehl``. A single file is written where nothing is, or over a file of the sa
 says so in its metadata; never onto what the command reads. Links are kept, their targets used.
 """
 
+import errno
 import itertools
 import json
 import math
@@ -50,6 +51,23 @@ def file_errors(path: AnyPath, what: str = "cannot be written") -> Iterator[None
         raise FileError(f"{os.fspath(path)}: {what}: {error.strerror or error}") from error
 
 
+def _fresh(name: str) -> str:
+    # with the suffix that the caller sees: it may say the format
+    return f".partial-{os.getpid()}-{next(_NUMBERS)}-{name}"
+
+
+def check_name(path: AnyPath) -> None:
+    """Refuse a name that is too long, also the longer one that a result has while it is written."""
+    folder, name = os.path.split(os.path.abspath(path))
+    try:
+        os.lstat(os.path.join(folder, _fresh(name)))
+    except OSError as error:
+        if error.errno == errno.ENAMETOOLONG:
+            raise InputError(
+                f"{os.fspath(path)}: error: the name is too long\nexpected: a shorter name"
+            ) from error
+
+
 @dataclass(frozen=True, slots=True)
 class Destination:
     """A folder for a result."""
@@ -61,6 +79,9 @@ class Destination:
     inputs: tuple[AnyPath, ...] = ()  # what the command reads
     kept: tuple[str, ...] = ()  # other names in the folder that belong to this kind, and stay
     force: bool = False  # other files may be in the folder; they stay
+
+    def __post_init__(self) -> None:
+        check_name(self.folder)
 
     def _given(self) -> tuple[bytes, bytes, bytes, bytes, bytes, int]:
         lists = (_lines(self.names), _lines(self.inputs), _lines(self.kept))
@@ -127,6 +148,7 @@ def check_files(
     """
     sources = {os.path.realpath(source) for source in inputs}
     for path in map(Path, paths):
+        check_name(path)
         other = "expected: another name"
         folder = Path(os.path.realpath(path)).parent
         if os.path.realpath(path) in sources:
@@ -154,8 +176,7 @@ def new_file(path: AnyPath) -> Iterator[Path]:
     FileError if it cannot be written; the file is as it was.
     """
     place = Path(os.path.realpath(path))
-    # with the suffix that the caller sees: it may say the format
-    fresh = place.with_name(f".partial-{os.getpid()}-{next(_NUMBERS)}-{Path(path).name}")
+    fresh = place.with_name(_fresh(Path(path).name))
     try:
         with file_errors(path):
             yield fresh

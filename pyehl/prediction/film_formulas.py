@@ -231,6 +231,8 @@ def _cell(value: float | None, width: int, digits: int) -> str:
     """Write a film so wide, with the digits of its column unless these are noughts."""
     if value is None:
         return f"{'-':>{width}}"
+    if value >= 10.0 ** (width - digits - 2):
+        return f"{value:{width}.5g}"  # a gap to the column before
     return f"{value:{width}.{digits}f}" if value >= 1e-3 else f"{value:{width}.2e}"
 
 

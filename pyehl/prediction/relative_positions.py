@@ -44,7 +44,8 @@ SHORT_LATTICE = 7
 """m of the lattice of a mean over a few positions: in 48 of them no product of waves, up to the
 third of each of the two tiles, has a mean."""
 PER_PASSAGE = 16
-"""Positions per passage of a mean over a few of them along a line."""
+"""Positions per passage of a mean over a few of them along a line, the first number of one over
+all: half and twice as many change mu_r/mu_s of two fractal surfaces by 0.06 % at most."""
 
 
 @dataclass(frozen=True, slots=True)

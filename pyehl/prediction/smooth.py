@@ -31,11 +31,15 @@ inlet error of the grid (4 % at M = 1000) is not in it. Grids up to FINEST are t
 no solution, or none to extrapolate from: the inlet of a contact under a high load is steep (M above
 2000 or so)."""
 COARSE = 129
-"""With a boundary film this is tried where no finer grid has a solution."""
+"""With a boundary film this is tried where no finer grid has a solution: half of POINTS. A finer
+one has the load share of each of the contacts of docs/evidence/inlet that 129 nodes have one of."""
 CYCLES = 100
-"""Least `max_cycles` with a boundary film: the edge of a touching zone moves slowly."""
+"""Least `max_cycles` with a boundary film: of the 112 contacts of docs/evidence/inlet/share.csv
+that converge 13 take more than 30 cycles, and none more than 90."""
 TOUCHES = 1.2
-"""Films thicker than this many layers are taken not to touch on any grid."""
+"""Films thicker than this many layers are taken not to touch: with such a layer the contacts of
+docs/evidence/inlet, on 257 x 257 nodes, have at most 2.4e-4 of their load at it, and none where
+that grid resolves the inlet; with a layer as thick as the film 3.5e-4."""
 
 THINNING_POWER = -4.0 / 3.0
 """Of the film in the viscosity that makes it, as waves notice it: the length of the inlet beside a

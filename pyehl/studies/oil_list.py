@@ -4,7 +4,7 @@
 import os
 from pathlib import Path
 
-from pyehl.destination import check_files
+from pyehl.destination import check_files, check_name
 from pyehl.errors import InputError
 from pyehl.given import path_of
 from pyehl.theory.oils import Oil, known_oils, oil
@@ -52,6 +52,7 @@ def lubricants(
     if output is None:
         return chosen
     folder = Path(path_of(output, "output"))
+    check_name(folder)
     if folder.exists() and not folder.is_dir():
         raise InputError(f"{folder}: error: this is not a folder\nexpected: a folder for pictures")
     # matplotlib takes long to import

@@ -5,6 +5,7 @@ import os
 import signal
 import socket
 import subprocess
+import sys
 import time
 from pathlib import Path
 
@@ -103,6 +104,36 @@ def test_long_name_is_refused_before_computing(drive, case: Path, driver: str, e
     assert "too long" in done.stderr
     assert "residual" not in done.stdout
     assert {path.name for path in case.parent.iterdir()} <= {"case.nml", name}
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "sweep case.nml --vary contact.moes_m=100,200 -o {}",
+        "stribeck si.nml --speed 0.5,1 -o {}",
+        "response si.nml -o {}",
+        "surface si.nml -o {}.npy",
+        "stress out -o {}",
+        "report out -o {}.html",
+        "export out -o {}.nc",
+        "lubricants -o {}",
+    ],
+    ids=lambda words: words.partition(" ")[0],
+)
+def test_every_command_refuses_a_long_name(drive, case: Path, words: str):
+    folder = case.parent
+    keys = {"contact.load": 20.0, "contact.mean_velocity": 1.0, "contact.radius": 0.01}
+    surface = {"surface.kind": "fractal", "surface.rms_height": 2e-8, "surface.pixels": 32}
+    (folder / "si.nml").write_text(pyehl.Case.from_text("", keys | surface).text)
+    if " out " in words:
+        done = drive("ehl", "case.nml", "--set", "surface.kind=smooth", "-o", "out", *QUICK)
+        assert done.returncode == 0, done.stderr
+    before = sorted(folder.iterdir())
+    called = [sys.executable, "-P", "-m", "pyehl", *words.format("x" * 250).split()]
+    done = subprocess.run(called, cwd=folder, capture_output=True, text=True, check=False)
+    assert done.returncode == 2, done.stderr
+    assert "the name is too long\nexpected: a shorter name" in done.stderr
+    assert sorted(folder.iterdir()) == before
 
 
 def test_what_killed_runs_left_goes(drive, case: Path):

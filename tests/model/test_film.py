@@ -76,6 +76,16 @@ def test_sheet_from_moes_numbers_and_smooth():
     assert "made from M and L" in report(values)
 
 
+def test_columns_of_a_sheet_keep_apart_at_a_very_low_load():
+    """M = 0.05: H_c is five figures long before its point."""
+    values = film_formulas.sheet(pyehl.Case(contact={"moes_m": 0.05, "moes_l": 5.0}).resolve())
+    line = next(text for text in report(values).splitlines() if "Brewe" in text)
+    h_c, h_min, reduced, reduced_min = map(float, line.split()[2:6])
+    brewe = next(f for f in values["formulas"] if f["name"].startswith("Brewe"))
+    assert (h_c, h_min) == pytest.approx((brewe["h_c_m"] * 1e6, brewe["h_min_m"] * 1e6), rel=1e-4)
+    assert (reduced, reduced_min) == pytest.approx((brewe["H_c"], brewe["H_min"]), rel=1e-4)
+
+
 def test_ellipses():
     """What is known of the formulas is of circles; a turned one has its dry contact alone."""
     ellipse = {"contact.load": 50.0, "contact.radius_x": 0.01, "contact.radius_y": 0.03}

@@ -18,6 +18,7 @@ from pyehl.prediction.smooth_case import OF_RUN, smooth_case
 from pyehl.studies.curve_plan import plan_curve
 from pyehl.studies.shear_fit import smooth_base
 from pyehl.studies.vary import axis
+from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Array
 
 POINTS = {"grid.points": 65}
@@ -162,6 +163,17 @@ VALUES: dict[str, tuple[Any, Mapping[str, Any]]] = {
     )
     for name in names.split()
 } | {"lubricant.yasutomi_viscosity": (5e11, SI | YASUTOMI)}  # fmt: skip
+# Keys of a line contact, which has no prediction, curve or fit: a run alone obeys them
+LINE: dict[str, Mapping[str, Any]] = {
+    "contact.shape": {"contact.moes_m_line": 20.0},
+    "contact.moes_m_line": {"contact.moes_m_line": 20.0},
+    "contact.moes_l_line": {"contact.moes_m_line": 20.0, "contact.moes_l_line": 7.0},
+    "contact.load_per_length": {
+        "contact.load_per_length": 1e5,
+        "contact.mean_velocity": 1.0,
+        "contact.radius": 0.01,
+    },
+}
 # A table of viscosities is a file
 TABLE = "lubricant.table"
 ROUGH = {"surface.kind": "harmonic", "surface.amplitude_over_film": 0.1}
@@ -175,7 +187,21 @@ def test_every_key_has_a_value():
     inside = {
         name for name, key in KEYS.items() if name.partition(".")[0] not in OTHERS and key.for_input
     }
-    assert inside == VALUES.keys() | {TABLE} | {f"grid.{name}" for name in OF_RUN}
+    assert inside == VALUES.keys() | LINE.keys() | {TABLE} | {f"grid.{name}" for name in OF_RUN}
+
+
+@pytest.mark.parametrize("key", LINE)
+def test_a_line_is_refused_by_name_where_it_is_not_obeyed(key: str):
+    """Rather than solved as a point: `predict`, `stribeck`, `fit-lubricant` and the app."""
+    case = pyehl.Case.from_text("", {"contact.shape": "line"} | LINE[key] | ROUGH | POINTS)
+    for asked in (
+        lambda: pyehl.predict(case),
+        lambda: plan_curve(case, [axis("grid.x_inlet", [-3.0])]),
+        lambda: OperatingPoint.from_settings(case.resolve()),  # first of a fit
+        lambda: from_case(case.with_options("surface.kind=smooth")),
+    ):
+        with pytest.raises(pyehl.InputError, match="line contacts have no"):
+            asked()
 
 
 def fields(text: str) -> tuple[Array, Array, str]:
