@@ -51,7 +51,7 @@ contains
       if (good .and. n > 1) coarser = smooth%results(n - 1)%solved
       if (coarser) then
          error = stated_errors(m, smooth%results(n - 1)%m, smooth%results(n)%mesh, plan%inlet)
-         if (plan%contact%is_line()) error = guarded_errors(smooth%results, n, error)
+         if (plan%contact%is_line()) error = guarded_errors(m, smooth%results, n, error)
          error = error + smooth%results(n)%algebraic
          limit = extrapolated(smooth%results, n)
       else if (good) then

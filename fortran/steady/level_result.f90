@@ -60,7 +60,9 @@ contains
    !> Errors with the order that three grids show, from 1 to 2, and a safety factor (Roache 1994), for contacts whose border
    !> adds next to nothing to what the grid misses. The difference of two grids may be small by chance: no less than what the
    !> one before becomes by order 2.
-   pure function guarded_errors(results, n, errors) result(guarded)
+   pure function guarded_errors(fine, results, n, errors) result(guarded)
+      !> Results on level n, and what is known of the coarser ones
+      type(contact_results_t), intent(in) :: fine
       type(level_result_t), intent(in) :: results(:)
       integer, intent(in) :: n
       !> As stated, of H_c and H_min
@@ -70,7 +72,7 @@ contains
       guarded = errors
       if (n > 2) then
          if (results(n - 2)%solved) then
-            last = max(discretisation_error(results(n)%m, results(n - 1)%m), tiny(last))
+            last = max(discretisation_error(fine, results(n - 1)%m), tiny(last))
             before = discretisation_error(results(n - 1)%m, results(n - 2)%m)
             order = log(max(2.0_dp*last, min(4.0_dp*last, before))/last)/log(2.0_dp)
             guarded = max(guarded, 0.25_dp*before, 3.0_dp*last/(2.0_dp**order - 1.0_dp))

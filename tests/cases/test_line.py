@@ -169,9 +169,10 @@ def test_boundary_film():
 
 
 def test_target_error():
-    found = pyehl.solve(roller(), {"grid.target_error": 1e-3})
-    assert float(found.H_c_error_grid) <= 1e-3 * float(found.H_c)
-    assert int(found.points) < 2049
+    for target, points in ((2e-3, 1025), (1e-3, 2049)):
+        found = pyehl.solve(roller(), {"grid.target_error": target})
+        assert float(found.H_c_error_grid) <= target * float(found.H_c)
+        assert int(found.points) == points
 
 
 @pytest.mark.parametrize(("moes_m", "moes_l"), [(3, 5), (20, 10), (100, 10), (1, 5)])
