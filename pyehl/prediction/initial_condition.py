@@ -43,8 +43,8 @@ REFINEMENT = 2
 # A grid carries waves of more than two nodes: so that rounding does not decide
 BELOW = 1.0 - 1e-9
 # The pressure of the waves fades over this width at the edge of the contact [a]. Half of it and
-# twice change mu_r/mu_s of a wave of 0.5 a in the contact of Table 1 by 0.06 and 0.24 % at most, about
-# the error of its end, and the cycles per step by 3 % (129 x 129 nodes)
+# twice change mu_r/mu_s of a wave of 0.5 a in the contact of Table 1 by 0.06 and 0.24 % at most,
+# about the error of its end, and the cycles per step by 3 % (129 x 129 nodes)
 EDGE_WIDTH = 0.1
 
 

@@ -247,8 +247,8 @@ line; between them it is interpolated."""
 
 # Waves across the motion: their period and where they have fallen to zero [semi-axis], and how many
 # there are: the lines do not resolve shorter ones than half a semi-axis. In a contact 1.6 times as
-# long as wide twice the period, or zero at 1.5 or 1.9, change mu_r/mu_s by 0.004 % at most, half and
-# twice as many waves by 0.014 and 0.065 %, four times fewer samples by 1e-5 %
+# long as wide twice the period, or zero at 1.5 or 1.9, change mu_r/mu_s by 0.004 % at most, half
+# and twice as many waves by 0.014 and 0.065 %, a quarter of the samples by 1e-4 %
 PERIOD, END, SHORTEST = 4.0, 1.7, 8
 SAMPLES = 256
 
