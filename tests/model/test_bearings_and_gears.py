@@ -397,7 +397,8 @@ def test_lines_are_solved(root: Path):
     assert set(solved.table["status"]) == {"converged"}
     assert (formula.table["h_c_m"] / solved.table["h_c_m"]).between(0.96, 1.01).all()
     assert (formula.table["mu"] / solved.table["mu"]).dropna().between(0.96, 1.04).all()
-    assert (solved.table["h_c_error_m"] < 0.015 * solved.table["h_c_m"]).all()
+    # by the order that three grids show, times 1.25
+    assert (solved.table["h_c_error_m"] < 0.02 * solved.table["h_c_m"]).all()
     assert solved.summary["mu_mean"] == pytest.approx(0.0357, abs=2e-4)
     for words in (
         "films within 4 %",
