@@ -62,26 +62,27 @@ contains
       class(deflection_t), allocatable :: engine
       type(grid_t) :: grid
       type(status_t) :: status
-      real(dp), allocatable :: p(:, :), w(:, :), other(:, :), x(:)
+      real(dp), allocatable :: p(:, :), w(:, :), other(:, :)
       real(dp) :: error(2)
       integer :: n
 
       do n = 1, 2
          grid = new_strip(256*2**n + 1, 1, -2.0_dp, 2.0_dp, 0.0_dp)
-         x = grid%columns()
-         allocate (p(grid%nx, 1), w(grid%nx, 1), other(grid%nx, 1))
-         p(:, 1) = sqrt(max(0.0_dp, 1.0_dp - x**2))
-         call new_deflection("fft", engine, status, grid)
-         call engine%setup(grid, 0.5_dp/pi, 0.0_dp, 1, status)
-         call engine%apply(p, w)
-         call new_deflection("fft", engine, status)
-         call engine%setup(grid, 0.5_dp/pi, 0.0_dp, 2, status)
-         call engine%apply(p, other)
-         call is_true(.not. status%failed(), "engines of a row")
-         call is_close(maxval(abs(w - other)), 0.0_dp, 1.0e-13_dp, "row: sum and FFT")
-         ! H00 of the dry contact is -(1 + 2 ln 2)/4
-         w(:, 1) = w(:, 1) + 0.5_dp*x**2 - 0.25_dp - 0.5_dp*log(2.0_dp)
-         error(n) = maxval(abs(w(:, 1)), mask=abs(x) < 0.8_dp)
+         associate (x => grid%columns())
+            allocate (p(grid%nx, 1), w(grid%nx, 1), other(grid%nx, 1))
+            p(:, 1) = sqrt(max(0.0_dp, 1.0_dp - x**2))
+            call new_deflection("fft", engine, status, grid)
+            call engine%setup(grid, 0.5_dp/pi, 0.0_dp, 1, status)
+            call engine%apply(p, w)
+            call new_deflection("fft", engine, status)
+            call engine%setup(grid, 0.5_dp/pi, 0.0_dp, 2, status)
+            call engine%apply(p, other)
+            call is_true(.not. status%failed(), "engines of a row")
+            call is_close(maxval(abs(w - other)), 0.0_dp, 1.0e-13_dp, "row: sum and FFT")
+            ! H00 of the dry contact is -(1 + 2 ln 2)/4
+            w(:, 1) = w(:, 1) + 0.5_dp*x**2 - 0.25_dp - 0.5_dp*log(2.0_dp)
+            error(n) = maxval(abs(w(:, 1)), mask=abs(x) < 0.8_dp)
+         end associate
          deallocate (p, w, other)
       end do
       call is_close(error(2), 0.0_dp, 2.5e-5_dp, "row: Hertz, inside")
