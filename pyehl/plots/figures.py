@@ -243,7 +243,7 @@ def _spectra(
 ) -> Figure:
     """Draw heights and spectra of the rough surface whose names begin with a prefix."""
     tile, deformed = _tile(about, arrays, prefix), arrays[f"{prefix}deformed"]
-    figure = panels(3, (1.0, 0.9), title, room=(0.55, 1.3, 0.65))
+    figure = panels(3, (1.0, 0.9), title, room=(0.55, 1.34, 0.65))
     first, second, third = figure.axes
     third.set_box_aspect(1.0)
     surface.heights(tile, ax=first)
