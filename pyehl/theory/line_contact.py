@@ -337,7 +337,7 @@ def estimates(line: LineContact, lubricant: Lubricant) -> list[FilmEstimate]:
                 applies=here in {of, f"rigid to {of}"},
                 bounds=COMPARED,
                 outside=beyond,
-                note="0.8 to 2.8 % above converged solutions",
+                note="0.5 to 2.8 % above converged solutions",
             )
         )
     return found

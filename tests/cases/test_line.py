@@ -18,17 +18,6 @@ from pyehl.results import settings_of
 from pyehl.theory.ellipse import ellipse
 from pyehl.theory.line_contact import LineContact, moes_film
 
-# Film at X = 0 and least film, of an independent solver on -4 <= X <= 1.5 with P = 0 at both ends,
-# z = 0.68, in the limit of fine meshes; the least film of the last one by line_newton.py
-TABLE = (
-    (3, 5, 0.5401, 0.4306),
-    (5, 5, 0.3005, 0.2422),
-    (10, 10, 0.1884, 0.1602),
-    (20, 5, 0.06049, 0.05037),
-    (20, 10, 0.08561, 0.07414),
-    (50, 10, 0.02993, 0.02649),
-    (100, 10, 0.01349, 0.01214),
-)
 DOMAIN = {"x_inlet": -4.0, "x_outlet": 1.5, "border": "zero"}
 LINE = {"shape": "line", "load_per_length": 1.8e5, "radius": 0.01, "mean_velocity": 0.46}
 SLIDING = {
@@ -50,7 +39,7 @@ def roller(points: int = 257, **options: object) -> pyehl.Case:
     return pyehl.Case(contact=LINE, grid={"points": points}).with_options(options)
 
 
-@pytest.mark.parametrize(("moes_m", "moes_l", "h_c", "h_min"), TABLE)
+@pytest.mark.parametrize(("moes_m", "moes_l", "h_c", "h_min"), line_newton.FILMS)
 def test_reference_values(moes_m, moes_l, h_c, h_min):
     found = pyehl.solve(moes(moes_m, moes_l, 1025, **DOMAIN))
     assert float(found.H_c_extrapolated) == pytest.approx(h_c, rel=3e-3)

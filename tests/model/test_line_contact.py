@@ -3,6 +3,7 @@
 
 import math
 
+import line_newton
 import pytest
 
 from pyehl.errors import InputError
@@ -10,25 +11,13 @@ from pyehl.theory import line_contact
 from pyehl.theory.line_contact import LineContact
 from pyehl.theory.lubricant import Lubricant
 
-# M, L, H_c, H_min of an independent one-dimensional solver, limits of three meshes within 0.1 %;
-# Roelands z = 0.68, alpha = 2.2e-8 1/Pa, Dowson-Higginson
-CONVERGED = [
-    (3, 5, 0.5401, 0.4306),
-    (5, 5, 0.3005, 0.2422),
-    (10, 10, 0.1884, 0.1602),
-    (20, 5, 0.06049, 0.05037),
-    (20, 10, 0.08561, 0.07414),
-    (50, 10, 0.02993, 0.02649),
-    (100, 10, 0.01349, 0.01196),
-]
 
-
-@pytest.mark.parametrize(("moes_m", "moes_l", "h_c", "h_min"), CONVERGED)
+@pytest.mark.parametrize(("moes_m", "moes_l", "h_c", "h_min"), line_newton.FILMS)
 def test_formulas_against_converged_solutions(moes_m, moes_l, h_c, h_min):
     line = LineContact.from_moes(moes_m, moes_l)
     moes, dowson = line_contact.estimates(line, Lubricant(roelands_z=0.68))
     assert -0.025 <= moes.h_c / line.film_scale / h_c - 1.0 <= -0.004
-    assert 0.008 <= dowson.h_min / line.film_scale / h_min - 1.0 <= 0.028
+    assert 0.005 <= dowson.h_min / line.film_scale / h_min - 1.0 <= 0.028
     assert not moes.outside
     assert not dowson.outside
 
