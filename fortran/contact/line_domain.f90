@@ -38,6 +38,8 @@ contains
       associate (lambda_bar => point%speed_parameter, m => point%moes_m, l => point%moes_l)
          if (flooded) then
             cost = by_flooded*lambda_bar*(1.0_dp + point%alpha_bar)/x**4
+            ! where the pressure at the border would be no less than its bound -ln(0)/alpha_bar the film is not determined
+            if (point%alpha_bar*4.0_dp*lambda_bar >= 3.0_dp*(x**2 - 1.0_dp)**1.5_dp) cost = 1.0_dp
          else
             ! -d ln h/d ln w at constant speed: H is h over b^2/R, which goes with the load
             sensitivity = -log(contact%film_formula(m*step, l)/contact%film_formula(m/step, l))/(2.0_dp*log(step)) - 1.0_dp

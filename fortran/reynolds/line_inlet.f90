@@ -41,7 +41,7 @@ contains
             beyond = beyond + rise*x*(1.0_dp/u - 1.0_dp)
          end do
          call level%lubricant%log_viscosity([0.0_dp], level_of, slope)
-         ! where that has no meaning the domain is far too small, and said to be
+         ! where that has no meaning the domain is far too small: line_cost in contact/line_domain.f90 says so
          if (slope(1)*pressure > 0.0_dp .and. slope(1)*pressure < 1.0_dp) pressure = -log(1.0_dp - slope(1)*pressure)/slope(1)
          level%p(1, :) = pressure
          level%p(grid%nx, :) = 0.0_dp

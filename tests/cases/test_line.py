@@ -164,6 +164,11 @@ def test_target_error():
         assert int(found.points) == points
 
 
+def test_inlet_too_short_for_a_flooded_film():
+    short = pyehl.solve(moes(5, 20, 257, x_inlet=-1.1, border="flooded"))
+    assert np.isnan(float(short.H_c_error))
+
+
 @pytest.mark.parametrize(("moes_m", "moes_l"), [(3, 5), (20, 10), (100, 10), (1, 5)])
 def test_flooded_border(moes_m, moes_l):
     far = moes(moes_m, moes_l, 2049, x_inlet=-14.5, x_outlet=1.5 if moes_m > 2 else 5.5)
