@@ -196,7 +196,11 @@ def draw_numbers(count: int, seed: int) -> list[Contact]:
 
 
 def _ellipse(rng: np.random.Generator) -> Contact:
-    kappa, moes_m, moes_l = _scale(rng, 0.2, 10.0), _scale(rng, 20.0, 5000.0), rng.uniform(0.0, 25.0)
+    kappa, moes_m, moes_l = (
+        _scale(rng, 0.2, 10.0),
+        _scale(rng, 20.0, 5000.0),
+        rng.uniform(0.0, 25.0),
+    )
     shape = ellipse(radius_ratio(kappa))
     keys = {
         "contact.radius_ratio": shape.radius_ratio,

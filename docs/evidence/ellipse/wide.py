@@ -22,7 +22,6 @@ import pyehl
 from cases import case_of_circle
 from pyehl.prediction.model import model_error
 from pyehl.solver import Solver
-from pyehl.theory.ellipse import ellipse
 from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -77,9 +76,7 @@ def drawn(number: int) -> Row:
 
 def case_of(row: Row) -> pyehl.Case:
     """Make the case of a row, in SI units."""
-    circle = case_of_circle(
-        row["ellipticity"], row["moes_m"], row["moes_l"], row["velocity_ratio"]
-    )
+    circle = case_of_circle(row["ellipticity"], row["moes_m"], row["moes_l"], row["velocity_ratio"])
     keys = circle.resolve()["contact"]
     point = OperatingPoint.from_moes(
         keys["moes_m"], keys["moes_l"], radius_ratio=keys["radius_ratio"]
@@ -165,7 +162,7 @@ def write(path: Path, rows: dict[str, Row]) -> None:
 
 
 def compare() -> list[Row]:
-    """Set predictions from before beside simulations: deviation, and whether the error covers it."""
+    """Set predictions beside simulations: deviation, and whether the error covers it."""
     found = []
     predictions = read(PREDICTED)
     for name, run in read(SIMULATED).items():
