@@ -17,8 +17,8 @@ from matplotlib.patches import Rectangle
 from pyehl.plots import style
 from pyehl.plots.outline import Outline
 from pyehl.surfaces import Topography, interpolated, psd_2d, psd_isotropic
-from pyehl.surfaces.defects import nearest
-from pyehl.surfaces.local_findings import Finding
+from pyehl.surfaces.findings import Finding
+from pyehl.surfaces.map_steps import nearest
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.types import Array
 

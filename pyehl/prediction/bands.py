@@ -9,8 +9,7 @@ import numpy as np
 
 from pyehl.prediction.model import KNOWN_RATIO
 from pyehl.prediction.spectrum import Spectrum
-from pyehl.surfaces.defects import prominence
-from pyehl.surfaces.map_steps import cropped
+from pyehl.surfaces.map_steps import cropped, prominence
 from pyehl.surfaces.prepare import Preparation
 from pyehl.surfaces.tile import Topography
 from pyehl.theory.operating import OperatingPoint
@@ -160,7 +159,7 @@ def suggested_outliers(
 ) -> tuple[float, int] | None:
     """Find the threshold of spikes at which the film is full, if a few points are what breaks it.
 
-    `away` is (nx, ny), see :func:`pyehl.surfaces.defects.prominence`; `without_spikes` takes
+    `away` is (nx, ny), see :func:`pyehl.surfaces.map_steps.prominence`; `without_spikes` takes
     a threshold. Threshold and number of points beyond it; None if more than a few have to go.
     """
     allowed = float(np.quantile(away, 1.0 - FEW))

@@ -11,8 +11,7 @@ from typing import Any
 import numpy as np
 
 from pyehl.errors import EhlError, InputError, NoMemoryError
-from pyehl.surfaces.arrays import check_pixels
-from pyehl.surfaces.found import Found
+from pyehl.surfaces.arrays import Found, check_pixels
 from pyehl.surfaces.variants import data_fields, nms_missing, plain_tmd, plain_x3p
 
 INSTALL = "pip install 'pyehl[surfaces]', or pip install SurfaceTopography"

@@ -5,7 +5,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from pyehl.surfaces.found import UNIT, unit_of
+from pyehl.surfaces.arrays import UNIT, unit_of
 
 _NUMBER = r"[-+]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:e[-+]?\d+)?"
 _PER = r"(?:\s*(?:/|per)\s*(?:px|pix|pixels?|pts?|points?|samples?|digits?|画素))?"

@@ -29,8 +29,8 @@ from matplotlib.image import imread
 
 import pyehl
 from pyehl.cli import main
-from pyehl.studies.gather import Outcome
 from pyehl.studies.journal import NAME
+from pyehl.studies.sweep import Outcome
 
 
 @pytest.mark.long
