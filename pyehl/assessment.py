@@ -49,7 +49,7 @@ class Assessment:
     """
 
     text: str
-    worth: str
+    confidence: str
 
 
 class Summary:
@@ -98,8 +98,8 @@ def assess(values: Mapping[str, Any]) -> Assessment:
     if status == BEYOND:
         more.insert(0, f"mu_r/mu_s is not known: {message}")
     text = "; ".join(doubts) or f"full film: {_minimum_film(s)}"
-    worth = WITH_CARE if doubts or more else HOLDS
-    return Assessment(f"{text}; but {'; '.join(more)}" if more else text, worth)
+    confidence = WITH_CARE if doubts or more else HOLDS
+    return Assessment(f"{text}; but {'; '.join(more)}" if more else text, confidence)
 
 
 def _pressure(s: Summary) -> list[str]:

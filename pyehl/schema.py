@@ -146,7 +146,7 @@ s | rough_residual | - | its residual at the end
 s | x_start | a | origin of a rough surface at rest
 s | second_x_start | a | that of the second surface
 sp | mu_ratio | - | friction over that of the smooth contact: mean over a period or a passage
-sp | mu_ratio_min | - | its least value
+sp | mu_ratio_min | - | its minimum over the passage
 sp | mu_ratio_max | - | its largest value
 s | mu_ratio_extrapolated | - | mu_ratio extrapolated to fine grids, where both resolve the surface
 s | mu_ratio_error | - | error of mu_ratio: the sum of its parts; null if one is not known

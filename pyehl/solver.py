@@ -35,7 +35,7 @@ from pyehl.surfaces import (
     Surface,
     Topography,
     gather,
-    keep_beside,
+    write_beside,
     moved,
     with_surface,
 )
@@ -265,7 +265,7 @@ class Solver(SolverHandle):
         lines = [self._plan_text(), *self._lines()]
         (folder / "plan.txt").write_text("\n".join([*lines, ""]), encoding="utf-8")
         for group, tile in self._tiles.items():
-            keep_beside(tile, folder / "case.nml", group)
+            write_beside(tile, folder / "case.nml", group)
         values = {
             **self.summary,
             "version": version(),

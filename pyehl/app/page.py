@@ -109,7 +109,7 @@ class Page:
         try:
             tried.case(COARSE)
             if tried.values["surface"] == "map" and name in ("surface", "map_x", "map_y"):
-                self.uploads.check(tried.file, tried.map_said())
+                self.uploads.check(tried.file, tried.map_message())
         except InputError as error:
             self.layout.controls[name].say(self.uploads.nameless(str(error)))
             return
@@ -188,7 +188,7 @@ class Page:
     def upload(self, name: str, data: bytes) -> None:
         """Take a height map, or say what its reader says."""
         try:
-            path = self.uploads.add(name, data, self._wish.map_said())
+            path = self.uploads.add(name, data, self._wish.map_message())
             wish = replace(self._wish.turned("surface", "map"), file=path)
             wish.case(COARSE)
         except InputError as error:

@@ -22,7 +22,7 @@ SI = (
 # Largest M of a round contact with the same equations
 MOST_M = 1e5
 # Least p_h/E' of a contact that can be meant: 0.1 MPa between steel bodies
-LEAST_STRAIN = 4e-7
+MIN_STRAIN = 4e-7
 # Difference of velocity ratios that is none
 ROUNDING = 1e-9
 # Keys that make the operating point, and powers of ten around their defaults that are common;
@@ -78,8 +78,8 @@ def check_operating_point(draft: Draft) -> None:
             expected = f"{moes_l} = 0.0, or a pressure_viscosity above 0"
             draft.contradict("lubricant.pressure_viscosity", f"contact.{moes_l}", expected)
         return
-    least = LEAST_STRAIN * c.reduced_modulus
-    if not least <= point.pressure <= 2e10:
+    minimum = MIN_STRAIN * c.reduced_modulus
+    if not minimum <= point.pressure <= 2e10:
         what = f"the Hertz pressure is {short(point.pressure)} Pa"
         expected = (
             f"a Hertz pressure between {short(least)} Pa (4e-7 of reduced_modulus) and 2e10 Pa"

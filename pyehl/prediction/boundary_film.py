@@ -127,7 +127,7 @@ HOLD = 0.01
 (``fortran/reynolds/boundary_film.f90``)."""
 OPEN = 1.0
 """Film outside of the contact [a^2/R]: any, since there is no pressure to make heat."""
-LEAST_LEFT = 0.02
+MIN_LEFT = 0.02
 """Of waves that the fluid flattens nearly whole, as much is taken to be left: half and twice of it
 change no digit of the contact in docs/howto/mixed.md."""
 GIVEN_TO = 1e-4
@@ -145,14 +145,14 @@ class Level:
     """What the positions have where all films are thicker by a length [a^2/R]."""
 
     thicker: float
-    least: float = math.inf  # film [a^2/R]
+    minimum: float = math.inf  # film [a^2/R]
     # In each position: shares of the load and of the area at the layer, sum of the shear stress
     load: list[float] = field(default_factory=list)
     area: list[float] = field(default_factory=list)
     stress: list[float] = field(default_factory=list)
 
 
-class LayeredContact:
+class MixedContact:
     """The points of a contact with a layer [m], so many per shorter semi-axis.
 
     Under one rough surface with heights on a `grid`; `friction` of the layer [-], 0: not known.
@@ -229,7 +229,7 @@ class LayeredContact:
         """Find what pressures of contact make of film and pressure."""
         slow = replace(self.model.surfaces[0], velocity_ratio=1.0)
         (transfer,) = replace(self.model, surfaces=(slow,)).transfers([around])
-        left = np.maximum(np.abs(transfer.at_centre(around, 1.0)), LEAST_LEFT)
+        left = np.maximum(np.abs(transfer.at_centre(around, 1.0)), MIN_LEFT)
         left[0, 0] = 0.0
         k = transfer.stiffening * stiffness(around.q)
         k[0, 0] = math.inf
@@ -253,7 +253,7 @@ class LayeredContact:
             level.load.append(self._share(pressure, touching))
             level.area.append(np.count_nonzero(touching) / rough.points)
             level.stress.append(self._stress(pressure, film, touching))
-            level.least = min(level.least, float(film.min(where=rough.inside, initial=math.inf)))
+            level.minimum = min(level.minimum, float(film.min(where=rough.inside, initial=math.inf)))
         return True
 
     def _state(

@@ -70,18 +70,18 @@ def below_zero(
     a, b = semi_axes
     smooth, columns = _strip(tiles, a, b, sustained)
     tops = [values.max(axis=0)[column] for values, column in zip(deformed, columns, strict=True)]
-    least = smooth.min(axis=0)
+    minimum = smooth.min(axis=0)
     for top in tops:
-        least = least - top
-    worst = int(np.argmin(least))
+        minimum = minimum - top
+    worst = int(np.argmin(minimum))
     pixels = tuple(
         (int(np.argmax(values[:, column[worst]])), int(column[worst]))
         for values, column in zip(deformed, columns, strict=True)
     )
-    found = BelowZero(math.nan, float(least[worst]), pixels)
+    found = BelowZero(math.nan, float(minimum[worst]), pixels)
     if len(tiles) > 1:
         return found
-    share, count = _beyond(deformed[0], columns[0], smooth, least < 0.0)
+    share, count = _beyond(deformed[0], columns[0], smooth, minimum < 0.0)
     return replace(found, share=share, count=count)
 
 

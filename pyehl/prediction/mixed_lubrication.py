@@ -31,7 +31,7 @@ from typing import Any
 
 import numpy as np
 
-from pyehl.prediction.boundary_film import HOLD, LayeredContact, Level
+from pyehl.prediction.boundary_film import HOLD, MixedContact, Level
 from pyehl.prediction.friction import Outcome, RoughFriction, broken
 from pyehl.prediction.model import Components, Model, outside_range
 from pyehl.prediction.smooth import SmoothContact
@@ -43,7 +43,7 @@ from pyehl.types import Array, Settings
 POSITIONS = 16
 """Positions of the tile over its passage: 32 and 64 change the load share in docs/howto/mixed.md by
 0.2 % of itself. What every second one changes is in the errors."""
-HEATED_POSITIONS = 4
+TEMPERATURE_POSITIONS = 4
 """Of these, in which the temperature is computed: 8 and 16 change mu of such contacts by 0.03 %."""
 TOUCHING_FILM_ERROR = 0.45
 """Error of the film at which bodies touch, of the rms height of the deformed surface
@@ -112,7 +112,7 @@ class MixedFilm:
         )
 
     @property
-    def lacks_friction(self) -> bool:
+    def friction_unknown(self) -> bool:
         """Whether bodies touch and the friction there is not known."""
         return self.touches and not math.isfinite(self.friction)
 
@@ -141,23 +141,23 @@ def mixed_film(
 
 
 def partial_film(
-    model: Model, waves: Components, layer: float, settings: Settings, with_layer: SmoothContact
+    model: Model, waves: Components, layer: float, settings: Settings, with_boundary_film: SmoothContact
 ) -> MixedFilm:
     """Find the partial film over a passage of one tile, with a layer [m], of a resolved case.
 
     Its errors are by a film that is thicker and thinner by its error; none where the smooth contact
-    `with_layer` is not known.
+    `with_boundary_film` is not known.
     """
     (grid,), (wave,), o = model.grids(), waves, model.operating
     friction = float(settings["lubricant"]["boundary_friction"])
     power = wave.spectrum.power * np.square(np.abs(wave.at_centre()))
     points = WAVE_POINTS / _shortest(wave.spectrum, power)
     within = min(max(points, CONTACT_POINTS[0]), CONTACT_POINTS[1])
-    contact = LayeredContact(model, waves, grid, within, layer, friction)
+    contact = MixedContact(model, waves, grid, within, layer, friction)
     # what the smooth film may be off, where that is more: bodies touch where it is least
     of_smooth = np.nan_to_num(model.contact.minimum_film_error)
     margin = max(TOUCHING_FILM_ERROR * math.sqrt(float(power.sum())), float(of_smooth))
-    off = contact.film_off(with_layer.load_share) if with_layer is not model.contact else 0.0
+    off = contact.film_off(with_boundary_film.load_share) if with_boundary_film is not model.contact else 0.0
     margin = max(margin, abs(off)) if math.isfinite(off) else margin
     levels = [Level(film) for film in (0.0, margin, -margin)]
     steps = np.arange(POSITIONS) * (grid.shape[0] // POSITIONS)
@@ -165,19 +165,19 @@ def partial_film(
         if not all(contact.add(int(step), levels) for step in steps):
             return MixedFilm(UNSOLVED)
         smooth = contact.smooth_friction(off)
-        heat = contact.heat(steps[:: POSITIONS // HEATED_POSITIONS], settings)
+        heat = contact.heat(steps[:: POSITIONS // TEMPERATURE_POSITIONS], settings)
     load, load_error = _mean([level.load for level in levels])
     area, area_error = _mean([level.area for level in levels])
     ratio, ratio_error = _mean([[value / smooth for value in level.stress] for level in levels])
-    least = [level.least * o.film_scale for level in levels]
+    minimum = [level.minimum * o.film_scale for level in levels]
     found = MixedFilm(
         load_share=load,
         load_share_error=load_error,
         area_share=area,
         area_share_error=area_error,
-        film_min=least[0],
+        film_min=minimum[0],
         # bodies touch to HOLD
-        film_min_error=max(HOLD * least[0], *(abs(film - least[0]) for film in least[1:])),
+        film_min_error=max(HOLD * minimum[0], *(abs(film - minimum[0]) for film in minimum[1:])),
         friction=ratio,
         friction_error=ratio_error,
         mu_smooth=contact.coefficient(smooth),
@@ -222,7 +222,7 @@ def with_contact(found: Outcome, mixed: MixedFilm) -> tuple[Outcome, MixedFilm]:
     known = math.isfinite(mixed.friction)
     if friction.status != "predicted":
         # a full film that breaks down has no pressures
-        friction = replace(friction, rise_rms=math.nan, rise_max=math.nan, pressure_max=math.nan)
+        friction = replace(friction, increase_rms=math.nan, increase_max=math.nan, pressure_max=math.nan)
         friction = replace(friction, below_limit=math.nan, below_limit_error=math.nan)
     friction = replace(
         friction,

@@ -43,7 +43,7 @@ from pyehl.types import Array, Complex, Settings
 
 NODES = 8
 """Nodes that a wave needs to be resolved."""
-CARRIED = 2
+ON_GRID = 2
 """Nodes that a wave needs to be on the grid at all."""
 TOLERANCE = 0.01
 """Share of mu_r/mu_s that may hang on waves that are not resolved, without a warning."""
@@ -136,7 +136,7 @@ def resolution(case: Case, tiles: Mapping[str, Topography] | None = None) -> Res
         for (tile, _), keys in zip(found, rough, strict=True)
     )
     model = Model(rough_tiles, contact, operating, lubricant, ModelOptions())
-    friction, below = run_and_below(model, NODES * mesh, CARRIED * mesh)
+    friction, below = run_and_below(model, NODES * mesh, ON_GRID * mesh)
     if not math.isfinite(friction.mu_ratio):
         raise EhlError(f"{friction.status}: {friction.message}")
     resolved, carried = below

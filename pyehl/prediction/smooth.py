@@ -199,7 +199,7 @@ def solve_contact(settings: Settings) -> SmoothContact:
     return replace(found, newtonian=_solved(smooth_case(newtonian)))
 
 
-def with_layer(settings: Settings, contact: SmoothContact, lubricant: Lubricant) -> SmoothContact:
+def with_boundary_film(settings: Settings, contact: SmoothContact, lubricant: Lubricant) -> SmoothContact:
     """Smooth contact with the boundary film of a case; `contact`, that without, if it is thinner.
 
     On the first grid that resolves its inlet. Its films are NaN, and the source says why, where
@@ -212,7 +212,7 @@ def with_layer(settings: Settings, contact: SmoothContact, lubricant: Lubricant)
     if float(held.min()) > TOUCHES * layer:
         return replace(contact, load_share=0.0)
     cycles = max(CYCLES, int(settings["solver"]["max_cycles"]))
-    found, why = _solved_with_layer(smooth_case(settings, layer=True), cycles)
+    found, why = _solved_with_boundary_film(smooth_case(settings, layer=True), cycles)
     if found is not None:
         return found
     n = math.nan
@@ -231,7 +231,7 @@ def circle_of(
 def forget() -> None:
     """Solve anew what was kept, as `pyehl bench skips` does to see what keeping saves."""
     _solved.cache_clear()
-    _solved_with_layer.cache_clear()
+    _solved_with_boundary_film.cache_clear()
 
 
 @lru_cache(maxsize=8)
@@ -253,7 +253,7 @@ def _solved(text: str) -> SmoothContact:
 
 
 @lru_cache(maxsize=8)
-def _solved_with_layer(text: str, cycles: int) -> tuple[SmoothContact | None, str]:
+def _solved_with_boundary_film(text: str, cycles: int) -> tuple[SmoothContact | None, str]:
     """Solve with a boundary film; None, and why, where no grid has a solution that is its own."""
     options = [f"solver.max_cycles={cycles}"]
     why, points = "it does not converge", POINTS
@@ -299,7 +299,7 @@ def contact_of(
     """
     limit = summary["H_c_extrapolated"]
     how = "extrapolated" if limit is not None else "not extrapolated"
-    (central, error), (least, least_error) = (film_of(summary, name) for name in ("H_c", "H_min"))
+    (central, error), (minimum, minimum_error) = (film_of(summary, name) for name in ("H_c", "H_min"))
     share = summary.get("contact_load_share")
     film = film * (central / summary["H_c"])
     for values in (*axes, pressure, film):
@@ -311,9 +311,9 @@ def contact_of(
         central,
         math.nan if error is None else error,
         f"{where}, {how}",
-        least,
+        minimum,
         limit is not None,
-        minimum_film_error=math.nan if least_error is None else least_error,
+        minimum_film_error=math.nan if minimum_error is None else minimum_error,
         load_share=math.nan if share is None else share,
     )
 

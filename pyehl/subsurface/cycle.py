@@ -265,7 +265,7 @@ class Fatigue:
             if not (math.isfinite(value) and value > 0.0):
                 raise InputError(f"{name} = {value!r}: expected a fatigue limit > 0 [Pa]")
         if not self.weight >= 0.0:
-            least = 0.5 if self.criterion == "dang-van" else 1.0 / math.sqrt(3.0)
+            minimum = 0.5 if self.criterion == "dang-van" else 1.0 / math.sqrt(3.0)
             raise InputError(
                 f"torsion_limit/bending_limit = {self.torsion_limit / self.bending_limit:.3g}: "
                 f"{self.criterion} is for a ratio of {least:.3g} or more (ductile metals)"

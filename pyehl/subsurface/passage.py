@@ -16,7 +16,7 @@ import numpy as np
 import scipy.fft
 from tqdm import tqdm
 
-from pyehl.prediction.friction import RISE
+from pyehl.prediction.friction import INCREASE_ERROR
 from pyehl.subsurface.cycle import Cycle, Fatigue, History, hydrostatic, incomplete, shear_and_mises
 from pyehl.subsurface.half_space import HalfSpace, Layer
 from pyehl.subsurface.loads import Load, Loads, steep_edge
@@ -233,7 +233,7 @@ def share_above(rows: list[Row], depth: float) -> float:
 
 # Depth down to which the layer reaches, over that of the largest smooth shear
 NEAR = 0.25
-CHANGE_INNER, CHANGE_OUTER = RISE, 1.0
+CHANGE_INNER, CHANGE_OUTER = INCREASE_ERROR, 1.0
 """Error of a predicted change of the near-surface shear by the roughness, over that change: within
 `INNER` that of the largest rise of pressure; outside, where the roughness moves the edge of the
 contact and the linear response does not, all of it (docs/evidence/subsurface)."""

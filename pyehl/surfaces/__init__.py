@@ -29,7 +29,7 @@ from pyehl.surfaces.solver_surface import (
     gather,
     given,
     in_memory,
-    keep_beside,
+    write_beside,
     part_of,
     with_surface,
 )

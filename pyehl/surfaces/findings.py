@@ -77,7 +77,7 @@ SPIKE = 12.0
 """The same of spikes, which are few pixels and can be so by chance."""
 REMEDY = {"dust": "surface.outliers=6", "spikes": "surface.outliers=8"}
 """Take off what of these stands out of its neighbourhood."""
-LEAST_DUST, MOST_DUST = 5, 0.02
+MIN_DUST, MOST_DUST = 5, 0.02
 """Pixels of a speck of dust at the least; fewer are spikes. Share of the map at the most."""
 BLOCK = 32
 """Pixels per side of the squares whose median dust is compared with."""
@@ -179,7 +179,7 @@ class _Speck:
 
     @property
     def is_dust(self) -> bool:
-        return self.size >= LEAST_DUST
+        return self.size >= MIN_DUST
 
 
 def _raised(z: Array) -> tuple[Mask, float]:

@@ -20,7 +20,7 @@ import scipy
 from pyehl.errors import InputError
 from pyehl.types import Array, Mask
 
-LEAST_PIXELS = 4
+MIN_PIXELS = 4
 
 LINES = 64
 """Lines of a map that are worked on together."""
@@ -47,7 +47,7 @@ def cropped(
                 f"{size:g} m long in {name}"
             )
         first, last = round(low / pixel[axis]), min(n, round(high / pixel[axis]))
-        if last - first < LEAST_PIXELS:
+        if last - first < MIN_PIXELS:
             raise InputError(
                 f"surface.crop_{name}_min = {low:g} and crop_{name}_max = {high:g} m leave "
                 f"{max(0, last - first)} pixels of {pixel[axis]:.3g} m; {LEAST_PIXELS} are needed"
@@ -75,7 +75,7 @@ def rotated(
     width, height = _inside(size_x, size_y, math.radians(angle))
     step = min(pixel)
     nx, ny = int(width / step), int(height / step)
-    if min(nx, ny) < LEAST_PIXELS:
+    if min(nx, ny) < MIN_PIXELS:
         raise InputError(f"surface.rotate = {angle:g}: no rectangle of 4 x 4 pixels is left inside")
     y = (np.arange(ny) - 0.5 * (ny - 1)) * step
     c, s = math.cos(math.radians(angle)), math.sin(math.radians(angle))
@@ -260,7 +260,7 @@ def jump(heights: Array) -> float:
 MAX_MISSING = 0.1
 """Largest share of a map that may be filled: beyond it the friction is that of the filling."""
 
-GOOD_BLOCKS, GOOD_PART, LEAST_PART = 48, 0.02, 0.1
+GOOD_BLOCKS, GOOD_PART, MIN_PART = 48, 0.02, 0.1
 """Blocks per side by which a good part of a map is looked for, the share that may be missing in it,
 and the least share of the map that it is worth."""
 SHOWN_COLUMNS, SHOWN_ROWS = 48, 20
@@ -369,7 +369,7 @@ def _largest_part(count: Array, area: Array) -> tuple[int, int, int, int] | None
             place = int(size.argmax())
             if size.flat[place] > best:
                 best, found = float(size.flat[place]), (i, j, *divmod(place, size.shape[1]))
-    return found if best >= LEAST_PART * area.sum() else None
+    return found if best >= MIN_PART * area.sum() else None
 
 
 def _solve(matrix: scipy.sparse.csr_matrix, right: Array, guess: Array) -> Array:

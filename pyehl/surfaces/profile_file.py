@@ -33,7 +33,7 @@ SPACING = re.compile(
     r"\D*?(\d+(?:[.,]\d+)?(?:[eE][-+]?\d+)?)\s*[,;\t ]?\s*\(?\[?([A-Za-zµμÅå]*)",
     re.IGNORECASE,
 )
-LEAST_POINTS = 32
+MIN_POINTS = 32
 MOST_COLUMNS = 3
 """An index, a place and a height."""
 
@@ -54,7 +54,7 @@ def read_columns(path: Path, lines: Sequence[str]) -> Read:
                 best = start, k
             start = k
     first, last = best
-    if last - first < LEAST_POINTS:
+    if last - first < MIN_POINTS:
         raise InputError(f"{path}: no profile: no column of {LEAST_POINTS} heights or more")
     left = [k for k in range(last, len(lines)) if lines[k].strip()]
     if any(sizes[k] for k in left):
@@ -287,7 +287,7 @@ def _finished(
     height_unit: str | None,
 ) -> Profile:
     """Heights in metres, equally spaced; refuse what cannot be meant."""
-    if z.size < LEAST_POINTS:
+    if z.size < MIN_POINTS:
         raise InputError(f"{path}: {z.size} points: a profile has {LEAST_POINTS} or more")
     if not np.isfinite(z).all():
         k = int(np.argmin(np.isfinite(z)))

@@ -22,7 +22,7 @@ from pyehl.errors import EhlError, FileError, InputError
 from pyehl.library import check_memory
 from pyehl.surfaces.arrays import UNITS, Found, Sizes, encoding_of, lines_of, read_npy
 from pyehl.surfaces.instruments import UnknownFormatError, read_instrument
-from pyehl.surfaces.text_map import LEAST_PIXELS, matrix_map, read_text_map
+from pyehl.surfaces.text_map import MIN_PIXELS, matrix_map, read_text_map
 from pyehl.surfaces.text_table import HEADER_LINES, tables_of
 from pyehl.surfaces.variants import ZYGO_MAGIC, read_zygo
 from pyehl.types import Array
@@ -417,7 +417,7 @@ def _sensible(scan: Scan) -> Scan:
 
 def _check_shape(path: Path, shape: tuple[int, ...]) -> None:
     """Refuse what is no map."""
-    if min(shape) < LEAST_PIXELS:
+    if min(shape) < MIN_PIXELS:
         lines = ("a profile along one line", "a profile of x and z")
         what = f"; is it {lines[shape[1] - 1]}?" if shape[1] <= len(lines) < shape[0] else ""
         raise InputError(

@@ -115,7 +115,7 @@ def as_map(tile: Topography, group: str = "surface") -> dict[str, Any]:
     return {key.replace("surface", group, 1): value for key, value in options.items()}
 
 
-def keep_beside(tile: Topography, case: Path, group: str = "surface") -> str:
+def write_beside(tile: Topography, case: Path, group: str = "surface") -> str:
     """Write a tile beside a resolved case, which then names it; returns the name of the file."""
     name = f"{group}.npy"
     np.save(case.with_name(name), tile.heights)

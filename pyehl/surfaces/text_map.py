@@ -17,7 +17,7 @@ from pyehl.surfaces.text_header import OWN_PERIODIC, OWN_SIZE, Header, header_of
 from pyehl.surfaces.text_table import BLANKS, BadCellError, Cells, Table, tables_of
 from pyehl.types import Array
 
-LEAST_PLACES = 5
+MIN_PLACES = 5
 # Of a step: how far places may be from equal steps or a grid, for they are rounded
 OFF = 0.02
 GROWING = 0.9
@@ -42,7 +42,7 @@ class Axes:
 
 def is_axis(values: Array) -> bool:
     """Whether numbers grow, or fall, in equal steps."""
-    if values.size < LEAST_PLACES or not np.isfinite(values).all():
+    if values.size < MIN_PLACES or not np.isfinite(values).all():
         return False
     step = (values[-1] - values[0]) / (values.size - 1)
     line = values[0] + step * np.arange(values.size)
@@ -52,7 +52,7 @@ def is_axis(values: Array) -> bool:
 def _is_sorted(values: Array) -> bool:
     """Whether at least a few numbers rise, or fall, from each to the next."""
     steps = np.diff(values)
-    return values.size >= LEAST_PLACES and bool((steps > 0.0).all() or (steps < 0.0).all())
+    return values.size >= MIN_PLACES and bool((steps > 0.0).all() or (steps < 0.0).all())
 
 
 def _is_numbering(values: Array) -> bool:
@@ -62,7 +62,7 @@ def _is_numbering(values: Array) -> bool:
 
 def _grows(lines: Array) -> bool:
     """Whether the first number of each line grows, or falls, far beyond the range of all others."""
-    if min(lines.shape) <= LEAST_PLACES:
+    if min(lines.shape) <= MIN_PLACES:
         return False
     first = lines[1:, 0]
     if not np.isfinite(first).all() or not np.ptp(first):
@@ -84,13 +84,13 @@ def without_axes(rows: Array, header: Sequence[str], cells: Cells) -> tuple[Arra
     """
     across = along = None
     heading = _heading(header[-1], cells, rows.shape[1]) if header else None
-    if min(rows.shape) > LEAST_PLACES:
+    if min(rows.shape) > MIN_PLACES:
         # an index of the lines stands before the x, y and z of a list as well
         if is_axis(rows[1:, 0]) and not is_axis(rows[1:, 1]):
             across = rows[:, 0]
         if is_axis(rows[0, 1:]) and not is_axis(rows[1, 1:]):
             along = rows[0]
-    elif rows.shape[1] == LEAST_PLACES - 1 and is_axis(rows[:, 0]) and not is_axis(rows[:, 1]):
+    elif rows.shape[1] == MIN_PLACES - 1 and is_axis(rows[:, 0]) and not is_axis(rows[:, 1]):
         return rows[:, 1:], Axes(None, "the first column numbers the lines")
     if along is None and across is not None and heading is not None and is_axis(heading):
         along = heading
@@ -224,7 +224,7 @@ def grid_of(path: Path, points: Array) -> tuple[Array, tuple[float, float]]:
     return heights, (steps[0], steps[1])
 
 
-LEAST_PIXELS = 4
+MIN_PIXELS = 4
 SQUARE = 0.01
 """How far sides of a pixel may differ before it is said."""
 
