@@ -142,8 +142,9 @@ def _yielding(s: Summary) -> list[str]:
     if not _finite_above(share, 0.0):
         return []
     return [
-        f"yielding solids: {percent(share)} of the load is carried at their hardness, and they "
-        f"give way by up to {rounded(s.number('plastic_depth_max_m') * 1e9)} nm, as in a first pass"
+        f"yielding solids: {percent(share)} of the load is carried at their hardness, with a "
+        f"plastic depth of up to {rounded(s.number('plastic_depth_max_m') * 1e9)} nm, "
+        "as in a first pass"
     ]
 
 

@@ -96,7 +96,7 @@ class Page:
         self.document.add_next_tick_callback(do)
 
     def turned(self, name: str, value: Value) -> None:
-        """Take a changed control; what is wrong is said there, and the answer stays."""
+        """Take a changed control; what is wrong is shown there, and the answer stays."""
         wish = self._wish.turned(name, value)
         self.layout.show_controls(wish.values)
         if name in ("map_x", "map_y") and self._pending is not None:
@@ -221,7 +221,7 @@ class Page:
 
         def job(ticket: Ticket) -> None:
             for points in answers.curve(here, control, values, ticket.newest):
-                ticket.tell((points, values, label, about))
+                ticket.answer_with((points, values, label, about))
 
         self.curves.submit(job)
 
@@ -235,7 +235,7 @@ class Page:
                 data = downloads.report_page(here, POINTS)
             else:
                 data = downloads.figures(here, POINTS, suffix, width)
-            ticket.tell(data)
+            ticket.answer_with(data)
 
         self._making.append(what)
         self._say_making()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What one key alone cannot tell: defaults that follow from other keys, and contradictions."""
+"""What depends on several keys: defaults that follow from other keys, and contradictions."""
 
 from collections.abc import Callable
 from contextlib import suppress

@@ -82,7 +82,7 @@ def check_operating_point(draft: Draft) -> None:
     if not minimum <= point.pressure <= 2e10:
         what = f"the Hertz pressure is {short(point.pressure)} Pa"
         expected = (
-            f"a Hertz pressure between {short(least)} Pa (4e-7 of reduced_modulus) and 2e10 Pa"
+            f"a Hertz pressure between {short(minimum)} Pa (4e-7 of reduced_modulus) and 2e10 Pa"
         )
     elif point.length > c.radius_x:
         what = f"the Hertz radius {short(point.length)} m exceeds that of the ball"

@@ -16,7 +16,7 @@ from pyehl.theory.heat import thermal_loading, thermal_reduction
 
 # Relative difference of values that is none
 ROUNDING = 1e-6
-# Maximum pressure at which a law must tell a viscosity, over the Hertz pressure; in so many steps
+# Maximum pressure at which a law must have a viscosity, over the Hertz pressure; in so many steps
 BEYOND_HERTZ, STEPS = 1.5, 300
 # A table of a single temperature holds within that [K]
 SAME_TEMPERATURE = 0.01
@@ -113,7 +113,7 @@ def _follow(draft: Draft, key: str, follows: float) -> None:
 
 
 def _law_key(draft: Draft) -> str:
-    """Give the key that asks for the law."""
+    """Give the key that selects the law."""
     for key in ("table", "name"):
         if draft.is_given("lubricant", key):
             return f"lubricant.{key}"
@@ -201,7 +201,7 @@ def _check_roelands(draft: Draft) -> None:
 
 
 def check_law(draft: Draft) -> None:
-    """Refuse laws that do not tell viscosity and density over all pressures of the contact."""
+    """Refuse laws that have no viscosity and density at all pressures of the contact."""
     oil = draft.settings.lubricant
     simple = oil.viscosity_law in SIMPLE_VISCOSITY, oil.density_law in SIMPLE_DENSITY
     hertz = physics.point(draft.settings).pressure

@@ -173,7 +173,7 @@ def _check_rollers(machine: Machine) -> None:
     if v.axial_load <= minimum * (1.0 + APART):
         what = f"an axial load of {v.axial_load:g} N: tapered rollers push the rings apart"
         machine.refuse(
-            "axial_load", what, f"more than {least:.5g} N, that of preload or counter bearing"
+            "axial_load", what, f"more than {minimum:.5g} N, that of preload or counter bearing"
         )
 
 
@@ -247,7 +247,7 @@ def _check_preload(machine: Machine, pressure: float, limit: float, power: float
             f"Hertz pressure is {pressure / 1e9:.3g} GPa, more than the static limit of "
             f"{limit / 1e9:g} GPa (ISO 76)"
         )
-        machine.refuse("clearance", what, f"clearance of at least {least:.2g} m; 10 um is 1e-5")
+        machine.refuse("clearance", what, f"clearance of at least {minimum:.2g} m; 10 um is 1e-5")
 
 
 def _facts(

@@ -124,7 +124,7 @@ def mesh_of(machine: Machine) -> Mesh:
                 f"gear {i} with {teeth[i - 1]} teeth and a profile shift of {shifts[i - 1]:g} is "
             )
             expected = (
-                f"profile_shift_{i} of at least {math.ceil(1e3 * least) / 1e3:g}, or more teeth"
+                f"profile_shift_{i} of at least {math.ceil(1e3 * minimum) / 1e3:g}, or more teeth"
             )
             key = f"profile_shift_{i}" if machine.is_given(f"profile_shift_{i}") else f"teeth_{i}"
             machine.refuse(key, f"{what}undercut by its rack", expected)

@@ -121,7 +121,7 @@ def plot(
     check_kind(width, (int, float), "width", "a number [m]")
     if width and not MIN_WIDTH <= width <= MOST_WIDTH:
         raise InputError(
-            f"width = {width * 1e3:g} mm: {LEAST_WIDTH * 1e3:g} ... {MOST_WIDTH * 1e3:g} mm were "
+            f"width = {width * 1e3:g} mm: {MIN_WIDTH * 1e3:g} ... {MOST_WIDTH * 1e3:g} mm were "
             "expected"
         )
     # a prediction draws without them

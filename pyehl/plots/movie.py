@@ -63,7 +63,7 @@ def movie(
         )
     if not (math.isfinite(seconds) and MIN_SECONDS <= seconds <= MOST_SECONDS):
         raise InputError(
-            f"frame_seconds = {seconds:g}: expected {LEAST_SECONDS:g} ... {MOST_SECONDS:g} s"
+            f"frame_seconds = {seconds:g}: expected {MIN_SECONDS:g} ... {MOST_SECONDS:g} s"
         )
     if suffix == "mp4" and not animation.writers.is_available("ffmpeg"):
         raise InputError("an MP4 needs the program ffmpeg, which is not here\nexpected: GIF")

@@ -72,7 +72,7 @@ def panels(
 
 
 def rows(heights: Sequence[float], conditions: str) -> Figure:
-    """Make a figure with panels below one another, so high as said over their width.
+    """Make a figure with panels below one another, of a given height over their width.
 
     All are equally wide, with room for a colour bar at the right.
     """

@@ -267,7 +267,7 @@ def spikes_of(
     without_spikes: Callable[[float], Topography],
     full: Full,
 ) -> tuple[float, int] | None:
-    """Threshold that carries, and the number of points beyond it."""
+    """Threshold with a full film, and the number of points beyond it."""
     heights = made.scan.heights
     if any(made.options.crop):
         nx, ny = heights.shape

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 BEYOND = "beyond linear response"
-"""Status where the ratio is larger than the model can tell."""
+"""Status where the ratio is beyond the model."""
 STATUSES = ("predicted", "film breakdown", BEYOND, "load lost", "overflow")
 """All statuses of a prediction; every one but the first is one without a ratio."""
 TRACKS = 8
@@ -72,7 +72,7 @@ class RoughFriction:
     mu_smooth: float
     film_min: float  # minimum film over the passage [m]; NaN where it ends
     # Rise of the pressure over the passage, its rms within NEAR
-    # and the greatest within INNER [Pa]
+    # and the maximum within INNER [Pa]
     increase_rms: float
     increase_max: float
     pressure_max: float  # maximum pressure over the passage within INNER [Pa]

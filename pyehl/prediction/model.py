@@ -107,7 +107,7 @@ class ModelOptions:
     smooth: str = "solved"
     wavelength_convention: str = "components"  # one of :data:`pyehl.theory.amplitude.CONVENTIONS`
     stiffness: str = "exact"  # ``"exact"``: E'|q|/4; ``"paper"``: eq. 11 with wavelength 2 pi/|q|
-    # Whether the semi-ellipse gives up the load that delta p carries inside the contact: a Hertz
+    # Whether the semi-ellipse loses the load that delta p carries inside the contact: a Hertz
     # contact under the remaining load, p_h and a scaled by its cube root
     load_balance: bool = False
     # Film below which the share of the contact is reported [m]; 0: none

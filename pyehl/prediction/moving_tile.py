@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from pyehl import extension
 from pyehl.prediction.response import AXIS, LINES, STATIONS, Transfer
 from pyehl.prediction.spectrum import Spectrum
-from pyehl.theory.disc import LARGEST, RADIUS, EDGE_ANGLES, disc_correction, edge_of_disc, monomials
+from pyehl.theory.disc import EDGE_ANGLES, LARGEST, RADIUS, disc_correction, edge_of_disc, monomials
 from pyehl.theory.ellipse import Ellipse
 from pyehl.theory.ellipse_edge import ellipse_edge
 from pyehl.theory.operating import OperatingPoint

@@ -31,7 +31,13 @@ from pyehl.prediction.friction import TRACKS, Outcome, RoughFriction, broken, ru
 from pyehl.prediction.mixed_lubrication import mixed_film, with_contact
 from pyehl.prediction.model import PIXEL_POINTS, Model, ModelOptions, RoughSurface, unpredictable
 from pyehl.prediction.result import Prediction, read_contact
-from pyehl.prediction.smooth import SmoothContact, heat_of, hertz_contact, solve_contact, with_boundary_film
+from pyehl.prediction.smooth import (
+    SmoothContact,
+    heat_of,
+    hertz_contact,
+    solve_contact,
+    with_boundary_film,
+)
 from pyehl.prediction.spectrum import WORKING_PIXELS, Together
 from pyehl.surfaces import Topography
 from pyehl.theory.film import central_film

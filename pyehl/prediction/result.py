@@ -70,7 +70,7 @@ def summary_of(prediction: Prediction) -> dict[str, Any]:
     """Give the summary of a prediction; None for a number that does not exist."""
     f, o = prediction.friction, prediction.operating
     tiles = [one.topography for one in prediction.surfaces]
-    layer = float(prediction.settings["lubricant"]["boundary_film"]) / o.film_scale
+    boundary = float(prediction.settings["lubricant"]["boundary_film"]) / o.film_scale
     together = prediction.together.tile if prediction.together else None
     sigma = composite_rms(tiles, together)
     missing = prediction.mixed is not None and prediction.mixed.friction_unknown
@@ -135,7 +135,7 @@ def summary_of(prediction: Prediction) -> dict[str, Any]:
             known=prediction.is_known,
             together=prediction.together,
         ),
-        **contact_numbers(prediction.mixed, layer, known=prediction.is_known),
+        **contact_numbers(prediction.mixed, boundary, known=prediction.is_known),
         "cavitated_share": f.cavitated_share,
         "cavitated_friction": f.cavitated_friction,
         "load_error": f.load_error,

@@ -73,7 +73,7 @@ class ShearedContact:
         self.cavitated = 0  # points where the pressure is not positive
         self.count = 0  # positions
         self.ended = 0  # points where the film has ended
-        self.imbalance = 0.0  # greatest share of the load that delta p carries or takes off [-]
+        self.imbalance = 0.0  # largest share of the load that delta p carries or takes off [-]
         self.lost = False  # whether the roughness takes more pressure than there is
         self.max_increase = -math.inf  # of the pressure over the smooth contact within INNER
         self.max_pressure = -math.inf  # within INNER
@@ -129,7 +129,7 @@ class ShearedContact:
         return found if self.thins else found * newtonian
 
     def cavitated_bound(self, minimum: float) -> float:
-        """Bound of the share of friction where the pressure is zero, `minimum` the least ratio."""
+        """Bound of the share of friction where the pressure is zero, by the minimum ratio."""
         if self.cavitated == 0:
             return 0.0
         stress = float(self.stress(np.array(0.0), np.array(self.minimum_film)))
@@ -384,7 +384,7 @@ class RoughContact(ShearedContact):
         )
 
     def _outer(self, contact: SmoothContact) -> tuple[NDArray[Any], ...]:
-        """Points whose film moves with the edge, as `smooth_film` asks for them.
+        """Points whose film moves with the edge, as `smooth_film` takes them.
 
         Film (ny, nx), centre and points in nodes of the smooth contact, the place on the rim before
         each and the shares of this and the next one over the distance from the centre, and the

@@ -83,12 +83,12 @@ def last_lines(plan: CurvePlan, table: pd.DataFrame) -> str:
     film = film[table["h_min_m"].notna()]
     if film.empty:
         return "assessment no result: no point has a film"
-    thinnest = int(film.idxmin())
+    at_minimum = int(film.idxmin())
     words = table["assessment"].str.partition(":")[0].where(table["status"] != OUTSIDE, OUTSIDE)
     counts = ", ".join(f"{word} at {n}" for word, n in Counter(words).items())
     return (
-        f"the minimum film is at {plan.points[thinnest].point}:\n"
-        f"{table[CONCLUSION][thinnest]}\n"
+        f"the minimum film is at {plan.points[at_minimum].point}:\n"
+        f"{table[CONCLUSION][at_minimum]}\n"
         f"curve      {counts} of {len(table)} points"
     )
 

@@ -268,7 +268,7 @@ class Fatigue:
             minimum = 0.5 if self.criterion == "dang-van" else 1.0 / math.sqrt(3.0)
             raise InputError(
                 f"torsion_limit/bending_limit = {self.torsion_limit / self.bending_limit:.3g}: "
-                f"{self.criterion} is for a ratio of {least:.3g} or more (ductile metals)"
+                f"{self.criterion} is for a ratio of {minimum:.3g} or more (ductile metals)"
             )
 
     @property

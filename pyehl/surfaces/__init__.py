@@ -29,9 +29,9 @@ from pyehl.surfaces.solver_surface import (
     gather,
     given,
     in_memory,
-    write_beside,
     part_of,
     with_surface,
+    write_beside,
 )
 from pyehl.surfaces.tile import (
     FEATURES,

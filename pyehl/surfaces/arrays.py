@@ -67,7 +67,7 @@ class Found:
 
 
 SAMPLE = 2**16
-"""Bytes that tell the encoding of a file."""
+"""Bytes that identify the encoding of a file."""
 _MARKS = {
     codecs.BOM_UTF8: "utf-8-sig",
     codecs.BOM_UTF32_LE: "utf-32",

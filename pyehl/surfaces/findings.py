@@ -237,7 +237,7 @@ def _named(
         c + 0.5 * (b.start + b.stop) * p for c, b, p in zip(corner, first.box, pixel, strict=True)
     )
     number = f"{len(specks)} {noun}{'' if len(specks) == 1 else 's'}"
-    of = f"of {LEAST_DUST} pixels or more" if kind == "dust" else "of fewer pixels than dust has"
+    of = f"of {MIN_DUST} pixels or more" if kind == "dust" else "of fewer pixels than dust has"
     text = (
         f"{number} {of}, the highest {lengths.length(first.height)} "
         f"({first.height / spread:.0f} standard deviations) on {first.size} "

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The surface that a resolved case asks for."""
+"""The surface of a resolved case."""
 
 import math
 from collections.abc import Mapping

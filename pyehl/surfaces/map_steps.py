@@ -50,7 +50,7 @@ def cropped(
         if last - first < MIN_PIXELS:
             raise InputError(
                 f"surface.crop_{name}_min = {low:g} and crop_{name}_max = {high:g} m leave "
-                f"{max(0, last - first)} pixels of {pixel[axis]:.3g} m; {LEAST_PIXELS} are needed"
+                f"{max(0, last - first)} pixels of {pixel[axis]:.3g} m; {MIN_PIXELS} are needed"
             )
         cuts.append(slice(first, last))
     return np.ascontiguousarray(heights[tuple(cuts)])
@@ -165,7 +165,7 @@ def level(heights: Array, what: str, valid: Mask | None = None) -> None:
     """Take the mean (`centre`), plane (`tilt`) or `curvature` off a map in place.
 
     A least-squares polynomial over the points that count (`valid`; default: all that are numbers);
-    missing points stay missing. InputError if too few points are left to tell the polynomial.
+    missing points stay missing. InputError if too few points are left to determine the polynomial.
     """
     # the large parts go first, so that rounding is that of what remains
     for degree in sorted({0, DEGREES[what]}):
@@ -429,7 +429,7 @@ def prominence(heights: Array) -> Array:
     if not spread > 1e-12 * largest:
         raise InputError(
             "surface.outliers: half of the map or more is flat to the last digit, so that there "
-            "is no spread to tell spikes by; remove them in the program of the instrument"
+            "is no spread to find spikes by; remove them in the program of the instrument"
         )
     above /= spread
     above[missing] = 0.0

@@ -104,7 +104,7 @@ def _prepared(
 ) -> tuple[WorkingMap, Options, dict[str, str]]:
     """All steps but the last one; the mean is zero. `keep`: the heights of `scan` stay."""
     options, why = defaults(options, scan)
-    _tell(scan, "numbers")
+    _report(scan, "numbers")
     work = WorkingMap(scan, keep=keep)
     check_pixels(scan.origin, work.z.shape)
     if any(options.crop):
@@ -117,7 +117,7 @@ def _prepared(
     complete = bool(np.isfinite(work.z).all())
     valid = None if complete else np.isfinite(work.z)
     if options.outliers > 0.0:
-        _tell(scan, "outliers")
+        _report(scan, "outliers")
         spiky = map_steps.prominence(work.z) > options.outliers
         # a median of 5 x 5 points does not see specks of half as many
         spiky |= dust_points(map_steps.levelled(work.z), options.outliers)
@@ -126,26 +126,26 @@ def _prepared(
         work.own()[spiky] = np.nan
         work.do("outliers", f"{options.outliers:g}", work.z, changed=int(spiky.sum()))
     if options.align_lines != "none":
-        _tell(scan, "align_lines")
+        _report(scan, "align_lines")
         work.begin()
         map_steps.align_lines(work.own(), options.align_lines)
         work.do("align_lines", options.align_lines, work.z)
     if valid is not None:
-        _tell(scan, "fill")
+        _report(scan, "fill")
         _fill(work, options, valid)
     if options.detrend != "none":
-        _tell(scan, "detrend")
+        _report(scan, "detrend")
         work.begin()
         map_steps.level(work.own(), options.detrend, valid)
         work.do("detrend", options.detrend, work.z, why["detrend"])
-    _tell(scan, "findings")
+    _report(scan, "findings")
     periodic = options.edges == "periodic"
     corner = (options.crop[0], options.crop[2])
     work.findings = findings.find(
         work.z, work.pixel, options.detrend, periodic=periodic, corner=corner
     )
     if options.rotate % 360.0 != 0.0:
-        _tell(scan, "rotate")
+        _report(scan, "rotate")
         turned, pixel = map_steps.rotated(work.z, work.pixel, options.rotate)
         work.do("rotate", f"{options.rotate:g}", turned, pixel=pixel)
     z = work.own()
@@ -190,7 +190,7 @@ def _fill(work: WorkingMap, options: Options, valid: Mask) -> None:
     work.do("fill", options.fill, full, why, changed=missing)
 
 
-def _tell(scan: Scan, step: str) -> None:
+def _report(scan: Scan, step: str) -> None:
     """Describe which step of a large map begins."""
     if scan.heights.size >= LARGE:
         nx, ny = scan.heights.shape

@@ -55,7 +55,7 @@ def read_columns(path: Path, lines: Sequence[str]) -> Read:
             start = k
     first, last = best
     if last - first < MIN_POINTS:
-        raise InputError(f"{path}: no profile: no column of {LEAST_POINTS} heights or more")
+        raise InputError(f"{path}: no profile: no column of {MIN_POINTS} heights or more")
     left = [k for k in range(last, len(lines)) if lines[k].strip()]
     if any(sizes[k] for k in left):
         raise InputError(
@@ -288,7 +288,7 @@ def _finished(
 ) -> Profile:
     """Heights in metres, equally spaced; refuse what cannot be meant."""
     if z.size < MIN_POINTS:
-        raise InputError(f"{path}: {z.size} points: a profile has {LEAST_POINTS} or more")
+        raise InputError(f"{path}: {z.size} points: a profile has {MIN_POINTS} or more")
     if not np.isfinite(z).all():
         k = int(np.argmin(np.isfinite(z)))
         raise InputError(f"{path}: height {k + 1} of the profile is missing")

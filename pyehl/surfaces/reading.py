@@ -35,7 +35,7 @@ HUGE, FAR = 1e30, 1e3
 APART = 0.5
 """Of the range of all other heights: how far off a mark of missing points is at the least."""
 OFTEN, TIMES = 5, 8
-"""A height is said to be there often if it is so many times, and so many times as often as any
+"""A height counts as frequent if it is so many times, and so many times as often as any
 other."""
 RANGES = 2.0
 """Ranges of all other heights that are far."""
@@ -306,8 +306,8 @@ def _read(path: Path, given: Sizes, channel: str, height_unit: str, lateral_unit
     if len(given_names) == 1:
         size_from += " and the file"
     if given_names and own != (None, None):
-        said = " x ".join("?" if size is None else f"{size:.6g}" for size in own)
-        size_from += f" (in place of {said} m of the file)"
+        of_file = " x ".join("?" if size is None else f"{size:.6g}" for size in own)
+        size_from += f" (in place of {of_file} m of the file)"
     if not all(given):
         notes += why
     scan = Scan(
@@ -421,7 +421,7 @@ def _check_shape(path: Path, shape: tuple[int, ...]) -> None:
         lines = ("a profile along one line", "a profile of x and z")
         what = f"; is it {lines[shape[1] - 1]}?" if shape[1] <= len(lines) < shape[0] else ""
         raise InputError(
-            f"{path}: the map must have at least {LEAST_PIXELS} x {LEAST_PIXELS} pixels, "
+            f"{path}: the map must have at least {MIN_PIXELS} x {MIN_PIXELS} pixels, "
             f"not {shape[0]} x {shape[1]}{what}"
         )
 

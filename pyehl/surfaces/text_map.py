@@ -226,7 +226,7 @@ def grid_of(path: Path, points: Array) -> tuple[Array, tuple[float, float]]:
 
 MIN_PIXELS = 4
 SQUARE = 0.01
-"""How far sides of a pixel may differ before it is said."""
+"""How far sides of a pixel may differ before it is reported."""
 
 
 def read_text_map(path: Path, encoding: str, channel: str = "") -> Found:

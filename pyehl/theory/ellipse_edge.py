@@ -15,7 +15,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.polynomial import chebyshev
 
-from pyehl.theory.disc import DEGREE, LARGEST, RADIUS, RIM, EDGE_ANGLES, spherical_bessel
+from pyehl.theory.disc import DEGREE, EDGE_ANGLES, LARGEST, RADIUS, RIM, spherical_bessel
 from pyehl.theory.ellipse import Ellipse
 from pyehl.types import Array, Complex
 

@@ -96,7 +96,9 @@ def test_smooth_films_are_those_of_a_run_with_the_layer(velocity, layer):
 
 def test_smooth_contact_with_the_layer_that_does_not_converge(monkeypatch):
     """No films of another contact in place of its own."""
-    monkeypatch.setattr(smooth, "_solved_with_boundary_film", lambda *_: (None, "it does not converge"))
+    monkeypatch.setattr(
+        smooth, "_solved_with_boundary_film", lambda *_: (None, "it does not converge")
+    )
     settings = pyehl.Case.from_text(TEXT.format(0.3, 1.2e-7, 0.1)).resolve()
     prediction = predict(settings, tracks=1)
     summary = prediction.summary

@@ -241,7 +241,9 @@ def test_cases_with_a_boundary_film_are_the_same_scenes():
     for with_boundary_film, without in zip(layered, thinning, strict=True):
         changed = dict(with_boundary_film.values.items() ^ without.values.items())
         assert set(changed) - {"solver.coarsening"} == new
-        assert pyehl.Case.from_text("", with_boundary_film.values).resolve()["lubricant"]["boundary_film"]
+        assert pyehl.Case.from_text("", with_boundary_film.values).resolve()["lubricant"][
+            "boundary_film"
+        ]
 
 
 @pytest.mark.parametrize(
