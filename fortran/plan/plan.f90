@@ -119,6 +119,7 @@ contains
       plan%engine = trim(input%solver%deflection)
       plan%accuracy = input%solver%accuracy
       plan%max_cycles = input%solver%max_cycles
+      plan%line = plan%contact%is_line()
       plan%newtonian_circle = plan%contact%is_round() .and. .not. plan%lubricant%shear%thins_flow()
       plan%guarded = .not. plan%contact%is_round()
       plan%threads = input%solver%threads

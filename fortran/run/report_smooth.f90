@@ -4,7 +4,7 @@ module ehl_report_smooth
    use ehl_contact_results, only: contact_results_t
    use ehl_grid_error, only: lone_grid_errors
    use ehl_kinds, only: dp, not_known, pi
-   use ehl_level_result, only: extrapolated, limit_error, share_error, stated_errors
+   use ehl_level_result, only: extrapolated, guarded_errors, limit_error, share_error, stated_errors
    use ehl_plan, only: plan_t
    use ehl_record, only: record_t
    use ehl_reason, only: reason_inlet, reason_no_limit, reason_no_solution, reason_none, reason_small_domain, reason_two_grids
@@ -50,7 +50,9 @@ contains
       coarser = .false.
       if (good .and. n > 1) coarser = smooth%results(n - 1)%solved
       if (coarser) then
-         error = stated_errors(smooth%results, n, m, plan%inlet) + smooth%results(n)%algebraic
+         error = stated_errors(m, smooth%results(n - 1)%m, smooth%results(n)%mesh, plan%inlet)
+         if (plan%contact%is_line()) error = guarded_errors(m, smooth%results, n, error)
+         error = error + smooth%results(n)%algebraic
          limit = extrapolated(smooth%results, n)
       else if (good) then
          ! one grid alone: what such grids have been found to miss

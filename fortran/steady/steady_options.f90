@@ -33,6 +33,8 @@ module ehl_steady_options
       type(inlet_t) :: inlet
       !> Whether the contact is a circle and its flow Newtonian
       logical :: newtonian_circle = .true.
+      !> Whether it is a line
+      logical :: line = .false.
    end type steady_options_t
 
    !> When a level ends
