@@ -72,6 +72,8 @@ contains
             call refuse("radius_x", "radii that change in a turned contact", "contact.angle = 0.0")
          end if
          if (d%periodic) call check_period()
+         if (source%first_given("time") /= "") call source%refuse(source%first_given("time"), source%first_given("time")// &
+            " with a duty", "none of &time: the table says how long, duty.time_step and duty.target_error how finely", status)
          if (input%grid%border == "flooded") call source%refuse("grid.border", "grid.border = 'flooded' with a duty", &
             "'zero': the pressure at a border that the duty moves is not known", status)
          if (d%reverses() .and. abs(input%grid%x_inlet + input%grid%x_outlet) > 1.0e-9_dp*input%grid%x_outlet) then

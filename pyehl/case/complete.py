@@ -4,7 +4,7 @@
 from collections.abc import Callable
 from contextlib import suppress
 
-from pyehl.case import contact, density, grid, line, lubricant, radii, surfaces, temperature
+from pyehl.case import contact, density, duty, grid, line, lubricant, radii, surfaces, temperature
 from pyehl.case.draft import Draft
 from pyehl.case.settings import GROUPS, MACHINES
 from pyehl.errors import InputError
@@ -36,6 +36,7 @@ COMPLETIONS: tuple[Step, ...] = (
     temperature.complete_viscosity,
     temperature.complete_alpha,
     lubricant.complete_law,
+    duty.complete,
     grid.complete,
     contact.complete_kinematics,
     lubricant.complete,
@@ -47,8 +48,11 @@ STEPS: tuple[Step, ...] = (
     line.check_keys,
     *COMPLETIONS[:6],
     contact.check_operating_point,
+    duty.complete,
+    duty.check,
     grid.complete,
     grid.check_extent,
+    duty.check_domain,
     contact.complete_kinematics,
     lubricant.complete,
     density.check,

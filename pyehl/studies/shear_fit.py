@@ -15,6 +15,7 @@ import numpy as np
 
 from pyehl import namelist, schema
 from pyehl.case import KEYS, resolve
+from pyehl.case.duty import refuse_duty
 from pyehl.errors import EhlError, InputError
 from pyehl.handle import SolverHandle, results_of
 from pyehl.prediction.smooth import SmoothContact, solve_contact, without_surface
@@ -231,6 +232,7 @@ class _Model:
 
 def smooth_base(settings: Settings, points: int) -> dict[str, dict[str, Any]]:
     """Give what the contacts share: groups of a case without sliding and shear law."""
+    refuse_duty(settings)
     groups = without_surface(settings)
     for key in ("slide_to_roll", "rough_surface"):
         groups["contact"].pop(key, None)
