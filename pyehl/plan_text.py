@@ -113,8 +113,10 @@ def _surfaces(v: Values, settings: Settings) -> Iterator[str]:
     """Tell what moves or lies in the contact, its time steps, and what of it the grid carries."""
     count = v["surfaces"]
     if not count:
-        yield "problem    smooth, in time" if v["duty"] else (
-            "problem    smooth and steady: no time levels, no roughness"
+        yield (
+            "problem    smooth, in time"
+            if v["duty"]
+            else ("problem    smooth and steady: no time levels, no roughness")
         )
         return
     members = [_member(v, k + 1) for k in range(count)]

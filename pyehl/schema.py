@@ -213,7 +213,7 @@ s | variance_unresolved | - | share of it in waves that the grid does not resolv
 s | scheme | | time scheme
 s | duty_h_c_min_m | m | least central film over the duty, of a periodic one over its last period
 s | duty_h_c_min_t_s | s | when
-s | duty_h_c_min_error_m | m | estimate of its error: grid and domain as of the smooth contact, time steps of a transit
+s | duty_h_c_min_error_m | m | estimate of its error: grid and domain as of the case, and time steps
 s | duty_h_c_max_m | m | largest central film
 s | duty_h_c_max_t_s | s | when
 s | duty_h_c_max_error_m | m | estimate of its error

@@ -300,6 +300,8 @@ contains
          if (allocated(self%radius_y)) numbers = self%radius_y
       case ("viscosity")
          if (allocated(self%viscosity)) numbers = self%viscosity
+      case default
+         continue
       end select
       if (.not. allocated(numbers)) allocate (numbers(0))
    end function list

@@ -13,8 +13,11 @@ module ehl_duty_steps
    real(dp), parameter :: most_change = 0.1_dp
    !> A step is at most so many times the one before: with more than 2.4 backward differences are not stable
    real(dp), parameter :: growth = 1.5_dp
-   !> Steps that do not converge, or miss the error, are cut by half so many times
-   integer, parameter :: most_cuts = 12
+   !> Steps that do not converge are cut by half so many times, those that miss the error so many
+   integer, parameter :: most_cuts = 8, most_for_error = 5
+   !> Share of the error asked for that a step may leave, however short it is: less is lost in that of the residual and in the
+   !> nodes that the least film goes from one to the other of
+   real(dp), parameter :: least_share = 0.05_dp
    !> Where an error is asked for, steps may be so much longer than those by the mesh
    real(dp), parameter :: longest = 4.0_dp
    !> Time in which the film passes the contact [a/u]: errors of its steps add up
@@ -132,9 +135,9 @@ contains
       by_step = t(1)*t(1)*t(2)*(1.0_dp + self%ratio(step))/(1.0_dp + 2.0_dp*self%ratio(step))
       self%error = by_step/(by_step + by_guess)*abs(films - guess)/films
       if (.not. duty%target_error > 0.0_dp) return
-      allowed = duty%target_error*step*max(abs(speed), slowest*duty%fastest())/transit
+      allowed = duty%target_error*max(least_share, step*max(abs(speed), slowest*duty%fastest())/transit)
       self%wanted = min(growth, max(0.5_dp, 0.8_dp*(allowed/max(maxval(self%error), tiny(1.0_dp)))**(1.0_dp/3.0_dp)))
-      good = maxval(self%error) <= allowed .or. self%cuts >= most_cuts
+      good = maxval(self%error) <= allowed .or. self%cuts >= most_for_error
    end subroutine judge
 
    !> The step is taken; `share`: of a transit in it

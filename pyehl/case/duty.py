@@ -9,7 +9,6 @@ import os
 import re
 from collections.abc import Iterator, Mapping
 from itertools import pairwise
-from typing import NoReturn
 
 from pyehl.case.draft import Draft
 from pyehl.case.file import read_text
@@ -21,6 +20,7 @@ from pyehl.case.settings import GROUPS, Settings
 from pyehl.case.source import Source
 from pyehl.errors import InputError
 
+LEAST_TIMES = 2
 LEAST_LOAD = 1e-3
 """Least load over that of the case."""
 SAME = 1e-9
@@ -65,55 +65,66 @@ def complete(draft: Draft) -> None:
 
 def check(draft: Draft) -> None:
     """Refuse a duty that cannot be solved."""
-    duty, contact, grid = draft.settings.duty, draft.settings.contact, draft.settings.grid
+    duty = draft.settings.duty
     lists = {key: getattr(duty, key) for key in DUTY_LISTS if getattr(duty, key)}
+    if lists:
+        for key, what, expected in (*_times(draft, lists), *_values(draft, lists)):
+            draft.refuse("duty.file" if duty.file else f"duty.{key}", what, expected)
+        _check_beside(draft)
+    elif name := draft.first_given(key.name for key in GROUPS["duty"] if key.kind != "path"):
+        draft.refuse(name, f"{name} without a table", "duty.file, or values at duty.time")
 
-    def refuse(key: str, what: str, expected: str) -> NoReturn:
-        draft.refuse("duty.file" if duty.file else f"duty.{key}", what, expected)
 
-    if not lists:
-        if name := draft.first_given(key.name for key in GROUPS["duty"]):
-            draft.refuse(name, f"{name} without a table", "duty.file, or values at duty.time")
-        return
+def _times(draft: Draft, lists: Table) -> Iterator[tuple[str, str, str]]:
+    """Find what is wrong with the times: key, that, what was expected."""
+    duty, contact = draft.settings.duty, draft.settings.contact
     for key, values in lists.items():
         if len(values) != len(duty.time):
             what = f"{len(values)} values of duty.{key} at {len(duty.time)} times"
-            refuse(key, what, "a value at each of duty.time")
-    if len(duty.time) < 2:
-        refuse("time", "a single time", "two or more")
+            yield key, what, "a value at each of duty.time"
+    if len(duty.time) < LEAST_TIMES:
+        yield "time", "a single time", "two or more"
     if late := [b for a, b in pairwise(duty.time) if b <= a]:
-        refuse("time", f"times that do not increase to {to_text(late[0])} s", "times that increase")
+        what = f"times that do not increase to {to_text(late[0])} s"
+        yield "time", what, "times that increase"
     if len(lists) == 1:
-        refuse("time", "times alone", f"one of {', '.join(DUTY_LISTS[1:])}")
+        yield "time", "times alone", f"one of {', '.join(DUTY_LISTS[1:])}"
     if not contact.si:
         expected = "contact.load, mean_velocity, radius and reduced_modulus: a duty is in SI units"
-        refuse("time", "a duty of a contact by Moes numbers", expected)
-    if bool(duty.u1) != bool(duty.u2):
-        expected = "both, or duty.mean_velocity and duty.slide_to_roll"
-        refuse("u1" if duty.u1 else "u2", "one of duty.u1 and duty.u2", expected)
-    if duty.u1 and (duty.mean_velocity or duty.slide_to_roll):
-        what = "duty.u1 beside duty.mean_velocity or duty.slide_to_roll"
-        refuse("u1", what, "the speeds one way")
-    load = contact.load_per_length if contact.is_line else contact.load
-    if duty.load and min(duty.load) < LEAST_LOAD * load:
-        expected = (
-            f"at least {to_text(LEAST_LOAD * load)}, {LEAST_LOAD} of that of the case: "
-            "below it the contact opens"
-        )
-        refuse("load", f"a load of {to_text(min(duty.load))}", expected)
-    for key in ("radius_x", "radius_y", "viscosity"):
-        if lists.get(key) and min(lists[key]) <= 0.0:
-            refuse(key, f"duty.{key} of {to_text(min(lists[key]))}", "positive numbers")
-    if contact.is_line and duty.radius_y:
-        refuse("radius_y", "duty.radius_y of a line", "duty.radius_x alone")
-    if contact.angle != 0.0 and (duty.radius_x or duty.radius_y):
-        key = "radius_x" if duty.radius_x else "radius_y"
-        refuse(key, "radii that change in a turned contact", "contact.angle = 0.0")
+        yield "time", "a duty of a contact by Moes numbers", expected
     if duty.periodic:
         for key, values in lists.items():
             if key != "time" and abs(values[-1] - values[0]) > SAME * max(map(abs, values)):
                 what = f"{key} ends at {to_text(values[-1])} and begins at {to_text(values[0])}"
-                refuse(key, what, "a period that ends where it begins, or periodic = .false.")
+                yield key, what, "a period that ends where it begins, or periodic = .false."
+
+
+def _values(draft: Draft, lists: Table) -> Iterator[tuple[str, str, str]]:
+    """Find what is wrong with values: key, that, what was expected."""
+    duty, contact = draft.settings.duty, draft.settings.contact
+    if bool(duty.u1) != bool(duty.u2):
+        expected = "both, or duty.mean_velocity and duty.slide_to_roll"
+        yield "u1" if duty.u1 else "u2", "one of duty.u1 and duty.u2", expected
+    if duty.u1 and (duty.mean_velocity or duty.slide_to_roll):
+        what = "duty.u1 beside duty.mean_velocity or duty.slide_to_roll"
+        yield "u1", what, "the speeds one way"
+    least = LEAST_LOAD * (contact.load_per_length if contact.is_line else contact.load)
+    if duty.load and min(duty.load) < least:
+        expected = f"at least {to_text(least)}, {LEAST_LOAD} of that of the case"
+        yield "load", f"a load of {to_text(min(duty.load))}", expected
+    for key in ("radius_x", "radius_y", "viscosity"):
+        if min(lists.get(key, (1.0,))) <= 0.0:
+            yield key, f"duty.{key} of {to_text(min(lists[key]))}", "positive numbers"
+    if contact.is_line and duty.radius_y:
+        yield "radius_y", "duty.radius_y of a line", "duty.radius_x alone"
+    if contact.angle != 0.0 and (duty.radius_x or duty.radius_y):
+        key = "radius_x" if duty.radius_x else "radius_y"
+        yield key, "radii that change in a turned contact", "contact.angle = 0.0"
+
+
+def _check_beside(draft: Draft) -> None:
+    """Refuse keys of other groups that say something else."""
+    grid = draft.settings.grid
     if draft.is_given("grid", "border") and grid.border == "flooded":
         expected = "'zero': the pressure at a border that the duty moves is not known"
         draft.refuse("grid.border", "grid.border = 'flooded' with a duty", expected)
@@ -190,12 +201,12 @@ def read_duty(path: str, *, is_line: bool) -> Table:
                 source.refuse(first, first + len(line), f"{name} = '{number}'", "a number")
             column.append(float(number.lower().replace("d", "e")) * factor)
         if len(values[0]) > 1:
-            _check_time(source, first, line, dict(zip((n for n, _ in columns), values, strict=True)))
+            _check_time(
+                source, first, line, dict(zip((n for n, _ in columns), values, strict=True))
+            )
     if not values or len(values[0]) < 2:
         source.refuse(0, 1, "fewer than two times", f"{HEADER}, and a line for each time behind it")
-    return {
-        name: tuple(column) for (name, _), column in zip(columns, values, strict=True)
-    }
+    return {name: tuple(column) for (name, _), column in zip(columns, values, strict=True)}
 
 
 def _lines(source: Source) -> Iterator[tuple[int, str]]:
@@ -236,7 +247,11 @@ def _header(source: Source, first: int, line: str, *, is_line: bool) -> list[tup
         if not unit and "-" in units:
             unit = "-"
         if unit not in units:
-            what = f"column '{cell.strip()}' without a unit" if not unit else f"unit '{unit}' of {name}"
+            what = (
+                f"column '{cell.strip()}' without a unit"
+                if not unit
+                else f"unit '{unit}' of {name}"
+            )
             refuse(what, f"'{name} [unit]' with one of {', '.join(units)}")
         if name in (known for known, _ in columns):
             refuse(f"two columns '{name}'", "every column once")

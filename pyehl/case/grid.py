@@ -19,7 +19,11 @@ def complete(draft: Draft) -> None:
     found = physics.grid_defaults(
         draft.settings,
         # a border that changes with time is not known
-        g.border if draft.is_given("grid", "border") else "zero" if draft.settings.duty.time else "",
+        g.border
+        if draft.is_given("grid", "border")
+        else "zero"
+        if draft.settings.duty.time
+        else "",
         [getattr(g, end) if draft.is_given("grid", end) else None for end in ENDS],
         0 if find_points else g.points,
         g.points_y,

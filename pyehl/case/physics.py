@@ -63,14 +63,14 @@ def _point(values: tuple[float, ...]) -> Point:
     return Point(*numbers, *reach.tolist())
 
 
-def grid_defaults(  # noqa: PLR0913, PLR0917
+def grid_defaults(
     settings: Settings,
     border: str,
     ends: Sequence[float | None],
     points: int,
     points_y: int,
     widening: float = 1.0,
-    reverses: bool = False,  # noqa: FBT001, FBT002
+    reverses: bool = False,
 ) -> Domain:
     """Border, domain and nodes that a contact needs; '', None and 0 are to be found.
 

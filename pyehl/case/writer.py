@@ -101,9 +101,8 @@ def _unwritten(settings: Settings, group: str) -> frozenset[str]:
         return frozenset(_of_surface(settings, group))
     if group == "duty":
         return frozenset(_of_duty(settings))
-    if settings.contact.is_line:
-        return frozenset(("y_extent", "points_y") if group == "grid" else ())
-    return frozenset()
+    strip = settings.contact.is_line and group == "grid"
+    return frozenset(("y_extent", "points_y") if strip else ())
 
 
 def _of_contact(settings: Settings) -> Iterator[str]:

@@ -48,7 +48,9 @@ class Line:
         h, lag = self.h, np.arange(intervals + 1) * self.h
         hat = antiderivative(lag + h) - 2.0 * antiderivative(lag) + antiderivative(lag - h)
         kernel = -hat / h / np.pi
-        self.k = kernel[np.abs(np.subtract.outer(np.arange(intervals + 1), np.arange(intervals + 1)))]
+        self.k = kernel[
+            np.abs(np.subtract.outer(np.arange(intervals + 1), np.arange(intervals + 1)))
+        ]
 
     def gap(self, p, h00, curvature=1.0):
         """Film."""
@@ -72,7 +74,7 @@ class Line:
             wedge[at, at - side * shift] = factor / h
         return abs(speed) * wedge
 
-    def newton(  # noqa: PLR0913
+    def newton(
         self, p, h00, *, speed=1.0, load=1.0, curvature=1.0, viscosity=1.0, now=0.0, past=0.0
     ):
         """Pressure and separation by Newton's method; `now` m + `past` is the squeeze term."""
@@ -115,7 +117,9 @@ class Line:
             share = 1.0
             while share > 1e-3:
                 tried = np.maximum(0.0, p + share * step[:-1])
-                if (h00 + share * step[-1] + curvature * x**2 / 2.0 + k @ tried).min() > 0.3 * gap.min():
+                if (
+                    h00 + share * step[-1] + curvature * x**2 / 2.0 + k @ tried
+                ).min() > 0.3 * gap.min():
                     break
                 share *= 0.5
             p, h00 = np.maximum(0.0, p + share * step[:-1]), h00 + share * step[-1]
@@ -135,23 +139,31 @@ class Line:
 def solve(
     moes_m: float, moes_l: float, intervals: int, film: float, domain: tuple[float, float]
 ) -> tuple[float, float]:
-    """Central and minimum film [b^2/R] of the steady contact; `film`: a guess of the central one."""
+    """Central and minimum film [b^2/R] of a steady contact; `film`: a guess of the central one."""
     line = Line(moes_m, moes_l, intervals, domain)
     p = np.sqrt(np.maximum(0.0, 1.0 - line.x**2))
     return line.films(*line.newton(p, film - 0.25 - 0.5 * np.log(2.0)))
 
 
-def march(line: Line, film: float, step: float, duty: Sequence[Mapping[str, float]]) -> np.ndarray:
-    """Films in time from the steady contact of the first state on, in equal steps, BDF2; (n, 2)."""
+def march(
+    line: Line, film: float, times: np.ndarray, duty: Sequence[Mapping[str, float]]
+) -> np.ndarray:
+    """Central film and the least at a node over time, (n, 2), by BDF2 in steps of any length.
+
+    From the steady contact of the first state on; what `newton` takes holds at each time.
+    """
     p = np.sqrt(np.maximum(0.0, 1.0 - line.x**2))
     p, h00 = line.newton(p, film - 0.25 - 0.5 * np.log(2.0), **duty[0])
-    films = [line.films(p, h00, duty[0].get("curvature", 1.0))]
     before = last = line.mass(p, h00, duty[0].get("curvature", 1.0))
-    for state in duty[1:]:
-        past = (-2.0 * last + 0.5 * before) / step
+    films = [(line.films(p, h00)[0], line.gap(p, h00).min())]
+    steps = np.diff(times)
+    for k, (step, state) in enumerate(zip(steps, duty[1:], strict=True)):
+        r = step / steps[k - 1] if k else 1.0
+        now, one, two = (1.0 + 2.0 * r) / (1.0 + r), -1.0 - r, r**2 / (1.0 + r)
+        past = (one * last + two * before) / step
         past[[0, -1]] = 0.0
-        p, h00 = line.newton(p, h00, now=1.5 / step, past=past, **state)
+        p, h00 = line.newton(p, h00, now=now / step, past=past, **state)
         curvature = state.get("curvature", 1.0)
         before, last = last, line.mass(p, h00, curvature)
-        films.append(line.films(p, h00, curvature))
+        films.append((line.films(p, h00, curvature)[0], line.gap(p, h00, curvature).min()))
     return np.array(films)
