@@ -63,19 +63,18 @@ contains
       real(dp), intent(in) :: hx, time_step
       !> With wedge_separate: mean velocity, at least 0, over the one that is the scale; the step over the one before it
       real(dp), intent(in), optional :: speed, ratio
-      real(dp) :: now, u
+      real(dp) :: u
 
       call self%set_steady(hx)
       self%scheme = scheme
       u = 1.0_dp
       if (present(speed)) u = speed
-      now = 1.5_dp
+      self%squeeze = 1.5_dp/time_step
       self%past = [-2.0_dp, 0.5_dp]
       if (present(ratio)) then
-         now = (1.0_dp + 2.0_dp*ratio)/(1.0_dp + ratio)
+         self%squeeze = (1.0_dp + 2.0_dp*ratio)/(1.0_dp + ratio)/time_step
          self%past = [-1.0_dp - ratio, ratio**2/(1.0_dp + ratio)]
       end if
-      self%squeeze = now/time_step
       self%inverse_step = 1.0_dp/time_step
       if (scheme == wedge_narrow) then
          self%c = [1.5_dp, 0.0_dp, 0.0_dp]/time_step
@@ -83,8 +82,8 @@ contains
       else
          self%c = u*self%c
          self%c_first = u*self%c_first
-         self%c(0) = self%c(0) + now/time_step
-         self%c_first(0) = self%c_first(0) + now/time_step
+         self%c(0) = self%c(0) + self%squeeze
+         self%c_first(0) = self%c_first(0) + self%squeeze
       end if
    end subroutine set_step
 

@@ -18,8 +18,6 @@ module ehl_duty_steps
    !> Share of the error asked for that a step may leave, however short it is: less is lost in that of the residual and in the
    !> nodes that the least film goes from one to the other of
    real(dp), parameter :: least_share = 0.05_dp
-   !> Where an error is asked for, steps may be so much longer than those by the mesh
-   real(dp), parameter :: longest = 4.0_dp
    !> Time in which the film passes the contact [a/u]: errors of its steps add up
    real(dp), parameter :: transit = 2.0_dp
    !> Numbers that a kept state has of it
@@ -59,12 +57,10 @@ contains
       now = duty%at(time)
       least = slowest*duty%fastest()
       step = duty%step_share*mesh/max(least, speed_of(now))
-      if (duty%target_error > 0.0_dp) step = longest*step
       if (self%n > 0) step = min(step, self%steps(1)*min(growth, self%wanted))
       do k = 1, most_cuts
          then = duty%at(time + step)
          speed = max(least, speed_of(then))
-         if (duty%target_error > 0.0_dp) speed = speed/longest
          if (step > 1.001_dp*duty%step_share*mesh/speed) then
             step = max(0.5_dp*step, duty%step_share*mesh/speed)
          else if (changes(now, then)) then

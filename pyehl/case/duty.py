@@ -59,6 +59,8 @@ def complete(draft: Draft) -> None:
         if os.path.exists(duty.file):
             draft.contradict(name, "duty.file", "one of the two")
         return
+    if not os.path.isfile(duty.file):
+        draft.refuse("duty.file", f"there is no file {duty.file}", f"a table over time, {HEADER}")
     for key, values in read_duty(duty.file, is_line=draft.settings.contact.is_line).items():
         setattr(duty, key, values)
 
