@@ -10,14 +10,11 @@ import re
 from collections.abc import Iterator, Mapping
 from itertools import pairwise
 
-from pyehl.case.draft import Draft
-from pyehl.case.file import read_text
 from pyehl.case.groups import DUTY_LISTS
-from pyehl.case.key import NUMBER
+from pyehl.case.key import NUMBER, to_text
 from pyehl.case.names import did_you_mean
-from pyehl.case.number import to_text
-from pyehl.case.settings import GROUPS, Settings
-from pyehl.case.source import Source
+from pyehl.case.settings import GROUPS, Draft, Settings
+from pyehl.case.source import Source, read_text
 from pyehl.errors import InputError
 
 LEAST_TIMES = 2

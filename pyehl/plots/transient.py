@@ -200,7 +200,7 @@ def duty_history(
         ax.plot(time, steady * nm, color=style.GREY, lw=1.0, ls="--", label="centre, steady")
     ax.plot(time, history["h_c_m"] * nm, color=style.VERMILLION, lw=1.4, label="centre")
     ax.plot(time, history["h_min_m"] * nm, color=style.BLUE, lw=1.4, label="minimum")
-    ax.set(xlim=(0.0, float(time[-1])), ylabel="h [nm]", xlabel="t [ms]")
+    ax.set(xlim=(0.0, float(time[-1])), ylabel="h [nm]")
     ax.set_ylim(bottom=0.0)
     ax.legend(loc="lower center", ncols=3, bbox_to_anchor=(0.5, 1.0))
     return ax
@@ -215,7 +215,7 @@ def duty_itself(history: Mapping[str, Array], *, ax: Axes | None = None) -> Axes
         if np.ptp(history[name]) > 0.0:
             ax.plot(time, history[name], line, color=style.GREEN, lw=1.2, label=label)
     ax.set(xlim=(0.0, float(time[-1])), xlabel="t [ms]", ylabel="over the case")
-    ax.legend(loc="lower center", ncols=4, bbox_to_anchor=(0.5, 1.0))
+    ax.legend(loc="best")
     return ax
 
 
