@@ -57,7 +57,7 @@ from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.friction import absolute_friction
 from pyehl.theory.heat import Heat
 from pyehl.theory.lubricant import Lubricant
-from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.line_contact import AnyContact
 from pyehl.theory.shear import ShearLaw
 from pyehl.types import Array, Settings
 
@@ -149,8 +149,10 @@ def summary_of(prediction: Prediction) -> dict[str, Any]:
         "spectrum_beside": list(prediction.beside) or None,
         "wall_seconds": prediction.seconds,
     }
-    if o.radius_ratio != 1.0:
-        values |= {"radius_ratio": o.radius_ratio, "semi_axis_y_m": o.semi_axis_y}
+    if o.ellipse.is_line:
+        values["shape"] = "line"
+    elif o.radius_ratio != 1.0:
+        values |= {"radius_ratio": o.radius_ratio, "semi_axis_y_m": o.semi_axes[1]}
         values["ellipticity"] = o.ellipse.ellipticity
     found = {key: finite(value) for key, value in values.items()}
     return found | {"assessment": assess(found).text}
@@ -220,7 +222,7 @@ def draw(prediction: Prediction, folder: str | os.PathLike[str]) -> None:
 
 
 def read_contact(
-    folder: str | Path, operating: OperatingPoint, settings: Settings
+    folder: str | Path, operating: AnyContact, settings: Settings
 ) -> SmoothContact:
     """Pressure and film from a result folder, of a smooth contact or under a transient run.
 
@@ -347,7 +349,7 @@ class Prediction:
     beside: Sequence[Mapping[str, Any]] = ()
 
     @property
-    def operating(self) -> OperatingPoint:
+    def operating(self) -> AnyContact:
         """The operating point."""
         return self.model.operating
 

@@ -19,11 +19,9 @@ from pyehl.solver import Solver
 from pyehl.studies.estimate import duration, seconds_of, wall_seconds
 from pyehl.studies.study import Point, Study
 from pyehl.studies.tasks import Task
-from pyehl.theory.film import central_film
-from pyehl.theory.line_contact import LineContact, contact_of
-from pyehl.theory.line_contact import central_film as central_film_of_line
+from pyehl.theory.line_contact import AnyContact, contact_of
+from pyehl.theory.line_contact import formula_film as film_by_formula
 from pyehl.theory.lubricant import Lubricant
-from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Settings
 
 THREADS = "solver.threads"
@@ -161,12 +159,10 @@ def _check(study: Study, case: Case, settings: Settings, checked: set[str]) -> N
     check_maps(settings, read=not known)
 
 
-def formula_film(settings: Settings) -> tuple[OperatingPoint | LineContact, float]:
+def formula_film(settings: Settings) -> tuple[AnyContact, float]:
     """Give the operating point of a resolved case and its central film by formula [m]."""
-    contact, lubricant = contact_of(settings), Lubricant.from_settings(settings)
-    if isinstance(contact, LineContact):
-        return contact, central_film_of_line(contact, lubricant)
-    return contact, central_film(contact, lubricant)
+    contact = contact_of(settings)
+    return contact, film_by_formula(contact, Lubricant.from_settings(settings))
 
 
 def check_maps(settings: Settings, *, read: bool = True) -> None:

@@ -227,6 +227,11 @@ class OperatingPoint:
         return self.ellipse.ellipticity * self.hertz_radius
 
     @property
+    def dry_area(self) -> float:
+        """Area of the dry contact [m^2]."""
+        return math.pi * self.hertz_radius * self.semi_axis_y
+
+    @property
     def semi_axes(self) -> tuple[float, float]:
         """Semi-axes of the dry contact along the motion and across it [m]."""
         return self.hertz_radius, self.semi_axis_y
@@ -277,7 +282,7 @@ class OperatingPoint:
 
         Of equal alpha_bar, and of equal lambda_bar where the stiffness of waves is the same: with
         heights by kernel_ratio a^2/R_x. The dry contact near the edge is then that of the circle.
-        What the sides take off is not in it: :func:`pyehl.theory.film.circle_with_same_inlet`.
+        What the sides take off is not in it: :func:`pyehl.theory.line_contact.circle_with_same_inlet`.
         """
         shape = self.ellipse
         kernel = shape.kernel_ratio
