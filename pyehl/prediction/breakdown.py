@@ -64,8 +64,8 @@ def below_zero(
     Every pixel of a tile within b of the track passes through the contact at some time, along its
     row, and meets the thinnest smooth film of that row, and the highest point of the other tile on
     it. The deformed roughness (nx, ny) [m], row 0 through the centre, is taken to be that at the
-    centre on the whole way. Semi-axes a and b of the contact in m, b infinite of a line. The share is that of one tile,
-    NaN of two: it needs the positions of a prediction.
+    centre on the whole way. Semi-axes a and b of the contact in m, b infinite of a line. The share
+    is that of one tile, NaN of two: it needs the positions of a prediction.
     """
     a, b = semi_axes
     smooth, columns = _strip(tiles, a, b, sustained)

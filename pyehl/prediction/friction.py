@@ -18,8 +18,8 @@ from pyehl.prediction.relative_positions import Passage, Positions
 from pyehl.prediction.rough_contact import HertzContact, Response, RoughContact, ShearedContact
 from pyehl.prediction.spectrum import longer_waves
 from pyehl.surfaces import interpolated, track_offsets
-from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.line_contact import AnyContact
+from pyehl.theory.lubricant import Lubricant
 from pyehl.types import Array
 
 if TYPE_CHECKING:

@@ -57,8 +57,8 @@ from pyehl.prediction.spectrum import Spectrum, merged, working_grid
 from pyehl.surfaces import FEATURES, Topography, filtered, rough_groups
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.ellipse import Ellipse
-from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.line_contact import AnyContact, contact_of
+from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.response import fitted_range
 from pyehl.theory.strip_edge import StripEdge
 from pyehl.types import Array, Settings
@@ -358,9 +358,7 @@ class Model:
         """Shape of the contact; of a line with all long waves across the motion."""
         if not self.operating.ellipse.is_line:
             return self.operating.ellipse
-        across = [
-            np.abs(s.qy[long_waves(s, StripEdge.largest)[1]]) for s in spectra
-        ]
+        across = [np.abs(s.qy[long_waves(s, StripEdge.largest)[1]]) for s in spectra]
         width = max(s.pixel[1] * s.shape[1] for s in spectra)
         return StripEdge(_distinct(np.concatenate(across), 1.0 / width), width)
 

@@ -34,9 +34,8 @@ from pyehl.prediction.result import Prediction, read_contact
 from pyehl.prediction.smooth import SmoothContact, heat_of, hertz_contact, solve_contact, with_layer
 from pyehl.prediction.spectrum import WORKING_PIXELS, Together
 from pyehl.surfaces import Topography
-
-from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.line_contact import AnyContact, contact_of, formula_film
+from pyehl.theory.lubricant import Lubricant
 from pyehl.types import Settings
 
 LENGTHS = (30e-6, 100e-6, 0.0)

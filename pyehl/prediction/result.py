@@ -56,8 +56,8 @@ from pyehl.surfaces import Topography, psd_isotropic
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.friction import absolute_friction
 from pyehl.theory.heat import Heat
-from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.line_contact import AnyContact
+from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.shear import ShearLaw
 from pyehl.types import Array, Settings
 
@@ -221,9 +221,7 @@ def draw(prediction: Prediction, folder: str | os.PathLike[str]) -> None:
     write_json(folder / "summary.json", written | {"files": sorted([*written["files"], *drawn])})
 
 
-def read_contact(
-    folder: str | Path, operating: AnyContact, settings: Settings
-) -> SmoothContact:
+def read_contact(folder: str | Path, operating: AnyContact, settings: Settings) -> SmoothContact:
     """Pressure and film from a result folder, of a smooth contact or under a transient run.
 
     InputError if it is not the folder of a converged solution of the same contact: M and L, ratio

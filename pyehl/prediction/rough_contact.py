@@ -36,8 +36,8 @@ from pyehl.prediction.moving_tile import (
 from pyehl.prediction.response import FILM_ENDS, STATIONS, film_left
 from pyehl.prediction.smooth import SmoothContact
 from pyehl.theory.disc import RIM_ANGLES
-from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.line_contact import AnyContact
+from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.shear import shear_stress
 from pyehl.theory.strip_edge import StripEdge
 from pyehl.types import Array, Indices, Mask, Single
@@ -224,8 +224,8 @@ or less change mu_r/mu_s by less than 1e-5 where no ring loses its load."""
 class RoughContact(ShearedContact):
     """Points of a contact at places x (m,), y (n,) [a] that the waves of rough surfaces change.
 
-    A point stands for an `area` [m^2], of a line per length [m]; `powers` of the components as the transfers were made for
-    them.
+    A point stands for an `area` [m^2], of a line per length [m]; `powers` of the components as the
+    transfers were made for them.
     """
 
     def __init__(
@@ -262,8 +262,7 @@ class RoughContact(ShearedContact):
         i, j = np.nonzero(self.inside)
         self.places = np.ravel_multi_index((i, j), self.film.shape).astype(np.int32)
         if self.strip:
-            self.polynomials = self.strip.polynomials(self.x)
-            self.edge_waves = self.strip.waves(self.y)
+            self.along, self.edge_waves = self.strip.polynomials(self.x), self.strip.waves(self.y)
         else:
             self.polynomials = edge.polynomials(self.x[i], self.across[j]).astype(np.float32)
         order = waves[0].transfer.second
@@ -309,10 +308,10 @@ class RoughContact(ShearedContact):
         x = np.arange(-half, half + 1) / points
         shape = waves[0].edge.shape
         if isinstance(shape, StripEdge):
-            y = np.arange(math.ceil(shape.width * points)) * (1.0 / points)
-            y *= shape.width * points / y.size
+            count = math.ceil(shape.width * points)
+            y = np.asarray(np.arange(count) * (shape.width / count), dtype=float)
         else:
-            y = x * operating.ellipse.ellipticity
+            y = np.asarray(x * operating.ellipse.ellipticity, dtype=float)
         places = x, y, y / operating.ellipse.ellipticity
         tiles = [
             LineTile(wave, smooth.central_film, places, track, number)
@@ -393,8 +392,8 @@ class RoughContact(ShearedContact):
         if not coefficients.any():
             return
         if self.strip:
-            products = coefficients.reshape(-1, self.polynomials.shape[1])
-            total[..., 1] += self.polynomials @ (products.T @ self.edge_waves)
+            products = coefficients.reshape(-1, self.along.shape[1])
+            total[..., 1] += self.along @ (products.T @ self.edge_waves)
             return
         extension.surface_functions.polynomials(
             self.polynomials.T,

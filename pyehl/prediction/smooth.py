@@ -24,9 +24,9 @@ from pyehl.handle import SolverHandle, results_of
 from pyehl.reasons import NOT_CONVERGED, heat_words, words_of
 from pyehl.surfaces import GROUPS
 from pyehl.theory.heat import Heat
-from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.line_contact import AnyContact, circle_with_same_inlet, formula_film
 from pyehl.theory.line_contact import contact_of as operating_of
+from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.shear import FlowFactors, ShearLaw, flow_factors
 from pyehl.theory.transport import Zone
 from pyehl.types import Array, Mask, Settings
@@ -172,7 +172,8 @@ class SmoothContact:
             ends = {"left": 0.0, "right": 0.0}
             film = np.interp(x, self.x, self.film[:, 0])
             row = np.interp(x, self.x, self.pressure[:, 0], **ends)
-            return tuple(np.repeat(v[:, np.newaxis], y.size, axis=1) for v in (row, film))
+            on_lines = np.ones((1, y.size))
+            return row[:, np.newaxis] * on_lines, film[:, np.newaxis] * on_lines
         rows, columns = _linear(x, self.x), _linear(y, self.y)
         found = []
         for values in (self.pressure, self.film):

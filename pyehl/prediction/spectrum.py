@@ -184,8 +184,9 @@ def working_grid(topography: Topography, operating: AnyContact, positions: int) 
     InputError if that takes too many pixels.
     """
     nx, ny = topography.shape
-    finest = operating.hertz_radius / WORKING_PIXELS, (
-        operating.hertz_radius * operating.ellipse.side / WORKING_PIXELS
+    finest = (
+        operating.hertz_radius / WORKING_PIXELS,
+        (operating.hertz_radius * operating.ellipse.side / WORKING_PIXELS),
     )
     want_x = max(nx, math.ceil(topography.length_x / finest[0]))
     want_y = max(ny, math.ceil(topography.length_y / finest[1]))

@@ -14,7 +14,7 @@ import numpy as np
 import scipy
 
 from pyehl import surfaces
-from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.line_contact import AnyContact
 from pyehl.types import Settings
 
 
@@ -29,7 +29,7 @@ class Pattern:
 SMOOTH = Pattern(0.0, math.inf)
 
 
-def pattern(settings: Settings, operating: OperatingPoint, film: float) -> Pattern:
+def pattern(settings: Settings, operating: AnyContact, film: float) -> Pattern:
     """Give the pattern that theta_2 is taken for, of a resolved case with a rough surface.
 
     `film` is the central film [m], of which the amplitude of harmonic roughness may be a share.
@@ -50,7 +50,7 @@ def pattern(settings: Settings, operating: OperatingPoint, film: float) -> Patte
 
 
 def kept_pattern(
-    settings: Settings, operating: OperatingPoint, film: float, kept: dict[str, Pattern]
+    settings: Settings, operating: AnyContact, film: float, kept: dict[str, Pattern]
 ) -> Pattern:
     """Give the pattern of the rough surface of a case; of two that of both together.
 

@@ -6,8 +6,8 @@ from typing import Any
 
 from pyehl.reasons import NO_SIZE, OF_ROUGH, VANISHING, above_limit
 from pyehl.theory.heat import Heat, flash_temperature
-from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.line_contact import AnyContact
+from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.shear import shear_stress
 
 

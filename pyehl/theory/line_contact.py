@@ -198,7 +198,7 @@ class LineContact:
 
     @property
     def load(self) -> float:
-        """Load per length w [N/m]: what an integral over the contact, per length, is compared to."""
+        """Load per length w [N/m], as all integrals over a line."""
         return self.load_per_length
 
     @property

@@ -58,7 +58,9 @@ class StripEdge:
     def waves(self, y: Array) -> Array:
         """Waves (2 m, n) across the motion at places Y [b]."""
         phase = np.outer(self.across, y)
-        return np.stack([np.cos(phase), np.sin(phase)], axis=1).reshape(2 * self.across.size, y.size)
+        return np.stack([np.cos(phase), np.sin(phase)], axis=1).reshape(
+            2 * self.across.size, y.size
+        )
 
     def correction(self, qx: Array, qy: Array) -> Complex:
         """Return what waves (m,) [1/b] on the strip have in pressure beyond the half-space.
@@ -89,7 +91,7 @@ class StripEdge:
         return found.reshape(2 * y.size, qx.size)
 
     def _each(self, qx: Array, qy: Array) -> Iterator[tuple[int, Indices, Complex]]:
-        """Waves of each |k_Y|, and the weights (orders, l) of T_n/sqrt(1 - X^2) in their pressure."""
+        """Waves (l,) of each |k_Y|, and weights (orders, l) of T_n/sqrt(1 - X^2) in pressure."""
         from scipy.special import jv  # noqa: PLC0415 (takes as long to load as all the rest)
 
         if not qx.size:

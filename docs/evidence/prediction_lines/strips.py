@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Rough strips of line contacts: predicted, then simulated.
 
-    python docs/evidence/prediction_lines/strips.py predict     writes predicted.csv
-    python docs/evidence/prediction_lines/strips.py commit      adds what was not simulated to committed.csv
-    python docs/evidence/prediction_lines/strips.py simulate [NAME ...]     adds what is missing to simulated.csv
-    python docs/evidence/prediction_lines/strips.py compare [committed.csv]     prints both
+    python docs/evidence/prediction_lines/strips.py commit      adds new cases to committed.csv
+    python docs/evidence/prediction_lines/strips.py simulate [NAME ...]     adds to simulated.csv
+    python docs/evidence/prediction_lines/strips.py compare     prints both
 
 The strips are on 257 nodes along the motion, h = b/64, and a row on 1025. Waves shorter than eight
 nodes of the strips are cut off. A simulation takes one to three minutes on one core.
@@ -75,13 +74,14 @@ def case_of(row: Row) -> tuple[pyehl.Case, list[Topography]]:
     line = LineContact.from_moes(row.moes_m, row.moes_l)
     varies = row.wave is None or row.wave[1] > 0.0
     width = f"wavelength = 1.0 wavelength_y = {1.0 if varies else 1e6}"
-    kinds = f"&surface kind = 'harmonic' amplitude = 1e-3 {width} velocity_ratio = {row.velocity_ratio} /\n"
+    kinds = f"&surface kind = 'harmonic' amplitude = 1e-3 {width} "
+    kinds += f"velocity_ratio = {row.velocity_ratio} /\n"
     if row.second:
         kinds += "&second_surface kind = 'harmonic' amplitude = 1e-3 /\n"
     case = pyehl.Case.from_text(
-        f"&contact shape = 'line' load_per_length = {line.load_per_length!r} radius = {line.radius!r} "
-        f"mean_velocity = {line.mean_velocity!r} /\n&lubricant {row.law} /\n"
-        f"&grid points = {257 if varies else 1025} {DOMAIN} /\n{kinds}"
+        f"&contact shape = 'line' load_per_length = {line.load_per_length!r} "
+        f"radius = {line.radius!r} mean_velocity = {line.mean_velocity!r} /\n"
+        f"&lubricant {row.law} /\n&grid points = {257 if varies else 1025} {DOMAIN} /\n{kinds}"
     )
     settings = case.resolve()
     film = formula_film(contact_of(settings), Lubricant.from_settings(settings))
@@ -157,9 +157,7 @@ def read(path: Path) -> dict[str, dict[str, Any]]:
 def main(arguments: list[str]) -> None:
     """Predict, simulate or compare."""
     what, *names = arguments
-    if what == "predict":
-        write(HERE / "predicted.csv", {name: predicted(row) for name, row in PLAN.items()})
-    elif what == "commit":
+    if what == "commit":
         found = read(HERE / "committed.csv")
         known = found | read(HERE / "simulated.csv")
         new = {name: predicted(row) for name, row in PLAN.items() if name not in known}
@@ -171,15 +169,17 @@ def main(arguments: list[str]) -> None:
                 # others may have been added meanwhile
                 write(HERE / "simulated.csv", read(HERE / "simulated.csv") | {name: row})
     elif what == "compare":
-        said, found = read(HERE / (names or ["predicted.csv"])[0]), read(HERE / "simulated.csv")
+        said, found = read(HERE / "committed.csv"), read(HERE / "simulated.csv")
         for name in PLAN:
             if name in said and name in found:
                 p, s = (float(rows[name]["mu_ratio"] or "nan") for rows in (said, found))
                 error = float(said[name]["mu_ratio_model_error"] or "nan")
                 grid = float(found[name]["mu_ratio_error_grid"] or "nan")
                 held = "covered" if abs(p - s) <= error else "not covered"
-                print(f"{name:10s} {p:.4f} / {s:.4f} +- {grid:.4f}: {p / s - 1.0:+.2%}, "
-                      f"stated {error / p:.2%}, {held}")
+                print(
+                    f"{name:10s} {p:.4f} / {s:.4f} +- {grid:.4f}: {p / s - 1.0:+.2%}, "
+                    f"stated {error / p:.2%}, {held}"
+                )
 
 
 if __name__ == "__main__":
