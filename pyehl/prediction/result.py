@@ -139,8 +139,8 @@ def summary_of(prediction: Prediction) -> dict[str, Any]:
         "cavitated_share": f.cavitated_share,
         "cavitated_friction": f.cavitated_friction,
         "load_error": f.load_error,
-        "moes_m": o.moes_m,
-        "moes_l": o.moes_l,
+        ("moes_m_line" if o.ellipse.is_line else "moes_m"): o.moes_m,
+        ("moes_l_line" if o.ellipse.is_line else "moes_l"): o.moes_l,
         "si": o.si,
         "hertz_radius_m": o.hertz_radius,
         "hertz_pressure_Pa": o.hertz_pressure,
@@ -240,14 +240,18 @@ def read_contact(folder: str | Path, operating: AnyContact, settings: Settings) 
         raise InputError(f"{folder}: not a result folder with fields ({why})") from error
     if summary["status"] != "converged":
         raise InputError(f"{folder}: not a solution, its status is '{summary['status']}'")
-    for name, here in (("moes_m", operating.moes_m), ("moes_l", operating.moes_l)):
+    line = "_line" if operating.ellipse.is_line else ""
+    for name, here in ((f"moes_m{line}", operating.moes_m), (f"moes_l{line}", operating.moes_l)):
+        if name not in summary:
+            raise InputError(f"{folder}: a line contact there or in the case, and a point contact")
         there = summary[name]
         if not math.isclose(there, here, rel_tol=1e-4):
             raise InputError(f"{folder}: {name} is {there:.6g} there and {here:.6g} in the case")
-    there, here = float(summary.get("radius_ratio") or 1.0), operating.radius_ratio
+    there = 0.0 if line else float(summary.get("radius_ratio") or 1.0)
+    here = operating.radius_ratio
     if not math.isclose(there, here, rel_tol=1e-4):
         raise InputError(f"{folder}: radius_ratio is {there:.6g} there and {here:.6g} in the case")
-    angle = float(of_folder["contact"]["angle"])
+    angle = float(of_folder["contact"].get("angle", 0.0))
     if here != 1.0 and angle != 0.0:
         raise InputError(f"{folder}: contact.angle is {angle:g} there and 0 in the case")
     flows = _flow(of_folder), _flow(settings)

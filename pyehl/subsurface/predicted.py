@@ -16,8 +16,8 @@ from pyehl.prediction.smooth import solve_contact
 from pyehl.results import settings_of
 from pyehl.subsurface.loads import Loads, made_of
 from pyehl.surfaces import Topography
+from pyehl.theory.line_contact import contact_of
 from pyehl.theory.lubricant import Lubricant
-from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Array
 
 if TYPE_CHECKING:
@@ -46,7 +46,7 @@ def predicted_loads(data: xr.Dataset, *, body: int | None, friction: str | float
             "stress needs psd.reduction = 'response': the model of the paper has no pressure at "
             "places of the contact"
         )
-    operating = OperatingPoint.from_settings(settings)
+    operating = contact_of(settings)
     surfaces = tuple(
         RoughSurface(
             _tile(data, side),
@@ -62,7 +62,9 @@ def predicted_loads(data: xr.Dataset, *, body: int | None, friction: str | float
     model = model.merged or model
     waves = model.components()
     contact = _contact(model, waves)
-    x, y = _with_margin(contact.x), _with_margin(contact.y)
+    # a strip repeats along y
+    x = _with_margin(contact.x)
+    y = contact.y if operating.ellipse.is_line else _with_margin(contact.y)
     pressure, film = smooth.at(x, y)
     inner = np.ix_(np.isin(x, contact.x), np.isin(y, contact.y))
     length = max(one.topography.length_x for one in model.surfaces) / operating.hertz_radius

@@ -26,8 +26,8 @@ REFERENCE_MODULUS = 2.26e11
 # and where L = 0, which has no speed either
 REFERENCE_L = 10.0
 NO_LINE = (
-    "contact.shape = 'line': line contacts have no prediction, response, curve or stress yet\n"
-    "expected: a point contact; run, solve, film, sweep, plot and report take lines"
+    "contact.shape = 'line': this is for point contacts\nexpected: a point contact; run, solve, "
+    "film, predict, stribeck, stress, sweep, plot and report take lines"
 )
 
 

@@ -371,10 +371,8 @@ def test_refused_beside_a_point(root, drivers, tmp_path, key):
         assert "contact.shape = 'line', or contact." in run.stderr
 
 
-def test_no_prediction_yet(root):
+def test_no_operating_point(root):
     case = root / "cases" / "line.nml"
-    with pytest.raises(pyehl.InputError, match=r"contact\.shape = 'line': line contacts have no"):
-        pyehl.predict(case)
     with pytest.raises(pyehl.InputError, match=r"contact\.shape = 'line'"):
         pyehl.OperatingPoint.from_settings(pyehl.Case(case).resolve())
 
