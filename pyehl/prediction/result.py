@@ -263,6 +263,9 @@ def read_contact(folder: str | Path, operating: AnyContact, settings: Settings) 
             f"{folder}: its bodies touch at the boundary film\nexpected: the contact solved with "
             "lubricant.boundary_film = 0"
         )
+    if line:
+        # all rows of a smooth strip are the same
+        y, pressure, film = y[:1], pressure[:, :1], film[:, :1]
     return contact_of(summary, (x, y), pressure, film, f"smooth contact in {folder}")
 
 

@@ -377,6 +377,16 @@ def test_no_operating_point(root):
         pyehl.OperatingPoint.from_settings(pyehl.Case(case).resolve())
 
 
+def test_inlet_that_is_too_short():
+    """A run without a result there asks for a longer inlet, not for a finer grid."""
+    with pytest.raises(pyehl.NotConverged) as info:
+        pyehl.solve(moes(0.5, 5.0, 257, x_inlet=-1.2))
+    message = info.value.results.attrs["message"]
+    assert "leave out grid.x_inlet" in message
+    assert "grid.points" not in message
+    assert pyehl.solve(moes(0.5, 5.0, 257)).attrs["status"] == "converged"
+
+
 def test_picture_and_report(root, tmp_path):
     found = pyehl.solve(root / "cases" / "line.nml", output=tmp_path / "out")
     figures = solution_figures(found)
