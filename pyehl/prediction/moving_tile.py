@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from pyehl import extension
 from pyehl.prediction.response import AXIS, LINES, STATIONS, Transfer
 from pyehl.prediction.spectrum import Spectrum
-from pyehl.theory.disc import LARGEST, RADIUS, RIM_ANGLES, disc_correction, disc_rim, monomials
+from pyehl.theory.disc import EDGE_ANGLES, LARGEST, RADIUS, disc_correction, edge_of_disc, monomials
 from pyehl.theory.ellipse import Ellipse
 from pyehl.theory.ellipse_edge import ellipse_edge
 from pyehl.theory.line_contact import AnyContact
@@ -53,7 +53,7 @@ class Edge:
     `coefficients` (n, m) of the polynomials [p_h] for the waves of the tile with wavenumbers
     qx >= 0, qy (m,) [1/a]: of :func:`pyehl.theory.disc.monomials` (n = 28) in a circle, of
     :mod:`pyehl.theory.ellipse_edge` in an ellipse. `rim` (k, m): how far they move the edge
-    outwards at RIM_ANGLES [semi-axes].
+    outwards at EDGE_ANGLES [semi-axes].
     """
 
     def __init__(
@@ -90,10 +90,10 @@ class Edge:
         qx, qy = spectrum.qx[i], spectrum.qy[j]
         amplitude = spectrum.amplitudes(i, j, flattened[i, j])
         if not i.size:
-            nothing = np.zeros((0, 0), complex), np.zeros((RIM_ANGLES.size, 0), complex)
+            nothing = np.zeros((0, 0), complex), np.zeros((EDGE_ANGLES.size, 0), complex)
             return cls(qx, qy, *nothing, shape)
         found = ellipse.correction(qx, qy) if ellipse else disc_correction(qx, qy)
-        rim = ellipse.rim(qx, qy) if ellipse else disc_rim(qx, qy)
+        rim = ellipse.rim(qx, qy) if ellipse else edge_of_disc(qx, qy)
         found, rim = found * amplitude, rim * amplitude
         if ellipse and beside is not None:
             # a wave whose amplitude changes across the motion is a sum of waves
@@ -115,7 +115,7 @@ class Edge:
         return Edge(self.qx[keep], self.qy[keep], *parts, self.shape)
 
     def at(self, shift: float, track: float) -> tuple[Array, Array]:
-        """Coefficients (n,) and how far the edge is moved outwards at RIM_ANGLES (k,).
+        """Coefficients (n,) and how far the edge is moved outwards at EDGE_ANGLES (k,).
 
         For a tile moved along and across the motion [a].
         """
