@@ -27,7 +27,8 @@ REASONS = {
     1: "there is no solution",
     2: "two coarser grids with a solution are needed",
     3: "the change from grid to grid does not fall: no limit is in sight",
-    4: "the domain is too small to determine the film of a flooded contact",
+    4: "the domain is too small to determine the film of a flooded contact: leave out "
+    "grid.x_inlet, or give one farther away",
     5: NO_INLET + ", and the bodies may touch for that: grid.points = {points_for_inlet} or more",
     6: "the grid is too coarse for a solution at this load: grid.points = {points_for_solution} or "
     "more",

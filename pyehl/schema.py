@@ -45,11 +45,11 @@ sp | assessment | | what the result is worth: a word, the reason, and what else 
 s | version | | version of the library
 sp | wall_seconds | s | time of the run
 s | bytes | byte | memory of the solver
-sf | shape | | 'line' of an infinite line contact, whose integrals are per length of it
+spf | shape | | 'line' of an infinite line contact, whose integrals are per length of it
 spfr | moes_m | - | Moes load M
 spfr | moes_l | - | Moes material number L
-sf | moes_m_line | - | Moes load M of a line
-sf | moes_l_line | - | Moes material number L of a line
+spf | moes_m_line | - | Moes load M of a line
+spf | moes_l_line | - | Moes material number L of a line
 sf | alpha_bar | - | alpha p_h
 sf | speed_parameter | - | 12 eta0 u R^2/(a^3 p_h)
 spf | hertz_pressure_Pa | Pa | p_h

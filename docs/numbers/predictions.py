@@ -230,3 +230,25 @@ def partial_rows() -> Values:
         lines[row["name"]] = f"{head} | {load} | {errors} | {area} | {friction}"
     moes_m, slip = (of(read("partial/table.csv"), name) for name in ("moes_m", "slide_to_roll"))
     return locals()
+
+
+def strips() -> Values:
+    """Rough strips of line contacts, predicted before they were simulated."""
+    said = {row["name"]: row for row in read("prediction_lines/committed.csv")}
+    rows = read("prediction_lines/simulated.csv")
+    table = [
+        "| strip | M, L | predicted | simulated | deviation | stated error |",
+        "|" + "---|" * 6,
+    ]
+    covered = 0
+    for row in rows:
+        one = said[row["name"]]
+        p, error, s = (
+            float(v) for v in (one["mu_ratio"], one["mu_ratio_model_error"], row["mu_ratio"])
+        )
+        covered += abs(p - s) <= error
+        table.append(
+            f"| {row['name']} | {row['moes_m']}, {row['moes_l']} | {p:.4f} | {s:.4f} | "
+            f"{percent(100.0 * (p / s - 1.0), 2)} | {100.0 * error / s:.1f} % |"
+        )
+    return {"rows": rows, "table": "\n".join(table), "covered": covered}

@@ -198,8 +198,9 @@ contains
          estimate = plan%estimate
          if (plan%counts) then
             counts = 1
-            call heat_film(plan%film, grid_t(nx=nx, ny=ny, x0=x0, y0=y0, hx=hx, hy=hy, mirror=mirror /= 0), lubricant, p, h, &
-                           .false., 1, found, touching=touching > 0)
+            call heat_film(plan%film, grid_t(nx=nx, ny=ny, x0=x0, y0=y0, hx=hx, hy=hy, mirror=mirror /= 0, &
+                                             periodic=input%contact%is_line()), &
+                           lubricant, p, h, .false., 1, found, touching=touching > 0)
             ratio = found%ratio()
             rises = found%greatest
          end if

@@ -4,6 +4,7 @@ module ehl_report_end
    use ehl_contact_run, only: contact_run_t, phase_stationary, phase_steps
    use ehl_kinds, only: dp
    use ehl_outcome, only: outcome_converged, outcome_negative_film, outcome_running
+   use ehl_reason, only: reason_small_domain
    use ehl_record, only: record_t
    use ehl_resolution, only: why_no_solution
    implicit none (type, external)
@@ -28,7 +29,8 @@ contains
       call report_place(record, run, "end_")
       if (present(coarse)) call report_place(record, coarse, "coarser_end_")
       associate (plan => run%plan)
-         call record%set_code("end_help", why_no_solution(plan%contact, plan%point, plan%finest))
+         call record%set_code("end_help", merge(why_no_solution(plan%contact, plan%point, plan%finest), reason_small_domain, &
+                                                plan%domain_cost(1) < 1.0_dp))
          call record%set_detail("surfaces_repeat", merge(1.0_dp, 0.0_dp, &
                                                          plan%surfaces%move() .and. .not. plan%surfaces%pass_once()))
          call record%set_detail("boundary_film_given", merge(1.0_dp, 0.0_dp, plan%lubricant%boundary_film > 0.0_dp))

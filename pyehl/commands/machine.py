@@ -27,8 +27,7 @@ def add_machine_arguments(parser: argparse.ArgumentParser, what: str) -> None:
         "--run",
         choices=RUNS,
         default="film",
-        help="film formulas, smooth solutions or predictions with roughness, of lines smooth "
-        "solutions (default: film)",
+        help="film formulas, smooth solutions or predictions with roughness (default: film)",
     )
     add_worker_arguments(parser, required=False)
     parser.add_argument("--json", action="store_true", help="print the sums as JSON, in SI units")

@@ -22,7 +22,6 @@ LINE, ELLIPSE = "line", "ellipse"
 WIDE = 0.01
 CROSSED = "minimum film above the central one: two formulas, of which one fails here"
 OUTSIDE = " outside its range of "
-LINES = "smooth solutions: the prediction has no line contacts"
 LONGEST = 30.0
 """Largest ratio of the semi-axes of an ellipse that the solver takes."""
 

@@ -79,12 +79,11 @@ class Prepared:
                 continue
             if one.text not in numbers:
                 case = trusted(one.text)
-                done = "solve" if one.line is not None else run
-                if done == "solve":
+                if run == "solve":
                     case = case.smooth() if rough else case
                 elif why := unpredictable(one.settings):
                     raise InputError(f"{one.contact.place}: {why}")
-                numbers[one.text] = self.tasks.add(len(numbers), case, done)
+                numbers[one.text] = self.tasks.add(len(numbers), case, run)
             self.number.append(numbers[one.text])
 
     def identity(self) -> dict[str, Any]:
@@ -109,7 +108,7 @@ class Prepared:
                 for film, n, place in zip(self.films, self.number, self.made.places, strict=True)
             ]
         )
-        summary = summary_of(self.machine, self.made, table, sigma, self.run)
+        summary = summary_of(self.machine, self.made, table, sigma)
         return MachineResult(str(summary["kind"]), table, summary)
 
 
@@ -200,8 +199,7 @@ def bearing(
     *options
         Values that replace those of the file, as of `Case`.
     run
-        'film': formulas, at once; 'solve': smooth contacts; 'predict': with the roughness, lines
-        smooth.
+        'film': formulas, at once; 'solve': smooth contacts; 'predict': with the roughness.
     output
         Folder for the table and the picture, and the journal from which an interrupted study is
         resumed; None: nothing is kept on disk.

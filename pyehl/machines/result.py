@@ -13,7 +13,7 @@ import xarray as xr
 from pyehl import display, surfaces
 from pyehl.case.machine import Machine
 from pyehl.machines.bearing import Bearing
-from pyehl.machines.contact import LINES, Film
+from pyehl.machines.contact import Film
 from pyehl.machines.friction import groove_sliding, rolling_force, traction
 from pyehl.machines.gear import GearPair
 from pyehl.machines.text import report
@@ -194,7 +194,7 @@ def table_of(rows: Sequence[Mapping[str, Any]]) -> pd.DataFrame:
 
 
 def summary_of(
-    machine: Machine, made: Bearing | GearPair, table: pd.DataFrame, sigma: float, run: str
+    machine: Machine, made: Bearing | GearPair, table: pd.DataFrame, sigma: float
 ) -> dict[str, Any]:
     """Give the sums of a machine element."""
     kind = "gear" if isinstance(made, GearPair) else "bearing"
@@ -222,8 +222,6 @@ def summary_of(
             found[f"{name}_torque_N_m"] = power / made.speed
         found["torque_N_m"] = sum(powers.values()) / made.speed
     found["left_out"] = LEFT_OUT[kind]
-    if run == "predict" and (table["shape"] == "line").any():
-        found["lines"] = LINES
     return found
 
 

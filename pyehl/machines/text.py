@@ -88,7 +88,6 @@ def notes_of(table: pd.DataFrame, summary: Mapping[str, Any]) -> list[str]:
         found.append(
             "solids     minimum Lambda below 1: the surfaces touch, which no friction here has"
         )
-    found += [f"lines      {summary['lines']}"] if "lines" in summary else []
     return [*found, f"left out   {summary['left_out']}"]
 
 

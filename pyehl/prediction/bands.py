@@ -12,7 +12,7 @@ from pyehl.prediction.spectrum import Spectrum
 from pyehl.surfaces.map_steps import cropped, prominence
 from pyehl.surfaces.prepare import Preparation
 from pyehl.surfaces.tile import Topography
-from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.line_contact import AnyContact
 from pyehl.types import Array, Mask
 
 # A wave at the end of an octave begins the next one, whatever its last digits
@@ -67,7 +67,7 @@ def joining(
     waves: tuple[Array, Array, Array, Array],
     below: Callable[[float], float],
     total: float,
-    operating: OperatingPoint,
+    operating: AnyContact,
     *,
     brief: bool,
 ) -> list[Band]:

@@ -218,6 +218,9 @@ class MixedContact:
         """Roughness on a box around the contact."""
         rough, tile, o = self.rough, self.tile, self.model.operating
         box = [scipy.fft.next_fast_len(math.ceil(BOX * n), real=True) for n in rough.film.shape]
+        if rough.strip:
+            # the strip repeats itself
+            box[1] = rough.film.shape[1]
         firsts = tile.rows[0], tile.columns[0]
         rows, columns = (
             (first + self.stride * np.arange(n)) % size

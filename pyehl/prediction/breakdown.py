@@ -64,8 +64,8 @@ def below_zero(
     Every pixel of a tile within b of the track passes through the contact at some time, along its
     row, and meets the minimum smooth film of that row, and the highest point of the other tile on
     it. The deformed roughness (nx, ny) [m], row 0 through the centre, is taken to be that at the
-    centre on the whole way. Semi-axes a and b of the contact in m. The share is that of one tile,
-    NaN of two: it needs the positions of a prediction.
+    centre on the whole way. Semi-axes a and b of the contact in m, b infinite of a line. The share
+    is that of one tile, NaN of two: it needs the positions of a prediction.
     """
     a, b = semi_axes
     smooth, columns = _strip(tiles, a, b, sustained)
@@ -93,8 +93,11 @@ def _strip(
     And the column of each tile (m,) on the rows, which are as far apart as the finest pixels.
     """
     pixel = min(tile.pixel[1] for tile in tiles)
-    reach = int(b / pixel)
-    y = np.asarray(np.arange(-reach, reach + 1) * pixel, dtype=float)
+    if math.isinf(b):
+        rows = np.arange(round(max(tile.length_y for tile in tiles) / pixel))
+    else:
+        rows = np.arange(-int(b / pixel), int(b / pixel) + 1)
+    y = np.asarray(rows * pixel, dtype=float)
     x: Array = a * ((2.0 * np.arange(PLACES) + 1.0) / PLACES - 1.0)
     inside = np.hypot(x[:, np.newaxis], y[np.newaxis, :] * (a / b)) < a
     columns = [np.rint(y / tile.pixel[1]).astype(int) % tile.shape[1] for tile in tiles]

@@ -18,8 +18,8 @@ from pyehl.prediction.relative_positions import Passage, Positions
 from pyehl.prediction.rough_contact import HertzContact, Response, RoughContact, ShearedContact
 from pyehl.prediction.spectrum import longer_waves
 from pyehl.surfaces import interpolated, track_offsets
+from pyehl.theory.line_contact import AnyContact
 from pyehl.theory.lubricant import Lubricant
-from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Array
 
 if TYPE_CHECKING:
@@ -100,12 +100,12 @@ class RoughFriction:
         return self.shifts[0]
 
 
-def thins(lubricant: Lubricant, operating: OperatingPoint) -> bool:
+def thins(lubricant: Lubricant, operating: AnyContact) -> bool:
     """Whether the shear stress is another than the Newtonian one."""
     return lubricant.shear.law != "newtonian" and operating.sliding_speed > 0.0
 
 
-def meaning(lubricant: Lubricant, operating: OperatingPoint) -> str:
+def meaning(lubricant: Lubricant, operating: AnyContact) -> str:
     """Say what mu_r/mu_s is."""
     stress = STRESS_NOTE + ("" if lubricant.shear.in_flow else NEWTONIAN_FLOW_NOTE)
     note = stress if thins(lubricant, operating) else NEWTONIAN_NOTE
@@ -404,7 +404,7 @@ def below(model: Model, waves: Components, limits: Sequence[float]) -> float:
     kept, powers = [], []
     for wave, limit in zip(waves, limits, strict=True):
         spectrum = wave.spectrum
-        few, index = longer_waves(spectrum, limit, model.operating.ellipse.ellipticity)
+        few, index = longer_waves(spectrum, limit, model.operating.ellipse.side)
         powers.append(np.where(spectrum.q < limit, spectrum.power, 0.0))
         parts = few, wave.transfer.kept(index), wave.edge.below(limit)
         kept.append(Component(*parts, wave.velocity_ratio))

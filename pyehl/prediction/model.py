@@ -48,7 +48,7 @@ from functools import cached_property
 import numpy as np
 
 from pyehl.errors import InputError
-from pyehl.prediction.moving_tile import Component, Edge, PixelTile
+from pyehl.prediction.moving_tile import Component, Edge, PixelTile, long_waves
 from pyehl.prediction.relative_positions import Positions, RelativePositions, TilePositions
 from pyehl.prediction.response import Transfer
 from pyehl.prediction.rough_contact import HertzContact, Response, RoughContact
@@ -56,9 +56,11 @@ from pyehl.prediction.smooth import SmoothContact, circle_of, zone_of
 from pyehl.prediction.spectrum import Spectrum, merged, working_grid
 from pyehl.surfaces import FEATURES, Topography, filtered, rough_groups
 from pyehl.theory.amplitude import component_amplitude_ratio
+from pyehl.theory.ellipse import Ellipse
+from pyehl.theory.line_contact import AnyContact, contact_of
 from pyehl.theory.lubricant import Lubricant
-from pyehl.theory.operating import NO_LINE, OperatingPoint
 from pyehl.theory.response import fitted_range
+from pyehl.theory.strip_edge import StripEdge
 from pyehl.types import Array, Settings
 
 
@@ -81,12 +83,9 @@ def unpredictable(settings: Settings) -> str:
 
 
 def turned(settings: Settings) -> str:
-    """Say why a line or an ellipse has no response; '' where an axis lies along the motion."""
-    contact = settings["contact"]
-    if contact.get("shape") == "line":
-        return NO_LINE
-    angle = float(contact["angle"])
-    if angle == 0.0 or OperatingPoint.from_settings(settings).radius_ratio == 1.0:
+    """Say why an ellipse has no response; '' where an axis lies along the motion."""
+    angle = float(settings["contact"].get("angle", 0.0))
+    if angle == 0.0 or contact_of(settings).radius_ratio == 1.0:
         return ""
     return (
         f"contact.angle = {angle:g}: the response of an elliptical contact is known where an axis "
@@ -190,7 +189,7 @@ def why_no_error(
 
 
 def outside_range(
-    operating: OperatingPoint, velocity_ratio: float, options: ModelOptions, thinning: float = 1.0
+    operating: AnyContact, velocity_ratio: float, options: ModelOptions, thinning: float = 1.0
 ) -> list[str]:
     """Names of the numbers that lie outside the range in which the response was measured.
 
@@ -204,7 +203,7 @@ def outside_range(
         "moes_m": moes_m,
         "moes_l": moes_l,
         "velocity_ratio": velocity_ratio,
-        "ellipticity": operating.ellipse.ellipticity,
+        "ellipticity": operating.ellipse.side,
         "thinning": thinning,
     }
     limits = fitted_range() | {
@@ -216,6 +215,13 @@ def outside_range(
 
 
 Components = list[Component]
+
+
+def _distinct(wavenumbers: Array, least: float) -> Array:
+    """Return wavenumbers once each, those that differ by less than a least one as one."""
+    found = np.unique(wavenumbers)
+    return found[np.diff(found, prepend=-math.inf) > least]
+
 
 PIXEL_POINTS = 60
 """Points per shorter semi-axis at which the shear stress under one surface is taken: the tile is
@@ -245,7 +251,7 @@ class Model:
 
     surfaces: tuple[RoughSurface, ...]
     contact: SmoothContact
-    operating: OperatingPoint
+    operating: AnyContact
     lubricant: Lubricant
     options: ModelOptions
     mesh: float = 0.0  # mesh size on which the waves leak [a]; 0: as in nature
@@ -255,7 +261,7 @@ class Model:
         cls,
         tile: Topography,
         contact: SmoothContact,
-        operating: OperatingPoint,
+        operating: AnyContact,
         lubricant: Lubricant,
         options: ModelOptions,
         velocity_ratio: float,
@@ -342,11 +348,19 @@ class Model:
         """
         tiles = self.grids() if tiles is None else tiles
         spectra = [self.spectrum(tiles[k]) for k in self.order]
-        shape = self.operating.ellipse
+        shape = self._shape(spectra)
         return [
             Component(s, t, Edge.of(s, t, one.velocity_ratio, shape), one.velocity_ratio)
             for s, t, one in zip(spectra, self.transfers(spectra), self.in_order, strict=True)
         ]
+
+    def _shape(self, spectra: Sequence[Spectrum]) -> Ellipse | StripEdge:
+        """Shape of the contact; of a line with all long waves across the motion."""
+        if not self.operating.ellipse.is_line:
+            return self.operating.ellipse
+        across = [np.abs(s.qy[long_waves(s, StripEdge.largest)[1]]) for s in spectra]
+        width = max(s.pixel[1] * s.shape[1] for s in spectra)
+        return StripEdge(_distinct(np.concatenate(across), 1.0 / width), width)
 
     def grids(self) -> list[Topography]:
         """Put the tiles, by number, on grids that resolve the contact, with room for the positions.

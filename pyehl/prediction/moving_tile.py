@@ -13,6 +13,7 @@ pressures by p_h.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -25,9 +26,10 @@ from pyehl.prediction.spectrum import Spectrum
 from pyehl.theory.disc import EDGE_ANGLES, LARGEST, RADIUS, disc_correction, edge_of_disc, monomials
 from pyehl.theory.ellipse import Ellipse
 from pyehl.theory.ellipse_edge import ellipse_edge
-from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.line_contact import AnyContact
+from pyehl.theory.strip_edge import StripEdge
 from pyehl.theory.transport import free_stiffness, harmonics, stiffness
-from pyehl.types import Array, Complex, Single
+from pyehl.types import Array, Complex, Indices, Single
 
 if TYPE_CHECKING:
     from pyehl.prediction.rough_contact import RoughContact
@@ -38,38 +40,55 @@ if TYPE_CHECKING:
 EDGE_RADIUS = 0.85
 
 
+def long_waves(spectrum: Spectrum, largest: float) -> tuple[Indices, Indices]:
+    """Rows and columns of the components with |q| up to a largest one [1/a] that count."""
+    strong = np.abs(spectrum.values) > 1e-9 * np.abs(spectrum.values).max()
+    i, j = np.nonzero((spectrum.q > 0.0) & (spectrum.q < largest) & strong)
+    return i, j
+
+
 class Edge:
     """What the edge of the contact does to the pressure of the long waves of a tile.
 
     `coefficients` (n, m) of the polynomials [p_h] for the waves of the tile with wavenumbers
     qx >= 0, qy (m,) [1/a]: of :func:`pyehl.theory.disc.monomials` (n = 28) in a circle, of
     :mod:`pyehl.theory.ellipse_edge` in an ellipse. `rim` (k, m): how far they move the edge
-    outwards at RIM_ANGLES [semi-axes].
+    outwards at EDGE_ANGLES [semi-axes].
     """
 
     def __init__(
-        self, qx: Array, qy: Array, coefficients: Complex, rim: Complex, shape: Ellipse
+        self,
+        qx: Array,
+        qy: Array,
+        coefficients: Complex,
+        rim: Complex,
+        shape: Ellipse | StripEdge,
     ) -> None:
         self.qx, self.qy, self.coefficients, self.rim = qx, qy, coefficients, rim
         self.shape = shape
 
     @classmethod
     def of(
-        cls, spectrum: Spectrum, transfer: Transfer, velocity_ratio: float, shape: Ellipse
+        cls,
+        spectrum: Spectrum,
+        transfer: Transfer,
+        velocity_ratio: float,
+        shape: Ellipse | StripEdge,
     ) -> Edge:
         """Of a tile that moves, by what is left of its components."""
         flattened = 1.0 - transfer.at_centre(spectrum, velocity_ratio)
         # by how much less on lines beside the centre line of an ellipse (lines, ...)
         beside = transfer.beside(spectrum.qx, velocity_ratio)
-        nx, ny = spectrum.shape
-        q = spectrum.q
-        strong = np.abs(spectrum.values) > 1e-9 * np.abs(spectrum.values).max()
+        if isinstance(shape, StripEdge):
+            i, j = long_waves(spectrum, shape.largest)
+            amplitude = spectrum.amplitudes(i, j, flattened[i, j])
+            qx, qy = spectrum.qx[i], spectrum.qy[j]
+            found, rim = shape.correction(qx, qy) * amplitude, shape.rim(qx, qy) * amplitude
+            return cls(qx, qy, found, rim, shape)
         ellipse = None if shape.radius_ratio == 1.0 else ellipse_edge(shape)
-        i, j = np.nonzero((q > 0.0) & (q < (ellipse.largest if ellipse else LARGEST)) & strong)
+        i, j = long_waves(spectrum, ellipse.largest if ellipse else LARGEST)
         qx, qy = spectrum.qx[i], spectrum.qy[j]
-        # a component stands for its conjugate at -q too, unless both are in the half spectrum
-        twice = np.where((i == 0) | ((nx % 2 == 0) & (i == nx // 2)), 1.0, 2.0)
-        amplitude = twice * spectrum.values[i, j] * flattened[i, j] / (nx * ny)
+        amplitude = spectrum.amplitudes(i, j, flattened[i, j])
         if not i.size:
             nothing = np.zeros((0, 0), complex), np.zeros((EDGE_ANGLES.size, 0), complex)
             return cls(qx, qy, *nothing, shape)
@@ -78,7 +97,7 @@ class Edge:
         found, rim = found * amplitude, rim * amplitude
         if ellipse and beside is not None:
             # a wave whose amplitude changes across the motion is a sum of waves
-            parts = -twice * spectrum.values[i, j] / (nx * ny) * beside[:, i, j]
+            parts = -spectrum.amplitudes(i, j) * beside[:, i, j]
             for k, part in zip(*harmonics(parts), strict=True):
                 there = qy + k / shape.ellipticity
                 q = np.hypot(qx, there)
@@ -96,7 +115,7 @@ class Edge:
         return Edge(self.qx[keep], self.qy[keep], *parts, self.shape)
 
     def at(self, shift: float, track: float) -> tuple[Array, Array]:
-        """Coefficients (n,) and how far the edge is moved outwards at RIM_ANGLES (k,).
+        """Coefficients (n,) and how far the edge is moved outwards at EDGE_ANGLES (k,).
 
         For a tile moved along and across the motion [a].
         """
@@ -105,6 +124,7 @@ class Edge:
 
     def polynomials(self, x: Array, y: Array) -> Array:
         """Polynomials (n, ...) at places by the semi-axes, held constant near the edge."""
+        assert not isinstance(self.shape, StripEdge)
         ellipse = None if self.shape.radius_ratio == 1.0 else ellipse_edge(self.shape)
         held = np.minimum(
             1.0, (RADIUS if ellipse else EDGE_RADIUS) / np.maximum(np.hypot(x, y), 1e-12)
@@ -211,8 +231,10 @@ class WaveTiles:
 
         Parts (2, n) of lines off the centre and of those after them. None without free waves.
         """
-        if self.free is None or self.off_centre is None:
+        if self.free is None:
             return None
+        if self.off_centre is None:
+            return np.zeros((self.free.shape[1], columns.size, 2), dtype=np.float32)
         weights = part[..., np.newaxis, np.newaxis]
         waves = weights[0] * self.off_centre[line, :, columns]
         waves += weights[1] * self.off_centre[line + 1, :, columns]
@@ -287,18 +309,32 @@ class Tile(Protocol):
         ...
 
 
+def _steps(reach: float, pixel: float, pixels: int, stride: int) -> NDArray[np.int32]:
+    """Every `stride`-th pixel within a reach [a]; of a line, which has none across, of the tile."""
+    if math.isinf(reach):
+        return np.arange(0, pixels, stride, dtype=np.int32)
+    n = int(reach / (stride * pixel))
+    return np.arange(-n, n + 1, dtype=np.int32) * np.int32(stride)
+
+
 class PixelTile:
     """A tile whose pixels, every `stride`-th, are the points of the contact."""
 
     def __init__(
-        self, wave: Component, central_film: float, stride: int, operating: OperatingPoint
+        self, wave: Component, central_film: float, stride: int, operating: AnyContact
     ) -> None:
         self.wave, self.stride, self.pixel = wave, stride, wave.spectrum.pixel
         ratio, transfer = wave.velocity_ratio, wave.transfer
         self.waves = WaveTiles.of(wave.spectrum, transfer, central_film, ratio, stride)
-        reach = REACH, REACH * operating.ellipse.ellipticity
-        half = [int(r / (stride * p)) for r, p in zip(reach, self.pixel, strict=True)]
-        self.rows, self.columns = (np.arange(-n, n + 1, dtype=np.int32) * stride for n in half)
+        self.rows, self.columns = (
+            _steps(reach, pixel, n, stride)
+            for reach, pixel, n in zip(
+                (REACH, REACH * operating.ellipse.ellipticity),
+                self.pixel,
+                wave.spectrum.shape,
+                strict=True,
+            )
+        )
         self.x, self.y = (
             np.asarray(index * p, dtype=float)
             for index, p in zip((self.rows, self.columns), self.pixel, strict=True)

@@ -41,9 +41,8 @@ from pyehl.prediction.smooth import (
 )
 from pyehl.prediction.spectrum import WORKING_PIXELS, Together
 from pyehl.surfaces import Topography
-from pyehl.theory.film import central_film
+from pyehl.theory.line_contact import AnyContact, contact_of, formula_film
 from pyehl.theory.lubricant import Lubricant
-from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Settings
 
 LENGTHS = (30e-6, 100e-6, 0.0)
@@ -132,18 +131,19 @@ ENOUGH = 3.0
 """Contacts, along each side, of a part that is offered in place of a larger map."""
 
 
-def seconds_of(tile: Topography, operating: OperatingPoint) -> float:
+def seconds_of(tile: Topography, operating: AnyContact) -> float:
     """Seconds that the prediction of a tile takes, to a factor of two."""
-    sides = list(zip(tile.shape, tile.size, operating.semi_axes, strict=True))
+    a = operating.hertz_radius
+    sides = list(zip(tile.shape, tile.size, (a, a * operating.ellipse.side), strict=True))
     pixels = math.prod(max(n, size / a * WORKING_PIXELS) for n, size, a in sides)
     # points in the contact, no fewer than tiles across the motion
-    a = operating.hertz_radius
-    points = math.pi * a * operating.semi_axis_y / min(a / PIXEL_POINTS, *tile.size) ** 2
+    area = operating.dry_area * (tile.length_y if operating.ellipse.is_line else 1.0)
+    points = area / min(a / PIXEL_POINTS, *tile.size) ** 2
     return PER_PIXEL * pixels + PER_POINT * points
 
 
 def report_cost(
-    tile: Topography, operating: OperatingPoint, group: str = "surface", beside: int = 0
+    tile: Topography, operating: AnyContact, group: str = "surface", beside: int = 0
 ) -> None:
     """Describe what a large tile takes, and which part of its map is enough.
 
@@ -173,7 +173,7 @@ def report_cost(
 
 
 def _part(
-    tile: Topography, operating: OperatingPoint, own: list[float], seconds: float, group: str
+    tile: Topography, operating: AnyContact, own: list[float], seconds: float, group: str
 ) -> str:
     """Offer the middle of a map as read, where it was not turned."""
     made = tile.preparation
@@ -233,7 +233,7 @@ def predict(
     start = time.perf_counter()
     refuse_duty(settings)
     options = _options(settings, tracks)
-    operating = OperatingPoint.from_settings(settings)
+    operating = contact_of(settings)
     lubricant = Lubricant.from_settings(settings, str(settings["psd"]["viscosity_law"]))
     contact = _contact(settings, operating, lubricant, options, smooth)
     films = contact
@@ -243,7 +243,8 @@ def predict(
     given = {"surface": surface, "second_surface": second_surface}
     rough = _surfaces(settings, given, operating, film * operating.film_scale, brief=brief)
     model = Model(rough, contact, operating, lubricant, options)
-    tracks = 0 if brief else tracks
+    # a strip is in the contact with all its tracks
+    tracks = 0 if brief or operating.ellipse.is_line else tracks
     waves = None if model.merged else model.components()
     outcome = run(model, tracks, brief=brief, waves=waves)
     sustained = sustained_by(model)
@@ -284,7 +285,7 @@ def predict(
 def _surfaces(
     settings: Mapping[str, Mapping[str, Any]],
     given: Mapping[str, surfaces.Topography | None],
-    operating: OperatingPoint,
+    operating: AnyContact,
     film: float,
     *,
     brief: bool,
@@ -344,7 +345,7 @@ def _options(settings: Mapping[str, Mapping[str, Any]], tracks: int) -> ModelOpt
         raise InputError(why)
     options = ModelOptions.from_settings(settings)
     as_by_default = ModelOptions(positions=options.positions, film_limit=options.film_limit)
-    if OperatingPoint.from_settings(settings).radius_ratio != 1.0 and options != as_by_default:
+    if contact_of(settings).radius_ratio != 1.0 and options != as_by_default:
         raise InputError(
             "psd: the model of the paper, and what is between it and the response, is for circular "
             "contacts\nexpected: contact.radius, or the group psd as by default"
@@ -364,7 +365,7 @@ def _options(settings: Mapping[str, Mapping[str, Any]], tracks: int) -> ModelOpt
 
 def _contact(
     settings: Mapping[str, Mapping[str, Any]],
-    operating: OperatingPoint,
+    operating: AnyContact,
     lubricant: Lubricant,
     options: ModelOptions,
     folder: str | os.PathLike[str] | None,
@@ -379,7 +380,7 @@ def _contact(
     if options.smooth == "hertz":
         if given > 0.0:
             return hertz_contact(given, "psd.film_thickness")
-        formula = central_film(operating, lubricant) / operating.film_scale
+        formula = formula_film(operating, lubricant) / operating.film_scale
         return hertz_contact(formula, "Nijenbanning-Venner-Moes formula over rho(p_h)/rho0")
     contact = solve_contact(settings)
     if given > 0.0:

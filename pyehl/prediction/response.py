@@ -152,6 +152,11 @@ class SecondOrder:
         return sums / np.where(variance > 0.0, variance, 1.0) ** 2, variance
 
 
+def _lines(zone: Zone) -> Array:
+    """Lines on which the free wave is made: of a line contact one, which is like all others."""
+    return LINES if np.isfinite(zone.ellipticity) else LINES[AXIS : AXIS + 1]
+
+
 STATIONS = np.array([-0.5, 0.0, 0.5])
 """Where the waves are made, along the motion [a]; between them they are interpolated. Two more, at
 -0.25 and 0.25, change mu_r/mu_s of Table 1 by 0.06 % and, at a velocity ratio of 1.2, by 0.2 %."""
@@ -211,27 +216,28 @@ class _Entering:
     def __init__(
         self, spectrum: Spectrum, velocity_ratio: float, zone: Zone, moes: tuple[float, float]
     ) -> None:
-        self.bent = _bends(spectrum, velocity_ratio)
+        lines = _lines(zone)
+        self.bent, self._axis = lines.size > 1 and _bends(spectrum, velocity_ratio), lines.size // 2
         self.table, self.ratio = WaveTable(spectrum), velocity_ratio
         self._power, self._negative = spectrum.power, spectrum.qy < 0.0
         kx, ky = self.table.kx, self.table.ky
         # the inlet of a strip off the centre line lies further along the motion
         self._slip = velocity_ratio - 1.0
-        self._inlet = inlet_transfer(zone, kx, ky, moes, velocity_ratio, LINES)
-        if not self.bent:
+        self._inlet = inlet_transfer(zone, kx, ky, moes, velocity_ratio, lines)
+        if not self.bent and lines.size > 1:
             self._inlet *= _bend(kx, self._slip)
 
     def variance(self, zone: Zone, mesh: float) -> float:
         """Mean square of their pressure at X = 0 where they leak as in a zone [p_h^2]."""
         few = self.table.coarse()
-        carried = coarsened(self._inlet[AXIS], 1) * np.exp(1j * few[0] * self._slip)
+        carried = coarsened(self._inlet[self._axis], 1) * np.exp(1j * few[0] * self._slip)
         driven, free = transport(zone, *few, self.ratio, CENTRE, mesh)[MIDDLE]
         pressure = zone.stiffness * wave_pressure(*few, self.ratio, driven, free * carried)
         return float(self.table.gathered(self._power) @ np.square(np.abs(pressure)))
 
     def at_stations(self, zone: Zone, mesh: float) -> _AtStations:
         """Give what becomes of them where they leak as in a zone."""
-        kx, ky, inlet = self.table.kx, self.table.ky, self._inlet[AXIS]
+        kx, ky, inlet = self.table.kx, self.table.ky, self._inlet[self._axis]
         stations = transport(zone, kx, ky, self.ratio, STATIONS, mesh)
         turned = [np.exp(1j * kx * self._slip * (x + 1.0)) for x in STATIONS]
         parts = [(d, f * inlet * t) for (d, f), t in zip(stations, turned, strict=True)]
@@ -243,13 +249,13 @@ class _Entering:
         ]
         beside = stations[MIDDLE][1] * (self._inlet - inlet)
         pressed_by: Sequence[Complex] = ()
-        if zone.ellipticity != 1.0:
+        if zone.ellipticity != 1.0 and np.isfinite(zone.ellipticity):
             bend = _bend(kx, self._slip) if self.bent else 1.0
             pressed_by = list(pressed(beside * bend, kx, ky, self.ratio, zone.ellipticity) / bend)
         found = self.table.spread(
             driven=[driven for driven, _ in stations],
             free=[free * inlet for _, free in stations],
-            off_centre=list(np.delete(beside, AXIS, 0)),
+            off_centre=list(np.delete(beside, self._axis, 0)),
             pressed=pressed_by,
         )
         # the table has k_Y > 0; a wave with -k_Y is on a line what one with k_Y is on its mirror
@@ -361,9 +367,10 @@ class Transfer:
     def gain(self, qx: Array, qy: Array, central_film: float) -> Array:
         """Stiffness of waves [1/a] over that of the half-space under a circle, at H_c [a^2/R].
 
-        The factor that was measured on circles is for what is calculated on ellipses.
+        The factor that was measured on circles is for what is calculated on ellipses; a line has no
+        sides.
         """
-        if self.pressed:
+        if self.pressed or np.isinf(self.ellipticity):
             return np.full(np.broadcast_shapes(qx.shape, qy.shape), self.stiffening)
         return self.stiffening * edge_gain(qx, qy, self.stiffening * central_film)
 

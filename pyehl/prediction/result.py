@@ -56,8 +56,8 @@ from pyehl.surfaces import Topography, psd_isotropic
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.friction import absolute_friction
 from pyehl.theory.heat import Heat
+from pyehl.theory.line_contact import AnyContact
 from pyehl.theory.lubricant import Lubricant
-from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.shear import ShearLaw
 from pyehl.types import Array, Settings
 
@@ -139,8 +139,8 @@ def summary_of(prediction: Prediction) -> dict[str, Any]:
         "cavitated_share": f.cavitated_share,
         "cavitated_friction": f.cavitated_friction,
         "load_error": f.load_error,
-        "moes_m": o.moes_m,
-        "moes_l": o.moes_l,
+        ("moes_m_line" if o.ellipse.is_line else "moes_m"): o.moes_m,
+        ("moes_l_line" if o.ellipse.is_line else "moes_l"): o.moes_l,
         "si": o.si,
         "hertz_radius_m": o.hertz_radius,
         "hertz_pressure_Pa": o.hertz_pressure,
@@ -149,8 +149,10 @@ def summary_of(prediction: Prediction) -> dict[str, Any]:
         "spectrum_beside": list(prediction.beside) or None,
         "wall_seconds": prediction.seconds,
     }
-    if o.radius_ratio != 1.0:
-        values |= {"radius_ratio": o.radius_ratio, "semi_axis_y_m": o.semi_axis_y}
+    if o.ellipse.is_line:
+        values["shape"] = "line"
+    elif o.radius_ratio != 1.0:
+        values |= {"radius_ratio": o.radius_ratio, "semi_axis_y_m": o.semi_axes[1]}
         values["ellipticity"] = o.ellipse.ellipticity
     found = {key: finite(value) for key, value in values.items()}
     return found | {"assessment": assess(found).text}
@@ -219,9 +221,7 @@ def draw(prediction: Prediction, folder: str | os.PathLike[str]) -> None:
     write_json(folder / "summary.json", written | {"files": sorted([*written["files"], *drawn])})
 
 
-def read_contact(
-    folder: str | Path, operating: OperatingPoint, settings: Settings
-) -> SmoothContact:
+def read_contact(folder: str | Path, operating: AnyContact, settings: Settings) -> SmoothContact:
     """Pressure and film from a result folder, of a smooth contact or under a transient run.
 
     InputError if it is not the folder of a converged solution of the same contact: M and L, ratio
@@ -240,14 +240,18 @@ def read_contact(
         raise InputError(f"{folder}: not a result folder with fields ({why})") from error
     if summary["status"] != "converged":
         raise InputError(f"{folder}: not a solution, its status is '{summary['status']}'")
-    for name, here in (("moes_m", operating.moes_m), ("moes_l", operating.moes_l)):
+    line = "_line" if operating.ellipse.is_line else ""
+    for name, here in ((f"moes_m{line}", operating.moes_m), (f"moes_l{line}", operating.moes_l)):
+        if name not in summary:
+            raise InputError(f"{folder}: a line contact there or in the case, and a point contact")
         there = summary[name]
         if not math.isclose(there, here, rel_tol=1e-4):
             raise InputError(f"{folder}: {name} is {there:.6g} there and {here:.6g} in the case")
-    there, here = float(summary.get("radius_ratio") or 1.0), operating.radius_ratio
+    there = 0.0 if line else float(summary.get("radius_ratio") or 1.0)
+    here = operating.radius_ratio
     if not math.isclose(there, here, rel_tol=1e-4):
         raise InputError(f"{folder}: radius_ratio is {there:.6g} there and {here:.6g} in the case")
-    angle = float(of_folder["contact"]["angle"])
+    angle = float(of_folder["contact"].get("angle", 0.0))
     if here != 1.0 and angle != 0.0:
         raise InputError(f"{folder}: contact.angle is {angle:g} there and 0 in the case")
     flows = _flow(of_folder), _flow(settings)
@@ -259,6 +263,9 @@ def read_contact(
             f"{folder}: its bodies touch at the boundary film\nexpected: the contact solved with "
             "lubricant.boundary_film = 0"
         )
+    if line:
+        # all rows of a smooth strip are the same
+        y, pressure, film = y[:1], pressure[:, :1], film[:, :1]
     return contact_of(summary, (x, y), pressure, film, f"smooth contact in {folder}")
 
 
@@ -347,7 +354,7 @@ class Prediction:
     beside: Sequence[Mapping[str, Any]] = ()
 
     @property
-    def operating(self) -> OperatingPoint:
+    def operating(self) -> AnyContact:
         """The operating point."""
         return self.model.operating
 

@@ -36,9 +36,10 @@ from pyehl.prediction.moving_tile import (
 from pyehl.prediction.response import FILM_ENDS, STATIONS, film_left
 from pyehl.prediction.smooth import SmoothContact
 from pyehl.theory.disc import EDGE_ANGLES
+from pyehl.theory.line_contact import AnyContact
 from pyehl.theory.lubricant import Lubricant
-from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.shear import shear_stress
+from pyehl.theory.strip_edge import StripEdge
 from pyehl.types import Array, Indices, Mask, Single
 
 INNER = 0.8
@@ -66,7 +67,7 @@ class ShearedContact:
     points: int  # within the contact
     area: float  # that one of them stands for [m^2]
 
-    def __init__(self, operating: OperatingPoint, lubricant: Lubricant) -> None:
+    def __init__(self, operating: AnyContact, lubricant: Lubricant) -> None:
         self.operating, self.lubricant = operating, lubricant
         # without sliding the shear stress is the Newtonian one
         self.thins = lubricant.shear.law != "newtonian" and operating.sliding_speed > 0.0
@@ -146,7 +147,7 @@ class HertzContact(ShearedContact):
         film: float,
         *,
         pixel: tuple[float, float],
-        operating: OperatingPoint,
+        operating: AnyContact,
         lubricant: Lubricant,
         load_balance: bool,
     ) -> None:
@@ -223,14 +224,14 @@ or less change mu_r/mu_s by less than 1e-5 where no ring loses its load."""
 class RoughContact(ShearedContact):
     """Points of a contact at places x (m,), y (n,) [a] that the waves of rough surfaces change.
 
-    A point stands for an `area` [m^2]; `powers` of the components as the transfers were made for
-    them.
+    A point stands for an `area` [m^2], of a line per length [m]; `powers` of the components as the
+    transfers were made for them.
     """
 
     def __init__(
         self,
         smooth: SmoothContact,
-        operating: OperatingPoint,
+        operating: AnyContact,
         lubricant: Lubricant,
         x: Array,
         y: Array,
@@ -250,16 +251,20 @@ class RoughContact(ShearedContact):
         radius = self.radius[self.inside]
         self.inner, self.near = (radius < r for r in (INNER, NEAR))
         self.rings = np.searchsorted(RINGS, radius, side="right") - 1
-        self.contact, self.moved = smooth, np.zeros(EDGE_ANGLES.size)
+        edge = max((wave.edge for wave in waves), key=lambda edge: edge.coefficients.shape)
+        self.contact, self.moved = smooth, np.zeros(edge.rim.shape[0])
+        self.strip = edge.shape if isinstance(edge.shape, StripEdge) else None
         self.outer, self.lowest = self._outer(smooth), float(smooth.film.min())
         self.minimum = math.inf
         self.weights = station_weights(self.x).astype(np.float32)
         self.expansion = self._expansion(smooth)
         # (n, points): what is summed over them is read in order
-        edge = max((wave.edge for wave in waves), key=lambda edge: edge.coefficients.shape)
         i, j = np.nonzero(self.inside)
         self.places = np.ravel_multi_index((i, j), self.film.shape).astype(np.int32)
-        self.polynomials = edge.polynomials(self.x[i], self.across[j]).astype(np.float32)
+        if self.strip:
+            self.along, self.edge_waves = self.strip.polynomials(self.x), self.strip.waves(self.y)
+        else:
+            self.polynomials = edge.polynomials(self.x[i], self.across[j]).astype(np.float32)
         order = waves[0].transfer.second
         # Loss of first order over the film at which the film ends
         self.ends = FILM_ENDS if order else 1.0
@@ -275,13 +280,15 @@ class RoughContact(ShearedContact):
     def on_pixels(
         cls,
         smooth: SmoothContact,
-        operating: OperatingPoint,
+        operating: AnyContact,
         lubricant: Lubricant,
         tile: PixelTile,
         powers: Sequence[Array] | None = None,
     ) -> RoughContact:
         """Under one surface, at pixels of its tile."""
         area = tile.stride**2 * tile.pixel[0] * tile.pixel[1] * operating.hertz_radius**2
+        if operating.ellipse.is_line:
+            area = tile.stride * tile.pixel[0] * operating.hertz_radius / tile.columns.size
         of, places = (smooth, operating, lubricant), (tile.x, tile.y, area)
         return cls(*of, *places, [tile.wave], powers, [tile])
 
@@ -289,7 +296,7 @@ class RoughContact(ShearedContact):
     def on_grid(
         cls,
         smooth: SmoothContact,
-        operating: OperatingPoint,
+        operating: AnyContact,
         lubricant: Lubricant,
         waves: Sequence[Component],
         points: float,
@@ -299,13 +306,21 @@ class RoughContact(ShearedContact):
         """Under two surfaces, at so many points per semi-axis; `tracks` of both [a]."""
         half = int(REACH * points)
         x = np.arange(-half, half + 1) / points
-        y = x * operating.ellipse.ellipticity
+        shape = waves[0].edge.shape
+        if isinstance(shape, StripEdge):
+            count = math.ceil(shape.width * points)
+            y = np.asarray(np.arange(count) * (shape.width / count), dtype=float)
+        else:
+            y = np.asarray(x * operating.ellipse.ellipticity, dtype=float)
         places = x, y, y / operating.ellipse.ellipticity
         tiles = [
             LineTile(wave, smooth.central_film, places, track, number)
             for number, (wave, track) in enumerate(zip(waves, tracks, strict=True))
         ]
-        area = operating.hertz_radius * operating.semi_axis_y / points**2
+        if operating.ellipse.is_line:
+            area = operating.hertz_radius / (points * y.size)
+        else:
+            area = operating.hertz_radius * operating.semi_axes[1] / points**2
         return cls(smooth, operating, lubricant, x, y, area, waves, powers, tiles)
 
     def change(self, position: Position) -> Single:
@@ -368,13 +383,17 @@ class RoughContact(ShearedContact):
 
     def add_edge(self, total: Single, *edges: tuple[Array, Array]) -> None:
         """Add what the edge does to the pressure (:meth:`Edge.at`), keep how far it is moved."""
-        coefficients = np.zeros(self.polynomials.shape[0])
+        coefficients = np.zeros_like(edges[0][0])
         self.moved[:] = 0.0
         for found, moved in edges:
             self.moved += moved
             if found.size:
                 coefficients += found
         if not coefficients.any():
+            return
+        if self.strip:
+            products = coefficients.reshape(-1, self.along.shape[1])
+            total[..., 1] += self.along @ (products.T @ self.edge_waves)
             return
         extension.surface_functions.polynomials(
             self.polynomials.T,
@@ -391,6 +410,8 @@ class RoughContact(ShearedContact):
         place of the point.
         """
         i, j = np.nonzero(self.inside & (self.radius > OUTER))
+        if self.strip:
+            return self._outer_of_strip(contact, self.strip, i, j)
         steps = [axis[1] - axis[0] for axis in (contact.x, contact.y)]
         centre = np.array([-contact.x[0] / steps[0], -contact.y[0] / steps[1]])
         count = EDGE_ANGLES.size
@@ -405,6 +426,25 @@ class RoughContact(ShearedContact):
             centre[1] + self.y[j] / steps[1],
             (rim.astype(np.int32) % count).astype(np.int32),
             share.T,
+            np.ravel_multi_index((i, j), self.film.shape).astype(np.int32),
+        )
+
+    def _outer_of_strip(
+        self, contact: SmoothContact, strip: StripEdge, i: Indices, j: Indices
+    ) -> tuple[NDArray[Any], ...]:
+        """Points (n,) of a line contact as `_outer` has them: both edges, one behind the other."""
+        step = contact.x[1] - contact.x[0]
+        at = self.y[j] % strip.width * (strip.places / strip.width)
+        place = np.minimum(np.floor(at).astype(np.int32), strip.places - 1)
+        share = np.stack([1.0 - (at - place), at - place]) / self.radius[i, j]
+        rim = place + (self.x[i] > 0.0) * (strip.places + 1)
+        return (
+            np.asfortranarray(np.repeat(contact.film.T, 2, axis=0)),
+            np.array([-contact.x[0] / step, 0.0]),
+            (self.x[i] - contact.x[0]) / step,
+            np.zeros(i.size),
+            rim.astype(np.int32),
+            np.asfortranarray(share),
             np.ravel_multi_index((i, j), self.film.shape).astype(np.int32),
         )
 
@@ -430,7 +470,8 @@ class RoughContact(ShearedContact):
         film = smooth * film_left(loss / smooth) if self.second else smooth - loss
         pressure = self.pressure.take(self.places) + gain
         self.count += 1
-        imbalance = 1.5 * float(gain.sum()) / self.points
+        # over the mean pressure of the dry contact
+        imbalance = (4.0 / math.pi if self.strip else 1.5) * float(gain.sum()) / self.points
         self.imbalance = max(self.imbalance, abs(imbalance))
         sustained = float((self.ends * smooth - loss).min(initial=math.inf))
         if sustained <= 0.0:

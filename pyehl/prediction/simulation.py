@@ -35,7 +35,7 @@ from pyehl.prediction.response import Transfer
 from pyehl.prediction.smooth import SmoothContact, solve_contact
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.surfaces import Topography
-from pyehl.theory.film import central_film as formula_film
+from pyehl.theory.line_contact import AnyContact, contact_of, formula_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.transport import free_stiffness, stiffness
@@ -116,13 +116,13 @@ def resolution(case: Case, tiles: Mapping[str, Topography] | None = None) -> Res
     why = unpredictable(settings)
     if why:
         raise InputError(why)
-    operating = OperatingPoint.from_settings(settings)
+    operating = contact_of(settings)
     lubricant = Lubricant.from_settings(settings)
     grid = settings["grid"]
-    mesh = max(
-        (float(grid["x_outlet"]) - float(grid["x_inlet"])) / (int(grid["points"]) - 1),
-        2.0 * float(grid["y_extent"]) / (int(grid["points_y"]) - 1),
-    )
+    mesh = (float(grid["x_outlet"]) - float(grid["x_inlet"])) / (int(grid["points"]) - 1)
+    if not operating.ellipse.is_line:
+        # the cells of a strip are nearly square
+        mesh = max(mesh, 2.0 * float(grid["y_extent"]) / (int(grid["points_y"]) - 1))
     # of two surfaces one may be a share of the film; else that is not asked for
     film = formula_film(operating, lubricant) if len(groups) > 1 else 0.0
     found = [_tile(settings, group, (tiles or {}).get(group), operating, film) for group in groups]
@@ -145,7 +145,7 @@ def resolution(case: Case, tiles: Mapping[str, Topography] | None = None) -> Res
 
 
 def _tile(
-    settings: Settings, group: str, tile: Topography | None, operating: OperatingPoint, film: float
+    settings: Settings, group: str, tile: Topography | None, operating: AnyContact, film: float
 ) -> tuple[Topography, str]:
     """Surface of a group with a film h_c [m], and its name where it is not the whole of it."""
     if tile is not None:
@@ -254,6 +254,8 @@ def _model(
     """Model of a resolved case whose waves leak as on a grid, with tiles at fronts [a]."""
     if turned(settings):
         raise InputError(turned(settings))
+    if settings["contact"].get("shape") == "line":
+        raise InputError("contact.shape = 'line': no pressure is predicted to begin with")
     operating = OperatingPoint.from_settings(settings)
     contact = solve_contact(settings)
     film = contact.central_film * operating.film_scale

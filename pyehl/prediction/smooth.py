@@ -23,10 +23,10 @@ from pyehl.extension import functions
 from pyehl.handle import SolverHandle, results_of
 from pyehl.reasons import NOT_CONVERGED, heat_words, words_of
 from pyehl.surfaces import GROUPS
-from pyehl.theory.film import central_film, circle_with_same_inlet
 from pyehl.theory.heat import Heat
+from pyehl.theory.line_contact import AnyContact, circle_with_same_inlet, formula_film
+from pyehl.theory.line_contact import contact_of as operating_of
 from pyehl.theory.lubricant import Lubricant
-from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.shear import FlowFactors, ShearLaw, flow_factors
 from pyehl.theory.transport import Zone
 from pyehl.types import Array, Mask, Settings
@@ -59,6 +59,8 @@ THINNEST, THICKER = 0.3, 1.15
 """Minimum film of a smooth contact over the central one, and the error of the formula for that."""
 FINEST = 1025
 """Nodes per side of the finest grid that is tried."""
+POINTS_OF_LINE, FINEST_OF_LINE = 1025, 8193
+"""Nodes of the solution of a line, which is one row of them, and of the finest one."""
 
 
 def without_surface(settings: Settings) -> dict[str, dict[str, Any]]:
@@ -103,10 +105,10 @@ def touching_points(settings: Settings) -> int:
     """
     if not settings["lubricant"].get("boundary_film", 0.0):
         return int(settings["grid"]["points"])
-    operating, lubricant = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
+    operating, lubricant = operating_of(settings), Lubricant.from_settings(settings)
     grid = settings["grid"]
     points, length = int(grid["points"]), float(grid["x_outlet"]) - float(grid["x_inlet"])
-    film = central_film(operating, lubricant) / operating.film_scale
+    film = formula_film(operating, lubricant) / operating.film_scale
     density = float(lubricant.density_ratio(operating.hertz_pressure))
     boundary = float(settings["lubricant"]["boundary_film"]) / operating.film_scale / density
     if boundary >= THICKER * film:
@@ -126,9 +128,6 @@ POINTS = 257
 inlet error of the grid (4 % at M = 1000) is not in it. Grids up to FINEST are tried where there is
 no solution, or none to extrapolate from: the inlet of a contact under a high load is steep (M above
 2000 or so)."""
-COARSE = 129
-"""With a boundary film this is tried where no finer grid has a solution: half of POINTS. A finer
-one has the load share of each of the contacts of docs/evidence/inlet that 129 nodes have one of."""
 CYCLES = 100
 """Least `max_cycles` with a boundary film: of the 112 contacts of docs/evidence/inlet/share.csv
 that converge 13 take more than 30 cycles, and none more than 90."""
@@ -169,6 +168,13 @@ class SmoothContact:
 
     def at(self, x: Array, y: Array) -> tuple[Array, Array]:
         """P and H on the grid of places x (m,) and y (n,), both (m, n); outside P is zero."""
+        if self.y.size == 1:
+            # a line contact is the same on all lines
+            ends = {"left": 0.0, "right": 0.0}
+            film = np.interp(x, self.x, self.film[:, 0])
+            row = np.interp(x, self.x, self.pressure[:, 0], **ends)
+            on_lines = np.ones((1, y.size))
+            return row[:, np.newaxis] * on_lines, film[:, np.newaxis] * on_lines
         rows, columns = _linear(x, self.x), _linear(y, self.y)
         found = []
         for values in (self.pressure, self.film):
@@ -208,7 +214,7 @@ def with_boundary_film(
     On the first grid that resolves its inlet. Its films are NaN, and the source says why, where
     none does or it does not converge.
     """
-    operating = OperatingPoint.from_settings(settings)
+    operating = operating_of(settings)
     boundary = float(settings["lubricant"]["boundary_film"]) / operating.film_scale
     pressure = np.maximum(contact.pressure, 0.0) * operating.hertz_pressure
     held = lubricant.density_ratio(pressure) * contact.film
@@ -224,7 +230,7 @@ def with_boundary_film(
 
 
 def circle_of(
-    contact: SmoothContact, operating: OperatingPoint, lubricant: Lubricant
+    contact: SmoothContact, operating: AnyContact, lubricant: Lubricant
 ) -> tuple[float, float]:
     """M and L [-] of the circular contact with the same inlet, in a Newtonian flow."""
     film = (contact.newtonian or contact).central_film
@@ -239,8 +245,9 @@ def forget() -> None:
 
 @lru_cache(maxsize=8)
 def _solved(text: str) -> SmoothContact:
-    points, best = POINTS, None
-    while points <= FINEST:
+    best = None
+    points, finest = _grids(text)
+    while points <= finest:
         found, status = _on_grid(text, points)
         best = found or best
         if found is not None and found.extrapolated:
@@ -248,8 +255,8 @@ def _solved(text: str) -> SmoothContact:
         points = 2 * points - 1
     if best is None:
         raise EhlError(
-            f"the smooth contact under the prediction did not converge on {FINEST} x {FINEST} "
-            f"nodes: {status}; a lighter load or a wider contact may, and 'pyehl predict --smooth' "
+            f"the smooth contact under the prediction did not converge on {finest} nodes along "
+            f"X: {status}; a lighter load or a wider contact may, and 'pyehl predict --smooth' "
             "takes one that 'pyehl run' has solved on another grid"
         )
     return best
@@ -257,17 +264,27 @@ def _solved(text: str) -> SmoothContact:
 
 @lru_cache(maxsize=8)
 def _solved_with_boundary_film(text: str, cycles: int) -> tuple[SmoothContact | None, str]:
-    """Solve with a boundary film; None, and why, where no grid has a solution that is its own."""
+    """Solve with a boundary film; None, and why, where no grid has a solution that is its own.
+
+    Where no finer grid has one, one of half as many nodes is tried: a finer one has the load share
+    of each of the contacts of docs/evidence/inlet that 129 nodes have one of.
+    """
     options = [f"solver.max_cycles={cycles}"]
-    why, points = "it does not converge", POINTS
-    while points <= FINEST:
+    why, (points, finest) = "it does not converge", _grids(text)
+    while points <= finest:
         found, status = _on_grid(text, points, options)
         if found is not None and not status:
             return found, ""
         why = status if found is not None else why
         points = 2 * points - 1
-    found, status = _on_grid(text, COARSE, options)
+    found, status = _on_grid(text, _grids(text)[0] // 2 + 1, options)
     return (None, why) if status else (found, "")
+
+
+def _grids(text: str) -> tuple[int, int]:
+    """Nodes along X of the first and of the finest grid for the text of a case."""
+    line = namelist.values(text)["contact"].get("shape") == "line"
+    return (POINTS_OF_LINE, FINEST_OF_LINE) if line else (POINTS, FINEST)
 
 
 def _on_grid(
@@ -285,7 +302,7 @@ def _on_grid(
         if summary["status"] != "converged":
             return None, str(summary["status"])
         (x, y), pressure, film = solver.axes(), solver.field("P"), solver.field("H")
-    where = f"solved on {points} x {points} nodes"
+    where = f"solved on {x.size} x {y.size} nodes"
     # bodies that touch on a grid that does not resolve the inlet have no load share
     touches = summary.get("contact_load_share", 0.0) is None
     why = words_of(found, case.resolve())[found.codes[SHARE_NOTE]] if touches else ""
@@ -338,7 +355,7 @@ def hertz_contact(central_film: float, source: str) -> SmoothContact:
     return SmoothContact(line, line, pressure, film, central_film, float("nan"), source)
 
 
-def zone_of(contact: SmoothContact, operating: OperatingPoint, lubricant: Lubricant) -> Zone:
+def zone_of(contact: SmoothContact, operating: AnyContact, lubricant: Lubricant) -> Zone:
     """Return the centre line of a smooth contact with what enters the transport of waves."""
     middle = int(np.argmin(np.abs(contact.y)))
     pressure = np.maximum(contact.pressure[:, middle], 0.0)
@@ -351,7 +368,7 @@ def zone_of(contact: SmoothContact, operating: OperatingPoint, lubricant: Lubric
 
 
 def zone_on(
-    x: Array, pressure: Array, film: Array, operating: OperatingPoint, lubricant: Lubricant
+    x: Array, pressure: Array, film: Array, operating: AnyContact, lubricant: Lubricant
 ) -> Zone:
     """Return the zone of a centre line: X [a], P [p_h] and H [a^2/R], (n,) each."""
     step = 1e-3
@@ -379,7 +396,7 @@ def zone_on(
 
 
 def _factors(
-    film: Array, slope: Array, eta: Array, operating: OperatingPoint, lubricant: Lubricant
+    film: Array, slope: Array, eta: Array, operating: AnyContact, lubricant: Lubricant
 ) -> FlowFactors:
     """Flow factors of films H [a^2/R] by dP/dX [p_h/a] and eta/eta0 [-], (n,) each."""
     shear = lubricant.shear
@@ -396,7 +413,7 @@ def heat_of(settings: Settings, contact: SmoothContact, lubricant: Lubricant) ->
     On the pressure and the film of the prediction. InputError if the case is not acceptable.
     """
     # rows that mirror each other have the same temperature
-    even = float(settings["contact"]["angle"]) == 0.0
+    even = float(settings["contact"].get("angle", 0.0)) == 0.0 and contact.y.size > 1
     first = int(np.argmin(np.abs(contact.y))) if even else 0
     pressure, film = contact.pressure[:, first:], contact.film[:, first:]
     nodes = HeatOf(settings, lubricant, contact.x, contact.y[first:], even=even)
@@ -433,7 +450,7 @@ class HeatOf:
             x[0],
             y[0],
             x[1] - x[0],
-            y[1] - y[0],
+            y[1] - y[0] if y.size > 1 else 1.0,
             int(self.even),
         )
         check(status, message)

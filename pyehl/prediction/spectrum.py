@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from pyehl.errors import InputError
 from pyehl.surfaces import MAX_PIXELS, Topography, resampled, shifted
-from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.line_contact import AnyContact
 from pyehl.types import Array, Complex, Indices
 
 if TYPE_CHECKING:
@@ -131,6 +131,13 @@ class Spectrum:
         share = float(power[self.q > 2.0 * np.pi / length].sum() / (power.sum() or 1.0))
         return share if share > 1e-24 else 0.0
 
+    def amplitudes(self, i: Indices, j: Indices, factor: Complex | float = 1.0) -> Complex:
+        """Amplitudes (m,) of the plane waves at rows and columns of `values`, times a factor."""
+        nx, ny = self.shape
+        # a component stands for its conjugate at -q too, unless both are in the half spectrum
+        twice = np.where((i == 0) | ((nx % 2 == 0) & (i == nx // 2)), 1.0, 2.0)
+        return np.asarray(twice * self.values[i, j] * factor / (nx * ny))
+
     @property
     def power(self) -> Array:
         """Mean square of each component and its conjugate (nx//2 + 1, ny) [a^4/R^2]."""
@@ -171,13 +178,16 @@ def longer_waves(
     return part, index
 
 
-def working_grid(topography: Topography, operating: OperatingPoint, positions: int) -> Topography:
+def working_grid(topography: Topography, operating: AnyContact, positions: int) -> Topography:
     """Return the tile on a grid that resolves the contact and has room for the positions.
 
     InputError if that takes too many pixels.
     """
     nx, ny = topography.shape
-    finest = operating.hertz_radius / WORKING_PIXELS, operating.semi_axis_y / WORKING_PIXELS
+    finest = (
+        operating.hertz_radius / WORKING_PIXELS,
+        (operating.hertz_radius * operating.ellipse.side / WORKING_PIXELS),
+    )
     want_x = max(nx, math.ceil(topography.length_x / finest[0]))
     want_y = max(ny, math.ceil(topography.length_y / finest[1]))
     multiple = positions or FIRST_POSITIONS * 4

@@ -29,10 +29,9 @@ from pyehl.results import unit_of
 from pyehl.studies.curve_plan import CurvePlan, CurvePoint
 from pyehl.studies.tasks import FAILED, why_none
 from pyehl.theory import stribeck
-from pyehl.theory.film import central_film
 from pyehl.theory.friction import absolute_friction
+from pyehl.theory.line_contact import AnyContact, contact_of, formula_film
 from pyehl.theory.lubricant import Lubricant
-from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.transition import BREAKDOWN, FULL_FILM, MIXED, OUTSIDE, UNSOLVED, Curve
 from pyehl.types import Settings, Values
 
@@ -48,7 +47,7 @@ class Pattern:
 SMOOTH = Pattern(0.0, math.inf)
 
 
-def pattern(settings: Settings, operating: OperatingPoint, film: float) -> Pattern:
+def pattern(settings: Settings, operating: AnyContact, film: float) -> Pattern:
     """Give the pattern that theta_2 is taken for, of a resolved case with a rough surface.
 
     `film` is the central film [m], of which the amplitude of harmonic roughness may be a share.
@@ -69,7 +68,7 @@ def pattern(settings: Settings, operating: OperatingPoint, film: float) -> Patte
 
 
 def kept_pattern(
-    settings: Settings, operating: OperatingPoint, film: float, kept: dict[str, Pattern]
+    settings: Settings, operating: AnyContact, film: float, kept: dict[str, Pattern]
 ) -> Pattern:
     """Give the pattern of the rough surface of a case; of two that of both together.
 
@@ -163,15 +162,17 @@ def _row(
     plan: CurvePlan, point: CurvePoint, rows: Mapping[int, Values], patterns: dict[str, Pattern]
 ) -> dict[str, Any]:
     """Give the columns of a point."""
-    operating = OperatingPoint.from_settings(point.settings)
+    operating = contact_of(point.settings)
     smooth = rows.get(point.smooth, NOT_DONE)
     found = [rows.get(number, NOT_DONE) for number in point.predictions]
     full = None if point.full is None else rows.get(point.full, NOT_DONE)
     viscosity = float(point.settings["lubricant"]["viscosity"])
+    # a load per length has the unit of viscosity times velocity
+    length = 1.0 if operating.ellipse.is_line else operating.radius
     values: dict[str, Any] = dict.fromkeys(units_of(plan)) | {
         **_film(smooth, operating),
         **{n: smooth.get(n) for n in ("temperature_rise_max_K", "flash_temperature_K", "p_max_Pa")},
-        "hersey": viscosity * operating.mean_velocity * operating.radius / operating.load,
+        "hersey": viscosity * operating.mean_velocity * length / operating.load,
         "moes_m": operating.moes_m,
         "moes_l": operating.moes_l,
         "surfaces": len(found),
@@ -226,7 +227,7 @@ def _conclude(settings: Settings, values: Values) -> Conclusion:
     return conclude({k: v for k, v in values.items() if k not in left_out} | more)
 
 
-def _film(smooth: Values, operating: OperatingPoint) -> dict[str, Any]:
+def _film(smooth: Values, operating: AnyContact) -> dict[str, Any]:
     """Film of the smooth contact, extrapolated where it could be, with its error."""
     if smooth["status"] != "converged":
         return {}
@@ -239,7 +240,7 @@ def _film(smooth: Values, operating: OperatingPoint) -> dict[str, Any]:
 
 
 def _film_ratios(
-    settings: Settings, operating: OperatingPoint, values: Values, patterns: dict[str, Pattern]
+    settings: Settings, operating: AnyContact, values: Values, patterns: dict[str, Pattern]
 ) -> dict[str, Any]:
     """Film over roughness, and theta_2 of the pattern that stands for it."""
     h_c = values["h_c_m"]
@@ -354,7 +355,7 @@ def _over(found: Sequence[Values], name: str, over_all: Callable[..., Any]) -> A
 
 def no_coefficient(settings: Settings) -> str:
     """Say why a friction coefficient of a resolved case would have no meaning; '' if it has one."""
-    operating, lubricant = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
-    film = central_film(operating, lubricant)
+    operating, lubricant = contact_of(settings), Lubricant.from_settings(settings)
+    film = formula_film(operating, lubricant)
     found = absolute_friction(operating, lubricant, film=film, mu_smooth=1.0, mu_ratio=1.0)
     return "" if math.isfinite(found["mu"]) else str(found["mu_note"])

@@ -20,6 +20,7 @@ from pyehl.prediction.smooth import CYCLES, touching_points
 from pyehl.studies.plan import TaskList, check_maps, check_memory, duration, wall_seconds
 from pyehl.studies.study import MAX_CASES, Axis, Point, Study, make
 from pyehl.studies.tasks import Task
+from pyehl.theory.line_contact import contact_of
 from pyehl.theory.load_share import LoadShare
 from pyehl.types import Settings
 
@@ -27,6 +28,7 @@ KEYS = {
     "speed": "contact.mean_velocity",
     "viscosity": "lubricant.viscosity",
     "load": "contact.load",
+    "load-per-length": "contact.load_per_length",
     "temperature": "lubricant.temperature",
     "slide-to-roll": "contact.slide_to_roll",
 }
@@ -170,10 +172,8 @@ def _check(settings: Settings, seeds: int, ehl: int) -> None:
     if seeds > 1 and not _fractal(settings):
         kinds = " and ".join(f"{g}.kind = '{settings[g]['kind']}'" for g in groups or ["surface"])
         raise InputError(f"surfaces = {seeds}: {kinds} has no seed")
-    if "load" not in settings["contact"]:
+    if not contact_of(settings).si:
         raise InputError("a Stribeck curve needs a contact in SI units (load, mean_velocity)")
-    if turned(settings):
-        raise InputError(turned(settings))
     check_maps(settings)
 
 

@@ -28,11 +28,9 @@ from pyehl.studies.pool import processors
 from pyehl.studies.study import Point, Study
 from pyehl.studies.tasks import Task
 from pyehl.surfaces import FEATURES, rough_groups
-from pyehl.theory.film import central_film
-from pyehl.theory.line_contact import LineContact, contact_of
-from pyehl.theory.line_contact import central_film as central_film_of_line
+from pyehl.theory.line_contact import AnyContact, contact_of
+from pyehl.theory.line_contact import formula_film as film_by_formula
 from pyehl.theory.lubricant import Lubricant
-from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.shear import ShearLaw
 from pyehl.types import Row, Settings
 
@@ -104,14 +102,14 @@ def _strip(settings: Settings) -> float:
 
 def _predict_seconds(settings: Settings, aspect: float, *, shared: bool, full: bool) -> float:
     rough = [settings[group] for group in rough_groups(settings)]
-    point = OperatingPoint.from_settings(settings)
+    point = contact_of(settings)
     thins = ShearLaw.from_settings(settings).in_flow
     sides = [int(s["pixels"]) if s["kind"] == "fractal" else 256 for s in rough]
     alone = sum(PREDICTION + PREDICTION_PIXEL * side**2 for side in sides)
     beside = other_spectra_count(settings, rough_groups(settings))
     alone *= (FULL + beside if full else 1.0) * (PAIR if len(rough) > 1 else 1.0)
     alone *= THINS if thins else 1.0
-    kappa = point.ellipse.ellipticity
+    kappa = point.ellipse.side
     alone *= max(kappa, 1.0 / kappa) ** WIDER
     if settings["lubricant"]["boundary_film"] > 0.0:
         alone += CONTACT
@@ -131,15 +129,14 @@ def _time_to_settle(surface: Mapping[str, Any], settings: Settings) -> float:
         # from where it matters until it has left
         width = surface.get("width")
         if width is None:
-            point = OperatingPoint.from_settings(settings)
-            width = float(surface["width_m"]) / point.hertz_radius
+            width = float(surface["width_m"]) / contact_of(settings).hertz_radius
         return (2.3 + 1.2 * float(width)) / float(surface["velocity_ratio"])
     if surface["kind"] == "harmonic":
         period = float(surface["wavelength_x"])
     elif settings["contact"].get("moes_l") == 0.0:
         period = 2.0  # no length follows from M alone
     else:
-        period = float(surface["length_x"]) / OperatingPoint.from_settings(settings).hertz_radius
+        period = float(surface["length_x"]) / contact_of(settings).hertz_radius
     way = 1.05 - max(-1.5, float(surface["x_start"]))
     return (way + 3.0 * period) / float(surface["velocity_ratio"])
 
@@ -345,12 +342,10 @@ def _check(study: Study, case: Case, settings: Settings, checked: set[str]) -> N
     check_maps(settings, read=not known)
 
 
-def formula_film(settings: Settings) -> tuple[OperatingPoint | LineContact, float]:
+def formula_film(settings: Settings) -> tuple[AnyContact, float]:
     """Give the operating point of a resolved case and its central film by formula [m]."""
-    contact, lubricant = contact_of(settings), Lubricant.from_settings(settings)
-    if isinstance(contact, LineContact):
-        return contact, central_film_of_line(contact, lubricant)
-    return contact, central_film(contact, lubricant)
+    contact = contact_of(settings)
+    return contact, film_by_formula(contact, Lubricant.from_settings(settings))
 
 
 def check_maps(settings: Settings, *, read: bool = True) -> None:

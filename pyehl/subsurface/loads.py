@@ -21,8 +21,8 @@ from pyehl.prediction.rough_contact import RoughContact
 from pyehl.prediction.smooth import solve_contact
 from pyehl.results import settings_of
 from pyehl.surfaces import Topography
+from pyehl.theory.line_contact import AnyContact, contact_of
 from pyehl.theory.lubricant import Lubricant
-from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.shear import shear_stress
 from pyehl.types import Array, Mask, Settings
 
@@ -60,8 +60,8 @@ class Loads:
     body: int
     velocity: float  # of its surface over the mean one
     poisson: float
-    semi_axis_y: float  # [a]
-    operating: OperatingPoint
+    semi_axis_y: float  # [a]; infinite of a line
+    operating: AnyContact
     friction_note: str
     pressure_error: float  # relative, of the largest pressure; NaN where it is not known
     period: float  # after which the rough contact repeats itself [a/u]; 0 where it does not
@@ -69,7 +69,12 @@ class Loads:
     @property
     def mesh(self) -> tuple[float, float]:
         """Mesh sizes [a]."""
-        return float(self.x[1] - self.x[0]), float(self.y[1] - self.y[0])
+        return _steps(self.x, self.y)
+
+    @property
+    def periodic(self) -> tuple[bool, bool]:
+        """Whether the loads repeat along x and along y: a line contact is a strip that does."""
+        return False, math.isinf(self.semi_axis_y)
 
     @property
     def short_side(self) -> float:
@@ -87,6 +92,12 @@ class Loads:
         """Tell which nodes (nx, ny) lie in the dry contact, or within a share of its semi-axes."""
         across = self.y / self.semi_axis_y
         return np.hypot(self.x[:, np.newaxis], across[np.newaxis, :]) <= share
+
+
+def _steps(x: Array, y: Array) -> tuple[float, float]:
+    """Mesh sizes [a] of axes (nx,), (ny,); one row has square cells."""
+    step = float(x[1] - x[0])
+    return step, float(y[1] - y[0]) if y.size > 1 else step
 
 
 def steep_edge(traction: Array | None) -> bool:
@@ -141,7 +152,7 @@ def _value(data: xr.Dataset, name: str) -> float:
 
 
 def friction_of(
-    data: xr.Dataset, operating: OperatingPoint, lubricant: Lubricant | None, friction: str | float
+    data: xr.Dataset, operating: AnyContact, lubricant: Lubricant | None, friction: str | float
 ) -> tuple[float, float, str]:
     """Give the coefficients of friction of the smooth and of the rough contact, and a note.
 
@@ -177,7 +188,8 @@ class Traction:
         self,
         smooth: tuple[Array, Array | None],
         area: float,
-        operating: OperatingPoint,
+        width: float,
+        operating: AnyContact,
         lubricant: Lubricant | None,
         found: tuple[float, float, str],
         body: int,
@@ -192,7 +204,9 @@ class Traction:
         self.scale = 1.0
         if self.by_film:
             total = float(self._by_law(*smooth).sum()) * area
-            load = 2.0 * math.pi / 3.0 * operating.ellipse.ellipticity
+            load = 2.0 * math.pi / 3.0 * operating.ellipse.side
+            if operating.ellipse.is_line:
+                load = 0.5 * math.pi * width
             self.scale = self.mu * load / total
 
     def _by_law(self, pressure: Array, film: Array | None) -> Array:
@@ -232,7 +246,7 @@ def loads_of(data: xr.Dataset, *, body: int | None, friction: str | float) -> Lo
             "stress needs the fields of pressure and film: the case has output.fields = .false."
         )
     rough, frames = "P_smooth" in data, "frame_P" in data
-    scale = OperatingPoint.from_settings(settings_of(data)).film_scale
+    scale = contact_of(settings_of(data)).film_scale
     times = np.zeros(0)
     if rough:
         times = data.T.values if frames else np.array([float(data.attrs.get("T", math.nan))])
@@ -269,13 +283,13 @@ def made_of(
     the times [a/u] of the rough one, which repeats itself after a period, if one is given.
     """
     settings = settings_of(data)
-    operating = OperatingPoint.from_settings(settings)
+    operating = contact_of(settings)
     number, velocity, poisson = body_of(settings, body)
     lubricant = Lubricant.from_settings(settings) if operating.si else None
     found = friction_of(data, operating, lubricant, friction)
     x, y = axes
-    area = float((x[1] - x[0]) * (y[1] - y[0]))
-    traction = Traction(smooth, area, operating, lubricant, found, number, friction)
+    area, width = math.prod(_steps(x, y)), _steps(x, y)[1] * y.size
+    traction = Traction(smooth, area, width, operating, lubricant, found, number, friction)
     return Loads(
         x=x,
         y=y,
@@ -318,7 +332,7 @@ def predicted_loads(data: xr.Dataset, *, body: int | None, friction: str | float
             "stress needs psd.reduction = 'response': the model of the paper has no pressure at "
             "places of the contact"
         )
-    operating = OperatingPoint.from_settings(settings)
+    operating = contact_of(settings)
     surfaces = tuple(
         RoughSurface(
             _tile(data, side),
@@ -334,7 +348,9 @@ def predicted_loads(data: xr.Dataset, *, body: int | None, friction: str | float
     model = model.merged or model
     waves = model.components()
     contact = _contact(model, waves)
-    x, y = _with_margin(contact.x), _with_margin(contact.y)
+    # a strip repeats along y
+    x = _with_margin(contact.x)
+    y = contact.y if operating.ellipse.is_line else _with_margin(contact.y)
     pressure, film = smooth.at(x, y)
     inner = np.ix_(np.isin(x, contact.x), np.isin(y, contact.y))
     length = max(one.topography.length_x for one in model.surfaces) / operating.hertz_radius

@@ -165,7 +165,9 @@ def profile(
     """Compute the stress at all depths, `at` some [a] or by the waves; `above` [p_h]."""
     is_rough = loads.times.size > 0
     first = next(loads.rough(), loads.smooth)
-    half_space = HalfSpace((loads.x.size, loads.y.size), loads.mesh, poisson=loads.poisson)
+    half_space = HalfSpace(
+        (loads.x.size, loads.y.size), loads.mesh, poisson=loads.poisson, periodic=loads.periodic
+    )
     smooth: list[Row] = []
     rough: list[Row] = []
 

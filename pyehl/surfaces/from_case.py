@@ -8,6 +8,9 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
+from pyehl.case.line import TRANSVERSE
 from pyehl.case.surface_group import Surface as Keys
 from pyehl.errors import FileError, InputError
 from pyehl.surfaces.arrays import PREDICTION_COPIES, check_pixels
@@ -95,17 +98,24 @@ def whole(settings: Settings, operating: Contact, film: float) -> Topography:
         return _kept_fractal(*(surface[key] for key in FRACTAL))
     if kind == "harmonic":
         shares = (float(surface["wavelength_x"]), float(surface["wavelength_y"]))
+        transverse = isinstance(operating, LineContact) and shares[1] >= TRANSVERSE
+        if transverse:
+            # what does not vary along a line repeats there as one likes
+            shares = shares[0], shares[0]
         # a long wave is sampled as finely as the contact needs, not only as it needs itself
         pixels = tuple(2 * math.ceil(max(HARMONIC_PIXELS, RADIUS_PIXELS * s) / 2) for s in shares)
         name = f"a wave of {shares[0]:g} x {shares[1]:g} a"
         size = (pixels[0], pixels[1])
         check_pixels(name, size, copies=PREDICTION_COPIES, way="shorter waves")
-        return harmonic(
+        tile = harmonic(
             harmonic_amplitude(settings, operating, film),
             shares[0] * operating.hertz_radius,
             shares[1] * operating.hertz_radius,
             (pixels[0], pixels[1]),
         )
+        if not transverse:
+            return tile
+        return replace(tile, heights=np.repeat(tile.heights[:, :1], pixels[1], axis=1))
     if kind == "map":
         return _map(surface)
     raise InputError(

@@ -137,7 +137,7 @@ def disc_correction(qx: Array, qy: Array) -> Complex:
 
 
 def edge_of_disc(qx: Array, qy: Array) -> Complex:
-    """How far waves (m,) [1/a] move the edge of the disc outwards at RIM_ANGLES: (n, m) [a].
+    """How far waves (m,) [1/a] move the edge of the disc outwards at EDGE_ANGLES: (n, m) [a].
 
     The pressure c/z of the fixed edge is what the Hertz pressure z gains where the edge lies
     further out by c.

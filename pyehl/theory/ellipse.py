@@ -27,6 +27,16 @@ class Ellipse:
     kernel_ratio: float
 
     @property
+    def is_line(self) -> bool:
+        """Whether it is that of an infinite line."""
+        return math.isinf(self.ellipticity)
+
+    @property
+    def side(self) -> float:
+        """Length across the motion that counts as one contact [a]: the semi-axis, of a line 1."""
+        return 1.0 if self.is_line else self.ellipticity
+
+    @property
     def load_share(self) -> float:
         """Product kappa k_b over that of a circle [-]: a^3 = 3 w R_x/(2 E' load_share)."""
         return self.ellipticity * self.kernel_ratio
@@ -34,12 +44,16 @@ class Ellipse:
     @property
     def potential(self) -> float:
         """Integral of P/r in the centre over that of a circle of radius a [-], P a semi-ellipse."""
-        if self.radius_ratio == 1.0:
-            return 1.0
+        if self.radius_ratio in (0.0, 1.0):
+            return 1.0 if self.radius_ratio else math.inf
         from scipy.special import elliprf  # noqa: PLC0415 (as below)
 
         found = elliprf(0.0, 1.0, self.ellipticity**2)
         return 2.0 / math.pi * self.ellipticity * float(found)
+
+
+LINE = Ellipse(0.0, math.inf, 0.25 * math.pi)
+"""The dry contact of an infinite line, which has no semi-axis across the motion."""
 
 
 @lru_cache(maxsize=64)

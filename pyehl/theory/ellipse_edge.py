@@ -77,7 +77,7 @@ class EllipseEdge:
     def rim(self, qx: Array, qy: Array) -> Complex:
         """How far waves (m,) move the edge outwards, :func:`pyehl.theory.disc.disc_rim`.
 
-        Of the distance from the centre by the semi-axes, at RIM_ANGLES of x/a and y/b: (n, m).
+        Of the distance from the centre by the semi-axes, at EDGE_ANGLES of x/a and y/b: (n, m).
         """
         return RIM * self._rim.of(qx, qy)
 

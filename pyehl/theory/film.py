@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from pyehl.theory.lubricant import Lubricant
-from pyehl.theory.moes_film import inlet_viscosity_ratio, nijenbanning_venner_moes, regime
+from pyehl.theory.moes_film import nijenbanning_venner_moes, regime
 from pyehl.theory.operating import OperatingPoint
 
 __all__ = [
@@ -14,7 +14,6 @@ __all__ = [
     "brewe",
     "central_film",
     "chittenden",
-    "circle_with_same_inlet",
     "de_vicente",
     "estimates",
     "hamrock_dowson",
@@ -147,25 +146,6 @@ def central_film(operating: OperatingPoint, lubricant: Lubricant) -> float:
         # L = 0 without a size has no pressure that could compress
         return h * operating.film_scale
     return h * operating.film_scale / float(lubricant.density_ratio(operating.hertz_pressure))
-
-
-def circle_with_same_inlet(
-    operating: OperatingPoint, lubricant: Lubricant, film: float
-) -> tuple[float, float]:
-    """M and L [-] of the circular contact whose inlet makes of waves what this one makes of them.
-
-    Of equal alpha_bar and, with heights by which the stiffness of waves is the same, of equal
-    central film H_c = `film` [a^2/R_x]: what flows off to the sides of an ellipse acts as a lower
-    viscosity (docs/evidence/ellipse). Of a circle its own, whatever its film.
-    """
-    moes_m, moes_l = operating.equivalent_moes
-    if operating.radius_ratio == 1.0:
-        return moes_m, moes_l
-    here = film / operating.ellipse.kernel_ratio
-    density = float(lubricant.density_ratio(operating.hertz_pressure))
-    share = here * density / nijenbanning_venner_moes(moes_m, moes_l)
-    ratio = inlet_viscosity_ratio(moes_m, moes_l, share)
-    return moes_m * ratio**-0.75, moes_l * ratio**0.25
 
 
 def outside(

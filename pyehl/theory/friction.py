@@ -6,13 +6,13 @@ from typing import Any
 
 from pyehl.reasons import NO_SIZE, OF_ROUGH, VANISHING, above_limit
 from pyehl.theory.heat import Heat, flash_temperature
+from pyehl.theory.line_contact import AnyContact
 from pyehl.theory.lubricant import Lubricant
-from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.shear import shear_stress
 
 
 def absolute_friction(
-    operating: OperatingPoint,
+    operating: AnyContact,
     lubricant: Lubricant,
     film: float,
     mu_smooth: float,
@@ -57,7 +57,7 @@ def absolute_friction(
     if math.isfinite(mu):
         u, srr, a = operating.mean_velocity, operating.slide_to_roll, operating.hertz_radius
         rise = flash_temperature(
-            mu * operating.load * speed / (math.pi * a * operating.semi_axis_y),
+            mu * operating.load * speed / operating.dry_area,
             a,
             (u * (1.0 + 0.5 * srr), u * (1.0 - 0.5 * srr)),
             operating.thermal_conductivities,

@@ -84,7 +84,9 @@ def _yielding(zone: Zone, qx: Array, qy: Array, slip: Array, x: Array) -> Comple
     more = round((EDGE - x[-1]) / h)
     far = h * np.arange(1, n + more)
     k = np.maximum(qx, 1e-9)[:, np.newaxis]
-    strip = np.exp(-np.euler_gamma) / zone.ellipticity
+    # no load per length is made by a wave across a line: any width does
+    wide = zone.ellipticity if np.isfinite(zone.ellipticity) else 1.0
+    strip = np.exp(-np.euler_gamma) / wide
     kappa = np.hypot(qy, strip)[:, np.newaxis]
     half = 0.5 * h
     # K_0(z) is -ln(z/2) - gamma next to 0

@@ -13,16 +13,19 @@ from pyehl.case.key import typed
 from pyehl.case.lubricant_group import Lubricant as LubricantGroup
 from pyehl.errors import InputError
 from pyehl.given import positive
+from pyehl.theory import film
+from pyehl.theory.ellipse import LINE, Ellipse
 from pyehl.theory.film import FilmEstimate, outside
 from pyehl.theory.heat import thermal_loading, thermal_reduction
 from pyehl.theory.lubricant import Lubricant
-from pyehl.theory.moes_film import ALIKE
+from pyehl.theory.moes_film import ALIKE, inlet_viscosity_ratio, nijenbanning_venner_moes
 from pyehl.theory.operating import REFERENCE_L, REFERENCE_MODULUS, REFERENCE_RADIUS, OperatingPoint
 from pyehl.types import Settings
 
 __all__ = [
     "LineContact",
     "central_film",
+    "circle_with_same_inlet",
     "contact_of",
     "dowson_higginson",
     "estimates",
@@ -58,6 +61,8 @@ class LineContact:
         Whether the SI values were given; False when they were made from (M, L).
     thermal_reduction
         Film over the isothermal one [-], which `viscosity` contains; 1 where it is not counted.
+    thermal_conductivities, thermal_diffusivities
+        Of body 1 and of body 2 [W/(m K)], [m^2/s].
 
     Raises
     ------
@@ -81,6 +86,8 @@ class LineContact:
     slide_to_roll: float = 0.0
     si: bool = True
     thermal_reduction: float = 1.0
+    thermal_conductivities: tuple[float, float] = (46.0, 46.0)
+    thermal_diffusivities: tuple[float, float] = (1.25e-5, 1.25e-5)
 
     def __post_init__(self) -> None:
         """Check the numbers."""
@@ -150,6 +157,14 @@ class LineContact:
             viscosity=oil.viscosity,
             pressure_viscosity=oil.pressure_viscosity,
             slide_to_roll=c.slide_to_roll,
+            thermal_conductivities=(
+                c.thermal_conductivity,
+                c.thermal_conductivity_2 or c.thermal_conductivity,
+            ),
+            thermal_diffusivities=(
+                c.thermal_diffusivity,
+                c.thermal_diffusivity_2 or c.thermal_diffusivity,
+            ),
         )
         if not oil.thermal_reduction:
             return line
@@ -170,6 +185,41 @@ class LineContact:
     def film(self) -> float:
         """Central film of an incompressible lubricant by `moes_film` [m]."""
         return moes_film(self.moes_m, self.moes_l) * self.film_scale
+
+    @property
+    def ellipse(self) -> Ellipse:
+        """Shape of the dry contact."""
+        return LINE
+
+    @property
+    def radius_ratio(self) -> float:
+        """R_x/R_y [-]: a line is not curved across the motion."""
+        return LINE.radius_ratio
+
+    @property
+    def load(self) -> float:
+        """Load per length w [N/m], as all integrals over a line."""
+        return self.load_per_length
+
+    @property
+    def semi_axes(self) -> tuple[float, float]:
+        """Half width b [m], and no end across the motion."""
+        return self.half_width, math.inf
+
+    @property
+    def dry_area(self) -> float:
+        """Area of the dry contact per length [m]."""
+        return 2.0 * self.half_width
+
+    @property
+    def equivalent_moes(self) -> tuple[float, float]:
+        """M and L [-] of the circle with the same dry inlet, as of an ellipse.
+
+        Of equal alpha_bar, and of equal lambda_bar with heights by kernel_ratio b^2/R.
+        """
+        speed = self.speed_parameter / LINE.kernel_ratio**2
+        moes_m = (128.0 * math.pi**3 / (3.0 * speed**3)) ** 0.25
+        return moes_m, math.pi * self.alpha_bar / (1.5 * moes_m) ** (1.0 / 3.0)
 
     @property
     def hertz_radius(self) -> float:
@@ -238,11 +288,40 @@ class LineContact:
         return self.half_width / self.mean_velocity
 
 
-def contact_of(settings: Settings) -> OperatingPoint | LineContact:
+AnyContact = OperatingPoint | LineContact
+
+
+def contact_of(settings: Settings) -> AnyContact:
     """Give the point or line contact of a resolved case."""
     if settings["contact"].get("shape") == "line":
         return LineContact.from_settings(settings)
     return OperatingPoint.from_settings(settings)
+
+
+def formula_film(contact: AnyContact, lubricant: Lubricant) -> float:
+    """Central film of a point or line contact by formula [m]."""
+    if isinstance(contact, LineContact):
+        return central_film(contact, lubricant)
+    return film.central_film(contact, lubricant)
+
+
+def circle_with_same_inlet(
+    operating: AnyContact, lubricant: Lubricant, film: float
+) -> tuple[float, float]:
+    """M and L [-] of the circular contact whose inlet makes of waves what this one makes of them.
+
+    Of equal alpha_bar and, with heights by which the stiffness of waves is the same, of equal
+    central film H_c = `film` [a^2/R_x]: what flows off to the sides of an ellipse acts as a lower
+    viscosity (docs/evidence/ellipse). Of a circle its own, whatever its film.
+    """
+    moes_m, moes_l = operating.equivalent_moes
+    if operating.radius_ratio == 1.0:
+        return moes_m, moes_l
+    here = film / operating.ellipse.kernel_ratio
+    density = float(lubricant.density_ratio(operating.hertz_pressure))
+    share = here * density / nijenbanning_venner_moes(moes_m, moes_l)
+    ratio = inlet_viscosity_ratio(moes_m, moes_l, share)
+    return moes_m * ratio**-0.75, moes_l * ratio**0.25
 
 
 def _asymptotes(moes_m: float, moes_l: float) -> tuple[float, float, float, float]:

@@ -26,8 +26,8 @@ REFERENCE_MODULUS = 2.26e11
 # and where L = 0, which has no speed either
 REFERENCE_L = 10.0
 NO_LINE = (
-    "contact.shape = 'line': line contacts have no prediction, response, curve or stress yet\n"
-    "expected: a point contact; run, solve, film, sweep, plot and report take lines"
+    "contact.shape = 'line': this is for point contacts\nexpected: a point contact; run, solve, "
+    "film, predict, stribeck, stress, sweep, plot and report take lines"
 )
 
 
@@ -227,6 +227,11 @@ class OperatingPoint:
         return self.ellipse.ellipticity * self.hertz_radius
 
     @property
+    def dry_area(self) -> float:
+        """Area of the dry contact [m^2]."""
+        return math.pi * self.hertz_radius * self.semi_axis_y
+
+    @property
     def semi_axes(self) -> tuple[float, float]:
         """Semi-axes of the dry contact along the motion and across it [m]."""
         return self.hertz_radius, self.semi_axis_y
@@ -277,7 +282,8 @@ class OperatingPoint:
 
         Of equal alpha_bar, and of equal lambda_bar where the stiffness of waves is the same: with
         heights by kernel_ratio a^2/R_x. The dry contact near the edge is then that of the circle.
-        What the sides take off is not in it: :func:`pyehl.theory.film.circle_with_same_inlet`.
+        What the sides take off is not in it, but in
+        :func:`pyehl.theory.line_contact.circle_with_same_inlet`.
         """
         shape = self.ellipse
         kernel = shape.kernel_ratio

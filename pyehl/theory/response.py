@@ -106,6 +106,11 @@ def inlet_transfer(
     value is real), M and L of the circular contact with the same inlet, and U. The lines are the
     first dimensions of the result.
     """
+    if np.isinf(zone.ellipticity):
+        # nothing flows off to the sides: the equation holds as it is
+        lines = np.asarray(y, dtype=float)
+        made = passed(zone, qx, qy, velocity_ratio)
+        return np.broadcast_to(made, lines.shape + made.shape).copy()
     # of the Newtonian contact, at the nearest velocity ratio that was fitted
     known, (low, high) = zone.newtonian or zone, fitted_range()["velocity_ratio"]
     known_ratio = min(max(velocity_ratio, low), high)

@@ -371,12 +371,20 @@ def test_refused_beside_a_point(root, drivers, tmp_path, key):
         assert "contact.shape = 'line', or contact." in run.stderr
 
 
-def test_no_prediction_yet(root):
+def test_no_operating_point(root):
     case = root / "cases" / "line.nml"
-    with pytest.raises(pyehl.InputError, match=r"contact\.shape = 'line': line contacts have no"):
-        pyehl.predict(case)
     with pytest.raises(pyehl.InputError, match=r"contact\.shape = 'line'"):
         pyehl.OperatingPoint.from_settings(pyehl.Case(case).resolve())
+
+
+def test_inlet_that_is_too_short():
+    """A run without a result there asks for a longer inlet, not for a finer grid."""
+    with pytest.raises(pyehl.NotConverged) as info:
+        pyehl.solve(moes(0.5, 5.0, 257, x_inlet=-1.2))
+    message = info.value.results.attrs["message"]
+    assert "leave out grid.x_inlet" in message
+    assert "grid.points" not in message
+    assert pyehl.solve(moes(0.5, 5.0, 257)).attrs["status"] == "converged"
 
 
 def test_picture_and_report(root, tmp_path):

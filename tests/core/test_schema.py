@@ -107,7 +107,9 @@ def test_predictions(tmp_path: Path):
     )
     layer = "&contact load = 20.0 /\n&lubricant boundary_film = 1e-9 /\n"
     held = {*pyehl.predict(pyehl.Case.from_text(layer + rough)).summary}
-    assert alone | oval | both | held == names("prediction")
+    line = "&contact shape = 'line' load_per_length = 1e5 radius = 0.01 mean_velocity = 0.5 /\n"
+    strip = {*pyehl.predict(pyehl.Case.from_text(line + rough)).summary}
+    assert alone | oval | both | held | strip == names("prediction")
     of_two = {n for n in names("prediction") if n.startswith("second_")}
     assert both - alone == of_two | {"surface_rms_m", "surface_slope", "surface_correlation"}
 

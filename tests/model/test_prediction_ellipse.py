@@ -20,7 +20,7 @@ from pyehl.prediction.smooth import solve_contact, zone_of
 from pyehl.theory.disc import RADIUS, disc_correction, monomials
 from pyehl.theory.ellipse import Ellipse, ellipse
 from pyehl.theory.ellipse_edge import EllipseEdge, Series
-from pyehl.theory.film import circle_with_same_inlet
+from pyehl.theory.line_contact import circle_with_same_inlet
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import inlet_fit

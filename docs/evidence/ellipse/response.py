@@ -27,7 +27,7 @@ from pyehl.handle import SolverHandle
 from pyehl.measured_response.measurement import TIERS, tier_waves
 from pyehl.measured_response.superposition import Superposition, WaveSet, superpose, transient_case
 from pyehl.prediction.smooth import solve_contact, zone_on
-from pyehl.theory.film import circle_with_same_inlet
+from pyehl.theory.line_contact import circle_with_same_inlet
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import inlet_transfer

@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Pressure of a wave of roughness on the strip of a line contact: the disc of :mod:`.disc`.
+
+A pressure p(X) exp(i k_Y Y) on |X| < 1 deflects the half-space by (1/pi) times the integral of
+K_0(|k_Y| |X - X'|) p(X'), of -ln|X - X'| at k_Y = 0 (Johnson 1985, Contact Mechanics, chapter 2).
+With p a sum of T_n(X)/sqrt(1 - X^2) the logarithm gives T_n/n, and the rest of the kernel, which is
+smooth, is integrated at Chebyshev points: for each k_Y there is one small set of equations. At
+k_Y = 0 the load per length is fixed, so that there is no T_0. Lengths by b, heights by b^2/R,
+pressures by p_h, in which the half-space has the stiffness |q|.
+"""
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.polynomial import chebyshev
+
+from pyehl.theory.disc import LARGEST, RADIUS
+from pyehl.types import Array, Complex, Indices
+
+DEGREE = 10
+"""Degree of the polynomials in X."""
+PLACES = 41
+"""Places at which they are fitted."""
+NODES = 256
+"""Chebyshev points of the integrals."""
+PER_WAVE = 16
+"""Intervals of an edge per shortest wave across the motion."""
+ORDERS = math.ceil(LARGEST) + 12
+"""Highest order n: a plane wave has no higher ones."""
+
+
+class StripEdge:
+    """What the edges of a strip do to the pressure of long waves.
+
+    As products of polynomials in X and waves across the motion, with wavenumbers |k_Y| (m,) [1/b],
+    all of which repeat after a width [b].
+    """
+
+    largest = LARGEST
+    """Largest wavenumber that feels an edge [1/b]."""
+
+    def __init__(self, across: Array, width: float) -> None:
+        self.across, self.width = np.asarray(across, dtype=float), width
+        shortest = 2.0 * math.pi / float(self.across.max(initial=0.0) or 1.0)
+        self.places = math.ceil(PER_WAVE * max(1.0, width / shortest))
+        """Intervals along an edge at whose ends it is known how far it is moved."""
+        self._x = np.asarray(np.linspace(-RADIUS, RADIUS, PLACES), dtype=float)
+        basis = chebyshev.chebvander(self._x / RADIUS, DEGREE)
+        self._inverse = np.asarray(np.linalg.pinv(basis), dtype=float)
+        self._solved = [_equations(float(k)) for k in self.across]
+
+    def polynomials(self, x: Array) -> Array:
+        """Polynomials (n, DEGREE + 1) in X [b], held constant beyond RADIUS."""
+        held = np.clip(x, -RADIUS, RADIUS)
+        return np.asarray(chebyshev.chebvander(held / RADIUS, DEGREE))
+
+    def waves(self, y: Array) -> Array:
+        """Waves (2 m, n) across the motion at places Y [b]."""
+        phase = np.outer(self.across, y)
+        return np.stack([np.cos(phase), np.sin(phase)], axis=1).reshape(
+            2 * self.across.size, y.size
+        )
+
+    def correction(self, qx: Array, qy: Array) -> Complex:
+        """Return what waves (m,) [1/b] on the strip have in pressure beyond the half-space.
+
+        Coefficients (n, m) of the products of `waves` and `polynomials` [p_h per b^2/R].
+        """
+        found = np.zeros((self.across.size, 2, DEGREE + 1, qx.size), dtype=complex)
+        orders = chebyshev.chebvander(self._x, ORDERS) / np.sqrt(1.0 - self._x**2)[:, np.newaxis]
+        for k, wave, there in self._each(qx, qy):
+            local = np.hypot(qx[wave], qy[wave]) * np.exp(1j * np.outer(self._x, qx[wave]))
+            part = self._inverse @ (orders @ there - local)
+            found[k, 0][:, wave] = part
+            # exp(i k_Y Y) by the cosine and the sine of |k_Y| Y
+            found[k, 1][:, wave] = 1j * np.sign(qy[wave]) * part
+        return found.reshape(2 * self.across.size * (DEGREE + 1), qx.size)
+
+    def rim(self, qx: Array, qy: Array) -> Complex:
+        """How far waves (m,) move the edges outwards, :func:`pyehl.theory.disc.disc_rim`.
+
+        At X = -1, then X = 1, at the ends (n,) of intervals of the width: (2 n, m).
+        """
+        y = np.linspace(0.0, self.width, self.places + 1)
+        found = np.zeros((2, y.size, qx.size), dtype=complex)
+        for _, wave, there in self._each(qx, qy):
+            phase = np.exp(1j * np.outer(y, qy[wave]))
+            for side, sign in enumerate(((-1.0) ** np.arange(ORDERS + 1), np.ones(ORDERS + 1))):
+                found[side][:, wave] = phase * (sign @ there)
+        return found.reshape(2 * y.size, qx.size)
+
+    def _each(self, qx: Array, qy: Array) -> Iterator[tuple[int, Indices, Complex]]:
+        """Waves (l,) of each |k_Y|, and weights (orders, l) of T_n/sqrt(1 - X^2) in pressure."""
+        from scipy.special import jv  # noqa: PLC0415 (takes as long to load as all the rest)
+
+        if not qx.size:
+            return
+        n = np.arange(ORDERS + 1)
+        nearest = np.argmin(np.abs(np.abs(qy)[:, np.newaxis] - self.across), axis=1)
+        for k, solved in enumerate(self._solved):
+            wave = np.flatnonzero(nearest == k)
+            if wave.size:
+                plane = (math.pi * 1j**n)[:, np.newaxis] * jv(n[:, np.newaxis], qx[wave])
+                yield k, wave, solved @ plane
+
+
+def _equations(k: float) -> Array:
+    """Weights of T_n/sqrt(1 - X^2) by the integrals of T_n f/sqrt(1 - X^2) of a deflection f."""
+    n = np.arange(ORDERS + 1)
+    # of the logarithm
+    diagonal = np.append(math.pi * math.log(2.0), 0.5 * math.pi / n[1:])
+    if k == 0.0:
+        return np.diag(np.append(0.0, 1.0 / diagonal[1:]))
+    from scipy.special import k0  # noqa: PLC0415
+
+    angle = (np.arange(NODES) + 0.5) * (math.pi / NODES)
+    x = np.cos(angle)
+    # the limit of K_0(k d) + ln d at d = 0
+    apart = np.abs(x[:, np.newaxis] - x)
+    np.fill_diagonal(apart, 1.0)
+    rest = k0(k * apart) + np.log(apart)
+    np.fill_diagonal(rest, -math.log(0.5 * k) - np.euler_gamma)
+    waves = np.cos(np.outer(n, angle)) * (math.pi / NODES)
+    return np.asarray(np.linalg.inv(np.diag(diagonal) + waves @ rest @ waves.T / math.pi))
