@@ -199,9 +199,10 @@ contains
       bend = 0.0_dp
       do i = 2, size(p) - 1
          ! where pressure rises along the motion it is the inlet, which the coarse grids are needed for
-         if (p(i + 1) < p(i) .and. min(p(i - 1), p(i + 1)) > cavity_pressure) &
+         if (p(i + 1) < p(i) .and. min(p(i - 1), p(i + 1)) > cavity_pressure) then
             bend(i) = abs(log(max(eps(i - 1), tiny(1.0_dp))) - 2.0_dp*log(max(eps(i), tiny(1.0_dp))) &
                           + log(max(eps(i + 1), tiny(1.0_dp))))
+         end if
       end do
       do i = 2, size(p) - 1
          change(i) = change(i)/(1.0_dp + (maxval(bend(i - 1:i + 1))/sharp)**2)
