@@ -19,7 +19,7 @@ module ehl_case_defaults
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    implicit none (type, external)
    private
-   public :: complete, inlet, latest_start, line_keys, make_isotherms, moes_keys, point_keys, roelands_exponent, si_keys, &
+   public :: complete, inlet, latest_start, line_keys, make_isotherms, moes_keys, point_keys, si_keys, &
              sliding, velocity_ratio, &
              waits
 
