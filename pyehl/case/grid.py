@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The grid of a case: border and domain that follow from the contact, nodes that can be halved."""
 
-from pyehl.case import physics
+from pyehl.case import duty, physics
 from pyehl.case.key import short, to_text
 from pyehl.case.settings import Draft
 
@@ -18,10 +18,17 @@ def complete(draft: Draft) -> None:
     find_points = not draft.is_given("grid", "points") and g.target_error <= 0.0
     found = physics.grid_defaults(
         draft.settings,
-        g.border if draft.is_given("grid", "border") else "",
+        # a border that changes with time is not known
+        g.border
+        if draft.is_given("grid", "border")
+        else "zero"
+        if draft.settings.duty.time
+        else "",
         [getattr(g, end) if draft.is_given("grid", end) else None for end in ENDS],
         0 if find_points else g.points,
         g.points_y,
+        duty.widening(draft.settings),
+        duty.reverses(draft.settings),
     )
     g.border, g.x_inlet, g.x_outlet, g.y_extent, g.points, g.points_y = found
 

@@ -47,8 +47,9 @@ def quoted(text: str) -> str:
 
 
 def short(value: float) -> str:
-    """Give four digits of a number, for messages."""
-    return f"{value:.3E}"
+    """Give four digits of a number, for messages: 0.04, 2.26e11."""
+    mantissa, _, exponent = f"{value:.4g}".partition("e")
+    return f"{mantissa}e{int(exponent)}" if exponent else mantissa
 
 
 Value = bool | int | float | str | tuple[float, ...]
@@ -69,7 +70,7 @@ class Key:
     group, key
         Its names in a namelist.
     kind
-        'real', 'whole', 'truth', 'word', 'path', 'text', or 'numbers', which pyehl writes alone.
+        'real', 'whole', 'truth', 'word', 'path', 'text', or 'numbers'.
     unit
         Of a number; '-' for none.
     allowed
@@ -141,7 +142,9 @@ class Key:
             "truth": ".true. or .false.",
             "path": "a file name between quotes",
             "text": "a text between quotes",
-            "numbers": "what pyehl writes; lubricant.table names measured values",
+            "numbers": "numbers with commas between them"
+            if self.for_input
+            else "what pyehl writes; lubricant.table names measured values",
         }[self.kind]
 
     def in_millimetres(self, number: str) -> str:
@@ -193,7 +196,7 @@ def text(meaning: str) -> Any:  # noqa: ANN401
 
 
 def numbers(unit: str, meaning: str) -> Any:  # noqa: ANN401
-    """Describe a key that takes numbers, which nobody types."""
+    """Describe a key that takes any number of numbers."""
     return _field("numbers", (), unit, "", meaning)
 
 
