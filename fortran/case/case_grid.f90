@@ -10,7 +10,7 @@ module ehl_case_grid
    use ehl_moes, only: operating_t
    implicit none (type, external)
    private
-   public :: grid_keys, fill_grid, widening_of
+   public :: blunt_spike, grid_keys, fill_grid, widening_of
 
    !> Keys of &grid that have a default by the contact
    character(len=8), parameter :: grid_keys(5) = [character(len=8) :: "border", "x_inlet", "x_outlet", "y_extent", "points"]

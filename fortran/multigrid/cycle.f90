@@ -38,6 +38,8 @@ module ehl_cycle
       !> Whether these are those of the finest level alone: where each level takes its share of what a coarser one finds,
       !> next to nothing of the film's level and the load, which the coarsest finds, arrives on fine grids
       logical :: finest_only = .false.
+      !> Whether coarse grids leave sharp pressure spikes to the sweeps
+      logical :: spare_spikes = .false.
       !> Kind of transfers and coarse operators
       integer :: coarsening = coarsening_classical
    end type cycle_options_t
@@ -127,7 +129,7 @@ contains
          call fas_cycle(grids, m, coarser)
       end if
       call correct(grids%levels(n), grids%levels(m), grids%workspaces(m), grids%coarsenings(n)%transfer, options%coarsening, &
-                   options%correction_factor)
+                   options%correction_factor, options%spare_spikes)
       call update_coefficients(grids%levels(n))
    end subroutine visit_coarser
 

@@ -2,6 +2,7 @@
 !> The plan of a run: what a case needs, decided once.
 module ehl_plan
    use ehl_case, only: case_t
+   use ehl_case_grid, only: blunt_spike
    use ehl_case_point, only: find_contact, operating_point
    use ehl_contact, only: contact_t
    use ehl_cycle, only: coarsening_alcouffe, coarsening_classical, cycle_options_t
@@ -45,6 +46,8 @@ module ehl_plan
    !> Extent of the dry contact across the motion over that along it from which on it does so on any grid: cycles go to and
    !> fro between two states there
    real(dp), parameter :: wide = 2.0_dp
+   !> The same from which on the trailing edge moves from column to column in a few rows
+   real(dp), parameter :: oblique = 4.0_dp
 
    !> What the smooth contact needs, and all else
    type, extends(steady_options_t) :: plan_t
@@ -237,11 +240,13 @@ contains
       if (row .and. input%solver%cycle == "auto") plan%cycle_letter = "V"
       plan%cycle = cycle_of(plan%cycle_letter)
       if (row) plan%cycle%pre = 1
+      plan%cycle%spare_spikes = has_sharp_spike(plan)
       plan%second_cycle = plan%cycle
       if (plan%cycle%full .and. input%solver%cycle == "auto" .and. .not. (plan%goes_on() .or. plan%touches)) then
          ! The first leaves so little that is smooth that one visit to the coarser levels will do. Not before rough runs:
          ! the error of the smooth friction is one of the ratio.
          plan%second_cycle = cycle_of("V")
+         plan%second_cycle%spare_spikes = plan%cycle%spare_spikes
       end if
       ! A time step begins close to its solution, so that the cheapest cycle wins; with two sweeps after the coarse
       ! grids rather than before, more steps take a single one
@@ -252,6 +257,15 @@ contains
       plan%step_cycle%coarsening = merge(coarsening_alcouffe, coarsening_classical, &
                                          input%solver%coarsening == "alcouffe")
    end subroutine pick_cycle
+
+   !> Whether the pressure spike of a smooth contact is a few nodes wide along an edge that is oblique to the rows. Where the flow
+   !> thins cycles that spare it diverge on coarse grids (kappa = 12, L = 28, Eyring).
+   pure logical function has_sharp_spike(plan)
+      type(plan_t), intent(in) :: plan
+
+      has_sharp_spike = plan%contact%reach(2) > oblique*plan%contact%reach(1) .and. plan%point%alpha_bar > blunt_spike .and. &
+                        .not. (plan%lubricant%shear%thins_flow() .or. plan%surfaces%rough() .or. plan%touches)
+   end function has_sharp_spike
 
    !> Options of a kind of cycle
    pure function cycle_of(letter) result(options)

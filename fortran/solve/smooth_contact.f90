@@ -32,6 +32,9 @@ module ehl_smooth_contact
    real(dp), parameter :: light_error = 3.0e-4_dp
    !> A residual that no state on the way to a solution has, unless the one before it was nearly as large
    real(dp), parameter :: max_residual = 2.0_dp
+   !> Residual from which on coarse grids change sharp pressure spikes too: sweeps alone do not find one that is far off
+   !> (kappa = 11, L = 26)
+   real(dp), parameter :: near_solution = 0.05_dp
    !> Cycles that are few: on a level that began from a coarser one, and from the Hertz pressure
    integer, parameter :: min_cycles = 2, cycles_from_guess = 3
 
@@ -170,6 +173,7 @@ contains
 
       if (self%options%flooded) call self%far_field%set_border(level, self%contact%load)
       self%next_cycle = cycle_to_make(self)
+      if (self%residual > near_solution) self%next_cycle%spare_spikes = .false.
       self%max_cycles = self%options%max_cycles
       if (is_end(self%options, self%n) .and. counts_share(self%options, self%m)) then
          self%max_cycles = touching_cycles*self%max_cycles

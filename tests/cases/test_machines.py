@@ -295,3 +295,23 @@ def test_cycles_whose_residual_grows_are_taken_back():
     assert [done["restarts"] for done in found] == [0, 0]
     coarse, fine = found
     assert abs(coarse["H_c"] - fine["H_c"]) <= coarse["H_c_error"] + fine["H_c_error"]
+
+
+@pytest.mark.long
+def test_sharp_spike_is_left_to_the_sweeps():
+    """A ball at 2.7 GPa, kappa = 9: ends at the cycle limit where coarse grids change its spike."""
+    keys = {
+        "contact.radius_x": 0.002717,
+        "contact.radius_y": 0.08576,
+        "contact.load": 857.2,
+        "contact.mean_velocity": 1.801,
+        "contact.reduced_modulus": 2.26e11,
+        "lubricant.viscosity": 0.1098,
+        "lubricant.pressure_viscosity": 2.39e-8,
+        "surface.kind": "smooth",
+    }
+    with pyehl.Solver(pyehl.Case.from_text("", keys)) as solver:
+        assert solver.run()
+        found = solver.summary
+    assert found["restarts"] == 0
+    assert found["cycles"] <= 12
