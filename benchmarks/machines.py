@@ -176,7 +176,8 @@ def _line(kind: str, rng: np.random.Generator) -> Contact:
         }
         keys |= {f"contact.{name}": value for name, value in si.items()}
         words["contact.reduced_modulus"] = MODULUS
-        line = LineContact(reduced_modulus=MODULUS, si=True, **si, **oil)
+        values: dict[str, Any] = {"reduced_modulus": MODULUS, "si": True, **si, **oil}
+        line = LineContact(**values)
         law = words["lubricant.shear_law"] = str(rng.choice(LAWS))
         if law != "newtonian":
             keys[f"lubricant.{law}_stress"] = _scale(rng, 1e6, 1e7)
