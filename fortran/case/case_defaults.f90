@@ -19,8 +19,8 @@ module ehl_case_defaults
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    implicit none (type, external)
    private
-   public :: complete, inlet, latest_start, line_keys, make_isotherms, moes_keys, point_keys, roelands_exponent, si_keys, &
-             sliding, velocity_ratio, &
+   public :: complete, inlet, is_short_of_oil, latest_start, line_keys, make_isotherms, moes_keys, point_keys, roelands_exponent, &
+             si_keys, sliding, velocity_ratio, &
              waits
 
    character(len=16), parameter :: moes_keys(5) = [character(len=16) :: "moes_m", "moes_l", "radius_ratio", "moes_m_line", &
@@ -51,8 +51,10 @@ contains
       call complete_lubricant(source, input, status)
       if (status%failed()) return
       call find_contact(input, contact, scales, point)
+      call complete_inlet(source, scales, input)
       call fill_grid(contact, point, input%surface%kind == "smooth" .and. input%second_surface%kind == "smooth", &
-                     [(source%given("grid."//grid_keys(k)), k=1, size(grid_keys))], input%grid)
+                     [(source%given("grid."//grid_keys(k)), k=1, size(grid_keys))] .or. &
+                     [is_short_of_oil(input), input%inlet%position_hertz > 0.0_dp, .false., .false., .false.], input%grid)
       if (input%contact%is_line() .and. .not. source%given("solver.deflection")) input%solver%deflection = "fft"
       call complete_motion(source, input)
       call complete_surface(source, "surface", input%grid%x_inlet, input%surface)
@@ -65,6 +67,27 @@ contains
       if (.not. source%given("surface.x_start")) call late_start(input%surface, input%second_surface)
       if (.not. source%given("second_surface.x_start")) call late_start(input%second_surface, input%surface)
    end subroutine complete
+
+   !> Whether the inlet is meant to be short of oil
+   pure logical function is_short_of_oil(input)
+      type(case_t), intent(in) :: input
+      is_short_of_oil = max(input%inlet%position_hertz, input%inlet%film_hertz) > 0.0_dp
+   end function is_short_of_oil
+
+   !> The inlet in Hertz units; P = 0 is at its border
+   subroutine complete_inlet(source, scales, input)
+      type(case_source_t), intent(in) :: source
+      type(scales_t), intent(in) :: scales
+      type(case_t), intent(inout) :: input
+
+      associate (of => input%inlet)
+         if (input%contact%si) then
+            if (.not. source%given("inlet.position_hertz")) of%position_hertz = of%position/scales%length
+            if (.not. source%given("inlet.film_hertz")) of%film_hertz = of%film/scales%film
+         end if
+         if (of%position_hertz > 0.0_dp .and. .not. source%given("grid.x_inlet")) input%grid%x_inlet = -of%position_hertz
+      end associate
+   end subroutine complete_inlet
 
    !> SI units or Moes numbers, and both radii
    subroutine complete_contact(source, input)

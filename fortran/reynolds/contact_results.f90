@@ -5,6 +5,7 @@ module ehl_contact_results
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
    use ehl_level, only: gap_row, level_t
+   use ehl_oil_flow, only: measure_flow, oil_flow_t
    use ehl_touching, only: measure_touching, touches, touching_t
    implicit none (type, external)
    private
@@ -34,6 +35,8 @@ module ehl_contact_results
       logical :: holds = .true.
       !> Where the bodies touch. The friction there is that of the boundary film, or left out where that is not known.
       type(touching_t) :: touching
+      !> Of an inlet that is short of oil
+      type(oil_flow_t) :: oil
    contains
       procedure :: films
    end type contact_results_t
@@ -76,6 +79,7 @@ contains
       m%positive = level%boundary%active .or. all(smallest > 0.0_dp)
       m%holds = level%boundary%holds(level%mass_content, film_tolerance)
       m%touching = measure_touching(level)
+      m%oil = measure_flow(level)
    end function measure
 
    !> Shear stress of row j where the bodies touch: that of the boundary film, of the lubricant none

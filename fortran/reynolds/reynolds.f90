@@ -3,8 +3,8 @@
 !>
 !>    d/dX (eps_x dP/dX) + d/dY (eps_y dP/dY) - d(rho H)/dX - d(rho H)/dT = 0
 !>
-!> and P = 0 elsewhere, where the left-hand side is not positive: P >= 0 and nothing flows out of a cavity. P is given on the
-!> border: 0, or that of a flooded contact (far_field.f90). eps_x and eps_y are the conductances (flow.f90), for a Newtonian
+!> and P = 0 elsewhere, where the left-hand side is not positive: P >= 0 and nothing flows out of a cavity, or what does is what
+!> arrives there (supply.f90). P is given on the border: 0, or that of a flooded contact (far_field.f90). eps_x and eps_y are the conductances (flow.f90), for a Newtonian
 !> lubricant both rho H^3/(eta lambda_bar); rho and eta depend on P (physics/lubricant.f90), H on all of P (film.f90), and its
 !> constant H00 on the force balance (force_balance.f90).
 !>
@@ -51,22 +51,26 @@ contains
    end subroutine reynolds_operator
 
    !> The same as if no node touched
-   pure subroutine flow_operator(level, j, values)
+   pure subroutine flow_operator(level, j, values, passing)
       type(level_t), intent(in) :: level
       integer, intent(in) :: j
       !> Shape (nx)
       real(dp), contiguous, intent(out) :: values(:)
+      !> Which nodes pass on all oil that they receive (supply.f90)
+      logical, contiguous, intent(out), optional :: passing(:)
       integer :: nx
 
       nx = level%grid%nx
       values(1) = 0.0_dp
       values(nx) = 0.0_dp
       if (level%grid%is_border(j)) then
+         if (present(passing)) passing = .false.
          values(2:nx - 1) = 0.0_dp
          return
       end if
       call level%poiseuille%apply_row(level%p, level%flow, j, values)
       call level%wedge%subtract_row(level%mass_content(:, j), values)
+      call level%supply%transport_row(level%p(:, j), level%mass_content(:, j), j, values, passing)
    end subroutine flow_operator
 
    !> Which nodes touch, for the present pressure, film and coefficients

@@ -84,6 +84,8 @@ contains
       if (plan%scales%has_size()) call record%set("h_c_m h_c_error_m h_min_m h_min_error_m p_max_Pa", &
          [values(1), error(1) + domain(1), values(2), error(2) + domain(2), values(3)]* &
          [spread(plan%scales%film, 1, 4), plan%scales%pressure])
+      if (plan%layer > 0.0_dp) call record%set("oil_layer oil_in oil_out oil_at_sides oil_imbalance", &
+         [plan%layer, merge([m%oil%enters, m%oil%leaves, m%oil%sides, m%oil%imbalance], spread(not_known, 1, 4), good)])
       call record%set("cycles", smooth%results(n)%cycles)
       call record%set("total_cycles", sum(smooth%results%cycles))
       call record%set("residual", smooth%results(n)%residual)

@@ -14,6 +14,7 @@ module ehl_smooth_contact
    use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_diverged, outcome_negative_film, outcome_running, &
                           outcome_target_missed
    use ehl_level, only: level_t
+   use ehl_oil_flow, only: flow_tolerance
    use ehl_status, only: ehl_no_memory, status_t
    use ehl_steady_options, only: end_rule_t, rule_of_circles, rule_of_others, steady_options_t
    implicit none (type, external)
@@ -25,6 +26,8 @@ module ehl_smooth_contact
    real(dp), parameter :: max_share_reduction = 0.99_dp
    !> Most cycles of a contact that touches, over those of others: the edge of a touching zone moves by a node in several cycles
    integer, parameter :: touching_cycles = 3
+   !> The same of one that is short of oil: what flows back from the contact and around it takes some to balance
+   integer, parameter :: starved_cycles = 3
    !> What an error of the load changes the film, per relative error: the deflection by the Hertz pressure differs from its
    !> mean under it by 1/5 at the centre and by 3/10 at the edge [a^2/R]
    real(dp), parameter :: film_per_load = 0.3_dp
@@ -63,6 +66,9 @@ module ehl_smooth_contact
       !> Whether a cycle that ends in no state of the contact is taken back, and cycles that stall are accelerated
       logical, private :: guarded = .false.
       type(guard_t), private :: guard
+      !> Whether as much oil arrives as the gap holds. A line lets all oil through that arrives, for nothing flows around it: first it
+      !> is solved so, and the layer counts where that takes more.
+      logical, private :: floods = .false.
       !> Restarts: on a finer grid after a failure on a coarse one, with damping after one on the finest
       integer :: restarts = 0
       type(level_result_t), allocatable :: results(:)
@@ -124,6 +130,7 @@ contains
       self%of_film = .true.
       self%guarded = options%guarded
       self%n = options%start
+      self%floods = options%line
       self%results = spread(level_result_t(), 1, options%levels)
    end subroutine start
 
@@ -137,6 +144,7 @@ contains
       call hierarchy%grow(self%n, status)
       if (status%failed()) return
       if (self%damped) call hierarchy%forget()
+      call hierarchy%supply(merge(huge(1.0_dp), self%options%layer, self%options%layer > 0.0_dp .and. self%floods))
       associate (level => hierarchy%levels(self%n), grid => hierarchy%levels(self%n)%grid)
          do j = 1, grid%ny
             call self%contact%gap_row(grid%columns(), grid%y(j), level%film_rhs(:, j))
@@ -174,6 +182,7 @@ contains
       if (is_end(self%options, self%n) .and. counts_share(self%options, self%m)) then
          self%max_cycles = touching_cycles*self%max_cycles
       end if
+      if (self%options%layer > 0.0_dp) self%max_cycles = starved_cycles*self%options%max_cycles
       if (self%guarded) call keep_state(self, level, status)
    end subroutine begin_cycle
 
@@ -227,7 +236,8 @@ contains
    pure logical function converged(self)
       class(smooth_contact_t), intent(in) :: self
       converged = self%failure_status() == outcome_running .and. self%m%holds .and. &
-                  (abs(self%m%load_error) <= load_tolerance .or. .not. is_end(self%options, self%n))
+                  (max(abs(self%m%load_error)/load_tolerance, abs(self%m%oil%imbalance)/flow_tolerance) <= 1.0_dp &
+                   .or. .not. is_end(self%options, self%n))
       if (converged) converged = accurate(self%options, self%results, self%n, self%m, self%residual, &
                                           self%cycles < self%max_cycles)
    end function converged
@@ -280,6 +290,13 @@ contains
             return
          end if
       end associate
+      if (self%floods .and. self%m%oil%enters > self%options%layer .and. self%options%layer > 0.0_dp) then
+         self%floods = .false.
+         self%begun = .false.
+         self%results(self%n)%solved = .false.
+         outcome = outcome_running
+         return
+      end if
       met = .false.
       if (outcome == outcome_converged) met = has_target(self%options, self%results, self%n, self%m)
       if (met .or. finest) then

@@ -4,7 +4,7 @@
 from collections.abc import Callable
 from contextlib import suppress
 
-from pyehl.case import contact, density, grid, line, lubricant, radii, surfaces, temperature
+from pyehl.case import contact, density, grid, inlet, line, lubricant, radii, surfaces, temperature
 from pyehl.case.draft import Draft
 from pyehl.case.settings import GROUPS, MACHINES
 from pyehl.errors import InputError
@@ -36,6 +36,7 @@ COMPLETIONS: tuple[Step, ...] = (
     temperature.complete_viscosity,
     temperature.complete_alpha,
     lubricant.complete_law,
+    inlet.complete,
     grid.complete,
     contact.complete_kinematics,
     lubricant.complete,
@@ -47,7 +48,9 @@ STEPS: tuple[Step, ...] = (
     line.check_keys,
     *COMPLETIONS[:6],
     contact.check_operating_point,
+    inlet.complete,
     grid.complete,
+    inlet.check,
     grid.check_extent,
     contact.complete_kinematics,
     lubricant.complete,

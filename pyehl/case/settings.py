@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, fields
 from typing import Any
 
-from pyehl.case.groups import Bodies, Contact, Grid, Output, Psd, Solver, Time
+from pyehl.case.groups import Bodies, Contact, Grid, Inlet, Output, Psd, Solver, Time
 from pyehl.case.key import Key, Value
 from pyehl.case.lubricant_group import Lubricant
 from pyehl.case.machine_groups import BallBearing, RollerBearing, SpurGear
@@ -19,6 +19,7 @@ class Settings:
     contact: Contact = field(default_factory=Contact)
     bodies: Bodies = field(default_factory=Bodies)
     lubricant: Lubricant = field(default_factory=Lubricant)
+    inlet: Inlet = field(default_factory=Inlet)
     grid: Grid = field(default_factory=Grid)
     surface: Surface = field(default_factory=Surface)
     second_surface: Surface = field(default_factory=Surface)

@@ -95,6 +95,9 @@ def _unwritten(settings: Settings, group: str) -> frozenset[str]:
     if group == "bodies":
         keys = () if settings.bodies.given else (key.key for key in GROUPS["bodies"])
         return frozenset(keys)
+    if group == "inlet":
+        short = max(settings.inlet.position_hertz, settings.inlet.film_hertz) > 0.0
+        return frozenset(() if short else (key.key for key in GROUPS["inlet"]))
     if group == "lubricant":
         return frozenset(_of_lubricant(settings))
     if group in ("surface", "second_surface"):
