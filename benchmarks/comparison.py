@@ -10,7 +10,7 @@ from numpy import asarray
 
 from pyehl.case import Case
 from pyehl.handle import SolverHandle, results_of
-from pyehl.prediction.initial_condition import hand_over
+from pyehl.prediction.simulation import hand_over
 from pyehl.types import Row, Values
 
 # Bits cannot be equal where sums are taken in another order; the cycles may make it more

@@ -7,16 +7,7 @@ import sys
 from collections.abc import Sequence
 
 import numpy as np
-from common import (
-    GRIDS,
-    ScipyDeflection,
-    columns,
-    hertz,
-    measure,
-    median_seconds,
-    parser,
-    show,
-)
+from common import GRIDS, ScipyDeflection, columns, hertz, measure, median_seconds, parser, show
 
 from pyehl import library
 from pyehl.types import Array, Row

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from pyehl.case import Case, files_of
 from pyehl.errors import NotConverged, named
 from pyehl.given import Option, check_kind, path_of
-from pyehl.prediction import folder
+from pyehl.prediction import result
 from pyehl.prediction.film_formulas import FilmThickness, sheet
 from pyehl.prediction.friction import TRACKS
 from pyehl.prediction.predict import predict as predict_resolved
@@ -185,7 +185,7 @@ def predict(
         smooth = path_of(smooth, "smooth")
     place = None
     if output is not None:
-        place = folder.destination(path_of(output, "output"), inputs=inputs, force=force)
+        place = result.destination(path_of(output, "output"), inputs=inputs, force=force)
         place.check()
     settings = case.resolve()
     with named(name):
@@ -198,9 +198,9 @@ def predict(
             second_surface=tiles["second_surface"],
         )
     if place is not None:
-        folder.write(found, place)
+        result.write(found, place)
         if plots:
-            folder.draw(found, place.folder)
+            result.draw(found, place.folder)
     return found
 
 

@@ -13,7 +13,7 @@ from pyehl.handle import SolverHandle, results_of, start_fronts, take_prediction
 from pyehl.surfaces import Topography
 
 if TYPE_CHECKING:
-    from pyehl.prediction.resolution import Resolution
+    from pyehl.prediction.simulation import Resolution
 
 
 class Predictions:
@@ -46,14 +46,14 @@ class Predictions:
     def begin(self, solver: SolverHandle) -> None:
         """Hand a solver the start that it asks for; mostly it asks for none."""
         if start_fronts(solver).size:
-            from pyehl.prediction.initial_condition import hand_over  # noqa: PLC0415
+            from pyehl.prediction.simulation import hand_over  # noqa: PLC0415
 
             hand_over(solver, self._case.resolve(), self._tiles, whole=self._whole)
 
     def _resolution_once(self) -> Resolution | str | None:
         """Predict what the grid does not resolve; text: why there is no prediction."""
         if not self._resolved:
-            from pyehl.prediction.resolution import resolution  # noqa: PLC0415
+            from pyehl.prediction.simulation import resolution  # noqa: PLC0415
 
             try:
                 self._resolution = resolution(self._case, self._tiles)

@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 from records import Values, of, read, script
 
-from pyehl.prediction.second_order import FILM_ENDS
+from pyehl.prediction.response import FILM_ENDS
 
 
 def load_shares() -> Values:

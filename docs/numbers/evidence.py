@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 from records import Row, Values, largest, of, read, span
 
-from pyehl.prediction import options
+from pyehl.prediction import model
 from pyehl.prediction.mixed_lubrication import TOUCHING_FILM_ERROR
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.transition import lift_off
@@ -66,7 +66,7 @@ def ellipse() -> Values:
         for row in read("ellipse/ridges.csv")
         if row["wavelength"] == "1" and float(row["ellipticity"]) < 1.0
     ]
-    term = options.NARROW
+    term = model.NARROW
     return locals()
 
 

@@ -9,7 +9,7 @@ import io
 import numpy as np
 from records import Values, percent, read, script
 
-from pyehl.prediction.second_order import INLET_FILM
+from pyehl.prediction.response import INLET_FILM
 
 TABLES = script("tables.py")
 

@@ -11,9 +11,9 @@ from pyehl import lengths
 from pyehl.api import predict
 from pyehl.commands.arguments import add_case_arguments, add_force
 from pyehl.conclusion import conclude
-from pyehl.prediction import folder, spectrum_assumed
 from pyehl.prediction.friction import TRACKS, error_name
-from pyehl.prediction.result import Prediction
+from pyehl.prediction.predict import other_spectra_report
+from pyehl.prediction.result import Prediction, draw
 from pyehl.surfaces import Topography
 
 
@@ -42,7 +42,7 @@ def report(prediction: Prediction) -> str:
         )
         if parts:
             lines.append(f"increase   {parts}")
-    lines += spectrum_assumed.report(prediction.beside)
+    lines += other_spectra_report(prediction.beside)
     if prediction.advice:
         lines += prediction.advice.report()
     if f.cavitated_share > 0.0:
@@ -143,6 +143,6 @@ def execute(args: argparse.Namespace) -> int:
     )
     print(report(prediction), flush=True)
     if args.plots:
-        folder.draw(prediction, args.output)
+        draw(prediction, args.output)
     print(f"results    {args.output}")
     return 0 if prediction.friction.status == "predicted" else 1

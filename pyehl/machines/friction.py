@@ -6,7 +6,7 @@ import math
 import numpy as np
 
 from pyehl.machines.contact import Film
-from pyehl.prediction.thermal import HeatOf
+from pyehl.prediction.smooth import HeatOf
 from pyehl.theory.friction import absolute_friction
 from pyehl.theory.heat import Heat
 from pyehl.theory.shear import shear_stress

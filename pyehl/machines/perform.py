@@ -22,7 +22,7 @@ from pyehl.machines.gear import GearPair, gear_pair
 from pyehl.machines.result import MachineResult, row_of, sigma_of, summary_of, table_of
 from pyehl.plots import machine as pictures
 from pyehl.plots.style import save
-from pyehl.prediction.options import unpredictable
+from pyehl.prediction.model import unpredictable
 from pyehl.studies.gather import Outcome, Watcher, gather
 from pyehl.studies.journal import FILES as JOURNAL
 from pyehl.studies.journal import NAME

@@ -16,7 +16,7 @@ from pyehl.destination import Destination, new_file, write_json
 from pyehl.given import Option, path_of
 from pyehl.measured_response.measurement import TIERS, measure, with_tiers
 from pyehl.netcdf import write_netcdf
-from pyehl.prediction.options import ModelOptions, outside_range
+from pyehl.prediction.model import ModelOptions, outside_range
 from pyehl.prediction.response import STATIONS
 from pyehl.prediction.smooth import circle_of, solve_contact, zone_of
 from pyehl.results import scalars

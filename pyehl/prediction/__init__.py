@@ -49,8 +49,8 @@ lubricant at these pressures has no meaning.
 """
 
 from pyehl.prediction.bands import Band
-from pyehl.prediction.contact import Response
 from pyehl.prediction.friction import RoughFriction
-from pyehl.prediction.options import ModelOptions
+from pyehl.prediction.model import ModelOptions
+from pyehl.prediction.rough_contact import Response
 
 __all__ = ["Band", "ModelOptions", "Response", "RoughFriction"]

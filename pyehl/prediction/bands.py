@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pyehl.prediction.options import KNOWN_RATIO
+from pyehl.prediction.model import KNOWN_RATIO
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.surfaces.defects import prominence
 from pyehl.surfaces.map_steps import cropped

@@ -13,10 +13,10 @@ import numpy as np
 
 from pyehl import lengths
 from pyehl.prediction.bands import choices, spikes_of, suggested_wavelength
+from pyehl.prediction.friction import known, remedies
 from pyehl.prediction.model import Model
-from pyehl.prediction.passage_friction import known, remedies
 from pyehl.prediction.relative_positions import RelativePositions
-from pyehl.prediction.second_order import FILM_ENDS
+from pyehl.prediction.response import FILM_ENDS
 from pyehl.surfaces.tile import Topography
 from pyehl.types import Array, Indices
 

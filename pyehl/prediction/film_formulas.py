@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from pyehl import display, schema, surfaces
-from pyehl.prediction.second_surface import composite_rms, sum_of
+from pyehl.prediction.spectrum import composite_rms, sum_of
 from pyehl.theory import film, line_contact, stribeck
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.moes_film import regime

@@ -32,10 +32,8 @@ from typing import Any
 import numpy as np
 
 from pyehl.prediction.boundary_film import HOLD, LayeredContact, Level
-from pyehl.prediction.friction import RoughFriction, broken
-from pyehl.prediction.model import Components, Model
-from pyehl.prediction.options import outside_range
-from pyehl.prediction.passage_friction import Outcome
+from pyehl.prediction.friction import Outcome, RoughFriction, broken
+from pyehl.prediction.model import Components, Model, outside_range
 from pyehl.prediction.smooth import SmoothContact
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.surfaces import interpolated

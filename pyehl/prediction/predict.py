@@ -1,19 +1,24 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The prediction of a resolved case."""
+"""The prediction of a resolved case: its cost, the case itself, and the case with other spectra.
 
+Ra and Rq do not determine a spectrum. Where one of them or a finish is given, the case is also
+predicted with other roll-offs.
+"""
+
+import logging
 import math
 import os
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from pyehl import surfaces
+from pyehl import lengths, surfaces
+from pyehl.case.surfaces import FINISHES
 from pyehl.errors import InputError
-from pyehl.prediction import spectrum_assumed
 from pyehl.prediction.breakdown import (
     BelowZero,
     Sustained,
@@ -22,20 +27,174 @@ from pyehl.prediction.breakdown import (
     of_model,
     sustained_by,
 )
-from pyehl.prediction.cost import report_cost
-from pyehl.prediction.folder import read_contact
-from pyehl.prediction.friction import TRACKS, RoughFriction, broken
+from pyehl.prediction.friction import TRACKS, Outcome, RoughFriction, broken, run
 from pyehl.prediction.mixed_lubrication import mixed_film, with_contact
-from pyehl.prediction.model import Model, RoughSurface
-from pyehl.prediction.options import ModelOptions, unpredictable
-from pyehl.prediction.passage_friction import Outcome, run
-from pyehl.prediction.result import Prediction
-from pyehl.prediction.second_surface import Together
-from pyehl.prediction.smooth import SmoothContact, hertz_contact, solve_contact, with_layer
-from pyehl.prediction.thermal import heat_of
+from pyehl.prediction.model import PIXEL_POINTS, Model, ModelOptions, RoughSurface, unpredictable
+from pyehl.prediction.result import Prediction, read_contact
+from pyehl.prediction.smooth import SmoothContact, heat_of, hertz_contact, solve_contact, with_layer
+from pyehl.prediction.spectrum import WORKING_PIXELS, Together
+from pyehl.surfaces import Topography
 from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
+from pyehl.types import Settings
+
+LENGTHS = (30e-6, 100e-6, 0.0)
+"""Wavelengths of roll-offs that are tried [m]; 0: none, waves as long as the tile."""
+
+
+def spectrum_assumed(group: Mapping[str, Any]) -> bool:
+    """Whether a group of a case gives Ra, Rq or a finish, and its spectrum is no measured one."""
+    if group.get("kind") != "fractal":
+        return False
+    named = str(group.get("finish", "none")) != "none"
+    return named or bool(group.get("ra", 0.0)) or bool(group.get("rq", 0.0))
+
+
+def other_spectra_count(groups: Mapping[str, Any], names: Sequence[str]) -> int:
+    """Count the predictions that `other_spectra` makes."""
+    return len(LENGTHS) if any(spectrum_assumed(groups[name]) for name in names) else 0
+
+
+def other_spectra(
+    settings: Settings, groups: Sequence[str], predict: Callable[[Settings], "Prediction"]
+) -> list[dict[str, Any]]:
+    """Predict the case with other roll-offs, of all surfaces whose spectrum is assumed."""
+    changed = [name for name in groups if spectrum_assumed(settings[name])]
+    if not changed:
+        return []
+    found = []
+    for length in LENGTHS:
+        roll = 2.0 * math.pi / length if length else 0.0
+        other = {
+            name: {**values, "rolloff_wavenumber": roll} if name in changed else values
+            for name, values in settings.items()
+        }
+        result = predict(other)
+        known = result.friction.status == "predicted"
+        found.append(
+            {
+                "rolloff_wavelength_m": length or None,
+                "status": result.friction.status,
+                "h_min_rough_m": result.friction.film_min if known else None,
+                "mu_ratio": result.mu_ratio if known else None,
+                "film_m": result.below.deepest if result.below else None,
+            }
+        )
+    return found
+
+
+def other_spectra_report(rows: Sequence[Mapping[str, Any]]) -> list[str]:
+    """Return the lines that ``pyehl predict`` prints."""
+    if not rows:
+        return []
+    typical = (f"{k} {lengths.length(f.rolloff, most='um')}" for k, f in FINISHES.items())
+    lines = [
+        f"spectrum   not determined by Ra; typical roll-offs: {', '.join(typical)};",
+        "           with a roll-off of the spectrum at",
+    ]
+    for row in rows:
+        where = "none" if row["rolloff_wavelength_m"] is None else (
+            lengths.length(row["rolloff_wavelength_m"], most="um")
+        )  # fmt: skip
+        if row["status"] == "predicted":
+            what = f"minimum film {lengths.length(row['h_min_rough_m'])}, "
+            what += f"mu_r/mu_s {row['mu_ratio']:.4g}"
+        else:
+            what = str(row["status"])
+            if (film := row["film_m"]) is not None and film < 0.0:
+                what += f", {lengths.length(-film)} higher than the film sustains"
+        lines.append(f"           {where + ':':8} {what}")
+    return lines
+
+
+LOG = logging.getLogger(__name__)
+
+PER_PIXEL = 1.5e-5
+"""Seconds per pixel of the tile that is worked on, of one core of 2020, to a factor of two."""
+PER_POINT = 1e-4
+"""And per point of the contact."""
+REPORTED = 10.0
+"""Seconds from which on they are reported."""
+BRIEF = 0.36
+"""Share of the time that a prediction without tracks and bands takes, as those with other spectra
+are that stand beside one with a finish: 0.3 to 0.4 with cases/finish.nml and a gear flank."""
+SMALL = 0.02
+"""Contacts along each side of a map that has to be repeated very often."""
+ENOUGH = 3.0
+"""Contacts, along each side, of a part that is offered in place of a larger map."""
+
+
+def seconds_of(tile: Topography, operating: OperatingPoint) -> float:
+    """Seconds that the prediction of a tile takes, to a factor of two."""
+    sides = list(zip(tile.shape, tile.size, operating.semi_axes, strict=True))
+    pixels = math.prod(max(n, size / a * WORKING_PIXELS) for n, size, a in sides)
+    # points in the contact, no fewer than tiles across the motion
+    a = operating.hertz_radius
+    points = math.pi * a * operating.semi_axis_y / min(a / PIXEL_POINTS, *tile.size) ** 2
+    return PER_PIXEL * pixels + PER_POINT * points
+
+
+def report_cost(
+    tile: Topography, operating: OperatingPoint, group: str = "surface", beside: int = 0
+) -> None:
+    """Describe what a large tile takes, and which part of its map is enough.
+
+    `other_spectra` is the number of brief predictions of other spectra.
+    """
+    seconds = seconds_of(tile, operating) * (1.0 + BRIEF * beside)
+    if seconds < REPORTED:
+        return
+    made = tile.preparation
+    images = 2 if made is not None and made.options.edges == "mirror" else 1
+    # as it lies in the contact: along the motion, across it
+    own = [size / images for size in tile.size]
+    contacts = [size / (2.0 * a) for size, a in zip(own, operating.semi_axes, strict=True)]
+    text = (
+        f"{tile.origin}: {tile.shape[0]} x {tile.shape[1]} pixels"
+        f"{', mirror images included,' if images > 1 else ''} take about {_time(seconds)}"
+    )
+    if max(contacts) > 2.0 * ENOUGH:
+        text += f"; the map is {contacts[0]:.0f} x {contacts[1]:.0f} contacts long and wide"
+        text += _part(tile, operating, own, seconds, group)
+    elif max(contacts) < SMALL:
+        text += (
+            f"; the map is {lengths.size(own[0], own[1], 3)} and the contact "
+            f"{lengths.length(2.0 * operating.hertz_radius, 2)} long: a larger map takes less"
+        )
+    LOG.info(text)
+
+
+def _part(
+    tile: Topography, operating: OperatingPoint, own: list[float], seconds: float, group: str
+) -> str:
+    """Offer the middle of a map as read, where it was not turned."""
+    made = tile.preparation
+    if made is None or made.options.rotate % 360.0 != 0.0:
+        return ""
+    share, options = 1.0, []
+    for k, (name, size, a) in enumerate(zip("xy", own, operating.semi_axes, strict=True)):
+        want = 2.0 * ENOUGH * a
+        if size <= want:
+            continue
+        share *= want / size
+        low = made.options.crop[2 * k] + 0.5 * (size - want)
+        options.append(f"{group}.crop_{name}_min={low:.4g}")
+        options.append(f"{group}.crop_{name}_max={low + want:.4g}")
+    side = lengths.length(2.0 * ENOUGH * operating.hertz_radius, 2)
+    return (
+        f". A part of {ENOUGH:.0f} contacts ({side}) takes about {_time(share * seconds)}: "
+        f"{', '.join(options)}"
+    )
+
+
+def _time(seconds: float) -> str:
+    """Seconds, minutes or hours, to a digit."""
+    for unit, size in (("h", 3600.0), ("min", 60.0)):
+        if seconds >= 2.0 * size:
+            return f"{float(f'{seconds / size:.1g}'):g} {unit}"
+    return f"{float(f'{seconds:.1g}'):g} s"
+
 
 MAX_TRACKS = 10_000
 """The mean over as many is known to a hundredth of the spread."""
@@ -105,7 +264,7 @@ def predict(
         heat=(mixed and mixed.heat) or heat_of(settings, contact, lubricant),
         beside=[]
         if brief or any(given.values())
-        else spectrum_assumed.beside(
+        else other_spectra(
             settings,
             surfaces.rough_groups(settings),
             lambda other: predict(other, smooth=smooth, brief=True),
@@ -123,7 +282,7 @@ def _surfaces(
 ) -> tuple[RoughSurface, ...]:
     """Make the rough surfaces of a resolved case, whose film is h_c [m]."""
     rough, groups = [], surfaces.rough_groups(settings)
-    beside = 0 if any(given.values()) else spectrum_assumed.number(settings, groups)
+    beside = 0 if any(given.values()) else other_spectra_count(settings, groups)
     for group in groups:
         values = settings[group]
         tile = given[group]

@@ -18,7 +18,7 @@ from typing import Protocol
 import numpy as np
 
 from pyehl.prediction.moving_tile import Position
-from pyehl.prediction.options import FIRST_POSITIONS, MAX_POSITIONS
+from pyehl.prediction.spectrum import FIRST_POSITIONS, MAX_POSITIONS, SAME
 from pyehl.surfaces import interpolated
 from pyehl.types import Array
 
@@ -27,7 +27,7 @@ Friction = Callable[[Position], float]
 
 POSITION_TOLERANCE = 2e-3
 """Error that half of the positions may make (relative) for no more to be added: a fifth of the
-least error of the model (:data:`pyehl.prediction.options.CONSTANT`)."""
+least error of the model (:data:`pyehl.prediction.model.CONSTANT`)."""
 EXTREMES = 32
 """Positions at which minimum film and greatest increase of the pressure are looked for: at twice as
 many they differ by 1 % at most (docs/evidence/thinning)."""
@@ -35,8 +35,6 @@ many they differ by 1 % at most (docs/evidence/thinning)."""
 MOST_PASSAGES = 12
 """Passages of a tile in a common period that is followed: products of waves that have a mean over
 a longer one are of that order."""
-SAME = 1e-9
-"""Relative difference of two times that is none."""
 LATTICES = (9, 13, 19, 27)
 """m of the lattices of a mean over all positions, the next one where one is not enough: each has
 about twice as many positions as the one before."""

@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The smooth contact under a prediction: solved, or the dry contact of the paper."""
+"""The smooth contact under a prediction, and the heat of sliding in it.
+
+It is the case without its surface, solved on grids of the prediction, or the dry contact of the
+paper.
+"""
 
 from __future__ import annotations
 
@@ -12,17 +16,108 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from pyehl import namelist
 from pyehl.case import Case
-from pyehl.errors import EhlError
+from pyehl.errors import EhlError, check
+from pyehl.extension import functions
 from pyehl.handle import SolverHandle, results_of
-from pyehl.prediction.smooth_case import FINEST, smooth_case
-from pyehl.reasons import words_of
-from pyehl.theory.film import circle_with_same_inlet
+from pyehl.reasons import NOT_CONVERGED, heat_words, words_of
+from pyehl.surfaces import GROUPS
+from pyehl.theory.film import central_film, circle_with_same_inlet
+from pyehl.theory.heat import Heat
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.shear import FlowFactors, ShearLaw, flow_factors
 from pyehl.theory.transport import Zone
-from pyehl.types import Array, Settings
+from pyehl.types import Array, Mask, Settings
+
+# Keys that pressure and film of a smooth contact do not depend on. Those of slip and oil they do
+# where the inlet is heated by shear, those of slip and law where the flow thins
+OF_SLIP = ("slide_to_roll", "rough_surface")
+OF_SOLIDS = (
+    "hardness",
+    *("thermal_conductivity", "thermal_diffusivity"),
+    *("thermal_conductivity_2", "thermal_diffusivity_2"),
+)
+# (a temperature is refused without something that it changes)
+OF_OIL = ("thermal_conductivity",)
+OF_SHEAR = (
+    *("shear_law", "flow", "eyring_stress", "limiting_stress", "limiting_coefficient"),
+    *("carreau_stress", "carreau_exponent"),
+)
+# The prediction is that of a full film
+OF_CONTACT = ("boundary_film", "boundary_friction")
+# Groups without a say in a smooth contact (the radii of the bodies are in the group contact), and
+# keys of the grid of a run, in place of which the prediction has grids of its own
+OF_OTHERS = ("bodies", *GROUPS, "time", "psd", "output")
+OF_RUN = ("points", "points_y", "target_error", "max_points")
+
+INLET, RESOLVED = 1.3, 0.12
+"""A grid misses the share INLET (h/H^(2/3))^2 of the film that the inlet makes; what it may miss
+where bodies touch (``fortran/steady/inlet.f90``)."""
+THINNEST, THICKER = 0.3, 1.15
+"""Minimum film of a smooth contact over the central one, and the error of the formula for that."""
+FINEST = 1025
+"""Nodes per side of the finest grid that is tried."""
+
+
+def without_surface(settings: Settings) -> dict[str, dict[str, Any]]:
+    """Give a resolved case without its surfaces and the grid of its run."""
+    return {
+        group: {k: v for k, v in keys.items() if group != "grid" or k not in OF_RUN}
+        for group, keys in settings.items()
+        if group not in OF_OTHERS
+    }
+
+
+def smooth_case(settings: Settings, *, layer: bool = False) -> str:
+    """Text of the case whose solution is the smooth contact under a resolved case.
+
+    All of the case but its surface and what a smooth contact does not depend on, so that a new key
+    is obeyed. `layer`: with its boundary film. Cases that differ in their surface or the heat of
+    friction alone have the same; where the flow is Newtonian and the inlet not heated by shear, so
+    have those that differ in their slip or their shear law.
+    """
+    thins = ShearLaw.from_settings(settings).in_flow
+    heated = bool(settings["lubricant"]["thermal_reduction"])
+    of_contact = OF_SOLIDS + (() if thins or heated else OF_SLIP)
+    of_lubricant = OF_CONTACT + (() if thins else OF_SHEAR) + (() if heated else OF_OIL)
+    if layer:
+        of_contact = tuple(key for key in of_contact if key != "hardness")
+        of_lubricant = tuple(key for key in of_lubricant if key != "boundary_film")
+    left_out = {"contact": of_contact, "lubricant": of_lubricant}
+    groups = {
+        group: {k: v for k, v in keys.items() if k not in left_out.get(group, ())}
+        for group, keys in without_surface(settings).items()
+    }
+    groups["lubricant"]["thermal_friction"] = "never"
+    return namelist.text_of(groups)
+
+
+def touching_points(settings: Settings) -> int:
+    """Nodes along X that tell whether the smooth contact of a resolved case touches.
+
+    No fewer than it has; they resolve the inlet as ``fortran/steady/inlet.f90`` asks for, up to
+    FINEST.
+    """
+    if not settings["lubricant"].get("boundary_film", 0.0):
+        return int(settings["grid"]["points"])
+    operating, lubricant = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
+    grid = settings["grid"]
+    points, length = int(grid["points"]), float(grid["x_outlet"]) - float(grid["x_inlet"])
+    film = central_film(operating, lubricant) / operating.film_scale
+    density = float(lubricant.density_ratio(operating.hertz_pressure))
+    layer = float(settings["lubricant"]["boundary_film"]) / operating.film_scale / density
+    if layer >= THICKER * film:
+        return points
+    while 2 * points - 1 <= FINEST:
+        missed = INLET * (length / (points - 1)) ** 2 * film ** (-4.0 / 3.0)
+        # the film of a grid is thinner by more than it misses where it is thinnest
+        if missed <= RESOLVED or layer <= THINNEST * (1.0 - 2.0 * missed) * film:
+            break
+        points = 2 * points - 1
+    return points
+
 
 SHARE_NOTE = "contact_load_share_error_note"
 POINTS = 257
@@ -288,3 +383,66 @@ def _factors(
     gradient = h * slope * (operating.hertz_pressure / operating.hertz_radius)
     parts = gradient / shear.scale, 0.0 * gradient
     return flow_factors(shear.law, shear.carreau_exponent, newtonian / shear.scale, parts)
+
+
+def heat_of(settings: Settings, contact: SmoothContact, lubricant: Lubricant) -> Heat:
+    """Give what the heat of sliding makes of friction in the smooth contact of a resolved case.
+
+    On the pressure and the film of the prediction. InputError if the case is not acceptable.
+    """
+    # rows that mirror each other have the same temperature
+    even = float(settings["contact"]["angle"]) == 0.0
+    first = int(np.argmin(np.abs(contact.y))) if even else 0
+    pressure, film = contact.pressure[:, first:], contact.film[:, first:]
+    nodes = HeatOf(settings, lubricant, contact.x, contact.y[first:], even=even)
+    return nodes(pressure, film, np.zeros(film.shape, dtype=bool))
+
+
+@dataclass(frozen=True, slots=True)
+class HeatOf:
+    """The heat of sliding on the nodes x (m,), y (n,) [a] of a resolved case.
+
+    The same as in a run (``fortran/reynolds/heated_friction.f90``); `even`: the rows are those of
+    Y >= 0.
+    """
+
+    settings: Settings
+    lubricant: Lubricant
+    x: Array
+    y: Array
+    even: bool = False
+
+    def __call__(self, pressure: Array, film: Array, touching: Mask) -> Heat:
+        """Give it for P [p_h], H [a^2/R] and where bodies touch at a boundary film, (m, n) each."""
+        law = {"viscosity_law": self.lubricant.viscosity_law}
+        groups = {
+            "contact": self.settings["contact"],
+            "lubricant": {**self.settings["lubricant"], **law},
+        }
+        x, y = self.x, self.y
+        counts, ratio, rises, reason, estimate, status, message = functions.frictional_heat(
+            namelist.text_of(groups).encode(),
+            np.array(pressure, order="F"),
+            np.array(film, order="F"),
+            np.array(touching, dtype=np.int32, order="F"),
+            x[0],
+            y[0],
+            x[1] - x[0],
+            y[1] - y[0],
+            int(self.even),
+        )
+        check(status, message)
+        words = heat_words(reason, estimate)
+        if not counts:
+            return Heat(note=words)
+        first, second, third = map(float, rises)
+        note = words if np.isfinite(ratio) else NOT_CONVERGED
+        return Heat(float(ratio), (first, second, third), note)
+
+
+def mean_heat(parts: Sequence[Heat], weights: Sequence[float]) -> Heat:
+    """Heat of a rough contact in some positions: of friction a mean, of the rises the greatest."""
+    ratio = float(np.average([part.ratio for part in parts], weights=weights))
+    first, second, third = (float(v) for v in np.max([part.rises for part in parts], axis=0))
+    note = parts[0].note if math.isfinite(ratio) else NOT_CONVERGED
+    return Heat(ratio, (first, second, third), note, rough=math.isfinite(first))

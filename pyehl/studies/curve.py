@@ -13,7 +13,7 @@ from pyehl.assessment import NO_INLET
 from pyehl.conclusion import Conclusion, conclude
 from pyehl.prediction.friction import BEYOND, deformed_surfaces
 from pyehl.prediction.mixed_lubrication import NO_FRICTION
-from pyehl.prediction.options import KNOWN_RATIO
+from pyehl.prediction.model import KNOWN_RATIO
 from pyehl.prediction.smooth import film_of
 from pyehl.reasons import OF_ROUGH
 from pyehl.results import unit_of

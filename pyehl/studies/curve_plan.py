@@ -14,9 +14,8 @@ from typing import Any
 from pyehl import surfaces
 from pyehl.case import Case, files_of
 from pyehl.errors import InputError
-from pyehl.prediction.options import turned, unpredictable
-from pyehl.prediction.smooth import CYCLES
-from pyehl.prediction.smooth_case import touching_points
+from pyehl.prediction.model import turned, unpredictable
+from pyehl.prediction.smooth import CYCLES, touching_points
 from pyehl.studies.estimate import duration, wall_seconds
 from pyehl.studies.plan import TaskList, check_maps, check_memory
 from pyehl.studies.study import MAX_CASES, Point, Study, make

@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from pyehl.case.line import TRANSVERSE
-from pyehl.prediction import spectrum_assumed
+from pyehl.prediction.predict import other_spectra_count
 from pyehl.prediction.smooth import POINTS
 from pyehl.studies.pool import processors
 from pyehl.studies.tasks import Task
@@ -95,7 +95,7 @@ def _predict_seconds(settings: Settings, aspect: float, *, shared: bool, full: b
     thins = ShearLaw.from_settings(settings).in_flow
     sides = [int(s["pixels"]) if s["kind"] == "fractal" else 256 for s in rough]
     alone = sum(PREDICTION + PREDICTION_PIXEL * side**2 for side in sides)
-    beside = spectrum_assumed.number(settings, rough_groups(settings))
+    beside = other_spectra_count(settings, rough_groups(settings))
     alone *= (FULL + beside if full else 1.0) * (PAIR if len(rough) > 1 else 1.0)
     alone *= THINS if thins else 1.0
     kappa = point.ellipse.ellipticity

@@ -17,8 +17,7 @@ from pyehl import namelist
 from pyehl.case import KEYS, resolve
 from pyehl.errors import EhlError, InputError
 from pyehl.handle import SolverHandle, results_of
-from pyehl.prediction.smooth import film_of
-from pyehl.prediction.smooth_case import FINEST
+from pyehl.prediction.smooth import FINEST, film_of
 from pyehl.studies.measured_friction import Measured
 from pyehl.studies.shear_fit import Fit, Parameter, intervals, smooth_base, weights
 from pyehl.theory.operating import OperatingPoint

@@ -13,8 +13,8 @@ from pyehl import library, surfaces
 from pyehl.case import Case, files_of
 from pyehl.errors import InputError
 from pyehl.given import key_of
-from pyehl.prediction.options import unpredictable
-from pyehl.prediction.smooth_case import smooth_case
+from pyehl.prediction.model import unpredictable
+from pyehl.prediction.smooth import smooth_case
 from pyehl.solver import Solver
 from pyehl.studies.estimate import duration, seconds_of, wall_seconds
 from pyehl.studies.study import Point, Study

@@ -11,15 +11,7 @@ import numpy as np
 
 from pyehl.errors import InputError
 from pyehl.rigs.comparison import Deviation, deviations
-from pyehl.rigs.quantities import (
-    CONDITIONS,
-    LOAD,
-    MEASURED,
-    SLIP,
-    SPEED,
-    TEMPERATURE,
-    Quantity,
-)
+from pyehl.rigs.quantities import CONDITIONS, LOAD, MEASURED, SLIP, SPEED, TEMPERATURE, Quantity
 from pyehl.rigs.reading import RigFile, Step, read_rig
 from pyehl.rigs.repeats import Curve, averaged, varied
 from pyehl.studies.compare import Results

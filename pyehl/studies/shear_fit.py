@@ -17,8 +17,7 @@ from pyehl import namelist, schema
 from pyehl.case import KEYS, resolve
 from pyehl.errors import EhlError, InputError
 from pyehl.handle import SolverHandle, results_of
-from pyehl.prediction.smooth import SmoothContact, solve_contact
-from pyehl.prediction.smooth_case import without_surface
+from pyehl.prediction.smooth import SmoothContact, solve_contact, without_surface
 from pyehl.studies.measured_friction import Measured
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint

@@ -16,7 +16,7 @@ from typing import Any
 from pyehl import schema
 from pyehl.case import trusted
 from pyehl.errors import EhlError, InputError, did_you_mean
-from pyehl.prediction import film_formulas, folder
+from pyehl.prediction import film_formulas, result
 from pyehl.prediction.friction import BEYOND
 from pyehl.prediction.predict import predict
 from pyehl.run import run
@@ -148,7 +148,7 @@ def _predict(task: Task) -> Row:
     full = task.full or bool(task.folder)
     prediction = predict(case.resolve(), case.text, brief=not full)
     if task.folder:
-        folder.write(prediction, folder.destination(task.folder))
+        result.write(prediction, result.destination(task.folder))
     row = _scalars(prediction.summary)
     return row if full else {name: row[name] for name in row if name not in TRACKS}
 

@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pyehl.errors import InputError
-from pyehl.prediction.model import Model, RoughSurface
+from pyehl.prediction.model import Model, ModelOptions, RoughSurface
 from pyehl.prediction.moving_tile import Component
-from pyehl.prediction.options import ModelOptions
+from pyehl.prediction.response import film_left
 from pyehl.prediction.rough_contact import RoughContact
-from pyehl.prediction.second_order import film_left
 from pyehl.prediction.smooth import solve_contact
 from pyehl.results import settings_of
 from pyehl.subsurface.loads import Loads, made_of

@@ -17,12 +17,7 @@ from pyehl.theory.film import FilmEstimate, outside
 from pyehl.theory.heat import thermal_loading, thermal_reduction
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.moes_film import ALIKE
-from pyehl.theory.operating import (
-    REFERENCE_L,
-    REFERENCE_MODULUS,
-    REFERENCE_RADIUS,
-    OperatingPoint,
-)
+from pyehl.theory.operating import REFERENCE_L, REFERENCE_MODULUS, REFERENCE_RADIUS, OperatingPoint
 from pyehl.types import Settings
 
 __all__ = [

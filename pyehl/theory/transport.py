@@ -273,7 +273,7 @@ def pressed(
     (kx, ky) [1/a] makes. The sides of a narrow contact flatten a wave as long as it is wide more
     than the middle does. Where the amplitude is a sum of waves across the motion, so is the film,
     and each has its own stiffness. Beyond the contact it falls to zero; what is there is no film:
-    the edge takes it off (:class:`pyehl.prediction.edge.Edge`). No constant in it is fitted.
+    the edge takes it off (:class:`pyehl.prediction.moving_tile.Edge`). No constant in it is fitted.
     """
     here = free_stiffness(kx, ky, velocity_ratio)
     found = here * amplitudes

@@ -4,8 +4,8 @@
 from dataclasses import replace
 
 from pyehl.prediction import Band, ModelOptions, Response, RoughFriction
+from pyehl.prediction.friction import run
 from pyehl.prediction.model import Model
-from pyehl.prediction.passage_friction import run
 from pyehl.prediction.smooth import hertz_contact
 from pyehl.surfaces import Topography
 from pyehl.theory.lubricant import Lubricant

@@ -324,6 +324,20 @@ def test_theory_names_routines_that_are_there(root: Path):
         assert re.search(rf"(subroutine|function) {name}\b", source), (page, name, path)
 
 
+def test_theory_names_files_that_are_there(root: Path):
+    """Every chapter says where its equations are computed, by files that exist."""
+    folders = ("fortran", "pyehl", "tests", "docs")
+    files = {path.name for folder in folders for path in (root / folder).rglob("*.*")}
+    chapters = [p for p in (root / "docs/theory").glob("*.md") if "toctree" not in p.read_text()]
+    for page in chapters:
+        named = re.findall(r"`([\w/]+\.(?:f90|py))`", page.read_text(encoding="utf-8"))
+        assert named or page.stem == "stress", page.name
+        for name in named:
+            places = [root / folder / name for folder in ("", "fortran", "pyehl")]
+            known = any(place.is_file() for place in places)
+            assert known or ("/" not in name and name in files), (page.name, name)
+
+
 def test_a_v_cycle_is_read_in_few_files(root: Path):
     """From the program to the relaxation each file is used by one before it."""
     text = (root / "fortran/README.md").read_text(encoding="utf-8")

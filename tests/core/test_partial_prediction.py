@@ -11,9 +11,9 @@ from pyehl.commands.predict import report
 from pyehl.plots import surface
 from pyehl.plots.stribeck import draw_stribeck
 from pyehl.prediction import smooth
-from pyehl.prediction.contact_solver import Compliance, lifted
+from pyehl.prediction.boundary_film import Compliance, lifted
 from pyehl.prediction.predict import predict
-from pyehl.prediction.smooth_case import touching_points
+from pyehl.prediction.smooth import touching_points
 from pyehl.schema import summary_of as scalars_of
 from pyehl.studies.curve import CONTACT, CONTACT_EHL, EMPIRICAL, UNITS
 from pyehl.theory.friction import OF_ROUGH

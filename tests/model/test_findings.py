@@ -10,7 +10,7 @@ import pyehl
 from pyehl import cli
 from pyehl.errors import InputError
 from pyehl.prediction.breakdown import advise
-from pyehl.prediction.cost import seconds_of
+from pyehl.prediction.predict import seconds_of
 from pyehl.surfaces import Options, Scan, Topography, fractal, prepare
 from pyehl.surfaces.findings import find
 from pyehl.surfaces.map_steps import align_lines, level
@@ -243,7 +243,7 @@ def test_a_scan_of_many_contacts_says_its_cost_and_offers_a_part(caplog, monkeyp
     point = OperatingPoint()
     assert seconds_of(tile, point) == pytest.approx(1.5e-5 * n * n, rel=0.2)
     z = rough(shape=(64, 64))
-    monkeypatch.setattr("pyehl.prediction.cost.REPORTED", 0.5)
+    monkeypatch.setattr("pyehl.prediction.predict.REPORTED", 0.5)
     made = prepare(Scan(z, 6e-3, 6e-3, "wide", is_array=False))
     surface = Topography(made.tile, made.lengths, "wide", None, made)
     caplog.set_level(logging.INFO, "pyehl")

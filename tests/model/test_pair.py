@@ -10,16 +10,14 @@ import pytest
 
 import pyehl
 from pyehl import cli
-from pyehl.prediction import second_surface
+from pyehl.prediction import spectrum
 from pyehl.prediction.breakdown import of_model
-from pyehl.prediction.model import Model, RoughSurface
-from pyehl.prediction.options import ModelOptions
-from pyehl.prediction.passage_friction import run
+from pyehl.prediction.friction import run
+from pyehl.prediction.model import Model, ModelOptions, RoughSurface
 from pyehl.prediction.relative_positions import RelativePositions, common_passages
 from pyehl.prediction.response import Transfer
-from pyehl.prediction.second_surface import merged
 from pyehl.prediction.smooth import solve_contact, zone_of
-from pyehl.prediction.spectrum import Spectrum
+from pyehl.prediction.spectrum import Spectrum, merged
 from pyehl.surfaces import Topography, fractal
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -323,7 +321,7 @@ def test_no_tile_of_too_many_pixels(monkeypatch):
     one, other = rough(3, length=4e-4), rough(4, length=4e-4 * 12 / 11)
     both = merged(one, other, 0.0)
     assert both.length_x == pytest.approx(12 * one.length_x)
-    monkeypatch.setattr(second_surface, "MAX_PIXELS", both.heights.size - 1)
+    monkeypatch.setattr(spectrum, "MAX_PIXELS", both.heights.size - 1)
     assert merged(one, other, 0.0) is None
 
 

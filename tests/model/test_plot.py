@@ -31,8 +31,8 @@ from pyehl.plots import (
     surface,
     transient,
 )
-from pyehl.prediction.folder import destination, draw, write
 from pyehl.prediction.predict import predict
+from pyehl.prediction.result import destination, draw, write
 from pyehl.surfaces import Topography
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint

@@ -12,8 +12,8 @@ import xarray as xr
 from pyehl import FileError, InputError, namelist
 from pyehl.commands import film as film_command
 from pyehl.commands import predict as predict_command
-from pyehl.prediction.folder import destination, draw, write
 from pyehl.prediction.predict import predict
+from pyehl.prediction.result import destination, draw, write
 from pyehl.results import load
 from pyehl.theory import film
 from pyehl.theory.lubricant import Lubricant
@@ -140,7 +140,7 @@ def test_failed_write_leaves_the_old_result(folder, settings, monkeypatch):
     def fail(*_):
         raise OSError("disk full")
 
-    monkeypatch.setattr("pyehl.prediction.folder.write_csv", fail)
+    monkeypatch.setattr("pyehl.prediction.result.write_csv", fail)
     with pytest.raises(OSError, match="disk full"):
         write(predict(settings), destination(folder))
     assert (folder / "summary.json").read_text() == before

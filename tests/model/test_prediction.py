@@ -12,17 +12,14 @@ import scipy.interpolate
 import scipy.ndimage
 
 import pyehl
-from pyehl.prediction import model, moving_tile, rough_contact, second_order
-from pyehl.prediction.folder import read_contact
-from pyehl.prediction.friction import outcome
-from pyehl.prediction.model import Model
+from pyehl.prediction import model, moving_tile, response, rough_contact
+from pyehl.prediction.friction import outcome, run
+from pyehl.prediction.model import KNOWN_RATIO, Model, ModelOptions
 from pyehl.prediction.moving_tile import WaveTiles
-from pyehl.prediction.options import KNOWN_RATIO, ModelOptions
-from pyehl.prediction.passage_friction import run
 from pyehl.prediction.predict import predict
-from pyehl.prediction.resolution import resolution
-from pyehl.prediction.response import Transfer, _at_amplitude
-from pyehl.prediction.second_order import film_left, loss_at
+from pyehl.prediction.response import Transfer, _at_amplitude, film_left, loss_at
+from pyehl.prediction.result import read_contact
+from pyehl.prediction.simulation import resolution
 from pyehl.prediction.smooth import hertz_contact, solve_contact, zone_of
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.schema import summary_of
@@ -294,7 +291,7 @@ def test_leak_at_amplitude_for_gaussian_pressure():
 
 def test_second_order_keeps_the_mass_of_every_column(contact, monkeypatch):
     """And the friction by it, taken point by point, is that of the convolution."""
-    monkeypatch.setattr(second_order, "INLET_PRESSURE", 0.0)
+    monkeypatch.setattr(response, "INLET_PRESSURE", 0.0)
     rng = np.random.default_rng(4)
     n, length, ratio = 64, 1.0, 1.02
     zone = zone_of(contact, POINT, OIL)
@@ -339,7 +336,7 @@ def test_second_order_of_the_inlet_fades_with_slip(contact, monkeypatch, ratio, 
     spectrum = Spectrum.of(3e-3 * rough, length, length)
     transfer = one_transfer(spectrum, zone, (1000.0, 10.0), ratio)
     whole, _ = transfer.second.of(spectrum.power)
-    monkeypatch.setattr(second_order, "INLET_PRESSURE", 0.0)
+    monkeypatch.setattr(response, "INLET_PRESSURE", 0.0)
     without, _ = transfer.second.of(spectrum.power)
     turn = np.exp(1j * spectrum.qx[:, np.newaxis] * (ratio - 1.0))
     free = free_stiffness(spectrum.qx[:, np.newaxis], spectrum.qy, ratio) * transfer.free[1]

@@ -14,7 +14,7 @@ from document_text import plain
 import pyehl
 from pyehl.errors import InputError
 from pyehl.measured_response.folder import shipped_response
-from pyehl.prediction.options import ModelOptions, model_error, outside_range
+from pyehl.prediction.model import ModelOptions, model_error, outside_range
 from pyehl.prediction.response import AXIS
 from pyehl.prediction.smooth import solve_contact, zone_of
 from pyehl.theory.disc import RADIUS, disc_correction, monomials

@@ -10,7 +10,7 @@ from paper_model import contributions, passage, predict_friction, response
 
 from pyehl import surfaces
 from pyehl.prediction import ModelOptions
-from pyehl.prediction.passage_friction import run
+from pyehl.prediction.friction import run
 from pyehl.surfaces import Topography
 from pyehl.theory import stribeck
 from pyehl.theory.lubricant import Lubricant

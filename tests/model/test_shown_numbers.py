@@ -15,8 +15,8 @@ from scipy.optimize import brentq
 
 import pyehl
 from pyehl.app import answers, worker
-from pyehl.prediction import second_order
-from pyehl.prediction.options import ELLIPTICITY
+from pyehl.prediction import response
+from pyehl.prediction.model import ELLIPTICITY
 from pyehl.schema import summary_of
 from pyehl.studies import plan, study
 from pyehl.theory.lubricant import Lubricant
@@ -138,7 +138,7 @@ def test_limits(says, cases: Path):
 
 def test_constants_of_the_prediction(says):
     """Where a film ends, what the inlet makes, what oblique waves take."""
-    ends, film, least = second_order.FILM_ENDS, second_order.INLET_FILM, second_order.QUADRATIC
+    ends, film, least = response.FILM_ENDS, response.INLET_FILM, response.QUADRATIC
     says("docs/conventions.md", f"the waves take more than {ends:g} times the smooth film")
     says("docs/theory/prediction.md", f"first order exceeds {ends:g} times the smooth film")
     says(
@@ -146,7 +146,7 @@ def test_constants_of_the_prediction(says):
         f"regains ${film:g}\\,t_1^2/H$",
         f"Beyond a loss of ${least:g}\\,H$",
         f"at ${ends:g}\\,H$ it ends",
-        f"The pressure gains ${second_order.INLET_PRESSURE:g}\\,P_0^2$",
+        f"The pressure gains ${response.INLET_PRESSURE:g}\\,P_0^2$",
     )
     q = np.geomspace(0.1, 200.0, 20)
     gains = [edge_gain(kx, q, film) for kx in (0.0, 5.0, 20.0) for film in (0.01, 0.03, 0.1)]

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pyehl.prediction.second_order import film_left
+from pyehl.prediction.response import film_left
 
 
 @pytest.fixture(scope="module")

@@ -31,9 +31,8 @@ import rough  # noqa: E402
 import cases  # noqa: E402
 import pyehl  # noqa: E402
 from pyehl import surfaces  # noqa: E402
-from pyehl.prediction import second_order  # noqa: E402
-from pyehl.prediction.model import Model  # noqa: E402
-from pyehl.prediction.options import ModelOptions  # noqa: E402
+from pyehl.prediction import response  # noqa: E402
+from pyehl.prediction.model import Model, ModelOptions  # noqa: E402
 from pyehl.prediction.response import Transfer  # noqa: E402
 from pyehl.prediction.rough_contact import RoughContact  # noqa: E402
 from pyehl.prediction.smooth import solve_contact  # noqa: E402
@@ -232,7 +231,7 @@ def main() -> None:
         moments = simulate(case, None if name in rough.PLAN else tile.heights)
         add(statistics(name, given.points, moments), path)
     print(path.read_text(encoding="utf-8"))
-    print(f"INLET_PRESSURE {second_order.INLET_PRESSURE}, INLET_FILM {second_order.INLET_FILM}")
+    print(f"INLET_PRESSURE {response.INLET_PRESSURE}, INLET_FILM {response.INLET_FILM}")
 
 
 if __name__ == "__main__":

@@ -15,9 +15,8 @@ import numpy as np
 
 from cases import HERE, case, rows, surface
 from pyehl.plots.style import COLUMN, new_figure, save, styled
-from pyehl.prediction.model import Model
-from pyehl.prediction.options import ModelOptions, model_error
-from pyehl.prediction.passage_friction import run
+from pyehl.prediction.friction import run
+from pyehl.prediction.model import Model, ModelOptions, model_error
 from pyehl.prediction.smooth import hertz_contact, solve_contact
 from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant

@@ -5,7 +5,7 @@ python docs/evidence/prediction/even.py [NAME ...] [--points N]
 
 Cases of cases.csv are simulated with their surface as it is and upside down, some minutes each. The
 mean of the two pressures, less that of the smooth contact, is compared within half a Hertz radius
-with the pressure of second order (pyehl/prediction/second_order.py), made from the half difference
+with the pressure of second order (pyehl/prediction/response.py), made from the half difference
 of the two: the standard deviations, the correlation, and what each adds to the mean of exp(b P1)
 over b times that mean.
 """

@@ -171,6 +171,7 @@ def main(file: str) -> None:
     """Write the table and the figure."""
     if file == "show":
         print("\n".join(lines()))
+        draw()
         return
     rows = json.loads(Path(file).read_text())["rows"]
     check(rows, 20)
@@ -181,6 +182,18 @@ def main(file: str) -> None:
             values = row | {"points": row["values"]["grid.points"]}
             cells = (values.get(name) for name in COLUMNS)
             writer.writerow(f"{v:.2g}" if isinstance(v, float) and v < 1.0 else v for v in cells)
+    draw()
+
+
+def draw() -> None:
+    """Draw the stored table."""
+    with (HERE / "table.csv").open(newline="", encoding="utf-8") as stream:
+        rows = [
+            row
+            | {name: float(row[name]) for name in ("moes_m", "moes_l")}
+            | {"values": {"grid.points": int(row["points"])}}
+            for row in csv.DictReader(stream)
+        ]
     draw_outcomes(rows, HERE / "stress.png")
 
 

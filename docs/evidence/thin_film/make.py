@@ -24,9 +24,8 @@ import numpy as np
 
 import pyehl
 from pyehl import surfaces
-from pyehl.prediction.model import Model
-from pyehl.prediction.options import ModelOptions
-from pyehl.prediction.second_order import film_left
+from pyehl.prediction.model import Model, ModelOptions
+from pyehl.prediction.response import film_left
 from pyehl.prediction.smooth import solve_contact
 from pyehl.schema import summary_of
 from pyehl.theory.lubricant import Lubricant

@@ -17,11 +17,10 @@ from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Any
 
-import matplotlib as mpl
-import matplotlib.pyplot as plt
 import xarray as xr
 
 import pyehl
+from pyehl.plots.style import BLUE, GREEN, PAGE, POWERS, VERMILLION, new_figure, save, styled
 from pyehl.theory.film import estimates
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -170,6 +169,36 @@ def write(path: Path, columns: tuple[str, ...], rows: Iterator[tuple[Any, ...]])
             file.flush()
 
 
+@styled()
+def draw(rows: list[dict[str, str]]) -> None:
+    """Draw films by formula over those of pyehl."""
+    figure = new_figure(PAGE, 2.9)
+    axes = figure.subplots(1, 2, sharex=True)
+    names = sorted({row["formula"] for row in rows})
+    for ax, quantity in zip(axes, ("H_c", "H_min"), strict=True):
+        for color, name in zip((BLUE, VERMILLION, GREEN), names, strict=True):
+            for moes_l, marker in {"5": "o", "10": "s", "15": "^"}.items():
+                chosen = [
+                    row
+                    for row in rows
+                    if (row["formula"], row["quantity"], row["moes_l"]) == (name, quantity, moes_l)
+                ]
+                ax.plot(
+                    [float(row["moes_m"]) for row in chosen],
+                    [float(row["ratio"]) for row in chosen],
+                    marker=marker,
+                    color=color,
+                    label=f"{name}, L = {moes_l}",
+                    lw=1.0,
+                )
+        ax.axhline(1.0, color="0.5", lw=0.8)
+        symbol = {"H_c": "$H_c$", "H_min": "$H_\\mathrm{min}$"}[quantity]
+        ax.set(xscale="log", xlabel="M", ylabel=f"{symbol} by formula over pyehl")
+        ax.xaxis.set_major_formatter(POWERS)
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
+    save(figure, HERE / "validation.png")
+
+
 def show() -> None:
     """Print the tables and draw the picture."""
     rows = table_of(HERE / "table.csv")
@@ -184,30 +213,8 @@ def show() -> None:
                 values = f"{float(row['theirs']):.5g} | {float(row['ours']):.5g} | {share:+.2f} %"
                 print(f"| {row['case']} | {row['quantity']} | {values} |")
     rows = table_of(HERE / "formulas.csv")
-    mpl.rcParams["legend.fontsize"] = 7
-    figure, axes = plt.subplots(1, 2, figsize=(8.0, 3.6), layout="constrained", sharex=True)
+    draw(rows)
     names = sorted({row["formula"] for row in rows})
-    for ax, quantity in zip(axes, ("H_c", "H_min"), strict=True):
-        for color, name in zip(("#0072b2", "#d55e00", "#009e73"), names, strict=True):
-            for moes_l, marker in {"5": "o", "10": "s", "15": "^"}.items():
-                chosen = [
-                    row
-                    for row in rows
-                    if (row["formula"], row["quantity"], row["moes_l"]) == (name, quantity, moes_l)
-                ]
-                ax.plot(
-                    [float(row["moes_m"]) for row in chosen],
-                    [float(row["ratio"]) for row in chosen],
-                    marker=marker,
-                    color=color,
-                    label=f"{name}, L = {moes_l}",
-                    lw=1,
-                    ms=4,
-                )
-        ax.axhline(1.0, color="0.5", lw=0.8)
-        ax.set(xscale="log", xlabel="Moes M", ylabel=f"{quantity} by formula over pyehl")
-    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
-    figure.savefig(HERE / "validation.png", dpi=120)
     print("\n| formula | quantity | M | least | largest |\n|---|---|---|---|---|")
     for name in names:
         for quantity in ("H_c", "H_min"):

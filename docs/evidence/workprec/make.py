@@ -3,6 +3,7 @@
 
 python benchmarks/workprec.py --full -o workprec.json
 python docs/evidence/workprec/make.py workprec.json
+python docs/evidence/workprec/make.py            # draws the stored table
 
 Problems may have been measured one at a time (``--problems``): several files are put together.
 """
@@ -13,6 +14,7 @@ import csv
 import json
 import sys
 from pathlib import Path
+from typing import Any
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "benchmarks"))
 from figures import draw_work
@@ -22,8 +24,15 @@ HERE = Path(__file__).resolve().parent
 
 
 def main(files: list[str]) -> None:
-    """Write the table and the figure."""
-    rows = [row for file in files for row in json.loads(Path(file).read_text())["rows"]]
+    """Write the table of these files, and the figure."""
+    if files:
+        write([row for file in files for row in json.loads(Path(file).read_text())["rows"]])
+    # the film and one panel of each rough problem
+    draw_work([r for r in read() if r["quantity"] in ("H_c", "mu_ratio")], HERE / "workprec.png")
+
+
+def write(rows: list[dict[str, Any]]) -> None:
+    """Write the table."""
     with (HERE / "workprec.csv").open("w", newline="", encoding="utf-8") as stream:
         writer = csv.writer(stream, lineterminator="\n")
         writer.writerow(name for name, _ in COLUMNS)
@@ -31,9 +40,20 @@ def main(files: list[str]) -> None:
             writer.writerow(
                 "" if row[name] is None else format(row[name], form) for name, form in COLUMNS
             )
-    # the film and one panel of each rough problem
-    shown = [row for row in rows if row["quantity"] in ("H_c", "mu_ratio")]
-    draw_work(shown, HERE / "workprec.png")
+
+
+def read() -> list[dict[str, Any]]:
+    """Rows of the table; words stay words, empty cells are None."""
+    with (HERE / "workprec.csv").open(newline="", encoding="utf-8") as stream:
+        return [{name: value_of(cell) for name, cell in r.items()} for r in csv.DictReader(stream)]
+
+
+def value_of(cell: str) -> str | float | None:
+    """Read a cell."""
+    try:
+        return float(cell) if cell else None
+    except ValueError:
+        return cell
 
 
 if __name__ == "__main__":
