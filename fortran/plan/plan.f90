@@ -54,6 +54,10 @@ module ehl_plan
       type(lubricant_t) :: lubricant
       !> Whether the inlet is meant to be short of oil
       logical :: starved = .false.
+      !> Central film of a flooded one, by formula
+      real(dp) :: film_flooded = 0.0_dp
+      !> The same with the layer that arrives
+      real(dp) :: film_starved = 0.0_dp
       !> Whether the smooth contact may touch at the boundary film
       logical :: touches = .false.
       !> What absolute friction needs to know
@@ -115,13 +119,19 @@ contains
       if (status%failed()) return
       plan%flooded = input%grid%border == "flooded"
       plan%layer = input%inlet%film_hertz
+      plan%passages = input%inlet%passages
+      plan%replenishment = input%inlet%replenishment
       plan%starved = is_short_of_oil(input)
       plan%heat = plan_heat(input, plan%contact, plan%scales, plan%sliding, plan%lubricant, film)
       film = plan%lubricant%shear%thinned_film(film, plan%point%speed_parameter)
       plan%touches = may_touch(plan%lubricant, film)
       if (plan%lubricant%boundary_film > 0.0_dp) plan%inlet = inlet_t(film, plan%lubricant%boundary_film/rho, &
                                                                          plan%lubricant%boundary_stress)
-      plan%film_expected = max(starved_film(film, plan%layer), plan%lubricant%boundary_film)
+      plan%film_flooded = film
+      plan%film_starved = merge(min(film, plan%layer/rho), starved_film(film, plan%layer/rho), plan%contact%is_line())
+      plan%film_expected = film
+      if (plan%layer > 0.0_dp) plan%film_expected = plan%film_starved
+      plan%film_expected = max(plan%film_expected, plan%lubricant%boundary_film)
       plan%engine = trim(input%solver%deflection)
       plan%accuracy = input%solver%accuracy
       plan%max_cycles = input%solver%max_cycles

@@ -39,6 +39,7 @@ module ehl_contact_results
       type(oil_flow_t) :: oil
    contains
       procedure :: films
+      procedure :: scale
    end type contact_results_t
 
 contains
@@ -102,6 +103,17 @@ contains
       real(dp) :: films(2)
       films = [self%film_central, self%film_minimum]
    end function films
+
+   !> Change films, pressure and friction by what they have changed elsewhere
+   pure subroutine scale(self, from, to)
+      class(contact_results_t), intent(inout) :: self
+      type(contact_results_t), intent(in) :: from, to
+
+      self%film_central = self%film_central*to%film_central/from%film_central
+      self%film_minimum = self%film_minimum*to%film_minimum/from%film_minimum
+      self%pressure_maximum = self%pressure_maximum*to%pressure_maximum/from%pressure_maximum
+      self%friction = self%friction*to%friction/from%friction
+   end subroutine scale
 
    !> Value of a field at X = Y = 0; between two nodes by cubic interpolation along X
    pure real(dp) function central_value(grid, values)

@@ -1,7 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Oil that passes a contact whose inlet is short of it (supply.f90): what comes, what leaves behind and at the sides
 module ehl_oil_flow
-   use ehl_flow, only: dir_x
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
    use ehl_reynolds, only: flow_operator
@@ -40,8 +39,10 @@ contains
             first(j) = first(j)*grid%weight(j)/grid%hx
             last(j) = last(j)*grid%weight(j)/grid%hx
             if (grid%is_row()) cycle
-            if (grid%is_border(grid%south(j))) side(j) = side(j) + across(level, j, grid%south(j))
-            if (grid%is_border(grid%north(j))) side(j) = side(j) + across(level, j, grid%north(j))
+            if (grid%is_border(grid%south(j))) side(j) = side(j) &
+               + level%poiseuille%across(level%p, level%flow, j, grid%south(j))*grid%images(j)
+            if (grid%is_border(grid%north(j))) side(j) = side(j) &
+               + level%poiseuille%across(level%p, level%flow, j, grid%north(j))*grid%images(j)
          end do
          flow%fills_border = any(level%supply%layer > 0.5_dp*(level%mass_content(1, :) + level%mass_content(2, :)))
       end associate
@@ -82,22 +83,11 @@ contains
       real(dp) function through(i)
          integer, intent(in) :: i
 
-         associate (hx => level%grid%hx, eps => level%flow%eps(:, j, dir_x), p => level%p(:, j))
-            through = hx*dot_product(level%wedge%weights(i, .true.), [level%mass_content(i, j), &
-                                                                     level%mass_content(i - 1, j), 0.0_dp])
-            through = through - 0.5_dp*(eps(i) + eps(i + 1))*(p(i + 1) - p(i))/hx
+         associate (hx => level%grid%hx, m => level%mass_content(:, j))
+            through = hx*dot_product(level%wedge%weights(i, .true.), [m(i), m(i - 1), 0.0_dp]) &
+                      + level%poiseuille%through_east(level%p, level%flow, i, j)
             if (passing(i)) through = through + hx*values(i)
          end associate
       end function through
    end subroutine ends_of_row
-
-   !> Flow from row j to the border row, behind the second column
-   real(dp) function across(level, j, border)
-      type(level_t), intent(in) :: level
-      integer, intent(in) :: j, border
-
-      associate (n => level%grid%nx - 1, eps => level%flow%eps(:, :, level%flow%dir_y), p => level%p)
-         across = sum(0.5_dp*(eps(3:n, j) + eps(3:n, border))*(p(3:n, j) - p(3:n, border)))/level%grid%hy**2*level%grid%weight(j)
-      end associate
-   end function across
 end module ehl_oil_flow
