@@ -1,6 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Multilevel multi-integration, the way down: the grids, and sources from each to the next coarser one. Inner loops take several
-!> terms in one sweep over a row, so that sums stay in registers, and run over contiguous memory.
+!> Multilevel multi-integration, the way down: the grids, and sources from each to the next coarser one.
 !>
 !> Nodes are numbered from 0. Grids reach beyond the domain by as many nodes as the transfers
 !> need to keep their order at the border. On a folded grid row -j is row j. A stage that
@@ -11,10 +10,11 @@ module ehl_mlmi_down
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_kinds, only: dp
    use ehl_status, only: status_t, ehl_no_memory
+   use ehl_row_loops, only: add_pairs, add_row_pairs
    !$ use omp_lib, only: omp_get_thread_num
    implicit none (type, external)
    private
-   public :: add_pairs, add_row_pairs, descend, no_memory, rows_near, sources_near, stage_t, stored_row, take
+   public :: descend, no_memory, rows_near, sources_near, stage_t, stored_row, take
 
    !> What is reported where memory does not suffice
    character(len=*), parameter :: no_memory = "no memory for the mlmi deflection"
@@ -325,74 +325,4 @@ contains
          stage%source(a:b, j) = row(a - start + 1:b - start + 1)
       end if
    end subroutine put
-
-   !> y(i) = y(i) + sum over k = 1..m of c(k)*(a(right+i-1 + k-1) + a(left+i-1 - (k-1))):
-   !> pairs within one row, ever further apart
-   pure subroutine add_pairs(n, m, c, a, right, left, y)
-      integer, intent(in) :: n, m, right, left
-      real(dp), intent(in) :: c(*), a(*)
-      real(dp), intent(inout) :: y(n)
-      integer :: i, k, r, l
-
-      do k = 1, m - 3, 4
-         r = right + k - 2
-         l = left - k
-         do i = 1, n
-            y(i) = y(i) &
-                   + (c(k)*(a(r + i) + a(l + i)) + c(k + 1)*(a(r + i + 1) + a(l + i - 1))) &
-                   + (c(k + 2)*(a(r + i + 2) + a(l + i - 2)) + c(k + 3)*(a(r + i + 3) + a(l + i - 3)))
-         end do
-      end do
-      k = 4*(m/4) + 1
-      r = right + k - 2
-      l = left - k
-      select case (m - k)
-      case (2)
-         do i = 1, n
-            y(i) = y(i) &
-                   + (c(k)*(a(r + i) + a(l + i)) + c(k + 1)*(a(r + i + 1) + a(l + i - 1))) &
-                   + c(k + 2)*(a(r + i + 2) + a(l + i - 2))
-         end do
-      case (1)
-         do i = 1, n
-            y(i) = y(i) + (c(k)*(a(r + i) + a(l + i)) + c(k + 1)*(a(r + i + 1) + a(l + i - 1)))
-         end do
-      case (0)
-         do i = 1, n
-            y(i) = y(i) + c(k)*(a(r + i) + a(l + i))
-         end do
-      case default
-         continue
-      end select
-   end subroutine add_pairs
-
-   !> y(i) = y(i) + sum over k = 1..m of c(k)*(u(upper(k)+i) + u(lower(k)+i)), u being many rows
-   pure subroutine add_row_pairs(n, m, c, u, upper, lower, y)
-      integer, intent(in) :: n, m, upper(m), lower(m)
-      real(dp), intent(in) :: c(m), u(*)
-      real(dp), intent(inout) :: y(n)
-      integer :: i, k
-
-      do k = 1, m - 3, 4
-         associate (r => upper(k:k + 3), l => lower(k:k + 3))
-            do i = 1, n
-               y(i) = y(i) &
-                      + (c(k)*(u(r(1) + i) + u(l(1) + i)) + c(k + 1)*(u(r(2) + i) + u(l(2) + i))) &
-                      + (c(k + 2)*(u(r(3) + i) + u(l(3) + i)) + c(k + 3)*(u(r(4) + i) + u(l(4) + i)))
-            end do
-         end associate
-      end do
-      k = 4*(m/4) + 1
-      if (k < m) then
-         do i = 1, n
-            y(i) = y(i) + (c(k)*(u(upper(k) + i) + u(lower(k) + i)) + c(k + 1)*(u(upper(k + 1) + i) + u(lower(k + 1) + i)))
-         end do
-         k = k + 2
-      end if
-      if (k == m) then
-         do i = 1, n
-            y(i) = y(i) + c(k)*(u(upper(k) + i) + u(lower(k) + i))
-         end do
-      end if
-   end subroutine add_row_pairs
 end module ehl_mlmi_down

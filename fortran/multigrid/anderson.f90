@@ -8,11 +8,9 @@
 !> where j runs over the last few cycles. A mixed state that has the larger residual is dropped, and the history with it.
 module ehl_anderson
    use ehl_dense_lu, only: back_substitute, factor
-   use ehl_film, only: refresh
    use ehl_kinds, only: dp
-   use ehl_level, only: level_t
-   use ehl_node_state, only: cavitate
-   use ehl_reynolds, only: update_residual
+   use ehl_level, only: cavitate, level_t
+   use ehl_reynolds, only: refresh, update_residual
    use ehl_status, only: ehl_no_memory, status_t
    implicit none (type, external)
    private

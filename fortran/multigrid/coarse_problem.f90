@@ -5,22 +5,19 @@
 !>    start         bar P = I P,   bar H = I H                                   p_start, h_start
 !>    film          H - H00 - K P = bar H - H00 - K bar P                        film_rhs
 !>    Reynolds      N(P, H) = N(bar P, bar H) + I (rhs - N)                      rhs
-!>    load          sum P = sum bar P + (load - sum P of the fine level)         force_balance.f90
+!>    load          sum P = sum bar P + (load - sum P of the fine level)         pass_load_on
 !>    correction    P <- P + interpolated (P - bar P) of the coarse level        p_change, h_change
 !>
 !> The right-hand sides of the first two are those of the coarse level while it is solved; the fine level's are left as they are.
+!> Grids may be coarser along X, along Y or along both. Without a boundary film what concerns touching nodes changes nothing.
 module ehl_coarse_problem
    use ehl_alcouffe, only: transfer_t
-   use ehl_bilinear, only: interpolate_row, mesh_ratio, weight_row
-   use ehl_film, only: update_coefficients
-   use ehl_force_balance, only: pass_load_on
-   use ehl_galerkin, only: coarsening_t, galerkin_product
+   use ehl_boundary_film, only: boundary_film_t
+   use ehl_galerkin, only: build_galerkin, coarsening_t
+   use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
-   use ehl_level, only: level_t
-   use ehl_nine_point, only: nine_point_t
-   use ehl_node_state, only: cavity_pressure, change_flowing, stay_cavitated
-   use ehl_reynolds, only: reynolds_operator
-   use ehl_touching_nodes, only: begin_coarse, keep_film, restrict_touching, separate_touching
+   use ehl_level, only: cavity_pressure, change_flowing, level_t, stay_cavitated
+   use ehl_reynolds, only: pass_load_on, reynolds_operator, update_coefficients
    use ehl_workspace, only: workspace_t
    implicit none (type, external)
    private
@@ -29,9 +26,6 @@ module ehl_coarse_problem
    !> Bilinear transfers and rediscretised coarse operators, or operator-dependent transfers and
    !> Galerkin operators for the Poiseuille term
    integer, parameter :: coarsening_classical = 1, coarsening_alcouffe = 2
-   !> Interpolation follows the operator where conductance/mesh-size^2 in the neighbourhood is above this;
-   !> elsewhere the deflection matters, which is not in the operator, and interpolation is bilinear
-   real(dp), parameter :: dependent_from = 10.0_dp
    !> Slack of a coarse node that neither requires pressure nor refuses it (the wedge term is of order 1)
    real(dp), parameter :: min_slack = 1.0e-8_dp
    !> Right-hand side of nodes that are to stay cavitated on a coarse level: they never require pressure
@@ -135,64 +129,6 @@ contains
       !$omp end parallel do
    end subroutine set_reynolds_rhs
 
-   !> Transfer from the fine operator, and the Poiseuille operator of the coarse level. It stays as it is
-   !> while the coarse level is solved: made to follow P and H of that level, it diverges in the contact.
-   subroutine build_galerkin(fine, coarse, coarsening)
-      type(level_t), intent(in) :: fine
-      type(level_t), intent(inout) :: coarse
-      type(coarsening_t), intent(inout) :: coarsening
-      real(dp) :: limit, largest(fine%grid%nx)
-      integer :: i, j, first, last
-
-      first = fine%grid%first_inner()
-      last = fine%grid%last_inner()
-      limit = dependent_from*min(fine%grid%hx, fine%grid%hy)**2
-      coarsening%free = 0.0_dp
-      coarsening%dependent = 0.0_dp
-      !$omp parallel do default(none) shared(fine, coarsening, first, last, limit) private(i, largest) &
-      !$omp num_threads(fine%threads) if(fine%parallel) schedule(static)
-      do j = first, last
-         call fine%flow%max_neighbour_conductance(j, fine%grid%south(j), fine%grid%north(j), largest)
-         do i = 2, fine%grid%nx - 1
-            if (fine%p(i, j) > cavity_pressure) coarsening%free(i, j) = 1.0_dp
-            if (largest(i) >= limit) coarsening%dependent(i, j) = 1.0_dp
-         end do
-      end do
-      !$omp end parallel do
-      if (fine%poiseuille%frozen) then
-         call coarsen(fine%poiseuille%product)
-      else
-         call five_point(fine, coarsening%a)
-         call coarsen(coarsening%a)
-      end if
-      coarse%poiseuille%frozen = .true.
-
-   contains
-
-      !> Transfer and coarse operator of a fine operator
-      subroutine coarsen(a)
-         type(nine_point_t), intent(in) :: a
-
-         call coarsening%transfer%find_weights(a, coarsening%free, coarsening%dependent)
-         call galerkin_product(a, coarsening%transfer, coarsening%work, coarse%poiseuille%product)
-      end subroutine coarsen
-   end subroutine build_galerkin
-
-   !> The five-point Poiseuille operator of a level, integrated over the cells
-   subroutine five_point(level, a)
-      type(level_t), intent(in) :: level
-      type(nine_point_t), intent(inout) :: a
-      integer :: j
-
-      a%five = .true.
-      !$omp parallel do default(none) shared(level, a) &
-      !$omp num_threads(level%threads) if(level%parallel) schedule(static)
-      do j = 1, level%grid%last_inner()
-         call level%poiseuille%integrate(level%flow, j, j, a)
-      end do
-      !$omp end parallel do
-   end subroutine five_point
-
    !> Add the coarse change of the pressure where the fine one is positive, interpolated bilinearly or as the transfer
    !> has it. The coarse change of the film, interpolated bilinearly, serves the sweeps that follow. This ends the coarse
    !> problem: the coarse level may be a finest one next.
@@ -245,4 +181,133 @@ contains
       end do
       !$omp end parallel do
    end subroutine correct
+
+   !> Mesh sizes of a coarse grid over those of a fine one
+   pure function mesh_ratio(fine, coarse) result(step)
+      type(grid_t), intent(in) :: fine, coarse
+      integer :: step(2)
+      step = fine%intervals()/coarse%intervals()
+   end function mesh_ratio
+
+   !> Coarse row j by full weighting along the axes that are halved, on the border by injection
+   pure subroutine weight_row(coarse, step, fine, j, values)
+      type(grid_t), intent(in) :: coarse
+      integer, intent(in) :: step(2)
+      !> Shape of the fine grid
+      real(dp), intent(in) :: fine(:, :)
+      integer, intent(in) :: j
+      !> Shape (nx) of the coarse grid
+      real(dp), intent(out) :: values(:)
+      real(dp) :: mean_y(size(fine, 1))
+      integer :: i, l, below, nx
+
+      nx = coarse%nx
+      l = step(2)*(j - 1) + 1
+      values = fine(::step(1), l)
+      if (coarse%is_border(j)) return
+      if (step(2) == 1) then
+         mean_y = fine(:, l)
+      else
+         below = coarse%south(l)
+         if (coarse%periodic .and. l == 1) below = size(fine, 2)
+         mean_y = 0.25_dp*(fine(:, below) + fine(:, l + 1)) + 0.5_dp*fine(:, l)
+      end if
+      if (step(1) == 1) then
+         values(2:nx - 1) = mean_y(2:nx - 1)
+         return
+      end if
+      do i = 2, nx - 1
+         values(i) = 0.25_dp*(mean_y(2*i - 2) + mean_y(2*i)) + 0.5_dp*mean_y(2*i - 1)
+      end do
+   end subroutine weight_row
+
+   !> Row j of the fine grid by bilinear interpolation
+   pure subroutine interpolate_row(coarse, step, values, j, row)
+      type(grid_t), intent(in) :: coarse
+      integer, intent(in) :: step(2)
+      !> Shape of the coarse grid
+      real(dp), intent(in) :: values(:, :)
+      integer, intent(in) :: j
+      !> Shape (nx) of the fine grid
+      real(dp), intent(out) :: row(:)
+      real(dp) :: middle(coarse%nx)
+      integer :: i, l, next
+
+      if (step(2) == 1) then
+         middle = values(:, j)
+      else
+         l = (j + 1)/2
+         next = min(l + mod(j + 1, 2), coarse%ny)
+         if (coarse%periodic .and. mod(j, 2) == 0) next = coarse%north(l)
+         middle = 0.5_dp*(values(:, l) + values(:, next))
+      end if
+      row(::step(1)) = middle
+      if (step(1) == 1) return
+      do i = 1, coarse%nx - 1
+         row(2*i) = 0.5_dp*(middle(i) + middle(i + 1))
+      end do
+   end subroutine interpolate_row
+
+   !> States of the coarse nodes while their level is solved: those touch that have pressure and around which more than half
+   !> touches. None yields: where half of a coarse grid did, nothing would be left to carry a missing load.
+   subroutine begin_coarse(boundary, fine, coarse, step, p)
+      type(boundary_film_t), intent(inout) :: boundary
+      !> Boundary film of the fine level; coarse grid, and its mesh sizes over those of the fine one
+      type(boundary_film_t), intent(in) :: fine
+      type(grid_t), intent(in) :: coarse
+      integer, intent(in) :: step(2)
+      !> Restricted pressure, shape (nx, ny)
+      real(dp), contiguous, intent(in) :: p(:, :)
+      integer :: j
+
+      if (.not. boundary%active) return
+      boundary%frozen = .true.
+      boundary%yield_mass = 0.0_dp
+      boundary%rate = fine%rate
+      do j = 1, coarse%ny
+         call weight_row(coarse, step, fine%touching, j, boundary%touching(:, j))
+         boundary%touching(:, j) = merge(1.0_dp, 0.0_dp, boundary%touching(:, j) > 0.5_dp .and. p(:, j) > cavity_pressure)
+      end do
+   end subroutine begin_coarse
+
+   !> Keep the residuals of touching nodes apart, and leave those of flowing nodes: touching nodes hand theirs to touching nodes of
+   !> the coarse level alone. In the equation of a flowing node they would be a source that the motion carries through the contact.
+   subroutine separate_touching(boundary, residual)
+      type(boundary_film_t), intent(inout) :: boundary
+      !> Shape (nx, ny)
+      real(dp), contiguous, intent(inout) :: residual(:, :)
+      integer :: j
+
+      if (.not. boundary%active) return
+      do j = 1, size(residual, 2)
+         boundary%touching_residual(:, j) = residual(:, j)*boundary%touching(:, j)
+         residual(:, j) = residual(:, j) - boundary%touching_residual(:, j)
+      end do
+   end subroutine separate_touching
+
+   !> Put the restricted residuals of touching nodes into row j of a coarse grid
+   pure subroutine restrict_touching(boundary, fine, coarse, step, j, residual)
+      type(boundary_film_t), intent(in) :: boundary
+      !> As for begin_coarse
+      type(boundary_film_t), intent(in) :: fine
+      type(grid_t), intent(in) :: coarse
+      integer, intent(in) :: step(2), j
+      !> Shape (nx)
+      real(dp), contiguous, intent(inout) :: residual(:)
+      real(dp) :: restricted(size(residual))
+
+      if (.not. boundary%active) return
+      call weight_row(coarse, step, fine%touching_residual, j, restricted)
+      residual = merge(restricted, residual, boundary%touching(:, j) > 0.0_dp)
+   end subroutine restrict_touching
+
+   !> Take out of row j of a change of the film the nodes that do not yield: a film that comes of pressures which nodes do not take
+   !> on says nothing about whether they yield
+   pure subroutine keep_film(boundary, j, change)
+      type(boundary_film_t), intent(in) :: boundary
+      integer, intent(in) :: j
+      !> Shape (nx)
+      real(dp), contiguous, intent(inout) :: change(:)
+      if (boundary%yields) change = merge(0.0_dp, change, boundary%yield_mass(:, j) > 0.0_dp)
+   end subroutine keep_film
 end module ehl_coarse_problem

@@ -3,15 +3,12 @@
 module ehl_coarsest
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_dense_lu, only: back_substitute, factor
-   use ehl_film, only: refresh
-   use ehl_force_balance, only: missing_load
    use ehl_grid, only: grid_t
    use ehl_kernel, only: fill_grid_kernel
    use ehl_kinds, only: dp
-   use ehl_level, only: level_t
-   use ehl_node_state, only: cavitate, cavity_pressure
+   use ehl_level, only: cavitate, cavity_pressure, level_t
    use ehl_poiseuille, only: max_neighbours
-   use ehl_reynolds, only: flow_operator, reynolds_operator
+   use ehl_reynolds, only: flow_operator, missing_load, refresh, reynolds_operator
    use ehl_status, only: ehl_no_memory, status_t
    use ehl_wedge, only: wedge_reach
    implicit none (type, external)

@@ -2,14 +2,12 @@
 !> The multigrid cycle: full approximation scheme (Brandt 1977; Venner & Lubrecht 2000)
 module ehl_cycle
    use ehl_coarse_problem, only: coarsening_alcouffe, coarsening_classical, correct, restrict_problem
-   use ehl_film, only: refresh, update_coefficients
    use ehl_grid, only: grid_t
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
-   use ehl_level, only: level_t
-   use ehl_node_state, only: cavitate
+   use ehl_level, only: cavitate, level_t
    use ehl_relaxation, only: usual_log_change, relax
-   use ehl_reynolds, only: update_residual
+   use ehl_reynolds, only: refresh, update_coefficients, update_residual
    use ehl_row_relaxation, only: relax_row
    implicit none (type, external)
    private

@@ -1,15 +1,20 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Galerkin product: the coarse operator P^T A P of a nine-point operator A and a transfer P
+!> Alcouffe coarsening: the coarse operator P^T A P of a nine-point operator A and a transfer P (alcouffe.f90)
 module ehl_galerkin
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_alcouffe, only: transfer_t
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
+   use ehl_level, only: cavity_pressure, level_t
    use ehl_nine_point, only: nine_point_t
    use ehl_status, only: ehl_no_memory, status_t
    implicit none (type, external)
    private
-   public :: coarsening_t, product_work_t, galerkin_product
+   public :: build_galerkin, coarsening_t, galerkin_product, product_work_t
+
+   !> Interpolation follows the operator where conductance/mesh-size^2 in the neighbourhood is above this;
+   !> elsewhere the deflection matters, which is not in the operator, and interpolation is bilinear
+   real(dp), parameter :: dependent_from = 10.0_dp
 
    !> What the cells above a coarse row add to the next row's couplings, shape (0:nx, ny)
    type :: product_work_t
@@ -210,4 +215,62 @@ contains
       pairs = pairs - [t(1)*d(2), t(1)*d(3), t(1)*d(4), t(2)*d(3), t(2)*d(4), t(3)*d(4)]
       excess = excess + t*((d(1) + d(2)) + (d(3) + d(4)))
    end subroutine add_cell
+
+   !> Transfer from the fine operator, and the Poiseuille operator of the coarse level. It stays as it is
+   !> while the coarse level is solved: made to follow P and H of that level, it diverges in the contact.
+   subroutine build_galerkin(fine, coarse, coarsening)
+      type(level_t), intent(in) :: fine
+      type(level_t), intent(inout) :: coarse
+      type(coarsening_t), intent(inout) :: coarsening
+      real(dp) :: limit, largest(fine%grid%nx)
+      integer :: i, j, first, last
+
+      first = fine%grid%first_inner()
+      last = fine%grid%last_inner()
+      limit = dependent_from*min(fine%grid%hx, fine%grid%hy)**2
+      coarsening%free = 0.0_dp
+      coarsening%dependent = 0.0_dp
+      !$omp parallel do default(none) shared(fine, coarsening, first, last, limit) private(i, largest) &
+      !$omp num_threads(fine%threads) if(fine%parallel) schedule(static)
+      do j = first, last
+         call fine%flow%max_neighbour_conductance(j, fine%grid%south(j), fine%grid%north(j), largest)
+         do i = 2, fine%grid%nx - 1
+            if (fine%p(i, j) > cavity_pressure) coarsening%free(i, j) = 1.0_dp
+            if (largest(i) >= limit) coarsening%dependent(i, j) = 1.0_dp
+         end do
+      end do
+      !$omp end parallel do
+      if (fine%poiseuille%frozen) then
+         call coarsen(fine%poiseuille%product)
+      else
+         call five_point(fine, coarsening%a)
+         call coarsen(coarsening%a)
+      end if
+      coarse%poiseuille%frozen = .true.
+
+   contains
+
+      !> Transfer and coarse operator of a fine operator
+      subroutine coarsen(a)
+         type(nine_point_t), intent(in) :: a
+
+         call coarsening%transfer%find_weights(a, coarsening%free, coarsening%dependent)
+         call galerkin_product(a, coarsening%transfer, coarsening%work, coarse%poiseuille%product)
+      end subroutine coarsen
+   end subroutine build_galerkin
+
+   !> The five-point Poiseuille operator of a level, integrated over the cells
+   subroutine five_point(level, a)
+      type(level_t), intent(in) :: level
+      type(nine_point_t), intent(inout) :: a
+      integer :: j
+
+      a%five = .true.
+      !$omp parallel do default(none) shared(level, a) &
+      !$omp num_threads(level%threads) if(level%parallel) schedule(static)
+      do j = 1, level%grid%last_inner()
+         call level%poiseuille%integrate(level%flow, j, j, a)
+      end do
+      !$omp end parallel do
+   end subroutine five_point
 end module ehl_galerkin

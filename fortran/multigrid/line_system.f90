@@ -21,18 +21,17 @@
 !> e, w: couplings to the east and to the west, o: less the sum of those to other rows, e', w', o': their change with the
 !> conductance (poiseuille.f90, line_terms_t); a: the mean of all four over that of e and w, 1 where the lubricant flows
 !> alike along and across; c: wedge.f90; K(l): deflection at a distance of l nodes by the change of one,
-!> nothing beyond |l| = 2. An inactive node (node_state.f90) has d(i) = 0. A touching node (boundary_film.f90)
+!> nothing beyond |l| = 2. An inactive node (level.f90) has d(i) = 0. A touching node (boundary_film.f90)
 !> is not coupled to its line: rate s(i, 0) d(i) = -r(i).
 !>
 !> The systems are assembled and eliminated in one pass along X for `line_width` lines side by side.
 module ehl_line_system
+   use ehl_boundary_film, only: boundary_film_t
    use ehl_kinds, only: dp
    use ehl_flow, only: dir_x
-   use ehl_level, only: level_t
-   use ehl_node_state, only: cavity_pressure, last_flowing
+   use ehl_level, only: cavity_pressure, last_flowing, level_t
    use ehl_poiseuille, only: block_size, line_terms_t
    use ehl_reynolds, only: flow_operator
-   use ehl_touching_nodes, only: last_touching, touching_lines
    use ehl_wedge, only: line_reach
    use ehl_workspace, only: line_fields, line_width, line_work_t, near_reach
    implicit none (type, external)
@@ -262,4 +261,39 @@ contains
          change(:, i) = change(:, i) - upper(:, 1, i)*change(:, i + 1) - upper(:, 2, i)*change(:, i + 2)
       end do
    end subroutine substitute
+
+   !> Last touching node of row j whose film is below the boundary film; 2 if there is none
+   pure integer function last_touching(boundary, mass_content, j) result(i)
+      type(boundary_film_t), intent(in) :: boundary
+      !> Shape (nx)
+      real(dp), contiguous, intent(in) :: mass_content(:)
+      integer, intent(in) :: j
+
+      i = 2
+      if (.not. boundary%active) return
+      do i = size(mass_content) - 1, 3, -1
+         if (boundary%touching(i, j) > 0.0_dp .and. mass_content(i) < boundary%thickness) return
+      end do
+      i = 2
+   end function last_touching
+
+   !> For line systems of the rows side by side: which nodes touch, and their residuals, from node 2 to `last`
+   pure subroutine touching_lines(boundary, rows, last, rhs, mass_content, residual, touching)
+      type(boundary_film_t), intent(in) :: boundary
+      integer, intent(in) :: rows(:), last
+      !> Shape (nx, ny)
+      real(dp), contiguous, intent(in) :: rhs(:, :), mass_content(:, :)
+      !> Shape (lines, last) and (lines, nx)
+      real(dp), intent(inout) :: residual(:, :), touching(:, :)
+      real(dp) :: row(size(rhs, 1))
+      integer :: l
+
+      if (.not. boundary%active) return
+      do l = 1, size(rows)
+         row(2:last) = residual(l, 2:last)
+         call boundary%residual_row(rhs(:, rows(l)), mass_content(:, rows(l)), rows(l), row)
+         residual(l, 2:last) = row(2:last)
+         touching(l, :last) = boundary%touching(:last, rows(l))
+      end do
+   end subroutine touching_lines
 end module ehl_line_system

@@ -9,13 +9,12 @@
 !>    sum over the neighbours m = i-1, i+1 of  e(m) (d(m) - d(i)) + (P(m) - P(i)) d e(m)  -  sum c(l) d(rho H)(i-l)  =  r(i)
 !>
 !> where d e(m) is the change of the coupling with P and H of either node. K: kernel_of_row of workspace.f90. An inactive node
-!> (node_state.f90) has d(i) = 0; a touching one (boundary_film.f90) rate d(rho H)(i) = -r(i).
+!> (level.f90) has d(i) = 0; a touching one (boundary_film.f90) rate d(rho H)(i) = -r(i).
 module ehl_row_relaxation
    use ehl_flow, only: dir_x
    use ehl_kinds, only: dp
-   use ehl_level, only: level_t
+   use ehl_level, only: cavitate, cavity_pressure, level_t
    use ehl_line_system, only: last_active
-   use ehl_node_state, only: cavitate, cavity_pressure
    use ehl_poiseuille, only: block_size, line_terms_t
    use ehl_reynolds, only: flow_operator
    use ehl_wedge, only: wedge_reach

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> What is read off a solution: film thicknesses, pressure, friction, load
 module ehl_contact_results
-   use ehl_force_balance, only: load_excess
+   use ehl_reynolds, only: load_excess
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
    use ehl_level, only: gap_row, level_t

@@ -1,5 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> One grid of the hierarchy with everything that lives on it
+!> One grid of the hierarchy: its fields and coefficients, and the states of its nodes.
+!>
+!> The state of a node follows from the pressure: it is cavitated where P <= 0, elsewhere the lubricant fills the gap and flows
+!> (whether it touches: boundary_film.f90). A cavitated node is inactive, and stays as it is, unless its residual requires
+!> pressure (residual < 0). A NaN is no state: it fails every comparison, and nothing here makes a number of it. Procedures take
+!> rows, since the loops of other modules would not vectorise around a call.
 module ehl_level
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_boundary_film, only: boundary_film_t
@@ -14,13 +19,19 @@ module ehl_level
    use ehl_wedge, only: wedge_t
    implicit none (type, external)
    private
-   public :: gap, gap_row, level_t
+   public :: cavitate, cavity_pressure, change_flowing, flowing_around, gap, gap_row, last_flowing, level_t, stay_cavitated, &
+             zero_inactive_residual
+
+   !> Pressure in a cavity, over p_h
+   real(dp), parameter :: cavity_pressure = 0.0_dp
+   !> Nodes that a search takes at a time
+   integer, parameter :: stride = 8
 
    !> ln(eta/eta0) at the Hertz pressure, and lambda_bar (M = 640), below which a contact is as those of soft bodies
    real(dp), parameter :: isoviscous_below = 8.0_dp, thin_below = 2.0e-3_dp
 
    !> Fields of one level, arrays of shape (nx, ny). Dimensionless: P by p_h, lengths by a,
-   !> films by a^2/R. The equations are in reynolds.f90, film.f90 and force_balance.f90.
+   !> films by a^2/R. The equations are in reynolds.f90.
    type :: level_t
       type(grid_t) :: grid
       type(lubricant_t) :: lubricant
@@ -113,4 +124,78 @@ contains
       bytes = self%poiseuille%product%bytes() + self%boundary%bytes()
       if (allocated(self%p)) bytes = bytes + self%flow%bytes() + 8*8*size(self%p, kind=int64)
    end function bytes
+
+   !> Last node of a row that is not cavitated, or the first one
+   pure integer function last_flowing(p) result(last)
+      real(dp), contiguous, intent(in) :: p(:)
+
+      last = size(p)
+      ! several nodes at a time first
+      do while (last > stride)
+         if (count(p(last - stride + 1:last) <= cavity_pressure) < stride) exit
+         last = last - stride
+      end do
+      do while (last > 1 .and. p(last) <= cavity_pressure)
+         last = last - 1
+      end do
+   end function last_flowing
+
+   !> 1 where the lubricant flows in a node of a row and in its four neighbours, else 0; in columns 2 to nx-1
+   pure subroutine flowing_around(south, p, north, values)
+      !> Pressure of the row and of those beside it, shape (nx)
+      real(dp), contiguous, intent(in) :: south(:), p(:), north(:)
+      real(dp), contiguous, intent(inout) :: values(:)
+      integer :: i
+
+      do i = 2, size(p) - 1
+         values(i) = merge(1.0_dp, 0.0_dp, min(p(i), p(i - 1), p(i + 1), north(i), south(i)) > cavity_pressure)
+      end do
+   end subroutine flowing_around
+
+   !> Let nodes cavitate whose pressure has become negative
+   pure subroutine cavitate(p)
+      real(dp), contiguous, intent(inout) :: p(:)
+      integer :: i
+
+      do i = 1, size(p)
+         ! a NaN stays one, where max(0, NaN) could be cavitation
+         p(i) = merge(p(i), cavity_pressure, .not. p(i) <= cavity_pressure)
+      end do
+   end subroutine cavitate
+
+   !> Let nodes be cavitated that were so
+   pure subroutine stay_cavitated(before, p)
+      !> Pressure that they had
+      real(dp), intent(in) :: before(:)
+      real(dp), contiguous, intent(inout) :: p(:)
+      integer :: i
+
+      do i = 1, size(p)
+         p(i) = merge(cavity_pressure, p(i), before(i) <= cavity_pressure)
+      end do
+   end subroutine stay_cavitated
+
+   !> Give nodes in which the lubricant flows another pressure; where that is negative they cavitate
+   pure subroutine change_flowing(after, p)
+      real(dp), contiguous, intent(in) :: after(:)
+      real(dp), contiguous, intent(inout) :: p(:)
+      real(dp) :: new
+      integer :: i
+
+      do i = 1, size(p)
+         new = merge(after(i), cavity_pressure, .not. after(i) <= cavity_pressure)
+         p(i) = merge(new, p(i), p(i) > cavity_pressure)
+      end do
+   end subroutine change_flowing
+
+   !> No residual at inactive nodes
+   pure subroutine zero_inactive_residual(p, residual)
+      real(dp), contiguous, intent(in) :: p(:)
+      real(dp), contiguous, intent(inout) :: residual(:)
+      integer :: i
+
+      do i = 1, size(p)
+         residual(i) = merge(0.0_dp, residual(i), p(i) <= cavity_pressure .and. residual(i) > 0.0_dp)
+      end do
+   end subroutine zero_inactive_residual
 end module ehl_level

@@ -1,12 +1,13 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The Reynolds equation on one level. Where the lubricant fills the gap (P > 0)
+!> The three equations on one level: Reynolds equation, film and force balance.
+!>
+!> Reynolds equation: where the lubricant fills the gap (P > 0)
 !>
 !>    d/dX (eps_x dP/dX) + d/dY (eps_y dP/dY) - d(rho H)/dX - d(rho H)/dT = 0
 !>
-!> and P = 0 elsewhere, where the left-hand side is not positive: P >= 0 and nothing flows out of a cavity, or what does is what
-!> arrives there (supply.f90). P is given on the border: 0, or that of a flooded contact (far_field.f90). eps_x and eps_y are the conductances (flow.f90), for a Newtonian
-!> lubricant both rho H^3/(eta lambda_bar); rho and eta depend on P (physics/lubricant.f90), H on all of P (film.f90), and its
-!> constant H00 on the force balance (force_balance.f90).
+!> and P = 0 elsewhere, where the left-hand side is not positive: P >= 0 and nothing flows out of a cavity, or what does is
+!> what arrives there (supply.f90). P is given on the border: 0, or that of a flooded contact (far_field.f90). eps_x and
+!> eps_y are the conductances (flow.f90), for a Newtonian lubricant both rho H^3/(eta lambda_bar); rho and eta depend on P (physics/lubricant.f90), H on all of P.
 !>
 !> Discrete, at node (i, j), with m = rho H:
 !>
@@ -25,16 +26,30 @@
 !> approximation scheme (multigrid/coarse_problem.f90), and the first two lines may be a Galerkin product.
 !>
 !> Zhang et al. 2019, eqs. 1, 7 and 8; the narrow scheme: Venner & Lubrecht 2000.
+!>
+!> Film, with the rigid separation H00, the gap G of the undeformed bodies less the roughness, whose peaks are positive
+!> (X^2/2 + D Y^2/2 - RR with the ratio of radii D; on a coarse level what multigrid/coarse_problem.f90 sets), and the elastic
+!> deflection K P = k_b iint P dX' dY'/r of the level's engine:
+!>
+!>    H(X, Y) = H00 + G(X, Y) + (K P)(X, Y)
+!>
+!> Force balance, which determines H00 on the coarsest grid (multigrid/coarsest.f90):
+!>
+!>    iint P dX dY = load,   discrete: sum over the nodes of P hx hy = load
+!>
+!> (twice for nodes that have a mirror image). On the finest grid the load is that of the contact, 2 pi/3 for a ball on a
+!> flat, less what is sustained beyond the border (far_field.f90). On a coarser one it is the finer one's error on top of what
+!> the restricted pressure sustains.
 module ehl_reynolds
    use ehl_flow, only: dir_x
    use ehl_kernel, only: coefficient
    use ehl_kinds, only: dp
-   use ehl_level, only: level_t
-   use ehl_node_state, only: zero_inactive_residual
+   use ehl_level, only: cavity_pressure, last_flowing, level_t, zero_inactive_residual
    use ehl_wedge, only: wedge_reach
    implicit none (type, external)
    private
-   public :: film_residual, find_touching, flow_operator, reynolds_operator, update_residual
+   public :: balance_load, film_residual, flow_operator, load_excess, missing_load, pass_load_on, refresh, reynolds_operator, &
+             update_coefficients, update_residual
 
 contains
 
@@ -70,7 +85,9 @@ contains
       end if
       call level%poiseuille%apply_row(level%p, level%flow, j, values)
       call level%wedge%subtract_row(level%mass_content(:, j), values)
-      call level%supply%transport_row(level%p(:, j), level%mass_content(:, j), j, values, passing)
+      if (present(passing)) passing = .false.
+      if (level%supply%active) call level%supply%transport_row(level%p(:, j) <= cavity_pressure, level%mass_content(:, j), j, &
+                                                               values, passing)
    end subroutine flow_operator
 
    !> Which nodes touch, for the present pressure, film and coefficients
@@ -152,4 +169,122 @@ contains
          film_residual = sqrt(sum(sums)/(real(grid%nx, dp)*grid%full_ny()))
       end associate
    end function film_residual
+
+   !> Bring film and coefficients up to date with the pressure
+   subroutine refresh(level)
+      type(level_t), intent(inout) :: level
+      call update_film(level)
+      call update_coefficients(level)
+   end subroutine refresh
+
+   !> Deflection and film for the present pressure
+   subroutine update_film(level)
+      type(level_t), intent(inout) :: level
+      integer :: j
+
+      call level%engine%apply(level%p, level%h)
+      !$omp parallel do default(none) shared(level) num_threads(level%threads) if(level%parallel) schedule(static)
+      do j = 1, level%grid%ny
+         level%h(:, j) = level%h00 + level%film_rhs(:, j) + level%h(:, j)
+      end do
+      !$omp end parallel do
+   end subroutine update_film
+
+   !> Density, mass content and conductances for the present pressure and film; a level whose Poiseuille term is frozen
+   !> keeps its conductances. Behind the last node of a row with pressure the lubricant is that at P = 0.
+   subroutine update_coefficients(level)
+      type(level_t), intent(inout) :: level
+      real(dp) :: rest_rho(1), rest_slope(1)
+      integer :: j, last
+
+      call level%lubricant%density([0.0_dp], rest_rho, rest_slope)
+      !$omp parallel do default(none) shared(level, rest_rho, rest_slope) private(last) &
+      !$omp num_threads(level%threads) if(level%parallel) schedule(static, 8)
+      do j = 1, level%grid%ny
+         last = last_flowing(level%p(:, j))
+         call level%lubricant%density(level%p(:last, j), level%rho(:last, j), level%h_drho_dp(:last, j))
+         level%rho(last + 1:, j) = rest_rho(1)
+         level%h_drho_dp(last + 1:, j) = rest_slope(1)
+         call level%boundary%find_film(level%h(:, j), level%rho(:, j), j)
+         if (.not. level%poiseuille%frozen) call level%flow%find_row( &
+            level%lubricant, level%p, level%boundary%film_row(level%h(:, j), j), level%rho(:, j), level%h_drho_dp(:, j), j, last)
+         level%mass_content(:, j) = level%rho(:, j)*level%h(:, j)
+         level%h_drho_dp(:, j) = level%h_drho_dp(:, j)*level%h(:, j)
+      end do
+      !$omp end parallel do
+      if (level%boundary%follows_state()) call find_touching(level)
+   end subroutine update_coefficients
+
+   !> Load that the pressure of a level lacks
+   real(dp) function missing_load(level)
+      type(level_t), intent(in) :: level
+      missing_load = level%load - pressure_sum(level)
+   end function missing_load
+
+   !> Relative error of the force balance; positive: the pressure is too large
+   real(dp) function load_excess(level)
+      type(level_t), intent(in) :: level
+      load_excess = pressure_sum(level)/level%load - 1.0_dp
+   end function load_excess
+
+   !> Load of a coarse level: what the fine pressure lacks, and what the restricted pressure sustains
+   subroutine pass_load_on(fine, coarse)
+      type(level_t), intent(in) :: fine
+      type(level_t), intent(inout) :: coarse
+      coarse%load = missing_load(fine) + pressure_sum(coarse)
+   end subroutine pass_load_on
+
+   !> Take a small relative error of the force balance away by scaling the pressure within the border, but where nodes yield; H00
+   !> keeps the mean film under it. Film and coefficients are up to date before and after.
+   subroutine balance_load(level)
+      type(level_t), intent(inout) :: level
+      real(dp) :: factor, deflection(level%grid%ny), after(level%grid%nx)
+      integer :: j, nx
+
+      nx = level%grid%nx
+      factor = 1.0_dp/(1.0_dp + load_excess(level)/(1.0_dp - fixed_load(level)/level%load))
+      !$omp parallel do default(none) shared(level, factor, deflection, nx) private(after) &
+      !$omp num_threads(level%threads) if(level%parallel) schedule(static)
+      do j = 1, level%grid%ny
+         deflection(j) = sum(level%p(:, j)*(level%h(:, j) - level%h00 - level%film_rhs(:, j)))*level%grid%weight(j)
+         if (level%grid%is_border(j)) cycle
+         after(2:nx - 1) = factor*level%p(2:nx - 1, j)
+         call level%boundary%limit_pressure(level%p(2:nx - 1, j), 2, j, after(2:nx - 1))
+         level%p(2:nx - 1, j) = after(2:nx - 1)
+      end do
+      !$omp end parallel do
+      level%h00 = level%h00 + (factor - factor**2)*sum(deflection)/level%load
+      call refresh(level)
+   end subroutine balance_load
+
+   !> What of the load the pressure at the border and where nodes yield sustains
+   pure real(dp) function fixed_load(level)
+      type(level_t), intent(in) :: level
+      integer :: j
+
+      fixed_load = 0.0_dp
+      do j = 1, level%grid%ny
+         if (level%grid%is_border(j)) then
+            fixed_load = fixed_load + sum(level%p(:, j))*level%grid%weight(j)
+         else
+            fixed_load = fixed_load + (level%p(1, j) + level%p(level%grid%nx, j))*level%grid%weight(j)
+            fixed_load = fixed_load + sum(level%p(:, j), mask=level%boundary%yielding(level%grid%nx, j))*level%grid%weight(j)
+         end if
+      end do
+   end function fixed_load
+
+   !> hx hy sum P over the whole contact
+   real(dp) function pressure_sum(level)
+      type(level_t), intent(in) :: level
+      real(dp) :: sums(level%grid%ny)
+      integer :: j
+
+      !$omp parallel do default(none) shared(level, sums) &
+      !$omp num_threads(level%threads) if(level%parallel) schedule(static)
+      do j = 1, level%grid%ny
+         sums(j) = sum(level%p(:, j))*level%grid%weight(j)
+      end do
+      !$omp end parallel do
+      pressure_sum = sum(sums)
+   end function pressure_sum
 end module ehl_reynolds

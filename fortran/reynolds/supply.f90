@@ -14,7 +14,6 @@
 module ehl_supply
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_kinds, only: dp
-   use ehl_node_state, only: cavity_pressure
    implicit none (type, external)
    private
    public :: supply_t
@@ -49,10 +48,11 @@ contains
    end subroutine setup
 
    !> Take from row j of the operator of filled nodes what is missing upstream
-   pure subroutine transport_row(self, p, mass_content, j, values, passing)
+   pure subroutine transport_row(self, cavitated, mass_content, j, values, passing)
       class(supply_t), intent(in) :: self
-      !> Pressure and rho H, shape (nx)
-      real(dp), contiguous, intent(in) :: p(:), mass_content(:)
+      !> Which nodes have P = 0, and rho H; shape (nx)
+      logical, contiguous, intent(in) :: cavitated(:)
+      real(dp), contiguous, intent(in) :: mass_content(:)
       integer, intent(in) :: j
       !> Shape (nx), in columns 2 to nx-1
       real(dp), contiguous, intent(inout) :: values(:)
@@ -63,13 +63,12 @@ contains
       integer :: i
 
       if (present(passing)) passing = .false.
-      if (.not. self%active) return
       ! with it the equation of the first interior column, of first order, has the flow of the others; not where the border is full
       missing = max(0.0_dp, 0.5_dp*(mass_content(1) + mass_content(2)) - self%layer(j))/self%hx
       if (present(passing)) passing(1) = missing > 0.0_dp
       do i = 2, size(values) - 1
          values(i) = values(i) - missing
-         short = p(i) <= cavity_pressure .and. (self%frozen .or. values(i) < 0.0_dp)
+         short = cavitated(i) .and. (self%frozen .or. values(i) < 0.0_dp)
          missing = merge(-values(i), 0.0_dp, short)
          if (present(passing)) passing(i) = short
       end do

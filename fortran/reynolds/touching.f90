@@ -4,9 +4,8 @@
 !> leaves, which is contact as well.
 module ehl_touching
    use ehl_kinds, only: dp
-   use ehl_level, only: gap_row, level_t
+   use ehl_level, only: cavity_pressure, gap_row, level_t
    use ehl_lubricant, only: lubricant_t
-   use ehl_node_state, only: cavity_pressure
    use ehl_reynolds, only: flow_operator
    implicit none (type, external)
    private

@@ -5,12 +5,11 @@ module ehl_iteration
    use ehl_anderson, only: anderson_t
    use ehl_contact_results, only: contact_results_t, load_tolerance, measure
    use ehl_cycle, only: cycle_options_t, finest_cycle
-   use ehl_force_balance, only: balance_load
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
    use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_diverged, outcome_negative_film, outcome_running
-   use ehl_reynolds, only: film_residual, update_residual
+   use ehl_reynolds, only: balance_load, film_residual, update_residual
    implicit none (type, external)
    private
    public :: iteration_t, reduction, max_reduction

@@ -5,19 +5,16 @@ module ehl_transient_state
    use ehl_contact, only: contact_t
    use ehl_cycle, only: coarsening_alcouffe, coarsening_classical
    use ehl_extremes, only: extremes_t
-   use ehl_film, only: refresh
-   use ehl_force_balance, only: balance_load
    use ehl_friction_mean, only: friction_mean_t
    use ehl_hierarchy, only: hierarchy_t
    use ehl_iteration, only: iteration_t
    use ehl_kinds, only: dp
-   use ehl_level, only: level_t
+   use ehl_level, only: cavitate, level_t
    use ehl_contact_results, only: central_value, load_tolerance, measure, contact_results_t
    use ehl_moving_surfaces, only: moving_surfaces_t
-   use ehl_node_state, only: cavitate
    use ehl_predicted_start, only: first_mean, predicted_start_t, start_lag, transit
    use ehl_predictor, only: predictor_t
-   use ehl_reynolds, only: update_residual
+   use ehl_reynolds, only: balance_load, refresh, update_residual
    use ehl_status, only: ehl_no_memory, status_t
    use ehl_step_accuracy, only: step_accuracy_t
    use ehl_step_policy, only: attempt_predicted, step_policy_t

@@ -4,7 +4,7 @@ module test_friction
    use check, only: is_close, is_true
    use ehl_contact, only: contact_t
    use ehl_contact_factory, only: new_contact
-   use ehl_film, only: update_coefficients
+   use ehl_reynolds, only: update_coefficients
    use ehl_flow_factory, only: new_flow
    use ehl_grid, only: new_grid
    use ehl_heat, only: dynamic_viscosity, flash_temperature, kinematic_viscosity, temperature_viscosity, thermal_reduction

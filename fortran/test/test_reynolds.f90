@@ -5,7 +5,7 @@ module test_reynolds
    use check, only: is_close, is_true
    use ehl_coarsest, only: coarsest_t
    use ehl_deflection_factory, only: new_deflection
-   use ehl_film, only: refresh
+   use ehl_reynolds, only: refresh
    use ehl_flow, only: dir_x, flow_t
    use ehl_flow_factory, only: new_flow
    use ehl_grid, only: grid_t, new_grid

@@ -11,7 +11,7 @@ module test_solver
    use ehl_contact_factory, only: new_contact
    use ehl_deflection, only: deflection_t
    use ehl_deflection_factory, only: new_deflection
-   use ehl_film, only: update_coefficients
+   use ehl_reynolds, only: update_coefficients
    use ehl_flow_factory, only: new_flow
    use ehl_grid, only: grid_t, new_grid
    use ehl_kinds, only: dp, pi

@@ -5,7 +5,6 @@ module test_transient
    use ehl_case, only: case_t
    use ehl_read_case, only: read_case
    use ehl_contact_run, only: contact_run_t
-   use ehl_film, only: refresh
    use ehl_flow, only: dir_x
    use ehl_fmg, only: full_multigrid
    use ehl_kinds, only: dp
@@ -14,7 +13,7 @@ module test_transient
    use ehl_outcome, only: outcome_running
    use ehl_plan, only: make_plan
    use ehl_relaxation, only: usual_log_change, relax
-   use ehl_reynolds, only: update_residual
+   use ehl_reynolds, only: refresh, update_residual
    use ehl_status, only: status_t
    use ehl_transient, only: solve_transient
    implicit none (type, external)

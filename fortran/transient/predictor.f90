@@ -7,8 +7,7 @@
 !> pressure.
 module ehl_predictor
    use ehl_kinds, only: dp
-   use ehl_level, only: level_t
-   use ehl_node_state, only: cavitate, stay_cavitated
+   use ehl_level, only: cavitate, level_t, stay_cavitated
    use ehl_status, only: ehl_no_memory, status_t
    implicit none (type, external)
    private

@@ -20,9 +20,9 @@ def test_pages_have_the_constants_of_the_sources(root: Path):
 
     grids = text_of(root, "theory/coarse-grids.md")
     for axis in "xy":
-        long = constant("multigrid/ladder.f90", f"long_{axis}")
+        long = constant("multigrid/hierarchy.f90", f"long_{axis}")
         assert f"more than {long:g} times as long along {axis.upper()}" in grids
-    assert f"more than {constant('multigrid/ladder.f90', 'max_unknowns'):g} unknowns" in grids
+    assert f"more than {constant('multigrid/hierarchy.f90', 'max_unknowns'):g} unknowns" in grids
     assert f"until {constant('case/case_grid.f90', 'few_rows'):g} intervals or fewer" in grids
     largest = constant("case/case_grid.f90", "largest_ratio")
     assert f"from 1/4 to {largest:g}:" in text_of(root, "theory/discretisation.md")

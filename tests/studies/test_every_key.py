@@ -175,7 +175,7 @@ LINE: dict[str, Mapping[str, Any]] = {
         "contact.radius": 0.01,
     },
 }
-# A layer of oil meets smooth surfaces, so that a prediction, a curve and a fit of rough ones have none
+# A layer of oil meets smooth surfaces: predictions, curves and fits of rough ones have none
 SMOOTH = ("inlet.film", "inlet.film_hertz", "inlet.passages", "inlet.replenishment")
 # A table of viscosities is a file
 TABLE = "lubricant.table"

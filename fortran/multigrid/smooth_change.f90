@@ -1,0 +1,123 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Relaxation in time steps: the smooth part of changes at nodes with a small conductance is taken back at the end of a sweep, for
+!> the lines do not see its deflection. Where the values of the constants come from: docs/design.md.
+module ehl_smooth_change
+   use ehl_boundary_film, only: boundary_film_t
+   use ehl_kinds, only: dp
+   use ehl_level, only: change_flowing, level_t
+   use ehl_workspace, only: workspace_t
+   implicit none (type, external)
+   private
+   public :: filter_smooth_change, find_smoothing_weights
+
+   !> Conductance/mesh-size^2 around a node, as a share of the squeeze term's factor, at which half of the change
+   !> counts as one to be freed of its smooth part: a change smooth over a length l has a residual of about
+   !> squeeze*l*2/pi^2 by its deflection, and overshoots where the line holds less than half of that against
+   !> it. The largest conductance around the node counts, for in a valley narrower than the mean below nothing is
+   !> smooth.
+   real(dp), parameter :: weak = 0.6_dp
+   !> What is around a node: so many columns on each side, and a row
+   integer, parameter :: around = 2
+   !> Smaller shares count as 0
+   real(dp), parameter :: min_weight = 0.01_dp
+   !> Weights of the mean that is the smooth part, along X and along Y. Narrower means take away from what
+   !> sweeps are there for.
+   integer, parameter :: reach = 4
+   real(dp), parameter :: binomial(-reach:reach) = [1.0_dp, 8.0_dp, 28.0_dp, 56.0_dp, 70.0_dp, 56.0_dp, 28.0_dp, &
+                                                    8.0_dp, 1.0_dp]/256.0_dp
+
+contains
+
+   !> Share of a node's change that is to be free of its smooth part, in time steps: 1 where the conductance
+   !> around the node is nothing against the squeeze term, 0 where it is much
+   subroutine find_smoothing_weights(level, space, first, last)
+      type(level_t), intent(in) :: level
+      type(workspace_t), intent(inout) :: space
+      integer, intent(in) :: first, last
+      real(dp) :: scale, share, largest(level%grid%nx)
+      integer :: i, j, k, below, above, nx, across
+
+      nx = level%grid%nx
+      across = level%flow%dir_y
+      scale = 1.0_dp/(weak*level%wedge%squeeze*min(level%grid%hx, level%grid%hy)**2)
+      !$omp parallel do default(none) shared(level, space, first, last, scale, nx, across) &
+      !$omp private(i, k, below, above, share, largest) &
+      !$omp num_threads(level%threads) if(level%parallel) schedule(static)
+      do j = first, last
+         below = level%grid%south(j)
+         above = level%grid%north(j)
+         largest = max(level%flow%eps(:, below, across), level%flow%eps(:, j, across), level%flow%eps(:, above, across))
+         call max_flowing_conductance_row(level%boundary, level%flow%eps(:, :, across), j, below, above, largest)
+         do i = 1 + around, nx - around
+            share = largest(i)
+            do k = 1, around
+               share = max(share, largest(i - k), largest(i + k))
+            end do
+            share = 1.0_dp/(1.0_dp + (scale*share)**2)
+            space%smoothing_weight(i, j) = merge(share, 0.0_dp, share > min_weight)
+         end do
+      end do
+      !$omp end parallel do
+   end subroutine find_smoothing_weights
+
+   !> Take the smooth part of the changes of nodes with a weak conductance back
+   subroutine filter_smooth_change(level, space, first, last)
+      type(level_t), intent(inout) :: level
+      type(workspace_t), intent(inout) :: space
+      integer, intent(in) :: first, last
+      real(dp) :: smooth(level%grid%nx)
+      integer :: from(last), to(last)
+      integer :: i, j, k, row
+
+      !$omp parallel do default(none) shared(level, space, first, last, from, to) private(i, k) &
+      !$omp num_threads(level%threads) if(level%parallel) schedule(static, 8)
+      do j = first, last
+         from(j) = findloc(space%smoothing_weight(:, j) > 0.0_dp, .true., dim=1)
+         to(j) = findloc(space%smoothing_weight(:, j) > 0.0_dp, .true., dim=1, back=.true.)
+         space%mean_change(:, j) = 0.0_dp
+         if (from(j) == 0) cycle
+         do k = -reach, reach
+            ! as far as the changes of this row reach, for rows beside it may have shares further out
+            do i = max(from(j) - reach, 1 + reach), min(to(j) + reach, level%grid%nx - reach)
+               space%mean_change(i, j) = space%mean_change(i, j) + binomial(k)*space%raw_change(i + k, j)
+            end do
+         end do
+      end do
+      !$omp end parallel do
+      !$omp parallel do default(none) shared(level, space, first, last, from, to) private(i, k, row, smooth) &
+      !$omp num_threads(level%threads) if(level%parallel) schedule(static, 8)
+      do j = first, last
+         if (from(j) == 0) cycle
+         smooth(from(j):to(j)) = 0.0_dp
+         do k = -reach, reach
+            row = j + k
+            if (row < 1 .and. level%grid%mirror) row = 2 - row
+            if (level%grid%periodic) row = modulo(row - 1, level%grid%ny) + 1
+            if (row < first .or. row > last) cycle
+            do i = from(j), to(j)
+               smooth(i) = smooth(i) + binomial(k)*space%mean_change(i, row)
+            end do
+         end do
+         do i = from(j), to(j)
+            smooth(i) = level%p(i, j) - space%smoothing_weight(i, j)*smooth(i)
+         end do
+         call level%boundary%limit_pressure(level%p(from(j):to(j), j), from(j), j, smooth(from(j):to(j)))
+         call change_flowing(smooth(from(j):to(j)), level%p(from(j):to(j), j))
+      end do
+      !$omp end parallel do
+   end subroutine filter_smooth_change
+
+   !> Of three rows, south, j and north: the largest conductance of each column, as if nothing could flow at a touching node
+   pure subroutine max_flowing_conductance_row(boundary, eps, j, south, north, values)
+      type(boundary_film_t), intent(in) :: boundary
+      !> Shape (nx, ny)
+      real(dp), contiguous, intent(in) :: eps(:, :)
+      integer, intent(in) :: j, south, north
+      !> Shape (nx)
+      real(dp), contiguous, intent(inout) :: values(:)
+
+      if (.not. boundary%active) return
+      values = max(eps(:, south)*(1.0_dp - boundary%touching(:, south)), eps(:, j)*(1.0_dp - boundary%touching(:, j)), &
+                   eps(:, north)*(1.0_dp - boundary%touching(:, north)))
+   end subroutine max_flowing_conductance_row
+end module ehl_smooth_change
