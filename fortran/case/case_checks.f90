@@ -231,9 +231,10 @@ contains
          return
       end if
       associate (inlet => input%inlet)
-         if (inlet%position > 0.0_dp .and. inlet%film > 0.0_dp .or. inlet%position_hertz > 0.0_dp .and. inlet%film_hertz > 0.0_dp) &
+         if (inlet%position_hertz > 0.0_dp .and. inlet%film_hertz > 0.0_dp) then
             call source%refuse(key, "inlet.position with inlet.film", "one of them: the oil begins where the layer fills the gap", &
                                status)
+         end if
          if (.not. input%contact%si .and. max(inlet%position, inlet%film) > 0.0_dp) call source%refuse(key, &
             key//" in metres with Moes numbers", key//"_hertz, in a or a^2/R", status)
          if (inlet%position > 0.0_dp) call agree("inlet.position", "inlet.position_hertz", inlet%position/scales%length, &

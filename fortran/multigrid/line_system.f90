@@ -122,8 +122,8 @@ contains
       end do
    end subroutine gather
 
-   !> Where the inlet is short of oil (supply.f90): residuals with what is transported, and no flow back to nodes that pass it on. The
-   !> wedge term's factors stay as they are, for there the Poiseuille term is much larger.
+   !> Where the inlet is short of oil (supply.f90): residuals with what is transported, and no flow back to nodes that pass it
+   !> on. The wedge term's factors stay as they are, for there the Poiseuille term is much larger.
    pure subroutine carry(level, rows, last, g)
       type(level_t), intent(in) :: level
       integer, intent(in) :: rows(line_width)

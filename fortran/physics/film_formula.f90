@@ -46,8 +46,8 @@ contains
       if (layer > 0.0_dp) film = (flooded**(-exponent) + layer**(-exponent))**(-1.0_dp/exponent)
    end function starved_film
 
-   !> Central film of a point contact over the flooded one where the oil begins at a distance from the centre: ((m - 1)/(m* - 1))^0.29
-   !> with m* = 1 + 3.06 H^0.58 (Hamrock & Dowson 1977, part IV, J. Lubr. Technol. 99, 15; at an ellipticity of 6)
+   !> Central film of a point contact over the flooded one where the oil begins at a distance m from the centre:
+   !> ((m - 1)/(m* - 1))^0.29 with m* = 1 + 3.06 H^0.58 (Hamrock & Dowson 1977, part IV; at an ellipticity of 6)
    pure real(dp) function starved_share(flooded, position) result(share)
       !> Flooded film [a^2/R_x], distance [a]
       real(dp), intent(in) :: flooded, position

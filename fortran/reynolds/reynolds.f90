@@ -7,7 +7,8 @@
 !>
 !> and P = 0 elsewhere, where the left-hand side is not positive: P >= 0 and nothing flows out of a cavity, or what does is
 !> what arrives there (supply.f90). P is given on the border: 0, or that of a flooded contact (far_field.f90). eps_x and
-!> eps_y are the conductances (flow.f90), for a Newtonian lubricant both rho H^3/(eta lambda_bar); rho and eta depend on P (physics/lubricant.f90), H on all of P.
+!> eps_y are the conductances (flow.f90), for a Newtonian lubricant both rho H^3/(eta lambda_bar); rho and eta depend on P
+!> (physics/lubricant.f90), H on all of P.
 !>
 !> Discrete, at node (i, j), with m = rho H:
 !>

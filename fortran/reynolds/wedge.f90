@@ -125,7 +125,7 @@ contains
    pure function weights(self, i, passing) result(c)
       class(wedge_t), intent(in) :: self
       integer, intent(in) :: i
-      !> Whether the node before it passes on what it receives (supply.f90), so that what comes from there is no flow of a filled gap
+      !> Whether the node before it passes on what it receives (supply.f90): what comes from there is no flow of a filled gap
       logical, intent(in), optional :: passing
       real(dp) :: c(0:wedge_reach)
 

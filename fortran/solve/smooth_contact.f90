@@ -68,8 +68,8 @@ module ehl_smooth_contact
       !> Whether a cycle that ends in no state of the contact is taken back, and cycles that stall are accelerated
       logical, private :: guarded = .false.
       type(guard_t), private :: guard
-      !> Whether as much oil arrives as the gap holds. A line lets all oil through that arrives, for nothing flows around it: first it
-      !> is solved so, and the layer counts where that takes more.
+      !> Whether as much oil arrives as the gap holds. A line lets all oil through that arrives, for nothing flows around it:
+      !> first it is solved so, and the layer counts where that takes more.
       logical, private :: floods = .false.
       !> Passage, that of the last cycle, and its layer in the middle
       integer :: passage = 1, cycle_passage = 1

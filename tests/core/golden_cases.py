@@ -168,7 +168,9 @@ def without_places(text: str, folder: Path) -> str:
     """Replace the folder of the case, and the current one, from which options name files."""
     text = text.replace(str(folder), "FOLDER").replace(str(Path.cwd()), "CURRENT")
     # a group that came since
-    return text.replace("&lubricant, &inlet,", "&lubricant,").replace("lubricant, inlet,", "lubricant,")
+    return text.replace("&lubricant, &inlet,", "&lubricant,").replace(
+        "lubricant, inlet,", "lubricant,"
+    )
 
 
 def lines(resolved: str) -> list[str]:
