@@ -9,8 +9,7 @@ from typing import Any
 import numpy as np
 
 from pyehl.case import Case
-from pyehl.studies.study import Study, make
-from pyehl.studies.vary import Axis, Value
+from pyehl.studies.study import Axis, Study, Value, make
 from pyehl.theory.operating import OperatingPoint
 
 ROELANDS_Z = 0.6684

@@ -16,12 +16,10 @@ from typing import Any
 from common import add_list, columns, measure, parser, show
 
 from pyehl.case import Case
-from pyehl.studies.gather import Watcher
 from pyehl.studies.plan import Plan, plan
-from pyehl.studies.study import make
-from pyehl.studies.sweep import perform
+from pyehl.studies.study import axis, make
+from pyehl.studies.sweep import Watcher, perform
 from pyehl.studies.tasks import Task
-from pyehl.studies.vary import axis
 from pyehl.types import Row
 
 COLUMNS = columns(

@@ -34,8 +34,8 @@ if TYPE_CHECKING:
     from pyehl.results import load
     from pyehl.solver import Solver
     from pyehl.studies.curve_run import stribeck
-    from pyehl.studies.fit_folder import fit_lubricant
-    from pyehl.studies.oil_list import lubricants
+    from pyehl.studies.film_fit import fit_lubricant
+    from pyehl.studies.shear_fit import lubricants
     from pyehl.studies.sweep import sweep
     from pyehl.subsurface.result import stress
     from pyehl.surfaces.tile import Topography
@@ -85,10 +85,10 @@ _HOMES = {
     "check": "api",
     "export": "netcdf",
     "film": "api",
-    "fit_lubricant": "studies.fit_folder",
+    "fit_lubricant": "studies.film_fit",
     "gear": "machines.perform",
     "load": "results",
-    "lubricants": "studies.oil_list",
+    "lubricants": "studies.shear_fit",
     "plot": "plots.folder",
     "predict": "api",
     "report": "reports.folder",

@@ -49,7 +49,7 @@ class Assessment:
     """
 
     text: str
-    worth: str
+    confidence: str
 
 
 class Summary:
@@ -99,8 +99,8 @@ def assess(values: Mapping[str, Any]) -> Assessment:
         more.insert(0, f"mu_r/mu_s is not known: {message}")
     text = "; ".join(doubts) or f"full film: {_minimum_film(s)}"
     text += _starvation(s)
-    worth = WITH_CARE if doubts or more else HOLDS
-    return Assessment(f"{text}; but {'; '.join(more)}" if more else text, worth)
+    confidence = WITH_CARE if doubts or more else HOLDS
+    return Assessment(f"{text}; but {'; '.join(more)}" if more else text, confidence)
 
 
 def _pressure(s: Summary) -> list[str]:
@@ -143,8 +143,9 @@ def _yielding(s: Summary) -> list[str]:
     if not _finite_above(share, 0.0):
         return []
     return [
-        f"yielding solids: {percent(share)} of the load is carried at their hardness, and they "
-        f"give way by up to {rounded(s.number('plastic_depth_max_m') * 1e9)} nm, as in a first pass"
+        f"yielding solids: {percent(share)} of the load is carried at their hardness, with a "
+        f"plastic depth of up to {rounded(s.number('plastic_depth_max_m') * 1e9)} nm, "
+        "as in a first pass"
     ]
 
 

@@ -28,7 +28,7 @@ class Conclusion:
 
     lines: Mapping[str, str]
     assessment: str
-    worth: str
+    confidence: str
 
     def __str__(self) -> str:
         """Give the lines as ``pyehl run`` prints them."""
@@ -48,7 +48,7 @@ def conclude(values: Mapping[str, Any]) -> Conclusion:
         _friction_ratio(s), _friction(s), _heat(s),
     )  # fmt: skip
     lines = {name: text for part in parts for name, text in part.items()}
-    return Conclusion(lines | {"assessment": found.text}, found.text, found.worth)
+    return Conclusion(lines | {"assessment": found.text}, found.text, found.confidence)
 
 
 RESUMPTION = {

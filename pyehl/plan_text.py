@@ -109,7 +109,7 @@ def _friction(v: Values, settings: Settings) -> Iterator[str]:
 
 
 def _surfaces(v: Values, settings: Settings) -> Iterator[str]:
-    """Tell what moves or lies in the contact, its time steps, and what of it the grid carries."""
+    """Describe the surfaces, their time steps, and what of them the grid resolves."""
     count = v["surfaces"]
     if not count:
         yield "problem    smooth and steady: no time levels, no roughness"
@@ -198,7 +198,7 @@ def _time(v: Values) -> Iterator[str]:
 
 
 def _waves(v: Values, members: list[dict[str, Any]]) -> Iterator[str]:
-    """Say how much of the surfaces the finest grid carries."""
+    """Describe how much of the surfaces the finest grid resolves."""
     if v["has_spectrum"] and v["has_size"]:
         for member in members:
             label = f"&{member['group']}: " if len(members) > 1 else ""
@@ -308,13 +308,13 @@ def _need(v: Values) -> Iterator[str]:
     if v.get("move") and not v["steps"]:
         text += ", if it ends as early as it can"
     yield text
-    least, most = v["frames_min"], v["frames_max"]
+    minimum, most = v["frames_min"], v["frames_max"]
     if most > 0.0:
         every = "after every step: output.frame_interval is no longer than a step"
         if v["frame_interval"] > v["mesh_x"]:
             every = f"one in {v['frame_interval']} a/u"
-        at_most = f", at most {most:.0f}," if most > least else ""
-        yield f"frames     {every}, about {least:.0f}{at_most} of P and H"
+        at_most = f", at most {most:.0f}," if most > minimum else ""
+        yield f"frames     {every}, about {minimum:.0f}{at_most} of P and H"
 
 
 def _duration(seconds: float) -> str:

@@ -44,7 +44,7 @@ class Predictions:
         self._resolved = self._passed = False
 
     def begin(self, solver: SolverHandle) -> None:
-        """Hand a solver the start that it asks for; mostly it asks for none."""
+        """Hand a solver the start that it needs; mostly it needs none."""
         if start_fronts(solver).size:
             from pyehl.prediction.simulation import hand_over  # noqa: PLC0415
 
@@ -72,8 +72,8 @@ class Predictions:
             return [f"predicted   no mu_r/mu_s: {found}"]
         return found.report() if found else []
 
-    def tell(self, solver: SolverHandle) -> None:
-        """Pass to a solver what is predicted, if the error of its mu_ratio asks for it."""
+    def hand_over(self, solver: SolverHandle) -> None:
+        """Pass to a solver what is predicted, if the error of its mu_ratio depends on it."""
         found_so_far = {} if self._passed else results_of(solver).values
         if found_so_far.get("mu_ratio") is None or not found_so_far["variance_unresolved"]:
             return

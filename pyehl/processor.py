@@ -50,8 +50,8 @@ def choose(wanted: str, has_v3: bool, flags: set[str]) -> str:
         )
     able = flags >= V3_FLAGS
     if wanted == V3 and not able:
-        lacking = ", ".join(sorted(V3_FLAGS - flags))
-        raise InputError(f"{VARIABLE}={V3}: missing on this processor: {lacking}")
+        missing = ", ".join(sorted(V3_FLAGS - flags))
+        raise InputError(f"{VARIABLE}={V3}: missing on this processor: {missing}")
     return "_v3" if has_v3 and able and wanted != BASELINE else ""
 
 

@@ -42,7 +42,7 @@ REASONS = {
     12: ALONE + ": time.estimate_error is false",
     13: ALONE + ", because of time.steps",
     14: ALONE + " yet",
-    15: ALONE + ": it carries nothing of the surface",
+    15: ALONE + ": it resolves nothing of the surface",
     16: ALONE + ": grid.points is too small for one",
     17: "the run on the next coarser grid ended with the status '{coarser_status}'{coarser_why}",
     18: "pressures change so much from grid to grid that no limit is in sight",

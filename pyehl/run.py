@@ -35,7 +35,7 @@ SIGNALS = (signal.SIGINT, signal.SIGTERM)
 def signals_to(take: Callable[[int, FrameType | None], None]) -> Iterator[None]:
     """Give SIGINT and SIGTERM to a function.
 
-    Signals belong to the main thread: in another one nothing asks for a stop.
+    Signals belong to the main thread: another one is not stopped.
     """
     if threading.current_thread() is not threading.main_thread():
         yield

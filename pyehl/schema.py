@@ -156,7 +156,7 @@ s | rough_residual | - | its residual at the end
 s | x_start | a | origin of a rough surface at rest
 s | second_x_start | a | that of the second surface
 sp | mu_ratio | - | friction over that of the smooth contact: mean over a period or a passage
-sp | mu_ratio_min | - | its least value
+sp | mu_ratio_min | - | its minimum over the passage
 sp | mu_ratio_max | - | its largest value
 s | mu_ratio_extrapolated | - | mu_ratio extrapolated to fine grids, where both resolve the surface
 s | mu_ratio_error | - | error of mu_ratio: the sum of its parts; null if one is not known
@@ -191,9 +191,9 @@ sp | contact_area_share | - | area where they touch over that of the dry contact
 p | contact_area_share_error | - | estimate of its error
 s | load_share_at_hardness | - | share of the load where the solids yield: a mean, as mu_ratio
 s | area_share_at_hardness | - | area where they yield over that of the dry contact
-s | plastic_depth_max_m | m | greatest depth by which they give way
+s | plastic_depth_max_m | m | maximum depth of plastic deformation
 s | flowing_load_share_at_hardness | - | share of the load where they yield under a flowing film
-s | layer_supply | - | lubricant that the layer gives there, over the flow along with the surfaces
+s | layer_supply | - | mass defect of the boundary film there, over the flow along with the surfaces
 sp | mu_note | | what mu holds and leaves out
 sp | flash_temperature_K | K | largest rise of the surfaces by a formula (Tian & Kennedy), at mu
 sp | shear_rate_mean_per_s | 1/s | mean shear rate

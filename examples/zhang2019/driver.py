@@ -29,8 +29,8 @@ from pyehl.destination import Destination, file_errors
 from pyehl.errors import InputError
 from pyehl.plots.style import save
 from pyehl.reports import page
-from pyehl.studies.gather import Watcher
 from pyehl.studies.plan import Plan
+from pyehl.studies.sweep import Watcher
 
 DPI = 130
 # In the order of the report; the order of the work is the same

@@ -10,7 +10,7 @@ from conditions import SCHEMES
 from piece import Check, Level, References, Result
 from runs import Made, Runs
 
-from pyehl.studies.reference_table import read_reference
+from pyehl.studies.compare import read_reference
 from pyehl.types import Array
 
 NAME = "figure 2"

@@ -13,12 +13,10 @@ import numpy as np
 
 from pyehl.case import Case
 from pyehl.errors import EhlError
-from pyehl.studies.gather import Watcher
 from pyehl.studies.plan import Plan, plan
-from pyehl.studies.study import make
-from pyehl.studies.sweep import CASES, perform
+from pyehl.studies.study import axis, make
+from pyehl.studies.sweep import CASES, Watcher, perform
 from pyehl.studies.tasks import why_none
-from pyehl.studies.vary import axis
 from pyehl.types import Array, Row
 
 

@@ -7,7 +7,7 @@ module ehl_arguments
    private
    public :: arguments_t, get_arguments, help_text
 
-   !> What the command line asks for
+   !> What the command line requests
    type :: arguments_t
       !> Case file and result folder
       character(len=:), allocatable :: case_file, folder
@@ -140,7 +140,7 @@ contains
              // "             or two bodies is resolved by 'pyehl check CASE.nml --resolved out.nml'" // newline &
              // "  -o DIR     folder for the results: new, empty, or of an earlier run" // newline &
              // "  --force    take a folder with other files, which stay" // newline &
-             // "  --set      replace a value of the case, as often as wanted" // newline &
+             // "  --set      replace a value of the case, any number of times" // newline &
              // "  --resume   resume the interrupted run in DIR; results are bitwise identical" // newline &
              // "  --quiet    print nothing but errors" // newline &
              // "  --version  print the version and how it was built" // newline // newline &

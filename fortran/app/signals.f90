@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> SIGINT and SIGTERM ask the program to stop after the cycle at hand
+!> SIGINT and SIGTERM stop the program after the cycle at hand
 module ehl_signals
    use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int
    implicit none (type, external)

@@ -2,7 +2,7 @@
 !> Where a result goes: which folder may take it, and how it gets there.
 !>
 !> A folder takes a result of one kind if it is empty, or holds an earlier result of this kind and nothing else. A result
-!> names its kind and its files in summary.json. Pictures and exports of a result, which say what they are, give way with
+!> names its kind and its files in summary.json. Pictures and exports of a result, which name their kind, are replaced with
 !> it. All else is refused; with `force` other files stay, if none of them has a name that the result needs.
 !>
 !> A result is whole at every instant: it is written beside the folder and changes places with the one before it.
@@ -37,7 +37,7 @@ module ehl_destination
    end type destination_t
 
    character(len=*), parameter :: any_other = "expected: another folder", &
-      ! how names begin of what is being written, or was when the command was killed: it stays, and is in nobody's way
+      ! how names begin of what is being written, or was when the command was killed: it stays, and disturbs no other
       partial = ".partial", leftover = partial//"-"
    !> Names for a new folder that are tried
    integer, parameter :: tries = 3

@@ -18,7 +18,7 @@ module ehl_fftw_planner
 
 contains
 
-   !> Nobody else may plan from here on; after a failure the caller may not either
+   !> No other thread may plan from here on; after a failure the caller may not either
    subroutine lock_planner(status)
       type(status_t), intent(inout) :: status
       call lock(planner, status)

@@ -8,6 +8,7 @@ module ehl_files
    private
    public :: flush_file, file_bytes, file_exists, is_file, may_write, make_folder, remove_folder, remove_file
    public :: of_two_paths, rename_path, absolute_path, real_path, folder_of, process_mark, c_text, fortran_text
+   public :: posix_close, posix_open
 
    abstract interface
       integer(c_int) function of_path(path) bind(c)

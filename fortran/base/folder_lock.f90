@@ -115,7 +115,7 @@ contains
 
    !> Refuse the lock of a process that is alive, or may be
    subroutine refuse_if_held(folder, path, text, status)
-      !> As the user wrote it; the lock and what it says
+      !> As the user wrote it; the lock and its content
       character(len=*), intent(in) :: folder, path, text
       type(status_t), intent(inout) :: status
       character(len=256) :: process, start, host
@@ -138,7 +138,7 @@ contains
                        "expected: another folder, or wait until it has ended; if it no longer runs, remove "//path)
    end subroutine refuse_if_held
 
-   !> Remove a lock that says so, and no other one that may have come in its place
+   !> Remove a lock with this content, and no other one that may have come in its place
    subroutine take_away(path, text)
       character(len=*), intent(in) :: path, text
       character(len=:), allocatable :: aside, found

@@ -25,7 +25,7 @@ module ehl_folders
       character(kind=c_char) :: name(256)
    end type entry_t
 
-   !> Flags of renameat2, and the working directory as it knows it
+   !> Flags of renameat2, and its constant for the working directory
    integer(c_int), parameter :: never_replace = 1, exchange = 2, here = -100
 
    abstract interface
@@ -150,7 +150,7 @@ contains
          if (posix_flock(posix_dirfd(lock), alone) == 0) return
          if (error_number() /= interrupted) exit
       end do
-      ! on a file system without locks nobody waits: there is none to give back
+      ! on a file system without locks no process waits: there is none to release
       stat = posix_closedir(lock)
       lock = c_null_ptr
    end function lock_folder
@@ -212,7 +212,7 @@ contains
       make_link = posix_symlink(c_text(target_path), c_text(path)) == 0
    end function make_link
 
-   !> What a symbolic link says; empty when there is none
+   !> Target of a symbolic link; empty when there is none
    function link_text(path) result(text)
       character(len=*), intent(in) :: path
       character(len=:), allocatable :: text
@@ -243,7 +243,7 @@ contains
       if (error_number() == other_device) is_movable = .false.
    end function is_movable
 
-   !> A path that begins so, and that nobody has taken
+   !> An unused path that begins so
    function spare_path(beginning) result(path)
       character(len=*), intent(in) :: beginning
       character(len=:), allocatable :: path

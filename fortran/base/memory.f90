@@ -63,7 +63,7 @@ contains
       close (lun)
    end function free_bytes
 
-   !> What a control group and those that it is in leave; pages of files that nobody uses count as free
+   !> What a control group and those that it is in leave; pages of files that are not in use count as free
    subroutine limit_by_groups(root, path, limit_name, used_name, cache_name, free)
       character(len=*), intent(in) :: root, path, limit_name, used_name, cache_name
       real(dp), intent(inout) :: free

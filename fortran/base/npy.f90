@@ -140,7 +140,7 @@ contains
          end if
          if (stat /= 0) exit
       end do
-      if (stat /= 0) call status%fail(ehl_file, path // ": cannot read the array: it is shorter than it says")
+      if (stat /= 0) call status%fail(ehl_file, path // ": cannot read the array: it is shorter than its header states")
       close (lun)
    end subroutine read_npy
 
@@ -206,7 +206,7 @@ contains
          end if
       end if
       single = index(head, "'descr': '<f4'") > 0
-      if (problem == "" .and. merge(4, 8, single)*int(n(1), int64)*n(2) > bytes) problem = "it is shorter than it says"
+      if (problem == "" .and. merge(4, 8, single)*int(n(1), int64)*n(2) > bytes) problem = "it is shorter than its header states"
       by_rows = index(head, "'fortran_order': True") == 0
       if (problem == "") return
       call status%fail(ehl_file, path // ": cannot read the array: " // problem)

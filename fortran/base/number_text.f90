@@ -7,7 +7,7 @@ module ehl_number_text
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
-   public :: amount_buffer, real_buffer, fixed_buffer, rounded_buffer, integer_buffer, longest_number
+   public :: amount_buffer, real_buffer, fixed_buffer, rounded_buffer, integer_buffer
 
    !> Room for any number; how those of so many digits are written
    integer, parameter :: longest_number = 32
@@ -70,7 +70,7 @@ contains
       if (text(1:1) == "*") write (text, "(es12.5)") x
       text = adjustl(text)
       read (text, *, iostat=stat) shown
-      ! who asks for three decimals and more wants three digits
+      ! three decimals and more mean three digits
       most = merge(0.005_dp, 0.05_dp, form(1:1) == "f" .and. scan(form, "3456789", back=.true.) == len(form))
       if (stat == 0 .and. abs(shown - x) > most*abs(x)) then
          if (abs(x) < 1.0e-3_dp) then

@@ -21,7 +21,7 @@ contains
    !> Whether a process of this machine is there, by its number
    logical function process_is_there(process)
       character(len=*), intent(in) :: process
-      !> No signal; nobody may signal processes of others
+      !> No signal; processes of other users may not be signalled
       integer(c_int), parameter :: none = 0, not_permitted = 1
       integer(c_int) :: number
       integer :: stat
@@ -41,7 +41,7 @@ contains
    subroutine remove_left_over(path, between, list, may_go)
       !> From the root, without a '/' at its end
       character(len=*), intent(in) :: path, between
-      !> Names that may_go is asked with
+      !> Names that may_go is called with
       character(len=*), intent(in) :: list
       interface
          !> Whether a file of that name may go

@@ -26,13 +26,13 @@ module ehl_reason
    !> yet; nothing of the surface is on that grid; no such grid; it ended with another status; or both runs tell no limit
    integer, parameter :: reason_not_wanted = 12, reason_steps = 13, reason_not_yet = 14, reason_nothing_carried = 15, &
                          reason_small_grid = 16, reason_coarser_status = 17, reason_pressures = 18
-   !> Of other parts of that error: no ratio; a mean over few positions of two surfaces; waves that are left out, which nobody
-   !> predicted, or nobody can for surfaces at rest, or as the caller says who tried
+   !> Of other parts of that error: no ratio; a mean over few positions of two surfaces; waves that are left out, which were not
+   !> predicted, or cannot be for surfaces at rest, or by the reason of the caller
    integer, parameter :: reason_no_ratio = 19, reason_few_positions = 20, reason_not_predicted = 21, reason_moving_alone = 22, &
                          reason_prediction = 23
-   !> What a coefficient of friction is: with the heat of sliding; isothermal as wanted, or as nothing tells how the viscosity
-   !> falls, nothing slides, the stress is Newtonian and above the Eyring stress, the heat changes it by next to nothing, or a
-   !> wall at rest under a line has no steady temperature; with the heat of a rough contact
+   !> What a coefficient of friction is: with the heat of sliding; isothermal as required, or as the slope of the viscosity with
+   !> temperature is not known, nothing slides, the stress is Newtonian and above the Eyring stress, the heat changes it by next
+   !> to nothing, or a wall at rest under a line has no steady temperature; with the heat of a rough contact
    integer, parameter :: friction_with_heat = 31, friction_never = 32, friction_no_slope = 33, friction_no_sliding = 34, &
                          friction_newtonian = 35, friction_small = 36, friction_wall_at_rest = 37, &
                          friction_of_rough = 38

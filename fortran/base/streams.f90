@@ -2,7 +2,7 @@
 !> Standard input, output and error of a program
 module ehl_streams
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_size_t
-   use ehl_files, only: c_text
+   use ehl_files, only: c_text, posix_close, posix_open
    use ehl_status, only: ehl_file, status_t
    implicit none (type, external)
    private
@@ -22,19 +22,6 @@ module ehl_streams
          implicit none (type, external)
          integer(c_int), value :: descriptor
       end function posix_dup
-
-      integer(c_int) function posix_open(path, flags) bind(c, name="open")
-         import :: c_char, c_int
-         implicit none (type, external)
-         character(kind=c_char), intent(in) :: path(*)
-         integer(c_int), value, intent(in) :: flags
-      end function posix_open
-
-      integer(c_int) function posix_close(descriptor) bind(c, name="close")
-         import :: c_int
-         implicit none (type, external)
-         integer(c_int), value, intent(in) :: descriptor
-      end function posix_close
    end interface
 
 contains

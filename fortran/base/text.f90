@@ -9,7 +9,7 @@ module ehl_text
    use ehl_number_text, only: fixed_buffer, integer_buffer, real_buffer, rounded_buffer
    implicit none (type, external)
    private
-   public :: newline, to_text, fixed, percent, rounded, short, lower_case, is_letter, is_digit, nearest_word, quoted
+   public :: newline, to_text, fixed, percent, rounded, short, lower_case, nearest_word, quoted
 
    !> Line separator in texts and files
    character(len=*), parameter :: newline = new_line("a")

@@ -11,7 +11,7 @@ module ehl_f2py_predicted
 
 contains
 
-   !> Hand over what is predicted of mu_ratio: its parts in waves that the grid leaves out, and in those that it does not
+   !> Set the predicted parts of mu_ratio: its parts in waves that the grid leaves out, and in those that it does not
    !> resolve; NaN where there is no prediction
    subroutine take_prediction(handle, left_out, unresolved, stat, message)
       integer(c_int), intent(in) :: handle
@@ -29,8 +29,8 @@ contains
       call reply(status, stat, message)
    end subroutine take_prediction
 
-   !> Positions of the fronts of n surfaces [a] for which the pressure that the roughness adds is asked, to begin time steps
-   !> with; n is 0 where nothing is asked
+   !> Positions of the fronts of n surfaces [a] for which the pressure that the roughness adds is needed, to begin time steps
+   !> with; n is 0 where it is not needed
    subroutine start_fronts(handle, fronts, n, stat, message)
       integer(c_int), intent(in) :: handle
       real(c_double), intent(out) :: fronts(4, 2)

@@ -190,7 +190,7 @@ contains
       integer(c_int), intent(in) :: n, m
       integer(c_int), intent(inout) :: bytes(n), kinds(m)
       real(c_double), intent(inout) :: values(m)
-      !> Of the names, and how many there are: the caller asks again with larger arrays where they do not fit
+      !> Of the names, and how many there are: the caller tries again with larger arrays where they do not fit
       integer(c_int), intent(out) :: length, found
       integer(c_int), intent(out) :: stat
       character(len=4096), intent(out) :: message

@@ -113,7 +113,7 @@ contains
       if (status%failed()) message = fitted(status%message, len(message))
    end subroutine reply
 
-   !> A text byte by byte in an array of the caller, and its length: the caller asks again with a larger one where it does not fit
+   !> A text byte by byte in an array of the caller, and its length: the caller tries again with a larger one where it does not fit
    subroutine put_text(text, bytes, length)
       character(len=*), intent(in) :: text
       integer(c_int), intent(inout) :: bytes(:)
@@ -126,7 +126,7 @@ contains
       end do
    end subroutine put_text
 
-   !> Words for a person in so much room; what does not fit is said
+   !> Words for a person in so much room; a text that does not fit ends with a mark
    pure function fitted(text, room) result(words)
       character(len=*), intent(in) :: text
       integer, intent(in) :: room

@@ -20,12 +20,12 @@ module ehl_case_checks
    private
    public :: check_given, check_complete
 
-   !> Least distance of the sides of the domain, in terms of the contact
+   !> Minimum distance of the sides of the domain, in terms of the contact
    real(dp), parameter :: beyond_contact = 1.05_dp
    !> Largest M of a round contact with the same equations
-   real(dp), parameter :: most_m = 1.0e5_dp
-   !> Least p_h/E' of a contact that can be meant: 0.1 MPa between steel bodies
-   real(dp), parameter :: least_strain = 4.0e-7_dp
+   real(dp), parameter :: max_m = 1.0e5_dp
+   !> Minimum p_h/E' of a contact that can be meant: 0.1 MPa between steel bodies
+   real(dp), parameter :: min_strain = 4.0e-7_dp
    !> Relative difference of values that is none, and of velocity ratios
    real(dp), parameter :: rounding = 1.0e-6_dp, same_velocity = 1.0e-9_dp
    character(len=*), parameter :: by_pyehl = "what 'pyehl check CASE.nml --resolved out.nml' writes, for ehl out.nml; or ", &
@@ -83,7 +83,7 @@ contains
          if (source%given(name)) key = name
       end function if_given
 
-      !> A key that says nothing to the solver by itself: the values that pyehl makes of it must stand beside it
+      !> A key that the solver does not use by itself: the values that pyehl makes of it must stand beside it
       subroutine need(key, group, keys, or)
          character(len=*), intent(in) :: key, group, keys(:), or
          integer :: k
@@ -187,7 +187,7 @@ contains
          end if
          return
       end if
-      least = least_strain*input%contact%reduced_modulus
+      least = min_strain*input%contact%reduced_modulus
       if (scales%pressure < least .or. scales%pressure > 2.0e10_dp) then
          call source%refuse(trim(key), "the Hertz pressure is "//short(scales%pressure)//" Pa", "values in SI units with one "// &
                             "between "//short(least)//" Pa (4e-7 of reduced_modulus) and 2e10 Pa", status)
@@ -206,7 +206,7 @@ contains
    contains
 
       subroutine check_largest()
-         if (point%round_m > most_m) call source%refuse(trim(key), "the Moes parameter M of the round contact with the same "// &
+         if (point%round_m > max_m) call source%refuse(trim(key), "the Moes parameter M of the round contact with the same "// &
             "equations is "//short(point%round_m), "an M of 1e5 at most", status)
       end subroutine check_largest
    end subroutine check_point

@@ -19,8 +19,8 @@ module ehl_case_defaults
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    implicit none (type, external)
    private
-   public :: complete, inlet, is_short_of_oil, latest_start, line_keys, make_isotherms, moes_keys, point_keys, roelands_exponent, &
-             si_keys, sliding, velocity_ratio, &
+   public :: complete, inlet, is_short_of_oil, latest_start, line_keys, make_isotherms, moes_keys, point_keys, si_keys, &
+             sliding, velocity_ratio, &
              waits
 
    character(len=16), parameter :: moes_keys(5) = [character(len=16) :: "moes_m", "moes_l", "radius_ratio", "moes_m_line", &

@@ -15,15 +15,15 @@ module ehl_case_grid
    !> Keys of &grid that have a default by the contact
    character(len=8), parameter :: grid_keys(5) = [character(len=8) :: "border", "x_inlet", "x_outlet", "y_extent", "points"]
    !> Fewest and most intervals along Y of a coarsest grid
-   integer, parameter :: fewest_rows = 8, few_rows = 32
+   integer, parameter :: min_rows = 8, few_rows = 32
    !> Least and largest ratio of the sides of a cell
-   real(dp), parameter :: least_ratio = 0.25_dp, largest_ratio = 1.41_dp
+   real(dp), parameter :: min_ratio = 0.25_dp, largest_ratio = 1.41_dp
    !> Largest ratio in a smooth contact, as it is and over kappa: the film of a wide one varies across the motion over the length
    !> of the contact there. Up to so much alpha p_h: beyond, the pressure spike on the oblique edge is a few nodes wide, and
    !> cycles on such cells throw it about (docs/theory/relaxation.md).
    real(dp), parameter :: largest_smooth = 2.8_dp, smooth_by_kappa = 0.5_dp, blunt_spike = 21.0_dp
    !> Largest a-priori error of H_c that the usual grid of a smooth contact may have
-   real(dp), parameter :: most_missed = 0.05_dp
+   real(dp), parameter :: max_missed = 0.05_dp
 
 contains
 
@@ -46,7 +46,7 @@ contains
       if (.not. given(4)) grid%y_extent = domain%side
       if (smooth .and. .not. given(5) .and. .not. grid%target_error > 0.0_dp) then
          errors = relative_errors(contact, point, (grid%x_outlet - grid%x_inlet)/(grid%points - 1))
-         if (errors(1) > most_missed) grid%points = 2*grid%points - 1
+         if (errors(1) > max_missed) grid%points = 2*grid%points - 1
       end if
       if (.not. grid%points_y > 0) grid%points_y = rows(contact, smooth .and. point%alpha_bar < blunt_spike, grid)
    end subroutine fill_grid
@@ -72,7 +72,7 @@ contains
       do while (wanted > 0.5_dp*multiple*few_rows)
          multiple = 2*multiple
       end do
-      rows = max(fewest_rows, multiple*nint(wanted/multiple))*halved + 1
+      rows = max(min_rows, multiple*nint(wanted/multiple))*halved + 1
    end function rows
 
    !> Side of a cell along Y over that along X: cells longer along the longer axis reach the same error with fewer nodes, as
@@ -81,7 +81,7 @@ contains
       real(dp), intent(in) :: elongation
       logical, intent(in) :: blunt
 
-      cell_ratio = min(largest_ratio, max(least_ratio, elongation))
+      cell_ratio = min(largest_ratio, max(min_ratio, elongation))
       if (blunt) cell_ratio = max(cell_ratio, min(largest_smooth, smooth_by_kappa*elongation))
    end function cell_ratio
 end module ehl_case_grid

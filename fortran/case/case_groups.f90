@@ -14,7 +14,7 @@ module ehl_case_groups
    character(len=name_length), parameter :: group_names(*) = [character(len=name_length) :: "contact", "bodies", "lubricant", &
       "inlet", "grid", "surface", "second_surface", "time", "solver", "psd", "output"]
    !> Most keys of a group, and its beginning and end
-   integer, parameter :: most_lines = 80
+   integer, parameter :: max_lines = 80
 
 contains
 
@@ -38,7 +38,7 @@ contains
       logical :: good
       integer :: k, equals
 
-      allocate (lines(most_lines))
+      allocate (lines(max_lines))
       lines = ""
       call pass_group(group, input, "", lines, good)
       lines = pack(lines, index(lines, "=") > 0)

@@ -99,7 +99,7 @@ contains
       call self%refuse(what(:index(what, " ") - 1), what, expected, status)
    end subroutine contradict
 
-   !> Refuse a value of a key that nobody gave, and that its range does not allow, at the key that it follows from
+   !> Refuse a value of a key that was not given, and that its range does not allow, at the key that it follows from
    subroutine check_range(self, name, value, culprit, from, status)
       class(case_source_t), intent(in) :: self
       !> group.key of both

@@ -9,7 +9,7 @@ module ehl_namelist_pieces
    public :: keep_pieces, piece_t, split_text, name_length, mark_default, mark_derived
 
    integer, parameter :: name_length = 32
-   !> Ends of the lines of keys that nobody gave: constant defaults, and what follows from other keys
+   !> Ends of the lines of keys that were not given: constant defaults, and what follows from other keys
    character(len=*), parameter :: mark_default = "! default", mark_derived = "! derived"
 
    type :: piece_t
@@ -20,7 +20,7 @@ module ehl_namelist_pieces
       !> Where it stands: a line, or an option as it was typed
       integer :: line = 0
       character(len=:), allocatable :: option
-      !> Whether the text says that nobody gave it
+      !> Whether the text marks it as not given
       logical :: marked = .false.
    contains
       procedure :: name => piece_name

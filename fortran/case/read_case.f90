@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> A case from a plain namelist: the one reader of the program and of the extension. Pieces of the text are checked one by one,
-!> then each group is read by one intrinsic read, completed by what the numerics knows, and checked as a whole.
+!> then each group is read by one intrinsic read, completed by values that numerics provides, and checked as a whole.
 module ehl_read_case
    use ehl_case, only: case_t, lubricant_case_t, path_length
    use ehl_case_check_lubricant, only: check_constants
@@ -121,7 +121,7 @@ contains
    end function option_piece
 
    !> Drop marked values that are what follows from the others: so an option on a resolved case does the same as on the case
-   !> that it was made of. A value that somebody has changed, or that pyehl alone can make, counts as given.
+   !> that it was made of. A value that was changed, or that pyehl alone can make, counts as given.
    subroutine drop_marked(source)
       type(case_source_t), intent(inout) :: source
       type(case_source_t) :: given

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The macroscopic contact: what of a problem is due to the shape of the two bodies and the load on them. That of a ball on a
-!> flat (Hertz 1881); another shape extends it, and only ehl_contact_factory knows one. Lengths, films and pressures by the
+!> flat (Hertz 1881); another shape extends it, and only ehl_contact_factory names one. Lengths, films and pressures by the
 !> scales of the contact (ehl_scales).
 module ehl_contact
    use ehl_film_formula, only: film_central_formula

@@ -28,13 +28,13 @@ module ehl_domain
 
    !> Relative cost of H_c that a default domain may have
    real(dp), parameter :: tolerance = 0.002_dp
-   !> From that M on border and domain are those of Zhang et al. 2019, unless the case says otherwise or the contact is so
+   !> From that M on border and domain are those of Zhang et al. 2019, unless the case states otherwise or the contact is so
    !> wide that P = 0 there would cost per cents of the film
    real(dp), parameter :: first_usual = 500.0_dp, too_wide = 4.0_dp
    !> With a flooded border. Thick films: load that is wrong by sides and inlet, over lambda_bar s^2/r^3 with the length
    !> s = (2 H_c)^(1/2); most and least change of the film by load, and the M where it is half of the most. Thin films: what
    !> an inlet of 2.5 a costs, its power of s, and up to which s. H_min over H_c.
-   real(dp), parameter :: load_by_sides = 0.025_dp, load_by_inlet = 0.05_dp, by_load = 2.0_dp, least_by_load = 0.5_dp, &
+   real(dp), parameter :: load_by_sides = 0.025_dp, load_by_inlet = 0.05_dp, by_load = 2.0_dp, min_by_load = 0.5_dp, &
                           half_by_load = 8.0_dp, by_inlet = 0.0042_dp, inlet_power = 1.3_dp, thin = 0.75_dp, &
                           minimum_over_central = 1.5_dp
    !> With P = 0: what inlet and sides cost H_c, and what the sides cost H_min beside that, over q; films below which the
@@ -47,11 +47,11 @@ module ehl_domain
    real(dp), parameter :: end_decay = 1.2_dp, thick_for_decay = 0.2_dp
    !> Load beyond inlet and sides, over lambda_bar; least sensitivity of the film to load around M = 5, where the film
    !> formula has none and the elastic dent counts
-   real(dp), parameter :: load_beyond_inlet = 1.0_dp, load_beyond_sides = 0.25_dp, least_sensitivity = 0.5_dp, &
+   real(dp), parameter :: load_beyond_inlet = 1.0_dp, load_beyond_sides = 0.25_dp, min_sensitivity = 0.5_dp, &
                           dented_below = 5.5_dp
    !> Around an ellipse the bodies are deflected as much further out as kappa k_b is larger than that of a round contact:
    !> what that costs with a flooded border, at the most, and with P = 0, where a narrow contact costs more, too
-   real(dp), parameter :: most_wide = 4.0_dp, wide_power = 0.4_dp
+   real(dp), parameter :: max_wide = 4.0_dp, wide_power = 0.4_dp
    !> Sides of a wide contact in terms of its half width, and length of the films from which on they are further out: sides half
    !> as far again change H_c by 0.01 % and H_min by up to 0.13 % (docs/evidence/machines)
    real(dp), parameter :: beyond_ends = 1.3_dp, thick_at_ends = 0.95_dp
@@ -62,7 +62,7 @@ module ehl_domain
 
 contains
 
-   !> Whether the border has the pressure of a flooded contact unless the case says otherwise
+   !> Whether the border has the pressure of a flooded contact by default
    pure logical function flooded_by_default(contact, point)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point
@@ -156,8 +156,8 @@ contains
          if (flooded) then
             length = sqrt(2.0_dp*film)
             load = lambda_bar*length**2*(load_by_sides/side**3 + load_by_inlet/abs(domain%inlet)**3)
-            cost(1) = load*max(least_by_load, by_load/(1.0_dp + (point%round_m/half_by_load)**2)) &
-                      + by_inlet*min(most_wide, max(1.0_dp, width))*min(length, thin)**inlet_power*(2.5_dp/abs(domain%inlet))**5
+            cost(1) = load*max(min_by_load, by_load/(1.0_dp + (point%round_m/half_by_load)**2)) &
+                      + by_inlet*min(max_wide, max(1.0_dp, width))*min(length, thin)**inlet_power*(2.5_dp/abs(domain%inlet))**5
             cost(2) = minimum_over_central*cost(1)
          else
             whole = pressure_gain(1.0_dp, film)
@@ -169,7 +169,7 @@ contains
             end if
             load = lambda_bar*(load_beyond_inlet/abs(domain%inlet) + load_beyond_sides/side)
             cost(1) = of_inlet*max(1.0_dp, (thin_film/film)**thin_power)*inlet + of_sides*sides &
-                      + load*max(sensitivity(contact, point), least_sensitivity*min(1.0_dp, (dented_below/point%round_m)**6))
+                      + load*max(sensitivity(contact, point), min_sensitivity*min(1.0_dp, (dented_below/point%round_m)**6))
             cost(1) = cost(1)*merge(width**wide_power, 1.0_dp/width, width >= 1.0_dp)
             cost(2) = cost(1) + of_sides_at_minimum*sides
          end if

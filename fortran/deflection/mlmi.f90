@@ -9,7 +9,7 @@
 !> smooth, it is corrected on every grid (mlmi_up.f90). Transfers use 2t points, and grids reach far enough
 !> beyond the domain for them to keep their order at the border.
 !>
-!> Sizes of transfers and corrections follow from the accuracy asked for, relative to the largest W, for max W about
+!> Sizes of transfers and corrections follow from the accuracy required, relative to the largest W, for max W about
 !> max P as in a contact of the Hertz radius. Corrections left out add up to 2.5 times the accuracy on the finest grid,
 !> in magnitude, and their effect to 2^(-1/2) times that on each next one: these are cheaper. They do not all have the
 !> same sign. What was measured: docs/design.md.
@@ -25,7 +25,6 @@ module ehl_mlmi
    use ehl_kernel, only: kernel_coefficient
    use ehl_mlmi_down, only: descend, no_memory, stage_t, stored_row, take
    use ehl_mlmi_up, only: ascend, stencil_t, transfer_weights
-   use ehl_row_loops, only: add_taps
    !$ use omp_lib, only: omp_get_thread_num
    implicit none (type, external)
    private
@@ -292,4 +291,20 @@ contains
       end do
       w = sums(:size(w))
    end subroutine sum_row
+
+   !> y(i) = y(i) + sum over k = 1..8 of c(k)*a(start + i-1 - (k-1))
+   pure subroutine add_taps(n, c, a, start, y)
+      integer, intent(in) :: n, start
+      real(dp), intent(in) :: c(8), a(*)
+      real(dp), intent(inout) :: y(n)
+      integer :: i, s
+
+      s = start - 1
+      do i = 1, n
+         y(i) = y(i) + ((c(1)*a(s + i) + c(2)*a(s + i - 1)) &
+                        + (c(3)*a(s + i - 2) + c(4)*a(s + i - 3))) &
+                + ((c(5)*a(s + i - 4) + c(6)*a(s + i - 5)) &
+                   + (c(7)*a(s + i - 6) + c(8)*a(s + i - 7)))
+      end do
+   end subroutine add_taps
 end module ehl_mlmi

@@ -131,7 +131,7 @@ contains
 
    !> The wanted values and those nearer to the axis across: for every offset across all
    !> even and all odd offsets along up to the largest wanted, as the loops want them. A few
-   !> values at a large offset across are not worth the sum over two more rows.
+   !> values at a large offset across do not justify the sum over two more rows.
    pure subroutine choose(wanted, kept)
       logical, intent(in) :: wanted(0:, 0:)
       logical, intent(out) :: kept(0:, 0:)

@@ -7,7 +7,7 @@ module ehl_row_loops
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
-   public :: add_centred, add_pairs, add_row_pairs, add_row_pairs_to_three, add_shifted, add_taps, interpolate_and_merge
+   public :: add_centred, add_pairs, add_row_pairs, add_row_pairs_to_three, add_shifted, interpolate_and_merge
 
 contains
 
@@ -216,20 +216,4 @@ contains
          end do
       end if
    end subroutine interpolate_and_merge
-
-   !> y(i) = y(i) + sum over k = 1..8 of c(k)*a(start + i-1 - (k-1))
-   pure subroutine add_taps(n, c, a, start, y)
-      integer, intent(in) :: n, start
-      real(dp), intent(in) :: c(8), a(*)
-      real(dp), intent(inout) :: y(n)
-      integer :: i, s
-
-      s = start - 1
-      do i = 1, n
-         y(i) = y(i) + ((c(1)*a(s + i) + c(2)*a(s + i - 1)) &
-                        + (c(3)*a(s + i - 2) + c(4)*a(s + i - 3))) &
-                + ((c(5)*a(s + i - 4) + c(6)*a(s + i - 5)) &
-                   + (c(7)*a(s + i - 6) + c(8)*a(s + i - 7)))
-      end do
-   end subroutine add_taps
 end module ehl_row_loops

@@ -270,7 +270,7 @@ contains
       end do
    end subroutine begin_coarse
 
-   !> Keep the residuals of touching nodes apart, and leave those of flowing nodes: touching nodes hand theirs to touching nodes of
+   !> Keep the residuals of touching nodes apart, and leave those of flowing nodes: touching nodes pass theirs to touching nodes of
    !> the coarse level alone. In the equation of a flowing node they would be a source that the motion carries through the contact.
    subroutine separate_touching(boundary, residual)
       type(boundary_film_t), intent(inout) :: boundary
@@ -302,7 +302,7 @@ contains
    end subroutine restrict_touching
 
    !> Take out of row j of a change of the film the nodes that do not yield: a film that comes of pressures which nodes do not take
-   !> on says nothing about whether they yield
+   !> on does not determine whether they yield
    pure subroutine keep_film(boundary, j, change)
       type(boundary_film_t), intent(in) :: boundary
       integer, intent(in) :: j

@@ -11,16 +11,16 @@ module ehl_cycle
    use ehl_row_relaxation, only: relax_row
    implicit none (type, external)
    private
-   public :: cycle_options_t, damped_cycle, finest_cycle, most_damping, prolong_solution
+   public :: cycle_options_t, damped_cycle, finest_cycle, max_damping, prolong_solution
    public :: coarsening_classical, coarsening_alcouffe
 
    !> Damped cycles by degree: largest change of the logarithm of a node's conductance, relaxation factors of a sweep and of the
    !> correction by a coarse grid. The first degree makes all of the correction: the film's level and the load come from there.
    !> Where the pressure spike is a few nodes wide (L = 25 on 513 x 513 nodes) F cycles throw it about; docs/design.md.
-   integer, parameter :: most_damping = 4, usual_damping = 2
-   real(dp), parameter :: damped_log_change(most_damping) = usual_log_change/[1.0_dp, 3.0_dp, 3.0_dp, 9.0_dp], &
-                          damped_sweep(most_damping) = [0.6_dp, 0.6_dp, 0.3_dp, 0.15_dp], &
-                          damped_correction(most_damping) = [1.0_dp, 0.6_dp, 0.5_dp, 0.25_dp]
+   integer, parameter :: max_damping = 4, usual_damping = 2
+   real(dp), parameter :: damped_log_change(max_damping) = usual_log_change/[1.0_dp, 3.0_dp, 3.0_dp, 9.0_dp], &
+                          damped_sweep(max_damping) = [0.6_dp, 0.6_dp, 0.3_dp, 0.15_dp], &
+                          damped_correction(max_damping) = [1.0_dp, 0.6_dp, 0.5_dp, 0.25_dp]
 
    !> How a cycle is made
    type :: cycle_options_t

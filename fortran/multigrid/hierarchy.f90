@@ -27,7 +27,7 @@ module ehl_hierarchy
    !> Cells that are longer than that along Y, or along X, are coarsened along their short side alone
    real(dp), parameter :: long_y = 3.0_dp, long_x = 1.6_dp
    !> Most unknowns of a grid that is solved directly, and fewest intervals along Y
-   integer, parameter :: max_unknowns = 250, fewest_rows = 8
+   integer, parameter :: max_unknowns = 250, min_rows = 8
 
    type :: hierarchy_t
       type(level_t), allocatable :: levels(:)
@@ -249,16 +249,16 @@ contains
    end subroutine find_ladder
 
    !> What the mesh sizes are multiplied by on the next coarser grid; 1 and 1 where there is none
-   pure function next_step(grid, fewest_columns) result(step)
+   pure function next_step(grid, min_columns) result(step)
       type(grid_t), intent(in) :: grid
       !> Fewest intervals along X
-      integer, intent(in) :: fewest_columns
+      integer, intent(in) :: min_columns
       integer :: step(2), intervals(2)
       logical :: possible(2)
       real(dp) :: ratio
 
       intervals = grid%intervals()
-      possible = mod(intervals, 4) == 0 .and. intervals/2 >= [fewest_columns, fewest_rows]
+      possible = mod(intervals, 4) == 0 .and. intervals/2 >= [min_columns, min_rows]
       ratio = grid%hy/grid%hx
       step = 1
       if (possible(1) .and. (ratio > long_y .or. grid%is_row())) then

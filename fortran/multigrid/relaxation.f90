@@ -19,7 +19,7 @@ module ehl_relaxation
    public :: relax, usual_log_change
 
    !> Largest conductance/mesh-size^2 of a distributive node's neighbourhood, and that of a lubricant that thins. The
-   !> conductance across counts: lines along X know what is along them, and a change that is smooth across them is held by
+   !> conductance across counts: lines along X include what is along them, and a change that is smooth across them is held by
    !> their coupling to other lines alone.
    real(dp), parameter :: switch = 0.1_dp, switch_thinning = 0.25_dp
    !> Under-relaxation of distributive changes, and of Gauss-Seidel changes where the wedge and

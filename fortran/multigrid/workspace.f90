@@ -10,9 +10,9 @@ module ehl_workspace
    private
    public :: workspace_t, line_work_t, near_reach, line_fields, line_width, row_reach, row_below, row_above
 
-   !> The line systems know the deflection kernel up to this distance along X
+   !> The line systems include the deflection kernel up to this distance along X
    integer, parameter :: near_reach = 2
-   !> The equations of a grid of one row know it as far as this, and couple so many nodes before and behind a node
+   !> The equations of a grid of one row include it up to this distance, and couple so many nodes before and behind a node
    integer, parameter :: row_reach = 15, row_below = row_reach + 2, row_above = row_reach + 1
    !> Numbers per node that the line systems are made from
    integer, parameter :: line_fields = 10
@@ -30,7 +30,7 @@ module ehl_workspace
       real(dp), allocatable :: touching(:, :)
    end type line_work_t
 
-   !> Arrays of shape (nx, ny) unless said otherwise
+   !> Arrays of shape (nx, ny) unless stated otherwise
    type :: workspace_t
       !> 1 where a node changes distributively in the present sweep, else 0; changes of pressure in these nodes
       real(dp), allocatable :: dipole(:, :), change(:, :)

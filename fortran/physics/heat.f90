@@ -110,7 +110,7 @@ contains
    !> Maximum temperature rise [K] of two surfaces that move at `speeds` [m/s] through the heat of a Hertz contact,
    !> semi-elliptic over its ellipse: Tian & Kennedy 1994, J. Tribol. 116, 167, for one surface and a circle; the heat
    !> is shared so that both become as hot (Blok 1937). On an ellipse a fast surface is as hot as on a circle of the same
-   !> length along the motion, and one at rest as the potential of the ellipse says.
+   !> length along the motion, and one at rest from the potential of the ellipse.
    pure real(dp) function flash_temperature(flux, half, potential, speeds, conductivity, diffusivity)
       !> Mean heat flux [W/m^2]; half the length of the contact along the motion, through its centre [m]; iint P/r at the
       !> centre over that of a circle of this radius [-], 1 for a circle; of the solids: conductivity [W/(m K)],

@@ -19,7 +19,7 @@ module ehl_kept_factors
    real(dp), parameter :: wider = 5.0_dp
    !> A part of S much below this changes the factors by its square only: quotients by it would be those of rounding
    real(dp), parameter :: faint = 0.05_dp
-   !> B of a node without factors, near no other: all nodes of a stretch have factors, or none
+   !> B of a node without factors, near no other: all nodes of a segment have factors, or none
    real(dp), parameter :: none = -1.0_dp
    !> What is kept of a node: B, S, phi and the stress; and as numbers of single precision, since memory is what time goes
    !> to, the changes of phi and of the stress: those of ln(phi) with ln(B), and of ln(phi_x) and ln(phi_y) with S_x, with S_y
@@ -36,7 +36,7 @@ module ehl_kept_factors
       logical :: correcting = .false.
       !> Nodes of a row that are found together, at most `most`
       integer :: width = 0
-      !> By node of such a stretch, field, stretch and row
+      !> By node of such a segment, field, segment and row
       real(dp), allocatable, private :: values(:, :, :, :)
       real(real32), allocatable, private :: changes(:, :, :, :)
    contains
@@ -66,20 +66,20 @@ contains
       if (stat /= 0) self%width = 0
    end subroutine setup
 
-   !> Find all factors anew when they are asked for next
+   !> Find all factors anew when they are needed next
    subroutine forget(self)
       class(kept_factors_t), intent(inout) :: self
       if (allocated(self%values)) self%values(:, f_b, :, :) = none
    end subroutine forget
 
-   !> Factors of a stretch of row j, of size(b) nodes, their changes with the sliding, and that of the flow
-   pure subroutine find(self, b, s, stretch, j, rows, newtonian)
+   !> Factors of a segment of row j, of size(b) nodes, their changes with the sliding, and that of the flow
+   pure subroutine find(self, b, s, segment, j, rows, newtonian)
       class(kept_factors_t), intent(inout) :: self
       !> B >= 0, and S along X and along Y of as many nodes, or more, shape (nodes, 2)
       real(dp), contiguous, intent(in) :: b(:), s(:, :)
-      integer, intent(in) :: stretch, j
+      integer, intent(in) :: segment, j
       type(factor_rows_t), intent(inout) :: rows
-      !> Whether the whole stretch flows as a Newtonian lubricant; `rows` is then as it was
+      !> Whether the whole segment flows as a Newtonian lubricant; `rows` is then as it was
       logical, intent(out) :: newtonian
       type(factor_rows_t) :: found
       real(dp) :: beyond(most), ss(most, 2), reach, share, bound
@@ -89,12 +89,12 @@ contains
       newtonian = flows_newtonian(self%law, b, s)
       if (newtonian) then
          ! what was kept of another state would be taken for that of this one (film_exponent)
-         if (self%values(1, f_b, stretch, j) > none) self%values(:n, f_b, stretch, j) = none
+         if (self%values(1, f_b, segment, j) > none) self%values(:n, f_b, segment, j) = none
          return
       end if
       reach = self%reach*merge(wider, 1.0_dp, self%correcting)
       share = merge(0.0_dp, reach, self%law%law == eyring)
-      associate (kept => self%values(:, :, stretch, j))
+      associate (kept => self%values(:, :, segment, j))
          do i = 1, n
             bound = reach + share*(abs(kept(i, f_s)) + abs(kept(i, f_s + 1)))
             beyond(i) = max(abs(b(i) - kept(i, f_b)) - reach*(kept(i, f_b) + slight), abs(s(i, 1) - kept(i, f_s)) - bound, &
@@ -110,9 +110,9 @@ contains
             n = to - from + 1
             ss(:n, :) = s(from:to, :)
             call find_factors(self%law, b(from:to), ss, found)
-            call keep(b(from:to), ss, found, kept(from:, :), self%changes(from:, :, stretch, j))
+            call keep(b(from:to), ss, found, kept(from:, :), self%changes(from:, :, segment, j))
          end if
-         call follow(b, s, kept, self%changes(:, :, stretch, j), rows)
+         call follow(b, s, kept, self%changes(:, :, segment, j), rows)
       end associate
    end subroutine find
 
@@ -175,21 +175,21 @@ contains
       end do
    end subroutine follow
 
-   !> Mean stress of a stretch of row j, and its change with B, by what is kept
-   pure subroutine stress(self, b, s, stretch, j, values, by_sliding)
+   !> Mean stress of a segment of row j, and its change with B, by what is kept
+   pure subroutine stress(self, b, s, segment, j, values, by_sliding)
       class(kept_factors_t), intent(in) :: self
       !> As in `find`
       real(dp), contiguous, intent(in) :: b(:), s(:, :)
-      integer, intent(in) :: stretch, j
+      integer, intent(in) :: segment, j
       real(dp), contiguous, intent(out) :: values(:), by_sliding(:)
       integer :: i
 
-      if (.not. self%values(1, f_b, stretch, j) > none) then
+      if (.not. self%values(1, f_b, segment, j) > none) then
          values = b
          by_sliding = 1.0_dp
          return
       end if
-      associate (kept => self%values(:, :, stretch, j), changes => self%changes(:, :, stretch, j))
+      associate (kept => self%values(:, :, segment, j), changes => self%changes(:, :, segment, j))
          do i = 1, size(b)
             by_sliding(i) = changes(i, c_stress_by_sliding)
             values(i) = kept(i, f_stress) + by_sliding(i)*(b(i) - kept(i, f_b)) &
@@ -204,13 +204,13 @@ contains
       class(kept_factors_t), intent(in) :: self
       integer, intent(in) :: i, j, direction
       real(dp) :: s(2), by_gradient(2)
-      integer :: stretch, k
+      integer :: segment, k
 
       film_exponent = 3.0_dp
-      stretch = (i - 1)/self%width + 1
-      k = i - (stretch - 1)*self%width
-      if (.not. self%values(k, f_b, stretch, j) > none) return
-      associate (kept => self%values(k, :, stretch, j), changes => self%changes(k, :, stretch, j))
+      segment = (i - 1)/self%width + 1
+      k = i - (segment - 1)*self%width
+      if (.not. self%values(k, f_b, segment, j) > none) return
+      associate (kept => self%values(k, :, segment, j), changes => self%changes(k, :, segment, j))
          s = kept(f_s:f_s + 1)
          ! as keep has them
          s = sign(max(abs(s), real(tiny(1.0_real32), dp)), s)

@@ -185,9 +185,9 @@ contains
       call self%surfaces%see(grid)
       if (.not. self%coarse_run) return
       ! nothing would be left of a surface on the next coarser grid
-      self%coarse_run = self%surfaces%most_unresolved(grid%coarser(), aliased_below) < 1.0_dp
+      self%coarse_run = self%surfaces%max_unresolved(grid%coarser(), aliased_below) < 1.0_dp
       self%extrapolates = self%coarse_run .and. .not. self%surfaces%pass_once() .and. &
-                          self%surfaces%most_unresolved(grid%coarser(), resolved_from) <= unresolved_most
+                          self%surfaces%max_unresolved(grid%coarser(), resolved_from) <= unresolved_most
    end subroutine update_resolved_fraction
 
    !> Refuse a surface so slow that the friction cannot be known within a sensible number of steps

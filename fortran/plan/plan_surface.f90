@@ -241,7 +241,7 @@ contains
       type(status_t), intent(inout) :: status
 
       if (status%failed()) return
-      if (surfaces%most_unresolved(grid, aliased_below) < 1.0_dp) return
+      if (surfaces%max_unresolved(grid, aliased_below) < 1.0_dp) return
       call status%fail(ehl_bad_input, "all waves of the surface are shorter than two nodes of the grid of "// &
                        to_text(grid%nx)//" x "//to_text(grid%full_ny())//" nodes, in space or in the time steps: it carries "// &
                        "nothing of them"//new_line("a")//"expected: a finer grid (grid.points), or longer waves")

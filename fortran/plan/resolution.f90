@@ -13,7 +13,7 @@ module ehl_resolution
    public :: has_solution, points_for_inlet, points_for_solution, why_no_solution
 
    !> Most that half of the a-priori error of H_min may be where the equations have a solution (docs/robustness.md)
-   real(dp), parameter :: most_unresolved = 0.6_dp
+   real(dp), parameter :: max_unresolved = 0.6_dp
    !> Semi-axis across the motion over that along it from which on cells a quarter as long across can be too long, and a side
    !> of an eighth of the length of the domain is far enough
    real(dp), parameter :: max_narrow = 0.105_dp
@@ -28,7 +28,7 @@ contains
       real(dp) :: errors(2)
 
       errors = relative_errors(contact, point, grid%hx)
-      has_solution = 0.5_dp*errors(2) <= most_unresolved
+      has_solution = 0.5_dp*errors(2) <= max_unresolved
    end function has_solution
 
    !> Nodes along X of a grid that is expected to have a solution, no fewer than those of the finest one

@@ -24,7 +24,7 @@ module ehl_heated_friction
    real(dp), parameter :: tolerance = 1.0e-8_dp
    integer, parameter :: max_steps = 200, bisect_after = 6
 
-   !> What the heat of a contact needs to know
+   !> Input of the heat of a contact
    type :: film_heat_t
       !> Sliding speed |u1 - u2| [m/s], thermal conductivity of the lubricant [W/(m K)]
       real(dp) :: speed = 0.0_dp, conductivity = 0.0_dp
@@ -44,7 +44,7 @@ module ehl_heated_friction
       logical :: solved = .false.
       !> Whether there was memory for the rises at the nodes
       logical :: fits = .true.
-      !> The rises at the nodes (nx, ny, 3), if they were asked for
+      !> Temperature rises at the nodes (nx, ny, 3), if requested
       real(dp), allocatable :: rise(:, :, :)
    contains
       procedure :: ratio

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The Poiseuille term d/dX (eps_x dP/dX) + d/dY (eps_y dP/dY) on one grid, in two forms: the five-point difference with
 !> arithmetic means of the conductances between nodes (Zhang et al. 2019, eqs. 7 and 8; reynolds.f90), and the nine-point
-!> Galerkin product of a finer grid's term, frozen while P and H change. No other module knows the stencil.
+!> Galerkin product of a finer grid's term, frozen while P and H change. No other module contains the stencil.
 module ehl_poiseuille
    use ehl_flow, only: dir_x, flow_t
    use ehl_grid, only: grid_t

@@ -63,7 +63,7 @@ contains
       type(factor_rows_t) :: factors
       real(dp), dimension(most) :: b, newtonian, by_density
       real(dp) :: log_eta(size(p, 1)), slope(size(p, 1)), s(most, 2)
-      integer :: stretch, first, n, i, k
+      integer :: segment, first, n, i, k
       logical :: without
 
       call lubricant%log_viscosity(p(:last, j), log_eta(:last), slope(:last))
@@ -72,8 +72,8 @@ contains
          log_eta(last + 2:) = log_eta(last + 1)
          slope(last + 2:) = slope(last + 1)
       end if
-      do stretch = 1, (size(p, 1) - 1)/self%kept%width + 1
-         first = (stretch - 1)*self%kept%width + 1
+      do segment = 1, (size(p, 1) - 1)/self%kept%width + 1
+         first = (segment - 1)*self%kept%width + 1
          n = min(self%kept%width, size(p, 1) - first + 1)
          call self%gradients(p, h, j, first, n, s)
          do k = 1, n
@@ -83,7 +83,7 @@ contains
             newtonian(k) = rho(i)*h(i)**3/newtonian(k)*self%inverse_speed
             by_density(k) = drho_dp(i)/rho(i)
          end do
-         call self%kept%find(b(:n), s, stretch, j, factors, without)
+         call self%kept%find(b(:n), s, segment, j, factors, without)
          do k = dir_x, dir_y
             if (without) then
                do i = first, first + n - 1
@@ -151,19 +151,19 @@ contains
       real(dp), contiguous, intent(out) :: newtonian(:), stress(:)
       real(dp), dimension(size(p, 1)) :: log_eta, slope
       real(dp) :: b(most), s(most, 2), by_sliding(most)
-      integer :: stretch, first, last
+      integer :: segment, first, last
 
       associate (unused => rho)
       end associate
       call lubricant%log_viscosity(p(:, j), log_eta, slope)
       newtonian = exp(log_eta)/h
-      do stretch = 1, (size(p, 1) - 1)/self%kept%width + 1
-         first = (stretch - 1)*self%kept%width + 1
+      do segment = 1, (size(p, 1) - 1)/self%kept%width + 1
+         first = (segment - 1)*self%kept%width + 1
          last = min(first + self%kept%width - 1, size(p, 1))
          associate (n => last - first + 1)
             call self%gradients(p, h, j, first, n, s)
             b(:n) = abs(self%sliding*newtonian(first:last))
-            call self%kept%stress(b(:n), s, stretch, j, stress(first:last), by_sliding(:n))
+            call self%kept%stress(b(:n), s, segment, j, stress(first:last), by_sliding(:n))
             if (self%sliding > 0.0_dp) then
                stress(first:last) = stress(first:last)/self%sliding
             else

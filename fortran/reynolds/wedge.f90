@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Wedge and squeeze terms d(rho H)/dX + d(rho H)/dT on one grid: an implicit part, upstream in X, and the part of
-!> earlier times. No other module knows these stencils, nor the schemes in time.
+!> earlier times. No other module contains these stencils, nor the schemes in time.
 module ehl_wedge
    use ehl_kinds, only: dp
    implicit none (type, external)
@@ -16,7 +16,7 @@ module ehl_wedge
    integer, parameter :: old_times = 2
    !> Upstream nodes of the implicit part
    integer, parameter :: wedge_reach = 2
-   !> Upstream nodes that line systems know of it; what lies further upstream would be in their residual alone
+   !> Upstream nodes that line systems include of it; what lies further upstream would be in their residual alone
    integer, parameter :: line_reach = 2
 
    !> m is the mass content rho H of a row, shape (nx)
@@ -141,7 +141,7 @@ contains
       rate = self%c(0)
    end function rate
 
-   !> Those that line systems know of, in the first interior column and behind it
+   !> Those that line systems include, in the first interior column and behind it
    pure subroutine line_weights(self, first, interior)
       class(wedge_t), intent(in) :: self
       real(dp), intent(out) :: first(0:line_reach), interior(0:line_reach)

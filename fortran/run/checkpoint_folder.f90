@@ -81,8 +81,8 @@ contains
 
    !> Take the folder of the results until `release`; make that of a transient run, unless the case wants none; refuse one with
    !> anything else in it. States
-   !> of an earlier run give way to those of this one, unless it goes on with them: they are kept under the name that
-   !> the note tells.
+   !> of an earlier run are backed up, unless this one resumes from them: they are kept under the name that
+   !> the note gives.
    subroutine open_folder(self, results, input, solver, resumed, heights, second_heights, note, status)
       class(checkpoint_folder_t), intent(inout) :: self
       character(len=*), intent(in) :: results

@@ -203,7 +203,7 @@ contains
       end associate
    end subroutine report_stationary
 
-   !> Coefficients of friction, what the smooth contact tells of its shear, temperatures
+   !> Coefficients of friction, the shear of the smooth contact, temperatures
    subroutine report_friction(record, plan, friction)
       type(record_t), intent(inout) :: record
       type(plan_t), intent(in) :: plan

@@ -80,7 +80,7 @@ contains
       over = enough_nodes + 1
       do while (over - nodes > 1)
          middle = (nodes + over)/2
-         if (run%plan%surfaces%most_unresolved(run%grid, real(middle, dp)) > little) then
+         if (run%plan%surfaces%max_unresolved(run%grid, real(middle, dp)) > little) then
             over = middle
          else
             nodes = middle

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Contact at a boundary film over a run, and in the summary: what of the load it carries, where, and what the layer gives
+!> Contact at a boundary film over a run, and in the summary: its share of the load, and the lubricant from it
 module ehl_report_touching
    use ehl_contact_run, only: contact_run_t, phase_stationary, phase_steps
    use ehl_friction_mean, only: friction_mean_t
@@ -26,7 +26,7 @@ contains
       type(contact_run_t), intent(in) :: run
       !> Whether the smooth contact is converged, and the run
       logical, intent(in) :: good, converged
-      !> Why the run on the next coarser grid tells no error of a rough contact
+      !> Why the run on the next coarser grid gives no error of a rough contact
       integer, intent(in) :: why_no_grid_error
       !> As touching.f90 has them; the load share on the next coarser grid; its errors by the grid and by the end of the run
       real(dp) :: numbers(size(touching_names)), coarser, error, stop_error

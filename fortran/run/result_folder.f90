@@ -26,7 +26,7 @@ module ehl_result_folder
 
 contains
 
-   !> Write everything that a solver knows into an empty folder. After a failure the folder is gone.
+   !> Write all results of a solver into an empty folder. After a failure the folder is gone.
    subroutine write_results(folder, input, solver, status, wall_seconds)
       character(len=*), intent(in) :: folder
       !> The resolved case

@@ -34,7 +34,7 @@ module ehl_solver
       !> Allocated while it runs; the state that it is to go on from
       type(contact_run_t), allocatable, private :: coarse
       type(checkpoint_t), private :: coarse_checkpoint
-      !> Whether somebody tried to predict the parts of mu_ratio in waves that the grid leaves out, and in those that it does
+      !> Whether the caller predicted the parts of mu_ratio in waves that the grid leaves out, and in those that it does
       !> not resolve, and what was found; NaN: nothing
       logical :: knows_waves = .false.
       real(dp) :: predicted_waves(2) = 0.0_dp
@@ -274,7 +274,7 @@ contains
    subroutine resume(self, folder, note, status)
       class(solver_t), intent(inout) :: self
       character(len=*), intent(in) :: folder
-      !> What a person should know; empty when there is no state yet
+      !> Note for the user; empty when there is no state yet
       character(len=:), allocatable, intent(out) :: note
       type(status_t), intent(inout) :: status
 

@@ -5,7 +5,7 @@ submodule (ehl_solver) ehl_solver_fields
    use ehl_status, only: ehl_bad_input, ehl_no_memory
    implicit none (type, external)
 
-   !> Rises of temperature of the film and of the walls
+   !> Temperature rises of the film and of the walls
    character(len=field_length), parameter :: temperatures(3) = [character(len=field_length) :: &
       "temperature_rise_K", "temperature_rise_wall_1_K", "temperature_rise_wall_2_K"]
 

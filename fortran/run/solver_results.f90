@@ -18,8 +18,8 @@ submodule (ehl_solver) ehl_solver_results
 
    !> Shares of a variance below this one are rounding
    real(dp), parameter :: rounding = 1.0e-14_dp
-   !> Largest change of mu_ratio from grid to grid, over mu_ratio, that tells of a limit; and largest rise with a single
-   !> wave or feature, which is the same on both grids: what rises more are peaks of pressure that no grid yet resolves
+   !> Largest change of mu_ratio from grid to grid, over mu_ratio, that shows a limit; and largest increase with a single
+   !> wave or feature, which is the same on both grids: what increases more are peaks of pressure that no grid yet resolves
    real(dp), parameter :: max_change = 0.5_dp, max_rise = 0.05_dp
 
    !> Of the names, units and meanings of results, with `VERSION` of pyehl/schema.py: another one where one of them changes

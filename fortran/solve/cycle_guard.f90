@@ -46,7 +46,7 @@ contains
          if (outcome == outcome_running) lost = self%residual > limit
          if (.not. lost) guard%residual_kept = self%residual
          if (lost) then
-            if (guard%damping == most_damping .or. self%cycles >= self%max_cycles) return
+            if (guard%damping == max_damping .or. self%cycles >= self%max_cycles) return
             ! the same amount again would be tried again and again
             if (guard%since == 1 .and. guard%was_damped > 0) guard%lasting = guard%was_damped
             guard%damping = max(guard%damping + 1, guard%lasting)
@@ -66,7 +66,7 @@ contains
             guard%damping = guard%damping - 1
             guard%since = 0
          else if (outcome == outcome_running .and. mod(self%cycles, patience) == 0) then
-            if (self%residual > 0.5_dp*guard%residual_then .and. guard%damping < most_damping) then
+            if (self%residual > 0.5_dp*guard%residual_then .and. guard%damping < max_damping) then
                guard%damping = guard%damping + 1
                guard%lasting = guard%damping
                guard%since = 0

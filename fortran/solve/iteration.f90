@@ -12,9 +12,9 @@ module ehl_iteration
    use ehl_reynolds, only: balance_load, film_residual, update_residual
    implicit none (type, external)
    private
-   public :: iteration_t, reduction, max_reduction
+   public :: iteration_t, reduction
 
-   !> Reductions per cycle that are believed
+   !> Bounds of the estimated reduction per cycle
    real(dp), parameter :: min_reduction = 0.3_dp, max_reduction = 0.95_dp
 
    type :: iteration_t
@@ -104,7 +104,7 @@ contains
    end function verdict
 
    !> Reduction q of the error per cycle, by the changes of the last two: q/(1 - q) of the last change is left. The first cycle
-   !> also makes up for the grid or the problem that the state comes from, so that its change says little of the next.
+   !> also makes up for the grid or the problem that the state comes from, so that its change is no measure of the next.
    pure real(dp) function reduction(change, change_before, cycles, fall) result(q)
       real(dp), intent(in) :: change(:), change_before(:)
       !> Cycles made

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Who watches the loops: asked after every cycle of a steady contact and after every time step whether to leave. A loop that was
+!> Observer of the loops: called after every cycle of a steady contact and after every time step whether to leave. A loop that was
 !> left goes on where it was when it is called again.
 module ehl_observer
    use ehl_contact_run, only: contact_run_t

@@ -3,7 +3,7 @@
 module ehl_smooth_contact
    use ehl_contact, only: contact_t
    use ehl_contact_results, only: contact_results_t, load_tolerance, measure
-   use ehl_cycle, only: cycle_options_t, damped_cycle, most_damping, prolong_solution
+   use ehl_cycle, only: cycle_options_t, damped_cycle, max_damping, prolong_solution
    use ehl_far_field, only: far_field_t
    use ehl_reynolds, only: refresh
    use ehl_hierarchy, only: hierarchy_t

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What the levels of a nested iteration know of the smooth contact, and the error by two of them
+!> Results of the smooth contact on the levels of a nested iteration, and the error by two of them
 module ehl_level_result
    use ehl_contact_results, only: contact_results_t
    use ehl_inlet, only: inlet_t
@@ -9,7 +9,7 @@ module ehl_level_result
    public :: level_result_t, discretisation_error, film_errors, stated_errors, guarded_errors, share_error, &
              extrapolated, friction_error, limit_error, spike_grows
 
-   !> What is known of the solution on one level
+   !> Results of one level
    type :: level_result_t
       logical :: solved = .false.
       type(contact_results_t) :: m
@@ -24,7 +24,7 @@ module ehl_level_result
       real(dp) :: residual = 0.0_dp
    end type level_result_t
 
-   !> Largest discretisation error over the film that is believed to be of order 2, which two grids cannot show (Roache 1994,
+   !> Largest discretisation error over the film that is taken to be of order 2, which two grids cannot show (Roache 1994,
    !> whose factor for order 1 is 3 times that of order 2). At errors of 8 and 15 % on 513 nodes contacts were found to miss
    !> 1.1 times what order 2 makes of them (kappa = 1, M = 5233, L = 4.4; kappa = 6.6, M by R_x = 76543, L = 5.4)
    real(dp), parameter :: leading = 0.05_dp

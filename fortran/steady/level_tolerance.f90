@@ -11,7 +11,7 @@ module ehl_level_tolerance
    private
    public :: accurate, counts_share, has_coarser, has_target, is_end, residual_tolerance, wanted
 
-   !> Relative discretisation errors below this are not believed, as two levels may agree by chance
+   !> Relative discretisation errors below this are not trusted, as two levels may agree by chance
    real(dp), parameter :: min_error = 2.0e-5_dp
    !> Algebraic error of the load share of a boundary film, which ends a level where the films have ended moving
    real(dp), parameter :: share_tolerance = 1.0e-3_dp
@@ -27,7 +27,7 @@ module ehl_level_tolerance
 
 contains
 
-   !> Whether the error of H_c is the one that was asked for
+   !> Whether the error of H_c is the required one
    pure logical function has_target(options, results, n, m)
       type(steady_options_t), intent(in) :: options
       type(level_result_t), intent(in) :: results(:)

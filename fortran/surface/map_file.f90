@@ -37,7 +37,7 @@ contains
 
    !> Refuse a map that would not fit. It needs room twice: for the heights and their spectrum; FFTW aborts without its own.
    subroutine check_heights(what, n, status)
-      !> What wants the memory
+      !> What needs the memory
       character(len=*), intent(in) :: what
       !> Pixels along X and Y
       integer, intent(in) :: n(2)

@@ -15,7 +15,7 @@ module ehl_moving_surfaces
    !> factor, take the mean of all products of their waves but those of order n + m
    integer, parameter :: fewest = 5
    !> Longest common period that is looked for to be named
-   integer, parameter :: most_named = 10000
+   integer, parameter :: max_named = 10000
 
    !> All that a run asks of the surfaces
    type, extends(rough_surfaces_t) :: moving_surfaces_t
@@ -237,7 +237,7 @@ contains
          self%meets = .true.
          if (mismatch <= near) exit
       end do
-      self%whole = common(periods, most_named)
+      self%whole = common(periods, max_named)
    end subroutine find_near
 
    !> Positions in which one surface meets another one in so many periods of both

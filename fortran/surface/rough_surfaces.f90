@@ -42,7 +42,7 @@ module ehl_rough_surfaces
       procedure :: same_on_grids
       procedure :: use_threads
       procedure :: see
-      procedure :: most_unresolved
+      procedure :: max_unresolved
       procedure :: prepare
       procedure :: hand_over
       procedure :: take_back
@@ -178,17 +178,17 @@ contains
 
    !> Share of the variance in waves with fewer nodes a period than that, see surface_t: that of the surface with the
    !> largest share
-   pure real(dp) function most_unresolved(self, grid, nodes)
+   pure real(dp) function max_unresolved(self, grid, nodes)
       class(rough_surfaces_t), intent(in) :: self
       type(grid_t), intent(in) :: grid
       real(dp), intent(in) :: nodes
       integer :: k
 
-      most_unresolved = 0.0_dp
+      max_unresolved = 0.0_dp
       do k = 1, self%count()
-         most_unresolved = max(most_unresolved, self%of(k)%surface%unresolved(grid, nodes))
+         max_unresolved = max(max_unresolved, self%of(k)%surface%unresolved(grid, nodes))
       end do
-   end function most_unresolved
+   end function max_unresolved
 
    !> Get ready for a grid: once, before heights are asked for
    subroutine prepare(self, grid, status)

@@ -91,7 +91,7 @@ module ehl_surface
 
 contains
 
-   !> Get ready for a grid: once, before heights are asked for
+   !> Get ready for a grid: once, before heights are computed
    subroutine prepare(self, grid, status)
       class(surface_t), intent(inout) :: self
       type(grid_t), intent(in) :: grid

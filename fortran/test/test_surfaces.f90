@@ -166,7 +166,7 @@ contains
       call both%see(grid)
       call is_close(both%unresolved, 0.1_dp, 1.0e-15_dp, "a tenth of the variance is in the short wave")
       call is_close(both%left_out, 0.0_dp, 0.0_dp, "nothing is left out")
-      call is_close(both%most_unresolved(grid, resolved_from), 1.0_dp, 0.0_dp, "nothing of the short one is resolved")
-      call is_close(both%most_unresolved(grid%coarser(), aliased_below), 1.0_dp, 0.0_dp, "the coarser grid lacks it")
+      call is_close(both%max_unresolved(grid, resolved_from), 1.0_dp, 0.0_dp, "nothing of the short one is resolved")
+      call is_close(both%max_unresolved(grid%coarser(), aliased_below), 1.0_dp, 0.0_dp, "the coarser grid lacks it")
    end subroutine shares_of_the_variance
 end module test_surfaces

@@ -16,7 +16,7 @@ module ehl_predictor
    !> Errors are compared over squares of (2 reach + 1)^2 nodes
    integer, parameter :: reach = 2
    !> Errors that are nothing
-   real(dp), parameter :: least_error = 1.0e-60_dp
+   real(dp), parameter :: min_error = 1.0e-60_dp
 
    type :: predictor_t
       !> Extrapolations: of second order at the node (what stands), and at the nodes where things were that a surface
@@ -171,7 +171,7 @@ contains
             if (row >= 1) across = across + self%error(:, row, k)
          end do
          do i = first, last
-            q(i, k) = 1.0_dp/(across(i - 2) + across(i - 1) + across(i) + across(i + 1) + across(i + 2) + least_error)
+            q(i, k) = 1.0_dp/(across(i - 2) + across(i - 1) + across(i) + across(i + 1) + across(i + 2) + min_error)
          end do
       end do
       across(first:last) = q(first:last, 1)

@@ -117,9 +117,9 @@ def follow(position: Position, known: dict[int, Film]) -> Callable[[Ticket], Non
         if found is None:
             return
         known[COARSE] = found
-        ticket.tell(found)
+        ticket.answer_with(found)
         if position.rough and ticket.newest():
-            ticket.tell(rough(position))
+            ticket.answer_with(rough(position))
         if not ticket.rest(REST):
             return
         for points in FINE:
@@ -127,7 +127,7 @@ def follow(position: Position, known: dict[int, Film]) -> Callable[[Ticket], Non
             if found is None:
                 return
             known[points] = found
-            ticket.tell(found)
+            ticket.answer_with(found)
 
     return job
 

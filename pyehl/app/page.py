@@ -96,7 +96,7 @@ class Page:
         self.document.add_next_tick_callback(do)
 
     def turned(self, name: str, value: Value) -> None:
-        """Take a changed control; what is wrong is said there, and the answer stays."""
+        """Take a changed control; what is wrong is shown there, and the answer stays."""
         wish = self._wish.turned(name, value)
         self.layout.show_controls(wish.values)
         if name in ("map_x", "map_y") and self._pending is not None:
@@ -109,7 +109,7 @@ class Page:
         try:
             tried.case(COARSE)
             if tried.values["surface"] == "map" and name in ("surface", "map_x", "map_y"):
-                self.uploads.check(tried.file, tried.map_said())
+                self.uploads.check(tried.file, tried.map_message())
         except InputError as error:
             self.layout.controls[name].say(self.uploads.nameless(str(error)))
             return
@@ -188,7 +188,7 @@ class Page:
     def upload(self, name: str, data: bytes) -> None:
         """Take a height map, or say what its reader says."""
         try:
-            path = self.uploads.add(name, data, self._wish.map_said())
+            path = self.uploads.add(name, data, self._wish.map_message())
             wish = replace(self._wish.turned("surface", "map"), file=path)
             wish.case(COARSE)
         except InputError as error:
@@ -221,7 +221,7 @@ class Page:
 
         def job(ticket: Ticket) -> None:
             for points in answers.curve(here, control, values, ticket.newest):
-                ticket.tell((points, values, label, about))
+                ticket.answer_with((points, values, label, about))
 
         self.curves.submit(job)
 
@@ -235,7 +235,7 @@ class Page:
                 data = downloads.report_page(here, POINTS)
             else:
                 data = downloads.figures(here, POINTS, suffix, width)
-            ticket.tell(data)
+            ticket.answer_with(data)
 
         self._making.append(what)
         self._say_making()

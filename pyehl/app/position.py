@@ -184,7 +184,7 @@ class Position:
         controls = [v for name, v in self.values.items() if name not in _OF_SURFACE]
         return (*controls, self.modulus, self.base, self.oil)
 
-    def map_said(self) -> dict[str, Value]:
+    def map_message(self) -> dict[str, Value]:
         """Give what the case says of its height map, as `Uploads.check` takes it."""
         kept = namelist.values(self.base).get("surface", {})
         keys = ("channel", "height_unit", "lateral_unit")

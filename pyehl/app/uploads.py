@@ -28,10 +28,10 @@ class Uploads:
             (Path(self._folder.name) / place).mkdir()
         self.files: dict[str, str] = {}
 
-    def add(self, name: str, data: bytes, said: Mapping[str, Any] | None = None) -> str:
+    def add(self, name: str, data: bytes, given: Mapping[str, Any] | None = None) -> str:
         """Keep a height map if it can be read; returns where. A map of the same name is replaced.
 
-        `said` is what a case says of it, as `check` takes it. InputError with the words of the
+        `given` is what a case says of it, as `check` takes it. InputError with the words of the
         reader; what was there of this name is kept then.
         """
         base = re.sub(r"[^\w.\- ]", "_", Path(name.replace("\\", "/")).name).lstrip(".")
@@ -42,20 +42,20 @@ class Uploads:
         fresh, path = (Path(self._folder.name) / place / base for place in PLACES)
         fresh.write_bytes(data)
         try:
-            self.check(str(fresh), said or {})
+            self.check(str(fresh), given or {})
             fresh.replace(path)
         finally:
             fresh.unlink(missing_ok=True)
         self.files[base] = str(path)
         return str(path)
 
-    def check(self, path: str, said: Mapping[str, Any]) -> None:
+    def check(self, path: str, given: Mapping[str, Any]) -> None:
         """Read a map; InputError with the words of the reader.
 
-        `said` has what a case says of it: ``length_x``, ``length_y`` [m] or 0, ``channel``,
+        `given` has what a case says of it: ``length_x``, ``length_y`` [m] or 0, ``channel``,
         ``height_unit``, ``lateral_unit``, each of them or none.
         """
-        known = {name: value for name, value in said.items() if value}
+        known = {name: value for name, value in given.items() if value}
         try:
             read_scan(path, **known)
         except (EhlError, OSError) as error:

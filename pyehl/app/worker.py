@@ -39,7 +39,7 @@ class Ticket:
         left = seconds - (time.monotonic() - self._began)
         return self._worker.rest(self.generation, max(0.0, left))
 
-    def tell(self, answer: Any) -> None:  # noqa: ANN401 (of any kind)
+    def answer_with(self, answer: Any) -> None:  # noqa: ANN401 (of any kind)
         """Hand over an answer."""
         if not self._worker.closed:
             self._worker.deliver(self.generation, answer)
@@ -105,4 +105,4 @@ class Worker:
             try:
                 job(ticket)
             except Exception as error:
-                ticket.tell(error)
+                ticket.answer_with(error)

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Cases: keys with unit, range and default; reading, completion, and the resolved namelist."""
 
-from pyehl.case.case import Case, exchanged, files_of, trusted
+from pyehl.case.case import Case, exchanged, files_of, resolve, trusted
 from pyehl.case.key import Key
-from pyehl.case.resolve import resolve
 from pyehl.case.settings import KEYS
 
 __all__ = ["KEYS", "Case", "Key", "exchanged", "files_of", "resolve", "trusted"]

@@ -5,16 +5,37 @@ from __future__ import annotations
 
 import os
 import reprlib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from types import EllipsisType
 from typing import Any, Self
 
 from pyehl import display, namelist
-from pyehl.case.resolve import resolve
+from pyehl.case.complete import complete
+from pyehl.case.reader import read
+from pyehl.case.source import read_text
+from pyehl.case.writer import case_text
 from pyehl.errors import InputError
-from pyehl.given import Option, options_of, path_of
+from pyehl.given import Option, options_of, path_of, text_of
 from pyehl.types import Settings
+
+
+def resolve(
+    text: str, origin: str, options: Option | Iterable[Option] = (), *, from_file: bool = False
+) -> str:
+    """Resolve a case: check it, and spell out every value of it as namelist text.
+
+    The text of a file called `origin`, for messages and for names of maps, or `from_file` that
+    file itself; `options` replace values. InputError with file, line and column, what was
+    expected, and the nearest name.
+    """
+    origin = path_of(origin, "the name of a case")
+    if from_file:
+        text = read_text(origin, "the name of a case file")
+    text_of(text, "the text of a case")
+    draft = read(text, os.fspath(origin), options_of(options))
+    complete(draft)
+    return case_text(draft.settings, draft.given)
 
 
 @dataclass(frozen=True, slots=True, repr=False, init=False)

@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What one key alone cannot tell: defaults that follow from other keys, and contradictions."""
+"""What depends on several keys: defaults that follow from other keys, and contradictions."""
 
 from collections.abc import Callable
 from contextlib import suppress
 
-from pyehl.case import contact, density, grid, inlet, line, lubricant, radii, surfaces, temperature
-from pyehl.case.draft import Draft
-from pyehl.case.settings import GROUPS, MACHINES
+from pyehl.case import contact, grid, inlet, line, lubricant, surfaces
+from pyehl.case.settings import GROUPS, MACHINES, Draft
 from pyehl.errors import InputError
 
 Step = Callable[[Draft], None]
@@ -31,10 +30,10 @@ def check_no_machine(draft: Draft) -> None:
 
 COMPLETIONS: tuple[Step, ...] = (
     contact.check_kind,
-    radii.complete,
+    contact.complete_radii,
     lubricant.complete_oil,
-    temperature.complete_viscosity,
-    temperature.complete_alpha,
+    lubricant.complete_viscosity,
+    lubricant.complete_alpha,
     lubricant.complete_law,
     inlet.complete,
     grid.complete,
@@ -54,11 +53,11 @@ STEPS: tuple[Step, ...] = (
     grid.check_extent,
     contact.complete_kinematics,
     lubricant.complete,
-    density.check,
+    lubricant.check_density,
     lubricant.check_law,
     lubricant.check_shear_law,
     lubricant.check_boundary_film,
-    temperature.check_heat,
+    lubricant.check_heat,
     grid.check_points,
     surfaces.complete,
     surfaces.check,

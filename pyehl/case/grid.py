@@ -2,8 +2,8 @@
 """The grid of a case: border and domain that follow from the contact, nodes that can be halved."""
 
 from pyehl.case import physics
-from pyehl.case.draft import Draft
-from pyehl.case.number import short, to_text
+from pyehl.case.key import short, to_text
+from pyehl.case.settings import Draft
 
 # Least distance of the sides of the domain, in terms of the contact
 BEYOND_CONTACT = 1.05

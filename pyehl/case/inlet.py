@@ -2,10 +2,9 @@
 """An inlet that is meant to be short of oil: where the oil begins, or the layer that arrives."""
 
 from pyehl.case import physics
-from pyehl.case.draft import Draft
 from pyehl.case.grid import BEYOND_CONTACT
-from pyehl.case.number import short
-from pyehl.case.settings import Settings
+from pyehl.case.key import short
+from pyehl.case.settings import Draft, Settings
 
 KEYS = ("position", "position_hertz", "film", "film_hertz")
 NAMES = tuple(f"inlet.{key}" for key in KEYS)

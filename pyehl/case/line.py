@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a line contact has in place of the keys of a point, and what it does not have."""
 
-from pyehl.case.draft import Draft
+from pyehl.case.settings import Draft
 
 SHAPE = "contact.shape = 'line'"
 LINE_KEYS = ("load_per_length", "moes_m_line", "moes_l_line")

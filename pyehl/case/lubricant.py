@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The lubricant of a case: oils by name, laws of viscosity and of the shear stress."""
+"""The lubricant of a case: oils by name, temperature, laws of viscosity, density and stress."""
 
 import math
 import os
@@ -7,24 +7,23 @@ import os
 import numpy as np
 
 from pyehl.case import physics
-from pyehl.case.draft import Draft
-from pyehl.case.number import short, to_text
-from pyehl.case.oils import OILS
-from pyehl.case.settings import GROUPS
-from pyehl.case.viscosity_table import read_table
+from pyehl.case.key import short, to_text
+from pyehl.case.oils import OILS, read_table
+from pyehl.case.settings import GROUPS, Draft
 from pyehl.case.writer import group_text
 from pyehl.errors import InputError
+from pyehl.theory.heat import thermal_loading, thermal_reduction
 
 # Relative difference of values that is none
 ROUNDING = 1e-6
-# Maximum pressure at which a law must tell a viscosity, over the Hertz pressure; in so many steps
+# Maximum pressure at which a law must have a viscosity, over the Hertz pressure; in so many steps
 BEYOND_HERTZ, STEPS = 1.5, 300
 # A table of a single temperature holds within that [K]
 SAME_TEMPERATURE = 0.01
 # Laws without constants of an oil, which rise up to any pressure
 SIMPLE_VISCOSITY, SIMPLE_DENSITY = ("roelands", "barus"), ("dowson-higginson", "incompressible")
 # Roelands exponents of liquids: water has 0.04, mineral oils 0.6
-LEAST_Z, LARGEST_Z = 1e-3, 2.0
+MIN_Z, LARGEST_Z = 1e-3, 2.0
 CONTACT_IN_SI = "load, mean_velocity, radius and reduced_modulus"
 
 
@@ -114,7 +113,7 @@ def _follow(draft: Draft, key: str, follows: float) -> None:
 
 
 def _law_key(draft: Draft) -> str:
-    """Give the key that asks for the law."""
+    """Give the key that selects the law."""
     for key in ("table", "name"):
         if draft.is_given("lubricant", key):
             return f"lubricant.{key}"
@@ -184,7 +183,7 @@ def _check_roelands(draft: Draft) -> None:
     """Refuse an exponent that no liquid has, at the key that it is from."""
     oil = draft.settings.lubricant
     # without alpha the law has nothing to say
-    if oil.pressure_viscosity <= 0.0 or LEAST_Z <= oil.roelands_z <= LARGEST_Z:
+    if oil.pressure_viscosity <= 0.0 or MIN_Z <= oil.roelands_z <= LARGEST_Z:
         return
     # a small one mostly has its reason in alpha, a large one in the viscosity
     alpha, viscosity = ["pressure_viscosity"], ["viscosity", "kinematic_viscosity_40"]
@@ -202,7 +201,7 @@ def _check_roelands(draft: Draft) -> None:
 
 
 def check_law(draft: Draft) -> None:
-    """Refuse laws that do not tell viscosity and density over all pressures of the contact."""
+    """Refuse laws that have no viscosity and density at all pressures of the contact."""
     oil = draft.settings.lubricant
     simple = oil.viscosity_law in SIMPLE_VISCOSITY, oil.density_law in SIMPLE_DENSITY
     hertz = physics.point(draft.settings).pressure
@@ -281,3 +280,150 @@ def check_boundary_film(draft: Draft) -> None:
             "coarsening = 'auto' or 'classical'",
             "transfers by the conductance do not converge with solid contact",
         )
+
+
+# Exponent z of Roelands 1966 of a mineral oil
+MINERAL_Z = 0.6
+
+
+def complete_viscosity(draft: Draft) -> None:
+    """Find the viscosity, and its fall with temperature, from a data sheet."""
+    oil = draft.settings.lubricant
+    sheet = oil.kinematic_viscosity_40, oil.kinematic_viscosity_100
+    if not any(sheet):
+        _check_use_of_sheet(draft)
+        return
+    temperature = f"{to_text(oil.temperature)} degC"
+    if not all(sheet) or sheet[1] >= sheet[0]:
+        given = draft.is_given("lubricant", "kinematic_viscosity_100")
+        what = (
+            f"lubricant.kinematic_viscosity_40 = {to_text(sheet[0])} and kinematic_viscosity_100 = "
+            f"{to_text(sheet[1])}"
+        )
+        at = f"lubricant.kinematic_viscosity_{100 if given else 40}"
+        draft.refuse(at, what, "both, that at 100 degC the smaller one")
+    follows, slope = physics.sheet(oil.temperature, sheet, oil.density_15, oil.thermal_expansion)
+    if not draft.is_given("lubricant", "temperature_viscosity"):
+        oil.temperature_viscosity = slope
+    if not draft.is_given("lubricant", "viscosity"):
+        oil.viscosity = follows
+        origin = f"the data sheet at {temperature}"
+        draft.check_range("lubricant.viscosity", follows, "lubricant.temperature", origin)
+    elif abs(oil.viscosity - follows) > ROUNDING * follows:
+        given = draft.is_given("lubricant", "kinematic_viscosity_40")
+        why = (
+            f"lubricant.viscosity = {to_text(oil.viscosity)}, and the data sheet gives "
+            f"{short(follows)} Pa s at {temperature}"
+        )
+        other = "lubricant.kinematic_viscosity_40" if given else "lubricant.name"
+        draft.contradict("lubricant.viscosity", other, "viscosity, or what gives it", why)
+
+
+def _check_use_of_sheet(draft: Draft) -> None:
+    """Refuse keys that mean nothing without the viscosities of a data sheet."""
+    oil = draft.settings.lubricant
+    for key in ("temperature", "density_15", "thermal_expansion"):
+        # temperature and expansion serve laws of viscosity and density under temperature as well
+        used = oil.knows_temperature or (key != "density_15" and oil.temperature_viscosity > 0.0)
+        if used or not draft.is_given("lubricant", key):
+            continue
+        expected = (
+            "kinematic_viscosity_40 and kinematic_viscosity_100 beside it, temperature_viscosity, "
+            "or viscosity at the inlet temperature alone"
+        )
+        what = f"lubricant.{key} without the viscosities of the data sheet"
+        draft.refuse(f"lubricant.{key}", what, expected)
+
+
+def complete_alpha(draft: Draft) -> None:
+    """Find alpha beside a data sheet, which has none.
+
+    That of Roelands' law with a z that does not change with temperature, the given one or that of
+    a mineral oil.
+    """
+    oil = draft.settings.lubricant
+    if draft.is_given("lubricant", "pressure_viscosity"):
+        return
+    oil.alpha_origin = "given"
+    if oil.own_law:
+        return
+    if oil.kinematic_viscosity_40 <= 0.0:
+        if draft.settings.contact.si and draft.is_given("lubricant", "viscosity"):
+            oil.alpha_origin = "default"
+        return
+    z = oil.roelands_z
+    if not draft.is_given("lubricant", "roelands_z"):
+        z, oil.alpha_origin = MINERAL_Z, "estimated"
+    oil.pressure_viscosity = z * (math.log(oil.viscosity) + 9.67) / oil.roelands_p0
+    draft.check_range(
+        "lubricant.pressure_viscosity",
+        oil.pressure_viscosity,
+        "lubricant.kinematic_viscosity_40",
+        f"the data sheet at {to_text(oil.temperature)} degC",
+    )
+
+
+def check_heat(draft: Draft) -> None:
+    """Refuse heat without what it needs, and shear heating of the inlet beyond its formula."""
+    c, oil = draft.settings.contact, draft.settings.lubricant
+    if oil.thermal_friction == "always":
+        _need(draft, "thermal_friction", " = 'always'", "sliding speed", ("'auto'", "'auto'"))
+    if not oil.thermal_reduction:
+        return
+    _need(draft, "thermal_reduction", "", "velocity", (".false.", "name"))
+    loading = thermal_loading(
+        oil.temperature_viscosity, oil.viscosity, c.mean_velocity, oil.thermal_conductivity
+    )
+    strain = physics.point(draft.settings).pressure / c.reduced_modulus
+    reduction = thermal_reduction(loading, strain, c.slide_to_roll)
+    if reduction <= 0.0:
+        what = (
+            f"lubricant.thermal_reduction: the formula gives a film of {short(reduction)} times "
+            f"the isothermal one at a thermal loading of {short(loading)}"
+        )
+        draft.refuse("lubricant.thermal_reduction", what, "a slower contact, or .false.")
+
+
+def _need(draft: Draft, key: str, value: str, velocity: str, others: tuple[str, str]) -> None:
+    """Refuse a key without a velocity in m/s, or how the viscosity falls with temperature."""
+    name = f"lubricant.{key}"
+    if not draft.settings.contact.si:
+        contact = "a contact given by moes_m and moes_l"
+        what = f"{name}{value} with {contact}, which has no {velocity} in m/s"
+        expected = f"load, mean_velocity, radius and reduced_modulus, or {others[0]}"
+        draft.refuse(name, what, expected)
+    if draft.settings.lubricant.temperature_viscosity <= 0.0:
+        expected = (
+            "temperature_viscosity, or kinematic_viscosity_40 and kinematic_viscosity_100, or "
+            f"{others[1]}"
+        )
+        what = f"{name}{value}, and the viscosity by temperature is not known"
+        draft.refuse(name, what, expected)
+
+
+def check_density(draft: Draft) -> None:
+    """Refuse a law of density without its constants, and one beside another expansion."""
+    oil = draft.settings.lubricant
+    law = f"lubricant.density_law = '{oil.density_law}'"
+    missing = f"{law} without its constants"
+    if oil.density_law == "murnaghan" and oil.murnaghan_modulus * oil.murnaghan_rate <= 0.0:
+        expected = "murnaghan_modulus, murnaghan_rate and murnaghan_softening"
+        draft.refuse("lubricant.density_law", missing, expected)
+    if oil.density_law == "tait":
+        if oil.tait_modulus * oil.tait_rate <= 0.0:
+            expected = (
+                "tait_modulus, tait_rate, tait_softening, tait_expansion and tait_temperature"
+            )
+            draft.refuse("lubricant.density_law", missing, expected)
+        given = draft.is_given("lubricant", "thermal_expansion")
+        if given and oil.kinematic_viscosity_40 <= 0.0:
+            what = f"lubricant.thermal_expansion with {law}, which has its own"
+            draft.refuse("lubricant.thermal_expansion", what, "tait_expansion alone")
+    low, high = oil.range_temperature_min, oil.range_temperature_max
+    if high < low:
+        what = (
+            f"lubricant.range_temperature_max = {to_text(high)} below range_temperature_min = "
+            f"{to_text(low)}"
+        )
+        expected = "a range of temperatures, or both 0"
+        draft.refuse("lubricant.range_temperature_max", what, expected)

@@ -7,14 +7,12 @@ from dataclasses import dataclass
 from typing import Any, NoReturn
 
 from pyehl.case.complete import complete
-from pyehl.case.draft import Draft
-from pyehl.case.file import read_text
 from pyehl.case.groups import Bodies
-from pyehl.case.key import Value
+from pyehl.case.key import Value, short, to_text
 from pyehl.case.line import LINE_KEYS
-from pyehl.case.number import short, to_text
 from pyehl.case.reader import read
-from pyehl.case.settings import GROUPS, KEYS, MACHINES
+from pyehl.case.settings import GROUPS, KEYS, MACHINES, Draft
+from pyehl.case.source import read_text
 from pyehl.case.writer import case_text
 from pyehl.errors import InputError
 from pyehl.given import Option, options_of, path_of

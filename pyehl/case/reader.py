@@ -11,9 +11,8 @@ from functools import lru_cache
 from pyehl import namelist
 from pyehl.case import names
 from pyehl.case.complete import complete
-from pyehl.case.draft import Draft, Place
 from pyehl.case.key import Key, Value
-from pyehl.case.settings import GROUPS, KEYS, Settings
+from pyehl.case.settings import GROUPS, KEYS, Draft, Place, Settings
 from pyehl.case.source import (
     ATOM,
     COMMA,

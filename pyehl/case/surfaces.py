@@ -5,8 +5,8 @@ import math
 import os
 from typing import NamedTuple
 
-from pyehl.case.draft import Draft
-from pyehl.case.number import short
+from pyehl.case.key import short
+from pyehl.case.settings import Draft
 from pyehl.case.surface_group import Surface
 
 GROUPS = ("surface", "second_surface")

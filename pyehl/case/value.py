@@ -4,8 +4,8 @@
 from typing import NoReturn
 
 from pyehl.case import names
-from pyehl.case.draft import LONGEST_PATH, Draft, Place
 from pyehl.case.key import NUMBER, TRUTHS, Key, Value
+from pyehl.case.settings import LONGEST_PATH, Draft, Place
 from pyehl.case.source import ATOM, OPEN_STRING, STRING, Piece, Source
 
 

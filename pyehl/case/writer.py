@@ -5,8 +5,7 @@ from collections.abc import Collection, Iterator, Mapping
 from functools import cache
 
 from pyehl.case.inlet import is_short_of_oil
-from pyehl.case.key import Key, Value
-from pyehl.case.number import to_text
+from pyehl.case.key import Key, Value, to_text
 from pyehl.case.settings import GROUPS, MACHINES, Settings
 
 OPTIONAL = (

@@ -5,7 +5,7 @@ import argparse
 
 from pyehl.api import check
 from pyehl.commands.arguments import add_case_arguments
-from pyehl.surfaces.resolved import write_resolved
+from pyehl.surfaces.solver_surface import write_resolved
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -5,8 +5,7 @@ import argparse
 
 from pyehl.errors import EXIT_FAILED, EXIT_OK, InputError
 from pyehl.rigs.reading import read_rig
-from pyehl.studies.compare import compare, read_results
-from pyehl.studies.reference_table import SHIPPED, read_reference
+from pyehl.studies.compare import SHIPPED, compare, read_reference, read_results
 from pyehl.studies.rig_comparison import compared, lines
 
 

@@ -5,7 +5,7 @@ import argparse
 from pathlib import Path
 
 from pyehl.commands.arguments import add_force, add_overrides
-from pyehl.studies.fit_folder import OF_FILM, fit_lubricant
+from pyehl.studies.film_fit import OF_FILM, fit_lubricant
 from pyehl.studies.shear_fit import PARAMETERS, Fit
 
 

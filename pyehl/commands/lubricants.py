@@ -4,7 +4,7 @@
 import argparse
 from pathlib import Path
 
-from pyehl.studies.oil_list import lubricants
+from pyehl.studies.shear_fit import lubricants
 from pyehl.theory.oils import Oil, film_forming, reciprocal_isoviscous
 
 

@@ -12,7 +12,7 @@ from pyehl.commands.watching import Terminal, add_worker_arguments, jobs_of
 from pyehl.destination import finite
 from pyehl.errors import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK
 from pyehl.machines.perform import CSV, RUNS, Prepared, perform
-from pyehl.studies.estimate import duration, wall_seconds
+from pyehl.studies.plan import duration, wall_seconds
 
 
 def add_machine_arguments(parser: argparse.ArgumentParser, what: str) -> None:

@@ -4,10 +4,8 @@
 import argparse
 
 from pyehl.commands.arguments import add_force
-from pyehl.subsurface.fatigue import CRITERIA
-from pyehl.subsurface.life import BEARINGS
-from pyehl.subsurface.result import stress
-from pyehl.subsurface.text import text
+from pyehl.subsurface.cycle import BEARINGS, CRITERIA
+from pyehl.subsurface.result import stress, text
 
 
 def _friction(value: str) -> str | float:

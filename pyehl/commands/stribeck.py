@@ -17,8 +17,17 @@ from pyehl.rigs.reading import is_rig, read_rig
 from pyehl.studies.compare import read_results
 from pyehl.studies.curve import curves_of, no_coefficient
 from pyehl.studies.curve_plan import KEYS, CurvePlan, plan_curve
-from pyehl.studies.curve_run import CSV, NETCDF, PICTURE, curve_axes, perform
-from pyehl.studies.curve_text import absolute_friction, deviation, last_lines, report
+from pyehl.studies.curve_run import (
+    CSV,
+    NETCDF,
+    PICTURE,
+    absolute_friction,
+    curve_axes,
+    deviation,
+    last_lines,
+    perform,
+    report,
+)
 from pyehl.studies.measured_friction import Measured, read_measured
 from pyehl.studies.rig_comparison import compared, lines, rig_curves
 from pyehl.surfaces import rough_groups

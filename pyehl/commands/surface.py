@@ -19,10 +19,10 @@ from pyehl.given import key_of
 from pyehl.surfaces import FEATURES, Topography, from_settings
 from pyehl.surfaces.areal import AREAL_NAMES, areal_numbers
 from pyehl.surfaces.from_case import profile_of
-from pyehl.surfaces.in_memory import READY
+from pyehl.surfaces.prepare import SUFFIXES, write_map
 from pyehl.surfaces.profile import fit
 from pyehl.surfaces.profile_file import is_profile
-from pyehl.surfaces.writing import SUFFIXES, write_map
+from pyehl.surfaces.solver_surface import READY
 from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint

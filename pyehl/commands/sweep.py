@@ -9,13 +9,10 @@ from typing import Any
 from pyehl.commands.arguments import add_overrides
 from pyehl.commands.watching import Terminal, add_worker_arguments, jobs_of, report_lost
 from pyehl.errors import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, InputError
-from pyehl.studies.estimate import duration
-from pyehl.studies.gather import Outcome
-from pyehl.studies.plan import MOST, plan
-from pyehl.studies.study import RUNS, make, read_study
-from pyehl.studies.sweep import CASES, CSV, NETCDF, perform
+from pyehl.studies.plan import MOST, duration, plan
+from pyehl.studies.study import RUNS, make, parse_axis, read_study
+from pyehl.studies.sweep import CASES, CSV, NETCDF, Outcome, perform
 from pyehl.studies.tasks import FAILED, FINDINGS, why_none
-from pyehl.studies.vary import parse_axis
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

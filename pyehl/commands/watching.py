@@ -11,9 +11,9 @@ from tqdm import tqdm
 
 from pyehl.commands.arguments import add_force
 from pyehl.errors import InputError
-from pyehl.studies.estimate import Remaining, duration
-from pyehl.studies.gather import Watcher
+from pyehl.studies.plan import Remaining, duration
 from pyehl.studies.pool import processors
+from pyehl.studies.sweep import Watcher
 from pyehl.studies.tasks import FAILED, Task
 from pyehl.types import Row
 

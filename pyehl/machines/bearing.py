@@ -169,11 +169,11 @@ def _check_rollers(machine: Machine) -> None:
     if 2.0 * v.roller_angle > v.contact_angle:
         what = f"a roller_angle of {v.roller_angle:g} deg leaves no cone on the inner ring"
         machine.refuse("roller_angle", what, f"at most {0.5 * v.contact_angle:g} deg")
-    least = v.radial_load * math.tan(math.radians(v.contact_angle))
-    if v.axial_load <= least * (1.0 + APART):
+    minimum = v.radial_load * math.tan(math.radians(v.contact_angle))
+    if v.axial_load <= minimum * (1.0 + APART):
         what = f"an axial load of {v.axial_load:g} N: tapered rollers push the rings apart"
         machine.refuse(
-            "axial_load", what, f"more than {least:.5g} N, that of preload or counter bearing"
+            "axial_load", what, f"more than {minimum:.5g} N, that of preload or counter bearing"
         )
 
 
@@ -241,13 +241,13 @@ def _ball_clearance(machine: Machine, centres: float) -> float:
 def _check_preload(machine: Machine, pressure: float, limit: float, power: float) -> None:
     """Refuse a negative clearance whose p_h alone exceeds a limit [Pa]; p_h^power goes with it."""
     if pressure > limit:
-        least = machine.values.clearance * (limit / pressure) ** power
+        minimum = machine.values.clearance * (limit / pressure) ** power
         what = (
             f"a clearance of {machine.values.clearance:.3g} m cannot be closed: without load the "
             f"Hertz pressure is {pressure / 1e9:.3g} GPa, more than the static limit of "
             f"{limit / 1e9:g} GPa (ISO 76)"
         )
-        machine.refuse("clearance", what, f"clearance of at least {least:.2g} m; 10 um is 1e-5")
+        machine.refuse("clearance", what, f"clearance of at least {minimum:.2g} m; 10 um is 1e-5")
 
 
 def _facts(

@@ -193,10 +193,10 @@ def film_of(contact: Contact, machine: Machine) -> Film:
         point = OperatingPoint.from_settings(settings)
         found = {f.name: f for f in film.estimates(point, oil)}
         central = found["Nijenbanning-Venner-Moes"]
-        least = found.get("Hamrock-Dowson") or found["Hamrock-Dowson soft"]
+        minimum = found.get("Hamrock-Dowson") or found["Hamrock-Dowson soft"]
         name = regime(point.moes_m, point.moes_l, point.ellipse)
-        beyond = _beyond(central, least)
-        h_c, h_min = central.h_c, least.h_min
+        beyond = _beyond(central, minimum)
+        h_c, h_min = central.h_c, minimum.h_min
         if h_min > h_c:
             beyond = f"{beyond}; {CROSSED}".removeprefix("; ")
         return Film(contact, text, settings, point, None, oil, h_c, h_min, name, beyond)

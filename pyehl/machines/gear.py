@@ -118,13 +118,13 @@ def mesh_of(machine: Machine) -> Mesh:
     teeth, shifts = (v.teeth_1, v.teeth_2), (v.profile_shift_1, v.profile_shift_2)
     alpha, m = math.radians(v.pressure_angle), v.module
     for i in (1, 2):
-        least = 1.0 - 0.5 * teeth[i - 1] * math.sin(alpha) ** 2
-        if shifts[i - 1] < least:
+        minimum = 1.0 - 0.5 * teeth[i - 1] * math.sin(alpha) ** 2
+        if shifts[i - 1] < minimum:
             what = (
                 f"gear {i} with {teeth[i - 1]} teeth and a profile shift of {shifts[i - 1]:g} is "
             )
             expected = (
-                f"profile_shift_{i} of at least {math.ceil(1e3 * least) / 1e3:g}, or more teeth"
+                f"profile_shift_{i} of at least {math.ceil(1e3 * minimum) / 1e3:g}, or more teeth"
             )
             key = f"profile_shift_{i}" if machine.is_given(f"profile_shift_{i}") else f"teeth_{i}"
             machine.refuse(key, f"{what}undercut by its rack", expected)

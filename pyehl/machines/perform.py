@@ -23,12 +23,12 @@ from pyehl.machines.result import MachineResult, row_of, sigma_of, summary_of, t
 from pyehl.plots import machine as pictures
 from pyehl.plots.style import save
 from pyehl.prediction.model import unpredictable
-from pyehl.studies.gather import Outcome, Watcher, gather
 from pyehl.studies.journal import FILES as JOURNAL
 from pyehl.studies.journal import NAME
 from pyehl.studies.plan import TaskList
 from pyehl.studies.pool import check_jobs
 from pyehl.studies.study import contents
+from pyehl.studies.sweep import Outcome, Watcher, gather
 from pyehl.surfaces import rough_groups
 from pyehl.types import Row
 

@@ -200,10 +200,10 @@ def summary_of(
     kind = "gear" if isinstance(made, GearPair) else "bearing"
     found: dict[str, Any] = {"kind": kind, "machine": machine.kind, "contacts": len(table)}
     found |= made.facts | {"rms_height_m": sigma}
-    most, least = table["hertz_pressure_Pa"], table["h_min_m"]
+    most, minimum = table["hertz_pressure_Pa"], table["h_min_m"]
     found |= {
         "hertz_pressure_max_Pa": float(most.max()),
-        "h_min_m": float(least.min(skipna=False)),
+        "h_min_m": float(minimum.min(skipna=False)),
     }
     found["h_c_min_m"] = float(table["h_c_m"].min(skipna=False))
     found["h_c_max_m"] = float(table["h_c_m"].max(skipna=False))

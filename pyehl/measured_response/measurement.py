@@ -60,7 +60,7 @@ TIERS = (
 
 
 def tier_waves(tier: Tier) -> WaveSet:
-    """Waves of a tier: all wavelengths it can tell apart, up to 24, in scattered directions.
+    """Waves of a tier: all wavelengths it resolves, up to 24, in scattered directions.
 
     ValueError if the grid has fewer than NODES nodes for the shortest wave.
     """

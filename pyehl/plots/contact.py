@@ -259,9 +259,9 @@ def contours(
     unit_h, label = style.film_unit(scales)
     unit, _ = style.axis_unit(scales, "x")
     h = film * unit_h
-    central, least = _central(x, y, h), float(h.min())
-    step = _round_step(max((central - least) / 4.0, central / 20.0))
-    first = step * math.floor(least / step)
+    central, minimum = _central(x, y, h), float(h.min())
+    step = _round_step(max((central - minimum) / 4.0, central / 20.0))
+    first = step * math.floor(minimum / step)
     levels = np.arange(first, SHOWN * central + 0.5 * step, step)
     shades = colormaps[style.SEQUENTIAL].with_extremes(over="white")
     across, up, seen = outline.seen(x * unit, y * unit, h)

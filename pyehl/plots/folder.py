@@ -26,7 +26,7 @@ EXPECTED = (
     "stribeck and response are in the folders that they write"
 )
 FORMATS = ("png", "pdf", "svg")
-LEAST_WIDTH, MOST_WIDTH = 0.04, 0.4
+MIN_WIDTH, MOST_WIDTH = 0.04, 0.4
 """Widths of figures [m]."""
 UNITS = ("auto", "si", "hertz")
 # Arrays of a prediction that are drawn, with their units
@@ -119,9 +119,9 @@ def plot(
     if not 10 <= dpi <= 2400:
         raise InputError(f"dpi = {dpi}: 10 ... 2400 dots per inch were expected")
     check_kind(width, (int, float), "width", "a number [m]")
-    if width and not LEAST_WIDTH <= width <= MOST_WIDTH:
+    if width and not MIN_WIDTH <= width <= MOST_WIDTH:
         raise InputError(
-            f"width = {width * 1e3:g} mm: {LEAST_WIDTH * 1e3:g} ... {MOST_WIDTH * 1e3:g} mm were "
+            f"width = {width * 1e3:g} mm: {MIN_WIDTH * 1e3:g} ... {MOST_WIDTH * 1e3:g} mm were "
             "expected"
         )
     # a prediction draws without them

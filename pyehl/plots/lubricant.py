@@ -24,7 +24,7 @@ from pyehl.types import Array
 RISES = (0.0, 20.0, 60.0)
 PRESSURES = (1e8, 5e8, 1e9)
 HIGHEST = 1.5e9
-# Stresses that an oil bears [Pa]: Newtonian lines end there
+# Stresses that an oil sustains [Pa]: Newtonian lines end there
 STRESSES = (1e3, 2e8)
 COLOURS = (BLUE, GREEN, VERMILLION)
 
@@ -57,8 +57,8 @@ def draw_oil(
     rate = np.geomspace(1.0, 1e8, 200)
     for pressure, colour in zip(PRESSURES, COLOURS, strict=True):
         newtonian = lubricant.viscosity * float(lubricant.viscosity_ratio(pressure)) * rate
-        borne = newtonian <= STRESSES[1]
-        right.loglog(rate[borne], newtonian[borne], ":", color=colour, lw=1)
+        sustained = newtonian <= STRESSES[1]
+        right.loglog(rate[sustained], newtonian[sustained], ":", color=colour, lw=1)
         if limit is not None:
             tau = shear_stress(newtonian, pressure, law)
             right.loglog(rate, tau, color=colour, label=f"{1e-9 * pressure:g} GPa")

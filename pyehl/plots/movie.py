@@ -23,7 +23,7 @@ from pyehl.theory.operating import OperatingPoint
 SUFFIXES = ("gif", "mp4")
 FRAME_SECONDS, DPI = 0.08, 150
 # A GIF counts hundredths of a second, and viewers slow down frames that are shorter
-LEAST_SECONDS, MOST_SECONDS = 0.02, 10.0
+MIN_SECONDS, MOST_SECONDS = 0.02, 10.0
 
 
 def _pace(data: xr.Dataset, seconds: float, *, si: bool) -> str:
@@ -61,9 +61,9 @@ def movie(
             "contact.shape = 'line': a movie is of maps, and a line has none\n"
             "expected: 'pyehl plot' of its result"
         )
-    if not (math.isfinite(seconds) and LEAST_SECONDS <= seconds <= MOST_SECONDS):
+    if not (math.isfinite(seconds) and MIN_SECONDS <= seconds <= MOST_SECONDS):
         raise InputError(
-            f"frame_seconds = {seconds:g}: expected {LEAST_SECONDS:g} ... {MOST_SECONDS:g} s"
+            f"frame_seconds = {seconds:g}: expected {MIN_SECONDS:g} ... {MOST_SECONDS:g} s"
         )
     if suffix == "mp4" and not animation.writers.is_available("ffmpeg"):
         raise InputError("an MP4 needs the program ffmpeg, which is not here\nexpected: GIF")

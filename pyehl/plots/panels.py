@@ -15,7 +15,7 @@ BELOW, ABOVE = 0.42, 0.22
 # Beside and between panels below one another [in]
 LEFT, RIGHT, GAP = 0.6, 0.8, 0.12
 # Panels narrower than this are put below one another [in]
-LEAST_PANEL = 2.0
+MIN_PANEL = 2.0
 
 
 def headline(summary: Mapping[str, Any], scales: Scales | None = None) -> str:
@@ -56,8 +56,8 @@ def panels(
     where it is known. Then nothing is measured, which takes as long as to draw.
     """
     width = page(count)
-    columns = 1 if width < count * LEAST_PANEL else count
-    rows, height = count // columns, max(LEAST_PANEL, width / columns * size[1] / size[0])
+    columns = 1 if width < count * MIN_PANEL else count
+    rows, height = count // columns, max(MIN_PANEL, width / columns * size[1] / size[0])
     if room is None or columns < count or failed(conditions):
         figure = laid_out(width, rows * height)
     else:
@@ -72,7 +72,7 @@ def panels(
 
 
 def rows(heights: Sequence[float], conditions: str) -> Figure:
-    """Make a figure with panels below one another, so high as said over their width.
+    """Make a figure with panels below one another, of a given height over their width.
 
     All are equally wide, with room for a colour bar at the right.
     """

@@ -17,8 +17,8 @@ from matplotlib.patches import Rectangle
 from pyehl.plots import style
 from pyehl.plots.outline import Outline
 from pyehl.surfaces import Topography, interpolated, psd_2d, psd_isotropic
-from pyehl.surfaces.defects import nearest
-from pyehl.surfaces.local_findings import Finding
+from pyehl.surfaces.findings import Finding
+from pyehl.surfaces.map_steps import nearest
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.types import Array
 
@@ -305,9 +305,9 @@ def _mark(ax: Axes, findings: Sequence[Finding], scale: float) -> None:
     right = float(image.get_extent()[1])
     for finding in findings:
         for x_min, x_max, y_min, y_max in finding.places:
-            least = 0.012 * right
+            minimum = 0.012 * right
             width, height = (x_max - x_min) * scale, (y_max - y_min) * scale
-            grow = 0.0 if min(width, height) == 0.0 else least
+            grow = 0.0 if min(width, height) == 0.0 else minimum
             box = Rectangle(
                 (x_min * scale - grow, y_min * scale - grow), width + 2 * grow, height + 2 * grow,
                 fill=False, ec=style.GREEN, lw=1.4, ls="--" if grow == 0.0 else "-",

@@ -9,8 +9,7 @@ import numpy as np
 
 from pyehl.prediction.model import KNOWN_RATIO
 from pyehl.prediction.spectrum import Spectrum
-from pyehl.surfaces.defects import prominence
-from pyehl.surfaces.map_steps import cropped
+from pyehl.surfaces.map_steps import cropped, prominence
 from pyehl.surfaces.prepare import Preparation
 from pyehl.surfaces.tile import Topography
 from pyehl.theory.operating import OperatingPoint
@@ -128,7 +127,7 @@ FEW = 0.01
 CUT_OFF_TOLERANCE, THRESHOLD_TOLERANCE = 0.05, 0.1
 """Of a cut-off and of a threshold of spikes, relative."""
 
-LEAST_THRESHOLD = 5.0
+MIN_THRESHOLD = 5.0
 """Below it points of a normal distribution would count as spikes: at 5 one in two million."""
 
 
@@ -160,25 +159,25 @@ def suggested_outliers(
 ) -> tuple[float, int] | None:
     """Find the threshold of spikes at which the film is full, if a few points are what breaks it.
 
-    `away` is (nx, ny), see :func:`pyehl.surfaces.defects.prominence`; `without_spikes` takes
+    `away` is (nx, ny), see :func:`pyehl.surfaces.map_steps.prominence`; `without_spikes` takes
     a threshold. Threshold and number of points beyond it; None if more than a few have to go.
     """
     allowed = float(np.quantile(away, 1.0 - FEW))
-    low = max(LEAST_THRESHOLD, allowed)
+    low = max(MIN_THRESHOLD, allowed)
     high = float(away.max())
     if low >= high or not full(without_spikes(low)):
         return None
-    least, most = math.log(low), math.log(high)
-    while most - least > THRESHOLD_TOLERANCE:
-        middle = 0.5 * (least + most)
+    below, above = math.log(low), math.log(high)
+    while above - below > THRESHOLD_TOLERANCE:
+        middle = 0.5 * (below + above)
         if full(without_spikes(math.exp(middle))):
-            least = middle
+            below = middle
         else:
-            most = middle
+            above = middle
     # a threshold that a person would write, on the safe side
-    rounded = float(f"{math.exp(least):.2g}")
-    if rounded > math.exp(least) or rounded < low or not full(without_spikes(rounded)):
-        rounded = math.exp(least)
+    rounded = float(f"{math.exp(below):.2g}")
+    if rounded > math.exp(below) or rounded < low or not full(without_spikes(rounded)):
+        rounded = math.exp(below)
     return rounded, int(np.count_nonzero(away > rounded))
 
 
@@ -268,7 +267,7 @@ def spikes_of(
     without_spikes: Callable[[float], Topography],
     full: Full,
 ) -> tuple[float, int] | None:
-    """Threshold that carries, and the number of points beyond it."""
+    """Threshold with a full film, and the number of points beyond it."""
     heights = made.scan.heights
     if any(made.options.crop):
         nx, ny = heights.shape

@@ -30,8 +30,8 @@ from pyehl.theory.transport import stiffness
 from pyehl.types import Array, Indices, Mask, Settings
 
 ENOUGH, DEEPEST = 2e-3, 1e-2
-"""Error of the film at touching nodes (rms), and depth below the layer elsewhere, over the scale
-that is given, that are small enough: a quarter of both changes the load share in
+"""Error of the film at touching nodes (rms), and depth below the boundary film elsewhere, over the
+scale that is given, that are small enough: a quarter of both changes the load share in
 docs/howto/mixed.md by 0.03 % of itself."""
 MOST_STEPS = 300
 """Of conjugate gradients, before a contact counts as not solved."""
@@ -55,7 +55,7 @@ class Compliance:
 
 @dataclass(frozen=True, slots=True)
 class Lifted:
-    """What holds the film off the layer."""
+    """What holds the film off the boundary film."""
 
     pressure: Array  # p (m, n)
     lift: Array  # G p + s (m, n)
@@ -123,15 +123,15 @@ def _solved(
 
 
 HOLD = 0.01
-"""Bodies touch where the film exceeds the layer by less than this share, as in the solver
+"""Bodies touch where the film exceeds the boundary film by less than this share, as in the solver
 (``fortran/reynolds/boundary_film.f90``)."""
 OPEN = 1.0
 """Film outside of the contact [a^2/R]: any, since there is no pressure to make heat."""
-LEAST_LEFT = 0.02
+MIN_LEFT = 0.02
 """Of waves that the fluid flattens nearly whole, as much is taken to be left: half and twice of it
 change no digit of the contact in docs/howto/mixed.md."""
 GIVEN_TO = 1e-4
-"""Error of the film that the layer gives, over the layer: far below HOLD."""
+"""Error of the film that the boundary film gives, over its thickness: far below HOLD."""
 SHARE, FARTHEST = 1e-3, 1.0
 """Error of the load share of a smooth contact, and the largest film over its minimum film, in the
 search for the film that has it."""
@@ -145,17 +145,18 @@ class Level:
     """What the positions have where all films are thicker by a length [a^2/R]."""
 
     thicker: float
-    least: float = math.inf  # film [a^2/R]
-    # In each position: shares of the load and of the area at the layer, sum of the shear stress
+    minimum: float = math.inf  # film [a^2/R]
+    # In each position: shares of the load and of the area in solid contact, sum of the shear stress
     load: list[float] = field(default_factory=list)
     area: list[float] = field(default_factory=list)
     stress: list[float] = field(default_factory=list)
 
 
-class LayeredContact:
-    """The points of a contact with a layer [m], so many per shorter semi-axis.
+class MixedContact:
+    """The points of a contact with a boundary film [m], so many per shorter semi-axis.
 
-    Under one rough surface with heights on a `grid`; `friction` of the layer [-], 0: not known.
+    Under one rough surface with heights on a `grid`; `friction` of the boundary film [-], 0: not
+    known.
     """
 
     def __init__(
@@ -164,7 +165,7 @@ class LayeredContact:
         waves: Components,
         grid: Topography,
         points: float,
-        layer: float,
+        boundary: float,
         friction: float,
     ) -> None:
         self.model, o = model, model.operating
@@ -173,8 +174,9 @@ class LayeredContact:
         self.tile = model.pixel_tile(wave, points)
         self.stride = self.tile.stride
         self.rough = RoughContact.on_pixels(model.contact, o, model.lubricant, self.tile)
-        self.layer = layer / o.film_scale
-        # of the stress of the layer over its pressure, as `ShearedContact.stress` has stresses
+        self.boundary = boundary / o.film_scale
+        # of the stress of the boundary film over its pressure, as `ShearedContact.stress` has
+        # stresses
         unit = 1.0 if self.rough.thins else model.lubricant.viscosity * o.sliding_speed
         known = friction > 0.0 and o.sliding_speed > 0.0
         self.rubbing = friction * o.hertz_pressure / unit if known else math.nan
@@ -194,7 +196,7 @@ class LayeredContact:
         return np.rint(way / (self.stride * self.tile.pixel[0])).astype(int)
 
     def _given(self, lack: Array) -> float:
-        """Film that the layer gives [a^2/R], by what each point lacks of the layer (m, n)."""
+        """Film that the boundary film gives [a^2/R], by what each point lacks of it (m, n)."""
         most = lack.copy()
         direction = 1 if self.velocity_ratio > 1.0 else -1
         for step in range(1, int(np.abs(self.way).max()) + 1):
@@ -206,7 +208,7 @@ class LayeredContact:
             most[passed] = np.maximum(most, met)[passed]
         of_all = most[self.rough.inside]
         low, high = 0.0, max(0.0, float(of_all.max()))
-        while high - low > GIVEN_TO * self.layer:
+        while high - low > GIVEN_TO * self.boundary:
             middle = 0.5 * (low + high)
             enough = float(np.maximum(of_all - middle, 0.0).mean()) <= middle
             low, high = (low, middle) if enough else (middle, high)
@@ -229,7 +231,7 @@ class LayeredContact:
         """Find what pressures of contact make of film and pressure."""
         slow = replace(self.model.surfaces[0], velocity_ratio=1.0)
         (transfer,) = replace(self.model, surfaces=(slow,)).transfers([around])
-        left = np.maximum(np.abs(transfer.at_centre(around, 1.0)), LEAST_LEFT)
+        left = np.maximum(np.abs(transfer.at_centre(around, 1.0)), MIN_LEFT)
         left[0, 0] = 0.0
         k = transfer.stiffening * stiffness(around.q)
         k[0, 0] = math.inf
@@ -237,9 +239,9 @@ class LayeredContact:
         self.raising = Compliance(left, around.shape)
 
     def _floor(self, pressure: Array) -> Array:
-        """Film of the layer under pressures [p_h]."""
+        """Thickness of the boundary film under pressures [p_h]."""
         p = np.maximum(pressure, 0.0) * self.model.operating.hertz_pressure
-        return self.layer / self.model.lubricant.density_ratio(p)
+        return self.boundary / self.model.lubricant.density_ratio(p)
 
     def add(self, shift: int, levels: list[Level]) -> bool:
         """Add what a position has to levels; False: it is not solved."""
@@ -253,7 +255,9 @@ class LayeredContact:
             level.load.append(self._share(pressure, touching))
             level.area.append(np.count_nonzero(touching) / rough.points)
             level.stress.append(self._stress(pressure, film, touching))
-            level.least = min(level.least, float(film.min(where=rough.inside, initial=math.inf)))
+            level.minimum = min(
+                level.minimum, float(film.min(where=rough.inside, initial=math.inf))
+            )
         return True
 
     def _state(
@@ -262,7 +266,7 @@ class LayeredContact:
         """Pressure, film and where bodies touch (m, n), by loss of film and rise of pressure.
 
         `change` (m, n, 2) where films are thicker by a length; also what holds the film off the
-        layer, None: it is not solved, from what did so in a similar state.
+        boundary film, None: it is not solved, from what did so in a similar state.
         """
         linear = self.rough.pressure + change[..., 1]
         floor = self._floor(linear)
@@ -270,14 +274,14 @@ class LayeredContact:
         loss -= self._given(floor - self.film * film_left(loss / self.film))
         sustained = self.film * loss_at(floor / self.film)
         gap = np.where(self.rough.inside, sustained - loss, np.inf)
-        held = lifted(gap, self.lifting, self.layer, self.load, held)
+        held = lifted(gap, self.lifting, self.boundary, self.load, held)
         lift, more = (0.0, 0.0) if held is None else (held.lift, self.raising(held.pressure))
         film = np.maximum(self.film * film_left((loss - lift) / self.film), floor)
         pressure = np.maximum(linear + more, 0.0)
         return held, (pressure, film, self._touching(pressure, film, floor))
 
     def _share(self, pressure: Array, touching: Mask) -> float:
-        """Share of the load at the layer."""
+        """Share of the load at the boundary film."""
         carried = float(pressure.sum(where=self.rough.inside))
         return float(pressure.sum(where=touching)) / carried
 
@@ -292,7 +296,7 @@ class LayeredContact:
             left = self._share(found[0], found[2]) - share
             if abs(left) <= SHARE:
                 return off
-            if high - low < GIVEN_TO * self.layer:
+            if high - low < GIVEN_TO * self.boundary:
                 return off if -farthest < low < high < farthest else math.nan
             low, high = (off, high) if left > 0.0 else (low, off)
             off = 0.5 * (low + high)
@@ -307,9 +311,10 @@ class LayeredContact:
         return self.rough.inside & (film <= (1.0 + HOLD) * floor) & (pressure > 0.0)
 
     def _stress(self, pressure: Array, film: Array, touching: Mask) -> float:
-        """Sum of the shear stress; NaN where that of the layer is not known.
+        """Sum of the shear stress; NaN where that of the boundary film is not known.
 
-        The layer rubs by its share of the load, whatever the points of friction carry.
+        The boundary film has friction by its share of the load, whatever the points of friction
+        carry.
         """
         stress, inside = self.rough.stress(pressure, film), self.rough.inside
         flowing = float(stress.sum(where=inside & ~touching))
@@ -319,9 +324,9 @@ class LayeredContact:
         return flowing + self.rubbing * self.whole_load * share
 
     def heat(self, steps: Indices, settings: Settings) -> Heat | None:
-        """Heat of sliding at some positions: of friction a mean, of the rises the greatest.
+        """Heat of sliding at some positions: of friction a mean, of the rises the maximum.
 
-        None where bodies do not touch, or the friction of the layer is not known.
+        None where bodies do not touch, or the friction of the boundary film is not known.
         """
         if not any(touching.any() for _, _, touching in self.found.values()):
             return None
@@ -339,7 +344,7 @@ class LayeredContact:
     def smooth_friction(self, off: float) -> float:
         """Sum of the shear stress of the smooth contact, which touches where films `film_off` do.
 
-        NaN: where its own film is not above that of the layer.
+        NaN: where its own film is not above the boundary film.
         """
         pressure = self.rough.pressure
         film = np.maximum(self.film, self._floor(pressure))

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Where the film of rough surfaces ends, and with which cut-off or threshold it would not.
 
-With a measured surface some pixel nearly always touches. That is said with its place, its height
-and its share of the contact, and the film is never clipped.
+With a measured surface some pixel nearly always touches. This is reported with its place, its
+height and its share of the contact, and the film is never clipped.
 """
 
 import math
@@ -62,7 +62,7 @@ def below_zero(
     """Find the minimum film over tiles, in the strip that passes through the contact.
 
     Every pixel of a tile within b of the track passes through the contact at some time, along its
-    row, and meets the thinnest smooth film of that row, and the highest point of the other tile on
+    row, and meets the minimum smooth film of that row, and the highest point of the other tile on
     it. The deformed roughness (nx, ny) [m], row 0 through the centre, is taken to be that at the
     centre on the whole way. Semi-axes a and b of the contact in m. The share is that of one tile,
     NaN of two: it needs the positions of a prediction.
@@ -70,18 +70,18 @@ def below_zero(
     a, b = semi_axes
     smooth, columns = _strip(tiles, a, b, sustained)
     tops = [values.max(axis=0)[column] for values, column in zip(deformed, columns, strict=True)]
-    least = smooth.min(axis=0)
+    minimum = smooth.min(axis=0)
     for top in tops:
-        least = least - top
-    worst = int(np.argmin(least))
+        minimum = minimum - top
+    worst = int(np.argmin(minimum))
     pixels = tuple(
         (int(np.argmax(values[:, column[worst]])), int(column[worst]))
         for values, column in zip(deformed, columns, strict=True)
     )
-    found = BelowZero(math.nan, float(least[worst]), pixels)
+    found = BelowZero(math.nan, float(minimum[worst]), pixels)
     if len(tiles) > 1:
         return found
-    share, count = _beyond(deformed[0], columns[0], smooth, least < 0.0)
+    share, count = _beyond(deformed[0], columns[0], smooth, minimum < 0.0)
     return replace(found, share=share, count=count)
 
 

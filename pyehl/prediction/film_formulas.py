@@ -55,11 +55,14 @@ class FilmThickness:
 def left_out(settings: Settings, lubricant: Lubricant) -> list[str]:
     """Say which keys of a resolved case the formulas do not know though the film hangs on them."""
     found = []
-    grid, layer = settings.get("grid", {}), float(settings["lubricant"].get("boundary_film", 0.0))
-    position, film_layer = _inlet(settings)
+    grid, boundary = (
+        settings.get("grid", {}),
+        float(settings["lubricant"].get("boundary_film", 0.0)),
+    )
+    position, layer = _inlet(settings)
     if position > 0.0 and settings["contact"].get("shape") == "line":
         found.append("inlet.position: there is no formula of a starved line")
-    meant = max(position, film_layer) > 0.0
+    meant = max(position, layer) > 0.0
     if grid.get("border") == "zero" and float(grid["x_inlet"]) > FLOODED and not meant:
         found.append(
             f"grid.x_inlet = {float(grid['x_inlet']):g}: the formulas are of flooded inlets"
@@ -67,8 +70,8 @@ def left_out(settings: Settings, lubricant: Lubricant) -> list[str]:
     if lubricant.shear.in_flow:
         law = lubricant.shear.law
         found.append(f"lubricant.shear_law = '{law}': the formulas are of a Newtonian flow")
-    if layer > 0.0:
-        found.append(f"lubricant.boundary_film = {layer:g}: the formulas are of a full film")
+    if boundary > 0.0:
+        found.append(f"lubricant.boundary_film = {boundary:g}: the formulas are of a full film")
     return found
 
 
@@ -208,7 +211,7 @@ def _line_sheet(settings: Settings) -> dict[str, Any]:
         "formulas": [_record(f, line.film_scale) for f in films],
         "surface": " and ".join(kinds) or "smooth",
     }
-    # waves of a height over the film tell nothing of it
+    # waves of a height over the film do not determine it
     if kinds and set(kinds) <= {"map", "fractal"}:
         h_c = line_contact.central_film(line, lubricant)
         tiles = [

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 BEYOND = "beyond linear response"
-"""Status where the ratio is larger than the model can tell."""
+"""Status where the ratio is beyond the model."""
 STATUSES = ("predicted", "film breakdown", BEYOND, "load lost", "overflow")
 """All statuses of a prediction; every one but the first is one without a ratio."""
 TRACKS = 8
@@ -55,7 +55,7 @@ class RoughFriction:
     # lost"``. Unless ``"predicted"`` the ratios are NaN
     status: str
     message: str  # the status in a sentence
-    # mean, least and greatest mu_r/mu_s over the passage [-]; the extremes of the trigonometric
+    # mean, minimum and maximum mu_r/mu_s over the passage [-]; the extremes of the trigonometric
     # interpolant through the positions
     mu_ratio: float
     mu_ratio_min: float
@@ -72,9 +72,9 @@ class RoughFriction:
     mu_smooth: float
     film_min: float  # minimum film over the passage [m]; NaN where it ends
     # Rise of the pressure over the passage, its rms within NEAR
-    # and the greatest within INNER [Pa]
-    rise_rms: float
-    rise_max: float
+    # and the maximum within INNER [Pa]
+    increase_rms: float
+    increase_max: float
     pressure_max: float  # maximum pressure over the passage within INNER [Pa]
     # Mean share of the contact with less film than psd.film_limit [-], and what the error of the
     # film makes of it; NaN without a limit
@@ -119,8 +119,8 @@ def outcome(
 
     `load_balance`: what the roughness carries is taken off the smooth contact.
     """
-    if contact.thinnest <= 0.0:
-        return "film breakdown", too_high(-contact.thinnest * contact.operating.film_scale)
+    if contact.minimum_film <= 0.0:
+        return "film breakdown", too_high(-contact.minimum_film * contact.operating.film_scale)
     if contact.lost or (load_balance and contact.imbalance >= 1.0):
         return "load lost", "the roughness pressure exceeds the load"
     if not np.all(np.isfinite(ratios)):
@@ -148,29 +148,29 @@ def passed(
     ratios, visited = passage.ratios, max(1, contact.count * contact.points)
     low, share, high = contact.shares() if contact.levels else (math.nan,) * 3
     status, message = outcome
-    mean = least = greatest = math.nan
-    least_film = math.nan if status == "film breakdown" else contact.least_film()
+    mean = minimum = maximum = math.nan
+    min_film = math.nan if status == "film breakdown" else contact.min_film()
     if status == "predicted":
         fine = interpolated(ratios, 8) if passage.periodic else ratios
-        mean, least, greatest = (float(v) for v in (ratios.mean(), fine.min(), fine.max()))
+        mean, minimum, maximum = (float(v) for v in (ratios.mean(), fine.min(), fine.max()))
     return RoughFriction(
         status=status,
         message=message,
         mu_ratio=mean,
-        mu_ratio_min=least,
-        mu_ratio_max=greatest,
+        mu_ratio_min=minimum,
+        mu_ratio_max=maximum,
         position_error=passage.undecided,
         shifts=shifts,
         passage=ratios,
         mu_smooth=contact.mu_smooth(),
-        film_min=least_film * film_unit,
-        rise_rms=contact.rise_rms() * contact.operating.hertz_pressure,
-        rise_max=contact.greatest_rise * contact.operating.hertz_pressure,
-        pressure_max=contact.greatest_pressure * contact.operating.hertz_pressure,
+        film_min=min_film * film_unit,
+        increase_rms=contact.increase_rms() * contact.operating.hertz_pressure,
+        increase_max=contact.max_increase * contact.operating.hertz_pressure,
+        pressure_max=contact.max_pressure * contact.operating.hertz_pressure,
         below_limit=float(share),
         below_limit_error=0.5 * float(high - low),
         cavitated_share=contact.cavitated / visited,
-        cavitated_friction=contact.cavitated_bound(least) if status == "predicted" else math.nan,
+        cavitated_friction=contact.cavitated_bound(minimum) if status == "predicted" else math.nan,
         load_error=contact.imbalance,
         ended=contact.ended / visited,
         responses=responses,
@@ -186,7 +186,7 @@ def too_high(height: float) -> str:
 def broken(friction: RoughFriction, sustained: float) -> RoughFriction:
     """Return a prediction whose film ends between its positions: no film, no ratio.
 
-    `sustained`: least of what the film sustains less the deformed roughness [m].
+    `sustained`: minimum of what the film sustains less the deformed roughness [m].
     """
     return replace(
         friction,
@@ -203,7 +203,7 @@ def broken(friction: RoughFriction, sustained: float) -> RoughFriction:
 
 # Errors against the full simulation, measured in docs/evidence/thinning: relative, and of a film
 # beside that of the smooth contact by the rms height of the deformed roughness
-RMS_DEFORMED, RISE_RMS, RISE = 0.13, 0.05, 0.15
+RMS_DEFORMED_ERROR, INCREASE_RMS_ERROR, INCREASE_ERROR = 0.13, 0.05, 0.15
 ROUGH_FILM_ERROR = 0.35
 # Slip from which on that of the film is twice as large
 MUCH_SLIP = 0.2
@@ -247,16 +247,16 @@ def deformed_surface(
     deformed = of_each[0]
     of_all = math.hypot(*of_each) if together is None else together.deformed_rms
     ratio = film_minimum / of_all if of_all > 0.0 else math.nan
-    rms, rise = friction.rise_rms, friction.rise_max
+    rms, rise = friction.increase_rms, friction.increase_max
     share, share_error = friction.below_limit, friction.below_limit_error
     if friction.status != "predicted":
         rms = rise = share = share_error = math.nan
     values = {
         "h_min_rough_m": (friction.film_min, film_share(*velocity_ratios) * of_all),
-        "rms_deformed_m": (deformed, RMS_DEFORMED * deformed),
-        "lambda_ratio_deformed": (ratio, RMS_DEFORMED * ratio),
-        "p_rise_rms_Pa": (rms, RISE_RMS * rms),
-        "p_rise_max_Pa": (rise, RISE * rise),
+        "rms_deformed_m": (deformed, RMS_DEFORMED_ERROR * deformed),
+        "lambda_ratio_deformed": (ratio, RMS_DEFORMED_ERROR * ratio),
+        "p_rise_rms_Pa": (rms, INCREASE_RMS_ERROR * rms),
+        "p_rise_max_Pa": (rise, INCREASE_ERROR * rise),
         "film_below_limit_share": (share, share_error),
     }
     found: dict[str, Any] = {"film_limit_m": film_limit or None}

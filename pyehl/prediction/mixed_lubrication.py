@@ -1,24 +1,25 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Partial film: where the deformed roughness would come nearer than the layer on the surfaces.
+"""Partial film: where the deformed roughness would come nearer than the boundary film.
 
 The film of the response, at one position of the tile after another, must not be thinner than the
-layer (``lubricant.boundary_film``; under pressure it is compressed as the lubricant is). A pressure
-p_c of contact lifts it. It bends the surfaces as if the roughness r were r - p_c/K there, K being
-the stiffness of the half-space, and the fluid flattens that as it does any roughness. So the loss
-of film falls by T p_c/K and the pressure rises by T p_c, T by the response for waves that move with
-the lubricant as the films of touching nodes do. For waves as long as the contact T is near zero:
-what contact carries there the fluid no longer does, and the mean film remains that of the inlet.
+boundary film (``lubricant.boundary_film``; under pressure it is compressed as the lubricant is). A
+pressure p_c of contact lifts it. It bends the surfaces as if the roughness r were r - p_c/K there,
+K being the stiffness of the half-space, and the fluid flattens that as it does any roughness. So
+the loss of film falls by T p_c/K and the pressure rises by T p_c, T by the response for waves that
+move with the lubricant as the films of touching nodes do. For waves as long as the contact T is
+near zero: the load that solid contact carries there the fluid no longer does, and the mean film
+remains that of the inlet.
 
-It is thicker where contact would otherwise carry more than the load, and by what the layer gives. A
-column of lubricant that a peak has passed has the film of the layer at least. So the layer gives
-each the most that it has lacked on the way through the contact, on which peaks that slip pass it
-one after the other, and all films are thicker by the mean s of that:
+It is thicker where contact would otherwise carry more than the load, and by what the boundary film
+gives. A column of lubricant that a peak has passed has the film of the boundary film at least. So
+that gives each the most that it has lacked on the way through the contact, on which peaks that slip
+pass it one after the other, and all films are thicker by the mean s of that:
 
     s = < max(0, h_b - h_least - s) >,   h_least the minimum film of the column on its way.
 
-Without roughness this is not the solution of the smooth contact: the layer makes the film of its
-inlet thinner there. By as much as all films had to be thinner or thicker for the load share of that
-solution they may be wrong, and friction is relative to the smooth contact with those.
+Without roughness this is not the solution of the smooth contact: the boundary film makes the film
+of its inlet thinner there. By as much as all films had to be thinner or thicker for the load share
+of that solution they may be wrong, and friction is relative to the smooth contact with those.
 
 Compared with the full simulation in docs/evidence/partial.
 """
@@ -31,7 +32,7 @@ from typing import Any
 
 import numpy as np
 
-from pyehl.prediction.boundary_film import HOLD, LayeredContact, Level
+from pyehl.prediction.boundary_film import HOLD, Level, MixedContact
 from pyehl.prediction.friction import Outcome, RoughFriction, broken
 from pyehl.prediction.model import Components, Model, outside_range
 from pyehl.prediction.smooth import SmoothContact
@@ -43,15 +44,15 @@ from pyehl.types import Array, Settings
 POSITIONS = 16
 """Positions of the tile over its passage: 32 and 64 change the load share in docs/howto/mixed.md by
 0.2 % of itself. What every second one changes is in the errors."""
-HEATED_POSITIONS = 4
+TEMPERATURE_POSITIONS = 4
 """Of these, in which the temperature is computed: 8 and 16 change mu of such contacts by 0.03 %."""
 TOUCHING_FILM_ERROR = 0.45
 """Error of the film at which bodies touch, of the rms height of the deformed surface
 (docs/evidence/partial)."""
 WAVE_POINTS, SHORTER, CONTACT_POINTS = 8, 1e-3, (60.0, 128.0)
 """Points of the shortest waves, as many as a grid needs to resolve them; the share of the variance
-that shorter ones may have; the fewest points per shorter semi-axis, as without a layer, and the
-most: the time grows with their square."""
+that shorter ones may have; the fewest points per shorter semi-axis, as without a boundary film, and
+the most: the time grows with their square."""
 
 # Why contact at a boundary film is not predicted, or its errors are not known
 OF_TWO = "contact at a boundary film is predicted of one rough surface"
@@ -79,7 +80,7 @@ class MixedFilm:
     film_min: float = math.nan  # minimum film [m]
     film_min_error: float = math.nan
     # Friction over that of the smooth contact [-], and coefficient of the latter, both with the
-    # layer; NaN where bodies touch and its friction is not known
+    # boundary film; NaN where bodies touch and its friction is not known
     friction: float = math.nan
     friction_error: float = math.nan
     mu_smooth: float = math.nan
@@ -112,7 +113,7 @@ class MixedFilm:
         )
 
     @property
-    def lacks_friction(self) -> bool:
+    def friction_unknown(self) -> bool:
         """Whether bodies touch and the friction there is not known."""
         return self.touches and not math.isfinite(self.friction)
 
@@ -124,14 +125,14 @@ def mixed_film(
 
     `smooth`: the smooth contact with its boundary film.
     """
-    layer = float(settings["lubricant"]["boundary_film"])
-    if not layer > 0.0:
+    boundary = float(settings["lubricant"]["boundary_film"])
+    if not boundary > 0.0:
         return None
     if len(model.surfaces) > 1:
         return MixedFilm(OF_TWO)
     if not model.options.measured:
         return MixedFilm(OTHER_MODEL)
-    found = partial_film(model, waves, layer, settings, smooth)
+    found = partial_film(model, waves, boundary, settings, smooth)
     ratio, thinning = model.surfaces[0].velocity_ratio, model.contact.thinning
     if beyond := outside_range(model.operating, ratio, model.options, thinning):
         found = found.unknown(f"outside the range of the response by {', '.join(beyond)}")
@@ -141,23 +142,31 @@ def mixed_film(
 
 
 def partial_film(
-    model: Model, waves: Components, layer: float, settings: Settings, with_layer: SmoothContact
+    model: Model,
+    waves: Components,
+    boundary: float,
+    settings: Settings,
+    with_boundary_film: SmoothContact,
 ) -> MixedFilm:
-    """Find the partial film over a passage of one tile, with a layer [m], of a resolved case.
+    """Find the partial film over a passage of one tile, with a boundary film [m].
 
     Its errors are by a film that is thicker and thinner by its error; none where the smooth contact
-    `with_layer` is not known.
+    `with_boundary_film` is not known.
     """
     (grid,), (wave,), o = model.grids(), waves, model.operating
     friction = float(settings["lubricant"]["boundary_friction"])
     power = wave.spectrum.power * np.square(np.abs(wave.at_centre()))
     points = WAVE_POINTS / _shortest(wave.spectrum, power)
     within = min(max(points, CONTACT_POINTS[0]), CONTACT_POINTS[1])
-    contact = LayeredContact(model, waves, grid, within, layer, friction)
+    contact = MixedContact(model, waves, grid, within, boundary, friction)
     # what the smooth film may be off, where that is more: bodies touch where it is least
     of_smooth = np.nan_to_num(model.contact.minimum_film_error)
     margin = max(TOUCHING_FILM_ERROR * math.sqrt(float(power.sum())), float(of_smooth))
-    off = contact.film_off(with_layer.load_share) if with_layer is not model.contact else 0.0
+    off = (
+        contact.film_off(with_boundary_film.load_share)
+        if with_boundary_film is not model.contact
+        else 0.0
+    )
     margin = max(margin, abs(off)) if math.isfinite(off) else margin
     levels = [Level(film) for film in (0.0, margin, -margin)]
     steps = np.arange(POSITIONS) * (grid.shape[0] // POSITIONS)
@@ -165,19 +174,19 @@ def partial_film(
         if not all(contact.add(int(step), levels) for step in steps):
             return MixedFilm(UNSOLVED)
         smooth = contact.smooth_friction(off)
-        heat = contact.heat(steps[:: POSITIONS // HEATED_POSITIONS], settings)
+        heat = contact.heat(steps[:: POSITIONS // TEMPERATURE_POSITIONS], settings)
     load, load_error = _mean([level.load for level in levels])
     area, area_error = _mean([level.area for level in levels])
     ratio, ratio_error = _mean([[value / smooth for value in level.stress] for level in levels])
-    least = [level.least * o.film_scale for level in levels]
+    minimum = [level.minimum * o.film_scale for level in levels]
     found = MixedFilm(
         load_share=load,
         load_share_error=load_error,
         area_share=area,
         area_share_error=area_error,
-        film_min=least[0],
+        film_min=minimum[0],
         # bodies touch to HOLD
-        film_min_error=max(HOLD * least[0], *(abs(film - least[0]) for film in least[1:])),
+        film_min_error=max(HOLD * minimum[0], *(abs(film - minimum[0]) for film in minimum[1:])),
         friction=ratio,
         friction_error=ratio_error,
         mu_smooth=contact.coefficient(smooth),
@@ -222,7 +231,9 @@ def with_contact(found: Outcome, mixed: MixedFilm) -> tuple[Outcome, MixedFilm]:
     known = math.isfinite(mixed.friction)
     if friction.status != "predicted":
         # a full film that breaks down has no pressures
-        friction = replace(friction, rise_rms=math.nan, rise_max=math.nan, pressure_max=math.nan)
+        friction = replace(
+            friction, increase_rms=math.nan, increase_max=math.nan, pressure_max=math.nan
+        )
         friction = replace(friction, below_limit=math.nan, below_limit_error=math.nan)
     friction = replace(
         friction,
@@ -252,8 +263,8 @@ def _lost(friction: RoughFriction, mixed: MixedFilm) -> RoughFriction:
     return replace(none, status=status, message=message, mu_smooth=smooth)
 
 
-def contact_numbers(mixed: MixedFilm | None, layer: float, *, known: bool) -> dict[str, Any]:
-    """Give what a summary says of contact with a layer [a^2/R]; nothing without one.
+def contact_numbers(mixed: MixedFilm | None, boundary: float, *, known: bool) -> dict[str, Any]:
+    """Give what a summary says of contact with a boundary film [a^2/R]; nothing without one.
 
     `known`: whether the case lies in the range that the response was measured in.
     """
@@ -262,7 +273,7 @@ def contact_numbers(mixed: MixedFilm | None, layer: float, *, known: bool) -> di
     film = {"h_min_rough_error_m": mixed.film_min_error if known else math.nan}
     return {
         **(film if mixed.touches else {}),
-        "boundary_film": layer,
+        "boundary_film": boundary,
         "contact_load_share": mixed.load_share,
         "contact_load_share_error": mixed.load_share_error,
         "contact_load_share_error_note": mixed.note,

@@ -107,7 +107,7 @@ class ModelOptions:
     smooth: str = "solved"
     wavelength_convention: str = "components"  # one of :data:`pyehl.theory.amplitude.CONVENTIONS`
     stiffness: str = "exact"  # ``"exact"``: E'|q|/4; ``"paper"``: eq. 11 with wavelength 2 pi/|q|
-    # Whether the semi-ellipse gives up the load that delta p carries inside the contact: a Hertz
+    # Whether the semi-ellipse loses the load that delta p carries inside the contact: a Hertz
     # contact under the remaining load, p_h and a scaled by its cube root
     load_balance: bool = False
     # Film below which the share of the contact is reported [m]; 0: none
@@ -135,7 +135,7 @@ class ModelOptions:
 # Error of mu_r/mu_s against the full simulation: a part that small waves and tracks make at any
 # ratio, and a part that grows with the rise. Measured in docs/evidence/prediction.
 CONSTANT = 0.01
-SHARE_OF_RISE = 0.07
+SHARE_OF_INCREASE = 0.07
 # The same where the flow obeys a shear law, which hardly lets the friction rise
 # (docs/evidence/thinning)
 CONSTANT_THINNING = 0.004
@@ -162,7 +162,7 @@ def model_error(mu_ratio: float, *, thins: bool = False, ellipticity: float = 1.
     """
     if not mu_ratio <= KNOWN_RATIO:
         return math.nan
-    constant, share = CONSTANT, SHARE_OF_RISE
+    constant, share = CONSTANT, SHARE_OF_INCREASE
     if thins:
         constant, share = CONSTANT_THINNING, SHARE_THINNING
     return constant + share * abs(mu_ratio - 1.0) + NARROW * max(0.0, 1.0 / ellipticity - 1.0)

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from pyehl import extension
 from pyehl.prediction.response import AXIS, LINES, STATIONS, Transfer
 from pyehl.prediction.spectrum import Spectrum
-from pyehl.theory.disc import LARGEST, RADIUS, RIM_ANGLES, disc_correction, disc_rim, monomials
+from pyehl.theory.disc import EDGE_ANGLES, LARGEST, RADIUS, disc_correction, edge_of_disc, monomials
 from pyehl.theory.ellipse import Ellipse
 from pyehl.theory.ellipse_edge import ellipse_edge
 from pyehl.theory.operating import OperatingPoint
@@ -71,10 +71,10 @@ class Edge:
         twice = np.where((i == 0) | ((nx % 2 == 0) & (i == nx // 2)), 1.0, 2.0)
         amplitude = twice * spectrum.values[i, j] * flattened[i, j] / (nx * ny)
         if not i.size:
-            nothing = np.zeros((0, 0), complex), np.zeros((RIM_ANGLES.size, 0), complex)
+            nothing = np.zeros((0, 0), complex), np.zeros((EDGE_ANGLES.size, 0), complex)
             return cls(qx, qy, *nothing, shape)
         found = ellipse.correction(qx, qy) if ellipse else disc_correction(qx, qy)
-        rim = ellipse.rim(qx, qy) if ellipse else disc_rim(qx, qy)
+        rim = ellipse.rim(qx, qy) if ellipse else edge_of_disc(qx, qy)
         found, rim = found * amplitude, rim * amplitude
         if ellipse and beside is not None:
             # a wave whose amplitude changes across the motion is a sum of waves

@@ -31,7 +31,13 @@ from pyehl.prediction.friction import TRACKS, Outcome, RoughFriction, broken, ru
 from pyehl.prediction.mixed_lubrication import mixed_film, with_contact
 from pyehl.prediction.model import PIXEL_POINTS, Model, ModelOptions, RoughSurface, unpredictable
 from pyehl.prediction.result import Prediction, read_contact
-from pyehl.prediction.smooth import SmoothContact, heat_of, hertz_contact, solve_contact, with_layer
+from pyehl.prediction.smooth import (
+    SmoothContact,
+    heat_of,
+    hertz_contact,
+    solve_contact,
+    with_boundary_film,
+)
 from pyehl.prediction.spectrum import WORKING_PIXELS, Together
 from pyehl.surfaces import Topography
 from pyehl.theory.film import central_film
@@ -229,7 +235,7 @@ def predict(
     contact = _contact(settings, operating, lubricant, options, smooth)
     films = contact
     if options.smooth == "solved" and not float(settings["psd"]["film_thickness"]) > 0.0:
-        films = with_layer(settings, contact, lubricant)
+        films = with_boundary_film(settings, contact, lubricant)
     film = films.central_film if math.isfinite(films.central_film) else contact.central_film
     given = {"surface": surface, "second_surface": second_surface}
     rough = _surfaces(settings, given, operating, film * operating.film_scale, brief=brief)

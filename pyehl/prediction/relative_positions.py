@@ -27,9 +27,9 @@ Friction = Callable[[Position], float]
 
 POSITION_TOLERANCE = 2e-3
 """Error that half of the positions may make (relative) for no more to be added: a fifth of the
-least error of the model (:data:`pyehl.prediction.model.CONSTANT`)."""
+smallest error of the model (:data:`pyehl.prediction.model.CONSTANT`)."""
 EXTREMES = 32
-"""Positions at which minimum film and greatest increase of the pressure are looked for: at twice as
+"""Positions at which minimum film and maximum increase of the pressure are looked for: at twice as
 many they differ by 1 % at most (docs/evidence/thinning)."""
 
 MOST_PASSAGES = 12

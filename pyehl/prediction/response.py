@@ -85,7 +85,7 @@ def film_left(loss: Array) -> Array:
 def loss_at(film: Array) -> Array:
     """Loss of first order that leaves a film, both over the smooth film: `film_left` inverted.
 
-    A film that is not positive asks for an infinite one.
+    A film that is not positive needs an infinite one.
     """
     with np.errstate(divide="ignore"):
         beyond = -np.log(np.clip(film, 0.0, _LEFT) / _LEFT) / _RATE
@@ -290,8 +290,8 @@ class Transfer:
     bent: bool
     # The pressure of second order; None where the waves move with the roughness as they are
     second: SecondOrder | None = None
-    # Of an ellipse, what gives way where `off_centre` is [p_h R/a^2], of a half-space under a
-    # circle: on each of LINES (:func:`pyehl.theory.transport.pressed`)
+    # Of an ellipse, the pressure that is released where `off_centre` is [p_h R/a^2], of a
+    # half-space under a circle: on each of LINES (:func:`pyehl.theory.transport.pressed`)
     pressed: Sequence[Complex] = ()
     stiffening: float = 1.0  # stiffness over that of the half-space under a circle
     ellipticity: float = 1.0  # of the contact
@@ -370,7 +370,7 @@ class Transfer:
     def free_pressures(
         self, qx: Array, qy: Array, velocity_ratio: float
     ) -> tuple[list[Complex], ...]:
-        """Pressures by which free waves give way on an ellipse, of a half-space under a circle.
+        """Pressures that free waves release on an ellipse, of a half-space under a circle.
 
         At the stations, and what is added on each of LINES but the centre line.
         """

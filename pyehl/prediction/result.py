@@ -70,10 +70,10 @@ def summary_of(prediction: Prediction) -> dict[str, Any]:
     """Give the summary of a prediction; None for a number that does not exist."""
     f, o = prediction.friction, prediction.operating
     tiles = [one.topography for one in prediction.surfaces]
-    layer = float(prediction.settings["lubricant"]["boundary_film"]) / o.film_scale
+    boundary = float(prediction.settings["lubricant"]["boundary_film"]) / o.film_scale
     together = prediction.together.tile if prediction.together else None
     sigma = composite_rms(tiles, together)
-    lacking = prediction.mixed is not None and prediction.mixed.lacks_friction
+    missing = prediction.mixed is not None and prediction.mixed.friction_unknown
     rough = max(f.pressure_max, prediction.pressure_maximum) if f.status == "predicted" else None
     values: dict[str, Any] = {
         "kind": "prediction",
@@ -109,7 +109,7 @@ def summary_of(prediction: Prediction) -> dict[str, Any]:
         **absolute_friction(
             o, prediction.lubricant, prediction.film, f.mu_smooth, f.mu_ratio, prediction.heat
         ),
-        **({"mu_note": NO_FRICTION} if lacking else {}),
+        **({"mu_note": NO_FRICTION} if missing else {}),
         "thermal_reduction": o.thermal_reduction,
         "h_c_m": prediction.film,
         "h_c_error_m": prediction.films.central_film_error * o.film_scale,
@@ -135,7 +135,7 @@ def summary_of(prediction: Prediction) -> dict[str, Any]:
             known=prediction.is_known,
             together=prediction.together,
         ),
-        **contact_numbers(prediction.mixed, layer, known=prediction.is_known),
+        **contact_numbers(prediction.mixed, boundary, known=prediction.is_known),
         "cavitated_share": f.cavitated_share,
         "cavitated_friction": f.cavitated_friction,
         "load_error": f.load_error,
@@ -455,7 +455,7 @@ class Prediction:
     @property
     def why_no_error(self) -> str:
         """Why `model_error` is not known; '' where it is."""
-        if self.mixed and self.mixed.lacks_friction:
+        if self.mixed and self.mixed.friction_unknown:
             return NO_FRICTION
         of = self.mu_ratio, self.outside_range, self.options
         alone = thins(self.lubricant, self.operating) and not self.lubricant.shear.in_flow

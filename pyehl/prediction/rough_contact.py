@@ -35,7 +35,7 @@ from pyehl.prediction.moving_tile import (
 )
 from pyehl.prediction.response import FILM_ENDS, STATIONS, film_left
 from pyehl.prediction.smooth import SmoothContact
-from pyehl.theory.disc import RIM_ANGLES
+from pyehl.theory.disc import EDGE_ANGLES
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.shear import shear_stress
@@ -61,7 +61,7 @@ class Response:
 class ShearedContact:
     """Points of a contact, the shear stress integrals over them, and what was met so far."""
 
-    thinnest: float  # minimum film, by which its end is known
+    minimum_film: float  # minimum film, by which its end is known
     smooth: float  # sum of the stress of the smooth contact over the points, as `stress`
     points: int  # within the contact
     area: float  # that one of them stands for [m^2]
@@ -73,11 +73,11 @@ class ShearedContact:
         self.cavitated = 0  # points where the pressure is not positive
         self.count = 0  # positions
         self.ended = 0  # points where the film has ended
-        self.imbalance = 0.0  # greatest share of the load that delta p carries or takes off [-]
+        self.imbalance = 0.0  # largest share of the load that delta p carries or takes off [-]
         self.lost = False  # whether the roughness takes more pressure than there is
-        self.greatest_rise = -math.inf  # of the pressure over the smooth contact within INNER
-        self.greatest_pressure = -math.inf  # within INNER
-        self.squared_rise = 0.0  # sum over the positions of its mean square within NEAR
+        self.max_increase = -math.inf  # of the pressure over the smooth contact within INNER
+        self.max_pressure = -math.inf  # within INNER
+        self.squared_increase = 0.0  # sum over the positions of its mean square within NEAR
         # Films of which the share of points below is counted, and the points that were below
         self.levels: tuple[float, ...] = ()
         self.below = np.zeros(0, dtype=np.int64)
@@ -91,21 +91,21 @@ class ShearedContact:
     ) -> None:
         """Note what a position has: rise of pressure, pressure and film at points within."""
         squares = np.square(rise, dtype=np.float64)
-        self.squared_rise += float(squares.mean(where=near)) if near.any() else math.nan
+        self.squared_increase += float(squares.mean(where=near)) if near.any() else math.nan
         greatest = float(rise.max(where=inner, initial=-math.inf))
-        self.greatest_rise = max(self.greatest_rise, greatest)
+        self.max_increase = max(self.max_increase, greatest)
         greatest = float(pressure.max(where=inner, initial=-math.inf))
-        self.greatest_pressure = max(self.greatest_pressure, greatest)
+        self.max_pressure = max(self.max_pressure, greatest)
         for i, level in enumerate(self.levels):
             self.below[i] += np.count_nonzero(film < level)
 
-    def least_film(self) -> float:
+    def min_film(self) -> float:
         """Minimum film that was met, as reported."""
-        return self.thinnest
+        return self.minimum_film
 
-    def rise_rms(self) -> float:
+    def increase_rms(self) -> float:
         """Rms of the rise of the pressure over the positions within NEAR [p_h]."""
-        return math.sqrt(self.squared_rise / max(1, self.count))
+        return math.sqrt(self.squared_increase / max(1, self.count))
 
     def shares(self) -> Array:
         """Mean share of the contact below each level [-]."""
@@ -128,12 +128,12 @@ class ShearedContact:
         newtonian = self.lubricant.viscosity * self.operating.sliding_speed
         return found if self.thins else found * newtonian
 
-    def cavitated_bound(self, least: float) -> float:
-        """Bound of the share of friction where the pressure is zero, `least` the least ratio."""
+    def cavitated_bound(self, minimum: float) -> float:
+        """Bound of the share of friction where the pressure is zero, by the minimum ratio."""
         if self.cavitated == 0:
             return 0.0
-        stress = float(self.stress(np.array(0.0), np.array(self.thinnest)))
-        return self.cavitated * stress / (self.count * least * self.smooth)
+        stress = float(self.stress(np.array(0.0), np.array(self.minimum_film)))
+        return self.cavitated * stress / (self.count * minimum * self.smooth)
 
 
 class HertzContact(ShearedContact):
@@ -164,7 +164,7 @@ class HertzContact(ShearedContact):
         self.index = ((i % nx)[:, np.newaxis] * ny + j % ny)[inside]
         self.points = self.index.size
         # every height within |y| < a passes through the contact
-        self.thinnest = film - float(deformed[:, np.unique(j % ny)].max())
+        self.minimum_film = film - float(deformed[:, np.unique(j % ny)].max())
         self.semi_ellipse = np.sqrt(1.0 - self.radius_squared)
         self.inner, self.near = (self.radius_squared < r**2 for r in (INNER, NEAR))
         self.smooth = float(self.stress(self.semi_ellipse, np.array(film)).sum())
@@ -175,7 +175,7 @@ class HertzContact(ShearedContact):
         moved = [np.roll(v, pixels, (0, 1)) for v in (self.pressure, self.deformed)]
         delta, deformed = (values.ravel().take(self.index) for values in moved)
         film = self.film - deformed
-        if min(self.thinnest, float(film.min())) <= 0.0:
+        if min(self.minimum_film, float(film.min())) <= 0.0:
             return math.nan
         # times the area of the circle, not of its pixels: the load is 2 pi/3
         carried = 1.5 * float(delta.mean())
@@ -250,9 +250,9 @@ class RoughContact(ShearedContact):
         radius = self.radius[self.inside]
         self.inner, self.near = (radius < r for r in (INNER, NEAR))
         self.rings = np.searchsorted(RINGS, radius, side="right") - 1
-        self.contact, self.moved = smooth, np.zeros(RIM_ANGLES.size)
+        self.contact, self.moved = smooth, np.zeros(EDGE_ANGLES.size)
         self.outer, self.lowest = self._outer(smooth), float(smooth.film.min())
-        self.least = math.inf
+        self.minimum = math.inf
         self.weights = station_weights(self.x).astype(np.float32)
         self.expansion = self._expansion(smooth)
         # (n, points): what is summed over them is read in order
@@ -269,7 +269,7 @@ class RoughContact(ShearedContact):
             for value in order.of(*(powers or [wave.spectrum.power for wave in waves]))
         ]
         self.smooth = float(self.stress(self.pressure, self.film)[self.inside].sum())
-        self.thinnest = float(self.film[self.inside].min())
+        self.minimum_film = float(self.film[self.inside].min())
 
     @classmethod
     def on_pixels(
@@ -384,7 +384,7 @@ class RoughContact(ShearedContact):
         )
 
     def _outer(self, contact: SmoothContact) -> tuple[NDArray[Any], ...]:
-        """Points whose film moves with the edge, as `smooth_film` asks for them.
+        """Points whose film moves with the edge, as `smooth_film` takes them.
 
         Film (ny, nx), centre and points in nodes of the smooth contact, the place on the rim before
         each and the shares of this and the next one over the distance from the centre, and the
@@ -393,7 +393,7 @@ class RoughContact(ShearedContact):
         i, j = np.nonzero(self.inside & (self.radius > OUTER))
         steps = [axis[1] - axis[0] for axis in (contact.x, contact.y)]
         centre = np.array([-contact.x[0] / steps[0], -contact.y[0] / steps[1]])
-        count = RIM_ANGLES.size
+        count = EDGE_ANGLES.size
         angle = np.arctan2(self.across[j], self.x[i]) * (0.5 * count / math.pi)
         rim = np.floor(angle)
         share = np.stack([1.0 - (angle - rim), angle - rim], axis=-1)
@@ -414,9 +414,9 @@ class RoughContact(ShearedContact):
         extension.surface_functions.film_moved(*points, self.moved, place, film.reshape(-1))
         return film
 
-    def least_film(self) -> float:
+    def min_film(self) -> float:
         """Minimum film over the positions, as reported [a^2/R]."""
-        return self.least if self.thinnest > 0.0 else self.thinnest
+        return self.minimum if self.minimum_film > 0.0 else self.minimum_film
 
     def sheared(self, change: Single, smooth: Array) -> float:
         """Friction over that of the smooth contact, film and pressure changed by (m, n, 2).
@@ -434,13 +434,13 @@ class RoughContact(ShearedContact):
         self.imbalance = max(self.imbalance, abs(imbalance))
         sustained = float((self.ends * smooth - loss).min(initial=math.inf))
         if sustained <= 0.0:
-            self.thinnest = min(self.thinnest, sustained)
+            self.minimum_film = min(self.minimum_film, sustained)
             return math.nan
-        self.thinnest = min(self.thinnest, float(film.min(initial=math.inf)))
+        self.minimum_film = min(self.minimum_film, float(film.min(initial=math.inf)))
         pulling = np.flatnonzero(pressure <= 0.0)
         self.cavitated += pulling.size
         whole = film + missing(self.contact, smooth, self.lowest)
-        self.least = min(self.least, float(whole.min(initial=math.inf)))
+        self.minimum = min(self.minimum, float(whole.min(initial=math.inf)))
         self.meet(gain, pressure, whole, self.inner, self.near)
         if pulling.size:
             carried = np.bincount(self.rings, pressure, len(RINGS))
@@ -457,14 +457,14 @@ class RoughContact(ShearedContact):
             return float(self.stress(pressure, film).sum()) / self.smooth
 
 
-def missing(contact: SmoothContact, film: Array, least: float) -> Array | float:
+def missing(contact: SmoothContact, film: Array, minimum: float) -> Array | float:
     """Give what films H_s [a^2/R] of a smooth contact lack beside those extrapolated.
 
     They are scaled to the extrapolated central film; the minimum film lacks more than that, on the
-    grid of the smooth contact, whose `least` film it is. In between it is linear in the film.
+    grid of the smooth contact, whose `minimum` film it is. In between it is linear in the film.
     """
     central = contact.central_film
-    if not contact.extrapolated or least >= central:
+    if not contact.extrapolated or minimum >= central:
         return 0.0
-    share = np.clip((central - film) / (central - least), 0.0, 1.0)
-    return np.asarray((contact.minimum_film - least) * share)
+    share = np.clip((central - film) / (central - minimum), 0.0, 1.0)
+    return np.asarray((contact.minimum_film - minimum) * share)

@@ -43,7 +43,7 @@ from pyehl.types import Array, Complex, Settings
 
 NODES = 8
 """Nodes that a wave needs to be resolved."""
-CARRIED = 2
+ON_GRID = 2
 """Nodes that a wave needs to be on the grid at all."""
 TOLERANCE = 0.01
 """Share of mu_r/mu_s that may hang on waves that are not resolved, without a warning."""
@@ -94,7 +94,7 @@ class Resolution:
     def left_out(self) -> float:
         """Part of the ratio in waves with fewer than CARRIED nodes [-].
 
-        The error from two grids knows nothing of them: neither grid carries them.
+        They are not in the error from two grids: neither grid resolves them.
         """
         return self.mu_ratio - self.carried
 
@@ -136,7 +136,7 @@ def resolution(case: Case, tiles: Mapping[str, Topography] | None = None) -> Res
         for (tile, _), keys in zip(found, rough, strict=True)
     )
     model = Model(rough_tiles, contact, operating, lubricant, ModelOptions())
-    friction, below = run_and_below(model, NODES * mesh, CARRIED * mesh)
+    friction, below = run_and_below(model, NODES * mesh, ON_GRID * mesh)
     if not math.isfinite(friction.mu_ratio):
         raise EhlError(f"{friction.status}: {friction.message}")
     resolved, carried = below
@@ -160,7 +160,7 @@ LOG = logging.getLogger(__name__)
 
 # Points per half of the shortest wave along the motion, between which a cubic spline is used
 REFINEMENT = 2
-# A grid carries waves of more than two nodes: so that rounding does not decide
+# A grid resolves waves of more than two nodes: so that rounding does not decide
 BELOW = 1.0 - 1e-9
 # The pressure of the waves fades over this width at the edge of the contact [a]. Half of it and
 # twice change mu_r/mu_s of a wave of 0.5 a in the contact of Table 1 by 0.06 and 0.24 % at most,
@@ -228,7 +228,7 @@ def _pressure(waves: Sequence[_GridWaves], x: Array, y: Array, fronts: Array) ->
 def hand_over(
     solver: SolverHandle, settings: Settings, tiles: Mapping[str, Topography], *, whole: bool
 ) -> None:
-    """Give a solver the pressure that it asks for, or say why there is none.
+    """Give a solver the pressure that it starts from, or report why there is none.
 
     The solver then lets the roughness in behind a front. `whole`: none of `tiles`, by group, is
     only a part of the surface.
@@ -347,7 +347,7 @@ class _GridWaves:
 def _on_fewer_pixels(
     spectrum: Spectrum, transfer: Transfer, limits: tuple[float, float]
 ) -> tuple[Spectrum, Transfer]:
-    """Return a tile without waves of limits [1/a] and more on the pixels that a spline asks for."""
+    """Return a tile without waves of limits [1/a] and more on the pixels that a spline needs."""
     # two pixels for each that the waves need
     nx, ny = (
         min(n, 4 * (int(limit * pixel * n / (2.0 * math.pi)) + 1))

@@ -70,11 +70,11 @@ def without_surface(settings: Settings) -> dict[str, dict[str, Any]]:
     }
 
 
-def smooth_case(settings: Settings, *, layer: bool = False) -> str:
+def smooth_case(settings: Settings, *, boundary: bool = False) -> str:
     """Text of the case whose solution is the smooth contact under a resolved case.
 
     All of the case but its surface and what a smooth contact does not depend on, so that a new key
-    is obeyed. `layer`: with its boundary film. Cases that differ in their surface or the heat of
+    is obeyed. `boundary`: with its boundary film. Cases that differ in their surface or the heat of
     friction alone have the same; where the flow is Newtonian and the inlet not heated by shear, so
     have those that differ in their slip or their shear law.
     """
@@ -82,7 +82,7 @@ def smooth_case(settings: Settings, *, layer: bool = False) -> str:
     heated = bool(settings["lubricant"]["thermal_reduction"])
     of_contact = OF_SOLIDS + (() if thins or heated else OF_SLIP)
     of_lubricant = OF_CONTACT + (() if thins else OF_SHEAR) + (() if heated else OF_OIL)
-    if layer:
+    if boundary:
         of_contact = tuple(key for key in of_contact if key != "hardness")
         of_lubricant = tuple(key for key in of_lubricant if key != "boundary_film")
     left_out = {"contact": of_contact, "lubricant": of_lubricant}
@@ -95,7 +95,7 @@ def smooth_case(settings: Settings, *, layer: bool = False) -> str:
 
 
 def touching_points(settings: Settings) -> int:
-    """Nodes along X that tell whether the smooth contact of a resolved case touches.
+    """Nodes along X that decide whether the smooth contact of a resolved case touches.
 
     No fewer than it has; they resolve the inlet as ``fortran/steady/inlet.f90`` asks for, up to
     FINEST.
@@ -107,13 +107,13 @@ def touching_points(settings: Settings) -> int:
     points, length = int(grid["points"]), float(grid["x_outlet"]) - float(grid["x_inlet"])
     film = central_film(operating, lubricant) / operating.film_scale
     density = float(lubricant.density_ratio(operating.hertz_pressure))
-    layer = float(settings["lubricant"]["boundary_film"]) / operating.film_scale / density
-    if layer >= THICKER * film:
+    boundary = float(settings["lubricant"]["boundary_film"]) / operating.film_scale / density
+    if boundary >= THICKER * film:
         return points
     while 2 * points - 1 <= FINEST:
         missed = INLET * (length / (points - 1)) ** 2 * film ** (-4.0 / 3.0)
         # the film of a grid is thinner by more than it misses where it is thinnest
-        if missed <= RESOLVED or layer <= THINNEST * (1.0 - 2.0 * missed) * film:
+        if missed <= RESOLVED or boundary <= THINNEST * (1.0 - 2.0 * missed) * film:
             break
         points = 2 * points - 1
     return points
@@ -132,9 +132,9 @@ CYCLES = 100
 """Least `max_cycles` with a boundary film: of the 112 contacts of docs/evidence/inlet/share.csv
 that converge 13 take more than 30 cycles, and none more than 90."""
 TOUCHES = 1.2
-"""Films thicker than this many layers are taken not to touch: with such a layer the contacts of
-docs/evidence/inlet, on 257 x 257 nodes, have at most 2.4e-4 of their load at it, and none where
-that grid resolves the inlet; with a layer as thick as the film 3.5e-4."""
+"""Films thicker than this many boundary films are taken not to touch: with such a one the contacts
+of docs/evidence/inlet, on 257 x 257 nodes, have at most 2.4e-4 of their load at it, and none where
+that grid resolves the inlet; with a boundary film as thick as the film 3.5e-4."""
 
 THINNING_POWER = -4.0 / 3.0
 """Of the film in the viscosity that makes it, as waves notice it: the length of the inlet beside a
@@ -199,20 +199,22 @@ def solve_contact(settings: Settings) -> SmoothContact:
     return replace(found, newtonian=_solved(smooth_case(newtonian)))
 
 
-def with_layer(settings: Settings, contact: SmoothContact, lubricant: Lubricant) -> SmoothContact:
+def with_boundary_film(
+    settings: Settings, contact: SmoothContact, lubricant: Lubricant
+) -> SmoothContact:
     """Smooth contact with the boundary film of a case; `contact`, that without, if it is thinner.
 
     On the first grid that resolves its inlet. Its films are NaN, and the source says why, where
     none does or it does not converge.
     """
     operating = OperatingPoint.from_settings(settings)
-    layer = float(settings["lubricant"]["boundary_film"]) / operating.film_scale
+    boundary = float(settings["lubricant"]["boundary_film"]) / operating.film_scale
     pressure = np.maximum(contact.pressure, 0.0) * operating.hertz_pressure
     held = lubricant.density_ratio(pressure) * contact.film
-    if float(held.min()) > TOUCHES * layer:
+    if float(held.min()) > TOUCHES * boundary:
         return replace(contact, load_share=0.0)
     cycles = max(CYCLES, int(settings["solver"]["max_cycles"]))
-    found, why = _solved_with_layer(smooth_case(settings, layer=True), cycles)
+    found, why = _solved_with_boundary_film(smooth_case(settings, boundary=True), cycles)
     if found is not None:
         return found
     n = math.nan
@@ -231,7 +233,7 @@ def circle_of(
 def forget() -> None:
     """Solve anew what was kept, as `pyehl bench skips` does to see what keeping saves."""
     _solved.cache_clear()
-    _solved_with_layer.cache_clear()
+    _solved_with_boundary_film.cache_clear()
 
 
 @lru_cache(maxsize=8)
@@ -253,7 +255,7 @@ def _solved(text: str) -> SmoothContact:
 
 
 @lru_cache(maxsize=8)
-def _solved_with_layer(text: str, cycles: int) -> tuple[SmoothContact | None, str]:
+def _solved_with_boundary_film(text: str, cycles: int) -> tuple[SmoothContact | None, str]:
     """Solve with a boundary film; None, and why, where no grid has a solution that is its own."""
     options = [f"solver.max_cycles={cycles}"]
     why, points = "it does not converge", POINTS
@@ -299,7 +301,9 @@ def contact_of(
     """
     limit = summary["H_c_extrapolated"]
     how = "extrapolated" if limit is not None else "not extrapolated"
-    (central, error), (least, least_error) = (film_of(summary, name) for name in ("H_c", "H_min"))
+    (central, error), (minimum, minimum_error) = (
+        film_of(summary, name) for name in ("H_c", "H_min")
+    )
     share = summary.get("contact_load_share")
     film = film * (central / summary["H_c"])
     for values in (*axes, pressure, film):
@@ -311,9 +315,9 @@ def contact_of(
         central,
         math.nan if error is None else error,
         f"{where}, {how}",
-        least,
+        minimum,
         limit is not None,
-        minimum_film_error=math.nan if least_error is None else least_error,
+        minimum_film_error=math.nan if minimum_error is None else minimum_error,
         load_share=math.nan if share is None else share,
     )
 
@@ -441,7 +445,7 @@ class HeatOf:
 
 
 def mean_heat(parts: Sequence[Heat], weights: Sequence[float]) -> Heat:
-    """Heat of a rough contact in some positions: of friction a mean, of the rises the greatest."""
+    """Heat of a rough contact in some positions: of friction a mean, of the rises the maximum."""
     ratio = float(np.average([part.ratio for part in parts], weights=weights))
     first, second, third = (float(v) for v in np.max([part.rises for part in parts], axis=0))
     note = parts[0].note if math.isfinite(ratio) else NOT_CONVERGED

@@ -55,7 +55,7 @@ class Spectrum:
         return cls(values, qx, qy, (nx, ny))
 
     def __post_init__(self) -> None:
-        """Keep |q|, which all that follows asks for."""
+        """Keep |q|, which all that follows needs."""
         q = np.hypot(self.qx[:, np.newaxis], self.qy[np.newaxis, :])
         object.__setattr__(self, "q", q)
 

@@ -37,7 +37,7 @@ class Assessment(NamedTuple):
 def numbers_of(summary: Values) -> dict[str, str]:
     """Give names and values of what was found; nothing where there is no result."""
     conclusion = conclude(summary)
-    if conclusion.worth == "no result":
+    if conclusion.confidence == "no result":
         return {}
     found = {
         WORDS[name]: f"{name} = {_signs(text)}" if name in ("H_c", "H_min") else _signs(text)
@@ -85,5 +85,5 @@ def assess(summary: Values) -> Assessment:
     return Assessment(
         word.replace("no result", "no result").capitalize(),
         f"{why[:1].upper()}{why[1:]}.{hint}",
-        KINDS[conclusion.worth],
+        KINDS[conclusion.confidence],
     )

@@ -49,8 +49,8 @@ def write_pdf(page: Path, path: Path) -> Path:
         except (OSError, subprocess.TimeoutExpired) as error:
             raise EhlError(f"{path}: {program} did not print: {error}") from error
         if done.returncode != 0 or not partial.is_file():
-            said = done.stderr.decode(errors="replace").strip().splitlines()[-1:]
-            raise EhlError(f"{path}: {program} did not print: {' '.join(said)}")
+            message = done.stderr.decode(errors="replace").strip().splitlines()[-1:]
+            raise EhlError(f"{path}: {program} did not print: {' '.join(message)}")
         # a comment behind the end, by which it is known as ours
         with partial.open("ab") as stream:
             stream.write(f"%{mark('report')}\n".encode())

@@ -84,16 +84,16 @@ def limits(settings: Settings, summary: Values) -> list[str]:
 def _contact(settings: Settings, summary: Values) -> str:
     """Say what is known of solid contact: shares of a study are the largest of its cases."""
     share = summary.get("contact_load_share")
-    layer = float(settings["lubricant"]["boundary_film"])
+    boundary = float(settings["lubricant"]["boundary_film"])
     broken = summary.get("status") in ("film breakdown", "negative film")
     if share:
         return (
             f"Mixed lubrication: {100.0 * share:.2g} % of the load is on the boundary film "
-            f"of {layer * 1e9:.3g} nm, whose thickness and friction are given, not computed."
+            f"of {boundary * 1e9:.3g} nm, whose thickness and friction are given, not computed."
         )
-    if layer > 0.0 and share is None:
+    if boundary > 0.0 and share is None:
         return "Whether there is solid contact at the boundary film is not known."
-    if layer > 0.0:
+    if boundary > 0.0:
         return "There is no solid contact at the boundary film: the film is full."
     if broken:
         return (

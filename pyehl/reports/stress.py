@@ -12,8 +12,7 @@ from pyehl.plots.style import png
 from pyehl.plots.subsurface import stress_figures
 from pyehl.reports import page
 from pyehl.reports.page import Block
-from pyehl.subsurface.result import stress
-from pyehl.subsurface.text import facts
+from pyehl.subsurface.result import facts, stress
 
 FOLDER = "stress"
 """Where a report looks for the stress of a result, in its folder."""

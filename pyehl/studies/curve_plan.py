@@ -16,11 +16,9 @@ from pyehl.case import Case, files_of
 from pyehl.errors import InputError
 from pyehl.prediction.model import turned, unpredictable
 from pyehl.prediction.smooth import CYCLES, touching_points
-from pyehl.studies.estimate import duration, wall_seconds
-from pyehl.studies.plan import TaskList, check_maps, check_memory
-from pyehl.studies.study import MAX_CASES, Point, Study, make
+from pyehl.studies.plan import TaskList, check_maps, check_memory, duration, wall_seconds
+from pyehl.studies.study import MAX_CASES, Axis, Point, Study, make
 from pyehl.studies.tasks import Task
-from pyehl.studies.vary import Axis
 from pyehl.theory.load_share import LoadShare
 from pyehl.types import Settings
 

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Run the tasks of a Stribeck curve and write its table."""
+"""Run the tasks of a Stribeck curve, write its table and what ``pyehl stribeck`` prints."""
 
 import os
+from collections import Counter
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pandas as pd
 import xarray as xr
 
@@ -14,15 +16,103 @@ from pyehl.destination import AnyPath, Destination
 from pyehl.errors import InputError, did_you_mean
 from pyehl.given import Option, check_kind, options_of, path_of
 from pyehl.netcdf import write_netcdf
-from pyehl.studies import table
 from pyehl.studies.curve import CONCLUSION, curve_table, curves_of, units_of
 from pyehl.studies.curve_plan import KEYS, CurvePlan, plan_curve
-from pyehl.studies.gather import Outcome, gather
 from pyehl.studies.journal import FILES as JOURNAL
+from pyehl.studies.measured_friction import Measured
 from pyehl.studies.pool import check_jobs
-from pyehl.studies.vary import Axis, axes_of
+from pyehl.studies.study import Axis, axes_of
+from pyehl.studies.sweep import Outcome, gather, over, write_csv
 from pyehl.theory.load_share import AIHARA, LoadShare
+from pyehl.theory.transition import FULL_FILM, MIXED, OUTSIDE, Curve
 from pyehl.types import Row
+
+COLUMNS = {
+    "h_c_m": "h_c [m]",
+    "h_min_m": "h_min [m]",
+    "h_min_rough_m": "rough [m]",
+    "lambda_ratio": "Lambda",
+    "theta_2": "theta_2",
+    "hersey": "Hersey",
+    "mu_ratio": "mu_r/mu_s",
+    "mu_ratio_model_error": "+- model",
+    "mu": "mu",
+    "mu_isothermal": "isothermal",
+    "temperature_rise_max_K": "dT [K]",
+    "contact_load_share": "contact",
+    "contact_load_share_error": "+- contact",
+    "contact_area_share": "area",
+    "mu_empirical": "empirical",
+    "mu_ratio_ehl": "simulated",
+}
+
+
+def absolute_friction(plan: CurvePlan, table: pd.DataFrame) -> bool:
+    """Whether all results are coefficients of friction, where there is sliding.
+
+    A point whose smooth contact has no solution has a ratio, and is left out.
+    """
+    sliding = np.array([bool(p.settings["contact"]["slide_to_roll"]) for p in plan.points])
+    found = table[sliding & table["status"].isin((FULL_FILM, MIXED, OUTSIDE))]
+    found = found[(found["status"] != OUTSIDE) | found["mu_ratio"].notna()]
+    return bool(len(found) and found["mu"].notna().all())
+
+
+def report(plan: CurvePlan, table: pd.DataFrame) -> str:
+    """Return the table that is printed."""
+    keys = plan.study.keys
+    names = [name for name in COLUMNS if name in table and table[name].notna().any()]
+    head = [*(f"{key:>21}" for key in keys), *(f"{COLUMNS[name]:>10}" for name in names)]
+    lines = ["  ".join([*head, "status"])]
+    for row in table.to_dict("records"):
+        cells = [f"{row[key]:>21}" for key in keys]
+        cells += [f"{'-' if pd.isna(row[n]) else format(row[n], '.4g'):>10}" for n in names]
+        lines.append("  ".join([*cells, row["status"]]))
+    for curve in curves_of(plan, table):
+        lines.append(f"{curve.label + ': ' if curve.label else ''}{curve.ends}")
+        if ends := curve.lift_off:
+            lines.append(ends.words)
+    if plan.load_share is not None:
+        lines.append(plan.load_share.words)
+    return "\n".join(lines)
+
+
+def last_lines(plan: CurvePlan, table: pd.DataFrame) -> str:
+    """Report the point with the minimum film in full, and count the assessments of all."""
+    film = table["h_min_rough_m"].fillna(table["h_min_m"]).astype(float)
+    film = film[table["h_min_m"].notna()]
+    if film.empty:
+        return "assessment no result: no point has a film"
+    at_minimum = int(film.idxmin())
+    words = table["assessment"].str.partition(":")[0].where(table["status"] != OUTSIDE, OUTSIDE)
+    counts = ", ".join(f"{word} at {n}" for word, n in Counter(words).items())
+    return (
+        f"the minimum film is at {plan.points[at_minimum].point}:\n"
+        f"{table[CONCLUSION][at_minimum]}\n"
+        f"curve      {counts} of {len(table)} points"
+    )
+
+
+def deviation(curve: Curve, measured: Measured) -> list[str]:
+    """Report how far a curve is from measured friction."""
+    lines = []
+    for name in (measured.ordinate, "mu_empirical"):
+        if name not in curve.table:
+            continue
+        found = measured.deviation(name, curve)
+        known = np.isfinite(found)
+        if not known.any():
+            lines.append(f"measured   no point where there is {name}")
+            continue
+        worst = int(np.nanargmax(np.abs(found)))
+        lines.append(
+            f"measured   {name} is off by {np.mean(found[known]):+.1%} in the mean, "
+            f"{np.sqrt(np.mean(found[known] ** 2)):.1%} rms, {found[worst]:+.1%} at the most "
+            f"({measured.abscissa} = {measured.places[worst]:.4g}); {known.sum()} of "
+            f"{known.size} points"
+        )
+    return lines
+
 
 CSV, NETCDF, PICTURE = "stribeck.csv", "stribeck.nc", "stribeck.png"
 FILES = (CSV, NETCDF, PICTURE)
@@ -71,7 +161,7 @@ def perform(
         )
 
     def write(done: Mapping[int, Row]) -> None:
-        table.write_csv(folder / CSV, curve_table(plan, done).drop(columns=CONCLUSION))
+        write_csv(folder / CSV, curve_table(plan, done).drop(columns=CONCLUSION))
 
     place = Destination(folder, "stribeck", (*JOURNAL, *FILES), inputs, force=force)
     outcome = gather(plan.tasks, plan.identity(), place, write=write, **how)
@@ -89,7 +179,7 @@ def dataset(plan: CurvePlan, found: pd.DataFrame) -> xr.Dataset:
     if plan.load_share is not None:
         attributes["empirical"] = plan.load_share.words
     columns = found.drop(columns=CONCLUSION)
-    return table.over(plan.study, columns, units_of(plan), attributes, float).assign(ended)
+    return over(plan.study, columns, units_of(plan), attributes, float).assign(ended)
 
 
 def stribeck(

@@ -1,30 +1,214 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The plan of a study: its cases resolved and checked, how long, and what is shared."""
+"""The plan of a study: its cases resolved and checked, how long, and what is shared.
+
+Estimates are of one thread of the machine that they were measured on, good to a factor of two or
+so: what matters is that long cases begin first, and that the order of magnitude is known before a
+study runs. They are corrected by the cases that are finished.
+"""
 
 import json
 import os
 import time
-from collections.abc import Sequence
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from pyehl import library, surfaces
 from pyehl.case import Case, files_of
+from pyehl.case.line import TRANSVERSE
 from pyehl.errors import InputError
 from pyehl.given import key_of
 from pyehl.prediction.model import unpredictable
-from pyehl.prediction.smooth import smooth_case
+from pyehl.prediction.predict import other_spectra_count
+from pyehl.prediction.smooth import POINTS, smooth_case
 from pyehl.solver import Solver
-from pyehl.studies.estimate import duration, seconds_of, wall_seconds
+from pyehl.studies.pool import processors
 from pyehl.studies.study import Point, Study
 from pyehl.studies.tasks import Task
+from pyehl.surfaces import FEATURES, rough_groups
 from pyehl.theory.film import central_film
 from pyehl.theory.line_contact import LineContact, contact_of
 from pyehl.theory.line_contact import central_film as central_film_of_line
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-from pyehl.types import Settings
+from pyehl.theory.shear import ShearLaw
+from pyehl.types import Row, Settings
+
+PREDICTION, PREDICTION_PIXEL = 0.1, 1.4e-6
+"""Seconds of a prediction, and per pixel of its tile, without the smooth contact under it."""
+FULL = 2.8
+"""How many times as long one with tracks and bands takes."""
+PAIR, THINS, WIDER = 3.5, 2.0, 1.2
+"""How many times as long two rough surfaces take as both alone, and a flow that thins; power of
+b/a, or of a/b, with which it grows."""
+CONTACT = 1.0
+"""Seconds of the contact at a boundary film."""
+HEAVY = (2500.0, 5000.0)
+"""M above which the smooth contact under a prediction has no limit on POINTS, and on twice as many
+nodes a side."""
+START = 0.7
+"""Seconds until a worker process has begun."""
+FILM = 2e-3
+SMOOTH_LINE, SMOOTH_NODE = 5e-4, 5e-7
+"""Seconds of a smooth contact per line and per node of its finest grid."""
+STEP_NODE, MANY_WAVES = 2.7e-7, 1.25
+"""Seconds of a time step of a waviness per node; how much longer surfaces of many waves take."""
+
+
+def smooth_seconds(points: int, aspect: float = 1.0) -> float:
+    """Seconds of a smooth contact on points x points nodes, or so many times as many across."""
+    return aspect * (SMOOTH_LINE * points + SMOOTH_NODE * points**2)
+
+
+def seconds_of(settings: Settings, run: str, *, shared: bool = False, full: bool = False) -> float:
+    """Seconds of a resolved case on one thread of the machine that was measured on.
+
+    `shared`: the smooth contact under a prediction is there already; `full`: with tracks and bands.
+    """
+    if run == "film":
+        return FILM
+    rough = [settings[group] for group in rough_groups(settings)]
+    grid = settings["grid"]
+    points = int(grid["points"])
+    line = settings["contact"].get("shape") == "line"
+    aspect = _strip(settings) if line else (int(grid["points_y"]) - 1) / (points - 1)
+    if run == "predict":
+        return _predict_seconds(settings, aspect, shared=shared, full=full)
+    smooth = smooth_seconds(points, aspect)
+    moving = [surface for surface in rough if float(surface["velocity_ratio"]) > 0.0]
+    if not moving:
+        return smooth
+    mesh = (float(grid["x_outlet"]) - float(grid["x_inlet"])) / (points - 1)
+    # of two surfaces, whose common period may be longer, as of the slower one
+    longest = max(_time_to_settle(surface, settings) for surface in moving)
+    steps = int(settings["time"]["steps"]) or longest / mesh
+    hard = 1.0 if all(surface["kind"] == "harmonic" for surface in moving) else MANY_WAVES
+    coarser = 9.0 / 8.0 if settings["time"]["estimate_error"] else 1.0
+    return smooth + hard * coarser * STEP_NODE * points**2 * aspect * steps
+
+
+def _strip(settings: Settings) -> float:
+    """Rows of the strip of a line contact over its nodes along X; one row is next to nothing."""
+    grid, b = settings["grid"], contact_of(settings).hertz_radius
+    widths = [0.0]
+    for surface in (settings[group] for group in rough_groups(settings)):
+        if surface["kind"] == "harmonic":
+            widths.append(float(surface["wavelength_y"]) % TRANSVERSE)
+        elif surface["kind"] not in FEATURES:
+            widths.append(float(surface["length_y"]) / b)
+    domain = float(grid["x_outlet"]) - float(grid["x_inlet"])
+    return max(1.0 / int(grid["points"]), max(widths) / domain)
+
+
+def _predict_seconds(settings: Settings, aspect: float, *, shared: bool, full: bool) -> float:
+    rough = [settings[group] for group in rough_groups(settings)]
+    point = OperatingPoint.from_settings(settings)
+    thins = ShearLaw.from_settings(settings).in_flow
+    sides = [int(s["pixels"]) if s["kind"] == "fractal" else 256 for s in rough]
+    alone = sum(PREDICTION + PREDICTION_PIXEL * side**2 for side in sides)
+    beside = other_spectra_count(settings, rough_groups(settings))
+    alone *= (FULL + beside if full else 1.0) * (PAIR if len(rough) > 1 else 1.0)
+    alone *= THINS if thins else 1.0
+    kappa = point.ellipse.ellipticity
+    alone *= max(kappa, 1.0 / kappa) ** WIDER
+    if settings["lubricant"]["boundary_film"] > 0.0:
+        alone += CONTACT
+    if settings["psd"]["smooth"] != "solved" or shared:
+        return alone
+    grids = 1 + sum(point.moes_m > limit for limit in HEAVY)
+    smooth = sum(smooth_seconds(2**k * (POINTS - 1) + 1, aspect) for k in range(grids))
+    return alone + smooth * (THINS if thins else 1.0)
+
+
+def _time_to_settle(surface: Mapping[str, Any], settings: Settings) -> float:
+    """Time in a/u until the friction is known: the way into the contact and three periods.
+
+    Of a single feature its way through it.
+    """
+    if surface["kind"] in FEATURES:
+        # from where it matters until it has left
+        width = surface.get("width")
+        if width is None:
+            point = OperatingPoint.from_settings(settings)
+            width = float(surface["width_m"]) / point.hertz_radius
+        return (2.3 + 1.2 * float(width)) / float(surface["velocity_ratio"])
+    if surface["kind"] == "harmonic":
+        period = float(surface["wavelength_x"])
+    elif settings["contact"].get("moes_l") == 0.0:
+        period = 2.0  # no length follows from M alone
+    else:
+        period = float(surface["length_x"]) / OperatingPoint.from_settings(settings).hertz_radius
+    way = 1.05 - max(-1.5, float(surface["x_start"]))
+    return (way + 3.0 * period) / float(surface["velocity_ratio"])
+
+
+def duration(seconds: float) -> str:
+    """Give a time in words: '8 s', '3 min', '2.5 h'."""
+    if seconds < 0.95:
+        return f"{seconds:.1g} s"
+    if seconds < 90.0:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60.0:.0f} min" if seconds < 5400.0 else f"{seconds / 3600.0:.1f} h"
+
+
+class Remaining:
+    """The time that the tasks of a study still take, corrected by what the finished ones took."""
+
+    def __init__(self, tasks: Sequence[Task], workers: int) -> None:
+        self._tasks = {task.number: task for task in tasks}
+        self._workers = workers
+        self._began = time.monotonic()
+        # Seconds by kind of task: estimates of those left and of those finished, and measured
+        self._left: defaultdict[str, float] = defaultdict(float)
+        self._estimated, self._measured = self._left.copy(), self._left.copy()
+        for task in tasks:
+            self._left[task.run] += task.seconds
+        self.total = self.estimate
+
+    @property
+    def count(self) -> int:
+        """Number of tasks left."""
+        return len(self._tasks)
+
+    @property
+    def estimate(self) -> float:
+        """Seconds of the tasks left as they were estimated."""
+        return sum(self._left.values())
+
+    def remove(self, rows: Sequence[tuple[int, Row]]) -> None:
+        """Take finished tasks out."""
+        for number, row in rows:
+            task = self._tasks.pop(number)
+            self._left[task.run] -= task.seconds
+            if row["seconds"] is not None:
+                self._estimated[task.run] += task.seconds
+                self._measured[task.run] += row["seconds"]
+
+    @property
+    def seconds(self) -> float:
+        """Wall time left [s]: each kind of task by how long the finished ones of it took."""
+        done, estimated = sum(self._measured.values()), sum(self._estimated.values())
+        mean = done / estimated if estimated else 1.0
+        left = sum(
+            seconds * (self._measured[run] / self._estimated[run] if self._estimated[run] else mean)
+            for run, seconds in self._left.items()
+        )
+        if self._workers:
+            return left / self._workers
+        return left * (time.monotonic() - self._began) / done if done else left
+
+
+def wall_seconds(seconds: Sequence[float], jobs: int, repeat: float = 1.0) -> float:
+    """Wall time [s] of tasks in `jobs` worker processes beside what else the machine does now.
+
+    Each of the `seconds` stands for `repeat` tasks.
+    """
+    workers = min(jobs, len(seconds))
+    slower = max(1.0, (os.getloadavg()[0] + workers) / processors())
+    return START + slower * max(repeat * sum(seconds) / workers, *seconds)
+
 
 THREADS = "solver.threads"
 MOST, PATIENCE = 5000, 5.0

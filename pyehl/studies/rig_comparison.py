@@ -200,17 +200,17 @@ def _difference(step: Step, here: Callable[[str], object], over: Quantity) -> st
 
 def lines(found: list[Compared]) -> list[str]:
     """Give what ``pyehl compare --measured`` prints."""
-    told = []
+    lines = []
     for one in found:
         curve = one.curve
         repeats = int(curve.count.max())
-        told.append(
+        lines.append(
             f"{curve.quantity} over {curve.over}: {curve.places.size} measured points"
             + (f", means of up to {repeats}" if repeats > 1 else "")
         )
         if repeats > 1:
             known = np.isfinite(curve.scatter)
             scatter = float(np.median(curve.scatter[known] / curve.values[known]))
-            told.append(f"   scatter of repeats {scatter:.1%} (median)")
-        told += [f"   {part}" for part in one.parts]
-    return told + [f"left out  {words}" for words in found[0].left_out]
+            lines.append(f"   scatter of repeats {scatter:.1%} (median)")
+        lines += [f"   {part}" for part in one.parts]
+    return lines + [f"left out  {words}" for words in found[0].left_out]

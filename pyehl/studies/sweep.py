@@ -1,25 +1,200 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Run a study: many cases, one table; what is finished is kept."""
+"""Run a study: many cases, one table (CSV, xarray Dataset); what is finished is kept."""
 
 import os
-from collections.abc import Mapping, Sequence
+import signal
+import time
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import closing, nullcontext
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+import pandas as pd
 import xarray as xr
 
-from pyehl.case import Case
+from pyehl import arrays
+from pyehl.case import KEYS, Case
 from pyehl.destination import AnyPath, Destination
-from pyehl.given import Option, check_kind, options_of, path_of
+from pyehl.given import Option, bare, check_kind, options_of, path_of
 from pyehl.netcdf import write_netcdf
-from pyehl.studies import table
-from pyehl.studies.gather import Outcome, gather
+from pyehl.results import unit_of
+from pyehl.run import signals_to
+from pyehl.studies import pool
 from pyehl.studies.journal import FILES as JOURNAL
+from pyehl.studies.journal import Journal
 from pyehl.studies.plan import Plan, plan
 from pyehl.studies.pool import check_jobs
-from pyehl.studies.study import make
-from pyehl.studies.vary import axes_of
-from pyehl.types import Row
+from pyehl.studies.study import Point, Study, axes_of, make
+from pyehl.studies.tasks import FAILED, LAST, Task
+from pyehl.types import Row, Values
+
+# Seconds between tables that are written while a study runs
+TABLE_INTERVAL = 30.0
+
+
+class Watcher:
+    """What a driver does when a study reports something; this one does nothing."""
+
+    def began(self, tasks: Sequence[Task], done: Sequence[int], workers: int) -> None:
+        """Take all tasks, the numbers of those done, and of the workers (0: not known)."""
+
+    def finished(self, rows: Sequence[tuple[int, Row]]) -> None:
+        """Take rows that are in the journal now."""
+
+
+@dataclass(slots=True)
+class Outcome:
+    """How a study ended."""
+
+    rows: dict[int, Row]  # results by the number of the task
+    ran: int = 0  # tasks that were done now
+    interrupted: bool = False  # whether it was stopped
+    busy: float = 0.0  # seconds that these tasks took, all workers together
+    wall: float = 0.0  # seconds from the first task to the last row
+
+    def statuses(self) -> dict[str, int]:
+        """How many rows have each status."""
+        return dict(Counter(str(row.get("status")) for row in self.rows.values()))
+
+
+def gather(
+    tasks: Sequence[Task],
+    identity: Mapping[str, Any],
+    place: Destination | None = None,
+    *,
+    jobs: int = 0,
+    scheduler: str = "",
+    retry: bool = False,
+    watcher: Watcher | None = None,
+    write: Callable[[Mapping[int, Row]], None] | None = None,
+) -> Outcome:
+    """Do the tasks that are not in the journal of a folder.
+
+    `identity` is what makes them another study than others; `place` is the folder with the names
+    of its files, None: nothing is kept on disk. `jobs` worker processes do the tasks (0: as many
+    as processors), or those of a dask scheduler; `retry`: those that failed are done again. `write`
+    writes tables of the rows, now and then and at the end. InputError if the folder holds another
+    study or something else, or is in use; FileError if it cannot be written.
+    """
+    watcher = watcher or Watcher()
+    with nullcontext() if place is None else Journal(place.folder, identity, place) as journal:
+        rows = {} if journal is None else journal.rows
+        if retry:
+            for number in [n for n, row in rows.items() if row.get("status") == FAILED]:
+                del rows[number]
+        left = [task for task in tasks if task.number not in rows]
+        jobs = min(jobs or pool.processors(), len(left))
+        watcher.began(tasks, sorted(rows), 0 if scheduler else jobs)
+        outcome = Outcome(rows)
+        began = written = time.monotonic()
+        workers = pool.cluster_rows(left, scheduler) if scheduler else pool.rows(left, jobs)
+        try:
+            # a transaction of the journal that is interrupted is whole, or not there
+            with signals_to(signal.default_int_handler), closing(workers) as source:
+                for found in source:
+                    if journal is not None:
+                        journal.append(found)
+                    rows.update(found)
+                    outcome.ran += len(found)
+                    outcome.busy += sum(row.get("seconds") or 0.0 for _, row in found)
+                    watcher.finished(found)
+                    if write is not None and time.monotonic() - written > TABLE_INTERVAL:
+                        write(rows)
+                        written = time.monotonic()
+        except KeyboardInterrupt:
+            outcome.interrupted = True
+        outcome.wall = time.monotonic() - began
+        if write is not None:
+            write(rows)
+    return outcome
+
+
+# Words that are always in the table; other words only where they are asked for
+TEXTS = ("status", "message")
+WORDS = ("flags", "outside_range", "assessment")
+
+
+def columns(study: Study, rows: Mapping[int, Values]) -> list[str]:
+    """Names of the results in the table, behind what was varied."""
+    if study.outputs:
+        found: Iterable[str] = study.outputs
+    else:
+        names: dict[str, bool] = {}
+        for number in sorted(rows):
+            for name, value in rows[number].items():
+                text = isinstance(value, str) and name not in WORDS
+                names[name] = names.get(name, False) or text
+        found = [name for name, text in names.items() if not text]
+    skipped = {*LAST, *study.keys}
+    return [*(name for name in found if name not in skipped), *LAST]
+
+
+def results(study: Study, points: Iterable[Point], rows: Mapping[int, Values]) -> pd.DataFrame:
+    """Give what was varied and the results of all finished cases."""
+    names = columns(study, rows)
+    found = (
+        [*point.values.values(), *map(rows[point.number].get, names)]
+        for point in points
+        if point.number in rows
+    )
+    return pd.DataFrame(found, columns=[*study.keys, *names], dtype=object)
+
+
+def write_csv(path: Path, table: pd.DataFrame) -> None:
+    """Write a table, whole or not at all. FileError if it cannot be written."""
+    arrays.write_csv(path, list(table.columns), table.itertuples(index=False, name=None))
+
+
+def dataset(study: Study, points: Sequence[Point], rows: Mapping[int, Values]) -> xr.Dataset:
+    """Give the results over what was varied."""
+    table = results(study, points, {number: rows.get(number, {}) for number in range(study.size)})
+    films = ("h_c_m_", "h_min_m_")
+    units = {name: "m" if name.startswith(films) else unit_of(name) for name in table}
+    attributes = {"title": "study of pyehl", "run": study.run}
+    attributes |= {"set": "\n".join(map(bare, study.options))} if study.options else {}
+    return over(study, table, units, attributes)
+
+
+def over(
+    study: Study,
+    table: pd.DataFrame,
+    units: Mapping[str, str],
+    attributes: Mapping[str, str],
+    kind: type | None = None,
+) -> xr.Dataset:
+    """Give a table of all cases as a Dataset over what was varied.
+
+    Dimensions have the names of `Study.names`, and their keys as attributes; keys that move
+    together are coordinates of the dimension of the first of them, of a `kind` if it is given.
+    Where there is no number there is NaN, where there is no word ''.
+    """
+    called = study.names
+    names = tuple(called[axes[0].key] for axes in study.dimensions)
+    coords = {}
+    for axes, name in zip(study.dimensions, names, strict=True):
+        for a in axes:
+            about = {"key": a.key, "units": "1"}
+            if known := KEYS.get(a.key):
+                about["long_name"] = known.meaning
+                if known.unit not in ("", "-"):
+                    about["units"] = known.unit
+            coords[called[a.key]] = xr.Variable((name,), np.array(a.values, dtype=kind), about)
+    variables = {}
+    for name in table.columns.drop(study.keys):
+        if name in coords:
+            # the value that was given, see `ECHOED`
+            continue
+        column = table[name]
+        if name in TEXTS or column.map(type).eq(str).any():
+            values, about = column.fillna("").astype(str).to_numpy(str), {}
+        else:
+            values, about = column.to_numpy(float), {"units": units[name]}
+        variables[name] = xr.Variable(names, values.reshape(study.shape), about)
+    return xr.Dataset(variables, coords, attributes)
+
 
 CSV, NETCDF, CASES = "results.csv", "results.nc", "cases"
 
@@ -41,11 +216,11 @@ def perform(
     folder = Path(folder)
 
     def write(rows: Mapping[int, Row]) -> None:
-        table.write_csv(folder / CSV, table.results(todo.study, todo.points, rows))
+        write_csv(folder / CSV, results(todo.study, todo.points, rows))
 
     place = Destination(folder, "sweep", (*JOURNAL, CSV, NETCDF, CASES), force=force)
     outcome = gather(todo.tasks, todo.identity(), place, write=write, **how)
-    write_netcdf(folder / NETCDF, table.dataset(todo.study, todo.points, outcome.rows))
+    write_netcdf(folder / NETCDF, dataset(todo.study, todo.points, outcome.rows))
     return outcome
 
 
@@ -132,4 +307,4 @@ def sweep(
     outcome = perform(todo, folder, jobs=jobs, scheduler=scheduler, force=force)
     if outcome.interrupted:
         raise KeyboardInterrupt
-    return table.dataset(todo.study, todo.points, outcome.rows)
+    return dataset(todo.study, todo.points, outcome.rows)

@@ -1,8 +1,23 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Mean and amplitude of the stress that material points meet on their way through the contact.
+"""Stress cycles of material points on their way through the contact, fatigue and life.
 
-The deviator s of a point describes a path. Its amplitude is the radius, its mean the centre, of the
-smallest hypersphere around the path, with the norm sqrt(s:s/2) (Dang Van 1993, ASTM STP 1191, 120).
+Arrays of stress have the six components first, in the order of `pyehl.subsurface.half_space`.
+
+Criteria of multiaxial fatigue
+------------------------------
+Both weigh the amplitude of the deviator against the hydrostatic stress, with two fatigue limits of
+the material, in fully reversed torsion and bending. The amplitude is the radius of the smallest
+hypersphere around the path of the deviator s, with the norm sqrt(s:s/2); its centre is the mean
+(:class:`Cycle`).
+
+- Dang Van 1993 (ASTM STP 1191, 120): max over time of tau(t) + a p(t), where tau is the largest
+  shear of s(t) less the centre of the sphere, p the hydrostatic stress, a = 3 (t/f - 1/2).
+- Crossland 1956 (Int. Conf. Fatigue of Metals, London, 138): the radius, plus a times the largest
+  p, a = 3 t/f - sqrt(3).
+
+Each is below the limit in torsion t where the material endures.
+
+The life modification factor of rolling bearings by the film ratio is for comparison.
 """
 
 from __future__ import annotations
@@ -13,10 +28,63 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from pyehl.errors import InputError
 from pyehl.subsurface.half_space import COMPONENTS
 from pyehl.subsurface.loads import Loads
-from pyehl.subsurface.measures import deviator, hydrostatic, second_invariant
 from pyehl.types import Array
+
+
+def hydrostatic(stress: Array) -> Array:
+    """Mean normal stress, tension positive, (6, ...) to (...) [Pa]."""
+    return np.asarray((stress[0] + stress[1] + stress[2]) / 3.0)
+
+
+def deviator(stress: Array) -> Array:
+    """Stress less its mean normal stress, (6, ...) [Pa]."""
+    found = stress.copy()
+    found[:3] -= hydrostatic(stress)
+    return found
+
+
+def second_invariant(s: Array) -> Array:
+    """J2 = s:s/2 of a deviator (6, ...) [Pa^2]."""
+    squares = np.square(s)
+    return np.asarray(0.5 * squares[:3].sum(axis=0) + squares[3:].sum(axis=0))
+
+
+def von_mises(stress: Array) -> Array:
+    """Equivalent stress of von Mises, sqrt(3 J2) [Pa]."""
+    return np.asarray(np.sqrt(3.0 * second_invariant(deviator(stress))))
+
+
+def octahedral_shear(stress: Array) -> Array:
+    """Shear stress on the octahedral plane, sqrt(2 J2/3) [Pa]."""
+    return np.asarray(np.sqrt(2.0 / 3.0 * second_invariant(deviator(stress))))
+
+
+def principal_shear(stress: Array) -> Array:
+    """Largest shear stress, half the difference of the outer principal stresses [Pa]."""
+    return shear_and_mises(stress)[0]
+
+
+def shear_and_mises(stress: Array) -> tuple[Array, Array]:
+    """`principal_shear` and `von_mises`, both at once [Pa].
+
+    The principal deviators are 2 sqrt(J2/3) cos(angle + 2 pi m/3), with cos(3 angle) =
+    (3 sqrt(3)/2) J3/J2^1.5.
+    """
+    s = deviator(stress)
+    xx, yy, zz, xy, xz, yz = s
+    j2 = second_invariant(s)
+    j3 = xx * (yy * zz - yz**2) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz)
+    root = np.sqrt(j2)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        cosine = 1.5 * np.sqrt(3.0) * j3 / (j2 * root)
+    # rounding alone takes the cosine out of [-1, 1]; J2 = 0 has no shear
+    angle = np.arccos(np.clip(np.nan_to_num(cosine), -1.0, 1.0)) / 3.0
+    # the outer two differ by 2 sqrt(J2) sin(angle + pi/3)
+    return root * np.sin(angle + np.pi / 3.0), np.sqrt(3.0) * root
+
 
 # Lines across the motion whose material points have a history
 LINES = 33
@@ -175,3 +243,103 @@ def over_depth(cycles: list[Cycle]) -> list[tuple[str, Array, str]]:
             (f"sigma_{name}_amplitude", 0.5 * (top - bottom), f"amplitude of {name}, {at}")
         )
     return found
+
+
+CRITERIA = ("dang-van", "crossland")
+
+
+@dataclass(frozen=True, slots=True)
+class Fatigue:
+    """A criterion with the limits in torsion and bending [Pa]; InputError where it has no sense."""
+
+    criterion: str
+    torsion_limit: float
+    bending_limit: float
+
+    def __post_init__(self) -> None:
+        """Check the criterion and the limits."""
+        if self.criterion not in CRITERIA:
+            raise InputError(f"fatigue = {self.criterion!r}: expected one of {', '.join(CRITERIA)}")
+        for name in ("torsion_limit", "bending_limit"):
+            value = getattr(self, name)
+            if not (math.isfinite(value) and value > 0.0):
+                raise InputError(f"{name} = {value!r}: expected a fatigue limit > 0 [Pa]")
+        if not self.weight >= 0.0:
+            minimum = 0.5 if self.criterion == "dang-van" else 1.0 / math.sqrt(3.0)
+            raise InputError(
+                f"torsion_limit/bending_limit = {self.torsion_limit / self.bending_limit:.3g}: "
+                f"{self.criterion} is for a ratio of {minimum:.3g} or more (ductile metals)"
+            )
+
+    @property
+    def weight(self) -> float:
+        """Weight a of the hydrostatic stress [-]."""
+        ratio = 3.0 * self.torsion_limit / self.bending_limit
+        return ratio - (1.5 if self.criterion == "dang-van" else math.sqrt(3.0))
+
+    def largest(self, cycle: Cycle) -> float:
+        """Largest equivalent stress [Pa] of the material points of a cycle."""
+        if self.criterion == "crossland":
+            top = cycle.hydrostatic_mean + cycle.hydrostatic_amplitude
+            return float(np.max(cycle.amplitude + self.weight * top))
+        shear = principal_shear(deviator(cycle.history) - cycle.mean[:, np.newaxis])
+        return float(np.max(shear + self.weight * hydrostatic(cycle.history)))
+
+
+BEARINGS = ("ball", "roller")
+# Range of the viscosity ratio in which the factor has formulas, and its largest value
+KAPPA_MIN, KAPPA_MAX, LARGEST = 0.1, 4.0, 50.0
+# Radial bearings, ISO 281:2007, 9.3.3.3: constants by the upper end of kappa: A, B and exponent of
+# A - B/kappa^n; then the exponents of the bracket and of the contamination term
+_BALL = (
+    (0.4, 2.5671, 2.2649, 0.054381),
+    (1.0, 2.5671, 1.9987, 0.19087),
+    (4.0, 2.5671, 1.9987, 0.071739),
+)
+_ROLLER = (
+    (0.4, 1.5859, 1.3993, 0.054381),
+    (1.0, 1.5859, 1.2348, 0.19087),
+    (4.0, 1.5859, 1.2348, 0.071739),
+)
+_EXPONENTS = {"ball": (0.83, 1.0 / 3.0, -9.3), "roller": (1.0, 0.4, -9.185)}
+
+
+def kappa_of(lambda_ratio: float) -> float:
+    """Viscosity ratio kappa [-] of a film ratio Lambda: Lambda^1.3 (ISO/TR 1281-2)."""
+    return lambda_ratio**1.3
+
+
+def a_iso(kappa: float, contamination: float, bearing: str) -> float:
+    """Life modification factor a_ISO [-] of a radial bearing.
+
+    Parameters
+    ----------
+    kappa
+        Viscosity ratio [-], `KAPPA_MIN` to `KAPPA_MAX`; above it counts as `KAPPA_MAX`.
+    contamination
+        e_C C_u/P: contamination factor times fatigue load limit over equivalent load [-].
+    bearing
+        One of `BEARINGS`.
+
+    Returns
+    -------
+    float
+        At most 50, as the standard says. NaN below `KAPPA_MIN`, where it gives none.
+
+    Raises
+    ------
+    InputError
+        For another bearing, or a contamination term that is not positive.
+    """
+    if bearing not in BEARINGS:
+        raise InputError(f"bearing = {bearing!r}: expected one of {', '.join(BEARINGS)}")
+    if not (math.isfinite(contamination) and 0.0 < contamination <= 5.0):
+        raise InputError(f"contamination = {contamination!r}: expected e_C C_u/P, 0 ... 5 [-]")
+    if not kappa >= KAPPA_MIN:
+        return math.nan
+    within = min(kappa, KAPPA_MAX)
+    table = _BALL if bearing == "ball" else _ROLLER
+    first, second, last = _EXPONENTS[bearing]
+    _, a, b, n = next(row for row in table if within <= row[0])
+    bracket = 1.0 - (a - b / within**n) ** first * contamination**second
+    return min(LARGEST, 0.1 * bracket**last) if bracket > 0.0 else LARGEST

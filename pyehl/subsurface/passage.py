@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Stress below the surface under a result: one depth after the other, over all instants."""
+"""Stress below the surface under a result: one depth after the other, over all instants.
+
+The depths follow from the waves that a distribution of pressure has; near the surface roughness
+decides over the stress.
+"""
 
 from __future__ import annotations
 
@@ -9,18 +13,54 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
+import scipy.fft
 from tqdm import tqdm
 
-from pyehl.subsurface.cycle import Cycle, History, incomplete
-from pyehl.subsurface.depths import depths
-from pyehl.subsurface.fatigue import Fatigue
+from pyehl.prediction.friction import INCREASE_ERROR
+from pyehl.subsurface.cycle import Cycle, Fatigue, History, hydrostatic, incomplete, shear_and_mises
 from pyehl.subsurface.half_space import HalfSpace, Layer
 from pyehl.subsurface.loads import Load, Loads, steep_edge
-from pyehl.subsurface.measures import hydrostatic, shear_and_mises
 from pyehl.types import Array
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
+
+
+# Depth over depth of the row, and the deepest over the short side of the loaded area
+RATIO, DEEPEST = 1.3, 3.0
+# Share of the pressure, as a root mean square over the loaded area, whose waves are not resolved
+UNRESOLVED = 0.003
+# First depth over the one 1/k at which the shear of the shortest wave is largest
+FIRST = 0.4
+
+
+def shortest_wavenumber_depth(pressure: Array, mesh: tuple[float, float]) -> float:
+    """1/k of the shortest wave that counts, in the unit of the mesh sizes.
+
+    Waves are left out from the short end on until their pressure is `UNRESOLVED` of the whole.
+    """
+    power = np.square(np.abs(scipy.fft.rfft2(pressure)))
+    kx = 2.0 * np.pi * scipy.fft.fftfreq(pressure.shape[0], mesh[0])[:, None]
+    ky = 2.0 * np.pi * scipy.fft.rfftfreq(pressure.shape[1], mesh[1])[None, :]
+    k = np.hypot(kx, ky).ravel()
+    order = np.argsort(k)[::-1]
+    left_out = np.cumsum(power.ravel()[order])
+    first = int(np.searchsorted(left_out, UNRESOLVED**2 * left_out[-1]))
+    return 1.0 / max(float(k[order][first]), float(k[k > 0.0].min()))
+
+
+def depths(pressure: Array, mesh: tuple[float, float], short_side: float) -> Array:
+    """Depths (n,) from the surface down, the first one 0, in the unit of the mesh sizes.
+
+    The shear of a wave k is largest at the depth 1/k. The row begins above that of the shortest
+    wave that the pressure (nx, ny) has, and grows by `RATIO` to `DEEPEST` times the half width
+    `short_side` of the contact.
+    """
+    first = FIRST * min(shortest_wavenumber_depth(pressure, mesh), 0.5 * short_side)
+    last = DEEPEST * short_side
+    number = math.ceil(math.log(last / first) / math.log(RATIO)) + 1
+    return np.concatenate([[0.0], np.geomspace(first, last, number)])
+
 
 # Distance from the centre within which the largest shear is reported apart [semi-axes]: further out
 # the edge of the contact and the pressure spike count, which the roughness moves to and fro
@@ -189,3 +229,77 @@ def share_above(rows: list[Row], depth: float) -> float:
     share = np.array([row.above for row in rows])
     grid = np.union1d(z[z < depth], [depth])
     return float(np.trapezoid(np.interp(grid, z, share), grid) / depth)
+
+
+# Depth down to which the layer reaches, over that of the largest smooth shear
+NEAR = 0.25
+CHANGE_INNER, CHANGE_OUTER = INCREASE_ERROR, 1.0
+"""Error of a predicted change of the near-surface shear by the roughness, over that change: within
+`INNER` that of the largest rise of pressure; outside, where the roughness moves the edge of the
+contact and the linear response does not, all of it (docs/evidence/subsurface)."""
+
+Scalar = tuple[str, float, str, str]
+
+
+def near_surface(
+    found: Profile, depth: float | None, above: float | None, *, predicted: bool
+) -> list[Scalar]:
+    """Largest shear in the layer, and the share of its volume above the one asked for.
+
+    Parameters
+    ----------
+    found
+        Stress over depth [p_h].
+    depth
+        Of the layer [a]; None: `NEAR` times the depth of the largest smooth shear.
+    above
+        Whether a share was asked for, the shear of which `Row.above` is the share.
+    predicted
+        Whether the rough contact is predicted: then with errors.
+
+    Returns
+    -------
+    list
+        Name, value in Hertz units, unit in SI, meaning.
+    """
+    depth = depth or NEAR * largest(found.smooth)[1]
+    scalars: list[Scalar] = [
+        ("near_surface_depth", depth, "m", "depth of the near-surface layer"),
+    ]
+    pairs = [(found.rows, "", ""), (found.smooth, "_smooth", " of the smooth contact")]
+    for rows, end, of in pairs if found.rough else pairs[:1]:
+        inner, outer = (in_layer(rows, name, depth) for name in ("inner", "outer"))
+        meaning = f"largest principal shear in the near-surface layer{of}"
+        scalars += [
+            (f"near_surface_shear{end}", max(inner, outer), "Pa", meaning),
+            (
+                f"near_surface_shear_inner{end}",
+                inner,
+                "Pa",
+                f"{meaning}, within {INNER:g} semi-axes of the centre",
+            ),
+        ]
+        if above is not None:
+            meaning = f"share of the layer where the shear exceeds {above:g} Pa at some time{of}"
+            share = share_above(rows, depth)
+            scalars.append((f"near_surface_share{end}", share, "1", meaning))
+    if found.rough and predicted:
+        names = "near_surface_shear_error", "near_surface_shear_inner_error"
+        for name, error in zip(names, _errors(found, depth), strict=True):
+            scalars.append((name, error, "Pa", "estimate of its error"))
+    return scalars
+
+
+def _errors(found: Profile, depth: float) -> tuple[float, float]:
+    """Errors of the predicted shear in the layer [p_h]: of the largest one, and within `INNER`."""
+    reached = {}
+    for name, share in (("inner", CHANGE_INNER), ("outer", CHANGE_OUTER)):
+        pairs = zip(found.rough, found.smooth, strict=True)
+        peaks = [(r.depth, getattr(r, name).value, getattr(s, name).value) for r, s in pairs]
+        rows = [Row(z) for z, *_ in peaks]
+        for row, (_, rough, smooth) in zip(rows, peaks, strict=True):
+            row.shear.value = rough + share * abs(rough - smooth)
+        reached[name] = in_layer(rows, "shear", depth)
+    inner, outer = (in_layer(found.rough, name, depth) for name in ("inner", "outer"))
+    error = reached["inner"] - inner
+    return max(max(reached.values()) - max(inner, outer), error), error

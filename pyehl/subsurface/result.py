@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""``pyehl.stress``: stress below the surface as a labelled Dataset, and as a folder."""
+"""``pyehl.stress``: stress below the surface as a labelled Dataset, as a folder, in a few lines."""
 
 from __future__ import annotations
 
@@ -18,16 +18,91 @@ from pyehl.given import path_of
 from pyehl.netcdf import write_netcdf
 from pyehl.results import load
 from pyehl.schema import VERSION
-from pyehl.subsurface import life
-from pyehl.subsurface.cycle import incomplete, over_depth
-from pyehl.subsurface.fatigue import Fatigue
+from pyehl.subsurface.cycle import Fatigue, a_iso, incomplete, kappa_of, over_depth
 from pyehl.subsurface.half_space import COMPONENTS
 from pyehl.subsurface.loads import Loads, check_friction, loads_of
-from pyehl.subsurface.near_surface import near_surface
-from pyehl.subsurface.passage import Peak, Profile, largest, profile
+from pyehl.subsurface.passage import Peak, Profile, largest, near_surface, profile
 
 if TYPE_CHECKING:
+    import xarray as xr
+
     from pyehl.prediction.result import Prediction
+
+
+NOTES = "surface_note", "cycle_note"
+
+
+def text(data: xr.Dataset) -> str:
+    """Lines that ``pyehl stress`` prints."""
+    return "\n".join(f"{name:10} {words}" for name, words in facts(data))
+
+
+def facts(data: xr.Dataset) -> list[tuple[str, str]]:
+    """Name and words of each result."""
+    si = "principal_shear_max_Pa" in data
+    unit, length = ("MPa", "um") if si else ("p_h", "a")
+
+    def stress_of(name: str) -> float:
+        return float(data[f"{name}_Pa"]) * 1e-6 if si else float(data[name])
+
+    def length_of(name: str) -> float:
+        return float(data[f"{name}_m"]) * 1e6 if si else float(data[name])
+
+    def quantity(name: str, end: str = "") -> str:
+        depth = length_of(f"{name}{end}_depth")
+        return f"{stress_of(name + end):.4g} {unit} at a depth of {depth:.3g} {length}"
+
+    def percent(name: str, over: str) -> str:
+        return f"{100.0 * float(data[name]) / float(data[over]):.2g} %"
+
+    body = f"Poisson ratio {data.attrs['poisson']:g}; {data.attrs['friction_note']}"
+    error = percent("principal_shear_max_error", "principal_shear_max")
+    found = [
+        (f"body {data.attrs['body']}", body),
+        ("shear", f"{quantity('principal_shear_max')} (principal shear, +- {error})"),
+        ("von Mises", quantity("von_mises_max")),
+    ]
+    if "ratio_to_smooth" in data:
+        words = f"{quantity('principal_shear_max', '_smooth')}; rough over smooth "
+        words += f"{float(data.ratio_to_smooth):.3f}; {data.attrs['instants']} instants"
+        found.append(("smooth", words))
+    layer = f"the layer down to {length_of('near_surface_depth'):.3g} {length}"
+    words = f"{stress_of('near_surface_shear'):.4g} {unit} in {layer}"
+    if "near_surface_shear_error" in data:
+        at_edge, inner = (
+            percent(f"{name}_error", name)
+            for name in ("near_surface_shear", "near_surface_shear_inner")
+        )
+        words += f", +- {at_edge} ({inner} within 0.6 semi-axes)"
+    found.append(("near", words))
+    if "near_surface_share" in data:
+        words = (
+            f"{100.0 * float(data.near_surface_share):.3g} % of {layer} is above the given shear"
+        )
+        if "near_surface_share_smooth" in data:
+            words += f" (smooth: {100.0 * float(data.near_surface_share_smooth):.3g} %)"
+        found.append(("above", words))
+    if "shear_amplitude" in data:
+        k = int(data.shear_amplitude.values.argmax())
+        row = data.isel(Z=k)
+        depth = float(row.z_m) * 1e6 if si else float(row.Z)
+        amplitude = float(row.shear_amplitude_Pa) * 1e-6 if si else float(row.shear_amplitude)
+        words = f"{amplitude:.4g} {unit} of the deviator over the passage, at {depth:.3g} {length}"
+        found.append(("amplitude", words))
+    found += [("note", data.attrs[name]) for name in NOTES if name in data.attrs]
+    if "fatigue_stress_Pa" in data:
+        words = f"{float(data.fatigue_stress_Pa) * 1e-6:.4g} MPa, "
+        words += f"{float(data.fatigue_ratio):.3f} of the fatigue limit in torsion"
+        found.append(("fatigue", words))
+    if "kappa" in data:
+        words = f"{float(data.kappa):.3g} by Lambda^1.3 (ISO 281, for comparison)"
+        found.append(("kappa", words))
+    if "a_iso" in data:
+        factor = float(data.a_iso)
+        known = f"{factor:.3g}" if math.isfinite(factor) else "not defined below kappa = 0.1"
+        found.append(("a_ISO", known))
+    return found
+
 
 # Fewest depths of a profile
 FEWEST = 4
@@ -117,7 +192,7 @@ def stress(
         if value is not None and not (math.isfinite(value) and value > 0.0):
             raise InputError(f"{name} = {value!r}: expected a number > 0")
     if contamination is not None:
-        life.a_iso(1.0, contamination, bearing)
+        a_iso(1.0, contamination, bearing)
     place = None
     if output is not None:
         inputs = (results,) if isinstance(results, str | os.PathLike) else ()
@@ -216,7 +291,7 @@ def _loads(
             "load, or a result folder"
         )
     if data.attrs.get("kind") == "prediction":
-        from pyehl.subsurface.predicted import predicted_loads  # noqa: PLC0415 (solves a contact)
+        from pyehl.subsurface.loads import predicted_loads  # noqa: PLC0415 (solves a contact)
 
         return predicted_loads(data, body=body, friction=friction), data
     return loads_of(data, body=body, friction=friction), data
@@ -316,10 +391,10 @@ def _add_life(
         if contamination is not None:
             raise InputError("contamination: a_ISO needs Lambda, which a rough contact has")
         return
-    kappa = life.kappa(ratio)
+    kappa = kappa_of(ratio)
     data["kappa"] = _scalar(kappa, "1", "Lambda^1.3, for comparison with ISO 281")
     if contamination is not None:
-        factor = life.a_iso(kappa, contamination, bearing)
+        factor = a_iso(kappa, contamination, bearing)
         meaning = f"life modification factor of ISO 281, radial {bearing} bearing, for comparison"
         data["a_iso"] = _scalar(factor, "1", meaning)
 

@@ -7,15 +7,6 @@ y = j length_y/ny. Spectra are those of Jacobs, Junge & Pastewka 2017, in m^4.
 """
 
 # ruff: noqa: F401 (names for the rest of the package)
-from pyehl.surfaces.filters import (
-    filtered,
-    interpolated,
-    psd_2d,
-    psd_isotropic,
-    resampled,
-    shifted,
-    wavenumbers,
-)
 from pyehl.surfaces.from_case import (
     GROUPS,
     finished,
@@ -28,19 +19,32 @@ from pyehl.surfaces.from_case import (
     track_offsets,
     without_spikes,
 )
-from pyehl.surfaces.generators import FEATURES, fractal, harmonic
-from pyehl.surfaces.in_memory import (
-    Surface,
-    as_map,
-    given,
-    in_memory,
-    keep_beside,
-    part_of,
-    with_surface,
-)
-from pyehl.surfaces.options import Options
 from pyehl.surfaces.prepare import Preparation, prepare
 from pyehl.surfaces.reading import Scan, read_scan
-from pyehl.surfaces.solver_surface import SolverSurface, for_solver, gather
-from pyehl.surfaces.tile import MAX_PIXELS, Topography
-from pyehl.surfaces.working_map import Record
+from pyehl.surfaces.solver_surface import (
+    SolverSurface,
+    Surface,
+    as_map,
+    for_solver,
+    gather,
+    given,
+    in_memory,
+    part_of,
+    with_surface,
+    write_beside,
+)
+from pyehl.surfaces.tile import (
+    FEATURES,
+    MAX_PIXELS,
+    Topography,
+    filtered,
+    fractal,
+    harmonic,
+    interpolated,
+    psd_2d,
+    psd_isotropic,
+    resampled,
+    shifted,
+    wavenumbers,
+)
+from pyehl.surfaces.working_map import Options, Record

@@ -1,7 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Height maps as `.npy` arrays, and whether a surface fits into the memory before it is read."""
+"""What a reader finds in a file of heights: `.npy` arrays, encodings of text, and its memory."""
 
+import codecs
 import logging
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +14,98 @@ from pyehl import library
 from pyehl.errors import InputError, NoMemoryError
 from pyehl.given import real_numbers
 from pyehl.types import Array
+
+Sizes = tuple[float | None, float | None]
+
+UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
+"""Metres in the units of `surface.height_unit` and `surface.lateral_unit`."""
+
+# Metres in the units that headers name; a micro sign is two characters of Unicode, and in a file of
+# another encoding it is none
+_SPELT = {
+    r"nm|nanomet(?:er|re)s?|ナノメートル": 1e-9,
+    r"[uµμ\ufffd]m|microns?|micromet(?:er|re)s?|mikrometer|マイクロメートル": 1e-6,
+    r"mm|millimet(?:er|re)s?": 1e-3,
+    r"cm|centimet(?:er|re)s?": 1e-2,
+    r"pm|picomet(?:er|re)s?": 1e-12,
+    r"å|angstr[oö]ms?": 1e-10,
+    r"m|met(?:er|re)s?": 1.0,
+}
+UNIT = f"(?:{'|'.join(_SPELT)})"
+"""Regular expression of a unit of length, without regard to case."""
+_WHOLE = {re.compile(spelt, re.IGNORECASE): metres for spelt, metres in _SPELT.items()}
+
+
+def unit_of(text: str) -> float | None:
+    """Metres in a unit of length as headers spell it; None for another word."""
+    word = text.strip().strip("()[]")
+    # Mm and MM are no megametres in the header of an instrument
+    found = (metres for spelt, metres in _WHOLE.items() if spelt.fullmatch(word))
+    return next(found, None)
+
+
+@dataclass(slots=True)
+class Found:
+    """A height map as its file has it, with what the file says of units and size."""
+
+    # (nx, ny) in the numbers of the file, NaN where missing
+    heights: Array
+    # Metres in the unit of these numbers; None where the file names none
+    height_unit: float | None = None
+    # Along x and y: [m], or in the numbers of the file; None where the file has no size
+    size: Sizes = (None, None)
+    size_in_metres: bool = True
+    # Whether the unit of the size must be given, and is not that of the heights by default
+    ask_lateral_unit: bool = False
+    # Whether it is an array, with no word about how it came about
+    is_array: bool = False
+    is_periodic: bool = False
+    channel: str = ""
+    notes: list[str] = field(default_factory=list)
+    # Why there is no size, where it is not that the file has none
+    no_size: str = ""
+
+
+SAMPLE = 2**16
+"""Bytes that identify the encoding of a file."""
+_MARKS = {
+    codecs.BOM_UTF8: "utf-8-sig",
+    codecs.BOM_UTF32_LE: "utf-32",
+    codecs.BOM_UTF16_LE: "utf-16",
+    codecs.BOM_UTF16_BE: "utf-16",
+}
+# Characters of control that text has: tabs, ends of lines and pages, and the end of a DOS file
+_CONTROL = set(b"\t\n\v\f\r\x1a")
+
+
+def encoding_of(path: Path) -> str | None:
+    """Find the encoding of a text by its first bytes; None if it is no text."""
+    with path.open("rb") as stream:
+        first = stream.read(SAMPLE)
+    for mark, name in _MARKS.items():
+        if first.startswith(mark):
+            return name
+    half = len(first) // 2
+    for zeros, others, name in ((1, 0, "utf-16-le"), (0, 1, "utf-16-be")):
+        # text of digits has a zero in every pair of bytes
+        if first[zeros::2].count(0) > 0.8 * half > 0 and not first[others::2].count(0):
+            return name
+    if any(byte < 32 and byte not in _CONTROL for byte in first):
+        return None
+    try:
+        codecs.getincrementaldecoder("utf-8")().decode(first)
+    except UnicodeDecodeError:
+        return "latin-1"
+    return "utf-8"
+
+
+def lines_of(path: Path, encoding: str) -> Iterator[tuple[int, str]]:
+    """Lines of a text without their ends, with their numbers from 1."""
+    with path.open(encoding=encoding, errors="replace") as lines:
+        for number, line in enumerate(lines, 1):
+            # the mark of the order of bytes, where files were joined
+            yield number, line.rstrip("\r\n\x1a\ufeff").lstrip("\ufeff")
+
 
 WORKING_COPIES, PREDICTION_COPIES = 12, 28
 """Arrays of the size of the map that its preparation holds at once, and of the size of a made tile

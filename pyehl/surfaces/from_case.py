@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The surface that a resolved case asks for."""
+"""The surface of a resolved case."""
 
 import math
 from collections.abc import Mapping
@@ -11,14 +11,12 @@ from typing import Any
 from pyehl.case.surface_group import Surface as Keys
 from pyehl.errors import FileError, InputError
 from pyehl.surfaces.arrays import PREDICTION_COPIES, check_pixels
-from pyehl.surfaces.filters import filtered, shift_across
-from pyehl.surfaces.generators import fractal, harmonic
-from pyehl.surfaces.options import NEUTRAL, Options
 from pyehl.surfaces.prepare import prepare
 from pyehl.surfaces.profile import scan_of_profile
 from pyehl.surfaces.profile_file import Profile, is_profile, read_profile
 from pyehl.surfaces.reading import Scan, read_scan
-from pyehl.surfaces.tile import Topography
+from pyehl.surfaces.tile import Topography, filtered, fractal, harmonic, shift_across
+from pyehl.surfaces.working_map import NEUTRAL, Options
 from pyehl.theory.line_contact import LineContact
 from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Settings

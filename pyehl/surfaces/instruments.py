@@ -11,14 +11,13 @@ from typing import Any
 import numpy as np
 
 from pyehl.errors import EhlError, InputError, NoMemoryError
-from pyehl.surfaces.arrays import check_pixels
-from pyehl.surfaces.found import Found
+from pyehl.surfaces.arrays import Found, check_pixels
 from pyehl.surfaces.variants import data_fields, nms_missing, plain_tmd, plain_x3p
 
 INSTALL = "pip install 'pyehl[surfaces]', or pip install SurfaceTopography"
 ELSE = "; save the heights in m as .npy or text, and give surface.length_x and surface.length_y"
 HEAD = 512
-"""Bytes that tell the format of a file."""
+"""Bytes that identify the format of a file."""
 # Formats without a mark at their beginning: they would take any file of the right length
 UNMARKED = {"nms": ".nms", "hgt": ".hgt"}
 # Formats of plain text, which is read here line by line, see pyehl.surfaces.text_map
@@ -131,14 +130,14 @@ def _first(
 
 def _reason(error: Exception) -> str:
     """Give what a reader says, in one line."""
-    said = " ".join(str(error).split()).rstrip(".")
+    message = " ".join(str(error).split()).rstrip(".")
     if isinstance(error, KeyError):
-        return f"there is no {said} in it" if said else "a part of it is missing"
+        return f"there is no {message} in it" if message else "a part of it is missing"
     if isinstance(error, IndexError):
         return "it ends too early, or a part of it is missing"
     if isinstance(error, TypeError | AttributeError | AssertionError):
-        return f"its reader fails ({type(error).__name__}: {said})"
-    return said or type(error).__name__
+        return f"its reader fails ({type(error).__name__}: {message})"
+    return message or type(error).__name__
 
 
 def _read(path: Path, reader_class: Any, source: str | io.BytesIO, channel: str) -> Found:  # noqa: ANN401

@@ -5,21 +5,24 @@ The order is fixed: crop, sign, outliers, align_lines, fill, detrend, rotate, ed
 before the plane is fitted, which they would tilt, and holes before the map is turned; the edges are
 joined last. What the levelled map has besides roughness is in the record, see
 :mod:`pyehl.surfaces.findings`.
-What 'auto' means depends on what the file is, see :func:`pyehl.surfaces.options.defaults`.
+What 'auto' means depends on what the file is, see :func:`pyehl.surfaces.working_map.defaults`.
 """
 
 import logging
 from dataclasses import dataclass, field
+from pathlib import Path
 
 import numpy as np
+import scipy
 
+from pyehl.destination import new_file
 from pyehl.errors import InputError
-from pyehl.surfaces import defects, findings, map_steps
+from pyehl.surfaces import findings, map_steps
 from pyehl.surfaces.arrays import check_pixels
-from pyehl.surfaces.local_findings import dust_points
-from pyehl.surfaces.options import NEUTRAL, Options, defaults
+from pyehl.surfaces.findings import dust_points
 from pyehl.surfaces.reading import Scan
-from pyehl.surfaces.working_map import Record, Step, WorkingMap
+from pyehl.surfaces.tile import Topography
+from pyehl.surfaces.working_map import NEUTRAL, Options, Record, Step, WorkingMap, defaults
 from pyehl.types import Array, Mask
 
 LOG = logging.getLogger(__name__)
@@ -101,7 +104,7 @@ def _prepared(
 ) -> tuple[WorkingMap, Options, dict[str, str]]:
     """All steps but the last one; the mean is zero. `keep`: the heights of `scan` stay."""
     options, why = defaults(options, scan)
-    _tell(scan, "numbers")
+    _report(scan, "numbers")
     work = WorkingMap(scan, keep=keep)
     check_pixels(scan.origin, work.z.shape)
     if any(options.crop):
@@ -114,35 +117,35 @@ def _prepared(
     complete = bool(np.isfinite(work.z).all())
     valid = None if complete else np.isfinite(work.z)
     if options.outliers > 0.0:
-        _tell(scan, "outliers")
-        spiky = defects.prominence(work.z) > options.outliers
+        _report(scan, "outliers")
+        spiky = map_steps.prominence(work.z) > options.outliers
         # a median of 5 x 5 points does not see specks of half as many
-        spiky |= dust_points(defects.levelled(work.z), options.outliers)
+        spiky |= dust_points(map_steps.levelled(work.z), options.outliers)
         valid = ~spiky if valid is None else valid & ~spiky
         work.begin()
         work.own()[spiky] = np.nan
         work.do("outliers", f"{options.outliers:g}", work.z, changed=int(spiky.sum()))
     if options.align_lines != "none":
-        _tell(scan, "align_lines")
+        _report(scan, "align_lines")
         work.begin()
         map_steps.align_lines(work.own(), options.align_lines)
         work.do("align_lines", options.align_lines, work.z)
     if valid is not None:
-        _tell(scan, "fill")
+        _report(scan, "fill")
         _fill(work, options, valid)
     if options.detrend != "none":
-        _tell(scan, "detrend")
+        _report(scan, "detrend")
         work.begin()
         map_steps.level(work.own(), options.detrend, valid)
         work.do("detrend", options.detrend, work.z, why["detrend"])
-    _tell(scan, "findings")
+    _report(scan, "findings")
     periodic = options.edges == "periodic"
     corner = (options.crop[0], options.crop[2])
     work.findings = findings.find(
         work.z, work.pixel, options.detrend, periodic=periodic, corner=corner
     )
     if options.rotate % 360.0 != 0.0:
-        _tell(scan, "rotate")
+        _report(scan, "rotate")
         turned, pixel = map_steps.rotated(work.z, work.pixel, options.rotate)
         work.do("rotate", f"{options.rotate:g}", turned, pixel=pixel)
     z = work.own()
@@ -180,14 +183,14 @@ def _fill(work: WorkingMap, options: Options, valid: Mask) -> None:
             f"column {j}, and surface.fill = 'none'; with 'harmonic' they are interpolated"
         )
     try:
-        full = defects.filled(work.z, work.pixel, (options.crop[0], options.crop[2]))
+        full = map_steps.filled(work.z, work.pixel, (options.crop[0], options.crop[2]))
     except ValueError as error:
         raise InputError(f"{work.origin}: {error}") from None
     why = "given" if options.outliers > 0.0 else "only the edges of the holes are known"
     work.do("fill", options.fill, full, why, changed=missing)
 
 
-def _tell(scan: Scan, step: str) -> None:
+def _report(scan: Scan, step: str) -> None:
     """Describe which step of a large map begins."""
     if scan.heights.size >= LARGE:
         nx, ny = scan.heights.shape
@@ -201,3 +204,58 @@ def _check_rms(scan: Scan, rms: float) -> None:
             f"{scan.origin}: rms height {rms:.3g} m is outside {RMS_BAND[0]:g} ... "
             f"{RMS_BAND[1]:g} m; are the heights in m?"
         )
+
+
+SUFFIXES = (".npy", ".txt", ".nc")
+"""What a tile can be written as."""
+
+
+def write_map(tile: Topography, path: str | Path) -> Path:
+    """Write a tile, whole or not at all; the suffix of the path says as what.
+
+    ``.npy`` holds the heights alone, (nx, ny) in Fortran order. Text has one x per line and its
+    size in the header, ``# length_x = ... m``. netCDF holds ``heights(x, y)`` with the coordinates
+    of the pixels, their length, unit and that they are periodic, as xarray and SurfaceTopography
+    read it. Heights and lengths are in m. InputError for any other suffix; FileError if it cannot
+    be written.
+    """
+    path = Path(path)
+    writers = {".npy": _write_npy, ".txt": _write_text, ".nc": _write_netcdf}
+    if path.suffix not in writers:
+        raise InputError(f"{path}: a map is written as one of {', '.join(SUFFIXES)}")
+    with new_file(path) as partial:
+        writers[path.suffix](tile, partial)
+    return path
+
+
+def _write_npy(tile: Topography, path: Path) -> None:
+    with path.open("wb") as stream:
+        np.save(stream, np.asfortranarray(tile.heights))
+
+
+def _write_text(tile: Topography, path: Path) -> None:
+    header = (
+        "heights [m] of a tile, one x per line, y along the line\n"
+        f"length_x = {tile.length_x!r} m\nlength_y = {tile.length_y!r} m\nperiodic"
+    )
+    with path.open("wb") as stream:
+        # 17 digits: the same numbers when it is read
+        np.savetxt(stream, tile.heights, fmt="%.17g", header=header)
+
+
+def _write_netcdf(tile: Topography, path: Path) -> None:
+    with scipy.io.netcdf_file(path, "w", version=2) as file:
+        file.Conventions = "CF-1.8"
+        file.title = tile.origin or "tile of heights"
+        lengths = (tile.length_x, tile.length_y)
+        for name, n, length in zip("xy", tile.shape, lengths, strict=True):
+            file.createDimension(name, n)
+            axis = file.createVariable(name, "f8", (name,))
+            axis[:] = np.arange(n) * (length / n)
+            axis.length = np.float64(length)
+            axis.periodic = np.int32(1)
+            axis.unit = axis.units = "m"
+        heights = file.createVariable("heights", "f8", ("x", "y"))
+        heights[:] = tile.heights
+        heights.unit = heights.units = "m"
+        heights.long_name = "height, peaks positive"

@@ -16,9 +16,9 @@ import scipy
 
 from pyehl import lengths
 from pyehl.errors import InputError
-from pyehl.surfaces.generators import fractal
 from pyehl.surfaces.profile_file import Profile
 from pyehl.surfaces.reading import Scan
+from pyehl.surfaces.tile import fractal
 from pyehl.types import Array, Mask
 
 BAND = 1.959963984540054

@@ -4,23 +4,214 @@
 Axes: the first index of a map runs along x, which is the direction of motion, the second along y.
 An instrument file is taken as SurfaceTopography gives it: x along the lines of the image (its
 width), y across them. A map whose lay or motion is another way is turned by `surface.rotate`.
+
+Texts of known programs are read by their own rules. Heights that can hardly be those of a surface
+(marks of missing points, slopes) are reported.
 """
 
+import re
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pyehl.errors import EhlError, FileError, InputError
 from pyehl.library import check_memory
-from pyehl.surfaces import sense
-from pyehl.surfaces.arrays import read_npy
-from pyehl.surfaces.found import UNITS, Found, Sizes
+from pyehl.surfaces.arrays import UNITS, Found, Sizes, encoding_of, lines_of, read_npy
 from pyehl.surfaces.instruments import UnknownFormatError, read_instrument
-from pyehl.surfaces.text_file import encoding_of
-from pyehl.surfaces.text_map import LEAST_PIXELS, matrix_map, read_text_map
-from pyehl.surfaces.texts import read_known_text
+from pyehl.surfaces.text_map import MIN_PIXELS, matrix_map, read_text_map
+from pyehl.surfaces.text_table import HEADER_LINES, tables_of
+from pyehl.surfaces.variants import ZYGO_MAGIC, read_zygo
 from pyehl.types import Array
+
+_MARKS = (999.0, 9999.0, 99999.0, 999999.0, 32767.0, 32768.0, 65535.0, 65534.0, 1000001.0,
+          2147483640.0, 2147483647.0, 2147483648.0, 4294967295.0)  # fmt: skip
+"""Numbers that programs write for a missing point, of either sign."""
+HUGE, FAR = 1e30, 1e3
+"""Numbers from it on are no heights in any unit, and lengths [m] none of a surface."""
+APART = 0.5
+"""Of the range of all other heights: how far off a mark of missing points is at the least."""
+OFTEN, TIMES = 5, 8
+"""A height counts as frequent if it is so many times, and so many times as often as any
+other."""
+RANGES = 2.0
+"""Ranges of all other heights that are far."""
+STEEP = 1.0
+"""Slope of 45 degrees."""
+SAMPLE = 2**17
+"""Heights of a large map that are looked at, and of its slopes."""
+LINES = 256
+NORMAL = 0.6744897501960817
+"""Median of the absolute value of a normal distribution, over its standard deviation."""
+
+
+def unmarked(heights: Array, unit: float | None = None) -> list[str]:
+    """Take the marks of missing points out of heights in the numbers of the file, in place.
+
+    `unit` has the metres in the unit of these numbers, None where it is not known. Notes
+    say which, and how many. A mark is a number that programs write for a missing point, at one end
+    of all heights and far off the others.
+    """
+    notes = []
+    infinite = np.isinf(heights)
+    if infinite.any():
+        heights[infinite] = np.nan
+        notes.append(f"{int(infinite.sum())} infinite heights are missing points")
+    limit = HUGE if unit is None else min(HUGE, FAR / unit)
+    huge = np.abs(heights) >= limit
+    if huge.any():
+        heights[huge] = np.nan
+        notes.append(f"{int(huge.sum())} heights beyond {limit:g} are marks of missing points")
+    # one at each end, and a second one there
+    for _ in range(4):
+        mark = _mark(heights)
+        if mark is None:
+            break
+        marked = heights == mark
+        notes.append(f"{int(marked.sum())} heights of {mark:.10g} are marks of missing points")
+        heights[marked] = np.nan
+    return notes
+
+
+def _mark(heights: Array) -> float | None:
+    """Mark of missing points at one end of the heights; None if there is none."""
+    for end in (float(np.fmin.reduce(heights, None)), float(np.fmax.reduce(heights, None))):
+        if abs(end) not in _MARKS:
+            continue
+        others = heights[np.isfinite(heights) & (heights != end)]
+        if others.size < 2:
+            continue
+        low, high = float(others.min()), float(others.max())
+        if max(end - high, low - end) > APART * (high - low):
+            return end
+    return None
+
+
+def doubts(heights: Array) -> list[str]:
+    """Note heights that may be none: one value far more often than any other.
+
+    Of a large map a part of the heights is looked at.
+    """
+    part = heights.ravel()[:: max(1, heights.size // SAMPLE)]
+    values, counts = np.unique(part[np.isfinite(part)], return_counts=True)
+    if values.size < 2 * OFTEN:
+        return []
+    notes = [_far_end(values, counts, end) for end in (0, -1)]
+    ends = {0: "the smallest one", values.size - 1: "the largest one"}
+    # an end of the range of an instrument may be there at both
+    for place in np.argsort(counts)[:-3:-1]:
+        rest = np.delete(counts, [place, *ends]).max()
+        if counts[place] < max(OFTEN, TIMES * rest) or counts[place] > part.size // 2:
+            continue
+        value, often = float(values[place]), int(np.count_nonzero(heights == values[place]))
+        end = ends.get(int(place), "far more than are of any other value")
+        notes.append(
+            f"{often} heights are exactly {value:.10g}, {end}: if it marks missing points, or the "
+            "end of the range of the instrument, write nan in its place"
+        )
+    return [note for note in notes if note]
+
+
+def _far_end(values: Array, counts: NDArray[np.signedinteger], end: int) -> str:
+    """Note a least or largest height that is there twice or more, far off all others."""
+    others = values[1:] if end == 0 else values[:-1]
+    gap = float(np.abs(others - values[end]).min())
+    if counts[end] < 2 or gap <= RANGES * float(np.ptp(others)):
+        return ""
+    return (
+        f"heights of exactly {values[end]:.10g} are {gap:.6g} off all others: if they mark missing "
+        "points, write nan in their place"
+    )
+
+
+def slopes(heights: Array, pixel: tuple[float, float]) -> tuple[float, float]:
+    """Usual slope of a map (standard deviation by the median), and the share of steep steps.
+
+    Heights (nx, ny) [m], pixel size along x and y [m]. The usual slope of a large map is that of
+    lines in equal distances.
+    """
+    usual, steep, count = 0.0, 0, 0
+    for axis, size in enumerate(pixel):
+        lines = np.moveaxis(heights, axis, 1)
+        some = np.abs(np.diff(lines[:: max(1, heights.size // SAMPLE)], axis=1)) / size
+        if np.isfinite(some).any():
+            usual = max(usual, float(np.nanmedian(some)) / NORMAL)
+        for first in range(0, lines.shape[0], LINES):
+            steps = np.abs(np.diff(lines[first : first + LINES], axis=1))
+            steep += int(np.count_nonzero(steps > STEEP * size))
+            count += steps.size
+    return usual, steep / count if count else 0.0
+
+
+# Headers of Wyko, SPIP, Attocube and Nova, which SurfaceTopography knows: their numbers need
+# factors that the header has
+FLAVOUR = re.compile(
+    r"^Wyko ASCII|^#\s*File Format\s*=\s*ASCII|^\s*(?:Unit|Scale) (?:X|Data)\s*="
+    r"|height\s+conversion\s+factor",
+    re.IGNORECASE,
+)
+# A stylus instrument's, of Mahr
+PROFILE = re.compile(r"\bPRF\s*$")
+# Files that begin with the mark of a format that has a reader
+MARKED = ("aISO-1.0", "aBCR-1", "fileformat = bcr")
+
+
+def read_known_text(path: Path, encoding: str, channel: str) -> Found | None:
+    """Read a text of a known program; None if it is of none."""
+    first = [line for _, line in islice(lines_of(path, encoding), HEADER_LINES)]
+    if not first:
+        return None
+    if first[0].startswith(ZYGO_MAGIC):
+        return _zygo(path, encoding, channel)
+    if first[0].startswith(MARKED):
+        return read_instrument(path, channel)
+    if first[0].startswith("X;Y;valid") or (len(first) > 1 and PROFILE.search(first[1])):
+        raise InputError(
+            f"{path}: it is a profile along a line; a contact needs the map of an area"
+        )
+    if any(FLAVOUR.search(line) for line in first):
+        return _flavoured(path, encoding, channel)
+    return None
+
+
+def _zygo(path: Path, encoding: str, channel: str) -> Found:
+    """Heights of a text of Zygo."""
+    if channel:
+        raise InputError(f"{path}: surface.channel = '{channel}', but the file holds one map alone")
+    try:
+        read = read_zygo(line for _, line in lines_of(path, encoding))
+    except (ValueError, IndexError) as error:
+        raise InputError(f"{path}: cannot be read as a Zygo text file: {error}") from None
+    found = Found(read.heights, height_unit=1.0)
+    if read.pixel > 0.0:
+        nx, ny = read.heights.shape
+        found.size = nx * read.pixel, ny * read.pixel
+    else:
+        found.no_size = "line 8 of the file gives no size of a pixel"
+    return found
+
+
+def _flavoured(path: Path, encoding: str, channel: str) -> Found:
+    """Heights of a text whose header SurfaceTopography knows, every line read and counted here."""
+    tables = tables_of(path, encoding)
+
+    def lines() -> Iterator[str]:
+        for table in tables:
+            yield from table.header
+            yield from ("\t".join(map(repr, row.tolist())) for row in table.rows)
+
+    found = read_instrument(path, channel, "\n".join(lines()).encode())
+    sizes = {table.rows.size for table in tables}
+    if found.heights.size not in sizes:
+        raise InputError(
+            f"{path}: the file has {' or '.join(map(str, sorted(sizes)))} heights, and "
+            f"{found.heights.size} were read"
+        )
+    return found
+
 
 PIXEL_BAND = (1e-10, 1e-3)
 """Pixels outside of it [m] are mistakes of units."""
@@ -115,8 +306,8 @@ def _read(path: Path, given: Sizes, channel: str, height_unit: str, lateral_unit
     if len(given_names) == 1:
         size_from += " and the file"
     if given_names and own != (None, None):
-        said = " x ".join("?" if size is None else f"{size:.6g}" for size in own)
-        size_from += f" (in place of {said} m of the file)"
+        of_file = " x ".join("?" if size is None else f"{size:.6g}" for size in own)
+        size_from += f" (in place of {of_file} m of the file)"
     if not all(given):
         notes += why
     scan = Scan(
@@ -162,7 +353,7 @@ def _measured(path: Path, found: Found, height_unit: str) -> list[str]:
         raise InputError(
             f"{path}: surface.height_unit = '{height_unit}', but the file names its unit itself"
         )
-    notes = sense.unmarked(found.heights, found.height_unit) + sense.doubts(found.heights)
+    notes = unmarked(found.heights, found.height_unit) + doubts(found.heights)
     if found.height_unit is None:
         found.heights *= UNITS[height_unit]
         if height_unit != "m":
@@ -207,8 +398,8 @@ def _own_size(
 def _sensible(scan: Scan) -> Scan:
     """Refuse heights that are steeper than any surface, and note where some are."""
     nx, ny = scan.heights.shape
-    usual, share = sense.slopes(scan.heights, (scan.length_x / nx, scan.length_y / ny))
-    if usual > sense.STEEP:
+    usual, share = slopes(scan.heights, (scan.length_x / nx, scan.length_y / ny))
+    if usual > STEEP:
         raise InputError(
             f"{scan.origin}: the heights have a slope of {usual:.3g} nearly everywhere: a unit is "
             "wrong, of the heights (surface.height_unit; are they in m?), of x and y "
@@ -226,11 +417,11 @@ def _sensible(scan: Scan) -> Scan:
 
 def _check_shape(path: Path, shape: tuple[int, ...]) -> None:
     """Refuse what is no map."""
-    if min(shape) < LEAST_PIXELS:
+    if min(shape) < MIN_PIXELS:
         lines = ("a profile along one line", "a profile of x and z")
         what = f"; is it {lines[shape[1] - 1]}?" if shape[1] <= len(lines) < shape[0] else ""
         raise InputError(
-            f"{path}: the map must have at least {LEAST_PIXELS} x {LEAST_PIXELS} pixels, "
+            f"{path}: the map must have at least {MIN_PIXELS} x {MIN_PIXELS} pixels, "
             f"not {shape[0]} x {shape[1]}{what}"
         )
 

@@ -1,28 +1,174 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The surface of a case for the solver: what it cannot make or read itself."""
+"""The surface of a case for the solver and for ``ehl``: in memory, or prepared beside the case."""
 
 import logging
+import os
+import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from pyehl.case import Case, files_of
 from pyehl.case.surface_group import Surface as Keys
+from pyehl.destination import check_files, made_by, mark, new_file
 from pyehl.errors import InputError
+from pyehl.given import heights_of, real_numbers
 from pyehl.plan_text import making_text
-from pyehl.surfaces.filters import shift_across
 from pyehl.surfaces.from_case import GROUPS, moved, scan_of, whole
-from pyehl.surfaces.in_memory import given, part_of
-from pyehl.surfaces.map_steps import mirrored
-from pyehl.surfaces.options import NEUTRAL, Options
+from pyehl.surfaces.map_steps import filled, mirrored
 from pyehl.surfaces.prepare import consume
 from pyehl.surfaces.reading import plain_array
-from pyehl.surfaces.tile import Topography
-from pyehl.surfaces.working_map import Record
+from pyehl.surfaces.tile import Topography, shift_across
+from pyehl.surfaces.working_map import NEUTRAL, Options, Record
 from pyehl.theory.line_contact import contact_of
 from pyehl.types import Array, Settings
 
 LOG = logging.getLogger(__name__)
+
+Surface = Topography | ArrayLike
+"""A tile, or heights [m] of shape (nx, ny) that have the size that the case says."""
+
+IN_MEMORY = {
+    "surface": "heights in memory",
+    "second_surface": "heights of the second surface in memory",
+}
+"""What a surface in memory is called in place of a file, by the group of the case."""
+READY: Mapping[str, Any] = {
+    "surface.kind": "map",
+    "surface.channel": "",
+    "surface.detrend": "none",
+    "surface.edges": "periodic",
+    "surface.outliers": 0.0,
+    "surface.align_lines": "none",
+    "surface.profile": "none",
+    "surface.rotate": 0.0,
+    "surface.sign": 1,
+    "surface.height_unit": "m",
+    "surface.lateral_unit": "same",
+    "surface.crop_x_min": 0.0,
+    "surface.crop_x_max": 0.0,
+    "surface.crop_y_min": 0.0,
+    "surface.crop_y_max": 0.0,
+    "surface.tile_x": 0.0,
+    "surface.tile_y": 0.0,
+    "surface.tile_mirrored": False,
+}
+"""Options of a tile that is ready: nothing is left to prepare."""
+LARGE_PIXELS, PART_PIXELS = 2**20, 2**18
+"""Pixels of the largest tile that is looked at as a whole, and of a part of a larger one."""
+
+
+def in_memory(surface: Surface, group: Mapping[str, Any], name: str = "surface") -> Topography:
+    """Give a surface about its mean, of an array with the size in the group of that name.
+
+    Missing points of an array, nan or masked, are interpolated as those of a file are.
+    InputError if it is none of heights, or the case does not say its size.
+    """
+    if not isinstance(surface, Topography):
+        numbers = real_numbers(surface, name)
+        s = Keys.of(group)
+        size = s.tile_x or s.length_x, s.tile_y or s.length_y
+        if s.kind == "smooth" or s.fill == "none":
+            heights_of(numbers)
+        if s.kind not in ("map", "fractal") or not all(size):
+            raise InputError(
+                "heights are given, and the case does not say their size\n"
+                f"expected: {name}.kind = 'map' or 'fractal' with {name}.length_x and length_y, "
+                "or pyehl.Topography(heights, size)"
+            )
+        surface = _whole(numbers, size, group, name)
+    heights = surface.heights - surface.heights.mean()
+    return replace(surface, heights=heights, origin=surface.origin or IN_MEMORY[name])
+
+
+def _whole(
+    heights: Array, size: tuple[float, float], group: Mapping[str, Any], name: str
+) -> Topography:
+    """Tile of an array whose missing points are interpolated."""
+    missing = int(np.isnan(heights).sum()) if heights.ndim == 2 else 0
+    if not missing or Keys.of(group).fill == "none":
+        return Topography(heights_of(heights), size)
+    pixel = (size[0] / heights.shape[0], size[1] / heights.shape[1])
+    try:
+        full = filled(np.asarray(heights, dtype=np.float64), pixel)
+    except ValueError as error:
+        raise InputError(f"{IN_MEMORY[name]}: {error}") from None
+    LOG.info("%s: %d missing points were interpolated", IN_MEMORY[name], missing)
+    return Topography(full, size, f"{IN_MEMORY[name]}, {missing} missing points interpolated")
+
+
+def as_map(tile: Topography, group: str = "surface") -> dict[str, Any]:
+    """Options of a case with a tile in memory; they leave its track and the cut of its spectrum."""
+    length_x, length_y = tile.size
+    options = {
+        **READY,
+        "surface.file": IN_MEMORY[group],
+        "surface.tile_x": length_x,
+        "surface.tile_y": length_y,
+        "surface.length_x": length_x,
+        "surface.length_y": length_y,
+    }
+    return {key.replace("surface", group, 1): value for key, value in options.items()}
+
+
+def write_beside(tile: Topography, case: Path, group: str = "surface") -> str:
+    """Write a tile beside a resolved case, which then names it; returns the name of the file."""
+    name = f"{group}.npy"
+    np.save(case.with_name(name), tile.heights)
+    text = case.read_text(encoding="utf-8")
+    called = IN_MEMORY[group]
+    changed = re.sub(rf"^(\s*file = )'[^']*/{called}'", rf"\1'{name}'", text, flags=re.MULTILINE)
+    case.write_text(changed, encoding="utf-8")
+    return name
+
+
+def part_of(
+    heights: Array, pixel: tuple[float, float], origin: str, *, images: bool = False
+) -> Topography | None:
+    """Middle of a large surface, with its mirror images; None for one that is not large.
+
+    Heights (nx, ny) [m], pixel size along x and y [m]. `images`: the tile of the surface is it
+    with its mirror images, four times as many pixels. The part has at most `PART_PIXELS` pixels,
+    square where the surface is wide enough.
+    """
+    if heights.size * (4 if images else 1) <= LARGE_PIXELS:
+        return None
+    most = PART_PIXELS // 4
+    side = int(most**0.5)
+    nx = min(heights.shape[0], max(side, most // heights.shape[1]))
+    ny = min(heights.shape[1], most // nx)
+    i, j = (heights.shape[0] - nx) // 2, (heights.shape[1] - ny) // 2
+    tile = mirrored(heights[i : i + nx, j : j + ny])
+    tile -= tile.mean()
+    name = f"{origin}, {nx} x {ny} pixels in its middle"
+    return Topography(tile, (2 * nx * pixel[0], 2 * ny * pixel[1]), name)
+
+
+def given(heights: Array, surface: Mapping[str, Any]) -> Topography:
+    """Tile of heights [m] that stand in for the surface of a case; of a large one a part.
+
+    Its size is that of the tile in the group ``surface``, or that of the map.
+    """
+    s = Keys.of(surface)
+    x, y, images = s.tile_x or s.length_x, s.tile_y or s.length_y, s.tile_mirrored
+    pixel = (x / heights.shape[0], y / heights.shape[1])
+    if images:
+        pixel = (0.5 * pixel[0], 0.5 * pixel[1])
+    part = part_of(heights, pixel, "the heights", images=images)
+    return part or Topography(mirrored(heights) if images else heights, (x, y))
+
+
+def with_surface(case: Case, surface: Surface, group: str = "surface") -> tuple[Case, Topography]:
+    """Give a case with a surface in memory in place of that of a group, and it as a tile.
+
+    InputError if it is none of heights, or the case does not say its size.
+    """
+    tile = in_memory(surface, case.resolve().get(group, {}), group)
+    return case.with_options(as_map(tile, group)), tile
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,3 +250,44 @@ def for_solver(settings: Settings, group: str = "surface") -> SolverSurface:
     elif images:
         sizes.append(f"{group}.tile_mirrored=.true.")
     return SolverSurface(np.asfortranarray(heights), tuple(sizes), record, part)
+
+
+def write_resolved(
+    case: Case, path: str | os.PathLike[str], inputs: tuple[str | os.PathLike[str], ...] = ()
+) -> list[Path]:
+    """Write a resolved case, and prepared surfaces as .npy beside it; gives all files.
+
+    InputError if a file is in the way, or one of `inputs`; else as `for_solver`.
+    """
+    path = Path(path)
+    tiles = {group: path.with_name(f"{path.stem}_{group}.npy") for group in GROUPS}
+    inputs = (*inputs, *files_of(case.resolve()))
+    check_files([path], "check", inputs)
+    check_files(
+        tiles.values(),
+        "check",
+        inputs,
+        known=lambda tile: path.is_file() and made_by(path, f"'{tile.absolute()}'"),
+    )
+    written = [path]
+    for group, tile in tiles.items():
+        made = for_solver(case.resolve(), group)
+        if made.heights is None:
+            continue
+        with new_file(tile) as fresh:
+            np.save(fresh, made.heights)
+        written.append(tile)
+        if made.options:
+            case = case.with_options(*made.options)
+        surface = case[group]
+        x, y = (float(surface[f"tile_{axis}"] or surface[f"length_{axis}"]) for axis in "xy")
+        ready = as_map(Topography(made.heights, (x, y)), group)
+        ready[f"{group}.file"] = str(tile.absolute())
+        # what the heights have taken in
+        done = {"finish": "none", "track": 0.0, "ra": 0.0, "rq": 0.0}
+        ready |= {f"{group}.{k}": value for k, value in done.items() if surface[k] != value}
+        ready[f"{group}.tile_mirrored"] = surface["tile_mirrored"]
+        case = case.with_options(ready)
+    with new_file(path) as fresh:
+        fresh.write_text(f"! {mark('check')}\n{case.text}", encoding="utf-8")
+    return written

@@ -5,7 +5,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from pyehl.surfaces.found import UNIT, unit_of
+from pyehl.surfaces.arrays import UNIT, unit_of
 
 _NUMBER = r"[-+]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:e[-+]?\d+)?"
 _PER = r"(?:\s*(?:/|per)\s*(?:px|pix|pixels?|pts?|points?|samples?|digits?|画素))?"
@@ -235,7 +235,7 @@ def _put_unit(entry: _Entry, header: Header, found: dict[tuple[str, int], set[fl
 
 
 def _settle(header: Header, found: dict[tuple[str, int], set[float]]) -> None:
-    """Take what is said once."""
+    """Take what is given once."""
     for (kind, side), values in list(found.items()):
         if len(values) > 1:
             header.notes.append(f"the header says its {kind} in two ways: neither was taken")

@@ -1,15 +1,31 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A periodic tile of heights."""
+"""Periodic tiles of heights: made surfaces, spectra, cut-offs and the Fourier interpolant.
+
+The fractal generator is that of the compiled library, which the program `ehl` uses too: a seed is
+the same surface in both, to the bit. It is written there and not taken from a surface library
+because the seed must give the same surface for as long as the package lives, and because the
+modulus of each Fourier component must be selectable, exactly on the power law or random.
+
+Spectra follow Jacobs, Junge & Pastewka 2017 (doi 10.1088/2051-672X/aa51f8):
+C2D(q) = |dx dy sum z exp(-i q x)|^2/(Lx Ly) [m^4], so that h_rms^2 = sum C2D/(Lx Ly), and C_iso is
+its mean over annuli of |q|.
+"""
+
+from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from pyehl.errors import InputError
-from pyehl.given import real_numbers
-from pyehl.surfaces.prepare import Preparation
-from pyehl.types import Array
+from pyehl.errors import InputError, check
+from pyehl.extension import surface_functions
+from pyehl.given import positive, real_numbers
+from pyehl.types import Array, Complex
+
+if TYPE_CHECKING:
+    from pyehl.surfaces.prepare import Preparation
 
 MAX_PIXELS = 2**26
 """Most pixels a map may have (512 MB of heights)."""
@@ -107,3 +123,240 @@ class Topography:
     def rms_height(self) -> float:
         """Root mean square of the heights about their mean [m]."""
         return float(np.std(self.heights))
+
+
+FEATURES = ("dent", "bump", "ridge", "groove")
+"""Kinds of surfaces that pass the contact once; the solver alone makes them."""
+
+
+def fractal(
+    pixels: int | tuple[int, int],
+    length_x: float,
+    length_y: float,
+    *,
+    rms_height: float,
+    hurst: float,
+    rolloff_wavenumber: float = 0.0,
+    seed: int = 1,
+    modulus: str = "deterministic",
+    lay_ratio: float = 1.0,
+) -> Topography:
+    """Self-affine surface with random phases.
+
+    C2D is proportional to max(|q|, q_r)^(-2 - 2 hurst) up to the Nyquist wavenumbers of the tile,
+    zero at q = 0; q_r = `rolloff_wavenumber` [rad/m], 0: no roll-off. The rms height [m] is exact
+    for each surface, the mean is zero, the tile is periodic. `pixels` per side, or (nx, ny); size
+    of the tile in m; 0 < hurst <= 1. Two surfaces of one seed and different pixels are not the
+    same surface; the seed is not negative, of any size, and the phases come from the raw words of
+    PCG64, as NumPy seeds it. Modulus ``"deterministic"``: each component lies exactly on the power
+    law, only phases are random (the usual generator); ``"gaussian"``: amplitudes of a Gaussian
+    random field. `lay_ratio` r: length of correlation along x over that along y; q is then that
+    across the lay, max(1, r) q_x and q_y/min(1, r). InputError for an argument out of range.
+    """
+    nx, ny = (pixels, pixels) if isinstance(pixels, int) else pixels
+    if nx < 4 or ny < 4 or nx * ny > MAX_PIXELS:
+        raise InputError(f"pixels must be at least 4 per side and at most {MAX_PIXELS} in all")
+    if not 0.0 < hurst <= 1.0:
+        raise InputError(f"hurst must be in (0, 1], not {hurst!r}")
+    if not (math.isfinite(rolloff_wavenumber) and rolloff_wavenumber >= 0.0):
+        raise InputError(
+            f"rolloff_wavenumber must not be negative [rad/m], not {rolloff_wavenumber!r}"
+        )
+    lengths = {"rms_height": rms_height, "length_x": length_x, "length_y": length_y}
+    for name, value in lengths.items():
+        positive(name, value, "m")
+    positive("lay_ratio", lay_ratio, "-")
+    if seed < 0:
+        raise InputError(f"seed must not be negative, not {seed!r}")
+    if modulus not in ("deterministic", "gaussian"):
+        raise InputError(f"modulus {modulus!r}: expected 'deterministic' or 'gaussian'")
+
+    size = max(1, (seed.bit_length() + 31) // 32)
+    words = np.frombuffer(seed.to_bytes(4 * size, "little"), dtype="<i4").astype(np.int32)
+    z = np.empty((nx, ny))
+    # y is the first index of the library's array
+    status, message = surface_functions.fractal(
+        z.T,
+        length_x,
+        length_y,
+        rms_height,
+        hurst,
+        rolloff_wavenumber,
+        lay_ratio,
+        words,
+        int(modulus == "gaussian"),
+    )
+    check(status, message)
+    origin = f"fractal, hurst {hurst:g}, seed {seed}, {modulus} modulus"
+    return Topography(z, (length_x, length_y), origin, seed)
+
+
+def harmonic(
+    amplitude: float, wavelength_x: float, wavelength_y: float, pixels: tuple[int, int]
+) -> Topography:
+    """One tile of z = A cos(2 pi x/wavelength_x) cos(2 pi y/wavelength_y), eq. 15 behind the front.
+
+    Amplitude A and wavelengths, which are the size of the tile, in m; `pixels` (nx, ny).
+    """
+    nx, ny = pixels
+    x = np.cos(2.0 * np.pi * np.arange(nx) / nx)
+    y = np.cos(2.0 * np.pi * np.arange(ny) / ny)
+    return Topography(amplitude * np.outer(x, y), (wavelength_x, wavelength_y), "harmonic")
+
+
+def wavenumbers(topography: Topography) -> tuple[Array, Array]:
+    """q_x (nx, 1) and q_y (1, ny//2 + 1) of the half spectrum of a tile [rad/m]."""
+    nx, ny = topography.shape
+    dx, dy = topography.pixel
+    qx = np.asarray(2.0 * np.pi * np.fft.fftfreq(nx, dx), dtype=np.float64)
+    qy = np.asarray(2.0 * np.pi * np.fft.rfftfreq(ny, dy), dtype=np.float64)
+    return qx[:, np.newaxis], qy[np.newaxis, :]
+
+
+def psd_2d(topography: Topography) -> tuple[Array, Array, Array]:
+    """Power spectral density of a tile: qx (nx,), qy (ny,) [rad/m] and C2D (nx, ny) [m^4].
+
+    Wavenumbers ascend, zero at index nx//2 and ny//2; sum(C2D)/(Lx Ly) is the mean square height
+    about the mean.
+    """
+    nx, ny = topography.shape
+    dx, dy = topography.pixel
+    z = topography.heights - topography.heights.mean()
+    amplitude = np.fft.fft2(z, norm="forward")
+    area = topography.length_x * topography.length_y
+    c2d = np.fft.fftshift(area * np.abs(amplitude) ** 2)
+    qx = np.fft.fftshift(2.0 * np.pi * np.fft.fftfreq(nx, dx))
+    qy = np.fft.fftshift(2.0 * np.pi * np.fft.fftfreq(ny, dy))
+    return qx, qy, c2d
+
+
+def psd_isotropic(topography: Topography) -> tuple[Array, Array]:
+    """Mean of C2D over annuli of |q|: mean wavenumber (n,) [rad/m], ascending; C_iso (n,) [m^4].
+
+    The annuli are centred on the multiples of 2 pi/min(Lx, Ly) and as wide. What lies beyond the
+    smaller Nyquist wavenumber, where the square no longer fills the circle, is left out, and so
+    are empty annuli.
+    """
+    qx, qy, c2d = psd_2d(topography)
+    q = np.hypot(qx[:, np.newaxis], qy[np.newaxis, :])
+    step = 2.0 * np.pi / min(topography.length_x, topography.length_y)
+    largest = np.pi / max(topography.pixel)
+    ring = np.rint(q / step).astype(int)
+    keep = (ring > 0) & (q <= largest * (1.0 + 1e-12))
+    count = np.bincount(ring[keep])
+    filled = count > 0
+    mean_q = np.bincount(ring[keep], q[keep])[filled] / count[filled]
+    mean_c = np.bincount(ring[keep], c2d[keep])[filled] / count[filled]
+    return mean_q, mean_c
+
+
+def filtered(
+    topography: Topography,
+    shortest_wavelength: float = 0.0,
+    longest_wavelength: float = 0.0,
+    kind: str = "sharp",
+) -> Topography:
+    r"""Cut the spectrum of a periodic tile at a shortest and a longest wavelength [m]; 0: none.
+
+    As ISO 25178 has them, the S-filter and the L-filter; the wavelength of a component is 2
+    pi/\|q\|, the mean height goes with `longest_wavelength`. ``"sharp"``: components between the
+    cut-offs pass, those at them too, others do not; ``"gaussian"``: the areal Gaussian filters of
+    ISO 16610-61, of which half of the amplitude passes at the cut-off: exp(-pi (alpha l_c/l)^2)
+    for a shortest wavelength l_c, one less that for a longest, alpha = sqrt(ln 2/pi). InputError
+    for a negative or infinite wavelength, a longest that is not above the shortest, or another
+    kind.
+    """
+    for name, value in (("shortest", shortest_wavelength), ("longest", longest_wavelength)):
+        if not (math.isfinite(value) and value >= 0.0):
+            raise InputError(f"{name}_wavelength must not be negative [m], not {value!r}")
+    if longest_wavelength and longest_wavelength <= shortest_wavelength:
+        raise InputError(
+            f"longest_wavelength = {longest_wavelength!r} m is not longer than "
+            f"shortest_wavelength = {shortest_wavelength!r} m"
+        )
+    if kind not in ("sharp", "gaussian"):
+        raise InputError(f"filter {kind!r}: expected 'sharp' or 'gaussian'")
+    if not shortest_wavelength and not longest_wavelength:
+        return topography
+    z = np.array(topography.heights, dtype=np.float64, order="F")
+    status, message = surface_functions.filter_tile(
+        z,
+        topography.length_x,
+        topography.length_y,
+        shortest_wavelength,
+        longest_wavelength,
+        int(kind == "gaussian"),
+    )
+    check(status, message)
+    return replace(topography, heights=np.ascontiguousarray(z))
+
+
+LINES = 64
+"""Lines of a tile that are moved together."""
+
+
+def _shift_factor(q: Array, distance: float, nyquist: int | None) -> Complex:
+    factor = np.exp(-1j * q * distance)
+    if nyquist is not None:
+        # half of this component travels with +q and half with -q
+        factor[nyquist] = np.cos(q[nyquist] * distance)
+    return cast("Complex", factor)
+
+
+def shifted(topography: Topography, distance_x: float, distance_y: float = 0.0) -> Topography:
+    """Return the tile moved by a distance [m] towards positive x and y, by its Fourier interpolant.
+
+    Exact for the trigonometric polynomial through the heights; a shift by whole pixels is the
+    cyclic copy to rounding. The Nyquist component is indistinguishable from a standing wave and is
+    multiplied by the cosine of its phase, so it is the one part that a fraction of a pixel dims.
+    """
+    nx, ny = topography.shape
+    qx, qy = wavenumbers(topography)
+    fx = _shift_factor(qx[:, 0], distance_x, None if nx % 2 else nx // 2)
+    fy = _shift_factor(qy[0, :], distance_y, None if ny % 2 else ny // 2)
+    z = np.fft.rfft2(topography.heights) * fx[:, np.newaxis] * fy[np.newaxis, :]
+    heights = np.fft.irfft2(z, s=(nx, ny))
+    return replace(topography, heights=np.ascontiguousarray(heights))
+
+
+def shift_across(heights: Array, length_y: float, distance: float) -> None:
+    """Move a tile (nx, ny) along y by a distance [m] in place, as :func:`shifted` does."""
+    ny = heights.shape[1]
+    q = 2.0 * np.pi * np.fft.rfftfreq(ny, length_y / ny)
+    factor = _shift_factor(q, distance, None if ny % 2 else ny // 2)
+    for first in range(0, heights.shape[0], LINES):
+        part = slice(first, first + LINES)
+        heights[part] = np.fft.irfft(np.fft.rfft(heights[part], axis=1) * factor, n=ny, axis=1)
+
+
+def resampled(topography: Topography, pixels: tuple[int, int]) -> Topography:
+    """Return the tile on a finer grid by its Fourier interpolant, (nx, ny) = `pixels`.
+
+    InputError if the new grid has fewer pixels in a direction.
+    """
+    if pixels == topography.shape:
+        return topography
+    z = topography.heights
+    for axis in (0, 1):
+        old, new = topography.shape[axis], pixels[axis]
+        if new < old:
+            raise InputError(f"cannot resample {topography.shape} pixels to fewer, {pixels}")
+        if new == old:
+            continue
+        values = np.fft.rfft(z, axis=axis, norm="forward")
+        if old % 2 == 0:
+            # the Nyquist component is one of two conjugate halves on a finer grid
+            index = [slice(None), slice(None)]
+            index[axis] = slice(old // 2, old // 2 + 1)
+            values[tuple(index)] *= 0.5
+        z = np.fft.irfft(values, n=new, axis=axis, norm="forward")
+    return replace(topography, heights=np.ascontiguousarray(z))
+
+
+def interpolated(values: Array, times: int) -> Array:
+    """Trigonometric interpolant of a periodic sequence on so many times as many points."""
+    n = values.size
+    half = np.fft.rfft(values)
+    if n % 2 == 0:
+        half[-1] *= 0.5
+    return np.asarray(np.fft.irfft(half, times * n) * times)

@@ -1,21 +1,137 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Files of instruments that are right, and not as SurfaceTopography 1.27 expects them.
+"""Files of instruments that SurfaceTopography 1.27 does not read, or not as they are meant.
+
+Zygo MetroPro and Mx: XYZ Data File Format 1, ASCII Data File Formats 1 and 2 (MetroPro Reference
+Guide OMP-0347, appendix on data formats).
 
 TMD, NMS, X3P (ISO 25178-72: x3ptools of R writes the revision with an en dash and folds all into a
 folder; the standard allows heights in the XML itself), and Gwyddion files whose data have no units.
-The functions need NumPy alone, so that they could be part of the readers of SurfaceTopography.
+The module needs NumPy alone, so that it could be part of SurfaceTopography.
 """
 
 import io
 import re
 import struct
 import zipfile
+from collections.abc import Iterable
+from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
 from numpy.typing import NDArray
+
+ZYGO_MAGIC = ("Zygo XYZ Data File", "Zygo ASCII Data File")
+INVALID = 2147483640
+"""Whole numbers from it on are no phases."""
+RESOLUTION = {0: 4096, 1: 32768, 2: 131072}
+"""Counts of phase in a wave, by PhaseRes."""
+HEADER_LINES = 13
+
+
+@dataclass(frozen=True)
+class ZygoMap:
+    """Heights of a Zygo text file."""
+
+    # (nx, ny) [m], NaN where there are no data; x along the lines of the camera
+    heights: NDArray[np.float64]
+    # Side of a pixel [m]; 0: not calibrated
+    pixel: float
+
+
+def read_zygo(lines: Iterable[str]) -> ZygoMap:
+    """Read a Zygo text file; ValueError says which line is not what it should be."""
+    rest = iter(lines)
+    header = [line.strip() for line in islice(rest, HEADER_LINES)]
+    if len(header) < HEADER_LINES or not header[0].startswith(ZYGO_MAGIC):
+        raise ValueError(f"the header of a Zygo text file has {HEADER_LINES} lines at least")
+    is_list = header[0].startswith(ZYGO_MAGIC[0])
+    left, top, width, height = (int(v) for v in _numbers(header, 4, 4))
+    # heights are counts of phase times scale factor, wavelength and obliquity factor
+    _, scale, wavelength, _, obliquity, _, pixel = _numbers(header, 8, 7)
+    if min(width, height) < 1:
+        raise ValueError(f"line 4: a phase map of {width} x {height} points")
+    if is_list:
+        heights = _listed_heights(rest, (left, top), (width, height))
+    else:
+        resolution = int(_numbers(header, 11, 1)[0])
+        if resolution not in RESOLUTION:
+            raise ValueError(f"line 11: PhaseRes is {resolution}, not 0, 1 or 2")
+        intensities = int(np.prod(_numbers(header, 3, 5)[2:5]))
+        counts = _phases(rest, intensities, width * height)
+        counts[counts >= INVALID] = np.nan
+        factor = scale * wavelength * obliquity / RESOLUTION[resolution]
+        heights = factor * counts.reshape(height, width).T
+    return ZygoMap(np.ascontiguousarray(heights), pixel)
+
+
+def _numbers(header: list[str], line: int, count: int) -> list[float]:
+    """First numbers of a line of the header, counted from 1."""
+    words = header[line - 1].split()[:count]
+    try:
+        values = [float(word) for word in words]
+    except ValueError:
+        values = []
+    if len(values) < count:
+        raise ValueError(f"line {line}: {count} numbers were expected, not {header[line - 1]!r}")
+    return values
+
+
+def _listed_heights(
+    rest: Iterable[str], corner: tuple[int, int], shape: tuple[int, int]
+) -> NDArray[np.float64]:
+    """Heights [m] of lines of column, row and micrometres, between two '#'."""
+    heights = np.full(shape, np.nan)
+    seen = 0
+    begun = False
+    for line in rest:
+        words = line.split()
+        if words == ["#"]:
+            if begun:
+                break
+            begun = True
+            continue
+        if not words or not begun:
+            continue
+        try:
+            i, j = int(words[0]) - corner[0], int(words[1]) - corner[1]
+            value = np.nan if words[2].lower() == "no" else 1e-6 * float(words[2])
+        except (ValueError, IndexError):
+            raise ValueError(f"a point is {line.strip()[:40]!r}, not column, row, height") from None
+        if not (0 <= i < shape[0] and 0 <= j < shape[1]):
+            raise ValueError(
+                f"the point {words[0]} {words[1]} is outside of the {shape[0]} x {shape[1]} points "
+                "of line 4"
+            )
+        heights[i, j] = value
+        seen += 1
+    if seen != heights.size:
+        raise ValueError(f"{seen} points, but line 4 says {shape[0]} x {shape[1]}")
+    return heights
+
+
+def _phases(rest: Iterable[str], intensities: int, phases: int) -> NDArray[np.float64]:
+    """Read counts of phase: the block behind the intensities, each between two '#'."""
+    blocks: list[list[str]] = []
+    for line in rest:
+        words = line.split()
+        if words and words[0] == "#":
+            blocks.append([])
+        elif blocks:
+            blocks[-1] += words
+    # an end of file may follow the last '#'
+    filled = [block for block in blocks if block]
+    expected = [count for count in (intensities, phases) if count]
+    lengths = [len(block) for block in filled]
+    if lengths != expected:
+        raise ValueError(f"blocks of {lengths} numbers, but lines 3 and 4 say {expected}")
+    try:
+        return np.array(filled[-1], dtype=float)
+    except ValueError as error:
+        raise ValueError(f"a phase is no number: {error}") from None
+
 
 TMD_MAGIC = b"Binary TrueMap Data File v2.0"
 TMD_BEGIN = 32
@@ -178,7 +294,7 @@ def _like(element: ElementTree.Element, name: str) -> str:
     return f"{space}{brace}{name}"
 
 
-MAGIC = b"GWYP"
+GWY_MAGIC = b"GWYP"
 _ATOMS = {"b": "<b", "c": "<c", "i": "<i", "q": "<q", "d": "<d"}
 _ARRAYS = {"C": "S1", "I": "<i4", "Q": "<i8", "D": "<f8"}
 
@@ -189,10 +305,10 @@ def data_fields(data: bytes) -> dict[str, dict[str, Any]]:
     Each has ``xres``, ``yres``, ``xreal``, ``yreal``, ``data`` and, where the file names them,
     ``si_unit_xy`` and ``si_unit_z``. ValueError if the file is none, or ends too early.
     """
-    if not data.startswith(MAGIC):
+    if not data.startswith(GWY_MAGIC):
         raise ValueError("it does not begin as a Gwyddion file")
     try:
-        (_, container), _ = _object(data, len(MAGIC))
+        (_, container), _ = _object(data, len(GWY_MAGIC))
     except (struct.error, IndexError, ValueError) as error:
         raise ValueError(f"it ends within an item: {error}") from None
     fields = {}

@@ -33,7 +33,7 @@ the pressure of a disc with a fixed edge is singular and that of a contact is no
 
 RIM = 1e-5
 """z at which the pressure next to the edge is taken."""
-RIM_ANGLES = np.linspace(0.0, 2.0 * math.pi, 96, endpoint=False)
+EDGE_ANGLES = np.linspace(0.0, 2.0 * math.pi, 96, endpoint=False)
 """Places along the edge at which it is known how far it is moved."""
 
 
@@ -136,10 +136,10 @@ def disc_correction(qx: Array, qy: Array) -> Complex:
     return cast(Complex, inverse @ (_series(qx, qy, np.arctan2(y, x), radial) - local))
 
 
-def disc_rim(qx: Array, qy: Array) -> Complex:
+def edge_of_disc(qx: Array, qy: Array) -> Complex:
     """How far waves (m,) [1/a] move the edge of the disc outwards at RIM_ANGLES: (n, m) [a].
 
     The pressure c/z of the fixed edge is what the Hertz pressure z gains where the edge lies
     further out by c.
     """
-    return RIM * _series(qx, qy, RIM_ANGLES, _at_rim())
+    return RIM * _series(qx, qy, EDGE_ANGLES, _at_rim())

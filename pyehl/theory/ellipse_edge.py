@@ -15,7 +15,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.polynomial import chebyshev
 
-from pyehl.theory.disc import DEGREE, LARGEST, RADIUS, RIM, RIM_ANGLES, spherical_bessel
+from pyehl.theory.disc import DEGREE, EDGE_ANGLES, LARGEST, RADIUS, RIM, spherical_bessel
 from pyehl.theory.ellipse import Ellipse
 from pyehl.types import Array, Complex
 
@@ -52,7 +52,7 @@ class EllipseEdge:
         largest = self.largest * max(1.0, kappa)
         self._inside = Series(shape, x, y, largest, self._inverse)
         radius = math.sqrt(1.0 - RIM * RIM)
-        x, y = radius * np.cos(RIM_ANGLES), radius * np.sin(RIM_ANGLES)
+        x, y = radius * np.cos(EDGE_ANGLES), radius * np.sin(EDGE_ANGLES)
         self._rim = Series(shape, x, y, largest)
 
     def functions(self, x: Array, y: Array) -> Array:

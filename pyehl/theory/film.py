@@ -60,7 +60,7 @@ class FilmEstimate:
     applies
         Whether the contact is in that regime, or between it and another.
     bounds
-        Its range: least and greatest values of conditions.
+        Its range: minimum and maximum values of conditions.
     outside
         Conditions outside the range of the formula, in words; empty when inside.
     note
@@ -273,7 +273,7 @@ def estimates(operating: OperatingPoint, lubricant: Lubricant) -> list[FilmEstim
         "h_min within 4 % of converged solutions at L = 0 and M = 8-1000, 10 % high at M = 2000; "
         "h_c up to 23 % off",
     )
-    # the formula for all regimes gives way to one of another regime within its range alone
+    # the formula for all regimes is replaced by one of another regime within its range alone
     isoviscous = here.endswith("-isoviscous")
     return sorted(found, key=lambda f: (not f.applies, isoviscous and _rank(f)))
 

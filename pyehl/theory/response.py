@@ -48,7 +48,7 @@ SHORT = 3.0
 """nabla_2 of the wave for which the transport equation counts half in the inlet; others do as well
 (docs/evidence/response)."""
 # Waves that weigh less are not integrated through the inlet
-LEAST_WEIGHT = 1e-4
+MIN_WEIGHT = 1e-4
 
 
 def edge_gain(
@@ -133,7 +133,7 @@ def inlet_base(
     kx, ky = np.asarray(qx, dtype=float), np.asarray(qy, dtype=float)
     weight = 1.0 / (1.0 + (_nabla_2(np.hypot(kx, ky), moes) / SHORT) ** 3)
     base = np.ones(kx.shape, dtype=complex)
-    short = weight > LEAST_WEIGHT
+    short = weight > MIN_WEIGHT
     made = upstream(zone, kx[short], ky[short], velocity_ratio, spacing)
     base[short] += weight[short] * (made - 1.0)
     return base

@@ -386,8 +386,8 @@ def test_what_a_case_says_of_its_map_is_heard(tmp_path):
     position, _ = from_case(
         Case.from_text(text.replace("m.txt", uploads.files["m.txt"])), uploads.files
     )
-    assert position.map_said() == {"length_x": 1e-4, "length_y": 2e-4, "height_unit": "nm"}
-    uploads.check(position.file, position.map_said())
+    assert position.map_message() == {"length_x": 1e-4, "length_y": 2e-4, "height_unit": "nm"}
+    uploads.check(position.file, position.map_message())
     uploads.close()
 
 

@@ -92,9 +92,9 @@ def test_gear_pair(root: Path, drivers: dict[str, list[str]], tmp_path: Path):
     assert "minimum film from {} to {} nm".format(*least) in text
     assert 0.0 < abs(1.0 - record["mu_ratio"]) < 0.005
     predicted = pyehl.predict(case, tracks=1).summary
-    least_film = round(predicted["h_min_rough_m"] * 1e9)
+    min_film = round(predicted["h_min_rough_m"] * 1e9)
     ratio = f"{predicted['mu_ratio']:.4f}"
-    assert f"a ratio of {ratio} and a minimum film of {least_film} nm" in text
+    assert f"a ratio of {ratio} and a minimum film of {min_film} nm" in text
     assert predicted["mu_ratio_model_error"] is None
     assert predicted["h_min_rough_error_m"] is None
     assert predicted["outside_range"] == ["ellipticity"]

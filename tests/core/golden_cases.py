@@ -5,7 +5,7 @@ import re
 from pathlib import Path
 
 from pyehl import namelist
-from pyehl.case.resolve import resolve
+from pyehl.case.case import resolve
 from pyehl.case.settings import KEYS, MACHINES
 from pyehl.errors import InputError
 

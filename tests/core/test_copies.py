@@ -18,7 +18,7 @@ import pytest
 import pyehl
 from pyehl.destination import write_json
 from pyehl.netcdf import export
-from pyehl.surfaces.text_cells import BadCellError
+from pyehl.surfaces.text_table import BadCellError
 
 SMALL = {"contact.moes_m": 100.0, "contact.moes_l": 5.0, "grid.points": 33}
 ROUGH = {"grid.points": 65, "surface.kind": "fractal", "surface.pixels": 32}

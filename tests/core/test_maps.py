@@ -235,7 +235,7 @@ def test_part_of_a_large_map(tmp_path: Path, monkeypatch):
     case = Case(write_case(tmp_path / "case.nml", "map.npy", size))
     assert surfaces.for_solver(case.resolve()).part is None
     # a function has the name of the module
-    module = sys.modules["pyehl.surfaces.in_memory"]
+    module = sys.modules["pyehl.surfaces.solver_surface"]
     monkeypatch.setattr(module, "LARGE_PIXELS", 4000)
     monkeypatch.setattr(module, "PART_PIXELS", 1024)
     part = surfaces.for_solver(case.resolve()).part

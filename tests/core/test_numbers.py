@@ -25,7 +25,7 @@ ROUGH = (
 )
 LEFT_OUT = ROUGH.format("")
 """The grid leaves out waves: a pixel is 3 um, a mesh size 15 um."""
-CARRIED = ROUGH.format("shortest_wavelength = 4e-5")
+ON_GRID = ROUGH.format("shortest_wavelength = 4e-5")
 WAVE = (
     "&contact moes_m = 100.0 moes_l = 5.0 /\n"
     "&grid points = {} x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
@@ -50,7 +50,7 @@ def last_lines(text: str) -> list[str]:
 @pytest.fixture(scope="module", params=["left out", "carried"])
 def everywhere(request, tmp_path_factory, drivers) -> tuple[dict[str, dict[str, Any]], bool]:
     """The numbers of one case by all ways to get them."""
-    text = {"left out": LEFT_OUT, "carried": CARRIED}[request.param]
+    text = {"left out": LEFT_OUT, "carried": ON_GRID}[request.param]
     folder = tmp_path_factory.mktemp("numbers")
     case = Case.from_text(text)
     found = {}
@@ -85,7 +85,7 @@ def test_the_error_is_one_number(everywhere):
 
 def test_last_lines(drive, tmp_path: Path):
     """And where pyehl predicts a part of the error, that of `ehl` is not known."""
-    for name, text in (("left out", LEFT_OUT), ("carried", CARRIED)):
+    for name, text in (("left out", LEFT_OUT), ("carried", ON_GRID)):
         (tmp_path / "case.nml").write_text(text)
         values = {}
         for driver in ("ehl", "pyehl"):
@@ -117,7 +117,7 @@ def test_last_lines(drive, tmp_path: Path):
 @pytest.mark.parametrize(
     ("text", "options", "why"),
     [
-        (CARRIED, ["time.estimate_error=.false."], "time.estimate_error is false"),
+        (ON_GRID, ["time.estimate_error=.false."], "time.estimate_error is false"),
         (WAVE.format(65, 0.2), ["time.steps=160"], "because of time.steps"),
         (COARSE_FAILS, [], "coarser grid ended with the status 'negative film'"),
         (LEFT_OUT, ["surface.velocity_ratio=0"], "not predicted (for surfaces on the move alone)"),
@@ -157,7 +157,7 @@ def test_a_prediction_that_fails_makes_no_error_smaller(monkeypatch, tmp_path: P
             assert note in values["mu_ratio_error_note"]
         assert "error not known" in solver.conclusion()
     # where nothing is left out nothing is missing
-    with Solver(Case.from_text(CARRIED)) as solver:
+    with Solver(Case.from_text(ON_GRID)) as solver:
         solver.run()
         assert solver.summary["mu_ratio_error"] > 0.0
 
@@ -218,7 +218,7 @@ def test_nothing_is_predicted_where_nothing_is_left_out(monkeypatch):
 
 def test_error_in_the_coarser_run_does_not_end_the_run(tmp_path: Path):
     """Its state is there when the run is resumed, and gone when the coarser run begins."""
-    case = Case.from_text(CARRIED, ["output.checkpoint_interval=1000.0"])
+    case = Case.from_text(ON_GRID, ["output.checkpoint_interval=1000.0"])
     with Solver(case) as solver:
         solver.checkpoint(tmp_path / "out")
         while not solver.work.done > 1.0:
@@ -253,7 +253,7 @@ def test_steps_asked_for_do_not_make_a_mean_settle():
 
 
 @pytest.mark.parametrize(
-    "text", [LEFT_OUT, CARRIED.replace("shortest", "velocity_ratio = 0 shortest")]
+    "text", [LEFT_OUT, ON_GRID.replace("shortest", "velocity_ratio = 0 shortest")]
 )
 def test_no_ratio_is_none(text: str):
     """Before it is known, and after a failure: of the smooth contact, or of a step."""
@@ -272,7 +272,7 @@ def test_no_ratio_is_none(text: str):
 
 
 def test_least_rough_film_is_that_of_the_time_of_the_mean():
-    data = pyehl.solve(Case.from_text(CARRIED))
+    data = pyehl.solve(Case.from_text(ON_GRID))
     mean = data.history_T > float(data.history_T[-1]) - float(data.T_mean) - 1e-9
     least = float(data.history_H_min[mean].min())
     assert float(data.H_min_rough) == pytest.approx(least, rel=1e-12)
@@ -284,7 +284,7 @@ def test_least_rough_film_is_that_of_the_time_of_the_mean():
 
 def test_film_and_lambda_mean_the_same_everywhere(tmp_path: Path):
     """Of the smooth contact, over the rms height of the undeformed surface: run, predict, curve."""
-    case = Case.from_text(CARRIED.replace("65", "257"), ["surface.rms_height=2e-8"])
+    case = Case.from_text(ON_GRID.replace("65", "257"), ["surface.rms_height=2e-8"])
     predicted = pyehl.predict(case, tracks=1).summary
     (tmp_path / "case.nml").write_text(case.text)
     words = ["--speed", "0.832", "-o", str(tmp_path / "curve"), "-q"]

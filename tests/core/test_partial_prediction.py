@@ -96,7 +96,9 @@ def test_smooth_films_are_those_of_a_run_with_the_layer(velocity, layer):
 
 def test_smooth_contact_with_the_layer_that_does_not_converge(monkeypatch):
     """No films of another contact in place of its own."""
-    monkeypatch.setattr(smooth, "_solved_with_layer", lambda *_: (None, "it does not converge"))
+    monkeypatch.setattr(
+        smooth, "_solved_with_boundary_film", lambda *_: (None, "it does not converge")
+    )
     settings = pyehl.Case.from_text(TEXT.format(0.3, 1.2e-7, 0.1)).resolve()
     prediction = predict(settings, tracks=1)
     summary = prediction.summary
@@ -164,10 +166,10 @@ HOT = TEXT.format(3.0, "{}", 0.1).replace("&lubricant", "&lubricant temperature_
 
 def test_layer_that_touches_nothing_changes_no_bit_of_friction_with_heat():
     without = summary_of(HOT.format(0.0).replace("boundary_friction = 0.1", ""))
-    with_layer = summary_of(HOT.format(5e-9))
+    with_boundary_film = summary_of(HOT.format(5e-9))
     for name in without:
         if name.startswith(("mu", "temperature_rise")):
-            assert with_layer[name] == without[name], name
+            assert with_boundary_film[name] == without[name], name
     assert without["mu"] < 0.95 * without["mu_isothermal"]
 
 

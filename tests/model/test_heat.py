@@ -119,7 +119,7 @@ def test_flash_temperature_limits():
     )
 
 
-def greatest_rise(kappa: float, peclet: float) -> float:
+def max_increase(kappa: float, peclet: float) -> float:
     """Maximum increase of a half-space that moves under a semi-ellipse of heat [mean q a/k].
 
     By the integral over moving point sources in polar coordinates about points of Y = 0; semi-axes
@@ -157,7 +157,7 @@ def test_flash_temperature_of_ellipses(kappa, near, peclet):
     )
     if peclet == 0.0:
         near = 1e-3
-    assert alone == pytest.approx(greatest_rise(kappa, peclet), rel=near)
+    assert alone == pytest.approx(max_increase(kappa, peclet), rel=near)
 
 
 def test_absolute_friction_of_the_solver():

@@ -9,9 +9,18 @@ import pytest
 from pyehl import surfaces
 from pyehl.surfaces import Options, Scan, Topography, prepare
 from pyehl.surfaces.areal import areal_numbers, extent, texture_aspect_ratio
-from pyehl.surfaces.defects import filled, prominence
-from pyehl.surfaces.map_steps import cropped, jump, level, mirrored, rotated, unmirrored, windowed
-from pyehl.surfaces.writing import write_map
+from pyehl.surfaces.map_steps import (
+    cropped,
+    filled,
+    jump,
+    level,
+    mirrored,
+    prominence,
+    rotated,
+    unmirrored,
+    windowed,
+)
+from pyehl.surfaces.prepare import write_map
 
 PIXEL = (1e-6, 1e-6)
 
@@ -69,7 +78,7 @@ def test_form_is_that_of_the_points_that_count():
 def test_holes_in_harmonic_heights_are_filled_exactly(monkeypatch, many):
     """x, y, x y and x^2 - y^2 are harmonic, of the five-point differences, too."""
     if many:
-        monkeypatch.setattr("pyehl.surfaces.defects.DIRECT_POINTS", 0)
+        monkeypatch.setattr("pyehl.surfaces.map_steps.DIRECT_POINTS", 0)
     i, j = np.meshgrid(np.arange(40.0), np.arange(30.0), indexing="ij")
     z = 1e-9 * (3 * i - 2 * j + 0.1 * i * j + 0.2 * (i * i - j * j)) + 1e-6
     holed = z.copy()

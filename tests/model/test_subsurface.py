@@ -11,19 +11,20 @@ import pytest
 
 import pyehl
 from pyehl.cli import main
-from pyehl.subsurface import life
-from pyehl.subsurface.cycle import Cycle, smallest_sphere
-from pyehl.subsurface.depths import depths
-from pyehl.subsurface.fatigue import Fatigue
-from pyehl.subsurface.half_space import HalfSpace
-from pyehl.subsurface.measures import (
+from pyehl.subsurface import cycle
+from pyehl.subsurface.cycle import (
+    Cycle,
+    Fatigue,
     deviator,
     hydrostatic,
     octahedral_shear,
     principal_shear,
+    smallest_sphere,
     von_mises,
 )
-from pyehl.subsurface.text import text
+from pyehl.subsurface.half_space import HalfSpace
+from pyehl.subsurface.passage import depths
+from pyehl.subsurface.result import text
 from pyehl.types import Array
 
 CASES = Path(__file__).resolve().parents[2] / "cases"
@@ -250,16 +251,16 @@ def test_smallest_sphere() -> None:
     assert deviator(path) == pytest.approx(path)
 
 
-@pytest.mark.parametrize("bearing", life.BEARINGS)
+@pytest.mark.parametrize("bearing", cycle.BEARINGS)
 def test_life_factor(bearing: str) -> None:
     """Continuous over kappa, larger for thicker films and cleaner oil, at most 50."""
     for kappa in (0.4, 1.0):
-        below, above = (life.a_iso(kappa * f, 0.3, bearing) for f in (1.0 - 1e-9, 1.0 + 1e-9))
+        below, above = (cycle.a_iso(kappa * f, 0.3, bearing) for f in (1.0 - 1e-9, 1.0 + 1e-9))
         assert below == pytest.approx(above, rel=1e-3)
-    assert life.a_iso(2.0, 0.3, bearing) > life.a_iso(1.0, 0.3, bearing) > 0.1
-    assert life.a_iso(1.0, 0.5, bearing) > life.a_iso(1.0, 0.1, bearing)
-    assert life.a_iso(4.0, 5.0, bearing) == life.LARGEST == life.a_iso(9.0, 5.0, bearing)
-    assert math.isnan(life.a_iso(0.05, 0.3, bearing))
+    assert cycle.a_iso(2.0, 0.3, bearing) > cycle.a_iso(1.0, 0.3, bearing) > 0.1
+    assert cycle.a_iso(1.0, 0.5, bearing) > cycle.a_iso(1.0, 0.1, bearing)
+    assert cycle.a_iso(4.0, 5.0, bearing) == cycle.LARGEST == cycle.a_iso(9.0, 5.0, bearing)
+    assert math.isnan(cycle.a_iso(0.05, 0.3, bearing))
 
 
 def test_smooth_contact() -> None:

@@ -29,8 +29,8 @@ from matplotlib.image import imread
 
 import pyehl
 from pyehl.cli import main
-from pyehl.studies.gather import Outcome
 from pyehl.studies.journal import NAME
+from pyehl.studies.sweep import Outcome
 
 
 @pytest.mark.long
@@ -238,10 +238,12 @@ def test_cases_with_a_boundary_film_are_the_same_scenes():
     thinning = stress_cases.draw(60, 1, law="eyring")
     layered = stress_cases.draw(60, 1, law="eyring", layer=True)
     new = {"lubricant.boundary_film", "lubricant.boundary_friction"}
-    for with_layer, without in zip(layered, thinning, strict=True):
-        changed = dict(with_layer.values.items() ^ without.values.items())
+    for with_boundary_film, without in zip(layered, thinning, strict=True):
+        changed = dict(with_boundary_film.values.items() ^ without.values.items())
         assert set(changed) - {"solver.coarsening"} == new
-        assert pyehl.Case.from_text("", with_layer.values).resolve()["lubricant"]["boundary_film"]
+        assert pyehl.Case.from_text("", with_boundary_film.values).resolve()["lubricant"][
+            "boundary_film"
+        ]
 
 
 @pytest.mark.parametrize(

@@ -11,8 +11,7 @@ import pytest
 import pyehl
 from pyehl.cli import main
 from pyehl.errors import InputError
-from pyehl.studies.compare import compare, read_results
-from pyehl.studies.reference_table import SHIPPED, read_reference
+from pyehl.studies.compare import SHIPPED, compare, read_reference, read_results
 
 HEAD = "contact.moes_m,contact.moes_l,H_c,H_c_rtol"
 

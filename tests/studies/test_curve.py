@@ -13,7 +13,7 @@ from matplotlib.image import imread
 
 import pyehl
 from pyehl.cli import main
-from pyehl.studies.curve_pattern import pattern
+from pyehl.studies.curve import pattern
 from pyehl.surfaces import harmonic
 from pyehl.theory import stribeck
 from pyehl.theory.operating import OperatingPoint

@@ -16,7 +16,7 @@ from pyehl.handle import SolverHandle, results_of
 from pyehl.prediction.smooth import OF_RUN, smooth_case, solve_contact
 from pyehl.studies.curve_plan import plan_curve
 from pyehl.studies.shear_fit import smooth_base
-from pyehl.studies.vary import axis
+from pyehl.studies.study import axis
 from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Array
 

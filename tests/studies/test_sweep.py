@@ -16,12 +16,10 @@ import pyehl
 from pyehl.cli import main
 from pyehl.commands.sweep import report
 from pyehl.studies import plan as plan_module
-from pyehl.studies.estimate import Remaining, seconds_of
-from pyehl.studies.gather import Outcome
-from pyehl.studies.plan import plan
-from pyehl.studies.study import make
+from pyehl.studies.plan import Remaining, plan, seconds_of
+from pyehl.studies.study import make, parse_axis
+from pyehl.studies.sweep import Outcome
 from pyehl.studies.tasks import Task
-from pyehl.studies.vary import parse_axis
 
 
 def sweep(folder: Path, *words: str, expect: int = 0) -> tuple[str, str]:

@@ -15,7 +15,7 @@ from pyehl.cli import main
 from pyehl.errors import InputError
 from pyehl.studies.curve import WORDS
 from pyehl.studies.curve_plan import plan_curve
-from pyehl.studies.vary import Axis
+from pyehl.studies.study import Axis
 from pyehl.theory.load_share import AIHARA, LoadShare
 
 # A ball on a disc with a mineral oil

@@ -10,8 +10,7 @@ import pyehl
 from pyehl import InputError
 from pyehl.case import KEYS
 from pyehl.given import option
-from pyehl.studies.study import ECHOED, RESULTS, Study, make, read_study
-from pyehl.studies.vary import Axis, axis, parse_axis
+from pyehl.studies.study import ECHOED, RESULTS, Axis, Study, axis, make, parse_axis, read_study
 
 
 @pytest.mark.parametrize(
