@@ -72,7 +72,7 @@ def test_position_is_the_border_and_no_error():
     assert float(meant.starvation) == pytest.approx(formula, rel=0.1)
     summary = {name: value.item() for name, value in meant.data_vars.items() if value.ndim == 0}
     found = assess({"status": "converged", **summary})
-    assert found.worth == HOLDS
+    assert found.confidence == HOLDS
     assert "starved as the case has it" in found.text
 
 
