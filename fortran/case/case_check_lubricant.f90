@@ -3,7 +3,7 @@
 module ehl_case_check_lubricant
    use ehl_case, only: case_t
    use ehl_case_defaults, only: inlet
-   use ehl_case_law, only: make_lubricant, own_law, uses_law
+   use ehl_case_law, only: knows_temperature, make_lubricant, own_law, uses_law
    use ehl_case_source, only: case_source_t
    use ehl_heat, only: dynamic_viscosity, thermal_loading, thermal_reduction
    use ehl_kinds, only: dp
@@ -22,7 +22,7 @@ module ehl_case_check_lubricant
    !> Maximum pressure at which a law must give a viscosity, over the Hertz pressure
    real(dp), parameter :: beyond_hertz = 1.5_dp
    !> Roelands exponents of liquids: water has 0.04, mineral oils 0.6
-   real(dp), parameter :: min_z = 1.0e-3_dp, largest_z = 2.0_dp
+   real(dp), parameter :: least_z = 1.0e-3_dp, largest_z = 2.0_dp
    character(len=*), parameter :: si_units = "load, mean_velocity, radius and reduced_modulus"
 
 contains
@@ -74,13 +74,17 @@ contains
       type(scales_t), intent(in) :: scales
       type(operating_t), intent(in) :: point
       type(status_t), intent(inout) :: status
-      character(len=*), parameter :: unknown = "the viscosity by temperature is not known"
+      character(len=*), parameter :: unknown = "the viscosity by temperature is not known", &
+         by_law = "temperature_viscosity, or viscosity at the inlet temperature alone"
+      logical :: knows
 
       call check_inlet(source, input, status)
       call check_rise(source, input, scales, point, status)
       associate (l => input%lubricant, c => input%contact)
+         knows = knows_temperature(l) .or. l%temperature_viscosity > 0.0_dp
+         call refuse(source%given("lubricant.temperature") .and. .not. knows, "lubricant.temperature", unknown, by_law)
          call refuse((l%viscosity_law == "roelands" .or. input%psd%viscosity_law == "roelands") .and. &
-                     l%pressure_viscosity > 0.0_dp .and. (l%roelands_z < min_z .or. l%roelands_z > largest_z), &
+                     l%pressure_viscosity > 0.0_dp .and. (l%roelands_z < least_z .or. l%roelands_z > largest_z), &
                      "lubricant.roelands_z", short(l%roelands_z)//", of viscosity, pressure_viscosity and roelands_p0", &
                      "a number in [0.001, 2] under Roelands' law; or viscosity_law = 'barus', which has no roelands_z")
          call refuse(l%limiting_stress > 0.0_dp .and. source%given("lubricant.limiting_coefficient"), &
@@ -89,6 +93,10 @@ contains
                      "'newtonian', or "//si_units)
          call refuse(l%shear_law == "carreau" .and. .not. (l%carreau_stress > 0.0_dp .and. l%carreau_exponent > 0.0_dp), &
                      "lubricant.shear_law", "'carreau' without carreau_stress and carreau_exponent", "both, as measured")
+         call refuse(l%boundary_friction > 0.0_dp .and. .not. l%boundary_film > 0.0_dp, "lubricant.boundary_friction", &
+                     "without lubricant.boundary_film: no solid contact", "a boundary_film in m, or boundary_friction = 0.0")
+         call refuse(c%hardness > 0.0_dp .and. .not. l%boundary_film > 0.0_dp, "contact.hardness", &
+                     "without lubricant.boundary_film: no solid contact", "a boundary_film in m, or hardness = 0.0")
          call refuse(l%boundary_film > 0.0_dp .and. .not. c%si, "lubricant.boundary_film", "with a contact by Moes numbers", &
                      "0.0, or "//si_units)
          call refuse(c%hardness > 0.0_dp .and. .not. c%hardness > scales%pressure, "contact.hardness", &

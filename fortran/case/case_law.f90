@@ -18,7 +18,7 @@ module ehl_case_law
    use ehl_yasutomi, only: new_yasutomi
    implicit none (type, external)
    private
-   public :: make_lubricant, make_viscosity, own_law, uses_law
+   public :: knows_temperature, make_lubricant, make_viscosity, own_law, uses_law
 
 contains
 
@@ -37,6 +37,12 @@ contains
       character(len=*), intent(in) :: name
       uses_law = own_law(l) == name .or. l%viscosity_law == name
    end function uses_law
+
+   !> Whether a law of viscosity or density says how the oil changes with temperature
+   pure logical function knows_temperature(l)
+      type(lubricant_case_t), intent(in) :: l
+      knows_temperature = own_law(l) /= "" .or. l%density_law == "murnaghan" .or. l%density_law == "tait"
+   end function knows_temperature
 
    !> Viscosity and density of a case in Hertz units; the shear law is left Newtonian
    subroutine make_lubricant(l, alpha_bar, hertz_pressure, lubricant, status)

@@ -47,8 +47,9 @@ def quoted(text: str) -> str:
 
 
 def short(value: float) -> str:
-    """Give four digits of a number, for messages."""
-    return f"{value:.3E}"
+    """Give four digits of a number, for messages: 0.04, 2.26e11."""
+    mantissa, _, exponent = f"{value:.4g}".partition("e")
+    return f"{mantissa}e{int(exponent)}" if exponent else mantissa
 
 
 Value = bool | int | float | str | tuple[float, ...]

@@ -5,19 +5,40 @@ As of `pyehl.case.groups`; a zero that is allowed stands for "not given".
 """
 
 from dataclasses import dataclass
+from typing import Any
 
 from pyehl.case.key import real, whole, word
 
 LENGTH = "0 or [1e-4, 10]"
-SPEED = "[-1e6, 1e6]"
+
+
+def diameter(what: str) -> Any:  # noqa: ANN401
+    """Describe the diameter of a ring, of which the pitch diameter is the mean."""
+    return real(0.0, "m", LENGTH, f"{what}, for the pitch diameter alone")
+
+
+def clearance() -> Any:  # noqa: ANN401
+    """Describe the clearance of a bearing."""
+    meaning = "radial internal clearance (diametral play) in operation; negative: preload"
+    return real(0.0, "m", "[-1e-3, 1e-3]", meaning)
+
+
+def load(meaning: str) -> Any:  # noqa: ANN401
+    """Describe a load of a bearing."""
+    return real(0.0, "N", "[0, 1e7]", meaning)
+
+
+def speed(of: str) -> Any:  # noqa: ANN401
+    """Describe the rotational speed of a part."""
+    return real(0.0, "1/min", "[-1e6, 1e6]", f"rotational speed of the {of}")
 
 
 @dataclass(slots=True)
 class BallBearing:
     """``&ball_bearing``: one row of balls, deep-groove or angular contact."""
 
-    bore: float = real(0.0, "m", LENGTH, "bore, for the pitch diameter alone")
-    outer_diameter: float = real(0.0, "m", LENGTH, "outside diameter, for the pitch diameter alone")
+    bore: float = diameter("bore")
+    outer_diameter: float = diameter("outside diameter")
     pitch_diameter: float = real(
         0.0, "m", LENGTH, "of the circle of ball centres; 0: mean of bore and outside diameter"
     )
@@ -32,24 +53,19 @@ class BallBearing:
     contact_angle: float = real(
         0.0, "deg", "0 or [1, 60]", "without load; 0: it follows from the clearance"
     )
-    clearance: float = real(
-        0.0,
-        "m",
-        "[-1e-3, 1e-3]",
-        "radial internal clearance (diametral play) in operation; negative: preload",
-    )
-    radial_load: float = real(0.0, "N", "[0, 1e7]", "radial load of the bearing")
-    axial_load: float = real(0.0, "N", "[0, 1e7]", "axial load of the bearing")
-    inner_speed: float = real(0.0, "1/min", SPEED, "rotational speed of the inner ring")
-    outer_speed: float = real(0.0, "1/min", SPEED, "rotational speed of the outer ring")
+    clearance: float = clearance()
+    radial_load: float = load("radial load of the bearing")
+    axial_load: float = load("axial load of the bearing")
+    inner_speed: float = speed("inner ring")
+    outer_speed: float = speed("outer ring")
 
 
 @dataclass(slots=True)
 class RollerBearing:
     """``&roller_bearing``: one row of cylindrical or tapered rollers."""
 
-    bore: float = real(0.0, "m", LENGTH, "bore, for the pitch diameter alone")
-    outer_diameter: float = real(0.0, "m", LENGTH, "outside diameter, for the pitch diameter alone")
+    bore: float = diameter("bore")
+    outer_diameter: float = diameter("outside diameter")
     pitch_diameter: float = real(
         0.0, "m", LENGTH, "of the circle of roller axes; 0: mean of bore and outside diameter"
     )
@@ -62,16 +78,11 @@ class RollerBearing:
     roller_angle: float = real(
         0.0, "deg", "[0, 10]", "half of the included angle of a tapered roller"
     )
-    clearance: float = real(
-        0.0,
-        "m",
-        "[-1e-3, 1e-3]",
-        "radial internal clearance (diametral play) in operation; negative: preload",
-    )
-    radial_load: float = real(0.0, "N", "[0, 1e7]", "radial load of the bearing")
-    axial_load: float = real(0.0, "N", "[0, 1e7]", "axial load, of tapered rollers")
-    inner_speed: float = real(0.0, "1/min", SPEED, "rotational speed of the inner ring")
-    outer_speed: float = real(0.0, "1/min", SPEED, "rotational speed of the outer ring")
+    clearance: float = clearance()
+    radial_load: float = load("radial load of the bearing")
+    axial_load: float = load("axial load, of tapered rollers")
+    inner_speed: float = speed("inner ring")
+    outer_speed: float = speed("outer ring")
 
 
 @dataclass(slots=True)
@@ -101,7 +112,7 @@ class SpurGear:
         0.0, "m", "[0, 1e-3]", "crowning height of the wheel at the ends of the face width"
     )
     torque: float = real(0.0, "N m", "[0, 1e7]", "torque of the pinion")
-    speed: float = real(0.0, "1/min", SPEED, "rotational speed of the pinion")
+    speed: float = speed("pinion")
     load_sharing: str = word(
         "linear",
         "linear|equal",

@@ -299,14 +299,14 @@ def test_worker_does_the_newest_alone():
     def first(ticket):
         begun.set()
         assert go.wait(10.0)
-        ticket.tell("first")
+        ticket.answer_with("first")
         if ticket.rest(5.0):
-            ticket.tell("never")
+            ticket.answer_with("never")
 
     assert worker.submit(first) == 1
     assert begun.wait(10.0)
-    worker.submit(lambda ticket: ticket.tell("overtaken"))
-    last = worker.submit(lambda ticket: ticket.tell("last"))
+    worker.submit(lambda ticket: ticket.answer_with("overtaken"))
+    last = worker.submit(lambda ticket: ticket.answer_with("last"))
     go.set()
     end = time.monotonic() + 10.0
     while len(told) < 2 and time.monotonic() < end:

@@ -382,7 +382,7 @@ def test_from_a_tenth_to_ten(solve, kappa: float):
         ),
         (
             ["bodies.radius_x1=5e-6", "bodies.radius_y1=0.01"],
-            "contact.radius_x = 5.000E-06 follows from the bodies",
+            "contact.radius_x = 5e-6 follows from the bodies",
         ),
         (
             ["bodies.radius_x1=0.01", "bodies.radius_y1=0.01", "bodies.modulus_1=1e3"],

@@ -225,7 +225,7 @@ def test_resumed_on_an_ellipse(drive, tmp_path: Path):
         (
             "&contact radius_x = 0.01 radius_y = 10.0 /",
             "1:37",
-            "radius_x/radius_y is 1.000E-03",
+            "radius_x/radius_y is 0.001",
             "at most 30 to 1",
         ),
         (

@@ -54,7 +54,7 @@ def test_damping_is_that_of_the_sources(root: Path):
     page = text_of(root, "theory/coarse-grids.md")
     columns = []
     for name in ("log_change", "sweep", "correction"):
-        stated = rf"damped_{name}\(most_damping\) = (?:usual_log_change/)?\[([^]]*)\]"
+        stated = rf"damped_{name}\(max_damping\) = (?:usual_log_change/)?\[([^]]*)\]"
         found = re.search(stated, source)
         assert found, name
         columns.append([float(word.removesuffix("_dp")) for word in found[1].split(", ")])
