@@ -16,10 +16,12 @@ from typing import Any
 
 import numpy as np
 from common import add_number, columns, measure, parser, say, show
+from scipy.special import elliprd
 
 from pyehl.case import Case
 from pyehl.errors import InputError
 from pyehl.solver import Solver
+from pyehl.theory.ellipse import ellipse
 from pyehl.theory.line_contact import LineContact
 from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Row
@@ -30,7 +32,6 @@ WIDEST = 240.0
 """Largest R_y/R_x: an ellipse of kappa = 30."""
 WIDE = 4.0
 """Contacts of a larger kappa are wide."""
-SHAPES = ("ellipse", "line")
 LAWS = ("newtonian", "eyring", "carreau")
 SETTINGS: dict[str, Any] = {"solver.threads": 1}
 """Everything else is as by default."""
@@ -189,6 +190,35 @@ def _line(kind: str, rng: np.random.Generator) -> Contact:
     return Contact(kind, None, line.hertz_pressure, rounded | words)
 
 
+def draw_numbers(count: int, seed: int) -> list[Contact]:
+    """Draw ellipses by kappa, and by M and L of the round contact with the same equations."""
+    return [_ellipse(np.random.default_rng((seed, k))) for k in range(count)]
+
+
+def _ellipse(rng: np.random.Generator) -> Contact:
+    kappa, moes_m, moes_l = (
+        _scale(rng, 0.2, 10.0),
+        _scale(rng, 20.0, 5000.0),
+        rng.uniform(0.0, 25.0),
+    )
+    shape = ellipse(radius_ratio(kappa))
+    keys = {
+        "contact.radius_ratio": shape.radius_ratio,
+        "contact.moes_m": moes_m * kappa * shape.kernel_ratio**0.25,
+        "contact.moes_l": moes_l / shape.kernel_ratio**0.75,
+    }
+    words = {"lubricant.viscosity_law": str(rng.choice(("roelands", "barus")))}
+    rounded = {key: float(f"{value:.5g}") for key, value in keys.items()}
+    ratio, *moes = rounded.values()
+    point = OperatingPoint.from_moes(*moes, radius_ratio=ratio)
+    return Contact("ellipse, M and L", kappa, point.hertz_pressure, rounded | words)
+
+
+def radius_ratio(kappa: float) -> float:
+    """R_x/R_y of an ellipticity."""
+    return float(elliprd(0.0, 1.0, kappa**2) / elliprd(0.0, kappa**2, 1.0))
+
+
 def _point(keys: Mapping[str, float], load: float) -> OperatingPoint:
     return OperatingPoint(
         load=load,
@@ -201,15 +231,18 @@ def _point(keys: Mapping[str, float], load: float) -> OperatingPoint:
     )
 
 
+DRAWS = {"ellipse": draw, "line": draw_lines, "numbers": draw_numbers}
+"""Machines; line contacts; ellipses by M, L and kappa."""
+
+
 def campaign(count: int, seed: int, *, fine: bool = False, shape: str = "ellipse") -> list[Row]:
-    """Solve so many contacts of a seed, one of `SHAPES`; a row for each.
+    """Solve so many contacts of a seed, one of `DRAWS`; a row for each.
 
     With `fine` each that converged is solved on twice the nodes, too: `H_c_fine` and `H_min_fine`
     are extrapolated from these.
     """
     rows: list[Row] = []
-    contacts = draw_lines(count, seed) if shape == "line" else draw(count, seed)
-    for number, contact in enumerate(contacts):
+    for number, contact in enumerate(DRAWS[shape](count, seed)):
         row = _solved(contact, {})
         row |= {"seed": seed, "number": number, "kind": contact.kind, "values": contact.values}
         row |= {"ellipticity": contact.ellipticity, "hertz_pressure_Pa": contact.pressure}
@@ -311,7 +344,7 @@ def main(words: Sequence[str] | None = None) -> int:
     add_number(made, "seed", 1)
     add_number(made, "count", 60, "how many contacts, of all kinds in turn", minimum=1)
     made.add_argument(
-        "--shape", choices=SHAPES, default=SHAPES[0], help="ellipse (default) or line"
+        "--shape", choices=DRAWS, default="ellipse", help="ellipse (of machines), line, or numbers"
     )
     made.add_argument(
         "--fine", action="store_true", help="on twice the nodes too, to check the stated errors"

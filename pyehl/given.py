@@ -166,6 +166,9 @@ def key_of(option: str) -> str:
 
 
 def _option_of(key: str, value: Any) -> str:  # noqa: ANN401
+    if isinstance(value, list | tuple | np.ndarray):
+        cells = [option(key, plain(float(cell))).partition("=")[2] for cell in np.ravel(value)]
+        return f"{key}={', '.join(cells)}"
     try:
         return option(key, plain(value))
     except ValueError:

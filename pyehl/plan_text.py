@@ -26,6 +26,7 @@ def plan_text(plan: Results, settings: Settings) -> str:
         *_lubricant(v, settings),
         *_friction(v, settings),
         *_surfaces(v, settings),
+        *_duty(v, settings),
         *_domain(v),
         f"deflection {v['deflection']}, threads {v['threads']}",
         _cycles(v),
@@ -112,23 +113,48 @@ def _surfaces(v: Values, settings: Settings) -> Iterator[str]:
     """Describe the surfaces, their time steps, and what of them the grid resolves."""
     count = v["surfaces"]
     if not count:
-        yield "problem    smooth and steady: no time levels, no roughness"
+        yield (
+            "problem    smooth, in time"
+            if v["duty"]
+            else ("problem    smooth and steady: no time levels, no roughness")
+        )
         return
     members = [_member(v, k + 1) for k in range(count)]
     for member in members:
         label = f"&{member['group']}: " if count > 1 else ""
         yield f"problem    {label}{_surface(v, member, settings)}"
-    if count > 1 and v["move"] and not v["some_rest"] and not v["pass_once"]:
+    if count > 1 and v["move"] and not (v["some_rest"] or v["pass_once"] or v["duty"]):
         yield INDENT + _common_period(v)
     if v["some_rest"]:
         yield f"{INDENT}the smooth contact is solved before, then the one with what is at rest"
     else:
         yield f"{INDENT}the smooth contact is solved once, before"
-    if v["move"]:
+    if v["move"] and not v["duty"]:
         yield from _time(v)
     if v["coarse_run"]:
         yield "error      of the friction ratio: computed on the next coarser grid too"
     yield from _waves(v, members)
+
+
+def _duty(v: Values, settings: Settings) -> Iterator[str]:
+    """Say what changes with time, from when to when, and in how many steps."""
+    if not v["duty"]:
+        return
+    duty = settings["duty"]
+    names = [key for key, value in duty.items() if isinstance(value, tuple) and key != "time"]
+    yield (
+        f"duty       {', '.join(names)} at {len(duty['time'])} times, {duty['interpolation']}; to "
+        f"{power(v['duty_end'], 4)} s in about {v['duty_steps']:.0f} time steps"
+    )
+    if v["duty_begin"] < 0.0:
+        yield (
+            f"{INDENT}from {power(v['duty_begin'], 3)} s on the contact goes over from the case to "
+            "the first time"
+        )
+    turns = [*duty.get("mean_velocity", ()), 0.0]
+    turns += [a + b for a, b in zip(duty.get("u1", ()), duty.get("u2", ()), strict=False)]
+    if min(turns) < 0.0:
+        yield f"{INDENT}the mean velocity turns: an inlet on both sides, a symmetric domain"
 
 
 def _member(v: Values, number: int) -> dict[str, Any]:
@@ -271,7 +297,7 @@ def _cycles(v: Values) -> str:
     text = f"cycles     {v['cycle']}({v['pre']},{v['post']})"
     if v["second_is_v"]:
         text += f", the second on a finer grid V({v['second_pre']},{v['second_post']})"
-    if v.get("move"):
+    if v.get("move") or v["duty"]:
         coarsening = "Alcouffe" if v["alcouffe"] else "classical"
         text += (
             f", time steps {v['step_cycle']}({v['step_pre']},{v['step_post']}) (no sweeps first "
@@ -305,7 +331,7 @@ def _need(v: Values) -> Iterator[str]:
         text += ", up to thirty times as long with solid contact"
     if v["target_error"] > 0.0:
         text += ", if it comes to the finest grid"
-    if v.get("move") and not v["steps"]:
+    if v.get("move") and not v["steps"] and not v["duty"]:
         text += ", if it ends as early as it can"
     yield text
     minimum, most = v["frames_min"], v["frames_max"]

@@ -221,6 +221,29 @@ s | variance_cut | - | share of the height's variance that was cut on purpose
 s | variance_left_out | - | share of it in waves that the grid does not carry
 s | variance_unresolved | - | share of it in waves that the grid does not resolve
 s | scheme | | time scheme
+s | duty_h_c_min_m | m | least central film over the duty, of a periodic one over its last period
+s | duty_h_c_min_t_s | s | when
+s | duty_h_c_min_error_m | m | estimate of its error: grid and domain as of the case, and time steps
+s | duty_h_c_max_m | m | largest central film
+s | duty_h_c_max_t_s | s | when
+s | duty_h_c_max_error_m | m | estimate of its error
+s | duty_h_min_min_m | m | least minimum film
+s | duty_h_min_min_t_s | s | when
+s | duty_h_min_min_error_m | m | estimate of its error
+s | duty_h_min_max_m | m | largest minimum film
+s | duty_h_min_max_t_s | s | when
+s | duty_h_min_max_error_m | m | estimate of its error
+s | duty_p_max_Pa | Pa | largest pressure over the duty
+s | duty_p_max_t_s | s | when
+s | duty_mu_max | - | largest coefficient of friction; null where it is not known at all times
+s | duty_mu_max_t_s | s | when
+s | duty_power_max_W | W | largest power of friction, of a line per length
+s | duty_power_max_t_s | s | when
+s | duty_flash_max_K | K | largest flash temperature, of walls in a steady state
+s | duty_flash_max_t_s | s | when
+s | duty_period_change | - | relative change of the mean central film from the last period but one
+s | duty_begin_s | s | time at which the run begins
+s | duty_end_s | s | time at which it ends
 s | T | a/u | time at the end
 s | T_period | a/u | period of the roughness; common one of two; time of the passage of a feature
 s | T_mismatch | - | by what part of a period one of two surfaces misses its start after T_period

@@ -57,7 +57,8 @@ program ehl
    destination%kind = "solution"
    destination%names = result_names
    destination%inputs = arguments%case_file // newline // trim(input%surface%file) // newline // &
-                        trim(input%second_surface%file) // newline // trim(input%lubricant%table) // newline
+                        trim(input%second_surface%file) // newline // trim(input%lubricant%table) // newline // &
+                        trim(input%duty%file) // newline
    destination%kept = ""
    destination%force = arguments%force
    call destination%check(status)

@@ -5,8 +5,8 @@ module ehl_case
    use ehl_viscosity_table, only: isotherm_t
    implicit none (type, external)
    private
-   public :: bodies_case_t, case_t, contact_case_t, grid_case_t, inlet_case_t, lubricant_case_t, output_case_t, psd_case_t, &
-             solver_case_t, surface_case_t, time_case_t, is_feature, has_no_height, word_length, &
+   public :: bodies_case_t, case_t, contact_case_t, duty_case_t, grid_case_t, inlet_case_t, lubricant_case_t, output_case_t, &
+             psd_case_t, solver_case_t, surface_case_t, time_case_t, is_feature, has_no_height, word_length, &
              path_length
 
    !> Longest option word
@@ -197,6 +197,22 @@ module ehl_case
       integer :: steps = 0
    end type time_case_t
 
+   !> &duty: what changes with time; not allocated or of size 0: as in the case
+   type :: duty_case_t
+      !> A table of it, which pyehl reads; made absolute by the reader
+      character(len=path_length) :: file = ""
+      character(len=word_length) :: interpolation = "linear"
+      logical :: periodic = .false.
+      integer :: periods = 3
+      !> Time step over that by the mesh; error of the films by time steps that is asked for
+      real(dp) :: time_step = 1.0_dp, target_error = 0.0_dp
+      real(dp), allocatable, dimension(:) :: time, load, u1, u2, mean_velocity, slide_to_roll, radius_x, radius_y, viscosity
+   contains
+      procedure :: active => has_duty
+      procedure :: list
+      procedure :: reverses
+   end type duty_case_t
+
    !> &solver: how the equations are solved
    type :: solver_case_t
       character(len=word_length) :: deflection = "mlmi"
@@ -239,6 +255,7 @@ module ehl_case
       !> The surface of the other body
       type(surface_case_t) :: second_surface
       type(time_case_t) :: time
+      type(duty_case_t) :: duty
       type(solver_case_t) :: solver
       type(psd_case_t) :: psd
       type(output_case_t) :: output
@@ -253,6 +270,52 @@ contains
       class(contact_case_t), intent(in) :: self
       is_line = self%shape == "line"
    end function is_line
+
+   !> Whether something changes with time
+   pure logical function has_duty(self)
+      class(duty_case_t), intent(in) :: self
+      has_duty = size(self%list("time")) > 0
+   end function has_duty
+
+   !> Whether the mean velocity is negative at times
+   pure logical function reverses(self)
+      class(duty_case_t), intent(in) :: self
+      reverses = any(self%list("mean_velocity") < 0.0_dp)
+      if (size(self%list("u1")) > 0 .and. size(self%list("u1")) == size(self%list("u2"))) then
+         reverses = reverses .or. any(self%u1 + self%u2 < 0.0_dp)
+      end if
+   end function reverses
+
+   !> Numbers by their key; of size 0 where there are none
+   pure function list(self, key) result(numbers)
+      class(duty_case_t), intent(in) :: self
+      character(len=*), intent(in) :: key
+      real(dp), allocatable :: numbers(:)
+
+      select case (key)
+      case ("time")
+         if (allocated(self%time)) numbers = self%time
+      case ("load")
+         if (allocated(self%load)) numbers = self%load
+      case ("u1")
+         if (allocated(self%u1)) numbers = self%u1
+      case ("u2")
+         if (allocated(self%u2)) numbers = self%u2
+      case ("mean_velocity")
+         if (allocated(self%mean_velocity)) numbers = self%mean_velocity
+      case ("slide_to_roll")
+         if (allocated(self%slide_to_roll)) numbers = self%slide_to_roll
+      case ("radius_x")
+         if (allocated(self%radius_x)) numbers = self%radius_x
+      case ("radius_y")
+         if (allocated(self%radius_y)) numbers = self%radius_y
+      case ("viscosity")
+         if (allocated(self%viscosity)) numbers = self%viscosity
+      case default
+         continue
+      end select
+      if (.not. allocated(numbers)) allocate (numbers(0))
+   end function list
 
    !> Load [N], of a line per length [N/m]
    pure real(dp) function size_of_load(self)

@@ -3,6 +3,7 @@
 !> solved, and values that pyehl has to complete
 module ehl_case_checks
    use ehl_case, only: case_t, surface_case_t
+   use ehl_case_check_duty, only: check_duty
    use ehl_case_check_lubricant, only: check_lubricant
    use ehl_case_check_surface, only: check_surfaces
    use ehl_case_check_line, only: check_line
@@ -70,6 +71,7 @@ contains
                 [character(len=21) :: "viscosity", "pressure_viscosity", "temperature_viscosity"], "the viscosity at the inlet")
       call need(if_given("lubricant.table"), "lubricant", [character(len=17) :: "viscosity_law", "table_temperature", &
                                                            "table_pressure", "table_viscosity"], "another law")
+      call need(if_given("duty.file"), "duty", ["time"], "the values of the table")
       call need_height("surface", input%surface)
       call need_height("second_surface", input%second_surface)
 
@@ -132,6 +134,7 @@ contains
       call check_motion(source, input, status)
       if (.not. status%failed()) call check_lubricant(source, input, scales, point, status)
       if (.not. status%failed()) call check_surfaces(source, input, status)
+      call check_duty(source, input, status)
       if (input%time%steps > 0 .and. input%time%max_periods > 0) then
         call source%contradict("time.max_periods", "time.steps", "one of the two, the other 0", status)
       end if
@@ -255,6 +258,8 @@ contains
          if (inlet%film_hertz*scales%film < least*(1.0_dp - rounding)) call source%refuse(key, key//" = "// &
             short(inlet%film_hertz*scales%film)//" m is below the boundary film of "//short(least)//" m", &
             "a layer above lubricant.boundary_film", status)
+         if (input%duty%active()) call source%refuse(key, key//" with a duty: a layer arrives at a contact in steady motion", &
+                                                     "inlet.position, or none of &duty", status)
          call need_smooth("surface", input%surface)
          call need_smooth("second_surface", input%second_surface)
       end associate

@@ -3,7 +3,7 @@
 !> assessment is completed by pyehl.
 module ehl_case_defaults
    use ehl_case, only: case_t, has_no_height, is_feature, lubricant_case_t, surface_case_t
-   use ehl_case_grid, only: fill_grid, grid_keys
+   use ehl_case_grid, only: fill_grid, grid_keys, widening_of
    use ehl_case_law, only: make_viscosity, own_law
    use ehl_case_point, only: find_contact
    use ehl_case_source, only: case_source_t
@@ -45,6 +45,7 @@ contains
       class(contact_t), allocatable :: contact
       type(scales_t) :: scales
       type(operating_t) :: point
+      logical :: given(size(grid_keys))
       integer :: k
 
       call complete_contact(source, input)
@@ -52,9 +53,14 @@ contains
       if (status%failed()) return
       call find_contact(input, contact, scales, point)
       call complete_inlet(source, scales, input)
+      given = [(source%given("grid."//grid_keys(k)), k=1, size(grid_keys))]
+      ! a border that changes with time is not known
+      if (input%duty%active() .and. .not. given(1)) input%grid%border = "zero"
+      if (is_short_of_oil(input) .and. .not. given(1)) input%grid%border = "zero"
+      given(2) = given(2) .or. input%inlet%position_hertz > 0.0_dp
       call fill_grid(contact, point, input%surface%kind == "smooth" .and. input%second_surface%kind == "smooth", &
-                     [(source%given("grid."//grid_keys(k)), k=1, size(grid_keys))] .or. &
-                     [is_short_of_oil(input), input%inlet%position_hertz > 0.0_dp, .false., .false., .false.], input%grid)
+                     [given(1) .or. input%duty%active() .or. is_short_of_oil(input), given(2:)], input%grid, &
+                     widening_of(input), input%duty%reverses())
       if (input%contact%is_line() .and. .not. source%given("solver.deflection")) input%solver%deflection = "fft"
       call complete_motion(source, input)
       call complete_surface(source, "surface", input%grid%x_inlet, input%surface)

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Border, domain and numbers of nodes that a contact needs, where a case does not give them
 module ehl_case_grid
-   use ehl_case, only: grid_case_t
+   use ehl_case, only: case_t, grid_case_t
    use ehl_contact, only: contact_t
    use ehl_domain, only: domain_t, flooded_by_default, needed_domain
    use ehl_grid, only: find_levels
@@ -10,7 +10,7 @@ module ehl_case_grid
    use ehl_moes, only: operating_t
    implicit none (type, external)
    private
-   public :: grid_keys, fill_grid
+   public :: grid_keys, fill_grid, widening_of
 
    !> Keys of &grid that have a default by the contact
    character(len=8), parameter :: grid_keys(5) = [character(len=8) :: "border", "x_inlet", "x_outlet", "y_extent", "points"]
@@ -28,7 +28,7 @@ module ehl_case_grid
 contains
 
    !> Border and domain follow from the operating point, side by side, unless they are given
-   pure subroutine fill_grid(contact, point, smooth, given, grid)
+   pure subroutine fill_grid(contact, point, smooth, given, grid, widening, reverses)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point
       !> Whether both surfaces are smooth
@@ -36,20 +36,39 @@ contains
       !> Of grid_keys
       logical, intent(in) :: given(5)
       type(grid_case_t), intent(inout) :: grid
+      !> Of a duty: by how much the contact is larger at times, and whether the other side is the inlet at times
+      real(dp), intent(in) :: widening
+      logical, intent(in) :: reverses
       type(domain_t) :: domain
       real(dp) :: errors(2)
 
       if (.not. given(1) .and. flooded_by_default(contact, point) .and. contact%is_even()) grid%border = "flooded"
       domain = needed_domain(contact, point, grid%border == "flooded")
-      if (.not. given(2)) grid%x_inlet = domain%inlet
-      if (.not. given(3)) grid%x_outlet = domain%outlet
-      if (.not. given(4)) grid%y_extent = domain%side
+      if (.not. given(2)) grid%x_inlet = widening*domain%inlet
+      if (.not. given(3)) grid%x_outlet = merge(-grid%x_inlet, widening*domain%outlet, reverses)
+      if (.not. given(4)) grid%y_extent = widening*domain%side
       if (smooth .and. .not. given(5) .and. .not. grid%target_error > 0.0_dp) then
          errors = relative_errors(contact, point, (grid%x_outlet - grid%x_inlet)/(grid%points - 1))
          if (errors(1) > max_missed) grid%points = 2*grid%points - 1
       end if
       if (.not. grid%points_y > 0) grid%points_y = rows(contact, smooth .and. point%alpha_bar < blunt_spike, grid)
    end subroutine fill_grid
+
+   !> Largest size of the dry contact under the duty over that of the case
+   pure real(dp) function widening_of(input)
+      type(case_t), intent(in) :: input
+      real(dp), allocatable :: load(:), radius(:)
+
+      widening_of = 1.0_dp
+      if (.not. input%duty%active()) return
+      load = input%duty%list("load")
+      radius = input%duty%list("radius_x")
+      if (size(load) == 0) load = 0.0_dp*input%duty%time + input%contact%size_of_load()
+      if (size(radius) == 0) radius = 0.0_dp*input%duty%time + input%contact%radius_x
+      if (size(load) /= size(radius)) return
+      widening_of = max(1.0_dp, maxval(load*radius)/(input%contact%size_of_load()*input%contact%radius_x)) &
+                    **merge(1.0_dp/2.0_dp, 1.0_dp/3.0_dp, input%contact%is_line())
+   end function widening_of
 
    !> Nodes along Y: as many as along X in a round contact, else as many as make cells of the shape wanted
    pure integer function rows(contact, blunt, grid)

@@ -1,7 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The namelist groups of a case: every key, read into its place and written from there by the intrinsic read and write
 module ehl_case_groups
-   use ehl_case, only: bodies_case_t, case_t, contact_case_t, grid_case_t, inlet_case_t, output_case_t, path_length, psd_case_t, &
+   use ehl_case, only: bodies_case_t, case_t, contact_case_t, duty_case_t, grid_case_t, inlet_case_t, output_case_t, &
+                       path_length, psd_case_t, &
                        solver_case_t, time_case_t, word_length
    use ehl_large_groups, only: line_length, lubricant_group, surface_group
    use ehl_kinds, only: dp
@@ -12,7 +13,7 @@ module ehl_case_groups
    public :: group_names, read_group, write_group
 
    character(len=name_length), parameter :: group_names(*) = [character(len=name_length) :: "contact", "bodies", "lubricant", &
-      "inlet", "grid", "surface", "second_surface", "time", "solver", "psd", "output"]
+      "inlet", "grid", "surface", "second_surface", "time", "duty", "solver", "psd", "output"]
    !> Most keys of a group, and its beginning and end
    integer, parameter :: max_lines = 80
 
@@ -91,6 +92,8 @@ contains
          call surface_group(input%second_surface, text, lines, good)
       case ("time")
          call time_group(input%time, text, lines, good)
+      case ("duty")
+         call duty_group(input%duty, text, lines, good)
       case ("solver")
          call solver_group(input%solver, text, lines, good)
       case ("psd")
@@ -218,6 +221,46 @@ contains
       end if
       good = stat == 0
    end subroutine time_group
+
+   !> &duty
+   subroutine duty_group(v, text, lines, good)
+      type(duty_case_t), intent(inout), target :: v
+      character(len=*), intent(in) :: text
+      character(len=line_length), intent(inout) :: lines(:)
+      logical, intent(out) :: good
+      integer :: stat
+      real(dp), pointer :: time_step, target_error
+      integer, pointer :: periods
+      logical, pointer :: periodic
+      character(len=word_length), pointer :: interpolation
+      character(len=path_length), pointer :: file
+      real(dp), allocatable, dimension(:) :: time, load, u1, u2, mean_velocity, slide_to_roll, radius_x, radius_y, viscosity
+      namelist /duty/ file, interpolation, periodic, periods, time_step, target_error, time, load, u1, u2, mean_velocity, &
+         slide_to_roll, radius_x, radius_y, viscosity
+
+      file => v%file; interpolation => v%interpolation; periodic => v%periodic; periods => v%periods
+      time_step => v%time_step; target_error => v%target_error
+      ! as many numbers as a text of this length can hold
+      associate (most => len(text)/2)
+         allocate (time(most), load(most), u1(most), u2(most), mean_velocity(most), slide_to_roll(most), radius_x(most), &
+                   radius_y(most), viscosity(most), source=huge(1.0_dp))
+      end associate
+      if (len(text) == 0) then
+         write (lines, nml=duty, iostat=stat, delim="apostrophe")
+      else
+         read (text, nml=duty, iostat=stat)
+         v%time = pack(time, time < huge(1.0_dp))
+         v%load = pack(load, load < huge(1.0_dp))
+         v%u1 = pack(u1, u1 < huge(1.0_dp))
+         v%u2 = pack(u2, u2 < huge(1.0_dp))
+         v%mean_velocity = pack(mean_velocity, mean_velocity < huge(1.0_dp))
+         v%slide_to_roll = pack(slide_to_roll, slide_to_roll < huge(1.0_dp))
+         v%radius_x = pack(radius_x, radius_x < huge(1.0_dp))
+         v%radius_y = pack(radius_y, radius_y < huge(1.0_dp))
+         v%viscosity = pack(viscosity, viscosity < huge(1.0_dp))
+      end if
+      good = stat == 0
+   end subroutine duty_group
 
    !> &solver
    subroutine solver_group(v, text, lines, good)

@@ -60,6 +60,8 @@ module ehl_case_ranges
    character(len=*), parameter :: time_ranges = &
       "scheme narrow|paper; tolerance [1e-8, 0.5]; max_periods [0, 100000]; start front|prediction; " &
       // "steps [0, 10000000]"
+   character(len=*), parameter :: duty_ranges = &
+      "interpolation linear|cubic; periods [1, 1000]; time_step [0.01, 4]; target_error 0 or [1e-5, 0.1]"
    character(len=*), parameter :: solver_ranges = &
       "deflection mlmi|fft; coarsening auto|classical|alcouffe; symmetry auto|full; cycle auto|W|V|F; " &
       // "accuracy [1e-6, 1]; max_cycles [1, 10000]; threads [1, 256]"
@@ -93,6 +95,8 @@ contains
          list = surface_ranges
       case ("time")
          list = time_ranges
+      case ("duty")
+         list = duty_ranges
       case ("solver")
          list = solver_ranges
       case ("psd")

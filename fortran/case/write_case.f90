@@ -35,6 +35,7 @@ contains
          call write_group(trim(group_names(n)), usual, keys, defaults)
          if (group_names(n) == "bodies" .and. .not. input%bodies%given) cycle
          if (group_names(n) == "inlet" .and. .not. is_short_of_oil(input)) cycle
+         if (group_names(n) == "duty" .and. .not. input%duty%active()) cycle
          text = text//"&"//trim(group_names(n))//newline
          do k = 1, size(keys)
             if (.not. holds(trim(group_names(n))//"."//trim(keys(k)), input)) cycle
@@ -54,7 +55,7 @@ contains
       end do
    end subroutine write_case
 
-   !> Numbers of the table of viscosities by their key; '' where there is none
+   !> Numbers of the table of viscosities or of the duty by their key; '' where there is none
    pure subroutine list_text(key, input, line)
       character(len=*), intent(in) :: key
       type(case_t), intent(in) :: input
@@ -63,12 +64,16 @@ contains
       integer :: k
 
       line = ""
-      if (.not. allocated(input%lubricant%table_viscosity)) return
-      associate (l => input%lubricant)
-         numbers = l%table_viscosity
-         if (key == "table_temperature") numbers = l%table_temperature
-         if (key == "table_pressure") numbers = l%table_pressure
-      end associate
+      if (index(key, "table_") == 0) then
+         numbers = input%duty%list(trim(key))
+      else
+         if (.not. allocated(input%lubricant%table_viscosity)) return
+         associate (l => input%lubricant)
+            numbers = l%table_viscosity
+            if (key == "table_temperature") numbers = l%table_temperature
+            if (key == "table_pressure") numbers = l%table_pressure
+         end associate
+      end if
       if (size(numbers) == 0) return
       line = "   "//trim(key)//" = "//to_text(numbers(1))
       do k = 2, size(numbers)

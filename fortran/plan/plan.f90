@@ -7,6 +7,7 @@ module ehl_plan
    use ehl_contact, only: contact_t
    use ehl_cycle, only: coarsening_alcouffe, coarsening_classical, cycle_options_t
    use ehl_domain, only: domain_cost, domain_t, layer_that_floods
+   use ehl_duty, only: duty_t
    use ehl_friction_mean, only: automatic_periods
    use ehl_film_formula, only: starved_film
    use ehl_grid_error, only: relative_errors
@@ -16,6 +17,7 @@ module ehl_plan
    use ehl_lubricant, only: lubricant_t
    use ehl_moes, only: operating_t
    use ehl_moving_surfaces, only: moving_surfaces_t
+   use ehl_plan_duty, only: plan_duty
    use ehl_plan_friction, only: sliding_t
    use ehl_plan_heat, only: heat_plan_t, may_touch, plan_contact, plan_heat
    use ehl_plan_surface, only: check_carried, make_surfaces
@@ -76,8 +78,9 @@ module ehl_plan
       !> The cycles in letters
       character(len=1) :: cycle_letter = "F", step_cycle_letter = "V"
       integer :: threads = 1
-      !> The rough surfaces
+      !> The rough surfaces, and what changes with time
       type(moving_surfaces_t) :: surfaces
+      type(duty_t) :: duty
       !> Whether the next coarser grid resolves the surfaces too, so that the friction of both can be extrapolated
       logical :: extrapolates = .false.
       !> Scheme of the wedge and squeeze terms in time steps
@@ -97,6 +100,8 @@ module ehl_plan
       real(dp) :: frame_interval = 0.0_dp
    contains
       procedure :: update_resolved_fraction
+      procedure :: goes_on
+      procedure :: has_steps
    end type plan_t
 
    !> Share of the variance that the coarser of two grids may leave unresolved where friction is extrapolated
@@ -146,18 +151,21 @@ contains
       plan%max_periods = input%time%max_periods
       plan%steps = input%time%steps
       plan%frame_interval = input%output%frame_interval
+      plan%duty = plan_duty(input, plan%scales, plan%sliding%inlet_viscosity)
+      if (plan%duty%active) plan%scheme = wedge_separate
       if (surfaces%rough()) then
          call move_alloc(surfaces%of, plan%surfaces%of)
       else
          call make_surfaces(input, plan%scales, plan%surfaces, status, heights, second_heights)
       end if
-      if (input%time%start == "prediction" .and. plan%surfaces%move()) call pick_start(plan)
+      if (input%time%start == "prediction" .and. plan%surfaces%move() .and. .not. plan%duty%active) call pick_start(plan)
       call pick_cycle(input, plan)
       call pick_grids(input, plan, status)
       if (status%failed() .or. .not. plan%surfaces%rough()) return
       call plan%surfaces%use_threads(plan%threads)
       call plan%surfaces%find_period(merge(plan%max_periods, automatic_periods, plan%max_periods > 0))
-      plan%coarse_run = input%time%estimate_error .and. plan%levels > 2 .and. (plan%surfaces%rest() .or. plan%steps == 0)
+      plan%coarse_run = input%time%estimate_error .and. plan%levels > 2 .and. (plan%surfaces%rest() .or. plan%steps == 0) &
+                        .and. .not. plan%duty%active
       call plan%update_resolved_fraction(plan%finest)
       call check_carried(plan%surfaces, plan%finest, status)
       if (.not. status%failed()) call check_steps(plan, status)
@@ -176,6 +184,18 @@ contains
       end if
       plan%predicted_start = .not. allocated(plan%fallback_reason)
    end subroutine pick_start
+
+   !> Whether something follows the smooth contact
+   pure logical function goes_on(self)
+      class(plan_t), intent(in) :: self
+      goes_on = self%surfaces%rough() .or. self%duty%active
+   end function goes_on
+
+   !> Whether there are time steps
+   pure logical function has_steps(self)
+      class(plan_t), intent(in) :: self
+      has_steps = self%surfaces%move() .or. self%duty%active
+   end function has_steps
 
    !> What of the surfaces a grid carries
    subroutine update_resolved_fraction(self, grid)
@@ -198,7 +218,7 @@ contains
       integer :: most
       character(len=:), allocatable :: what
 
-      if (.not. plan%surfaces%move()) return
+      if (.not. plan%surfaces%move() .or. plan%duty%active) return
       associate (slowest => plan%surfaces%of(plan%surfaces%slowest()))
          most = merge(max_steps_asked_for, max_steps, plan%steps > 0)
          steps = steps_needed(plan%surfaces, plan%finest%hx, plan%skip_start, plan%predicted_start)
@@ -234,7 +254,7 @@ contains
       plan%cycle = cycle_of(plan%cycle_letter)
       if (row) plan%cycle%pre = 1
       plan%second_cycle = plan%cycle
-      if (plan%cycle%full .and. input%solver%cycle == "auto" .and. .not. (plan%surfaces%rough() .or. plan%touches)) then
+      if (plan%cycle%full .and. input%solver%cycle == "auto" .and. .not. (plan%goes_on() .or. plan%touches)) then
          ! The first leaves so little that is smooth that one visit to the coarser levels will do. Not before rough runs:
          ! the error of the smooth friction is one of the ratio.
          plan%second_cycle = cycle_of("V")

@@ -67,7 +67,8 @@ contains
       type(plan_t), intent(in) :: plan
 
       steps = 0.0_dp
-      if (.not. plan%surfaces%move()) return
+      if (plan%duty%active) steps = plan%duty%steps_expected(plan%finest%hx)
+      if (plan%duty%active .or. .not. plan%surfaces%move()) return
       steps = plan%steps
       if (plan%steps == 0) steps = steps_needed(plan%surfaces, plan%finest%hx, plan%skip_start, plan%predicted_start)
    end function steps
@@ -77,7 +78,8 @@ contains
       type(plan_t), intent(in) :: plan
 
       max_steps = 0.0_dp
-      if (.not. plan%surfaces%move()) return
+      if (plan%duty%active) max_steps = plan%duty%steps_expected(plan%finest%hx)
+      if (plan%duty%active .or. .not. plan%surfaces%move()) return
       max_steps = plan%steps
       if (plan%steps == 0) max_steps = steps_needed(plan%surfaces, plan%finest%hx, plan%skip_start, plan%predicted_start, &
                                                      max_periods(plan))
@@ -116,8 +118,8 @@ contains
       integer, intent(in) :: threads
 
       bytes = smooth_bytes
-      if (plan%surfaces%rough()) bytes = bytes + rough_bytes
-      if (plan%surfaces%move()) bytes = bytes + alcouffe_bytes
+      if (plan%goes_on()) bytes = bytes + rough_bytes
+      if (plan%has_steps()) bytes = bytes + alcouffe_bytes
       if (plan%heat%counts) bytes = bytes + heat_bytes
       if (plan%lubricant%shear%thins_flow()) bytes = bytes + thinning_bytes
       bytes = bytes*nodes(plan) + line_bytes*plan%finest%nx*threads

@@ -69,6 +69,9 @@ contains
       call record%set("predicted_start", plan%predicted_start)
       if (allocated(plan%fallback_reason)) call record%set("fallback_reason", plan%fallback_reason)
       call record%set("steps", plan%steps)
+      call record%set("duty", plan%duty%active)
+      if (plan%duty%active) call record%set("duty_steps duty_begin duty_end", &
+         [plan%duty%steps_expected(plan%finest%hx), [plan%duty%begin(), plan%duty%end_time()]*plan%duty%time_scale])
       call record%set("cycle", plan%cycle_letter)
       call record%set("pre", plan%cycle%pre)
       call record%set("post", plan%cycle%post)

@@ -45,16 +45,17 @@ contains
       none = [has_no_height(input%surface), has_no_height(input%second_surface)]
       if (present(heights)) none(1) = none(1) .and. size(heights) == 0
       if (present(second_heights)) none(2) = none(2) .and. size(second_heights) == 0
-      if (none(2) .or. .not. none(1)) call add_surface("surface", s(1), input%contact%si, scales, surfaces, status, &
-                                                       heights)
-      if (none(1) .or. .not. none(2)) call add_surface("second_surface", s(2), input%contact%si, scales, surfaces, status, &
-                                                       second_heights)
+      if (none(2) .or. .not. none(1)) call add_surface("surface", s(1), input%contact%rough_surface, &
+                                                       input%contact%si, scales, surfaces, status, heights)
+      if (none(1) .or. .not. none(2)) call add_surface("second_surface", s(2), 3 - input%contact%rough_surface, &
+                                                       input%contact%si, scales, surfaces, status, second_heights)
    end subroutine make_surfaces
 
    !> The surface of a group; none where it is smooth
-   subroutine add_surface(group, s, si, scales, surfaces, status, heights)
+   subroutine add_surface(group, s, body, si, scales, surfaces, status, heights)
       character(len=*), intent(in) :: group
       type(surface_case_t), intent(in) :: s
+      integer, intent(in) :: body
       !> Whether the contact is given in SI units
       logical, intent(in) :: si
       type(scales_t), intent(in) :: scales
@@ -94,7 +95,7 @@ contains
          if (.not. status%failed()) call make_map(group, s, scales, tile, surface, status)
       end if
       if (status%failed()) return
-      call surfaces%add(group, surface, amplitude_over_film)
+      call surfaces%add(group, surface, amplitude_over_film, body)
    end subroutine add_surface
 
    !> A single feature

@@ -37,6 +37,7 @@ module ehl_flow
       type(grid_t) :: grid
    contains
       procedure :: setup
+      procedure :: rescale
       procedure(find_row), deferred :: find_row
       procedure(film_exponent), deferred :: film_exponent
       procedure(stress_row), deferred :: stress_row
@@ -99,6 +100,18 @@ contains
       if (stat == 0 .and. self%depends_on_gradient) call self%kept%setup(grid%nx, grid%ny, stat)
       if (stat /= 0) call status%fail(ehl_no_memory, "no memory for the conductances of a grid level")
    end subroutine setup
+
+   !> Another viscosity and another sliding speed than those that it was made for
+   pure subroutine rescale(self, inverse_speed, stress)
+      class(flow_t), intent(inout) :: self
+      real(dp), intent(in) :: inverse_speed
+      !> Newtonian stress of the sliding of eta = eta0 and H = 1 over the stress of the law
+      real(dp), intent(in) :: stress
+
+      associate (unused => stress)
+      end associate
+      self%inverse_speed = inverse_speed
+   end subroutine rescale
 
    !> Largest conductance along Y of each node of row j and its four neighbours, in columns 2 to nx-1
    pure subroutine max_neighbour_conductance(self, j, south, north, values)

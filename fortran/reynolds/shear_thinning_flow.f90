@@ -28,6 +28,7 @@ module ehl_shear_thinning_flow
       !> b0, s0
       real(dp) :: sliding = 0.0_dp, gradient = 0.0_dp
    contains
+      procedure :: rescale
       procedure :: find_row
       procedure :: film_exponent
       procedure :: stress_row
@@ -50,6 +51,18 @@ contains
       flow%dir_y = dir_y
       flow%depends_on_gradient = .true.
    end function new_shear_thinning_flow
+
+   !> Another viscosity and another sliding speed
+   pure subroutine rescale(self, inverse_speed, stress)
+      class(shear_thinning_flow_t), intent(inout) :: self
+      real(dp), intent(in) :: inverse_speed
+      !> b0
+      real(dp), intent(in) :: stress
+
+      self%inverse_speed = inverse_speed
+      self%sliding = stress
+      self%kept%follows = stress > 0.0_dp
+   end subroutine rescale
 
    !> Conductances of row j and their changes
    pure subroutine find_row(self, lubricant, p, h, rho, drho_dp, j, last)

@@ -27,6 +27,8 @@ module ehl_wedge
       !> The part of c(0) that is due to the squeeze term; 0: steady
       real(dp) :: squeeze = 0.0_dp
       real(dp), private :: inverse_step = 0.0_dp
+      !> Factors of the earlier times over the time step
+      real(dp), private :: past(old_times) = [-2.0_dp, 0.5_dp]
    contains
       procedure :: set_steady
       procedure :: set_step
@@ -54,22 +56,34 @@ contains
    end subroutine set_steady
 
    !> A time step
-   pure subroutine set_step(self, scheme, hx, time_step)
+   pure subroutine set_step(self, scheme, hx, time_step, speed, ratio)
       class(wedge_t), intent(inout) :: self
       !> wedge_narrow or wedge_separate
       integer, intent(in) :: scheme
       real(dp), intent(in) :: hx, time_step
+      !> With wedge_separate: mean velocity, at least 0, over the one that is the scale; the step over the one before it
+      real(dp), intent(in), optional :: speed, ratio
+      real(dp) :: u
 
       call self%set_steady(hx)
       self%scheme = scheme
+      u = 1.0_dp
+      if (present(speed)) u = speed
       self%squeeze = 1.5_dp/time_step
+      self%past = [-2.0_dp, 0.5_dp]
+      if (present(ratio)) then
+         self%squeeze = (1.0_dp + 2.0_dp*ratio)/(1.0_dp + ratio)/time_step
+         self%past = [-1.0_dp - ratio, ratio**2/(1.0_dp + ratio)]
+      end if
       self%inverse_step = 1.0_dp/time_step
       if (scheme == wedge_narrow) then
          self%c = [1.5_dp, 0.0_dp, 0.0_dp]/time_step
          self%c_first = [1.0_dp, 0.0_dp, 0.0_dp]/time_step
       else
-         self%c(0) = self%c(0) + 1.5_dp/time_step
-         self%c_first(0) = self%c_first(0) + 1.5_dp/time_step
+         self%c = u*self%c
+         self%c_first = u*self%c_first
+         self%c(0) = self%c(0) + self%squeeze
+         self%c_first(0) = self%c_first(0) + self%squeeze
       end if
    end subroutine set_step
 
@@ -156,19 +170,20 @@ contains
       real(dp), intent(in) :: m(:, :)
       !> Shape (nx)
       real(dp), intent(inout) :: values(:)
-      real(dp) :: r
+      real(dp) :: r, b(old_times)
       integer :: i, shift
 
       r = self%inverse_step
+      b = self%past
       ! along the characteristic a step back in time is a node upstream
       shift = merge(1, 0, self%scheme == wedge_narrow)
       do i = 3, size(m, 1) - 1
-         values(i) = r*(-2.0_dp*m(i - shift, 1) + 0.5_dp*m(i - 2*shift, 2))
+         values(i) = r*(b(1)*m(i - shift, 1) + b(2)*m(i - 2*shift, 2))
       end do
       if (self%scheme == wedge_narrow) then
          values(2) = -r*m(1, 1)
       else
-         values(2) = r*(-2.0_dp*m(2, 1) + 0.5_dp*m(2, 2))
+         values(2) = r*(b(1)*m(2, 1) + b(2)*m(2, 2))
       end if
    end subroutine history_row
 end module ehl_wedge

@@ -100,7 +100,7 @@ contains
       note = ""
       call self%lock%take(results, status)
       if (status%failed()) return
-      if (.not. solver%run%plan%surfaces%move() .or. input%output%checkpoint_interval <= 0.0_dp) return
+      if (.not. solver%run%plan%has_steps() .or. input%output%checkpoint_interval <= 0.0_dp) return
       place = checkpoint_path(results)
       call check_ours(place, status)
       if (status%failed()) return

@@ -51,7 +51,7 @@ contains
       ratio = merge(not_known, 1.0_dp, rough)
       heat_ratio = not_known
       if (run%plan%heat%counts .and. .not. rough) heat_ratio = run%smooth_heat%ratio()
-      if (run%is_rough() .and. converged .and. known) then
+      if (run%is_rough() .and. converged .and. known .and. .not. run%plan%duty%active) then
          ratio = run%mu_ratio()
          if (run%plan%heat%counts) heat_ratio = run%heat_ratio()
       end if

@@ -35,7 +35,13 @@ contains
       real(dp) :: residual
 
       nodes = to_text(run%grid%nx)//" x "//to_text(run%grid%full_ny())
-      if (run%phase == phase_steps) then
+      if (run%phase == phase_steps .and. run%plan%duty%active) then
+         associate (t => run%transient)
+            residual = t%residual
+            text = "step "//to_text(t%step)//"  t "//fixed(t%time*t%duty%time_scale, "es10.3")//" s  H_c "// &
+                   fixed(t%m%film_central, "f10.6")//"  H_min "//fixed(t%m%film_minimum, "f10.6")//"  cycles "//to_text(t%cycles)
+         end associate
+      else if (run%phase == phase_steps) then
          associate (t => run%transient)
             residual = t%residual
             text = "step "//to_text(t%step)//"  T "//fixed(t%time, "f8.4")//"  mu_r/mu_s "// &
@@ -74,7 +80,14 @@ contains
       done = 0.0_dp
       least = 0.5_dp*run%step_cost*run%other%earliest
       most = least
-      if (run%phase == phase_steps) then
+      if (run%phase == phase_steps .and. run%plan%duty%active) then
+         ! by time: steps are as long as the duty lets them
+         done = run%transient%step
+         associate (t => run%transient, duty => run%plan%duty)
+            least = done*max(1.0_dp, (duty%end_time() - duty%begin())/max(t%time - duty%begin(), tiny(1.0_dp)))
+         end associate
+         most = least
+      else if (run%phase == phase_steps) then
          done = run%other%done + run%step_cost*run%transient%step
          least = run%other%done + run%step_cost*end_after(run, min_periods(run%plan, run%transient%mean))
          most = least

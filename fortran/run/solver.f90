@@ -116,7 +116,7 @@ contains
       call self%run%begin(status)
       if (status%failed()) return
       self%run%state_prefix = ""
-      if (self%run%plan%surfaces%move()) self%run%state_text = step_text(input)
+      if (self%run%plan%has_steps()) self%run%state_text = step_text(input)
    end subroutine start
 
    !> The smooth contact; with what is stationary of the roughness; all that on the next coarser grid; time steps. The observer may

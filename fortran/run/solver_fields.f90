@@ -12,7 +12,7 @@ submodule (ehl_solver) ehl_solver_fields
 contains
 
    module procedure field_names
-      if (self%run%is_rough()) then
+      if (self%run%is_rough() .and. self%run%plan%surfaces%rough()) then
          names = [character(len=field_length) :: "P", "H", "P_smooth", "H_smooth", "RR", "A_d"]
       else
          names = [character(len=field_length) :: "P", "H"]

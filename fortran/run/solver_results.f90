@@ -10,6 +10,7 @@ submodule (ehl_solver) ehl_solver_results
                          reason_not_predicted, reason_not_wanted, reason_not_yet, reason_nothing_carried, reason_prediction, &
                          reason_pressures, reason_small_domain, reason_small_grid, reason_steps
    use ehl_report, only: report_friction, report_passage, report_stationary, report_scene, report_transient, report_waves
+   use ehl_report_duty, only: report_duty
    use ehl_report_end, only: report_end
    use ehl_report_smooth, only: report_smooth
    use ehl_report_touching, only: report_touching, why_no_friction
@@ -51,17 +52,21 @@ contains
       call report_smooth(record, self%run%plan, self%run%smooth, self%run%level(), good)
       ratio = not_known
       stop_error = not_known
-      if (self%run%phase == phase_steps) then
+      if (self%run%phase == phase_steps .and. self%run%plan%duty%active) then
+         call report_duty(record, self%run, converged)
+      else if (self%run%phase == phase_steps) then
          call report_transient(record, self%run, converged, why_none == reason_none, ratio, stop_error)
          call report_start(self, record)
          if (self%run%plan%surfaces%pass_once()) then
             call report_passage(record, self%run%plan%scales, self%run%transient%extremes, converged)
          end if
       end if
-      if (rough) call report_waves(record, self%run)
+      if (self%run%plan%surfaces%rough() .and. rough) call report_waves(record, self%run)
       if (self%run%phase == phase_stationary) call report_stationary(record, self%run, converged, why_none == reason_none, ratio, &
                                                                      stop_error)
-      if (self%run%plan%surfaces%rough()) call report_ratio(self, record, ratio, stop_error, why_none)
+      if (self%run%plan%surfaces%rough() .and. .not. self%run%plan%duty%active) then
+         call report_ratio(self, record, ratio, stop_error, why_none)
+      end if
       call report_touching(record, self%run, good, converged, why_no_grid_error(self))
       call find_friction(self%run, good, converged, why_none, friction)
       call report_friction(record, self%run%plan, friction)

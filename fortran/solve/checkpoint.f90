@@ -3,6 +3,7 @@
 !> state and the one before it, each whole or not there, with a version and a checksum. A frame never changes: each is
 !> written once, into a file of its own beside them.
 module ehl_checkpoint
+   use ehl_duty_steps, only: kept_numbers
    use ehl_files, only: file_exists, remove_file, rename_path
    use ehl_frames, only: frames_t
    use ehl_grid, only: grid_t
@@ -22,7 +23,7 @@ module ehl_checkpoint
    character(len=*), parameter :: state_files(2) = ["checkpoint.a", "checkpoint.b"], frame_file = "checkpoint.frame-", &
       coarser = "coarser-"
    !> What a state begins with: behind `family` stands the number of the layout
-   character(len=*), parameter :: family = "ehl checkpoint v", magic = family//"14"
+   character(len=*), parameter :: family = "ehl checkpoint v", magic = family//"15"
    !> What a file can be; otherwise the step of its state
    integer, parameter :: missing = -1, damaged = -2, other_version = -3
 
@@ -110,7 +111,7 @@ contains
             t%skipped, t%time, t%time_step, t%residual, t%cycles, t%total_cycles, t%policy%coarsening, &
             t%policy%changed_at, t%h00_before, t%friction_smooth, t%mass_content, t%p_before, t%predictor%weights, &
             t%accuracy%rise, t%accuracy%sensitivity, t%accuracy%largest, t%film_checksum, t%extremes%found, mean%filled, mean%lag, &
-            mean%transit, seconds, coarse%ratio, real(coarse%outcome, dp), coarse%load_share, &
+            mean%transit, t%duty_steps%pack(), seconds, coarse%ratio, real(coarse%outcome, dp), coarse%load_share, &
             len(first), first, len(second), second, &
             (history%row(k), mean%values(k), mean%film(k), mean%roughness(k), k=1, t%step)
       end associate
@@ -187,7 +188,7 @@ contains
       character(len=:), allocatable, intent(inout) :: fallback_reason
       type(status_t), intent(inout) :: status
       type(head_t) :: head
-      real(dp) :: row(history%n_columns()), values(3), outcome
+      real(dp) :: row(history%n_columns()), values(3), outcome, numbers(kept_numbers)
       character(len=:), allocatable :: path
       character(len=256) :: reason
       integer :: lun, stat, k
@@ -203,7 +204,8 @@ contains
             t%skipped, t%time, t%time_step, t%residual, t%cycles, t%total_cycles, t%policy%coarsening, &
             t%policy%changed_at, t%h00_before, t%friction_smooth, t%mass_content, t%p_before, t%predictor%weights, &
             t%accuracy%rise, t%accuracy%sensitivity, t%accuracy%largest, t%film_checksum, t%extremes%found, t%mean%filled, &
-            t%mean%lag, t%mean%transit, seconds, coarse%ratio, outcome, coarse%load_share
+            t%mean%lag, t%mean%transit, numbers, seconds, coarse%ratio, outcome, coarse%load_share
+         if (stat == 0) call t%duty_steps%unpack(numbers)
          coarse%outcome = nint(outcome)
          if (stat == 0) call read_text(lun, coarse%message, stat)
          if (stat == 0) call read_text(lun, fallback_reason, stat)

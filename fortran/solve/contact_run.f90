@@ -9,7 +9,7 @@ module ehl_contact_run
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
    use ehl_outcome, only: outcome_converged, outcome_running, outcome_target_missed
-   use ehl_level, only: gap
+   use ehl_level, only: gap, level_t
    use ehl_plan, only: plan_t
    use ehl_plan_surface, only: check_carried
    use ehl_predicted_start, only: predicted_start_t
@@ -80,6 +80,21 @@ module ehl_contact_run
       procedure :: save
    end type contact_run_t
 
+   ! in contact_duty.f90
+   interface
+      !> Columns of the history of a contact under a duty
+      module subroutine duty_names(names)
+         character(len=16), allocatable, intent(out) :: names(:)
+      end subroutine duty_names
+
+      !> Its row after a step
+      module subroutine duty_row(self, level, row)
+         class(contact_run_t), intent(in) :: self
+         type(level_t), intent(in) :: level
+         real(dp), allocatable, intent(out) :: row(:)
+      end subroutine duty_row
+   end interface
+
    ! in contact_start.f90
    interface
       !> From the contact, smooth or with what is stationary, to time steps, or to the state that was kept
@@ -142,7 +157,12 @@ contains
       class(contact_run_t), intent(inout) :: self
       character(len=16), allocatable :: columns(:)
 
-      if (self%plan%surfaces%rest()) then
+      if (self%plan%duty%active) then
+         call duty_names(columns)
+         if (self%plan%lubricant%boundary_film > 0.0_dp) then
+            columns = [character(len=16) :: columns, touching_names(:known_names(self%plan%lubricant))]
+         end if
+      else if (self%plan%surfaces%rest()) then
          columns = [character(len=16) :: "cycle", "share", "mu_ratio", "H_c", "H_min", "P_max", "load_error", "residual"]
       else if (self%plan%surfaces%move()) then
          columns = [character(len=16) :: "step", "T", "mu_ratio", "H_c", "H_min", "P_max", "load_error", "cycles", "residual"]
@@ -168,11 +188,11 @@ contains
       real(dp), allocatable :: row(:)
 
       self%grid = self%hierarchy%levels(n)%grid
-      if (.not. (self%plan%surfaces%rough() .and. outcome == outcome_converged)) self%outcome = outcome
+      if (.not. (self%plan%goes_on() .and. outcome == outcome_converged)) self%outcome = outcome
       if (self%plan%heat%counts .and. any(outcome == [outcome_converged, outcome_target_missed])) then
-         call add_heat(self, n, .not. self%plan%surfaces%rough(), self%smooth_heat, status)
+         call add_heat(self, n, .not. self%plan%goes_on(), self%smooth_heat, status)
       end if
-      if (self%plan%surfaces%rough()) return
+      if (self%plan%goes_on()) return
       associate (result => self%smooth%results(n))
          row = [real(dp) :: n, self%grid%nx, result%cycles, result%m%film_central, result%m%film_minimum, &
                 result%m%pressure_maximum, result%m%friction, result%m%load_error, result%residual, result%algebraic(1)]
@@ -213,17 +233,23 @@ contains
       real(dp) :: numbers(size(touching_names))
 
       associate (transient => self%transient, m => self%transient%m, level => self%hierarchy%levels(self%smooth%n))
-         allocate (row, source=[real(dp) :: transient%step, transient%time, m%friction/transient%friction_smooth, m%film_central, &
-                                m%film_minimum, m%pressure_maximum, m%load_error, transient%cycles, transient%residual])
-         if (self%plan%heat%counts) row = [row, step_heat(self)]
+         if (self%plan%duty%active) then
+            call duty_row(self, level, row)
+         else
+            row = [real(dp) :: transient%step, transient%time, m%friction/transient%friction_smooth, m%film_central, &
+                   m%film_minimum, m%pressure_maximum, m%load_error, transient%cycles, transient%residual]
+            if (self%plan%heat%counts) row = [row, step_heat(self)]
+         end if
          if (self%plan%lubricant%boundary_film > 0.0_dp) then
             numbers = m%touching%numbers()
             row = [row, numbers(:known_names(self%plan%lubricant))]
          end if
          call self%history%append(row, status)
-         if (self%plan%surfaces%pass_once()) call transient%extremes%see(level, self%p_smooth, self%h_smooth, transient%time)
+         if (self%plan%surfaces%pass_once() .and. .not. self%plan%duty%active) then
+            call transient%extremes%see(level, self%p_smooth, self%h_smooth, transient%time)
+         end if
          self%outcome = transient_outcome(self%plan, transient)
-         if (self%plan%heat%counts .and. self%outcome == outcome_converged) then
+         if (self%plan%heat%counts .and. self%outcome == outcome_converged .and. .not. self%plan%duty%active) then
             call add_heat(self, self%smooth%n, .true., self%rough_heat, status)
          end if
          call self%frames%keep(level, transient%time, transient%time_step, self%plan%frame_interval, status)
@@ -238,7 +264,7 @@ contains
       if (self%phase == phase_smooth) call keep_smooth(self, status)
       if (status%failed()) return
       associate (surfaces => self%plan%surfaces, n => self%smooth%n)
-         if (self%phase == phase_smooth .and. (surfaces%rest() .or. surfaces%some_rest())) then
+         if (self%phase == phase_smooth .and. .not. self%plan%duty%active .and. (surfaces%rest() .or. surfaces%some_rest())) then
             call self%stationary%start(self%hierarchy%levels(n), n, self%plan%contact, surfaces, self%plan%steady_options_t, status)
             self%phase = phase_stationary
          else
@@ -253,9 +279,11 @@ contains
       type(status_t), intent(inout) :: status
       integer :: stat
 
-      call self%plan%update_resolved_fraction(self%grid)
-      call check_carried(self%plan%surfaces, self%grid, status)
-      call self%plan%surfaces%prepare(self%grid, status)
+      if (self%plan%surfaces%rough()) then
+         call self%plan%update_resolved_fraction(self%grid)
+         call check_carried(self%plan%surfaces, self%grid, status)
+         call self%plan%surfaces%prepare(self%grid, status)
+      end if
       if (status%failed()) return
       if (allocated(self%p_smooth)) deallocate (self%p_smooth, self%h_smooth)
       allocate (self%p_smooth(self%grid%nx, self%grid%ny), self%h_smooth(self%grid%nx, self%grid%ny), stat=stat)

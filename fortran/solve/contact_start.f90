@@ -14,9 +14,11 @@ contains
       associate (plan => self%plan, transient => self%transient, n => self%smooth%n, m => self%smooth%results(self%smooth%n)%m)
          ! where a feature passes once, the largest pressure and the minimum film are asked for, not the mean friction alone
          call transient%accuracy%set(self%grid%hx, plan%accuracy, m%friction_newtonian, &
-                                     merge(0.0_dp, friction_error(self%smooth%results, n), plan%surfaces%pass_once()))
+                                     merge(0.0_dp, friction_error(self%smooth%results, n), &
+                                           plan%surfaces%pass_once() .or. plan%duty%active))
          call transient%policy%set(plan%step_cycle, plan%coarsening_may_change, plan%max_cycles)
-         call transient%start(self%hierarchy%levels(n), n, plan%contact, plan%surfaces, plan%skip_start, m%friction, status)
+         call transient%start(self%hierarchy%levels(n), n, plan%contact, plan%surfaces, plan%duty, plan%skip_start, &
+                              m%friction, status)
          if (status%failed()) return
          if (plan%predicted_start) call begin_filled(self, n, status)
          if (status%failed()) return

@@ -11,6 +11,9 @@ module ehl_stopping_criterion
    private
    public :: transient_outcome, min_periods
 
+   !> Rounding of the time at the end of a duty
+   real(dp), parameter :: end_rounding = 1.0e-9_dp
+
 contains
 
    !> How a transient run stands after a step that converged. One that ends after so many steps is converged only if it
@@ -20,6 +23,10 @@ contains
       type(transient_t), intent(in) :: transient
       logical :: ends, settled
 
+      if (plan%duty%active) then
+         outcome = merge(outcome_running, outcome_converged, transient%time < plan%duty%end_time()*(1.0_dp - end_rounding))
+         return
+      end if
       associate (mean => transient%mean)
          if (plan%surfaces%pass_once()) then
             settled = mean%has_mean()

@@ -46,7 +46,8 @@ contains
       end do steps
    end subroutine solve_transient
 
-   !> One time step: attempts, cycles of each, until one is solved. Where none is the last good state stands.
+   !> One time step. Under a duty it is cut where it has no solution, or its error is too large. Where there is none the last
+   !> good state stands.
    subroutine time_step(transient, hierarchy, surfaces, outcome, status)
       type(transient_t), intent(inout) :: transient
       type(hierarchy_t), intent(inout) :: hierarchy
@@ -55,11 +56,44 @@ contains
       integer, intent(out) :: outcome
       type(status_t), intent(inout) :: status
       type(contact_results_t) :: first
-      real(dp) :: before, residual_first
-      integer :: n, next
+      real(dp) :: residual_first
+      logical :: good
 
       outcome = outcome_running
       if (status%failed()) return
+      associate (level => hierarchy%levels(transient%n), duty => transient%duty)
+         do
+            if (duty%active) call transient%begin_duty(hierarchy, surfaces)
+            call solve_step(transient, hierarchy, surfaces, first, residual_first, outcome, status)
+            if (status%failed()) return
+            good = outcome == outcome_converged
+            if (good .and. duty%active) call transient%duty_steps%judge(duty, transient%time_step, transient%now%mean_velocity(), &
+                                                                        transient%m%films(), good)
+            if (good) call transient%accept(level, first, residual_first, status)
+            call transient%end_duty(level)
+            if (good) return
+            call transient%step_back(level, surfaces)
+            if (.not. duty%active) return
+            if (.not. transient%duty_steps%cut()) return
+         end do
+      end associate
+   end subroutine time_step
+
+   !> The problem of a step: attempts, cycles of each, until one is solved
+   subroutine solve_step(transient, hierarchy, surfaces, first, residual_first, outcome, status)
+      type(transient_t), intent(inout) :: transient
+      type(hierarchy_t), intent(inout) :: hierarchy
+      class(moving_surfaces_t), intent(inout) :: surfaces
+      !> Results and residual after the first cycle
+      type(contact_results_t), intent(out) :: first
+      real(dp), intent(out) :: residual_first
+      integer, intent(out) :: outcome
+      type(status_t), intent(inout) :: status
+      real(dp) :: before
+      integer :: n, next
+
+      outcome = outcome_running
+      residual_first = 0.0_dp
       n = transient%n
       call transient%begin_step(hierarchy%levels(n), surfaces)
       attempts: do
@@ -82,10 +116,5 @@ contains
          end do cycles
       end do attempts
       if (outcome == outcome_running) outcome = outcome_cycle_limit
-      if (outcome == outcome_converged) then
-         call transient%accept(hierarchy%levels(n), first, residual_first, status)
-      else
-         call transient%step_back(hierarchy%levels(n), surfaces)
-      end if
-   end subroutine time_step
+   end subroutine solve_step
 end module ehl_transient

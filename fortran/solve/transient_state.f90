@@ -4,6 +4,8 @@
 module ehl_transient_state
    use ehl_contact, only: contact_t
    use ehl_cycle, only: coarsening_alcouffe, coarsening_classical
+   use ehl_duty, only: duty_state_t, duty_t
+   use ehl_duty_steps, only: duty_steps_t
    use ehl_extremes, only: extremes_t
    use ehl_friction_mean, only: friction_mean_t
    use ehl_hierarchy, only: hierarchy_t
@@ -18,8 +20,8 @@ module ehl_transient_state
    use ehl_status, only: ehl_no_memory, status_t
    use ehl_step_accuracy, only: step_accuracy_t
    use ehl_step_policy, only: attempt_predicted, step_policy_t
-   use ehl_time_levels, only: keep, set_geometry, set_history
-   use ehl_wedge, only: old_times
+   use ehl_time_levels, only: keep, mirror, set_geometry, set_history
+   use ehl_wedge, only: old_times, wedge_separate
    implicit none (type, external)
    private
    public :: transient_t
@@ -48,7 +50,18 @@ module ehl_transient_state
       !> Sum of 1/H after the last step, to know the film by
       real(dp) :: film_checksum = 0.0_dp
       type(predictor_t) :: predictor
+      !> The duty, the lengths of its steps, what holds at the end of the present one
+      type(duty_t) :: duty
+      type(duty_steps_t) :: duty_steps
+      type(duty_state_t) :: now
+      !> 1/lambda_bar of the case
+      real(dp), private :: inverse_speed = 0.0_dp
+      !> Whether the lubricant flows the other way in the present step, which is solved as its mirror image
+      logical, private :: reversed = .false.
    contains
+      procedure :: begin_duty
+      procedure :: end_duty
+      procedure, private :: turn
       procedure :: start
       procedure :: fill
       procedure :: begin_step
@@ -65,12 +78,13 @@ contains
 
    !> Begin from the solution of level n, smooth or with what is stationary, the roughness on the move riding on its film.
    !> Where the film is thick it changes nothing: solving begins when the front, with half its length, reaches x_matters.
-   subroutine start(self, level, n, contact, surfaces, skip, friction_smooth, status)
+   subroutine start(self, level, n, contact, surfaces, duty, skip, friction_smooth, status)
       class(transient_t), intent(inout) :: self
       type(level_t), intent(inout) :: level
       integer, intent(in) :: n
       class(contact_t), intent(in) :: contact
       class(moving_surfaces_t), intent(inout) :: surfaces
+      type(duty_t), intent(in) :: duty
       !> Begin when the roughness comes near the contact, not when it enters the domain
       logical, intent(in) :: skip
       real(dp), intent(in) :: friction_smooth
@@ -84,8 +98,15 @@ contains
       self%total_cycles = 0
       self%time_step = level%grid%hx
       self%skipped = 0
-      if (skip) self%skipped = int(surfaces%begin()/self%time_step)
+      if (skip .and. .not. duty%active) self%skipped = int(surfaces%begin()/self%time_step)
       self%time = self%skipped*self%time_step
+      self%duty = duty
+      self%duty_steps = duty_steps_t()
+      if (duty%active) then
+         self%time = duty%begin()
+         self%now = duty%at(self%time)
+         self%inverse_speed = level%flow%inverse_speed
+      end if
       self%friction_smooth = friction_smooth
       if (allocated(self%mass_content)) deallocate (self%mass_content, self%p_before, self%rr)
       associate (nx => level%grid%nx, ny => level%grid%ny)
@@ -98,7 +119,11 @@ contains
       call self%predictor%setup(level%grid%nx, level%grid%ny, surfaces%velocities()*self%time_step/level%grid%hx, status)
       if (status%failed()) return
       do k = old_times, 1, -1
-         call surfaces%roughness(level%grid, self%time - (k - 1)*self%time_step, self%rr, moving=.true.)
+         if (duty%active) then
+            call heights_of(surfaces, level, self%now, self%rr)
+         else
+            call surfaces%roughness(level%grid, self%time - (k - 1)*self%time_step, self%rr, moving=.true.)
+         end if
          self%mass_content(:, :, k) = level%rho*(level%h - self%rr)
       end do
       do k = 1, size(self%p_before, 3)
@@ -106,10 +131,87 @@ contains
       end do
       self%h00_before = level%h00
       self%m = measure(level)
-      call self%mean%start(surfaces%period, surfaces%repeats, surfaces%mismatch, self%time_step, &
-                           surfaces%time_to_mean(self%time))
+      if (duty%active) then
+         ! no mean of what changes
+         call self%mean%start(huge(1.0_dp), 1, 0.0_dp, self%time_step, 0.0_dp)
+      else
+         call self%mean%start(surfaces%period, surfaces%repeats, surfaces%mismatch, self%time_step, &
+                              surfaces%time_to_mean(self%time))
+      end if
       self%extremes = extremes_t()
    end subroutine start
+
+   !> Heights of the rough surfaces where their ways have brought them
+   subroutine heights_of(surfaces, level, state, rr)
+      class(moving_surfaces_t), intent(inout) :: surfaces
+      type(level_t), intent(in) :: level
+      type(duty_state_t), intent(in) :: state
+      real(dp), intent(out) :: rr(:, :)
+
+      if (surfaces%rough()) then
+         call surfaces%roughness(level%grid, 0.0_dp, rr, ways=state%ways)
+      else
+         rr = 0.0_dp
+      end if
+   end subroutine heights_of
+
+   !> A step under a duty: its length, and all that the duty has changed by its end
+   subroutine begin_duty(self, hierarchy, surfaces)
+      class(transient_t), intent(inout) :: self
+      type(hierarchy_t), intent(inout) :: hierarchy
+      class(moving_surfaces_t), intent(in) :: surfaces
+      real(dp) :: stress
+      integer :: k
+
+      associate (level => hierarchy%levels(self%n))
+         self%time_step = self%duty_steps%next(self%duty, self%time, level%grid%hx, surfaces%rough())
+         self%now = self%duty%at(self%time + self%time_step)
+         level%load = self%contact%load*self%now%load
+         self%predictor%shifts = surfaces%velocities()*abs(self%now%mean_velocity())*self%time_step/level%grid%hx
+      end associate
+      stress = self%duty%stress*abs(self%now%speeds(1) - self%now%speeds(2))*self%now%viscosity
+      do k = 1, size(hierarchy%levels)
+         associate (level => hierarchy%levels(k))
+            if (.not. allocated(level%p)) cycle
+            call level%wedge%set_step(wedge_separate, level%grid%hx, self%time_step, abs(self%now%mean_velocity()), &
+                                      self%duty_steps%ratio(self%time_step))
+            level%lubricant%shear%scale = stress
+            call level%flow%rescale(self%inverse_speed/self%now%viscosity, stress/max(level%lubricant%shear%stress, tiny(1.0_dp)))
+         end associate
+      end do
+      self%reversed = self%now%mean_velocity() < 0.0_dp
+      call self%turn()
+   end subroutine begin_duty
+
+   !> The fields that a step leaves, as they are in space again
+   subroutine end_duty(self, level)
+      class(transient_t), intent(inout) :: self
+      type(level_t), intent(inout) :: level
+
+      if (.not. self%reversed) return
+      call self%turn()
+      self%reversed = .false.
+      call mirror(level%p)
+      call mirror(level%film_rhs)
+      call refresh(level)
+   end subroutine end_duty
+
+   !> The fields of the last steps as their mirror image
+   subroutine turn(self)
+      class(transient_t), intent(inout) :: self
+      integer :: k
+
+      if (.not. self%reversed) return
+      do k = 1, size(self%mass_content, 3)
+         call mirror(self%mass_content(:, :, k))
+      end do
+      do k = 1, size(self%p_before, 3)
+         call mirror(self%p_before(:, :, k))
+      end do
+      do k = 1, size(self%predictor%weights, 3)
+         call mirror(self%predictor%weights(:, :, k))
+      end do
+   end subroutine turn
 
    !> Begin with the contact full of roughness instead, from the pressure that it is expected to add. Where the film would
    !> not be positive all is as it was.
@@ -171,11 +273,21 @@ contains
       class(transient_t), intent(inout) :: self
       type(level_t), intent(inout) :: level
       class(moving_surfaces_t), intent(inout) :: surfaces
+      real(dp) :: tolerance
 
-      call surfaces%roughness(level%grid, self%time + self%time_step, self%rr)
-      call set_geometry(level, self%contact, self%rr)
+      if (self%duty%active) then
+         call heights_of(surfaces, level, self%now, self%rr)
+         call set_geometry(level, self%contact, self%rr, self%now%curvatures)
+         if (self%reversed) call mirror(level%film_rhs)
+      else
+         call surfaces%roughness(level%grid, self%time + self%time_step, self%rr)
+         call set_geometry(level, self%contact, self%rr)
+      end if
       call set_history(level, self%mass_content)
-      call self%policy%begin(self%accuracy%tolerance(self%mean%n >= self%mean%filled), self%accuracy%measures(self%step + 1))
+      tolerance = self%accuracy%tolerance(self%mean%n >= self%mean%filled)
+      ! a shorter step makes less of the same residual
+      if (self%duty%active) tolerance = tolerance*max(1.0_dp, level%grid%hx/self%time_step)
+      call self%policy%begin(tolerance, self%accuracy%measures(self%step + 1))
       self%cycles = 0
    end subroutine begin_step
 
@@ -239,7 +351,12 @@ contains
       call self%accuracy%follow(self%m%friction_newtonian)
       self%total_cycles = self%total_cycles + self%cycles
       self%step = self%step + 1
-      self%time = (self%skipped + self%step)*self%time_step
+      if (self%duty%active) then
+         self%time = self%time + self%time_step
+         call self%duty_steps%keep(self%time_step, 0.5_dp*abs(self%now%mean_velocity())*self%time_step, self%m%films())
+      else
+         self%time = (self%skipped + self%step)*self%time_step
+      end if
       call self%mean%append(self%m%friction/self%friction_smooth, self%m%film_central, central_value(level%grid, self%rr), &
                             status)
       self%h00_before = [level%h00, self%h00_before(1:2)]
@@ -269,8 +386,16 @@ contains
       type(level_t), intent(inout) :: level
       class(moving_surfaces_t), intent(inout) :: surfaces
 
-      call surfaces%roughness(level%grid, self%time, self%rr)
-      call set_geometry(level, self%contact, self%rr)
+      if (self%duty%active) then
+         self%now = self%duty%at(self%time)
+         self%reversed = .false.
+         level%load = self%contact%load*self%now%load
+         call heights_of(surfaces, level, self%now, self%rr)
+         call set_geometry(level, self%contact, self%rr, self%now%curvatures)
+      else
+         call surfaces%roughness(level%grid, self%time, self%rr)
+         call set_geometry(level, self%contact, self%rr)
+      end if
       level%p = self%p_before(:, :, 1)
       level%h00 = self%h00_before(1)
       call refresh(level)

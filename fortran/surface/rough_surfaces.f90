@@ -16,6 +16,8 @@ module ehl_rough_surfaces
    type :: member_t
       !> Group of the case that describes it
       character(len=16) :: group = ""
+      !> The body that has it
+      integer :: body = 1
       class(surface_t), allocatable :: surface
       !> Amplitude as a share of the smooth central film; 0: it is known already
       real(dp) :: amplitude_over_film = 0.0_dp
@@ -58,13 +60,14 @@ module ehl_rough_surfaces
 contains
 
    !> Take over another surface
-   subroutine add(self, group, surface, amplitude_over_film)
+   subroutine add(self, group, surface, amplitude_over_film, body)
       class(rough_surfaces_t), intent(inout) :: self
       !> Group of the case that describes it
       character(len=*), intent(in) :: group
       class(surface_t), allocatable, intent(inout) :: surface
       !> Amplitude as a share of the smooth central film; 0: it is known already
       real(dp), intent(in) :: amplitude_over_film
+      integer, intent(in) :: body
       type(member_t), allocatable :: more(:)
       integer :: k, n
 
@@ -73,10 +76,12 @@ contains
       do k = 1, n
          call move_alloc(self%of(k)%surface, more(k)%surface)
          more(k)%group = self%of(k)%group
+         more(k)%body = self%of(k)%body
          more(k)%amplitude_over_film = self%of(k)%amplitude_over_film
       end do
       call move_alloc(surface, more(n + 1)%surface)
       more(n + 1)%group = group
+      more(n + 1)%body = body
       more(n + 1)%amplitude_over_film = amplitude_over_film
       call move_alloc(more, self%of)
       if (self%move_together()) self%correlation = self%of(1)%surface%correlation(self%of(2)%surface)
@@ -216,7 +221,7 @@ contains
 
       do k = 1, self%count()
          call self%of(k)%surface%hand_over(surface)
-         call other%add(self%of(k)%group, surface, 0.0_dp)
+         call other%add(self%of(k)%group, surface, 0.0_dp, self%of(k)%body)
       end do
    end subroutine hand_over
 
@@ -231,25 +236,36 @@ contains
    end subroutine take_back
 
    !> rr(nx, ny): sum of the heights at the nodes, at time T [a^2/R]
-   subroutine roughness(self, grid, time, rr, moving)
+   subroutine roughness(self, grid, time, rr, moving, ways)
       class(rough_surfaces_t), intent(inout) :: self
       type(grid_t), intent(in) :: grid
       real(dp), intent(in) :: time
       real(dp), intent(out) :: rr(:, :)
       !> Of those alone that move, or that are at rest; at least one
       logical, intent(in), optional :: moving
+      !> Ways of body 1 and of body 2 so far, in place of the time
+      real(dp), intent(in), optional :: ways(2)
       logical :: wanted(self%count())
       integer :: k, first
 
       wanted = .true.
       if (present(moving)) wanted = [(self%of(k)%surface%at_rest() .neqv. moving, k=1, self%count())]
       first = findloc(wanted, .true., dim=1)
-      call self%of(first)%surface%height(grid, time, rr)
+      call self%of(first)%surface%height(grid, time_of(first), rr)
       do k = first + 1, self%count()
          if (.not. wanted(k)) cycle
-         call self%of(k)%surface%height(grid, time, self%part)
+         call self%of(k)%surface%height(grid, time_of(k), self%part)
          rr = rr + self%part
       end do
+
+   contains
+
+      !> Time at which a surface is where it is
+      pure real(dp) function time_of(k)
+         integer, intent(in) :: k
+         time_of = time
+         if (present(ways)) time_of = ways(self%of(k)%body)/self%of(k)%surface%velocity_ratio
+      end function time_of
    end subroutine roughness
 
    !> Bytes of their arrays

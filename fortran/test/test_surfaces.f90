@@ -33,7 +33,7 @@ contains
       class(surface_t), allocatable :: surface
 
       allocate (surface, source=new_harmonic(height, wavelength, wavelength, velocity_ratio, x_start))
-      call surfaces%add("surface", surface, 0.0_dp)
+      call surfaces%add("surface", surface, 0.0_dp, 1)
    end subroutine add_wave
 
    !> Add a dent half a wide
@@ -43,7 +43,7 @@ contains
       class(surface_t), allocatable :: surface
 
       allocate (surface, source=new_feature(.false., .false., amplitude, 0.5_dp, 0.5_dp, 0.0_dp, 0.0_dp, velocity_ratio, x_front))
-      call surfaces%add("second_surface", surface, 0.0_dp)
+      call surfaces%add("second_surface", surface, 0.0_dp, 2)
    end subroutine add_dent
 
    !> The sum of all, of those that move and of those at rest; rms height and slope by the root of the sum of squares

@@ -8,7 +8,7 @@ module ehl_time_levels
    use ehl_level, only: level_t
    implicit none (type, external)
    private
-   public :: set_geometry, set_history, keep
+   public :: set_geometry, set_history, keep, mirror
 
    !> A residual is answered partly by the squeeze of the film, partly by the Poiseuille flow. Half of it is passed on to
    !> the next step where the flow is so many times the squeeze.
@@ -17,22 +17,39 @@ module ehl_time_levels
 contains
 
    !> Gap of the undeformed bodies, less the roughness
-   subroutine set_geometry(level, contact, rr)
+   subroutine set_geometry(level, contact, rr, curvatures)
       type(level_t), intent(inout) :: level
       class(contact_t), intent(in) :: contact
       real(dp), intent(in) :: rr(:, :)
-      real(dp) :: x(level%grid%nx)
+      !> Curvatures along X and Y over those of the contact
+      real(dp), intent(in), optional :: curvatures(2)
+      real(dp) :: x(level%grid%nx), along_y
       integer :: j
 
       x = level%grid%columns()
-      !$omp parallel do default(none) shared(level, contact, rr, x) &
+      along_y = 1.0_dp
+      if (present(curvatures)) then
+         x = x*sqrt(curvatures(1))
+         along_y = sqrt(curvatures(2))
+      end if
+      !$omp parallel do default(none) shared(level, contact, rr, x, along_y) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = 1, level%grid%ny
-         call contact%gap_row(x, level%grid%y(j), level%film_rhs(:, j))
+         call contact%gap_row(x, along_y*level%grid%y(j), level%film_rhs(:, j))
          level%film_rhs(:, j) = level%film_rhs(:, j) - rr(:, j)
       end do
       !$omp end parallel do
    end subroutine set_geometry
+
+   !> A field of a motion the other way
+   subroutine mirror(values)
+      real(dp), contiguous, intent(inout) :: values(:, :)
+      integer :: j
+
+      do j = 1, size(values, 2)
+         values(:, j) = values(size(values, 1):1:-1, j)
+      end do
+   end subroutine mirror
 
    !> The part of earlier times in the right-hand side
    subroutine set_history(level, mass_content)

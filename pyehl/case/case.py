@@ -182,9 +182,10 @@ def trusted(text: str) -> Case:
 
 
 def files_of(settings: Settings) -> list[str]:
-    """Give the files that a resolved case reads: height maps, a table of viscosities."""
+    """Give the files that a resolved case reads: height maps, tables of viscosities and duty."""
     maps = [group["file"] for group in settings.values() if group.get("kind") == "map"]
-    return [str(name) for name in (*maps, settings["lubricant"].get("table")) if name]
+    tables = settings["lubricant"].get("table"), settings.get("duty", {}).get("file")
+    return [str(name) for name in (*maps, *tables) if name]
 
 
 def exchanged(case: Case) -> Case:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The grid of a case: border and domain that follow from the contact, nodes that can be halved."""
 
-from pyehl.case import physics
+from pyehl.case import duty, physics
 from pyehl.case.key import short, to_text
 from pyehl.case.settings import Draft
 
@@ -21,7 +21,8 @@ def complete(draft: Draft) -> None:
     inlet = draft.settings.inlet
     if ends[0] is None and inlet.position_hertz > 0.0:
         ends[0] = -inlet.position_hertz
-    if max(inlet.position_hertz, inlet.film_hertz) > 0.0:
+    # with a duty a border that changes with time is not known
+    if draft.settings.duty.time or max(inlet.position_hertz, inlet.film_hertz) > 0.0:
         border = border or "zero"
     found = physics.grid_defaults(
         draft.settings,
@@ -29,6 +30,8 @@ def complete(draft: Draft) -> None:
         ends,
         0 if find_points else g.points,
         g.points_y,
+        duty.widening(draft.settings),
+        duty.reverses(draft.settings),
     )
     g.border, g.x_inlet, g.x_outlet, g.y_extent, g.points, g.points_y = found
 

@@ -7,7 +7,7 @@ stands for "not given". What is no key is set when a case is completed.
 
 from dataclasses import dataclass
 
-from pyehl.case.key import real, truth, whole, word
+from pyehl.case.key import numbers, path, real, truth, whole, word
 
 
 @dataclass(slots=True)
@@ -190,6 +190,41 @@ class Time:
         True, "run on the next coarser grid too, for the grid error of mu_ratio"
     )
     steps: int = whole(0, "[0, 10000000]", "exactly so many steps; 0: until the friction is known")
+
+
+@dataclass(slots=True)
+class Duty:
+    """``&duty``: what changes with time; what has no values stays that of the case."""
+
+    file: str = path("table over time: names with units, then a line for each time")
+    interpolation: str = word("linear", "linear|cubic", "between two times")
+    periodic: bool = truth(False, "the last time is the first one of the next period")
+    periods: int = whole(3, "[1, 1000]", "periods to run; results are of the last one")
+    time_step: float = real(
+        1.0, "-", "[0.01, 4]", "time step over that in which the faster surface passes a mesh size"
+    )
+    target_error: float = real(
+        0.0,
+        "-",
+        "0 or [1e-5, 0.1]",
+        "error of h_c and h_min by the time steps, over a transit of the contact; 0: not asked for",
+    )
+    time: tuple[float, ...] = numbers("s", "times")
+    load: tuple[float, ...] = numbers("N", "load, of a line per length [N/m]")
+    u1: tuple[float, ...] = numbers("m/s", "velocity of body 1, with u2")
+    u2: tuple[float, ...] = numbers("m/s", "velocity of body 2")
+    mean_velocity: tuple[float, ...] = numbers("m/s", "mean velocity, below 0 the other way")
+    slide_to_roll: tuple[float, ...] = numbers("-", "slide-to-roll ratio")
+    radius_x: tuple[float, ...] = numbers("m", "reduced radius in the plane of the motion")
+    radius_y: tuple[float, ...] = numbers("m", "reduced radius across the motion")
+    viscosity: tuple[float, ...] = numbers("Pa s", "viscosity at the inlet")
+
+
+DUTY_LISTS = (
+    *("time", "load", "u1", "u2", "mean_velocity", "slide_to_roll"),
+    *("radius_x", "radius_y", "viscosity"),
+)
+"""Keys of ``&duty`` that take as many numbers as there are times."""
 
 
 @dataclass(slots=True)

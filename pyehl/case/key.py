@@ -70,7 +70,7 @@ class Key:
     group, key
         Its names in a namelist.
     kind
-        'real', 'whole', 'truth', 'word', 'path', 'text', or 'numbers', which pyehl writes alone.
+        'real', 'whole', 'truth', 'word', 'path', 'text', or 'numbers'.
     unit
         Of a number; '-' for none.
     allowed
@@ -142,7 +142,9 @@ class Key:
             "truth": ".true. or .false.",
             "path": "a file name between quotes",
             "text": "a text between quotes",
-            "numbers": "what pyehl writes; lubricant.table names measured values",
+            "numbers": "numbers with commas between them"
+            if self.for_input
+            else "what pyehl writes; lubricant.table names measured values",
         }[self.kind]
 
     def in_millimetres(self, number: str) -> str:
@@ -194,7 +196,7 @@ def text(meaning: str) -> Any:  # noqa: ANN401
 
 
 def numbers(unit: str, meaning: str) -> Any:  # noqa: ANN401
-    """Describe a key that takes numbers, which nobody types."""
+    """Describe a key that takes any number of numbers."""
     return _field("numbers", (), unit, "", meaning)
 
 

@@ -64,14 +64,24 @@ def _point(values: tuple[float, ...]) -> Point:
 
 
 def grid_defaults(
-    settings: Settings, border: str, ends: Sequence[float | None], points: int, points_y: int
+    settings: Settings,
+    border: str,
+    ends: Sequence[float | None],
+    points: int,
+    points_y: int,
+    widening: float = 1.0,
+    reverses: bool = False,
 ) -> Domain:
     """Border, domain and nodes that a contact needs; '', None and 0 are to be found.
+
+    Under a duty the contact is `widening` times as large at times, and where the motion
+    `reverses` the domain is symmetric.
 
     Nodes along X of smooth surfaces are twice as many where fewer miss much of the film.
     """
     smooth = settings.surface.kind == settings.second_surface.kind == "smooth"
-    return _grid(_contact(settings), border, tuple(ends), points, points_y, smooth)
+    moving = widening, reverses
+    return _grid(_contact(settings), border, tuple(ends), points, points_y, smooth, moving)
 
 
 @lru_cache(maxsize=256)
@@ -82,10 +92,13 @@ def _grid(
     points: int,
     points_y: int,
     smooth: bool,
+    moving: tuple[float, bool],
 ) -> Domain:
     given = [math.nan if end is None else end for end in ends]
     number = BORDERS.index(border)
-    found, domain, nx, ny = cases.grid_defaults(*values, number, smooth, given, points, points_y)
+    found, domain, nx, ny = cases.grid_defaults(
+        *values, number, smooth, given, points, points_y, *moving
+    )
     x_inlet, x_outlet, y_extent = domain.tolist()
     return Domain(BORDERS[found], x_inlet, x_outlet, y_extent, nx, ny)
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, fields
 from typing import Any, NamedTuple, NoReturn
 
-from pyehl.case.groups import Bodies, Contact, Grid, Inlet, Output, Psd, Solver, Time
+from pyehl.case.groups import Bodies, Contact, Duty, Grid, Inlet, Output, Psd, Solver, Time
 from pyehl.case.key import Key, Value, short
 from pyehl.case.lubricant_group import Lubricant
 from pyehl.case.machine_groups import BallBearing, RollerBearing, SpurGear
@@ -27,6 +27,7 @@ class Settings:
     surface: Surface = field(default_factory=Surface)
     second_surface: Surface = field(default_factory=Surface)
     time: Time = field(default_factory=Time)
+    duty: Duty = field(default_factory=Duty)
     solver: Solver = field(default_factory=Solver)
     psd: Psd = field(default_factory=Psd)
     output: Output = field(default_factory=Output)

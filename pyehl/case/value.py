@@ -58,7 +58,7 @@ def value_of(key: Key, value: Piece, *, is_option: bool) -> Value:
             raise BadValue("not a truth value")
         return truth
     if key.kind == "numbers":
-        raise BadValue("not for input")
+        return _numbers(key, value)
     if value.kind == ATOM and not is_option:
         what = {"word": "word", "path": "file name"}.get(key.kind, "text")
         raise BadValue(f"no quotes around the {what}")
@@ -70,6 +70,15 @@ def value_of(key: Key, value: Piece, *, is_option: bool) -> Value:
     if len(value.text.encode(errors="surrogateescape")) > LONGEST_PATH:
         raise BadValue(f"longer than {LONGEST_PATH} characters")
     return value.text
+
+
+def _numbers(key: Key, piece: Piece) -> tuple[float, ...]:
+    if not key.for_input:
+        raise BadValue("not for input")
+    cells = [cell.strip() for cell in piece.text.split(",")]
+    if not all(NUMBER.fullmatch(cell) for cell in cells):
+        raise BadValue("not numbers with commas between them")
+    return tuple(float(cell.lower().replace("d", "e")) for cell in cells)
 
 
 def _number(key: Key, piece: Piece, *, is_option: bool) -> float | int:

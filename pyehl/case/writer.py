@@ -99,9 +99,10 @@ def _unwritten(settings: Settings, group: str) -> frozenset[str]:
         return frozenset(_of_lubricant(settings))
     if group in ("surface", "second_surface"):
         return frozenset(_of_surface(settings, group))
-    if settings.contact.is_line:
-        return frozenset(("y_extent", "points_y") if group == "grid" else ())
-    return frozenset()
+    if group == "duty":
+        return frozenset(_of_duty(settings))
+    strip = settings.contact.is_line and group == "grid"
+    return frozenset(("y_extent", "points_y") if strip else ())
 
 
 def _of_contact(settings: Settings) -> Iterator[str]:
@@ -148,6 +149,13 @@ def _of_lubricant(settings: Settings) -> Iterator[str]:
             or (law == "murnaghan" != oil.density_law)
             or (law == "range" and not oil.own_law)
         ):
+            yield key.key
+
+
+def _of_duty(settings: Settings) -> Iterator[str]:
+    duty = settings.duty
+    for key in GROUPS["duty"]:
+        if not duty.time or (key.kind in ("path", "numbers") and not getattr(duty, key.key)):
             yield key.key
 
 

@@ -79,7 +79,9 @@ def solution_figures(data: xr.Dataset, units: str = "auto") -> dict[str, Figure]
         figures["deformed_roughness"] = _deformed(data, scales, title)
     if "A_d" in data:
         figures["rough_and_smooth"] = _rough_and_smooth(data, scales, title)
-    if "history_T" in data and data.sizes["history"] > 1:
+    if "history_t_s" in data and data.sizes["history"] > 1:
+        figures["duty"] = _duty(data, title)
+    elif "history_T" in data and data.sizes["history"] > 1:
         figures["friction"] = _friction(data, scales, title)
         if "P_rise_max" in summary_of(data):
             figures["extremes"] = _extremes(data, scales, title)
@@ -209,6 +211,18 @@ def _extremes(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
     transient.extremes_history(
         data.history_T.values, data.history_P_max.values, films, scales, ax=figure.axes[0]
     )
+    return figure
+
+
+def _duty(data: xr.Dataset, title: str) -> Figure:
+    """Films over time, with the central one of steady contacts, and below what changes."""
+    figure = rows([0.55, 0.3], title)
+    upper, lower = figure.axes
+    names = [str(name) for name in data if str(name).startswith("history_")]
+    history = {name.removeprefix("history_"): data[name].values for name in names}
+    steady = transient.quasi_static(history, namelist.values(data.attrs["case"]), float(data.h_c_m))
+    transient.duty_history(history, steady, ax=upper)
+    transient.duty_itself(history, ax=lower)
     return figure
 
 

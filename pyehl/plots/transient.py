@@ -6,6 +6,7 @@ index along x, the direction of motion. Units as in `pyehl.plots.style`.
 """
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,10 @@ from numpy.typing import ArrayLike
 from pyehl.plots import style
 from pyehl.plots.outline import CIRCLE, Outline
 from pyehl.theory import stribeck
+from pyehl.theory.film import central_film
+from pyehl.theory.line_contact import LineContact, contact_of
+from pyehl.theory.line_contact import central_film as line_film
+from pyehl.theory.lubricant import Lubricant
 from pyehl.types import Array, Mask, Settings
 
 
@@ -141,6 +146,76 @@ def extremes_history(
         handles=[*ax.get_lines(), *twin.get_lines()], loc="lower center", ncols=2,
         bbox_to_anchor=(0.5, 1.0),
     )  # fmt: skip
+    return ax
+
+
+def quasi_static(history: Mapping[str, Array], settings: Settings, film: float) -> Array | None:
+    """Central film [m] of steady contacts at the times of a duty, (n,).
+
+    By the film formula, times what makes it the solved `film` [m] of the case; NaN where the
+    lubricant is at rest; None where the radius across the motion changes, which is not in the
+    history.
+    """
+    if "radius_y" in settings["duty"]:
+        return None
+    point, lubricant = contact_of(settings), Lubricant.from_settings(settings)
+
+    def formula(load: float, speed: float, radius: float, viscosity: float) -> float:
+        if speed <= 0.0:
+            return float("nan")
+        common: dict[str, Any] = {
+            "mean_velocity": point.mean_velocity * speed,
+            "radius": point.radius * radius,
+            "viscosity": point.viscosity * viscosity,
+        }
+        if isinstance(point, LineContact):
+            line = replace(point, load_per_length=point.load_per_length * load, **common)
+            return line_film(line, lubricant)
+        ratio = point.radius_ratio * radius
+        return central_film(
+            replace(point, load=point.load * load, radius_ratio=ratio, **common), lubricant
+        )
+
+    columns = (history[name] for name in ("load", "speed", "radius_x", "viscosity"))
+    share = film / formula(1.0, 1.0, 1.0, 1.0)
+    found = [share * formula(w, abs(u), r, v) for w, u, r, v in zip(*columns, strict=True)]
+    return np.array(found)
+
+
+def duty_history(
+    history: Mapping[str, Array], steady: Array | None = None, *, ax: Axes | None = None
+) -> Axes:
+    """Central and minimum film over the time of a duty.
+
+    Parameters
+    ----------
+    history
+        Columns of the history, (n,) each: t_s [s], h_c_m, h_min_m [m].
+    steady
+        (n,) central films of steady contacts [m]; None: not drawn.
+    """
+    ax = style.axes_or_new(ax, 5.4, 3.0)
+    time, nm = history["t_s"] * 1e3, 1e9
+    if steady is not None:
+        ax.plot(time, steady * nm, color=style.GREY, lw=1.0, ls="--", label="centre, steady")
+    ax.plot(time, history["h_c_m"] * nm, color=style.VERMILLION, lw=1.4, label="centre")
+    ax.plot(time, history["h_min_m"] * nm, color=style.BLUE, lw=1.4, label="minimum")
+    ax.set(xlim=(0.0, float(time[-1])), ylabel="h [nm]")
+    ax.set_ylim(bottom=0.0)
+    ax.legend(loc="lower center", ncols=3, bbox_to_anchor=(0.5, 1.0))
+    return ax
+
+
+def duty_itself(history: Mapping[str, Array], *, ax: Axes | None = None) -> Axes:
+    """Load, mean velocity, radius and viscosity over time, over those of the case; what changes."""
+    ax = style.axes_or_new(ax, 5.4, 1.6)
+    time = history["t_s"] * 1e3
+    labels = {"load": "load", "speed": "velocity", "radius_x": "radius", "viscosity": "viscosity"}
+    for (name, label), line in zip(labels.items(), ("-", "--", "-.", ":"), strict=True):
+        if np.ptp(history[name]) > 0.0:
+            ax.plot(time, history[name], line, color=style.GREEN, lw=1.2, label=label)
+    ax.set(xlim=(0.0, float(time[-1])), xlabel="t [ms]", ylabel="over the case")
+    ax.legend(loc="best")
     return ax
 
 

@@ -70,6 +70,8 @@ def left_out(settings: Settings, lubricant: Lubricant) -> list[str]:
     if lubricant.shear.in_flow:
         law = lubricant.shear.law
         found.append(f"lubricant.shear_law = '{law}': the formulas are of a Newtonian flow")
+    if settings.get("duty"):
+        found.append("&duty: the formulas are of the case, which is steady")
     if boundary > 0.0:
         found.append(f"lubricant.boundary_film = {boundary:g}: the formulas are of a full film")
     return found

@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from pyehl import lengths, surfaces
+from pyehl.case.duty import refuse_duty
 from pyehl.case.surfaces import FINISHES
 from pyehl.errors import InputError
 from pyehl.prediction.breakdown import (
@@ -229,6 +230,7 @@ def predict(
     are outside the model, or there are too many tracks; OSError if a map cannot be opened.
     """
     start = time.perf_counter()
+    refuse_duty(settings)
     options = _options(settings, tracks)
     operating = OperatingPoint.from_settings(settings)
     lubricant = Lubricant.from_settings(settings, str(settings["psd"]["viscosity_law"]))

@@ -109,7 +109,7 @@ def resolution(case: Case, tiles: Mapping[str, Topography] | None = None) -> Res
     prediction gives no ratio; InputError or FileError if a surface is not usable.
     """
     settings = case.resolve()
-    groups = surfaces.rough_groups(settings)
+    groups = surfaces.rough_groups(settings) if "duty" not in settings else []
     rough = [settings[group] for group in groups]
     if not any(s["kind"] in ("map", "fractal") and s["velocity_ratio"] != 0.0 for s in rough):
         return None

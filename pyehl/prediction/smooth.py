@@ -91,6 +91,7 @@ def smooth_case(settings: Settings, *, boundary: bool = False) -> str:
         for group, keys in without_surface(settings).items()
     }
     groups["lubricant"]["thermal_friction"] = "never"
+    groups.pop("duty", None)
     return namelist.text_of(groups)
 
 

@@ -13,6 +13,7 @@ from typing import Any
 
 from pyehl import surfaces
 from pyehl.case import Case, files_of
+from pyehl.case.duty import refuse_duty
 from pyehl.errors import InputError
 from pyehl.prediction.model import turned, unpredictable
 from pyehl.prediction.smooth import CYCLES, touching_points
@@ -127,6 +128,7 @@ def plan_curve(
         rough = study.resolved(point)
         settings = rough.resolve()
         with study.named(point):
+            refuse_duty(settings)
             _check(settings, seeds, ehl)
             if load_share is not None:
                 _check_share(settings)

@@ -17,6 +17,7 @@ import numpy as np
 
 from pyehl import namelist, schema
 from pyehl.case import KEYS, resolve
+from pyehl.case.duty import refuse_duty
 from pyehl.destination import check_files, check_name
 from pyehl.errors import EhlError, InputError
 from pyehl.given import path_of
@@ -296,6 +297,7 @@ class _Model:
 
 def smooth_base(settings: Settings, points: int) -> dict[str, dict[str, Any]]:
     """Give what the contacts share: groups of a case without sliding and shear law."""
+    refuse_duty(settings)
     groups = without_surface(settings)
     for key in ("slide_to_roll", "rough_surface"):
         groups["contact"].pop(key, None)

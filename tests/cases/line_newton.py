@@ -5,6 +5,8 @@ Shares no code with the library. Film and pressure by the equations of docs/theo
 second-order upstream wedge term, P = 0 at both ends.
 """
 
+from collections.abc import Mapping, Sequence
+
 import numpy as np
 
 ALPHA, Z, P0 = 2.2e-8, 0.68, 1.96e8
@@ -23,75 +25,145 @@ FILMS = (
 )
 
 
-def solve(  # noqa: PLR0915
+class Line:
+    """The equations on a grid, scaled by a state of reference with M and L."""
+
+    def __init__(
+        self,
+        moes_m: float,
+        moes_l: float,
+        intervals: int,
+        domain: tuple[float, float],
+        exponent: float = Z,
+    ) -> None:
+        self.x = np.linspace(*domain, intervals + 1)
+        self.h, self.n, self.z = self.x[1] - self.x[0], intervals, exponent
+        self.p_h = moes_l * np.sqrt(moes_m / (2.0 * np.pi)) / ALPHA
+        self.slowness = 8.0 * moes_m**2 / (3.0 * np.pi**2)
+
+        def antiderivative(s):
+            s = np.abs(s)
+            return np.where(s > 0.0, s**2 / 2.0 * (np.log(np.where(s > 0.0, s, 1.0)) - 1.5), 0.0)
+
+        h, lag = self.h, np.arange(intervals + 1) * self.h
+        hat = antiderivative(lag + h) - 2.0 * antiderivative(lag) + antiderivative(lag - h)
+        kernel = -hat / h / np.pi
+        self.k = kernel[
+            np.abs(np.subtract.outer(np.arange(intervals + 1), np.arange(intervals + 1)))
+        ]
+
+    def gap(self, p, h00, curvature=1.0):
+        """Film."""
+        return h00 + curvature * self.x**2 / 2.0 + self.k @ p
+
+    def mass(self, p, h00, curvature=1.0):
+        """Mass content, density times film."""
+        rho = (5.9e8 + 1.34 * self.p_h * p) / (5.9e8 + self.p_h * p)
+        return rho * self.gap(p, h00, curvature)
+
+    def wedge(self, speed):
+        """Matrix of the wedge term, of second order upstream."""
+        n, h = self.n, self.h
+        wedge = np.zeros((n + 1, n + 1))
+        inner = np.arange(1, n)
+        side = 1 if speed >= 0.0 else -1
+        first = 1 if side > 0 else n - 1
+        wedge[first, [first, first - side]] = 1.0 / h, -1.0 / h
+        for shift, factor in enumerate((1.5, -2.0, 0.5)):
+            at = inner[inner != first]
+            wedge[at, at - side * shift] = factor / h
+        return abs(speed) * wedge
+
+    def newton(
+        self, p, h00, *, speed=1.0, load=1.0, curvature=1.0, viscosity=1.0, now=0.0, past=0.0
+    ):
+        """Pressure and separation by Newton's method; `now` m + `past` is the squeeze term."""
+        x, h, n, k, p_h = self.x, self.h, self.n, self.k, self.p_h
+        inner = np.arange(1, n)
+        wedge = self.wedge(speed)
+        wedge[inner, inner] += now
+        for _ in range(60):
+            gap = self.gap(p, h00, curvature)
+            c, ratio = ALPHA * P0 / self.z, 1.0 + p_h * p / P0
+            rho = (5.9e8 + 1.34 * p_h * p) / (5.9e8 + p_h * p)
+            drho = p_h * 0.34 * 5.9e8 / (5.9e8 + p_h * p) ** 2
+            eps = self.slowness / viscosity * rho * gap**3 * np.exp(-c * (ratio**self.z - 1.0))
+            by_p = eps * (drho / rho - c * self.z * p_h / P0 * ratio ** (self.z - 1.0))
+            east = 0.5 * (eps[1:-1] + eps[2:]) / h**2
+            west = 0.5 * (eps[1:-1] + eps[:-2]) / h**2
+            up, down = (p[2:] - p[1:-1]) / (2.0 * h**2), (p[:-2] - p[1:-1]) / (2.0 * h**2)
+            residual = np.zeros(n + 2)
+            residual[inner] = east * (p[2:] - p[1:-1]) + west * (p[:-2] - p[1:-1])
+            residual[:-1] -= wedge @ (rho * gap) + past
+            residual[-1] = h * p.sum() - load * np.pi / 2.0
+            by_film, direct = -wedge * rho, -wedge * (drho * gap)
+            for coupling, part, side in ((east, up, 1), (west, down, -1)):
+                for offset in (0, side):
+                    at = inner, inner + offset
+                    by_film[at] += part * (3.0 * eps / gap)[inner + offset]
+                    direct[at] += part * by_p[inner + offset]
+                direct[inner, inner + side] += coupling
+                direct[inner, inner] -= coupling
+            jacobian = np.zeros((n + 2, n + 2))
+            jacobian[:-1, :-1] = by_film @ k + direct
+            jacobian[:-1, -1] = by_film.sum(axis=1)
+            jacobian[-1, :-1] = h
+            # without pressure where the pressure that a node alone would need is negative
+            alone = p[inner] - residual[inner] / jacobian[inner, inner]
+            held = np.r_[0, inner[alone <= 0.0], n]
+            jacobian[held], residual[held] = 0.0, p[held]
+            jacobian[held, held] = 1.0
+            step = np.linalg.solve(jacobian, -residual)
+            share = 1.0
+            while share > 1e-3:
+                tried = np.maximum(0.0, p + share * step[:-1])
+                if (
+                    h00 + share * step[-1] + curvature * x**2 / 2.0 + k @ tried
+                ).min() > 0.3 * gap.min():
+                    break
+                share *= 0.5
+            p, h00 = np.maximum(0.0, p + share * step[:-1]), h00 + share * step[-1]
+            if np.abs(step).max() < 1e-9:
+                break
+        return p, h00
+
+    def films(self, p, h00, curvature=1.0):
+        """Central film by a cubic through four nodes, the minimum by a parabola."""
+        x, gap = self.x, self.gap(p, h00, curvature)
+        centre, least = np.searchsorted(x, 0.0), int(gap.argmin())
+        around = slice(centre - 2, centre + 2)
+        a, b, c = np.polyfit(x[least - 1 : least + 2] - x[least], gap[least - 1 : least + 2], 2)
+        return float(np.polyfit(x[around], gap[around], 3)[-1]), float(c - b**2 / (4.0 * a))
+
+
+def solve(
     moes_m: float, moes_l: float, intervals: int, film: float, domain: tuple[float, float]
 ) -> tuple[float, float]:
-    """Central and minimum film [b^2/R]; `film`: a guess of the central one.
+    """Central and minimum film [b^2/R] of a steady contact; `film`: a guess of the central one."""
+    line = Line(moes_m, moes_l, intervals, domain)
+    p = np.sqrt(np.maximum(0.0, 1.0 - line.x**2))
+    return line.films(*line.newton(p, film - 0.25 - 0.5 * np.log(2.0)))
 
-    The central film at X = 0 by a cubic through four nodes, the minimum by a parabola.
+
+def march(
+    line: Line, film: float, times: np.ndarray, duty: Sequence[Mapping[str, float]]
+) -> np.ndarray:
+    """Central film and the least at a node over time, (n, 2), by BDF2 in steps of any length.
+
+    From the steady contact of the first state on; what `newton` takes holds at each time.
     """
-    x = np.linspace(*domain, intervals + 1)
-    h, n = x[1] - x[0], intervals
-    p_h = moes_l * np.sqrt(moes_m / (2.0 * np.pi)) / ALPHA
-    slowness = 8.0 * moes_m**2 / (3.0 * np.pi**2)
-
-    def antiderivative(s):
-        s = np.abs(s)
-        return np.where(s > 0.0, s**2 / 2.0 * (np.log(np.where(s > 0.0, s, 1.0)) - 1.5), 0.0)
-
-    lag = np.arange(n + 1) * h
-    hat = antiderivative(lag + h) - 2.0 * antiderivative(lag) + antiderivative(lag - h)
-    kernel = -hat / h / np.pi
-    k = kernel[np.abs(np.subtract.outer(np.arange(n + 1), np.arange(n + 1)))]
-    p = np.sqrt(np.maximum(0.0, 1.0 - x**2))
-    h00 = film - 0.25 - 0.5 * np.log(2.0)
-    inner = np.arange(1, n)
-    for _ in range(60):
-        gap = h00 + x**2 / 2.0 + k @ p
-        c, ratio = ALPHA * P0 / Z, 1.0 + p_h * p / P0
-        rho = (5.9e8 + 1.34 * p_h * p) / (5.9e8 + p_h * p)
-        drho = p_h * 0.34 * 5.9e8 / (5.9e8 + p_h * p) ** 2
-        eps = slowness * rho * gap**3 * np.exp(-c * (ratio**Z - 1.0))
-        by_p = eps * (drho / rho - c * Z * p_h / P0 * ratio ** (Z - 1.0))
-        east = 0.5 * (eps[1:-1] + eps[2:]) / h**2
-        west = 0.5 * (eps[1:-1] + eps[:-2]) / h**2
-        up, down = (p[2:] - p[1:-1]) / (2.0 * h**2), (p[:-2] - p[1:-1]) / (2.0 * h**2)
-        mass = rho * gap
-        wedge = np.zeros((n + 1, n + 1))
-        wedge[1, :2] = -1.0 / h, 1.0 / h
-        for shift, factor in enumerate((1.5, -2.0, 0.5)):
-            wedge[inner[1:], inner[1:] - shift] = factor / h
-        residual = np.zeros(n + 2)
-        residual[inner] = east * (p[2:] - p[1:-1]) + west * (p[:-2] - p[1:-1])
-        residual[inner] -= (wedge @ mass)[inner]
-        residual[-1] = h * p.sum() - np.pi / 2.0
-        by_film, direct = -wedge * rho, -wedge * (drho * gap)
-        for coupling, part, side in ((east, up, 1), (west, down, -1)):
-            for offset in (0, side):
-                at = inner, inner + offset
-                by_film[at] += part * (3.0 * eps / gap)[inner + offset]
-                direct[at] += part * by_p[inner + offset]
-            direct[inner, inner + side] += coupling
-            direct[inner, inner] -= coupling
-        jacobian = np.zeros((n + 2, n + 2))
-        jacobian[:-1, :-1] = by_film @ k + direct
-        jacobian[:-1, -1] = by_film.sum(axis=1)
-        jacobian[-1, :-1] = h
-        held = np.r_[0, inner[(p[inner] <= 0.0) & (residual[inner] <= 0.0)], n]
-        jacobian[held], residual[held] = 0.0, p[held]
-        jacobian[held, held] = 1.0
-        step = np.linalg.solve(jacobian, -residual)
-        share = 1.0
-        while share > 1e-3:
-            tried = np.maximum(0.0, p + share * step[:-1])
-            if (h00 + share * step[-1] + x**2 / 2.0 + k @ tried).min() > 0.3 * gap.min():
-                break
-            share *= 0.5
-        p, h00 = np.maximum(0.0, p + share * step[:-1]), h00 + share * step[-1]
-        if np.abs(step).max() < 1e-9:
-            break
-    gap = h00 + x**2 / 2.0 + k @ p
-    centre, least = np.searchsorted(x, 0.0), int(gap.argmin())
-    around = slice(centre - 2, centre + 2)
-    a, b, c = np.polyfit(x[least - 1 : least + 2] - x[least], gap[least - 1 : least + 2], 2)
-    return float(np.polyfit(x[around], gap[around], 3)[-1]), float(c - b**2 / (4.0 * a))
+    p = np.sqrt(np.maximum(0.0, 1.0 - line.x**2))
+    p, h00 = line.newton(p, film - 0.25 - 0.5 * np.log(2.0), **duty[0])
+    before = last = line.mass(p, h00, duty[0].get("curvature", 1.0))
+    films = [(line.films(p, h00)[0], line.gap(p, h00).min())]
+    steps = np.diff(times)
+    for k, (step, state) in enumerate(zip(steps, duty[1:], strict=True)):
+        r = step / steps[k - 1] if k else 1.0
+        now, one, two = (1.0 + 2.0 * r) / (1.0 + r), -1.0 - r, r**2 / (1.0 + r)
+        past = (one * last + two * before) / step
+        past[[0, -1]] = 0.0
+        p, h00 = line.newton(p, h00, now=now / step, past=past, **state)
+        curvature = state.get("curvature", 1.0)
+        before, last = last, line.mass(p, h00, curvature)
+        films.append((line.films(p, h00, curvature)[0], line.gap(p, h00, curvature).min()))
+    return np.array(films)

@@ -47,10 +47,11 @@ def test_resolved_case_reads_back(path: Path):
     names = {f"{group}.{key}" for group, keys in groups.items() for key in keys}
     unused = set(KEYS) - names
     laws = ("vogel", "dicke", "yasutomi", "doolittle", "murnaghan", "tait", "range")
-    others = ("bodies.", "second_surface.", "inlet.", *(f"{group}." for group in MACHINES))
+    others = ("bodies.", "second_surface.", "inlet.", "duty.", *(f"{group}." for group in MACHINES))
     others += tuple(f"lubricant.{law}_" for law in laws)
     assert {name for name in unused if not name.startswith(others)} <= excluded
     assert ("second_surface" in groups) == (path.name == "gear_pair.nml")
+    assert ("duty" in groups) == (path.name == "duty.nml")
     for key in KEYS.values():
         if key.name in names:
             group, _, name = key.name.partition(".")

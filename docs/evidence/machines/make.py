@@ -26,12 +26,10 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from scipy.special import elliprd
-
 import pyehl
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "benchmarks"))
-from machines import SETTINGS, summary, timed
+from machines import SETTINGS, radius_ratio, summary, timed
 
 HERE = Path(__file__).resolve().parent
 LINES = "lines.csv"
@@ -121,11 +119,6 @@ def collect(files: list[str], name: str = "contacts.csv") -> None:
         return
     runs = [answer | answer["machine"] | {"fine": int(answer["fine"])} for answer in answers]
     write("runs.csv", RUNS, runs)
-
-
-def radius_ratio(kappa: float) -> float:
-    """R_x/R_y of an ellipticity."""
-    return float(elliprd(0.0, 1.0, kappa**2) / elliprd(0.0, kappa**2, 1.0))
 
 
 def measure_sides() -> None:

@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Line contacts under duties: ``python docs/evidence/duty/make.py`` writes table.csv anew."""
+
+import csv
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parents[2] / "tests/cases"))
+import line_newton  # noqa: E402
+from test_duty import LINE, L, M, columns, run  # noqa: E402
+
+import pyehl  # noqa: E402
+
+Row = tuple[str, str, float, float]
+
+
+def periodic() -> Iterator[Row]:
+    """Speed 1 + 0.5 sin(2 pi T/8), third period, beside another one-dimensional solver."""
+    time = np.linspace(0.0, 8.0, 65)
+    speed = 1.0 + 0.5 * np.sin(2.0 * np.pi * time / 8.0)
+    speed[-1] = speed[0]
+    others = {
+        257: (0.1119, 0.357, 0.0535, 0.0868, 0.0505),
+        513: (0.1127, 0.357, 0.0542, 0.0876, 0.0519),
+    }
+    for points, other in others.items():
+        data = run(
+            time, {"points": points}, mean_velocity=speed, interpolation="cubic", periodic=True
+        )
+        h = columns(data)
+        last = h["T"] >= 16.0 - 1e-9
+        t, film = (h["T"][last] - 16.0) / 8.0, h["H_c"][last]
+        mean = float(np.trapezoid(film, t) / (t[-1] - t[0]))
+        found = film.max(), t[film.argmax()], film.min(), mean, h["H_min"][last].min()
+        names = "largest H_c", "its T/8", "least H_c", "mean H_c", "least H_min"
+        for name, value, reference in zip(names, found, other, strict=True):
+            yield f"periodic speed, {points} nodes", name, float(value), reference
+
+
+def slow() -> Iterator[Row]:
+    """H_c at the middle of a rise of the speed from 1 to 1.2 below that of the steady contact."""
+    faster = LINE["contact"] | {"mean_velocity": 1.1 * LINE["contact"]["mean_velocity"]}
+    film = float(
+        pyehl.solve(pyehl.Case(**LINE | {"contact": faster}), {"grid.border": "zero"}).h_c_m
+    )
+    before = 0.0
+    for length in (10.0, 20.0, 40.0):
+        data = run([0.0, length], mean_velocity=[1.0, 1.2])
+        lag = 1.0 - np.interp(length / 2.0, data.history_T.values, data.history_h_c_m.values) / film
+        yield f"speed from 1 to 1.2 in {length:g} b/u", "share below steady", lag, 0.5 * before
+        before = lag
+
+
+def halves() -> Iterator[Row]:
+    """Largest difference of H_c to an eighth of the time step, and the largest error stated."""
+    time = np.linspace(0.0, 4.0, 33)
+    speed = 1.0 + 0.4 * np.sin(2.0 * np.pi * time / 4.0)
+    at, films, stated = np.linspace(1.0, 4.0, 60), [], []
+    for share in (2.0, 1.0, 0.5, 0.125):
+        data = run(time, mean_velocity=speed, interpolation="cubic", time_step=share)
+        films.append(np.interp(at, data.history_T.values, data.history_H_c.values))
+        stated.append(float(data.history_c_step_error.max()))
+    for share, film, error in zip((2.0, 1.0, 0.5), films, stated, strict=False):
+        difference = float(np.abs(film / films[-1] - 1.0).max())
+        yield f"duty.time_step = {share:g}", "difference, stated", difference, error
+
+
+def newton() -> Iterator[Row]:
+    """Largest differences of H_c and H_min to Newton's method in the same steps."""
+    duties = {
+        "load from 1 to 1.5": (
+            (-4.0, 1.5),
+            177,
+            [0.0, 0.5, 1.0, 3.5],
+            {"load": [1.0, 1.0, 1.5, 1.5]},
+        ),
+        "reversal": (
+            (-4.0, 4.0),
+            257,
+            [0.0, 0.5, 1.5, 4.0],
+            {"mean_velocity": [1.0, 1.0, -1.0, -1.0]},
+        ),
+    }
+    for name, (ends, points, time, duty) in duties.items():
+        h = columns(run(time, {"points": points, "x_inlet": ends[0], "x_outlet": ends[1]}, **duty))
+        line = line_newton.Line(M, L, points - 1, ends, 0.6684)
+        both = zip([1.0, *h["speed"]], [1.0, *h["load"]], strict=True)
+        states = [{"speed": u, "load": w} for u, w in both]
+        films = line_newton.march(line, 0.0856, np.array([0.0, *h["T"]]), states)[1:]
+        for k, film in enumerate(("H_c", "H_min")):
+            yield (
+                name,
+                f"difference of {film}",
+                float(np.abs(h[film] / films[:, k] - 1.0).max()),
+                0.0,
+            )
+
+
+if __name__ == "__main__":
+    with (HERE / "table.csv").open("w", newline="", encoding="utf-8") as stream:
+        rows = csv.writer(stream)
+        rows.writerow(["case", "quantity", "found", "beside"])
+        for part in (periodic, slow, halves, newton):
+            rows.writerows((case, name, f"{a:.5g}", f"{b:.5g}") for case, name, a, b in part())

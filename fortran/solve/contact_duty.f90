@@ -1,0 +1,78 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> A row of the history of a contact under a duty
+submodule (ehl_contact_run) ehl_contact_duty
+   use ehl_duty, only: duty_state_t
+   use ehl_heat, only: flash_temperature
+   use ehl_kinds, only: not_known
+   use ehl_level, only: level_t
+   use ehl_wall_heat, only: heat_source
+   implicit none (type, external)
+
+contains
+
+   module procedure duty_names
+      names = [character(len=16) :: "step", "T", "t_s", "speed", "load", "radius_x", "viscosity", "H_c", "H_min", "X_min", &
+               "Y_min", "P_max", "h_c_m", "h_min_m", "p_max_Pa", "mu", "power_W", "flash_K", "load_error", "cycles", "residual", &
+               "c_step_error", "min_step_error"]
+   end procedure duty_names
+
+   module procedure duty_row
+      real(dp) :: place(2), mu, power, flash
+
+      associate (t => self%transient, m => self%transient%m, scales => self%plan%scales)
+         call find_minimum(level, place)
+         call find_friction(self, level, mu, power, flash)
+         row = [real(dp) :: t%step, t%time, t%time*t%duty%time_scale, t%now%mean_velocity(), t%now%load, &
+                1.0_dp/t%now%curvatures(1), t%now%viscosity, m%films(), place, m%pressure_maximum, &
+                m%films()*scales%film, m%pressure_maximum*scales%pressure, mu, power, flash, m%load_error, &
+                t%cycles, t%residual, t%duty_steps%sums]
+      end associate
+   end procedure duty_row
+
+   !> Where the film is least [a]
+   subroutine find_minimum(level, place)
+      type(level_t), intent(in) :: level
+      real(dp), intent(out) :: place(2)
+      integer :: at(2)
+
+      at = minloc(gap(level))
+      place = [level%grid%x(at(1)), level%grid%y(at(2))]
+   end subroutine find_minimum
+
+   !> Coefficient of friction, its power, and the flash temperature of walls that have come to a steady state. Not known where the
+   !> lubricant is taken for Newtonian beyond the stress at which oils are.
+   subroutine find_friction(self, level, mu, power, flash)
+      class(contact_run_t), intent(in) :: self
+      type(level_t), intent(in) :: level
+      real(dp), intent(out) :: mu, power, flash
+      real(dp) :: stress, force, load, speed, size, source(2), newtonian(level%grid%nx), real_stress(level%grid%nx), speeds(2)
+      integer :: j
+
+      mu = not_known
+      power = not_known
+      flash = not_known
+      associate (t => self%transient, plan => self%plan, s => self%plan%sliding, shear => level%lubricant%shear)
+         stress = 0.0_dp
+         if (.not. shear%thins()) then
+            do j = 1, level%grid%ny
+               call level%flow%stress_row(level%lubricant, level%p, level%boundary%film_row(level%h(:, j), j), level%rho(:, j), j, &
+                                          newtonian, real_stress)
+               stress = max(stress, shear%scale*maxval(newtonian))
+            end do
+         end if
+         if (stress > s%newtonian_limit .or. t%m%touching%load_share > 0.0_dp .and. .not. &
+             plan%lubricant%boundary_stress > 0.0_dp) return
+         load = s%load*t%now%load
+         force = t%m%friction*shear%scale*plan%scales%length**plan%contact%dimensions
+         mu = force/load
+         speed = abs(t%now%speeds(1) - t%now%speeds(2))*s%mean_velocity
+         power = force*speed
+         ! the size of the dry contact now
+         size = plan%scales%length*(t%now%load/t%now%curvatures(1))**(1.0_dp/merge(2.0_dp, 3.0_dp, plan%contact%is_line()))
+         source = heat_source(plan%contact)
+         speeds = abs(t%now%speeds)*s%mean_velocity
+         flash = flash_temperature(power/plan%contact%flash_area(size), source(1)*size, source(2), speeds, s%conductivity, &
+                                   s%diffusivity)
+      end associate
+   end subroutine find_friction
+end submodule ehl_contact_duty

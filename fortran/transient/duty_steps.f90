@@ -1,0 +1,182 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Time steps under a changing duty: their length, and the error of the films that they leave
+module ehl_duty_steps
+   use ehl_duty, only: duty_state_t, duty_t
+   use ehl_kinds, only: dp
+   implicit none (type, external)
+   private
+   public :: duty_steps_t, kept_numbers
+
+   !> A step is no longer than that by the mesh and the largest speed over this share
+   real(dp), parameter :: slowest = 0.1_dp
+   !> Largest change of load, curvature, viscosity (of the larger value) and of mean velocity (of the largest) in a step
+   real(dp), parameter :: most_change = 0.1_dp
+   !> A step is at most so many times the one before: with more than 2.4 backward differences are not stable
+   real(dp), parameter :: growth = 1.5_dp
+   !> Steps that do not converge are cut by half so many times, those that miss the error so many
+   integer, parameter :: most_cuts = 8, most_for_error = 5
+   !> Share of the error asked for that a step may leave, however short it is: less is lost in that of the residual and in the
+   !> nodes that the least film goes from one to the other of
+   real(dp), parameter :: least_share = 0.05_dp
+   !> Time in which the film passes the contact [a/u]: errors of its steps add up
+   real(dp), parameter :: transit = 2.0_dp
+   !> Numbers that a kept state has of it
+   integer, parameter :: kept_numbers = 16
+
+   type :: duty_steps_t
+      !> Last steps, the latest first; films H_c and H_min at their ends, (2, 3); how many there are
+      real(dp) :: steps(3) = 0.0_dp, films(2, 3) = 0.0_dp
+      integer :: n = 0
+      !> Error of H_c and H_min by the last step, and by those in a transit, relative; factor for the next step by it
+      real(dp) :: error(2) = 0.0_dp, sums(2) = 0.0_dp, wanted = 1.0_dp
+      !> Times that the present step was cut
+      integer :: cuts = 0
+   contains
+      procedure :: next
+      procedure :: judge
+      procedure :: keep
+      procedure :: cut
+      procedure :: ratio
+      procedure :: pack => pack_numbers
+      procedure :: unpack => unpack_numbers
+   end type duty_steps_t
+
+contains
+
+   !> Length of the next step
+   pure real(dp) function next(self, duty, time, mesh, moves) result(step)
+      class(duty_steps_t), intent(in) :: self
+      type(duty_t), intent(in) :: duty
+      real(dp), intent(in) :: time, mesh
+      !> Whether rough surfaces move, so that the faster one counts
+      logical, intent(in) :: moves
+      type(duty_state_t) :: now, then
+      real(dp) :: speed, least, knots(2)
+      integer :: k
+
+      now = duty%at(time)
+      least = slowest*duty%fastest()
+      step = duty%step_share*mesh/max(least, speed_of(now))
+      if (self%n > 0) step = min(step, self%steps(1)*min(growth, self%wanted))
+      do k = 1, most_cuts
+         then = duty%at(time + step)
+         speed = max(least, speed_of(then))
+         if (step > 1.001_dp*duty%step_share*mesh/speed) then
+            step = max(0.5_dp*step, duty%step_share*mesh/speed)
+         else if (changes(now, then)) then
+            step = 0.5_dp*step
+         else
+            exit
+         end if
+      end do
+      step = step*0.5_dp**self%cuts
+      ! a row of the table is met, unless rows are as near as steps
+      knots = duty%next_knot(time)
+      if (knots(2) - knots(1) > step .or. knots(1) > duty%end_time() - 1.0e-9_dp*duty%length()) then
+         associate (left => knots(1) - time)
+            if (left < 1.001_dp*step) then
+               step = left
+            else if (left < 2.0_dp*step) then
+               step = 0.5_dp*left
+            end if
+         end associate
+      end if
+
+   contains
+
+      pure real(dp) function speed_of(state)
+         type(duty_state_t), intent(in) :: state
+         speed_of = abs(state%mean_velocity())
+         if (moves) speed_of = max(speed_of, maxval(abs(state%speeds)))
+      end function speed_of
+
+      !> Whether too much changes in a step
+      pure logical function changes(a, b)
+         type(duty_state_t), intent(in) :: a, b
+         changes = abs(b%mean_velocity() - a%mean_velocity()) > most_change*duty%fastest() &
+                   .or. any(abs([b%load, b%viscosity, b%curvatures] - [a%load, a%viscosity, a%curvatures]) &
+                            > most_change*max([b%load, b%viscosity, b%curvatures], [a%load, a%viscosity, a%curvatures]))
+      end function changes
+   end function next
+
+   !> Step over the one before it; 1 at the beginning, before which all is steady
+   pure real(dp) function ratio(self, step)
+      class(duty_steps_t), intent(in) :: self
+      real(dp), intent(in) :: step
+
+      ratio = 1.0_dp
+      if (self%n > 0) ratio = step/self%steps(1)
+   end function ratio
+
+   !> Error of a step that is solved, by the parabola through the films before it: the third derivative makes the error of
+   !> both. Not good where more was asked for, and the step can be cut.
+   subroutine judge(self, duty, step, speed, films, good)
+      class(duty_steps_t), intent(inout) :: self
+      type(duty_t), intent(in) :: duty
+      real(dp), intent(in) :: step, speed, films(2)
+      logical, intent(out) :: good
+      real(dp) :: t(3), guess(2), by_guess, by_step, allowed
+
+      good = .true.
+      self%error = 0.0_dp
+      self%wanted = growth
+      if (self%n < 3) return
+      ! times of the films before, from the end of the step
+      t(1) = step
+      t(2) = t(1) + self%steps(1)
+      t(3) = t(2) + self%steps(2)
+      guess = self%films(:, 1)*t(2)*t(3)/((t(2) - t(1))*(t(3) - t(1))) - self%films(:, 2)*t(1)*t(3)/((t(2) - t(1))*(t(3) - t(2))) &
+              + self%films(:, 3)*t(1)*t(2)/((t(3) - t(1))*(t(3) - t(2)))
+      by_guess = t(1)*t(2)*t(3)
+      by_step = t(1)*t(1)*t(2)*(1.0_dp + self%ratio(step))/(1.0_dp + 2.0_dp*self%ratio(step))
+      self%error = by_step/(by_step + by_guess)*abs(films - guess)/films
+      if (.not. duty%target_error > 0.0_dp) return
+      allowed = duty%target_error*max(least_share, step*max(abs(speed), slowest*duty%fastest())/transit)
+      self%wanted = min(growth, max(0.5_dp, 0.8_dp*(allowed/max(maxval(self%error), tiny(1.0_dp)))**(1.0_dp/3.0_dp)))
+      good = maxval(self%error) <= allowed .or. self%cuts >= most_for_error
+   end subroutine judge
+
+   !> The step is taken; `share`: of a transit in it
+   pure subroutine keep(self, step, share, films)
+      class(duty_steps_t), intent(inout) :: self
+      real(dp), intent(in) :: step, share, films(2)
+
+      self%steps = [step, self%steps(:2)]
+      self%films(:, 2:) = self%films(:, :2)
+      self%films(:, 1) = films
+      self%n = self%n + 1
+      self%cuts = 0
+      ! of what was before, one transit is left
+      self%sums = self%sums*max(0.0_dp, 1.0_dp - share) + self%error
+   end subroutine keep
+
+   !> Cut the step; whether that is still possible
+   logical function cut(self)
+      class(duty_steps_t), intent(inout) :: self
+
+      cut = self%cuts < most_cuts
+      if (cut) self%cuts = self%cuts + 1
+   end function cut
+
+   !> All of it as numbers
+   pure function pack_numbers(self) result(numbers)
+      class(duty_steps_t), intent(in) :: self
+      real(dp) :: numbers(kept_numbers)
+      numbers = [self%steps, self%films(:, 1), self%films(:, 2), self%films(:, 3), self%error, self%sums, self%wanted, &
+                 real(self%n, dp), real(self%cuts, dp)]
+   end function pack_numbers
+
+   !> And back
+   pure subroutine unpack_numbers(self, numbers)
+      class(duty_steps_t), intent(inout) :: self
+      real(dp), intent(in) :: numbers(kept_numbers)
+
+      self%steps = numbers(1:3)
+      self%films = reshape(numbers(4:9), [2, 3])
+      self%error = numbers(10:11)
+      self%sums = numbers(12:13)
+      self%wanted = numbers(14)
+      self%n = nint(numbers(15))
+      self%cuts = nint(numbers(16))
+   end subroutine unpack_numbers
+end module ehl_duty_steps

@@ -1,0 +1,285 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Contacts under a duty: steady limits, slow duties, steps in time, an independent solver."""
+
+import subprocess
+from pathlib import Path
+
+import line_newton
+import numpy as np
+import pytest
+
+import pyehl
+
+LOAD, SPEED, RADIUS, MODULUS = 1.8285e5, 0.4622, 0.01, 2.26e11
+LINE = {
+    "contact": {
+        "shape": "line", "load_per_length": LOAD, "mean_velocity": SPEED, "radius": RADIUS,
+        "reduced_modulus": MODULUS, "slide_to_roll": 0.0,
+    },
+    "lubricant": {"viscosity": 0.04, "pressure_viscosity": 2.2e-8, "roelands_z": 0.6684},
+    "grid": {"points": 177, "x_inlet": -4.0, "x_outlet": 1.5},
+}  # fmt: skip
+WIDTH = np.sqrt(8.0 * LOAD * RADIUS / (np.pi * MODULUS))
+UNIT = WIDTH / SPEED
+NUMBER = 2.0 * 0.04 * SPEED / (MODULUS * RADIUS)
+M, L = LOAD / (MODULUS * RADIUS) / np.sqrt(NUMBER), 2.2e-8 * MODULUS * NUMBER**0.25
+
+
+def run(time, grid=None, **duty):
+    """History of a line contact over times in b/u; loads and speeds over those of the case."""
+    scales = {"load": LOAD, "mean_velocity": SPEED, "radius_x": RADIUS, "viscosity": 0.04}
+    values = {k: np.asarray(v) * scales[k] if k in scales else v for k, v in duty.items()}
+    groups = LINE | {"grid": LINE["grid"] | (grid or {})}
+    case = pyehl.Case(**groups, duty={"time": np.asarray(time) * UNIT, **values})
+    return pyehl.solve(case)
+
+
+def columns(data):
+    return {name: data[f"history_{name}"].values for name in ("T", "H_c", "H_min", "speed", "load")}
+
+
+def test_a_constant_duty_is_the_steady_contact():
+    """What is left of the residual of the steady contact is solved in the steps."""
+    data = run([0.0, 1.0, 2.0], mean_velocity=[1.0, 1.0, 1.0])
+    h = columns(data)
+    assert h["T"][-1] == pytest.approx(2.0, rel=1e-12)
+    assert np.abs(h["H_c"] / float(data.H_c) - 1.0).max() < 1e-4
+    assert np.abs(h["H_min"] / float(data.H_min) - 1.0).max() < 1e-4
+
+
+def test_a_slow_duty_is_a_sequence_of_steady_contacts():
+    """The deviation is in proportion to the rate: three rates, speed from 1 to 1.2."""
+    steady = pyehl.solve(
+        pyehl.Case(
+            **LINE | {"contact": LINE["contact"] | {"mean_velocity": 1.1 * SPEED}},
+        ),
+        {"grid.border": "zero"},
+    )
+    film = float(steady.h_c_m)
+    deviations = []
+    for length in (10.0, 20.0, 40.0):
+        data = run([0.0, length], mean_velocity=[1.0, 1.2])
+        time, h = data.history_T.values, data.history_h_c_m.values
+        deviations.append(1.0 - np.interp(length / 2.0, time, h) / film)
+    assert all(d > 0.0 for d in deviations)
+    assert deviations[0] / deviations[1] == pytest.approx(2.0, rel=0.15)
+    assert deviations[1] / deviations[2] == pytest.approx(2.0, rel=0.15)
+
+
+def test_reference_of_a_periodic_speed():
+    """H_c of another one-dimensional solver, 264 intervals on -4 <= X <= 1.5, third period.
+
+    ubar0 (1 + 0.5 sin(2 pi T/8)): largest 0.1119 at T/8 = 0.355 to 0.36, least 0.0535 at 0.96, mean
+    0.0868 [b^2/R]. The film lags behind the speed, largest at 0.25, by about the transit b/u.
+    """
+    time = np.linspace(0.0, 8.0, 65)
+    speed = 1.0 + 0.5 * np.sin(2.0 * np.pi * time / 8.0)
+    speed[-1] = speed[0]
+    data = run(
+        time, {"points": 257}, mean_velocity=speed, interpolation="cubic", periodic=True, periods=3
+    )
+    h = columns(data)
+    last = h["T"] >= 16.0 - 1e-9
+    t, film = (h["T"][last] - 16.0) / 8.0, h["H_c"][last]
+    assert film.max() == pytest.approx(0.1119, rel=3e-3)
+    assert t[film.argmax()] == pytest.approx(0.357, abs=0.005)
+    assert film.min() == pytest.approx(0.0535, rel=3e-3)
+    assert t[film.argmin()] == pytest.approx(0.96, abs=0.005)
+    assert np.trapezoid(film, t) / (t[-1] - t[0]) == pytest.approx(0.0868, rel=3e-3)
+    assert float(data.duty_h_c_max_m) == pytest.approx(film.max() * float(data.film_scale_m))
+    assert float(data.duty_period_change) < 1e-3
+
+
+@pytest.mark.parametrize(
+    ("ends", "points", "time", "duty"),
+    [
+        ((-4.0, 1.5), 177, [0.0, 0.5, 1.0, 3.5], {"load": [1.0, 1.0, 1.5, 1.5]}),
+        ((-4.0, 4.0), 257, [0.0, 0.5, 1.5, 4.0], {"mean_velocity": [1.0, 1.0, -1.0, -1.0]}),
+    ],
+    ids=["load", "reversal"],
+)
+def test_against_newton(ends, points, time, duty):
+    """A change of the load and a reversal against Newton's method in each step, within 0.5 %."""
+    grid = {"points": points, "x_inlet": ends[0], "x_outlet": ends[1]}
+    h = columns(run(time, grid, **duty))
+    line = line_newton.Line(M, L, points - 1, ends, 0.6684)
+    states = [
+        {"speed": u, "load": w} for u, w in zip([1.0, *h["speed"]], [1.0, *h["load"]], strict=True)
+    ]
+    films = line_newton.march(line, 0.0856, np.array([0.0, *h["T"]]), states)[1:]
+    assert np.abs(h["H_c"] / films[:, 0] - 1.0).max() < 5e-3
+    assert np.abs(h["H_min"] / films[:, 1] - 1.0).max() < 5e-3
+
+
+def test_half_the_time_step():
+    """Errors by time steps fall with their square, and are about those that are stated."""
+    time = np.linspace(0.0, 4.0, 33)
+    speed = 1.0 + 0.4 * np.sin(2.0 * np.pi * time / 4.0)
+    films = []
+    for share in (2.0, 1.0, 0.5):
+        data = run(time, mean_velocity=speed, interpolation="cubic", time_step=share)
+        h = columns(data)
+        films.append(np.interp(np.linspace(1.0, 4.0, 40), h["T"], h["H_c"]))
+    first, second = np.abs(films[0] - films[2]).max(), np.abs(films[1] - films[2]).max()
+    assert second < 0.3 * first
+    assert second / films[2].max() < 4.0 * float(data.history_c_step_error.max()) + 2e-3
+
+
+def test_an_error_of_the_steps_is_held():
+    """A step in load in a fortieth of a transit asks for shorter steps; the film is the same."""
+    duty = {"load": [1.0, 1.0, 1.3, 1.3]}
+    time = [0.0, 0.5, 0.55, 2.0]
+    usual = run(time, **duty)
+    data = run(time, target_error=5e-3, **duty)
+    assert data.history_T.size > usual.history_T.size
+    worst = float(data.history_min_step_error.max())
+    assert worst < 0.5 * float(usual.history_min_step_error.max())
+    at = np.linspace(0.7, 2.0, 30)
+    films = (np.interp(at, d.history_T, d.history_H_min) for d in (data, usual))
+    assert np.abs(np.subtract(*films)).max() < 0.02 * float(usual.H_min)
+
+
+def test_ehl_makes_the_same_bits(tmp_path: Path, ehl: Path):
+    case = pyehl.Case(
+        **LINE, duty={"time": [0.0, UNIT, 2.0 * UNIT], "load": [LOAD, 0.6 * LOAD, LOAD]}
+    )
+    pyehl.solve(case, output=tmp_path / "python")
+    (tmp_path / "case.nml").write_text(case.text, encoding="utf-8")
+    subprocess.run([ehl, tmp_path / "case.nml", "-o", tmp_path / "ehl"], check=True)
+    names = "history.csv", "P.npy", "H.npy"
+    for name in names:
+        assert (tmp_path / "ehl" / name).read_bytes() == (tmp_path / "python" / name).read_bytes()
+    assert pyehl.Case(tmp_path / "case.nml") == case
+
+
+POINT = {
+    "contact": {
+        "load": 40.0, "mean_velocity": 2.0, "radius": 0.01, "reduced_modulus": MODULUS,
+        "slide_to_roll": 0.5,
+    },
+    "lubricant": {"viscosity": 0.1, "pressure_viscosity": 1.8e-8},
+    "grid": {"points": 33, "x_inlet": -2.5, "x_outlet": 2.5, "y_extent": 2.5},
+}  # fmt: skip
+
+
+def test_a_motion_the_other_way_is_the_mirror_image():
+    """A duty and its negative leave films that are mirror images, to the tolerance of the steps."""
+    time = np.array([0.0, 1e-4, 2e-4, 4e-4])
+    forth = [2.0, 1.0, 1.0, 1.0]
+    case = pyehl.Case(**POINT)
+    there = pyehl.solve(case, duty(time, mean_velocity=forth))
+    back = pyehl.solve(case, duty(time - 1e-3, mean_velocity=[-2.0, -1.0, -1.0, -1.0]))
+    np.testing.assert_allclose(there.H.values, back.H.values[::-1], rtol=5e-3)
+
+
+def duty(time, **values):
+    return {"duty": {"time": np.asarray(time) - time[0], **values}}
+
+
+@pytest.mark.parametrize(
+    "more",
+    [
+        {},
+        {"lubricant.shear_law": "eyring"},
+        {"lubricant.boundary_film": 2e-8, "lubricant.boundary_friction": 0.1},
+        {"surface.kind": "harmonic", "surface.amplitude": 0.01},
+        {"contact.radius_x": 0.01, "contact.radius_y": 0.02},
+    ],
+    ids=["newtonian", "eyring", "boundary film", "wave", "ellipse"],
+)
+def test_a_resumed_run_makes_the_same_bits(tmp_path: Path, more):
+    time = np.linspace(0.0, 3e-4, 7)
+    options = {
+        k: v
+        for k, v in POINT["contact"].items()
+        if not (k == "radius" and "contact.radius_x" in more)
+    }
+    if "contact.radius_x" in more:
+        options |= {"radius_x": 0.01, "radius_y": 0.02}
+    more = {k: v for k, v in more.items() if not k.startswith("contact.radius")}
+    case = pyehl.Case(
+        contact=options, lubricant=POINT["lubricant"], grid=POINT["grid"],
+        duty={
+            "time": time, "load": 40.0 - 10.0 * np.sin(2.0 * np.pi * time / 6e-4),
+            "u1": 2.5 - 5e3 * time, "u2": 1.5 - 5e3 * time,
+        },
+    ).with_options(more)  # fmt: skip
+    with pyehl.Solver(case) as solver:
+        solver.checkpoint(tmp_path / "run")
+        while not solver.done:
+            solver.advance()
+            if solver.summary.get("steps") == 5:
+                solver.save_state(at_once=True)
+        assert solver.converged
+        films = solver.field("H")
+    with pyehl.Solver(case) as again:
+        again.resume(tmp_path / "run")
+        while not again.done:
+            again.advance()
+        np.testing.assert_array_equal(again.field("H"), films)
+
+
+TABLE = "time [ms], load [N], mean_velocity [m/s]\n0, 40, 2\n1, 30, 1\n2, 40, 2\n"
+
+
+def test_a_file_and_arrays_are_the_same_case(tmp_path: Path):
+    (tmp_path / "duty.csv").write_text(f"# a cam\n{TABLE}", encoding="utf-8")
+    (tmp_path / "case.nml").write_text("&duty file = 'duty.csv', periodic = .true. /\n")
+    read = pyehl.Case(tmp_path / "case.nml", POINT)
+    assert read["duty"]["time"] == (0.0, 1e-3, 2e-3)
+    given = pyehl.Case(
+        **POINT, duty={"time": [0.0, 1e-3, 2e-3], "load": [40.0, 30.0, 40.0],
+                       "mean_velocity": [2.0, 1.0, 2.0], "periodic": True},
+    )  # fmt: skip
+    without = {k: v for k, v in read["duty"].items() if k != "file"}
+    assert without == given["duty"]
+    # a resolved case holds its table
+    (tmp_path / "duty.csv").unlink()
+    assert pyehl.Case.from_text(read.text)["duty"] == read["duty"]
+
+
+@pytest.mark.parametrize(
+    ("table", "message"),
+    [
+        (TABLE.replace("1, 30", "2, 30").replace("2, 40, 2\n", "2, 40, 2\n"), r"csv:4.*increase"),
+        (TABLE.replace("load [N]", "lod [N]"), r"csv:1.*unknown column 'lod \[N\]'.*'load'"),
+        (TABLE.replace("load [N]", "load"), r"csv:1.*without a unit.*N, kN"),
+        (TABLE.replace("[ms]", "[h]"), r"csv:1.*unit 'h'.*s, ms, us"),
+        (TABLE.replace("40", "0"), r"case.nml:1.*a load of 0\.0.*at least"),
+        (TABLE.replace("0, 40", "0, x"), r"csv:2.*load = 'x'"),
+        (TABLE.replace("2, 40, 2\n", "2, 40, 1.5\n"), r"ends at 1\.5 and begins at 2\.0"),
+        ("time [s], load [N]\n0, 40\n", r"fewer than two times"),
+        ("load [N]\n40\n30\n", r"no column 'time'"),
+    ],
+)  # fmt: skip
+def test_what_a_table_must_be(tmp_path: Path, table, message):
+    (tmp_path / "duty.csv").write_text(table, encoding="utf-8")
+    (tmp_path / "case.nml").write_text("&duty file = 'duty.csv', periodic = .true. /\n")
+    with pytest.raises(pyehl.InputError, match=rf"(?s){message}"):
+        pyehl.Case(tmp_path / "case.nml", POINT)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"duty.load": (40.0,) * 3}, "3 values of duty.load at 2 times"),
+        ({"duty.u1": (1.0, 2.0)}, "one of duty.u1 and duty.u2"),
+        ({"time.steps": 3}, "none of &time"),
+        ({"grid.target_error": 0.01}, "duty.target_error"),
+        ({"duty.mean_velocity": (1.0, -1.0), "grid.x_outlet": 1.5}, "an inlet on both sides"),
+        ({"grid.border": "flooded"}, "'zero'"),
+    ],
+)
+def test_what_goes_with_a_duty(options, message):
+    duty = {"duty.time": (0.0, 1.0)} | (
+        {} if "duty.load" in options else {"duty.load": (40.0, 30.0)}
+    )
+    with pytest.raises(pyehl.InputError, match=message):
+        pyehl.Case(..., {"contact": POINT["contact"]}, duty | options)
+
+
+def test_others_refuse_a_duty():
+    case = pyehl.Case(**POINT, duty={"time": [0.0, 1.0], "load": [40.0, 30.0]})
+    with pytest.raises(pyehl.InputError, match="without &duty"):
+        pyehl.predict(case, {"surface.kind": "harmonic"})
+    assert any("&duty" in line for line in pyehl.film(case).summary["left_out"])
