@@ -44,7 +44,10 @@ def row(
     density: float,
 ) -> dict[str, Any]:
     """Solve with a layer of so much of the flooded film, and compare."""
-    layer = ratio * density * float(flooded["H_c"])
+    # the same layer on every grid
+    film = float(pyehl.film(pyehl.Case(contact=contact)).formulas[0]["H_c"])
+    layer = ratio * density * film
+    ratio = layer / (density * float(flooded["H_c"]))
     found = solve(contact, points, film_hertz=layer)
     share = float(found["H_c"]) / float(flooded["H_c"])
     gamma = math.nan
