@@ -90,7 +90,7 @@ contains
          call record%set("inlet_position", -plan%finest%x0)
          if (.not. plan%contact%is_line()) call record%set("starvation_by_formula", &
                                                            starved_share(plan%film_flooded, -plan%finest%x0))
-      else if (plan%layer > 0.0_dp) then
+      else if (plan%layer > 0.0_dp .and. plan%passages == 1) then
          call record%set("starvation_by_formula", plan%film_starved/plan%film_flooded)
       end if
       if (plan%layer > 0.0_dp) call record%set("oil_layer oil_in oil_out oil_at_sides oil_imbalance", &

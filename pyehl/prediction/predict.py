@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from pyehl import lengths, surfaces
+from pyehl import blas, lengths, surfaces
 from pyehl.case.duty import refuse_duty
 from pyehl.case.surfaces import FINISHES
 from pyehl.errors import InputError
@@ -207,6 +207,7 @@ MAX_TRACKS = 10_000
 """The mean over as many is known to a hundredth of the spread."""
 
 
+@blas.one_thread()
 def predict(
     settings: Mapping[str, Mapping[str, Any]],
     text: str = "",

@@ -15,6 +15,7 @@ from pathlib import Path
 import numpy as np
 import scipy
 
+from pyehl import blas
 from pyehl.destination import new_file
 from pyehl.errors import InputError
 from pyehl.surfaces import findings, map_steps
@@ -75,6 +76,7 @@ class Preparation:
         return (i % nx) * self.pixel[0], (j % ny) * self.pixel[1]
 
 
+@blas.one_thread()
 def prepare(scan: Scan, options: Options = NEUTRAL) -> Preparation:
     """Make a tile of a map as read.
 

@@ -11,7 +11,7 @@ import pytest
 # A module imports only from its own layer or from a layer to the left. Imports inside functions
 # and those for typing alone count too.
 LAYERS = [
-    ["errors", "display", "number_text", "schema", "types", "lengths"],
+    ["errors", "display", "number_text", "schema", "types", "lengths", "blas"],
     ["processor", "namelist", "given"],
     ["extension"],
     ["library", "destination", "assessment", "conclusion", "reasons", "plan_text"],

@@ -5,7 +5,10 @@ gfortran keeps the length of an allocatable text that a function returns in stat
 threads in the same calling routine take each other's length.
 """
 
+import os
 import re
+import subprocess
+import sys
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
@@ -245,3 +248,27 @@ def test_many_threads_find_what_one_finds(cases: int):
     with ThreadPoolExecutor(8) as pool:
         together = list(pool.map(outcome, range(cases)))
     assert [k for k, found in enumerate(together) if found != alone[k % len(texts)]] == []
+
+
+@pytest.mark.long
+def test_predictions_have_the_same_bits_on_any_number_of_threads():
+    """OpenBLAS adds in another order on two threads."""
+    code = (
+        "import json, pyehl;"
+        "pair = {'surface.kind': 'fractal', 'second_surface.kind': 'fractal',"
+        " 'second_surface.rms_height': 2e-8, 'lubricant.shear_law': 'eyring',"
+        " 'contact.slide_to_roll': 0.02};"
+        "found = pyehl.predict(pyehl.Case.from_text('', pair)).summary;"
+        "found.pop('wall_seconds'); print(json.dumps(found, default=str))"
+    )
+    printed = [
+        subprocess.run(
+            [sys.executable, "-c", code],
+            env=os.environ | {"OMP_NUM_THREADS": threads},
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout
+        for threads in ("1", "2")
+    ]
+    assert printed[0] == printed[1]
