@@ -98,6 +98,7 @@ def assess(values: Mapping[str, Any]) -> Assessment:
     if status == BEYOND:
         more.insert(0, f"mu_r/mu_s is not known: {message}")
     text = "; ".join(doubts) or f"full film: {_minimum_film(s)}"
+    text += _starvation(s)
     confidence = WITH_CARE if doubts or more else HOLDS
     return Assessment(f"{text}; but {'; '.join(more)}" if more else text, confidence)
 
@@ -175,6 +176,20 @@ def _waves(s: Summary) -> list[str]:
     if not _finite_above(part, WELL_KNOWN):
         return []
     return [f"unresolved waves: they hold {percent(part)} of {what}, give grid.points more nodes"]
+
+
+def _starvation(s: Summary) -> str:
+    """Inlet that is short of oil as the case has it, beside what formulas say."""
+    share = s.number("starvation")
+    if not math.isfinite(share):
+        return ""
+    text = f"; starved as the case has it: H_c is {percent(share)} of the flooded film by formula"
+    if s.known("starvation_by_formula"):
+        name = "Hamrock & Dowson IV" if s.known("inlet_position") else "Chevalier et al."
+        if s.text("shape") == "line":
+            name = "conservation of mass"
+        text += f" ({percent(s.number('starvation_by_formula'))} by {name})"
+    return text
 
 
 def _errors(s: Summary) -> list[str]:

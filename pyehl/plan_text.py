@@ -273,11 +273,16 @@ def _domain(v: Values) -> Iterator[str]:
     """Borders, what they cost, and whether half of it is enough."""
     cost = "it is far too small for a flooded contact"
     if v["domain_cost"] < 1.0:
-        cost = f"it costs at most {fixed(100.0 * v['domain_cost'], 2)} % of the flooded film"
+        of = "film" if v["starved"] else "flooded film"
+        cost = f"it costs at most {fixed(100.0 * v['domain_cost'], 2)} % of the {of}"
     inlet, outlet, side = (digits(v[name]) for name in ("x_inlet", "x_outlet", "y_extent"))
     sides = "" if v["line"] else f", |Y| <= {side}"
     yield f"domain     {inlet} <= X <= {outlet}{sides}; {cost}"
     pressure = "the pressure of a fully flooded contact" if v["flooded"] else "P = 0"
+    if v["starved"]:
+        pressure += ", where the oil is meant to begin"
+        if v["layer"] > 0.0:
+            pressure = f"P = 0; a layer of {digits(v['layer'])} a^2/R arrives"
     half = "the whole of it is solved"
     if v["mirror"]:
         half = "symmetric in Y: the half Y >= 0 is solved"

@@ -115,6 +115,16 @@ p | h_c_source | | where it is from
 sp | h_min_m | m | minimum film of the smooth contact
 sp | h_min_error_m | m | estimate of its error
 sp | p_max_Pa | Pa | largest pressure of the smooth contact
+s | H_c_flooded | a^2/R | central film of a flooded inlet, by formula; where it is short of oil
+s | starvation | - | H_c over it
+s | starvation_by_formula | - | the same by formula (docs/theory/starvation.md)
+s | inlet_position | a | where the oil begins, ahead of the centre
+s | oil_layer | a^2/R | layer of oil that arrives
+s | oil_in | a^3/R | flow of oil that arrives over the mean velocity; of a line per length, a^2/R
+s | oil_out | a^3/R | the same that leaves behind the contact
+s | oil_at_sides | a^3/R | the same that leaves at the sides of the domain
+s | passages | - | contacts one after another that were solved
+s | oil_imbalance | - | what is gained or lost on the way, over oil_in
 s | load_beyond | - | share of the load that the pressure beyond the border carries
 sp | load_error | - | relative error of the force balance
 s | cycles | - | cycles on the finest grid

@@ -5,9 +5,8 @@ module ehl_case
    use ehl_viscosity_table, only: isotherm_t
    implicit none (type, external)
    private
-   public :: bodies_case_t, case_t, contact_case_t, duty_case_t, grid_case_t, lubricant_case_t, output_case_t, psd_case_t, &
-             solver_case_t, &
-             surface_case_t, time_case_t, is_feature, has_no_height, word_length, &
+   public :: bodies_case_t, case_t, contact_case_t, duty_case_t, grid_case_t, inlet_case_t, lubricant_case_t, output_case_t, &
+             psd_case_t, solver_case_t, surface_case_t, time_case_t, is_feature, has_no_height, word_length, &
              path_length
 
    !> Longest option word
@@ -114,6 +113,17 @@ module ehl_case
       real(dp) :: thermal_conductivity = 0.14_dp
       character(len=word_length) :: thermal_friction = "auto"
    end type lubricant_case_t
+
+   !> &inlet: an inlet that is short of oil
+   type :: inlet_case_t
+      !> Where the oil begins, ahead of the centre [m]; the same [a], set by the reader
+      real(dp) :: position = 0.0_dp, position_hertz = 0.0_dp
+      !> Layer that arrives [m]; the same [a^2/R], set by the reader
+      real(dp) :: film = 0.0_dp, film_hertz = 0.0_dp
+      !> Contacts one after another, and the share of the missing oil that returns between them
+      integer :: passages = 1
+      real(dp) :: replenishment = 0.0_dp
+   end type inlet_case_t
 
    !> &grid: the domain in Hertz radii a and its finest grid; all but target_error and max_points set by the
    !> reader
@@ -239,6 +249,7 @@ module ehl_case
       type(contact_case_t) :: contact
       type(bodies_case_t) :: bodies
       type(lubricant_case_t) :: lubricant
+      type(inlet_case_t) :: inlet
       type(grid_case_t) :: grid
       type(surface_case_t) :: surface
       !> The surface of the other body

@@ -19,7 +19,7 @@ module ehl_case_defaults
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    implicit none (type, external)
    private
-   public :: complete, inlet, latest_start, line_keys, make_isotherms, moes_keys, point_keys, si_keys, &
+   public :: complete, inlet, is_short_of_oil, latest_start, line_keys, make_isotherms, moes_keys, point_keys, si_keys, &
              sliding, velocity_ratio, &
              waits
 
@@ -52,11 +52,15 @@ contains
       call complete_lubricant(source, input, status)
       if (status%failed()) return
       call find_contact(input, contact, scales, point)
+      call complete_inlet(source, scales, input)
       given = [(source%given("grid."//grid_keys(k)), k=1, size(grid_keys))]
       ! a border that changes with time is not known
       if (input%duty%active() .and. .not. given(1)) input%grid%border = "zero"
+      if (is_short_of_oil(input) .and. .not. given(1)) input%grid%border = "zero"
+      given(2) = given(2) .or. input%inlet%position_hertz > 0.0_dp
       call fill_grid(contact, point, input%surface%kind == "smooth" .and. input%second_surface%kind == "smooth", &
-                     [given(1) .or. input%duty%active(), given(2:)], input%grid, widening_of(input), input%duty%reverses())
+                     [given(1) .or. input%duty%active() .or. is_short_of_oil(input), given(2:)], input%grid, &
+                     widening_of(input), input%duty%reverses())
       if (input%contact%is_line() .and. .not. source%given("solver.deflection")) input%solver%deflection = "fft"
       call complete_motion(source, input)
       call complete_surface(source, "surface", input%grid%x_inlet, input%surface)
@@ -69,6 +73,27 @@ contains
       if (.not. source%given("surface.x_start")) call late_start(input%surface, input%second_surface)
       if (.not. source%given("second_surface.x_start")) call late_start(input%second_surface, input%surface)
    end subroutine complete
+
+   !> Whether the inlet is meant to be short of oil
+   pure logical function is_short_of_oil(input)
+      type(case_t), intent(in) :: input
+      is_short_of_oil = max(input%inlet%position_hertz, input%inlet%film_hertz) > 0.0_dp
+   end function is_short_of_oil
+
+   !> The inlet in Hertz units; P = 0 is at its border
+   subroutine complete_inlet(source, scales, input)
+      type(case_source_t), intent(in) :: source
+      type(scales_t), intent(in) :: scales
+      type(case_t), intent(inout) :: input
+
+      associate (of => input%inlet)
+         if (input%contact%si) then
+            if (.not. source%given("inlet.position_hertz")) of%position_hertz = of%position/scales%length
+            if (.not. source%given("inlet.film_hertz")) of%film_hertz = of%film/scales%film
+         end if
+         if (of%position_hertz > 0.0_dp .and. .not. source%given("grid.x_inlet")) input%grid%x_inlet = -of%position_hertz
+      end associate
+   end subroutine complete_inlet
 
    !> SI units or Moes numbers, and both radii
    subroutine complete_contact(source, input)

@@ -1,7 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The namelist groups of a case: every key, read into its place and written from there by the intrinsic read and write
 module ehl_case_groups
-   use ehl_case, only: bodies_case_t, case_t, contact_case_t, duty_case_t, grid_case_t, output_case_t, path_length, psd_case_t, &
+   use ehl_case, only: bodies_case_t, case_t, contact_case_t, duty_case_t, grid_case_t, inlet_case_t, output_case_t, &
+                       path_length, psd_case_t, &
                        solver_case_t, time_case_t, word_length
    use ehl_large_groups, only: line_length, lubricant_group, surface_group
    use ehl_kinds, only: dp
@@ -12,7 +13,7 @@ module ehl_case_groups
    public :: group_names, read_group, write_group
 
    character(len=name_length), parameter :: group_names(*) = [character(len=name_length) :: "contact", "bodies", "lubricant", &
-      "grid", "surface", "second_surface", "time", "duty", "solver", "psd", "output"]
+      "inlet", "grid", "surface", "second_surface", "time", "duty", "solver", "psd", "output"]
    !> Most keys of a group, and its beginning and end
    integer, parameter :: max_lines = 80
 
@@ -81,6 +82,8 @@ contains
          call bodies_group(input%bodies, text, lines, good)
       case ("lubricant")
          call lubricant_group(input%lubricant, text, lines, good)
+      case ("inlet")
+         call inlet_group(input%inlet, text, lines, good)
       case ("grid")
          call grid_group(input%grid, text, lines, good)
       case ("surface")
@@ -152,6 +155,27 @@ contains
       end if
       good = stat == 0
    end subroutine bodies_group
+
+   !> &inlet
+   subroutine inlet_group(v, text, lines, good)
+      type(inlet_case_t), intent(inout), target :: v
+      character(len=*), intent(in) :: text
+      character(len=line_length), intent(inout) :: lines(:)
+      logical, intent(out) :: good
+      integer :: stat
+      real(dp), pointer :: position, position_hertz, film, film_hertz, replenishment
+      integer, pointer :: passages
+      namelist /inlet/ position, position_hertz, film, film_hertz, passages, replenishment
+
+      position => v%position; position_hertz => v%position_hertz; film => v%film; film_hertz => v%film_hertz
+      passages => v%passages; replenishment => v%replenishment
+      if (len(text) == 0) then
+         write (lines, nml=inlet, iostat=stat, delim="apostrophe")
+      else
+         read (text, nml=inlet, iostat=stat)
+      end if
+      good = stat == 0
+   end subroutine inlet_group
 
    !> &grid
    subroutine grid_group(v, text, lines, good)

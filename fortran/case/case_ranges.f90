@@ -54,6 +54,9 @@ module ehl_case_ranges
       // "longest_wavelength [0, 1]; filter sharp|gaussian; rms_height [0, 1e-4]; ra [0, 1e-4]; rq [0, 1e-4]; " &
       // "finish none|ground|honed|superfinished|polished; lay_ratio [0.01, 100]; hurst [0, 1]; " &
       // "rolloff_wavenumber [0, 1e11]; pixels [4, 8192]; seed [0, 2147483647]; modulus deterministic|gaussian"
+   character(len=*), parameter :: inlet_ranges = &
+      "position [0, 10]; position_hertz 0 or [1.05, 1e4]; film [0, 0.01]; film_hertz [0, 1e4]; passages [1, 1000]; " &
+      // "replenishment [0, 1]"
    character(len=*), parameter :: time_ranges = &
       "scheme narrow|paper; tolerance [1e-8, 0.5]; max_periods [0, 100000]; start front|prediction; " &
       // "steps [0, 10000000]"
@@ -84,6 +87,8 @@ contains
          list = bodies_ranges
       case ("lubricant")
          list = lubricant_ranges
+      case ("inlet")
+         list = inlet_ranges
       case ("grid")
          list = grid_ranges
       case ("surface", "second_surface")

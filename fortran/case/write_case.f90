@@ -2,6 +2,7 @@
 !> A complete case as namelist text, and the list of keys with their defaults
 module ehl_write_case
    use ehl_case, only: case_t, path_length
+   use ehl_case_defaults, only: is_short_of_oil
    use ehl_case_groups, only: group_names, write_group
    use ehl_case_ranges, only: range_of
    use ehl_case_source, only: case_source_t
@@ -33,6 +34,7 @@ contains
          call write_group(trim(group_names(n)), case, keys, values)
          call write_group(trim(group_names(n)), usual, keys, defaults)
          if (group_names(n) == "bodies" .and. .not. input%bodies%given) cycle
+         if (group_names(n) == "inlet" .and. .not. is_short_of_oil(input)) cycle
          if (group_names(n) == "duty" .and. .not. input%duty%active()) cycle
          text = text//"&"//trim(group_names(n))//newline
          do k = 1, size(keys)

@@ -19,7 +19,7 @@ module ehl_domain
    use ehl_scales, only: circle_factor
    implicit none (type, external)
    private
-   public :: domain_t, flooded_by_default, needed_domain, domain_cost, ratio_cost
+   public :: domain_t, flooded_by_default, layer_that_floods, needed_domain, domain_cost, ratio_cost
 
    !> inlet <= X <= outlet, -side <= Y <= side [a]
    type :: domain_t
@@ -55,6 +55,8 @@ module ehl_domain
    !> Sides of a wide contact in terms of its half width, and length of the films from which on they are further out: sides half
    !> as far again change H_c by 0.01 % and H_min by up to 0.13 % (docs/evidence/machines)
    real(dp), parameter :: beyond_ends = 1.3_dp, thick_at_ends = 0.95_dp
+   !> An inlet so far away that it costs nothing
+   real(dp), parameter :: far = 1.0e6_dp
    !> Points of an integral
    integer, parameter :: points = 100
 
@@ -126,14 +128,23 @@ contains
 
    !> Shares of H_c and H_min of the flooded contact that a domain changes, as an upper estimate; 1 and more: nothing
    !> can be said
-   pure function domain_cost(contact, point, domain, flooded) result(cost)
+   pure recursive function domain_cost(contact, point, domain, flooded, starved) result(cost)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point
       type(domain_t), intent(in) :: domain
       logical, intent(in) :: flooded
+      !> Whether the inlet is where the oil is meant to begin, so that the sides alone cost; not if absent
+      logical, intent(in), optional :: starved
       real(dp) :: cost(2)
       real(dp) :: film, length, whole, inlet, load, sides, side, wide, width
 
+      if (present(starved)) then
+         if (starved) then
+            cost = 0.0_dp
+            if (.not. contact%is_line()) cost = domain_cost(contact, point, domain_t(-far, domain%outlet, domain%side), flooded)
+            return
+         end if
+      end if
       if (contact%is_line()) then
          cost = line_cost(contact, point, domain%inlet, flooded)
          return
@@ -164,6 +175,22 @@ contains
          end if
       end associate
    end function domain_cost
+
+   !> Layer that fills the gap at a distance from the centre, X < 0
+   pure real(dp) function layer_that_floods(contact, point, x) result(layer)
+      class(contact_t), intent(in) :: contact
+      type(operating_t), intent(in) :: point
+      real(dp), intent(in) :: x
+      real(dp) :: r
+
+      r = max(1.0_dp, -x/contact%reach(1))
+      layer = contact%film_formula(point%moes_m, point%moes_l)
+      if (contact%is_line()) then
+         layer = layer + 0.5_dp*(r*sqrt(r**2 - 1.0_dp) - log(r + sqrt(r**2 - 1.0_dp)))
+      else
+         layer = layer + dry_gap(r)
+      end if
+   end function layer_that_floods
 
    !> What a cost of H_c makes of a friction ratio: waves of a height of their own rise as the film falls, with about the
    !> square of their height over it, and exponentially where they raise the pressure by much (docs/evidence/errors)

@@ -77,6 +77,7 @@ contains
       end do
       !$omp end parallel do
       coarse%h00 = fine%h00
+      coarse%supply%frozen = coarse%supply%active
       call begin_coarse(coarse%boundary, fine%boundary, coarse%grid, step, coarse%p)
    end subroutine restrict_state
 
@@ -119,7 +120,7 @@ contains
          do i = 2, coarse%grid%nx - 1
             coarse%rhs(i, j) = operator_row(i) + residual(i)
             if (coarse%p(i, j) > cavity_pressure) cycle
-            if (coarse%poiseuille%frozen) then
+            if (coarse%poiseuille%frozen .or. coarse%supply%active) then
                coarse%rhs(i, j) = never
             else
                ! keep the slack of cavitated regions, and where there is none make a little, lest rounding
@@ -166,6 +167,7 @@ contains
       coarse%poiseuille%frozen = .false.
       coarse%flow%kept%correcting = .false.
       coarse%boundary%frozen = .false.
+      coarse%supply%frozen = .false.
       nx = fine%grid%nx
       !$omp parallel do default(none) shared(fine, coarse, space, transfer, dependent, step, nx, spare_spikes) &
       !$omp private(row) &

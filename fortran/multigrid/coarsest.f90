@@ -8,7 +8,7 @@ module ehl_coarsest
    use ehl_kinds, only: dp
    use ehl_level, only: cavitate, cavity_pressure, level_t
    use ehl_poiseuille, only: max_neighbours
-   use ehl_reynolds, only: missing_load, refresh, reynolds_operator
+   use ehl_reynolds, only: flow_operator, missing_load, refresh, reynolds_operator
    use ehl_status, only: ehl_no_memory, status_t
    use ehl_wedge, only: wedge_reach
    implicit none (type, external)
@@ -215,9 +215,15 @@ contains
       class(coarsest_t), intent(inout) :: self
       type(level_t), intent(in) :: level
       real(dp) :: coupling(max_neighbours), rate(max_neighbours), own, part, excess, c(0:wedge_reach)
-      integer :: i, j, m, u, nx, at, nb(2, max_neighbours), direction(max_neighbours), neighbours
+      integer :: i, j, k, m, u, nx, at, nb(2, max_neighbours), direction(max_neighbours), neighbours
+      real(dp) :: row(level%grid%nx)
+      logical :: passing(level%grid%nx, self%first:self%last)
 
       nx = level%grid%nx
+      passing = .false.
+      do j = self%first, self%last
+         if (level%supply%active) call flow_operator(level, j, row, passing(:, j))
+      end do
       ! transposed, so that a row is contiguous
       self%jacobian = 0.0_dp
       do j = self%first, self%last
@@ -233,23 +239,14 @@ contains
                call add_pressure(i, j, -level%boundary%rate*level%h_drho_dp(i, j))
                cycle
             end if
-            call level%poiseuille%couplings(level%flow, i, j, neighbours, nb, direction, coupling, rate, excess)
             own = 0.0_dp
-            call add_pressure(i, j, -sum(coupling) - excess)
-            do m = 1, neighbours
-               associate (flow => level%flow, ii => nb(1, m), jj => nb(2, m), d => direction(m))
-                  call add_pressure(ii, jj, coupling(m))
-                  ! a Galerkin operator does not change
-                  if (level%poiseuille%frozen) cycle
-                  part = rate(m)*(level%p(ii, jj) - level%p(i, j))
-                  own = own + flow%film_exponent(i, j, d)*flow%eps(i, j, d)/level%boundary%film_at(level%h, i, j)*part
-                  call add_pressure(ii, jj, flow%eps(ii, jj, d)*flow%dlneps_dp(ii, jj, d)*part)
-                  call add_pressure(i, j, flow%eps(i, j, d)*flow%dlneps_dp(i, j, d)*part)
-                  call add_film(ii, jj, flow%film_exponent(ii, jj, d)*flow%eps(ii, jj, d) &
-                                /level%boundary%film_at(level%h, ii, jj)*part)
-               end associate
+            call add_poiseuille(i)
+            ! what flows to nodes before it that pass it on comes back from there
+            do k = i - 1, 2, -1
+               if (.not. passing(k, j)) exit
+               call add_poiseuille(k)
             end do
-            c = level%wedge%weights(i)
+            c = level%wedge%weights(i, passing(i - 1, j))
             call add_film(i, j, own - c(0)*level%rho(i, j))
             call add_pressure(i, j, -c(0)*level%h_drho_dp(i, j))
             do m = 1, ubound(c, 1)
@@ -270,6 +267,29 @@ contains
       self%factorisations = self%factorisations + 1
 
    contains
+
+      !> The Poiseuille term of node (k, j), in the row of node (i, j)
+      subroutine add_poiseuille(k)
+         integer, intent(in) :: k
+
+         call level%poiseuille%couplings(level%flow, k, j, neighbours, nb, direction, coupling, rate, excess)
+         call add_pressure(k, j, -sum(coupling) - excess)
+         do m = 1, neighbours
+            associate (flow => level%flow, ii => nb(1, m), jj => nb(2, m), d => direction(m))
+               call add_pressure(ii, jj, coupling(m))
+               ! a Galerkin operator does not change
+               if (level%poiseuille%frozen) cycle
+               part = rate(m)*(level%p(ii, jj) - level%p(k, j))
+               if (k == i) own = own + flow%film_exponent(i, j, d)*flow%eps(i, j, d)/level%boundary%film_at(level%h, i, j)*part
+               if (k /= i) call add_film(k, j, flow%film_exponent(k, j, d)*flow%eps(k, j, d) &
+                                         /level%boundary%film_at(level%h, k, j)*part)
+               call add_pressure(ii, jj, flow%eps(ii, jj, d)*flow%dlneps_dp(ii, jj, d)*part)
+               call add_pressure(k, j, flow%eps(k, j, d)*flow%dlneps_dp(k, j, d)*part)
+               call add_film(ii, jj, flow%film_exponent(ii, jj, d)*flow%eps(ii, jj, d) &
+                             /level%boundary%film_at(level%h, ii, jj)*part)
+            end associate
+         end do
+      end subroutine add_poiseuille
 
       subroutine add_pressure(ii, jj, value)
          integer, intent(in) :: ii, jj

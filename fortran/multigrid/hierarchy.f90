@@ -47,6 +47,7 @@ module ehl_hierarchy
       procedure :: setup
       procedure :: grow
       procedure, private :: set_up
+      procedure :: supply
       procedure :: prepare_steps
       procedure :: prepare_coarsening
       procedure :: forget
@@ -129,6 +130,17 @@ contains
          call level%engine%setup(level%grid, level%kernel_factor, deflection_accuracy(level%grid), level%threads, status)
       end associate
    end subroutine set_up
+
+   !> Let a layer of rho H arrive at the inlet; 0: as much as the gap holds
+   subroutine supply(self, layer)
+      class(hierarchy_t), intent(inout) :: self
+      real(dp), intent(in) :: layer
+      integer :: k
+
+      do k = 1, size(self%levels)
+         if (allocated(self%levels(k)%p)) call self%levels(k)%supply%setup(self%levels(k)%grid%hx, self%levels(k)%grid%ny, layer)
+      end do
+   end subroutine supply
 
    !> Allocate what time steps need, and discretise wedge and squeeze terms for them
    subroutine prepare_steps(self, scheme, time_step, status)

@@ -31,6 +31,7 @@ module ehl_line_system
    use ehl_flow, only: dir_x
    use ehl_level, only: cavity_pressure, last_flowing, level_t
    use ehl_poiseuille, only: block_size, line_terms_t
+   use ehl_reynolds, only: flow_operator
    use ehl_wedge, only: line_reach
    use ehl_workspace, only: line_fields, line_width, line_work_t, near_reach
    implicit none (type, external)
@@ -63,6 +64,7 @@ contains
       type(line_work_t), intent(inout) :: work
 
       call gather(level, dipole, rows, min(last + near_reach, level%grid%nx), work%fields)
+      if (level%supply%active) call carry(level, rows, last, work%fields)
       call touching_lines(level%boundary, rows, last, level%rhs, level%mass_content, work%fields(:, f_residual, 1:last), &
                           work%touching)
       call eliminate(level, shares, near, near_dipole - near, last, work%fields, work%touching, work%upper, work%change)
@@ -119,6 +121,29 @@ contains
          end do
       end do
    end subroutine gather
+
+   !> Where the inlet is short of oil (supply.f90): residuals with what is transported, and no flow back to nodes that pass it
+   !> on. The wedge term's factors stay as they are, for there the Poiseuille term is much larger.
+   pure subroutine carry(level, rows, last, g)
+      type(level_t), intent(in) :: level
+      integer, intent(in) :: rows(line_width)
+      !> Last node that may change
+      integer, intent(in) :: last
+      real(dp), intent(inout) :: g(line_width, line_fields, -1:level%grid%nx + 2)
+      real(dp) :: row(level%grid%nx)
+      logical :: passing(level%grid%nx)
+      integer :: i, l
+
+      do l = 1, line_width
+         call flow_operator(level, rows(l), row, passing)
+         g(l, f_residual, 2:last) = level%rhs(2:last, rows(l)) - row(2:last)
+         do i = 1, last - 1
+            if (.not. passing(i)) cycle
+            g(l, f_east, i) = 0.0_dp
+            g(l, f_east_rate, i) = 0.0_dp
+         end do
+      end do
+   end subroutine carry
 
    !> Row i of a line couples the changes at nodes i-4 ... i+2; it is eliminated with the rows before
    !> it as soon as it is made, so that only the upper two diagonals are kept. The coefficients: see above.

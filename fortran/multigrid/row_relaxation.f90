@@ -16,6 +16,7 @@ module ehl_row_relaxation
    use ehl_level, only: cavitate, cavity_pressure, level_t
    use ehl_line_system, only: last_active
    use ehl_poiseuille, only: block_size, line_terms_t
+   use ehl_reynolds, only: flow_operator
    use ehl_wedge, only: wedge_reach
    use ehl_workspace, only: row_above, row_below, row_reach, workspace_t
    implicit none (type, external)
@@ -36,11 +37,12 @@ contains
       !> Share of the changes that is made
       real(dp), intent(in) :: relaxation_factor
       real(dp) :: change(level%grid%nx), after(level%grid%nx)
+      logical :: passing(level%grid%nx)
       integer :: i, last
 
       last = last_active(level, 1)
-      call find_residual(level, last, change)
-      call assemble(level, space%near_row, last, change, space%band)
+      call find_residual(level, last, change, passing)
+      call assemble(level, space%near_row, last, passing, change, space%band)
       call solve(space%band, last, change)
       do i = 2, last
          change(i) = change(i)/max(1.0_dp, abs(level%flow%dlneps_dp(i, 1, dir_x)*change(i))/max_log_change)
@@ -52,24 +54,26 @@ contains
    end subroutine relax_row
 
    !> Right-hand side less operator at nodes 2 to `last`
-   pure subroutine find_residual(level, last, residual)
+   pure subroutine find_residual(level, last, residual, passing)
       type(level_t), intent(in) :: level
       integer, intent(in) :: last
       !> Shape (nx)
       real(dp), contiguous, intent(out) :: residual(:)
+      !> As supply.f90 has them
+      logical, contiguous, intent(out) :: passing(:)
 
-      residual = 0.0_dp
-      call level%poiseuille%apply_row(level%p, level%flow, 1, residual)
-      call level%wedge%subtract_row(level%mass_content(:, 1), residual)
+      call flow_operator(level, 1, residual, passing)
       residual(2:last) = level%rhs(2:last, 1) - residual(2:last)
       call level%boundary%residual_row(level%rhs(:, 1), level%mass_content(:, 1), 1, residual)
    end subroutine find_residual
 
    !> Equations of nodes 2 to `last`: those of band(l, i) belong to the changes at i + l
-   subroutine assemble(level, near, last, residual, band)
+   subroutine assemble(level, near, last, passing, residual, band)
       type(level_t), intent(in) :: level
       real(dp), intent(in) :: near(-row_reach:row_reach)
       integer, intent(in) :: last
+      !> As supply.f90 has them
+      logical, contiguous, intent(in) :: passing(:)
       real(dp), contiguous, intent(inout) :: residual(:)
       real(dp), intent(inout) :: band(-row_below:row_above, level%grid%nx)
       !> Of the changes of film and pressure at i + l
@@ -93,13 +97,13 @@ contains
                film(0) = -level%boundary%rate*level%rho(i, 1)
                local(0) = -level%boundary%rate*level%h_drho_dp(i, 1)
             else
-               c = level%wedge%weights(i)
+               c = level%wedge%weights(i, passing(i - 1))
                do l = 0, min(wedge_reach, i - 1)
                   film(-l) = -c(l)*level%rho(i - l, 1)
                   local(-l) = -c(l)*level%h_drho_dp(i - l, 1)
                end do
                call add_neighbour(1, terms%east(k), terms%east_rate(k))
-               call add_neighbour(-1, terms%east(k - 1), terms%east_rate(k - 1))
+               if (.not. passing(i - 1)) call add_neighbour(-1, terms%east(k - 1), terms%east_rate(k - 1))
             end if
             do l = -wedge_reach, 1
                band(l, i) = band(l, i) + local(l)

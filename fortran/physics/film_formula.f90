@@ -4,7 +4,7 @@ module ehl_film_formula
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
-   public :: film_central_formula
+   public :: film_central_formula, starved_film, starved_share
 
 contains
 
@@ -35,4 +35,22 @@ contains
       if (moes_l > 0.0_dp) film = film + (rigid_piezoviscous**(-8) + elastic_piezoviscous**(-8))**(-s/8.0_dp)
       film = film**(1.0_dp/s)*(1.5_dp*moes_m/kernel_ratio)**(-2.0_dp/3.0_dp)
    end function film_central_formula
+
+   !> The same with a layer of rho H that arrives, if there is one: less than both, by Chevalier, Lubrecht, Cann, Colin & Dalmaz
+   !> (1998, J. Tribol. 120, 126), whose exponent is between 2 and 5
+   pure real(dp) function starved_film(flooded, layer) result(film)
+      real(dp), intent(in) :: flooded, layer
+      real(dp), parameter :: exponent = 3.0_dp
+
+      film = flooded
+      if (layer > 0.0_dp) film = (flooded**(-exponent) + layer**(-exponent))**(-1.0_dp/exponent)
+   end function starved_film
+
+   !> Central film of a point contact over the flooded one where the oil begins at a distance m from the centre:
+   !> ((m - 1)/(m* - 1))^0.29 with m* = 1 + 3.06 H^0.58 (Hamrock & Dowson 1977, part IV; at an ellipticity of 6)
+   pure real(dp) function starved_share(flooded, position) result(share)
+      !> Flooded film [a^2/R_x], distance [a]
+      real(dp), intent(in) :: flooded, position
+      share = min(1.0_dp, max(position - 1.0_dp, 0.0_dp)/(3.06_dp*flooded**0.58_dp))**0.29_dp
+   end function starved_share
 end module ehl_film_formula

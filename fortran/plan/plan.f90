@@ -2,13 +2,15 @@
 !> The plan of a run: what a case needs, decided once.
 module ehl_plan
    use ehl_case, only: case_t
+   use ehl_case_defaults, only: is_short_of_oil
    use ehl_case_grid, only: blunt_spike
    use ehl_case_point, only: find_contact, operating_point
    use ehl_contact, only: contact_t
    use ehl_cycle, only: coarsening_alcouffe, coarsening_classical, cycle_options_t
-   use ehl_domain, only: domain_cost, domain_t
+   use ehl_domain, only: domain_cost, domain_t, layer_that_floods
    use ehl_duty, only: duty_t
    use ehl_friction_mean, only: automatic_periods
+   use ehl_film_formula, only: starved_film
    use ehl_grid_error, only: relative_errors
    use ehl_grid, only: coarsest_most, find_levels, grid_t, new_grid, new_strip
    use ehl_inlet, only: inlet_t
@@ -55,6 +57,12 @@ module ehl_plan
       type(scales_t) :: scales
       type(operating_t) :: point
       type(lubricant_t) :: lubricant
+      !> Whether the inlet is meant to be short of oil
+      logical :: starved = .false.
+      !> Central film of a flooded one, by formula
+      real(dp) :: film_flooded = 0.0_dp
+      !> The same with the layer that arrives
+      real(dp) :: film_starved = 0.0_dp
       !> Whether the smooth contact may touch at the boundary film
       logical :: touches = .false.
       !> What absolute friction needs to know
@@ -118,12 +126,20 @@ contains
       call plan_contact(input, plan%contact, plan%scales, plan%point, plan%sliding, plan%lubricant, rho, film, status)
       if (status%failed()) return
       plan%flooded = input%grid%border == "flooded"
+      plan%layer = input%inlet%film_hertz
+      plan%passages = input%inlet%passages
+      plan%replenishment = input%inlet%replenishment
+      plan%starved = is_short_of_oil(input)
       plan%heat = plan_heat(input, plan%contact, plan%scales, plan%sliding, plan%lubricant, film)
       film = plan%lubricant%shear%thinned_film(film, plan%point%speed_parameter)
       plan%touches = may_touch(plan%lubricant, film)
       if (plan%lubricant%boundary_film > 0.0_dp) plan%inlet = inlet_t(film, plan%lubricant%boundary_film/rho, &
                                                                          plan%lubricant%boundary_stress)
-      plan%film_expected = max(film, plan%lubricant%boundary_film)
+      plan%film_flooded = film
+      plan%film_starved = merge(min(film, plan%layer/rho), starved_film(film, plan%layer/rho), plan%contact%is_line())
+      plan%film_expected = film
+      if (plan%layer > 0.0_dp) plan%film_expected = plan%film_starved
+      plan%film_expected = max(plan%film_expected, plan%lubricant%boundary_film)
       plan%engine = trim(input%solver%deflection)
       plan%accuracy = input%solver%accuracy
       plan%max_cycles = input%solver%max_cycles
@@ -327,7 +343,8 @@ contains
          else
             plan%coarsest = new_grid(intervals(1) + 1, intervals(2) + 1, g%x_inlet, g%x_outlet, g%y_extent, mirror)
          end if
-         plan%domain_cost = domain_cost(plan%contact, plan%point, domain_t(g%x_inlet, g%x_outlet, g%y_extent), plan%flooded)
+         plan%domain_cost = domain_cost(plan%contact, plan%point, domain_t(g%x_inlet, g%x_outlet, g%y_extent), plan%flooded, &
+                                        plan%starved .and. plan%layer <= layer_that_floods(plan%contact, plan%point, g%x_inlet))
       end associate
       grid = plan%coarsest
       plan%start = 0

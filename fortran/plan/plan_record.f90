@@ -45,6 +45,8 @@ contains
       end associate
       call surfaces_record(record, plan%surfaces)
       associate (g => plan%coarsest, finest => plan%finest)
+         call record%set("starved", plan%starved)
+         call record%set("layer", plan%layer)
          call record%set("x_inlet x_outlet y_extent domain_cost", [g%x0, g%x(g%nx), g%y(g%ny), plan%domain_cost(1)])
          call record%set("flooded", plan%flooded)
          call record%set("mirror", g%mirror)

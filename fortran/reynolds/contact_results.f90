@@ -5,6 +5,7 @@ module ehl_contact_results
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
    use ehl_level, only: gap_row, level_t
+   use ehl_oil_flow, only: measure_flow, oil_flow_t
    use ehl_touching, only: measure_touching, touches, touching_t
    implicit none (type, external)
    private
@@ -34,8 +35,11 @@ module ehl_contact_results
       logical :: holds = .true.
       !> Where the bodies touch. The friction there is that of the boundary film, or left out where that is not known.
       type(touching_t) :: touching
+      !> Of an inlet that is short of oil
+      type(oil_flow_t) :: oil
    contains
       procedure :: films
+      procedure :: scale
    end type contact_results_t
 
 contains
@@ -76,6 +80,7 @@ contains
       m%positive = level%boundary%active .or. all(smallest > 0.0_dp)
       m%holds = level%boundary%holds(level%mass_content, film_tolerance)
       m%touching = measure_touching(level)
+      m%oil = measure_flow(level)
    end function measure
 
    !> Shear stress of row j where the bodies touch: that of the boundary film, of the lubricant none
@@ -98,6 +103,17 @@ contains
       real(dp) :: films(2)
       films = [self%film_central, self%film_minimum]
    end function films
+
+   !> Change films, pressure and friction by what they have changed elsewhere
+   pure subroutine scale(self, from, to)
+      class(contact_results_t), intent(inout) :: self
+      type(contact_results_t), intent(in) :: from, to
+
+      self%film_central = self%film_central*to%film_central/from%film_central
+      self%film_minimum = self%film_minimum*to%film_minimum/from%film_minimum
+      self%pressure_maximum = self%pressure_maximum*to%pressure_maximum/from%pressure_maximum
+      self%friction = self%friction*to%friction/from%friction
+   end subroutine scale
 
    !> Value of a field at X = Y = 0; between two nodes by cubic interpolation along X
    pure real(dp) function central_value(grid, values)

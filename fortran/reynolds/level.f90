@@ -15,6 +15,7 @@ module ehl_level
    use ehl_lubricant, only: lubricant_t
    use ehl_poiseuille, only: poiseuille_t
    use ehl_status, only: ehl_no_memory, status_t
+   use ehl_supply, only: supply_t
    use ehl_wedge, only: wedge_t
    implicit none (type, external)
    private
@@ -43,6 +44,8 @@ module ehl_level
       type(wedge_t) :: wedge
       !> Contact at a boundary film; inactive where there is none
       type(boundary_film_t) :: boundary
+      !> Oil that arrives where the inlet is not flooded; inactive where it is
+      type(supply_t) :: supply
       !> Rigid separation H00
       real(dp) :: h00 = 0.0_dp
       !> Value that the pressure sum must take (2 pi/3 on the finest grid)

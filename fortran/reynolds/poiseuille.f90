@@ -33,6 +33,8 @@ module ehl_poiseuille
       procedure :: integrate
       procedure :: flow_row
       procedure :: flow_rate
+      procedure :: through_east
+      procedure :: across
    end type poiseuille_t
 
    !> What a line system along X takes from a block of a row; nodes are numbered from 1. Zero where the row has a border
@@ -291,6 +293,29 @@ contains
          values(i) = r*flow%eps(i, j, dir_x)*(2.0_dp*change(i) - change(i - 1) - change(i + 1))
       end do
    end subroutine flow_row
+
+   !> What the pressure drives through the east face of node (i, j), as the term has it, per width
+   pure real(dp) function through_east(self, p, flow, i, j)
+      class(poiseuille_t), intent(in) :: self
+      real(dp), contiguous, intent(in) :: p(:, :)
+      class(flow_t), intent(in) :: flow
+      integer, intent(in) :: i, j
+      through_east = 0.5_dp*(flow%eps(i, j, dir_x) + flow%eps(i + 1, j, dir_x))*(p(i, j) - p(i + 1, j))/self%grid%hx
+   end function through_east
+
+   !> The same from row j to the row `to` beside it, in columns from the third on
+   pure real(dp) function across(self, p, flow, j, to)
+      class(poiseuille_t), intent(in) :: self
+      real(dp), contiguous, intent(in) :: p(:, :)
+      class(flow_t), intent(in) :: flow
+      integer, intent(in) :: j, to
+      integer :: n
+
+      n = self%grid%nx - 1
+      associate (eps => flow%eps(:, :, flow%dir_y))
+         across = sum(0.5_dp*(eps(3:n, j) + eps(3:n, to))*(p(3:n, j) - p(3:n, to)))*self%grid%hx/self%grid%hy
+      end associate
+   end function across
 
    !> What flows away from a node per pressure there, with the same conductance around; a factor of eps along X
    pure real(dp) function flow_rate(self)

@@ -5,9 +5,10 @@
 !>
 !>    d/dX (eps_x dP/dX) + d/dY (eps_y dP/dY) - d(rho H)/dX - d(rho H)/dT = 0
 !>
-!> and P = 0 elsewhere, where the left-hand side is not positive: P >= 0 and nothing flows out of a cavity. P is given on the
-!> border: 0, or that of a flooded contact (far_field.f90). eps_x and eps_y are the conductances (flow.f90), for a Newtonian
-!> lubricant both rho H^3/(eta lambda_bar); rho and eta depend on P (physics/lubricant.f90), H on all of P.
+!> and P = 0 elsewhere, where the left-hand side is not positive: P >= 0 and nothing flows out of a cavity, or what does is
+!> what arrives there (supply.f90). P is given on the border: 0, or that of a flooded contact (far_field.f90). eps_x and
+!> eps_y are the conductances (flow.f90), for a Newtonian lubricant both rho H^3/(eta lambda_bar); rho and eta depend on P
+!> (physics/lubricant.f90), H on all of P.
 !>
 !> Discrete, at node (i, j), with m = rho H:
 !>
@@ -44,7 +45,7 @@ module ehl_reynolds
    use ehl_flow, only: dir_x
    use ehl_kernel, only: coefficient
    use ehl_kinds, only: dp
-   use ehl_level, only: last_flowing, level_t, zero_inactive_residual
+   use ehl_level, only: cavity_pressure, last_flowing, level_t, zero_inactive_residual
    use ehl_wedge, only: wedge_reach
    implicit none (type, external)
    private
@@ -66,22 +67,28 @@ contains
    end subroutine reynolds_operator
 
    !> The same as if no node touched
-   pure subroutine flow_operator(level, j, values)
+   pure subroutine flow_operator(level, j, values, passing)
       type(level_t), intent(in) :: level
       integer, intent(in) :: j
       !> Shape (nx)
       real(dp), contiguous, intent(out) :: values(:)
+      !> Which nodes pass on all oil that they receive (supply.f90)
+      logical, contiguous, intent(out), optional :: passing(:)
       integer :: nx
 
       nx = level%grid%nx
       values(1) = 0.0_dp
       values(nx) = 0.0_dp
       if (level%grid%is_border(j)) then
+         if (present(passing)) passing = .false.
          values(2:nx - 1) = 0.0_dp
          return
       end if
       call level%poiseuille%apply_row(level%p, level%flow, j, values)
       call level%wedge%subtract_row(level%mass_content(:, j), values)
+      if (present(passing)) passing = .false.
+      if (level%supply%active) call level%supply%transport_row(level%p(:, j) <= cavity_pressure, level%mass_content(:, j), j, &
+                                                               values, passing)
    end subroutine flow_operator
 
    !> Which nodes touch, for the present pressure, film and coefficients

@@ -136,11 +136,17 @@ contains
    end function last_active
 
    !> Factors of m at column i, at the column before it and so on
-   pure function weights(self, i) result(c)
+   pure function weights(self, i, passing) result(c)
       class(wedge_t), intent(in) :: self
       integer, intent(in) :: i
+      !> Whether the node before it passes on what it receives (supply.f90): what comes from there is no flow of a filled gap
+      logical, intent(in), optional :: passing
       real(dp) :: c(0:wedge_reach)
+
       c = merge(self%c_first, self%c, i == 2)
+      if (.not. present(passing)) return
+      ! what is left is the flow through the east face
+      if (passing) c = [self%c(0), -self%c(2), 0.0_dp]
    end function weights
 
    !> Factor of m at the node itself

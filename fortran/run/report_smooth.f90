@@ -2,6 +2,7 @@
 !> Results of the smooth contact by name, each with the error that its grids and its domain leave
 module ehl_report_smooth
    use ehl_contact_results, only: contact_results_t
+   use ehl_film_formula, only: starved_share
    use ehl_grid_error, only: lone_grid_errors
    use ehl_kinds, only: dp, not_known, pi
    use ehl_level_result, only: extrapolated, guarded_errors, limit_error, share_error, stated_errors
@@ -84,6 +85,17 @@ contains
       if (plan%scales%has_size()) call record%set("h_c_m h_c_error_m h_min_m h_min_error_m p_max_Pa", &
          [values(1), error(1) + domain(1), values(2), error(2) + domain(2), values(3)]* &
          [spread(plan%scales%film, 1, 4), plan%scales%pressure])
+      if (plan%starved) call record%set("H_c_flooded starvation", [plan%film_flooded, values(1)/plan%film_flooded])
+      if (plan%starved .and. .not. plan%layer > 0.0_dp) then
+         call record%set("inlet_position", -plan%finest%x0)
+         if (.not. plan%contact%is_line()) call record%set("starvation_by_formula", &
+                                                           starved_share(plan%film_flooded, -plan%finest%x0))
+      else if (plan%layer > 0.0_dp .and. plan%passages == 1) then
+         call record%set("starvation_by_formula", plan%film_starved/plan%film_flooded)
+      end if
+      if (plan%layer > 0.0_dp) call record%set("oil_layer oil_in oil_out oil_at_sides oil_imbalance", &
+         [plan%layer, merge([m%oil%enters, m%oil%leaves, m%oil%sides, m%oil%imbalance], spread(not_known, 1, 4), good)])
+      if (plan%passages > 1) call record%set("passages", smooth%passage)
       call record%set("cycles", smooth%results(n)%cycles)
       call record%set("total_cycles", sum(smooth%results%cycles))
       call record%set("residual", smooth%results(n)%residual)

@@ -173,6 +173,7 @@ contains
       else
          columns = [character(len=16) :: "level", "points", "cycle", "H_c", "H_min", "P_max", "F", "load_error", "residual", &
                     "H_c_algebraic"]
+         if (self%plan%passages > 1) columns = [character(len=16) :: columns, "passage", "oil_layer"]
       end if
       call self%history%init(columns)
    end subroutine begin_history
@@ -184,6 +185,7 @@ contains
       !> Of the smooth contact
       integer, intent(in) :: outcome
       type(status_t), intent(inout) :: status
+      real(dp), allocatable :: row(:)
 
       self%grid = self%hierarchy%levels(n)%grid
       if (.not. (self%plan%goes_on() .and. outcome == outcome_converged)) self%outcome = outcome
@@ -192,9 +194,10 @@ contains
       end if
       if (self%plan%goes_on()) return
       associate (result => self%smooth%results(n))
-         call self%history%append([real(dp) :: n, self%grid%nx, result%cycles, result%m%film_central, &
-                                   result%m%film_minimum, result%m%pressure_maximum, result%m%friction, &
-                                   result%m%load_error, result%residual, result%algebraic(1)], status)
+         row = [real(dp) :: n, self%grid%nx, result%cycles, result%m%film_central, result%m%film_minimum, &
+                result%m%pressure_maximum, result%m%friction, result%m%load_error, result%residual, result%algebraic(1)]
+         if (self%plan%passages > 1) row = [row, real(self%smooth%cycle_passage, dp), self%smooth%layer_central]
+         call self%history%append(row, status)
       end associate
    end subroutine record_cycle
 

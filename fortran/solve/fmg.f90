@@ -31,7 +31,7 @@ contains
          cycles: do while (run%smooth%begun)
             call one_cycle(run%smooth, run%hierarchy, outcome, status)
             if (status%failed()) return
-            if (outcome /= outcome_running) call run%smooth%end_level(outcome)
+            if (outcome /= outcome_running) call run%smooth%end_level(run%hierarchy, outcome)
             call run%record_cycle(n, outcome, status)
             if (status%failed() .or. outcome /= outcome_running) return
             call observer%watch(run, leave)

@@ -14,6 +14,7 @@ module ehl_smooth_contact
    use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_diverged, outcome_negative_film, outcome_running, &
                           outcome_target_missed
    use ehl_level, only: level_t
+   use ehl_oil_flow, only: flow_tolerance, leaving
    use ehl_status, only: ehl_no_memory, status_t
    use ehl_steady_options, only: end_rule_t, rule_of_circles, rule_of_others, steady_options_t
    implicit none (type, external)
@@ -25,6 +26,10 @@ module ehl_smooth_contact
    real(dp), parameter :: max_share_reduction = 0.99_dp
    !> Most cycles of a contact that touches, over those of others: the edge of a touching zone moves by a node in several cycles
    integer, parameter :: touching_cycles = 3
+   !> Relative change of the central film from passage to passage that is none
+   real(dp), parameter :: steady_film = 1.0e-4_dp
+   !> The same of one that is short of oil: what flows back from the contact and around it takes some to balance
+   integer, parameter :: starved_cycles = 3
    !> What an error of the load changes the film, per relative error: the deflection by the Hertz pressure differs from its
    !> mean under it by 1/5 at the centre and by 3/10 at the edge [a^2/R]
    real(dp), parameter :: film_per_load = 0.3_dp
@@ -66,6 +71,14 @@ module ehl_smooth_contact
       !> Whether a cycle that ends in no state of the contact is taken back, and cycles that stall are accelerated
       logical, private :: guarded = .false.
       type(guard_t), private :: guard
+      !> Whether as much oil arrives as the gap holds. A line lets all oil through that arrives, for nothing flows around it:
+      !> first it is solved so, and the layer counts where that takes more.
+      logical, private :: floods = .false.
+      !> Passage, that of the last cycle, and its layer in the middle
+      integer :: passage = 1, cycle_passage = 1
+      real(dp) :: layer_central = 0.0_dp
+      !> Central film of the passage before
+      real(dp), private :: film_before = 0.0_dp
       !> Restarts: on a finer grid after a failure on a coarse one, with damping after one on the finest
       integer :: restarts = 0
       type(level_result_t), allocatable :: results(:)
@@ -127,6 +140,7 @@ contains
       self%of_film = .true.
       self%guarded = options%guarded
       self%n = options%start
+      self%floods = options%line
       self%results = spread(level_result_t(), 1, options%levels)
    end subroutine start
 
@@ -140,6 +154,7 @@ contains
       call hierarchy%grow(self%n, status)
       if (status%failed()) return
       if (self%damped) call hierarchy%forget()
+      call hierarchy%supply(merge(huge(1.0_dp), self%options%layer, self%options%layer > 0.0_dp .and. self%floods))
       associate (level => hierarchy%levels(self%n), grid => hierarchy%levels(self%n)%grid)
          do j = 1, grid%ny
             call self%contact%gap_row(grid%columns(), grid%y(j), level%film_rhs(:, j))
@@ -172,12 +187,15 @@ contains
       type(status_t), intent(inout) :: status
 
       if (self%options%flooded) call self%far_field%set_border(level, self%contact%load)
+      self%cycle_passage = self%passage
+      if (level%supply%active) self%layer_central = level%supply%layer(1 + nint(-level%grid%y0/level%grid%hy))
       self%next_cycle = cycle_to_make(self)
       if (self%residual > near_solution) self%next_cycle%spare_spikes = .false.
       self%max_cycles = self%options%max_cycles
       if (is_end(self%options, self%n) .and. counts_share(self%options, self%m)) then
          self%max_cycles = touching_cycles*self%max_cycles
       end if
+      if (self%options%layer > 0.0_dp) self%max_cycles = starved_cycles*self%options%max_cycles
       if (self%guarded) call keep_state(self, level, status)
    end subroutine begin_cycle
 
@@ -231,7 +249,8 @@ contains
    pure logical function converged(self)
       class(smooth_contact_t), intent(in) :: self
       converged = self%failure_status() == outcome_running .and. self%m%holds .and. &
-                  (abs(self%m%load_error) <= load_tolerance .or. .not. is_end(self%options, self%n))
+                  (max(abs(self%m%load_error)/load_tolerance, abs(self%m%oil%imbalance)/flow_tolerance) <= 1.0_dp &
+                   .or. .not. is_end(self%options, self%n))
       if (converged) converged = accurate(self%options, self%results, self%n, self%m, self%residual, &
                                           self%cycles < self%max_cycles)
    end function converged
@@ -239,8 +258,14 @@ contains
    !> The results of level n so far
    subroutine record(self)
       class(smooth_contact_t), intent(inout) :: self
+      integer :: k
 
       associate (result => self%results(self%n))
+         if (self%passage > 1 .and. self%n > 1) then
+            do k = 1, self%n - 1
+               call self%results(k)%m%scale(result%m, self%m)
+            end do
+         end if
          result%m = self%m
          result%cycles = self%cycles
          result%residual = self%residual
@@ -269,8 +294,9 @@ contains
 
    !> After the last cycle of a level: on to the next one, back to the first one, or to the end. A coarse level that runs out
    !> of cycles is a beginning for the next one still.
-   subroutine end_level(self, outcome)
+   subroutine end_level(self, hierarchy, outcome)
       class(smooth_contact_t), intent(inout) :: self
+      type(hierarchy_t), intent(inout) :: hierarchy
       !> Of the level; then of the smooth contact: outcome_running while a level is to follow
       integer, intent(inout) :: outcome
       logical :: finest, met
@@ -284,17 +310,44 @@ contains
             return
          end if
       end associate
+      if (self%floods .and. self%m%oil%enters > self%options%layer .and. self%options%layer > 0.0_dp) then
+         self%floods = .false.
+         self%begun = .false.
+         self%results(self%n)%solved = .false.
+         outcome = outcome_running
+         return
+      end if
       met = .false.
       if (outcome == outcome_converged) met = has_target(self%options, self%results, self%n, self%m)
       if (met .or. finest) then
          outcome = merge(outcome_target_missed, outcome_converged, self%options%target_error > 0.0_dp .and. .not. met)
          self%solved = outcome == outcome_converged
+         if (self%solved .and. self%passage < self%options%passages) call next_passage(self, hierarchy%levels(self%n), outcome)
       else
          outcome = outcome_running
          self%n = self%n + 1
          self%begun = .false.
       end if
    end subroutine end_level
+
+   !> What leaves the contact is the inlet of the next one, unless it changes nothing any more. Errors are those of the first
+   !> passage over its values: what coarser grids have found is scaled.
+   subroutine next_passage(self, level, outcome)
+      class(smooth_contact_t), intent(inout) :: self
+      type(level_t), intent(inout) :: level
+      integer, intent(inout) :: outcome
+
+      if (self%passage > 1) then
+         if (abs(self%m%film_central - self%film_before) <= steady_film*self%m%film_central) return
+      end if
+      self%film_before = self%m%film_central
+      self%passage = self%passage + 1
+      self%solved = .false.
+      outcome = outcome_running
+      self%cycles = 0
+      level%supply%layer = self%options%replenishment*self%options%layer + (1.0_dp - self%options%replenishment)*leaving(level)
+      call begin_guard(self)
+   end subroutine next_passage
 
    !> A level has no solution: begin anew on the next finer one, where the discrete problem is better posed; from the first level
    !> on after a failure on the finest one, once with damped cycles and once with guarded ones

@@ -25,6 +25,11 @@ module ehl_steady_options
       real(dp) :: target_error = 0.0_dp
       !> Whether the border has the pressure of a flooded contact, else 0
       logical :: flooded = .false.
+      !> rho H of the layer that arrives; 0: as much oil as the gap holds
+      real(dp) :: layer = 0.0_dp
+      !> Passages, each with what the one before it leaves, and the share of what is missing that returns between them
+      integer :: passages = 1
+      real(dp) :: replenishment = 0.0_dp
       !> Whether what fails on the finest level may begin again with damped cycles
       logical :: may_restart = .false.
       !> Whether cycles that end in no state of the contact are taken back from the beginning on, and not only after all else

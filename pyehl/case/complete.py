@@ -4,7 +4,7 @@
 from collections.abc import Callable
 from contextlib import suppress
 
-from pyehl.case import contact, duty, grid, line, lubricant, surfaces
+from pyehl.case import contact, duty, grid, inlet, line, lubricant, surfaces
 from pyehl.case.settings import GROUPS, MACHINES, Draft
 from pyehl.errors import InputError
 
@@ -36,6 +36,7 @@ COMPLETIONS: tuple[Step, ...] = (
     lubricant.complete_alpha,
     lubricant.complete_law,
     duty.complete,
+    inlet.complete,
     grid.complete,
     contact.complete_kinematics,
     lubricant.complete,
@@ -49,7 +50,9 @@ STEPS: tuple[Step, ...] = (
     contact.check_operating_point,
     duty.complete,
     duty.check,
+    inlet.complete,
     grid.complete,
+    inlet.check,
     grid.check_extent,
     duty.check_domain,
     contact.complete_kinematics,

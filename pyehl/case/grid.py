@@ -16,15 +16,18 @@ def complete(draft: Draft) -> None:
     """Find border, domain and nodes from the operating point, unless they are given."""
     g = draft.settings.grid
     find_points = not draft.is_given("grid", "points") and g.target_error <= 0.0
+    ends = [getattr(g, end) if draft.is_given("grid", end) else None for end in ENDS]
+    border = g.border if draft.is_given("grid", "border") else ""
+    inlet = draft.settings.inlet
+    if ends[0] is None and inlet.position_hertz > 0.0:
+        ends[0] = -inlet.position_hertz
+    # with a duty a border that changes with time is not known
+    if draft.settings.duty.time or max(inlet.position_hertz, inlet.film_hertz) > 0.0:
+        border = border or "zero"
     found = physics.grid_defaults(
         draft.settings,
-        # a border that changes with time is not known
-        g.border
-        if draft.is_given("grid", "border")
-        else "zero"
-        if draft.settings.duty.time
-        else "",
-        [getattr(g, end) if draft.is_given("grid", end) else None for end in ENDS],
+        border,
+        ends,
         0 if find_points else g.points,
         g.points_y,
         duty.widening(draft.settings),

@@ -112,6 +112,26 @@ class Bodies:
 
 
 @dataclass(slots=True)
+class Inlet:
+    """``&inlet``: an inlet that is short of oil."""
+
+    position: float = real(
+        0.0, "m", "[0, 10]", "where the oil begins, ahead of the centre: P = 0 there; 0: flooded"
+    )
+    position_hertz: float = real(0.0, "a", "0 or [1.05, 1e4]", "the same in Hertz radii")
+    film: float = real(
+        0.0, "m", "[0, 0.01]", "layer of oil that arrives, of both surfaces together; 0: flooded"
+    )
+    film_hertz: float = real(0.0, "a^2/R", "[0, 1e4]", "the same in Hertz units")
+    passages: int = whole(
+        1, "[1, 1000]", "contacts one after another: what one leaves is the inlet of the next"
+    )
+    replenishment: float = real(
+        0.0, "-", "[0, 1]", "share of the oil missing from inlet.film that returns between them"
+    )
+
+
+@dataclass(slots=True)
 class Grid:
     """``&grid``: the domain in Hertz radii a and its finest grid."""
 

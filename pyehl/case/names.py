@@ -30,8 +30,8 @@ SPIN = (
     "contact.slide_to_roll"
 )
 STARVED = (
-    "there is no key for it: an inlet is starved by grid.border = 'zero' and a grid.x_inlet near "
-    "the contact"
+    "an inlet is short of oil by inlet.position [m], where the oil begins, or by inlet.film [m], "
+    "the layer that arrives"
 )
 WEAR = "wear is not modelled: surfaces keep their heights"
 HARDNESS = (

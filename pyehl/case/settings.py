@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, fields
 from typing import Any, NamedTuple, NoReturn
 
-from pyehl.case.groups import Bodies, Contact, Duty, Grid, Output, Psd, Solver, Time
+from pyehl.case.groups import Bodies, Contact, Duty, Grid, Inlet, Output, Psd, Solver, Time
 from pyehl.case.key import Key, Value, short
 from pyehl.case.lubricant_group import Lubricant
 from pyehl.case.machine_groups import BallBearing, RollerBearing, SpurGear
@@ -22,6 +22,7 @@ class Settings:
     contact: Contact = field(default_factory=Contact)
     bodies: Bodies = field(default_factory=Bodies)
     lubricant: Lubricant = field(default_factory=Lubricant)
+    inlet: Inlet = field(default_factory=Inlet)
     grid: Grid = field(default_factory=Grid)
     surface: Surface = field(default_factory=Surface)
     second_surface: Surface = field(default_factory=Surface)

@@ -4,6 +4,7 @@
 from collections.abc import Collection, Iterator, Mapping
 from functools import cache
 
+from pyehl.case.inlet import is_short_of_oil
 from pyehl.case.key import Key, Value, to_text
 from pyehl.case.settings import GROUPS, MACHINES, Settings
 
@@ -91,9 +92,9 @@ def _unwritten(settings: Settings, group: str) -> frozenset[str]:
     """Keys of a group that carry no value, or whose rival does."""
     if group == "contact":
         return frozenset(_of_contact(settings))
-    if group == "bodies":
-        keys = () if settings.bodies.given else (key.key for key in GROUPS["bodies"])
-        return frozenset(keys)
+    if group in ("bodies", "inlet"):
+        holds = settings.bodies.given if group == "bodies" else is_short_of_oil(settings)
+        return frozenset(() if holds else (key.key for key in GROUPS[group]))
     if group == "lubricant":
         return frozenset(_of_lubricant(settings))
     if group in ("surface", "second_surface"):

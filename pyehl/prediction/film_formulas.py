@@ -8,7 +8,7 @@ from typing import Any
 
 from pyehl import display, schema, surfaces
 from pyehl.prediction.spectrum import composite_rms, sum_of
-from pyehl.theory import film, line_contact, stribeck
+from pyehl.theory import film, line_contact, starvation, stribeck
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.moes_film import regime
 from pyehl.theory.operating import OperatingPoint
@@ -59,7 +59,11 @@ def left_out(settings: Settings, lubricant: Lubricant) -> list[str]:
         settings.get("grid", {}),
         float(settings["lubricant"].get("boundary_film", 0.0)),
     )
-    if grid.get("border") == "zero" and float(grid["x_inlet"]) > FLOODED:
+    position, layer = _inlet(settings)
+    if position > 0.0 and settings["contact"].get("shape") == "line":
+        found.append("inlet.position: there is no formula of a starved line")
+    meant = max(position, layer) > 0.0
+    if grid.get("border") == "zero" and float(grid["x_inlet"]) > FLOODED and not meant:
         found.append(
             f"grid.x_inlet = {float(grid['x_inlet']):g}: the formulas are of flooded inlets"
         )
@@ -71,6 +75,12 @@ def left_out(settings: Settings, lubricant: Lubricant) -> list[str]:
     if boundary > 0.0:
         found.append(f"lubricant.boundary_film = {boundary:g}: the formulas are of a full film")
     return found
+
+
+def _inlet(settings: Settings) -> tuple[float, float]:
+    """Where the oil begins [a] and the layer that arrives [a^2/R], by an inlet short of it."""
+    inlet = settings.get("inlet", {})
+    return float(inlet.get("position_hertz", 0.0)), float(inlet.get("film_hertz", 0.0))
 
 
 def sheet(settings: Settings) -> dict[str, Any]:
@@ -87,6 +97,18 @@ def sheet(settings: Settings) -> dict[str, Any]:
     turned = angle != 0.0 and operating.radius_ratio != 1.0
     lubricant = Lubricant.from_settings(settings)
     films = [] if turned else film.estimates(operating, lubricant)
+    if films:
+        applying = [f for f in films if f.applies]
+        h_min = next((f.h_min for f in applying if math.isfinite(f.h_min)), math.nan)
+        density = float(lubricant.density_ratio(operating.hertz_pressure))
+        starved = starvation.estimate(
+            *_inlet(settings),
+            (film.central_film(operating, lubricant), h_min),
+            operating.film_scale,
+            density,
+            operating.ellipse.ellipticity,
+        )
+        films += [starved] if starved else []
     result: dict[str, Any] = {
         "kind": "film",
         "schema_version": schema.VERSION,
@@ -156,6 +178,13 @@ def _line_sheet(settings: Settings) -> dict[str, Any]:
     lubricant = Lubricant.from_settings(settings)
     both = [settings[group] for group in surfaces.rough_groups(settings)]
     kinds = [str(surface["kind"]) for surface in both]
+    films = line_contact.estimates(line, lubricant)
+    layer = _inlet(settings)[1] * line.film_scale
+    if layer > 0.0:
+        density = float(lubricant.density_ratio(line.hertz_pressure))
+        films.append(
+            starvation.line_estimate(layer / density, line_contact.central_film(line, lubricant))
+        )
     result: dict[str, Any] = {
         "kind": "film",
         "schema_version": schema.VERSION,
@@ -181,7 +210,7 @@ def _line_sheet(settings: Settings) -> dict[str, Any]:
         "speed_parameter": line.speed_parameter,
         "left_out": left_out(settings, lubricant),
         "regime": line_contact.regime(line.moes_m, line.moes_l),
-        "formulas": [_record(f, line.film_scale) for f in line_contact.estimates(line, lubricant)],
+        "formulas": [_record(f, line.film_scale) for f in films],
         "surface": " and ".join(kinds) or "smooth",
     }
     # waves of a height over the film do not determine it

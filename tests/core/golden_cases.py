@@ -166,7 +166,11 @@ def outcome(text: str, options: list[str], folder: Path) -> list[str] | str:
 
 def without_places(text: str, folder: Path) -> str:
     """Replace the folder of the case, and the current one, from which options name files."""
-    return text.replace(str(folder), "FOLDER").replace(str(Path.cwd()), "CURRENT")
+    text = text.replace(str(folder), "FOLDER").replace(str(Path.cwd()), "CURRENT")
+    # a group that came since
+    return text.replace("&lubricant, &inlet,", "&lubricant,").replace(
+        "lubricant, inlet,", "lubricant,"
+    )
 
 
 def lines(resolved: str) -> list[str]:

@@ -41,12 +41,13 @@ def test_resolved_case_reads_back(path: Path):
         "lubricant.table_pressure", "lubricant.table_viscosity",
         "contact.shape", "contact.load_per_length", "contact.moes_m_line", "contact.moes_l_line",
     }  # fmt: skip
+    assert ("inlet" in groups) == (path.name == "greased.nml")
     if groups["contact"].get("shape") == "line":
         excluded |= {"contact.angle", "grid.y_extent", "grid.points_y"}
     names = {f"{group}.{key}" for group, keys in groups.items() for key in keys}
     unused = set(KEYS) - names
     laws = ("vogel", "dicke", "yasutomi", "doolittle", "murnaghan", "tait", "range")
-    others = ("bodies.", "second_surface.", "duty.", *(f"{group}." for group in MACHINES))
+    others = ("bodies.", "second_surface.", "inlet.", "duty.", *(f"{group}." for group in MACHINES))
     others += tuple(f"lubricant.{law}_" for law in laws)
     assert {name for name in unused if not name.startswith(others)} <= excluded
     assert ("second_surface" in groups) == (path.name == "gear_pair.nml")

@@ -265,7 +265,7 @@ FAULTS: list[tuple[str, str, list[str], list[str]]] = [
     ("length of a line", "&contact §length = 0.01 /", [], ["line contacts are not modelled"]),
     ("length of a lubricant", "&lubricant §length = 0.01 /", [], ["belongs to &surface"]),
     ("spin", "&contact §spin = 0.1 /", [], ["spin is not modelled"]),
-    ("starvation", "&contact §starved = .true. /", [], ["grid.border = 'zero'"]),
+    ("starvation", "&contact §starved = .true. /", [], ["inlet.position [m]"]),
     ("wear", "&contact §wear = 1e-8 /", [], ["wear is not modelled"]),
     ("group of wear", "§&wear k = 1e-8 /", [], ["unknown group &wear", "wear is not modelled"]),
     ("its option, of wear", "", ["wear.k=1e-8"], ["unknown group 'wear'", "wear is not modelled"]),

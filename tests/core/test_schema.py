@@ -55,6 +55,11 @@ SOLUTIONS = {
         "&grid points = 33 x_inlet = -1.2 x_outlet = 1.2 y_extent = 1.2 border = 'zero' /\n"
     ),
     "no solution": f"{MOES}&solver max_cycles = 1 /\n",
+    "oil begins": (
+        "&contact moes_m = 100.0 moes_l = 5.0 /\n&inlet position_hertz = 1.5 /\n"
+        "&grid points = 33 /\n"
+    ),
+    "layer that arrives": f"{MOES}&inlet film_hertz = 0.05 passages = 2 /\n",
     "heated": SI + HEATED,
     "heat of friction": SI + HEATED.replace("thermal_reduction = .true.", "shear_law = 'eyring'"),
     "oil by name": SI + "&lubricant name = 'fva3' /\n",

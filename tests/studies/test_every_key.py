@@ -139,6 +139,8 @@ VALUES: dict[str, tuple[Any, Mapping[str, Any]]] = {
     "lubricant.temperature_viscosity": (0.05, SI | HEATED),
     "lubricant.thermal_conductivity": (0.12, SI | HEATED),
     "lubricant.thermal_friction": ("always", SI | SHEET | THINS),
+    "inlet.position": (1.6e-4, SI),
+    "inlet.position_hertz": (1.4, SI),
     "grid.x_inlet": (-3.0, SI),
     "grid.x_outlet": (1.6, SI),
     "grid.y_extent": (2.5, SI),
@@ -173,6 +175,8 @@ LINE: dict[str, Mapping[str, Any]] = {
         "contact.radius": 0.01,
     },
 }
+# A layer of oil meets smooth surfaces: predictions, curves and fits of rough ones have none
+SMOOTH = ("inlet.film", "inlet.film_hertz", "inlet.passages", "inlet.replenishment")
 # A table of viscosities is a file
 TABLE = "lubricant.table"
 ROUGH = {"surface.kind": "harmonic", "surface.amplitude_over_film": 0.1}
@@ -186,7 +190,13 @@ def test_every_key_has_a_value():
     inside = {
         name for name, key in KEYS.items() if name.partition(".")[0] not in OTHERS and key.for_input
     }
-    assert inside == VALUES.keys() | LINE.keys() | {TABLE} | {f"grid.{name}" for name in OF_RUN}
+    with_one = VALUES.keys() | LINE.keys() | {TABLE, *SMOOTH}
+    assert inside == with_one | {f"grid.{name}" for name in OF_RUN}
+
+
+def test_a_layer_of_oil_is_refused_beside_roughness():
+    with pytest.raises(pyehl.InputError, match=r"with inlet\.film"):
+        pyehl.predict(pyehl.Case.from_text("", SI | ROUGH | {"inlet.film": 1e-7}))
 
 
 @pytest.mark.parametrize("key", LINE)

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""An inlet that is meant to be short of oil: where the oil begins, or the layer that arrives."""
+
+from pyehl.case import physics
+from pyehl.case.grid import BEYOND_CONTACT
+from pyehl.case.key import short
+from pyehl.case.settings import Draft, Settings
+
+KEYS = ("position", "position_hertz", "film", "film_hertz")
+NAMES = tuple(f"inlet.{key}" for key in KEYS)
+ROUNDING = 1e-6
+"""Relative difference of values that is none."""
+
+
+def is_short_of_oil(settings: Settings) -> bool:
+    """Whether the inlet is meant to be short of oil."""
+    return max(settings.inlet.position_hertz, settings.inlet.film_hertz) > 0.0
+
+
+def complete(draft: Draft) -> None:
+    """Find the inlet in Hertz units; P = 0 is at its border."""
+    s, inlet = draft.settings, draft.settings.inlet
+    if not s.contact.si or not max(inlet.position, inlet.film) > 0.0:
+        return
+    length = physics.point(s).length
+    if not draft.is_given("inlet", "position_hertz"):
+        inlet.position_hertz = inlet.position / length
+    if not draft.is_given("inlet", "film_hertz"):
+        inlet.film_hertz = inlet.film / (length**2 / s.contact.radius_x)
+
+
+def check(draft: Draft) -> None:
+    """Refuse an inlet that contradicts itself or other keys, or is inside the contact."""
+    s, inlet = draft.settings, draft.settings.inlet
+    key = draft.first_given(NAMES)
+    if not s.contact.si and max(inlet.position, inlet.film) > 0.0:
+        draft.refuse(key, f"{key} in metres with Moes numbers", f"{key}_hertz, in a or a^2/R")
+    position, film = inlet.position_hertz, inlet.film_hertz
+    if position > 0.0 and film > 0.0:
+        what = "inlet.position with inlet.film"
+        draft.refuse(key, what, "one of them: the oil begins where the layer fills the gap")
+    if inlet.passages > 1 and not film > 0.0:
+        what = "inlet.passages without inlet.film"
+        draft.refuse("inlet.passages", what, "the layer of the first passage")
+    if not is_short_of_oil(s):
+        return
+    point = physics.point(s)
+    scale = point.length**2 / s.contact.radius_x if s.contact.si else 0.0
+    _agree(draft, "inlet.position", "inlet.position_hertz", inlet.position, position * point.length)
+    _agree(draft, "inlet.film", "inlet.film_hertz", inlet.film, film * scale)
+    if s.grid.border == "flooded":
+        draft.contradict("grid.border", key, "grid.border = 'zero' or none")
+    if position > 0.0:
+        _agree(draft, "inlet.position", "grid.x_inlet", position, -s.grid.x_inlet)
+        least = BEYOND_CONTACT * point.reach_x
+        if position < least:
+            what = (
+                f"{key} is {short(position)} a ahead of the centre, and the contact reaches to "
+                f"{short(point.reach_x)} a"
+            )
+            draft.refuse(key, what, f"at least {short(least)} a")
+        return
+    boundary = s.lubricant.boundary_film
+    if s.contact.si and film * scale < boundary * (1.0 - ROUNDING):
+        what = f"{key} = {short(film * scale)} m is below the boundary film of {short(boundary)} m"
+        draft.refuse(key, what, "a layer above lubricant.boundary_film")
+    if s.duty.time:
+        what = f"{key} with a duty: a layer arrives at a contact in steady motion"
+        draft.refuse(key, what, "inlet.position, or none of &duty")
+    for group in ("surface", "second_surface"):
+        kind = getattr(s, group).kind
+        if kind != "smooth":
+            what = f"{group}.kind = '{kind}' with {key}"
+            expected = "smooth surfaces, or inlet.position for a rough contact that is starved"
+            draft.refuse(f"{group}.kind", what, expected)
+
+
+def _agree(draft: Draft, one: str, other: str, value: float, follows: float) -> None:
+    if value > 0.0 and abs(value - follows) > ROUNDING * value:
+        draft.contradict(one, other, "one of the two")

@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Inlets that are short of oil: formulas, conservation, limits, passages, what is refused."""
+
+import json
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+import pyehl
+from pyehl.assessment import HOLDS, assess
+from pyehl.theory.starvation import CENTRAL, layer_reduction, position_reduction
+
+CIRCLE = {"moes_m": 100.0, "moes_l": 10.0}
+LINE = {"shape": "line", "moes_m_line": 20.0, "moes_l_line": 10.0}
+DENSITY = 1.19
+"""About that of the oil at the Hertz pressure of these contacts."""
+
+
+def solve(contact=CIRCLE, points=65, grid=None, **inlet):
+    return pyehl.solve(
+        pyehl.Case(contact=contact, inlet=inlet, grid={"points": points, **(grid or {})})
+    )
+
+
+@pytest.fixture(scope="module")
+def flooded():
+    return solve()
+
+
+@pytest.mark.parametrize("layer", [0.02, 0.1, 0.2])
+def test_layer_of_a_point_contact(flooded, layer):
+    found = solve(film_hertz=layer)
+    assert abs(float(found.oil_imbalance)) <= 1e-6
+    leaves = float(found.oil_out) + float(found.oil_at_sides)
+    assert float(found.oil_in) == pytest.approx(leaves, rel=2e-6)
+    ratio = layer / (DENSITY * float(flooded.H_c))
+    share = float(found.H_c) / float(flooded.H_c)
+    if ratio < 0.2:
+        assert share == pytest.approx(ratio, rel=0.01)
+        return
+    exponent = brentq(lambda gamma: layer_reduction(ratio, gamma) - share, 1.0, 10.0)
+    assert 2.0 < exponent < 5.0
+
+
+def test_a_thick_layer_floods():
+    thick, zero = solve(film_hertz=50.0), solve(grid={"border": "zero"})
+    assert float(thick.H_c) == pytest.approx(float(zero.H_c), rel=1e-5)
+    assert float(thick.H_c_error_domain) == pytest.approx(float(zero.H_c_error_domain), rel=1e-2)
+
+
+@pytest.mark.parametrize("layer", [0.02, 0.06, 0.15])
+def test_a_line_lets_all_oil_through(layer):
+    found, flooded = solve(LINE, 129, film_hertz=layer), solve(LINE, 129, grid={"border": "zero"})
+    if layer > 0.11:
+        assert float(found.H_c) == pytest.approx(float(flooded.H_c), rel=1e-4)
+        return
+    assert float(found.oil_out) == pytest.approx(layer, rel=1e-6)
+    # flat pressures: no flow by pressure in the middle
+    assert float(found.H_c) * DENSITY == pytest.approx(layer, rel=0.01)
+
+
+def test_position_is_the_border_and_no_error():
+    place = {"x_inlet": -1.3, "x_outlet": 1.5, "y_extent": 2.0}
+    meant = solve(grid={"x_outlet": 1.5, "y_extent": 2.0}, points=129, position_hertz=1.3)
+    domain = solve(grid=place | {"border": "zero"}, points=129)
+    assert float(meant.H_c) == float(domain.H_c)
+    assert float(domain.H_c_error_domain) > 0.1 * float(domain.H_c)
+    assert float(meant.H_c_error_domain) < 0.01 * float(meant.H_c)
+    formula = position_reduction(1.3, float(meant.H_c_flooded), CENTRAL)
+    assert float(meant.starvation_by_formula) == pytest.approx(formula, rel=1e-9)
+    assert float(meant.starvation) == pytest.approx(formula, rel=0.1)
+    summary = {name: value.item() for name, value in meant.data_vars.items() if value.ndim == 0}
+    found = assess({"status": "converged", **summary})
+    assert found.confidence == HOLDS
+    assert "starved as the case has it" in found.text
+
+
+def test_passages():
+    found = solve(film_hertz=0.1, passages=3)
+    assert int(found.passages) == 3
+    of = np.asarray(found.history_passage)
+    films = [np.asarray(found.history_H_c)[of == k][-1] for k in (1, 2, 3)]
+    layers = [np.asarray(found.history_oil_layer)[of == k][-1] for k in (1, 2, 3)]
+    assert films[0] > films[1] > films[2]
+    # what arrives is what the film before it had
+    assert layers[1:] == pytest.approx([DENSITY * film for film in films[:2]], rel=0.02)
+    once = solve(film_hertz=0.1, passages=3, replenishment=1.0)
+    assert int(once.passages) == 2
+    assert float(once.H_c) == pytest.approx(films[0], rel=1e-3)
+
+
+SI = {"load": 20.0, "radius": 0.01, "mean_velocity": 1.0}
+
+
+@pytest.mark.parametrize(
+    ("groups", "key", "expected"),
+    [
+        ({"contact": SI, "inlet": {"position": 5e-5}}, "inlet.position", "at least 1.05 a"),
+        ({"contact": SI, "inlet": {"film": -1e-7}}, "inlet.film", "[0, 0.01]"),
+        (
+            {"contact": SI, "inlet": {"film": 1e-9}, "lubricant": {"boundary_film": 2e-9}},
+            "inlet.film",
+            "above lubricant.boundary_film",
+        ),
+        ({"contact": SI, "inlet": {"passages": 2}}, "inlet.passages", "layer"),
+        ({"contact": CIRCLE, "inlet": {"film": 1e-7}}, "inlet.film", "film_hertz"),
+        (
+            {"contact": SI, "inlet": {"film": 1e-7}, "grid": {"border": "flooded"}},
+            "grid.border",
+            "'zero'",
+        ),
+        (
+            {"contact": SI, "inlet": {"film": 1e-7}, "surface": {"kind": "fractal"}},
+            "surface.kind",
+            "inlet.position",
+        ),
+    ],
+)
+def test_refusals(groups, key, expected):
+    with pytest.raises(pyehl.InputError) as refused:
+        pyehl.Case(**groups).resolve()
+    assert key in str(refused.value)
+    assert expected in str(refused.value)
+
+
+def test_film_has_the_formula():
+    case = pyehl.Case(contact=CIRCLE, inlet={"position_hertz": 1.3})
+    starved = pyehl.film(case).formulas[-1]
+    assert starved["name"] == "starved: Hamrock-Dowson IV"
+    assert json.dumps(starved)
+    layer = pyehl.film(pyehl.Case(contact=CIRCLE, inlet={"film_hertz": 0.05})).formulas[-1]
+    first = pyehl.film(pyehl.Case(contact=CIRCLE)).formulas[0]
+    assert 0.2 * first["h_c_m"] < layer["h_c_m"] < first["h_c_m"]
