@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Results of a contact under a duty by name: extremes with their instants, errors
 module ehl_report_duty
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use ehl_contact_run, only: contact_run_t
    use ehl_kinds, only: dp, not_known
    use ehl_record, only: record_t
@@ -37,7 +38,7 @@ contains
             at = not_known
             error = not_known
             ! not known at one instant: the extreme is not known
-            if (converged .and. any(counts) .and. all(values == values .or. .not. counts)) then
+            if (converged .and. any(counts) .and. all(.not. (ieee_is_nan(values) .and. counts))) then
                i = maxloc(signs(k)*values, dim=1, mask=counts)
                found = values(i)
                at = time(i)
