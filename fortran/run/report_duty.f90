@@ -29,7 +29,7 @@ contains
       integer :: k, i
 
       associate (duty => run%plan%duty, t => run%transient)
-         time = run%history%column("t_s")
+         allocate (time, source=run%history%column("t_s"))
          allocate (counts(size(time)), source=time >= from(1)*(1.0_dp - 1.0e-9_dp))
          grid = [record%number("H_c_error")/record%number("H_c"), record%number("H_min_error")/record%number("H_min")]
          do k = 1, size(names)
