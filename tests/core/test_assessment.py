@@ -85,7 +85,7 @@ def test_last_lines():
 
 
 @pytest.mark.parametrize(
-    ("more", "words", "worth"),
+    ("more", "words", "confidence"),
     [
         ({}, FULL, HOLDS),
         ({"H_c_error": 0.002}, f"{FULL}; but H_c is known to 10 % only", WITH_CARE),

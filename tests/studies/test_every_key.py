@@ -180,8 +180,8 @@ SMOOTH = ("inlet.film", "inlet.film_hertz", "inlet.passages", "inlet.replenishme
 # A table of viscosities is a file
 TABLE = "lubricant.table"
 ROUGH = {"surface.kind": "harmonic", "surface.amplitude_over_film": 0.1}
-# Groups that are no part of a smooth contact; but a velocity ratio is a slide-to-roll ratio
-OTHERS = ("surface", "second_surface", "time", "psd", "output", *MACHINES)
+# Groups that are no part of a smooth contact, but a velocity ratio is a slide-to-roll ratio; predictions refuse a duty
+OTHERS = ("surface", "second_surface", "time", "duty", "psd", "output", *MACHINES)
 
 
 def test_every_key_has_a_value():
@@ -240,7 +240,7 @@ def made(key: str, tmp_path: Path) -> pyehl.Case:
 def test_the_contact_of_a_prediction_is_that_of_a_run(key: str, tmp_path: Path):
     """Bit for bit, but for the friction: with its boundary film where it has one."""
     case = made(key, tmp_path)
-    text = smooth_case(case.resolve(), layer=True)
+    text = smooth_case(case.resolve(), boundary=True)
     predicted = fields(pyehl.Case.from_text(text, POINTS).text)
     solved = fields(case.smooth().text)
     assert predicted[2] == solved[2]
