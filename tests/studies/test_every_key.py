@@ -180,7 +180,8 @@ SMOOTH = ("inlet.film", "inlet.film_hertz", "inlet.passages", "inlet.replenishme
 # A table of viscosities is a file
 TABLE = "lubricant.table"
 ROUGH = {"surface.kind": "harmonic", "surface.amplitude_over_film": 0.1}
-# Groups that are no part of a smooth contact, but a velocity ratio is a slide-to-roll ratio; predictions refuse a duty
+# Groups that are no part of a smooth contact (but a velocity ratio is a slide-to-roll ratio), and
+# the duty, which predictions refuse
 OTHERS = ("surface", "second_surface", "time", "duty", "psd", "output", *MACHINES)
 
 
