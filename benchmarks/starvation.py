@@ -10,7 +10,7 @@ The tables of docs/evidence/starvation.
 import argparse
 import csv
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -93,14 +93,14 @@ def random(count: int, seed: int) -> Iterator[dict[str, Any]]:
                 yield row(contact, points, ratio, flooded, density)
 
 
-def main() -> None:
+def main(words: Sequence[str] | None = None) -> None:
     """Write one of the tables."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("kind", choices=("table", "random"))
     parser.add_argument("file", type=Path)
     parser.add_argument("--count", type=int, default=60)
     parser.add_argument("--seed", type=int, default=1)
-    args = parser.parse_args()
+    args = parser.parse_args(words)
     rows = table() if args.kind == "table" else random(args.count, args.seed)
     with args.file.open("w", newline="") as out:
         writer = csv.DictWriter(out, COLUMNS, extrasaction="ignore")

@@ -166,7 +166,8 @@ def key_of(option: str) -> str:
 
 
 def _option_of(key: str, value: Any) -> str:  # noqa: ANN401
-    if isinstance(value, list | tuple | np.ndarray):
+    # the only keys that take lists
+    if key.startswith("duty.") and isinstance(value, list | tuple | np.ndarray):
         cells = [option(key, plain(float(cell))).partition("=")[2] for cell in np.ravel(value)]
         return f"{key}={', '.join(cells)}"
     try:

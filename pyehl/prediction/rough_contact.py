@@ -383,7 +383,8 @@ class RoughContact(ShearedContact):
 
     def add_edge(self, total: Single, *edges: tuple[Array, Array]) -> None:
         """Add what the edge does to the pressure (:meth:`Edge.at`), keep how far it is moved."""
-        coefficients = np.zeros_like(edges[0][0])
+        # a surface without long waves has none
+        coefficients = np.zeros(max(found.size for found, _ in edges))
         self.moved[:] = 0.0
         for found, moved in edges:
             self.moved += moved

@@ -162,7 +162,7 @@ def test_faults_of_the_package_stay_what_they_are(cases: Path, tmp_path: Path, m
     for name, words in (
         ("api.predict_resolved", ["predict", "-o", "out"]),
         ("api.sheet", ["film"]),
-        ("studies.plan.central_film", ["stribeck", "--speed", "1", "-o", "out"]),
+        ("commands.stribeck.plan_curve", ["stribeck", "--speed", "1", "-o", "out"]),
         ("commands.surface.from_settings", ["surface"]),
     ):
         monkeypatch.setattr(f"pyehl.{name}", broken)

@@ -358,7 +358,7 @@ def test_film_of_second_order(contact, table_1):
     lost = 1.0 - 0.3 + 0.4 * 0.3**2
     assert one_film == pytest.approx(1.0 / lost, rel=1e-4)
     missing = contact.minimum_film - contact.film.min()
-    assert points.least == pytest.approx(lost * thinnest.min() + missing, abs=0.3 * missing)
+    assert points.minimum == pytest.approx(lost * thinnest.min() + missing, abs=0.3 * missing)
     change[..., 0] = 1.5 * points.film
     assert points.sheared(change, points.smooth_film()) == pytest.approx(
         1.0 / float(film_left(np.array(1.5))), rel=1e-4

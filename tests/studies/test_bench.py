@@ -327,7 +327,7 @@ def test_contacts_that_are_no_case_are_counted():
     values = contact.values | {"contact.mean_velocity": 1e-6}
     contact = replace(contact, values=values)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(machines, "draw", lambda count, seed: [contact] * count)
+        patch.setitem(machines.DRAWS, "ellipse", lambda count, seed: [contact] * count)
         rows = machines.campaign(1, 3, fine=True)
     assert rows[0]["status"] == machines.REFUSED
     assert "M between" in rows[0]["message"]

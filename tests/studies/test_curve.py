@@ -295,7 +295,7 @@ def test_ends_of_a_curve_say_why(cases: Path, tmp_path: Path):
     )
     lost, found = table(tmp_path / "1")
     assert lost["status"] == "not solved"
-    assert "did not converge on 1025 x 1025 nodes" in lost["message"]
+    assert "did not converge on 1025 nodes along X" in lost["message"]
     assert "point 1 of 2 (contact.mean_velocity=0.005): not solved: failed: " in complaint
     assert "full film at all points with a result; 1 have none" in told
     assert found["status"] == FULL_FILM

@@ -202,11 +202,9 @@ def test_a_layer_of_oil_is_refused_beside_roughness():
 
 @pytest.mark.parametrize("key", LINE)
 def test_a_line_is_refused_by_name_where_it_is_not_obeyed(key: str):
-    """Rather than solved as a point: `predict`, `stribeck`, `fit-lubricant` and the app."""
+    """Rather than solved as a point: `fit-lubricant` and the app."""
     case = pyehl.Case.from_text("", {"contact.shape": "line"} | LINE[key] | ROUGH | POINTS)
     for asked in (
-        lambda: pyehl.predict(case),
-        lambda: plan_curve(case, [axis("grid.x_inlet", [-3.0])]),
         lambda: OperatingPoint.from_settings(case.resolve()),  # first of a fit
         lambda: from_case(case.with_options("surface.kind=smooth")),
     ):
