@@ -10,8 +10,8 @@ module ehl_case_check_duty
    private
    public :: check_duty
 
-   !> Least load over that of the case
-   real(dp), parameter :: least_load = 1.0e-3_dp
+   !> Minimum load over that of the case
+   real(dp), parameter :: min_load = 1.0e-3_dp
    !> Difference of the first and the last row of a period that is none
    real(dp), parameter :: same = 1.0e-9_dp
    character(len=*), parameter :: keys(8) = [character(len=13) :: "load", "u1", "u2", "mean_velocity", "slide_to_roll", &
@@ -42,7 +42,7 @@ contains
          if (n < 2) call refuse("time", "a single time", "two rows or more")
          do k = 2, n
             if (.not. time(k) > time(k - 1)) then
-               call refuse("time", "time "//to_text(time(k))//" s behind "//to_text(time(k - 1))//" s", "times that increase")
+               call refuse("time", "time "//to_text(time(k))//" s after "//to_text(time(k - 1))//" s", "times that increase")
                exit
             end if
          end do
@@ -57,7 +57,7 @@ contains
             call refuse("u1", "duty.u1 beside duty.mean_velocity or duty.slide_to_roll", "the speeds one way")
          end if
          numbers = d%list("load")
-         least = least_load*input%contact%size_of_load()
+         least = min_load*input%contact%size_of_load()
          if (size(numbers) > 0) then
             if (minval(numbers) < least) call refuse("load", "a load of "//to_text(minval(numbers)), &
                "at least "//short(least)//", 0.001 of that of the case: below it the contact opens")

@@ -155,7 +155,7 @@ contains
       rate = self%c(0)
    end function rate
 
-   !> Those that line systems include, in the first interior column and behind it
+   !> Those that line systems include, in the first interior column and downstream of it
    pure subroutine line_weights(self, first, interior)
       class(wedge_t), intent(in) :: self
       real(dp), intent(out) :: first(0:line_reach), interior(0:line_reach)

@@ -10,14 +10,14 @@ module ehl_duty_steps
    !> A step is no longer than that by the mesh and the largest speed over this share
    real(dp), parameter :: slowest = 0.1_dp
    !> Largest change of load, curvature, viscosity (of the larger value) and of mean velocity (of the largest) in a step
-   real(dp), parameter :: most_change = 0.1_dp
+   real(dp), parameter :: max_change = 0.1_dp
    !> A step is at most so many times the one before: with more than 2.4 backward differences are not stable
    real(dp), parameter :: growth = 1.5_dp
    !> Steps that do not converge are cut by half so many times, those that miss the error so many
-   integer, parameter :: most_cuts = 8, most_for_error = 5
+   integer, parameter :: max_cuts = 8, max_for_error = 5
    !> Share of the error asked for that a step may leave, however short it is: less is lost in that of the residual and in the
-   !> nodes that the least film goes from one to the other of
-   real(dp), parameter :: least_share = 0.05_dp
+   !> nodes that the minimum film goes from one to the other of
+   real(dp), parameter :: min_share = 0.05_dp
    !> Time in which the film passes the contact [a/u]: errors of its steps add up
    real(dp), parameter :: transit = 2.0_dp
    !> Numbers that a kept state has of it
@@ -51,16 +51,16 @@ contains
       !> Whether rough surfaces move, so that the faster one counts
       logical, intent(in) :: moves
       type(duty_state_t) :: now, then
-      real(dp) :: speed, least, knots(2)
+      real(dp) :: speed, slow, knots(2)
       integer :: k
 
       now = duty%at(time)
-      least = slowest*duty%fastest()
-      step = duty%step_share*mesh/max(least, speed_of(now))
+      slow = slowest*duty%fastest()
+      step = duty%step_share*mesh/max(slow, speed_of(now))
       if (self%n > 0) step = min(step, self%steps(1)*min(growth, self%wanted))
-      do k = 1, most_cuts
+      do k = 1, max_cuts
          then = duty%at(time + step)
-         speed = max(least, speed_of(then))
+         speed = max(slow, speed_of(then))
          if (step > 1.001_dp*duty%step_share*mesh/speed) then
             step = max(0.5_dp*step, duty%step_share*mesh/speed)
          else if (changes(now, then)) then
@@ -93,9 +93,9 @@ contains
       !> Whether too much changes in a step
       pure logical function changes(a, b)
          type(duty_state_t), intent(in) :: a, b
-         changes = abs(b%mean_velocity() - a%mean_velocity()) > most_change*duty%fastest() &
+         changes = abs(b%mean_velocity() - a%mean_velocity()) > max_change*duty%fastest() &
                    .or. any(abs([b%load, b%viscosity, b%curvatures] - [a%load, a%viscosity, a%curvatures]) &
-                            > most_change*max([b%load, b%viscosity, b%curvatures], [a%load, a%viscosity, a%curvatures]))
+                            > max_change*max([b%load, b%viscosity, b%curvatures], [a%load, a%viscosity, a%curvatures]))
       end function changes
    end function next
 
@@ -131,9 +131,9 @@ contains
       by_step = t(1)*t(1)*t(2)*(1.0_dp + self%ratio(step))/(1.0_dp + 2.0_dp*self%ratio(step))
       self%error = by_step/(by_step + by_guess)*abs(films - guess)/films
       if (.not. duty%target_error > 0.0_dp) return
-      allowed = duty%target_error*max(least_share, step*max(abs(speed), slowest*duty%fastest())/transit)
+      allowed = duty%target_error*max(min_share, step*max(abs(speed), slowest*duty%fastest())/transit)
       self%wanted = min(growth, max(0.5_dp, 0.8_dp*(allowed/max(maxval(self%error), tiny(1.0_dp)))**(1.0_dp/3.0_dp)))
-      good = maxval(self%error) <= allowed .or. self%cuts >= most_for_error
+      good = maxval(self%error) <= allowed .or. self%cuts >= max_for_error
    end subroutine judge
 
    !> The step is taken; `share`: of a transit in it
@@ -154,7 +154,7 @@ contains
    logical function cut(self)
       class(duty_steps_t), intent(inout) :: self
 
-      cut = self%cuts < most_cuts
+      cut = self%cuts < max_cuts
       if (cut) self%cuts = self%cuts + 1
    end function cut
 

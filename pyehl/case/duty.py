@@ -17,9 +17,9 @@ from pyehl.case.settings import GROUPS, Draft, Settings
 from pyehl.case.source import Source, read_text
 from pyehl.errors import InputError
 
-LEAST_TIMES = 2
-LEAST_LOAD = 1e-3
-"""Least load over that of the case."""
+MIN_TIMES = 2
+MIN_LOAD = 1e-3
+"""Minimum load over that of the case."""
 SAME = 1e-9
 """Difference of the ends of a period, and of a domain, that is none."""
 Table = dict[str, tuple[float, ...]]
@@ -81,7 +81,7 @@ def _times(draft: Draft, lists: Table) -> Iterator[tuple[str, str, str]]:
         if len(values) != len(duty.time):
             what = f"{len(values)} values of duty.{key} at {len(duty.time)} times"
             yield key, what, "a value at each of duty.time"
-    if len(duty.time) < LEAST_TIMES:
+    if len(duty.time) < MIN_TIMES:
         yield "time", "a single time", "two or more"
     if late := [b for a, b in pairwise(duty.time) if b <= a]:
         what = f"times that do not increase to {to_text(late[0])} s"
@@ -107,9 +107,9 @@ def _values(draft: Draft, lists: Table) -> Iterator[tuple[str, str, str]]:
     if duty.u1 and (duty.mean_velocity or duty.slide_to_roll):
         what = "duty.u1 beside duty.mean_velocity or duty.slide_to_roll"
         yield "u1", what, "the speeds one way"
-    least = LEAST_LOAD * (contact.load_per_length if contact.is_line else contact.load)
+    least = MIN_LOAD * (contact.load_per_length if contact.is_line else contact.load)
     if duty.load and min(duty.load) < least:
-        expected = f"at least {to_text(least)}, {LEAST_LOAD} of that of the case"
+        expected = f"at least {to_text(least)}, {MIN_LOAD} of that of the case"
         yield "load", f"a load of {to_text(min(duty.load))}", expected
     for key in ("radius_x", "radius_y", "viscosity"):
         if min(lists.get(key, (1.0,))) <= 0.0:
@@ -204,7 +204,7 @@ def read_duty(path: str, *, is_line: bool) -> Table:
                 source, first, line, dict(zip((n for n, _ in columns), values, strict=True))
             )
     if not values or len(values[0]) < 2:
-        source.refuse(0, 1, "fewer than two times", f"{HEADER}, and a line for each time behind it")
+        source.refuse(0, 1, "fewer than two times", f"{HEADER}, then a line for each time")
     return {name: tuple(column) for (name, _), column in zip(columns, values, strict=True)}
 
 
@@ -219,7 +219,7 @@ def _lines(source: Source) -> Iterator[tuple[int, str]]:
 def _check_time(source: Source, first: int, line: str, values: dict[str, list[float]]) -> None:
     before, now = values["time"][-2:]
     if now <= before:
-        what = f"time {now!r} s behind {before!r} s"
+        what = f"time {now!r} s after {before!r} s"
         source.refuse(first, first + len(line), what, "times that increase")
 
 
