@@ -148,7 +148,7 @@ class Journal:
             # one sync for each row; the entries of `study` are in the file itself
             run("PRAGMA journal_mode = WAL")
             run("PRAGMA wal_checkpoint(TRUNCATE)")
-            self.rows = {n: json.loads(text) for n, text in run("SELECT number, row FROM rows")}
+            self.rows = self.read()
         except sqlite3.OperationalError as error:
             if error.sqlite_errorcode == sqlite3.SQLITE_BUSY:
                 who = _unlocked(self.path, "holder") or "another process"
@@ -188,6 +188,11 @@ class Journal:
         except sqlite3.Error as error:
             raise FileError(f"{self.path}: cannot write: {error}") from error
         self.rows |= dict(rows)
+
+    def read(self) -> dict[int, Row]:
+        """Read all finished cases from the file."""
+        found = self._base.execute("SELECT number, row FROM rows")
+        return {number: json.loads(text) for number, text in found}
 
     def close(self) -> None:
         """Close the file, which releases the lock."""

@@ -106,6 +106,9 @@ def gather(
                         written = time.monotonic()
         except KeyboardInterrupt:
             outcome.interrupted = True
+            if journal is not None:
+                # rows that were written at that instant
+                rows.update(journal.read())
         outcome.wall = time.monotonic() - began
         if write is not None:
             write(rows)

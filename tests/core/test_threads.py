@@ -263,7 +263,7 @@ def test_predictions_have_the_same_bits_on_any_number_of_threads():
     )
     printed = [
         subprocess.run(
-            [sys.executable, "-c", code],
+            [sys.executable, "-P", "-c", code],
             env=os.environ | {"OMP_NUM_THREADS": threads},
             capture_output=True,
             text=True,

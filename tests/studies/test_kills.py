@@ -15,6 +15,7 @@ from journals import rows_in
 
 import pyehl
 from pyehl.studies import pool
+from pyehl.studies.journal import Journal
 from pyehl.studies import tasks as tasks_module
 from pyehl.studies.tasks import FAILED, Task, execute
 
@@ -154,6 +155,29 @@ def test_ctrl_c_keeps_everything(cases: Path, tmp_path: Path, unbroken: Path):
     assert len(table(folder)) == len(finished)
     finish(folder, cases / "quick.nml")
     check_whole(folder, unbroken)
+
+
+def test_a_row_written_at_the_instant_of_ctrl_c_is_in_the_table(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    real = Journal.append
+
+    def interrupted(journal: Journal, rows: list[tuple[int, dict[str, object]]]) -> None:
+        known, journal.rows = journal.rows, {}
+        real(journal, rows)
+        journal.rows = known
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Journal, "append", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        pyehl.sweep(
+            pyehl.Case.from_text(""),
+            {"contact.moes_m": [100.0, 200.0]},
+            run="film",
+            output=tmp_path / "out",
+            jobs=1,
+        )
+    assert len(table(tmp_path / "out")) == len(rows_in(tmp_path / "out")) > 0
 
 
 def test_a_kill_leaves_no_workers_behind(cases: Path, tmp_path: Path):
