@@ -142,10 +142,13 @@ def _duty(v: Values, settings: Settings) -> Iterator[str]:
         return
     duty = settings["duty"]
     names = [key for key, value in duty.items() if isinstance(value, tuple) and key != "time"]
+    steps = f"in about {v['duty_steps']:.0f} time steps" if v["duty_steps"] else "nothing moves"
     yield (
         f"duty       {', '.join(names)} at {len(duty['time'])} times, {duty['interpolation']}; to "
-        f"{power(v['duty_end'], 4)} s in about {v['duty_steps']:.0f} time steps"
+        f"{power(v['duty_end'], 4)} s: {steps}"
     )
+    if not v["duty_steps"]:
+        yield f"{INDENT}the steady contact is the solution at all times"
     if v["duty_begin"] < 0.0:
         yield (
             f"{INDENT}from {power(v['duty_begin'], 3)} s on the contact goes over from the case to "

@@ -235,12 +235,16 @@ s | duty_h_min_max_t_s | s | when
 s | duty_h_min_max_error_m | m | estimate of its error
 s | duty_p_max_Pa | Pa | largest pressure over the duty
 s | duty_p_max_t_s | s | when
+s | duty_p_max_error_Pa | Pa | estimate of its error
 s | duty_mu_max | - | largest coefficient of friction; null where it is not known at all times
 s | duty_mu_max_t_s | s | when
+s | duty_mu_max_error | - | estimate of its error
 s | duty_power_max_W | W | largest power of friction, of a line per length
 s | duty_power_max_t_s | s | when
+s | duty_power_max_error_W | W | estimate of its error
 s | duty_flash_max_K | K | largest flash temperature, of walls in a steady state
 s | duty_flash_max_t_s | s | when
+s | duty_flash_max_error_K | K | estimate of its error
 s | duty_period_change | - | relative change of the mean central film from the last period but one
 s | duty_begin_s | s | time at which the run begins
 s | duty_end_s | s | time at which it ends

@@ -158,6 +158,7 @@ contains
       plan%steps = input%time%steps
       plan%frame_interval = input%output%frame_interval
       plan%duty = plan_duty(input, plan%scales, plan%sliding%inlet_viscosity)
+      plan%duty%rough = plan%surfaces%rough()
       if (plan%duty%active) plan%scheme = wedge_separate
       if (surfaces%rough()) then
          call move_alloc(surfaces%of, plan%surfaces%of)

@@ -9,7 +9,7 @@ module ehl_contact_results
    use ehl_touching, only: measure_touching, touches, touching_t
    implicit none (type, external)
    private
-   public :: contact_results_t, measure, central_value, load_tolerance
+   public :: contact_results_t, measure, central_row, central_value, load_tolerance
 
    !> Largest relative error of the force balance of a solution
    real(dp), parameter :: load_tolerance = 1.0e-6_dp

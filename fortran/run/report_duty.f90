@@ -23,15 +23,21 @@ contains
          columns(8) = [character(len=16) :: "h_c_m", "h_c_m", "h_min_m", "h_min_m", "p_max_Pa", "mu", "power_W", "flash_K"], &
          units(8) = [character(len=3) :: "_m", "_m", "_m", "_m", "_Pa", "", "_W", "_K"]
       real(dp), parameter :: signs(8) = [-1.0_dp, 1.0_dp, -1.0_dp, 1.0_dp, 1.0_dp, 1.0_dp, 1.0_dp, 1.0_dp]
-      real(dp), allocatable :: time(:), values(:), errors(:)
+      !> Smooth results whose errors theirs are in proportion to
+      character(len=*), parameter :: smooth(8) = [character(len=5) :: "H_c", "H_c", "H_min", "H_min", "P_max", "F", "F", "F"]
+      real(dp), allocatable :: time(:), values(:), errors(:, :)
       logical, allocatable :: counts(:)
-      real(dp) :: grid(2), found, at, error
+      real(dp) :: found, at, error
       integer :: k, i
 
       associate (duty => run%plan%duty, t => run%transient)
          allocate (time, source=run%history%column("t_s"))
          allocate (counts(size(time)), source=time >= from(1)*(1.0_dp - 1.0e-9_dp))
-         grid = [record%number("H_c_error")/record%number("H_c"), record%number("H_min_error")/record%number("H_min")]
+         allocate (errors(size(time), 3))
+         errors(:, 1) = run%history%column("c_step_error")
+         errors(:, 2) = run%history%column("min_step_error")
+         ! pressure and friction follow the film
+         errors(:, 3) = max(errors(:, 1), errors(:, 2))
          do k = 1, size(names)
             values = run%history%column(trim(columns(k)))
             found = not_known
@@ -42,14 +48,12 @@ contains
                i = maxloc(signs(k)*values, dim=1, mask=counts)
                found = values(i)
                at = time(i)
-               if (k <= 4) then
-                  errors = run%history%column(merge("c_step_error  ", "min_step_error", k <= 2))
-                  error = found*(errors(i) + grid(merge(1, 2, k <= 2)))
-               end if
+               error = found*(errors(i, min((k + 1)/2, 3)) + record%number(trim(smooth(k))//"_error") &
+                              /record%number(trim(smooth(k))))
             end if
             call record%set(trim(names(k))//trim(units(k)), found)
             call record%set(trim(names(k))//"_t_s", at)
-            if (k <= 4) call record%set(trim(names(k))//"_error_m", error)
+            call record%set(trim(names(k))//"_error"//trim(units(k)), error)
          end do
          found = not_known
          if (converged .and. duty%periodic .and. duty%periods > 1) then

@@ -23,7 +23,7 @@ module ehl_checkpoint
    character(len=*), parameter :: state_files(2) = ["checkpoint.a", "checkpoint.b"], frame_file = "checkpoint.frame-", &
       coarser = "coarser-"
    !> What a state begins with: behind `family` stands the number of the layout
-   character(len=*), parameter :: family = "ehl checkpoint v", magic = family//"15"
+   character(len=*), parameter :: family = "ehl checkpoint v", magic = family//"16"
    !> What a file can be; otherwise the step of its state
    integer, parameter :: missing = -1, damaged = -2, other_version = -3
 
@@ -111,7 +111,8 @@ contains
             t%skipped, t%time, t%time_step, t%residual, t%cycles, t%total_cycles, t%policy%coarsening, &
             t%policy%changed_at, t%h00_before, t%friction_smooth, t%mass_content, t%p_before, t%predictor%weights, &
             t%accuracy%rise, t%accuracy%sensitivity, t%accuracy%largest, t%film_checksum, t%extremes%found, mean%filled, mean%lag, &
-            mean%transit, t%duty_steps%pack(), seconds, coarse%ratio, real(coarse%outcome, dp), coarse%load_share, &
+            mean%transit, t%duty_steps%pack(), t%duty_error%films, t%duty_error%error, t%film_errors, &
+            seconds, coarse%ratio, real(coarse%outcome, dp), coarse%load_share, &
             len(first), first, len(second), second, &
             (history%row(k), mean%values(k), mean%film(k), mean%roughness(k), k=1, t%step)
       end associate
@@ -204,7 +205,8 @@ contains
             t%skipped, t%time, t%time_step, t%residual, t%cycles, t%total_cycles, t%policy%coarsening, &
             t%policy%changed_at, t%h00_before, t%friction_smooth, t%mass_content, t%p_before, t%predictor%weights, &
             t%accuracy%rise, t%accuracy%sensitivity, t%accuracy%largest, t%film_checksum, t%extremes%found, t%mean%filled, &
-            t%mean%lag, t%mean%transit, numbers, seconds, coarse%ratio, outcome, coarse%load_share
+            t%mean%lag, t%mean%transit, numbers, t%duty_error%films, t%duty_error%error, t%film_errors, seconds, &
+            coarse%ratio, outcome, coarse%load_share
          if (stat == 0) call t%duty_steps%unpack(numbers)
          coarse%outcome = nint(outcome)
          if (stat == 0) call read_text(lun, coarse%message, stat)

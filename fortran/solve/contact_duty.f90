@@ -25,7 +25,7 @@ contains
          row = [real(dp) :: t%step, t%time, t%time*t%duty%time_scale, t%now%mean_velocity(), t%now%load, &
                 1.0_dp/t%now%curvatures(1), t%now%viscosity, m%films(), place, m%pressure_maximum, &
                 m%films()*scales%film, m%pressure_maximum*scales%pressure, mu, power, flash, m%load_error, &
-                t%cycles, t%residual, t%duty_steps%sums]
+                t%cycles, t%residual, t%film_errors]
       end associate
    end procedure duty_row
 

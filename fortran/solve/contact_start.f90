@@ -19,6 +19,7 @@ contains
          call transient%policy%set(plan%step_cycle, plan%coarsening_may_change, plan%max_cycles)
          call transient%start(self%hierarchy%levels(n), n, plan%contact, plan%surfaces, plan%duty, plan%skip_start, &
                               m%friction, status)
+         transient%residual = self%smooth%results(n)%residual
          if (status%failed()) return
          if (plan%predicted_start) call begin_filled(self, n, status)
          if (status%failed()) return

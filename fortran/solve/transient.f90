@@ -64,11 +64,16 @@ contains
       associate (level => hierarchy%levels(transient%n), duty => transient%duty)
          do
             if (duty%active) call transient%begin_duty(hierarchy, surfaces)
+            if (transient%rests()) then
+               outcome = outcome_converged
+               transient%cycles = 0
+               call transient%count_step(level, status)
+               return
+            end if
             call solve_step(transient, hierarchy, surfaces, first, residual_first, outcome, status)
             if (status%failed()) return
             good = outcome == outcome_converged
-            if (good .and. duty%active) call transient%duty_steps%judge(duty, transient%time_step, transient%now%mean_velocity(), &
-                                                                        transient%m%films(), good)
+            if (good .and. duty%active) call transient%judge_duty(level, good)
             if (good) call transient%accept(level, first, residual_first, status)
             call transient%end_duty(level)
             if (good) return

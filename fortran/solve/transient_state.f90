@@ -5,6 +5,7 @@ module ehl_transient_state
    use ehl_contact, only: contact_t
    use ehl_cycle, only: coarsening_alcouffe, coarsening_classical
    use ehl_duty, only: duty_state_t, duty_t
+   use ehl_duty_error, only: duty_error_t
    use ehl_duty_steps, only: duty_steps_t
    use ehl_extremes, only: extremes_t
    use ehl_friction_mean, only: friction_mean_t
@@ -21,7 +22,7 @@ module ehl_transient_state
    use ehl_step_accuracy, only: step_accuracy_t
    use ehl_step_policy, only: attempt_predicted, step_policy_t
    use ehl_time_levels, only: keep, mirror, set_geometry, set_history
-   use ehl_wedge, only: old_times, wedge_separate
+   use ehl_wedge, only: old_times
    implicit none (type, external)
    private
    public :: transient_t
@@ -53,6 +54,9 @@ module ehl_transient_state
       !> The duty, the lengths of its steps, what holds at the end of the present one
       type(duty_t) :: duty
       type(duty_steps_t) :: duty_steps
+      type(duty_error_t) :: duty_error
+      !> Relative errors of H_c and H_min by the time steps so far
+      real(dp) :: film_errors(2) = 0.0_dp
       type(duty_state_t) :: now
       !> 1/lambda_bar of the case
       real(dp), private :: inverse_speed = 0.0_dp
@@ -61,7 +65,9 @@ module ehl_transient_state
    contains
       procedure :: begin_duty
       procedure :: end_duty
-      procedure, private :: turn
+      procedure :: rests
+      procedure :: judge_duty
+      procedure, private :: accept_duty
       procedure :: start
       procedure :: fill
       procedure :: begin_step
@@ -70,9 +76,45 @@ module ehl_transient_state
       procedure :: may_scale_load
       procedure :: converged
       procedure :: accept
+      procedure :: count_step
       procedure :: step_back
       procedure :: restore
    end type transient_t
+
+   ! in transient_duty.f90
+   interface
+      !> A step under a duty: its length, and all that the duty has changed by its end
+      module subroutine begin_duty(self, hierarchy, surfaces)
+         class(transient_t), intent(inout) :: self
+         type(hierarchy_t), intent(inout) :: hierarchy
+         class(moving_surfaces_t), intent(in) :: surfaces
+      end subroutine begin_duty
+
+      !> The fields that a step leaves, as they are in space again
+      module subroutine end_duty(self, level)
+         class(transient_t), intent(inout) :: self
+         type(level_t), intent(inout) :: level
+      end subroutine end_duty
+
+      !> Whether nothing has moved until the end of the step, so that the contact is the steady one
+      pure module function rests(self)
+         class(transient_t), intent(in) :: self
+         logical :: rests
+      end function rests
+
+      !> Whether the film of a step is as good as asked for
+      module subroutine judge_duty(self, level, good)
+         class(transient_t), intent(inout) :: self
+         type(level_t), intent(in) :: level
+         logical, intent(out) :: good
+      end subroutine judge_duty
+
+      !> The error that a step leaves
+      module subroutine accept_duty(self, level)
+         class(transient_t), intent(inout) :: self
+         type(level_t), intent(in) :: level
+      end subroutine accept_duty
+   end interface
 
 contains
 
@@ -107,6 +149,8 @@ contains
          self%now = duty%at(self%time)
          self%inverse_speed = level%flow%inverse_speed
       end if
+      self%film_errors = 0.0_dp
+      call self%duty_error%start(level%h, duty%active, status)
       self%friction_smooth = friction_smooth
       if (allocated(self%mass_content)) deallocate (self%mass_content, self%p_before, self%rr)
       associate (nx => level%grid%nx, ny => level%grid%ny)
@@ -154,64 +198,6 @@ contains
          rr = 0.0_dp
       end if
    end subroutine heights_of
-
-   !> A step under a duty: its length, and all that the duty has changed by its end
-   subroutine begin_duty(self, hierarchy, surfaces)
-      class(transient_t), intent(inout) :: self
-      type(hierarchy_t), intent(inout) :: hierarchy
-      class(moving_surfaces_t), intent(in) :: surfaces
-      real(dp) :: stress
-      integer :: k
-
-      associate (level => hierarchy%levels(self%n))
-         self%time_step = self%duty_steps%next(self%duty, self%time, level%grid%hx, surfaces%rough())
-         self%now = self%duty%at(self%time + self%time_step)
-         level%load = self%contact%load*self%now%load
-         self%predictor%shifts = surfaces%velocities()*abs(self%now%mean_velocity())*self%time_step/level%grid%hx
-      end associate
-      stress = self%duty%stress*abs(self%now%speeds(1) - self%now%speeds(2))*self%now%viscosity
-      do k = 1, size(hierarchy%levels)
-         associate (level => hierarchy%levels(k))
-            if (.not. allocated(level%p)) cycle
-            call level%wedge%set_step(wedge_separate, level%grid%hx, self%time_step, abs(self%now%mean_velocity()), &
-                                      self%duty_steps%ratio(self%time_step))
-            level%lubricant%shear%scale = stress
-            call level%flow%rescale(self%inverse_speed/self%now%viscosity, stress/max(level%lubricant%shear%stress, tiny(1.0_dp)))
-         end associate
-      end do
-      self%reversed = self%now%mean_velocity() < 0.0_dp
-      call self%turn()
-   end subroutine begin_duty
-
-   !> The fields that a step leaves, as they are in space again
-   subroutine end_duty(self, level)
-      class(transient_t), intent(inout) :: self
-      type(level_t), intent(inout) :: level
-
-      if (.not. self%reversed) return
-      call self%turn()
-      self%reversed = .false.
-      call mirror(level%p)
-      call mirror(level%film_rhs)
-      call refresh(level)
-   end subroutine end_duty
-
-   !> The fields of the last steps as their mirror image
-   subroutine turn(self)
-      class(transient_t), intent(inout) :: self
-      integer :: k
-
-      if (.not. self%reversed) return
-      do k = 1, size(self%mass_content, 3)
-         call mirror(self%mass_content(:, :, k))
-      end do
-      do k = 1, size(self%p_before, 3)
-         call mirror(self%p_before(:, :, k))
-      end do
-      do k = 1, size(self%predictor%weights, 3)
-         call mirror(self%predictor%weights(:, :, k))
-      end do
-   end subroutine turn
 
    !> Begin with the contact full of roughness instead, from the pressure that it is expected to add. Where the film would
    !> not be positive all is as it was.
@@ -350,20 +336,29 @@ contains
                                                     self%residual)
       call self%accuracy%follow(self%m%friction_newtonian)
       self%total_cycles = self%total_cycles + self%cycles
+      if (self%duty%active) call self%accept_duty(level)
+      call self%count_step(level, status)
+      self%h00_before = [level%h00, self%h00_before(1:2)]
+      call self%predictor%learn(self%p_before, level)
+      call keep(level, self%mass_content, self%p_before)
+   end subroutine accept
+
+   !> The time at the end of a step that is solved, and what is kept of every one
+   subroutine count_step(self, level, status)
+      class(transient_t), intent(inout) :: self
+      type(level_t), intent(in) :: level
+      type(status_t), intent(inout) :: status
+
       self%step = self%step + 1
       if (self%duty%active) then
          self%time = self%time + self%time_step
-         call self%duty_steps%keep(self%time_step, 0.5_dp*abs(self%now%mean_velocity())*self%time_step, self%m%films())
       else
          self%time = (self%skipped + self%step)*self%time_step
       end if
       call self%mean%append(self%m%friction/self%friction_smooth, self%m%film_central, central_value(level%grid, self%rr), &
                             status)
-      self%h00_before = [level%h00, self%h00_before(1:2)]
-      call self%predictor%learn(self%p_before, level)
-      call keep(level, self%mass_content, self%p_before)
       self%film_checksum = sum(1.0_dp/level%h)
-   end subroutine accept
+   end subroutine count_step
 
    !> Go on with a state that was read into this run. `same`: whether its film follows from its pressure: it does
    !> not when the surface, or the program, is another one.

@@ -32,6 +32,8 @@ module ehl_duty
    type :: duty_t
       !> Whether there is one
       logical :: active = .false.
+      !> Whether rough surfaces move all the time
+      logical :: rough = .false.
       !> Times [a/u] from 0 on, and values at them over those of the case (times, quantities)
       real(dp), allocatable :: time(:), values(:, :)
       logical :: cubic = .false., periodic = .false.
@@ -46,9 +48,12 @@ module ehl_duty
       real(dp) :: reference(quantities) = 1.0_dp
       !> Change with time at the nodes, for cubic interpolation; ways of the surfaces there
       real(dp), allocatable, private :: slopes(:, :), way(:, :)
+      !> Time until which all is as in the case, from the beginning on
+      real(dp), private :: rest_ends = 0.0_dp
    contains
       procedure :: setup
       procedure :: at
+      procedure :: rests
       procedure :: begin
       procedure :: end_time
       procedure :: length
@@ -103,7 +108,19 @@ contains
       do k = 2, n
          self%way(k, :) = self%way(k - 1, :) + part(self, k - 1, self%time(k) - self%time(k - 1))
       end do
+      do k = 1, n
+         if (any(abs(self%values(k, :) - self%reference) > same) .or. any(abs(self%slopes(k, :)) > same)) exit
+      end do
+      if (k > n) self%rest_ends = self%end_time()
+      if (k > 1 .and. k <= n) self%rest_ends = self%time(k - 1)
    end subroutine setup
+
+   !> Whether all has been as in the case until a time, at which it is so, too
+   pure logical function rests(self, time)
+      class(duty_t), intent(in) :: self
+      real(dp), intent(in) :: time
+      rests = .not. self%rough .and. time <= self%rest_ends*(1.0_dp + 1.0e-9_dp)
+   end function rests
 
    !> Slope at the middle of three nodes
    elemental real(dp) function parabola(a, b, c, before, behind)
@@ -236,7 +253,11 @@ contains
    pure real(dp) function steps_expected(self, mesh)
       class(duty_t), intent(in) :: self
       real(dp), intent(in) :: mesh
-      steps_expected = (self%end_time() - self%begin())*self%fastest()/(self%step_share*mesh)
+      real(dp) :: time
+
+      time = self%begin()
+      if (self%rests(self%rest_ends)) time = max(time, self%rest_ends)
+      steps_expected = (self%end_time() - time)*self%fastest()/(self%step_share*mesh)
    end function steps_expected
 
    !> Time of the next row behind a time, and of the one behind that; far away behind the last one

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Time steps under a changing duty: their length, and the error of the films that they leave
+!> Time steps under a changing duty: how long they are
 module ehl_duty_steps
    use ehl_duty, only: duty_state_t, duty_t
    use ehl_kinds, only: dp
@@ -20,20 +20,22 @@ module ehl_duty_steps
    real(dp), parameter :: min_share = 0.05_dp
    !> Time in which the film passes the contact [a/u]: errors of its steps add up
    real(dp), parameter :: transit = 2.0_dp
+   !> Where an error is asked for steps may be so many times as long as by the mesh
+   real(dp), parameter :: longest = 4.0_dp
    !> Numbers that a kept state has of it
-   integer, parameter :: kept_numbers = 16
+   integer, parameter :: kept_numbers = 5
 
    type :: duty_steps_t
-      !> Last steps, the latest first; films H_c and H_min at their ends, (2, 3); how many there are
-      real(dp) :: steps(3) = 0.0_dp, films(2, 3) = 0.0_dp
-      integer :: n = 0
-      !> Error of H_c and H_min by the last step, and by those in a transit, relative; factor for the next step by it
-      real(dp) :: error(2) = 0.0_dp, sums(2) = 0.0_dp, wanted = 1.0_dp
+      !> Last steps, the latest first; 0: none yet
+      real(dp) :: steps(3) = 0.0_dp
+      !> Factor for the next step by the error of the last one
+      real(dp) :: wanted = 1.0_dp
       !> Times that the present step was cut
       integer :: cuts = 0
    contains
       procedure :: next
       procedure :: judge
+      procedure :: before
       procedure :: keep
       procedure :: cut
       procedure :: ratio
@@ -51,18 +53,22 @@ contains
       !> Whether rough surfaces move, so that the faster one counts
       logical, intent(in) :: moves
       type(duty_state_t) :: now, then
-      real(dp) :: speed, slow, knots(2)
+      real(dp) :: speed, slow, share, knots(2)
       integer :: k
 
       now = duty%at(time)
       slow = slowest*duty%fastest()
-      step = duty%step_share*mesh/max(slow, speed_of(now))
-      if (self%n > 0) step = min(step, self%steps(1)*min(growth, self%wanted))
+      share = duty%step_share
+      step = share*mesh/max(slow, speed_of(now))
+      if (self%steps(1) > 0.0_dp) then
+         if (duty%target_error > 0.0_dp) share = longest*share
+         step = min(share*mesh/max(slow, speed_of(now)), self%steps(1)*min(growth, self%wanted))
+      end if
       do k = 1, max_cuts
          then = duty%at(time + step)
          speed = max(slow, speed_of(then))
-         if (step > 1.001_dp*duty%step_share*mesh/speed) then
-            step = max(0.5_dp*step, duty%step_share*mesh/speed)
+         if (step > 1.001_dp*share*mesh/speed) then
+            step = max(0.5_dp*step, share*mesh/speed)
          else if (changes(now, then)) then
             step = 0.5_dp*step
          else
@@ -105,49 +111,43 @@ contains
       real(dp), intent(in) :: step
 
       ratio = 1.0_dp
-      if (self%n > 0) ratio = step/self%steps(1)
+      if (self%steps(1) > 0.0_dp) ratio = step/self%steps(1)
    end function ratio
 
-   !> Error of a step that is solved, by the parabola through the films before it: the third derivative makes the error of
-   !> both. Not good where more was asked for, and the step can be cut.
-   subroutine judge(self, duty, step, speed, films, good)
+   !> Judge the error that a step adds: not good where more was asked for, and the step can be cut
+   subroutine judge(self, duty, step, speed, error, good)
       class(duty_steps_t), intent(inout) :: self
       type(duty_t), intent(in) :: duty
-      real(dp), intent(in) :: step, speed, films(2)
+      !> Mean velocity; error of the films, relative
+      real(dp), intent(in) :: step, speed, error
       logical, intent(out) :: good
-      real(dp) :: t(3), guess(2), by_guess, by_step, allowed
+      real(dp) :: allowed
 
       good = .true.
-      self%error = 0.0_dp
       self%wanted = growth
-      if (self%n < 3) return
-      ! times of the films before, from the end of the step
-      t(1) = step
-      t(2) = t(1) + self%steps(1)
-      t(3) = t(2) + self%steps(2)
-      guess = self%films(:, 1)*t(2)*t(3)/((t(2) - t(1))*(t(3) - t(1))) - self%films(:, 2)*t(1)*t(3)/((t(2) - t(1))*(t(3) - t(2))) &
-              + self%films(:, 3)*t(1)*t(2)/((t(3) - t(1))*(t(3) - t(2)))
-      by_guess = t(1)*t(2)*t(3)
-      by_step = t(1)*t(1)*t(2)*(1.0_dp + self%ratio(step))/(1.0_dp + 2.0_dp*self%ratio(step))
-      self%error = by_step/(by_step + by_guess)*abs(films - guess)/films
       if (.not. duty%target_error > 0.0_dp) return
       allowed = duty%target_error*max(min_share, step*max(abs(speed), slowest*duty%fastest())/transit)
-      self%wanted = min(growth, max(0.5_dp, 0.8_dp*(allowed/max(maxval(self%error), tiny(1.0_dp)))**(1.0_dp/3.0_dp)))
-      good = maxval(self%error) <= allowed .or. self%cuts >= max_for_error
+      self%wanted = min(growth, max(0.5_dp, 0.8_dp*(allowed/max(error, tiny(1.0_dp)))**(1.0_dp/3.0_dp)))
+      good = error <= allowed .or. self%cuts >= max_for_error
    end subroutine judge
 
-   !> The step is taken; `share`: of a transit in it
-   pure subroutine keep(self, step, share, films)
-      class(duty_steps_t), intent(inout) :: self
-      real(dp), intent(in) :: step, share, films(2)
+   !> A step of this length, and those before it; before the first one all is steady, so that they may be as long as it
+   pure function before(self, step) result(steps)
+      class(duty_steps_t), intent(in) :: self
+      real(dp), intent(in) :: step
+      real(dp) :: steps(3)
 
-      self%steps = [step, self%steps(:2)]
-      self%films(:, 2:) = self%films(:, :2)
-      self%films(:, 1) = films
-      self%n = self%n + 1
+      steps = [step, self%steps(:2)]
+      where (.not. steps > 0.0_dp) steps = step
+   end function before
+
+   !> The step is taken
+   pure subroutine keep(self, step)
+      class(duty_steps_t), intent(inout) :: self
+      real(dp), intent(in) :: step
+
+      self%steps = self%before(step)
       self%cuts = 0
-      ! of what was before, one transit is left
-      self%sums = self%sums*max(0.0_dp, 1.0_dp - share) + self%error
    end subroutine keep
 
    !> Cut the step; whether that is still possible
@@ -162,8 +162,7 @@ contains
    pure function pack_numbers(self) result(numbers)
       class(duty_steps_t), intent(in) :: self
       real(dp) :: numbers(kept_numbers)
-      numbers = [self%steps, self%films(:, 1), self%films(:, 2), self%films(:, 3), self%error, self%sums, self%wanted, &
-                 real(self%n, dp), real(self%cuts, dp)]
+      numbers = [self%steps, self%wanted, real(self%cuts, dp)]
    end function pack_numbers
 
    !> And back
@@ -172,11 +171,7 @@ contains
       real(dp), intent(in) :: numbers(kept_numbers)
 
       self%steps = numbers(1:3)
-      self%films = reshape(numbers(4:9), [2, 3])
-      self%error = numbers(10:11)
-      self%sums = numbers(12:13)
-      self%wanted = numbers(14)
-      self%n = nint(numbers(15))
-      self%cuts = nint(numbers(16))
+      self%wanted = numbers(4)
+      self%cuts = nint(numbers(5))
    end subroutine unpack_numbers
 end module ehl_duty_steps

@@ -11,7 +11,7 @@ import numpy as np
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[2] / "tests/cases"))
 import line_newton  # noqa: E402
-from test_duty import LINE, L, M, columns, run  # noqa: E402
+from test_duty import BOTH_SIDES, DUTIES, LINE, L, M, columns, run, step_errors  # noqa: E402
 
 import pyehl  # noqa: E402
 
@@ -41,12 +41,17 @@ def periodic() -> Iterator[Row]:
             yield f"periodic speed, {points} nodes", name, float(value), reference
 
 
+def steady(speed: float) -> float:
+    """H_c [m] of the steady contact at a speed over that of the case."""
+    contact = LINE["contact"] | {"mean_velocity": speed * LINE["contact"]["mean_velocity"]}
+    return float(
+        pyehl.solve(pyehl.Case(**LINE | {"contact": contact}), {"grid.border": "zero"}).h_c_m
+    )
+
+
 def slow() -> Iterator[Row]:
     """H_c at the middle of a rise of the speed from 1 to 1.2 below that of the steady contact."""
-    faster = LINE["contact"] | {"mean_velocity": 1.1 * LINE["contact"]["mean_velocity"]}
-    film = float(
-        pyehl.solve(pyehl.Case(**LINE | {"contact": faster}), {"grid.border": "zero"}).h_c_m
-    )
+    film = steady(1.1)
     before = 0.0
     for length in (10.0, 20.0, 40.0):
         data = run([0.0, length], mean_velocity=[1.0, 1.2])
@@ -55,18 +60,34 @@ def slow() -> Iterator[Row]:
         before = lag
 
 
-def halves() -> Iterator[Row]:
-    """Largest difference of H_c to an eighth of the time step, and the largest error stated."""
-    time = np.linspace(0.0, 4.0, 33)
-    speed = 1.0 + 0.4 * np.sin(2.0 * np.pi * time / 4.0)
-    at, films, stated = np.linspace(1.0, 4.0, 60), [], []
-    for share in (2.0, 1.0, 0.5, 0.125):
-        data = run(time, mean_velocity=speed, interpolation="cubic", time_step=share)
-        films.append(np.interp(at, data.history_T.values, data.history_H_c.values))
-        stated.append(float(data.history_c_step_error.max()))
-    for share, film, error in zip((2.0, 1.0, 0.5), films, stated, strict=False):
-        difference = float(np.abs(film / films[-1] - 1.0).max())
-        yield f"duty.time_step = {share:g}", "difference, stated", difference, error
+def steps() -> Iterator[Row]:
+    """Largest difference to an eighth of the time step, largest error stated, and coverage."""
+    for name, (time, duty) in DUTIES.items():
+        grid = BOTH_SIDES if name == "reversal" else None
+        for share in (2.0, 1.0, 0.5):
+            for what, error, stated in step_errors(time, grid, share, **duty):
+                case = f"steps of {share:g}, {name}"
+                yield case, f"{what}: difference, stated", error.max(), stated.max()
+                covered = float(np.mean(error <= stated + 5e-5))
+                yield case, f"{what}: share of instants covered", covered, 1.0
+
+
+def phase() -> Iterator[Row]:
+    """Phase of H_c behind the quasi-static film under 1 + 0.1 sin(2 pi T/period)."""
+    slope = (steady(1.1) - steady(0.9)) / 0.2
+    for period in (4.0, 8.0, 16.0, 32.0):
+        time = np.linspace(0.0, period, 65)
+        speed = 1.0 + 0.1 * np.sin(2.0 * np.pi * time / period)
+        speed[-1] = speed[0]
+        data = run(time, mean_velocity=speed, interpolation="cubic", periodic=True, periods=3)
+        t, film = data.history_T.values, data.history_h_c_m.values
+        # first harmonic of the last period, on equal times
+        at = 2.0 * period + period * np.arange(256) / 256
+        wave = np.fft.rfft(np.interp(at, t, film))[1] / 128.0
+        lag = (-np.pi / 2.0 - np.angle(wave)) / (2.0 * np.pi) % 1.0 * period
+        yield f"speed 1 + 0.1 sin 2 pi T/{period:g}", "lag of H_c behind the speed [b/u]", lag, 1.0
+        gain = float(np.abs(wave) / (0.1 * slope))
+        yield f"speed 1 + 0.1 sin 2 pi T/{period:g}", "amplitude over quasi-static", gain, 1.0
 
 
 def newton() -> Iterator[Row]:
@@ -104,5 +125,5 @@ if __name__ == "__main__":
     with (HERE / "table.csv").open("w", newline="", encoding="utf-8") as stream:
         rows = csv.writer(stream)
         rows.writerow(["case", "quantity", "found", "beside"])
-        for part in (periodic, slow, halves, newton):
+        for part in (periodic, slow, phase, steps, newton):
             rows.writerows((case, name, f"{a:.5g}", f"{b:.5g}") for case, name, a, b in part())

@@ -1,0 +1,102 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> What a duty asks of a time step: its length, what has changed by its end, the way the lubricant flows, its error
+submodule (ehl_transient_state) ehl_transient_duty
+   use ehl_contact_results, only: central_row
+   use ehl_level, only: gap
+   use ehl_wedge, only: wedge_separate
+   implicit none (type, external)
+
+contains
+
+   module procedure begin_duty
+      real(dp) :: stress
+      integer :: k
+
+      associate (level => hierarchy%levels(self%n))
+         self%time_step = self%duty_steps%next(self%duty, self%time, level%grid%hx, surfaces%rough())
+         ! nothing to solve up to a row of the table until which nothing moves
+         associate (row => self%duty%next_knot(self%time))
+            if (self%duty%rests(row(1))) self%time_step = row(1) - self%time
+         end associate
+         self%now = self%duty%at(self%time + self%time_step)
+         level%load = self%contact%load*self%now%load
+         self%predictor%shifts = surfaces%velocities()*abs(self%now%mean_velocity())*self%time_step/level%grid%hx
+      end associate
+      stress = self%duty%stress*abs(self%now%speeds(1) - self%now%speeds(2))*self%now%viscosity
+      do k = 1, size(hierarchy%levels)
+         associate (level => hierarchy%levels(k))
+            if (.not. allocated(level%p)) cycle
+            call level%wedge%set_step(wedge_separate, level%grid%hx, self%time_step, abs(self%now%mean_velocity()), &
+                                      self%duty_steps%ratio(self%time_step))
+            level%lubricant%shear%scale = stress
+            call level%flow%rescale(self%inverse_speed/self%now%viscosity, stress/max(level%lubricant%shear%stress, tiny(1.0_dp)))
+         end associate
+      end do
+      self%reversed = self%now%mean_velocity() < 0.0_dp
+      call turn(self)
+   end procedure begin_duty
+
+   module procedure rests
+      rests = self%duty%active
+      if (rests) rests = self%duty%rests(self%time + self%time_step)
+   end procedure rests
+
+   module procedure judge_duty
+      integer :: j
+
+      j = central_row(level%grid)
+      call self%duty_steps%judge(self%duty, self%time_step, self%now%mean_velocity(), &
+                                 self%duty_error%worst(level%grid%columns(), level%h(:, j), &
+                                                       self%duty_steps%before(self%time_step), half_width(self), j), good)
+   end procedure judge_duty
+
+   !> Half width of the dry contact along X now [a]
+   pure real(dp) function half_width(self)
+      class(transient_t), intent(in) :: self
+      half_width = self%contact%reach(1) &
+                   *(self%now%load/self%now%curvatures(1))**(1.0_dp/merge(2.0_dp, 3.0_dp, self%contact%is_line()))
+   end function half_width
+
+   module procedure accept_duty
+      integer :: at(2)
+
+      call self%duty_error%add(level%grid%columns(), level%h, self%duty_steps%before(self%time_step), &
+                               abs(self%now%mean_velocity())*self%time_step, half_width(self))
+      call self%duty_steps%keep(self%time_step)
+      associate (grid => level%grid)
+         self%film_errors(1) = self%duty_error%upstream(1 + ceiling(-grid%x0/grid%hx), central_row(grid))/self%m%film_central
+         at = minloc(gap(level))
+         self%film_errors(2) = self%duty_error%upstream(at(1), at(2))/self%m%film_minimum
+      end associate
+   end procedure accept_duty
+
+   module procedure end_duty
+      if (.not. self%reversed) return
+      call turn(self)
+      self%reversed = .false.
+      call mirror(level%p)
+      call mirror(level%film_rhs)
+      call refresh(level)
+   end procedure end_duty
+
+   !> The fields of the last steps as their mirror image
+   subroutine turn(self)
+      class(transient_t), intent(inout) :: self
+      integer :: k
+
+      if (.not. self%reversed) return
+      do k = 1, size(self%mass_content, 3)
+         call mirror(self%mass_content(:, :, k))
+      end do
+      do k = 1, size(self%p_before, 3)
+         call mirror(self%p_before(:, :, k))
+      end do
+      do k = 1, size(self%predictor%weights, 3)
+         call mirror(self%predictor%weights(:, :, k))
+      end do
+      do k = 1, size(self%duty_error%films, 3)
+         call mirror(self%duty_error%films(:, :, k))
+      end do
+      call mirror(self%duty_error%error)
+   end subroutine turn
+end submodule ehl_transient_duty
