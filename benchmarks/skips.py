@@ -69,8 +69,7 @@ def smooth_scene(points: int) -> list[Row]:
 
     def estimated() -> Values:
         values = solve(grid)
-        error = values["H_c_error_grid"] - values["H_c_algebraic_error"]
-        return values | {"coarser H_c": values["H_c"] - 3.0 * error}
+        return values | {"coarser H_c": 4.0 * values["H_c"] - 3.0 * values["H_c_extrapolated"]}
 
     def coarser() -> Values:
         return {"coarser H_c": solve(f"grid.points={(points + 1) // 2}")["H_c"]}

@@ -96,7 +96,7 @@ s | H_min_error_note | | why it is not known
 s | H_min_error_grid | a^2/R | part of it from the grid
 s | H_min_error_domain | a^2/R | part of it from the borders of the domain
 s | H_min_algebraic_error | a^2/R | part of the error that more cycles would take away
-s | error_estimate | | where the estimates are from: 'two grids' or 'a priori'
+s | error_estimate | | where the estimates are from: 'coarser grids' or 'a priori'
 s | P_max | p_h | largest pressure
 s | P_max_error | p_h | estimate of its error, by three grids
 s | P_max_error_note | | why there is none

@@ -5,7 +5,7 @@ module ehl_report_smooth
    use ehl_film_formula, only: starved_share
    use ehl_grid_error, only: lone_grid_errors
    use ehl_kinds, only: dp, not_known, pi
-   use ehl_level_result, only: extrapolated, guarded_errors, limit_error, share_error, stated_errors
+   use ehl_level_result, only: extrapolated, limit_error, share_error, stated_errors
    use ehl_plan, only: plan_t
    use ehl_record, only: record_t
    use ehl_reason, only: reason_inlet, reason_no_limit, reason_no_solution, reason_none, reason_small_domain, reason_two_grids
@@ -51,9 +51,7 @@ contains
       coarser = .false.
       if (good .and. n > 1) coarser = smooth%results(n - 1)%solved
       if (coarser) then
-         error = stated_errors(m, smooth%results(n - 1)%m, smooth%results(n)%mesh, plan%inlet)
-         if (plan%contact%is_line()) error = guarded_errors(m, smooth%results, n, error)
-         error = error + smooth%results(n)%algebraic
+         error = stated_errors(m, smooth%results, n, plan%inlet) + smooth%results(n)%algebraic
          limit = extrapolated(smooth%results, n)
       else if (good) then
          ! one grid alone: what such grids have been found to miss
@@ -78,7 +76,7 @@ contains
       call record%set_detail("points_for_solution", real(points_for_solution(plan%contact, plan%point, plan%finest), dp))
       call record%set_detail("points_for_inlet", real(merge(points_for_inlet(plan%inlet, plan%finest), 0, &
                                                             plan%lubricant%boundary_film > 0.0_dp), dp))
-      call record%set("error_estimate", trim(merge("two grids", "a priori ", coarser)))
+      call record%set("error_estimate", trim(merge("coarser grids", "a priori     ", coarser)))
       call report_limits(record, plan, smooth, n, good)
       call record%set("H_c_algebraic_error H_min_algebraic_error", smooth%results(n)%algebraic)
       call record%set("load_beyond load_error", [1.0_dp - m%load/plan%contact%load, m%load_error])

@@ -4,7 +4,7 @@
 module ehl_level_tolerance
    use ehl_contact_results, only: contact_results_t
    use ehl_kinds, only: dp
-   use ehl_level_result, only: film_errors, guarded_errors, level_result_t
+   use ehl_level_result, only: film_errors, level_result_t, stated_errors
    use ehl_steady_options, only: max_error, steady_options_t
    use ehl_touching, only: mostly_touching, much_supplied
    implicit none (type, external)
@@ -37,9 +37,7 @@ contains
 
       has_target = .false.
       if (.not. (options%target_error > 0.0_dp .and. has_coarser(results, n))) return
-      errors = film_errors(m, results(n - 1)%m, results(n)%mesh, options%inlet)
-      if (options%line) errors = guarded_errors(m, results, n, errors)
-      errors = errors + results(n)%algebraic
+      errors = stated_errors(m, results, n, options%inlet) + results(n)%algebraic
       has_target = errors(1) <= options%target_error*m%film_central .and. &
                    options%inlet%resolves(m, results(n)%mesh)
    end function has_target
