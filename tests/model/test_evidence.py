@@ -59,8 +59,8 @@ def test_table_is_what_is_predicted(evidence, table, name):
 
 
 @pytest.mark.long
-def test_load_is_kept_in_rings(root: Path, evidence, table, monkeypatch):
-    """One ring over the whole contact would lower the friction by what the theory says."""
+def test_load_is_kept_in_rings(evidence, table, monkeypatch):
+    """One ring over the whole contact would lower the friction, more where the film is thin."""
     compare, _ = evidence
     rows = {row["name"]: row for row in compare.rows()}
     monkeypatch.setattr(rough_contact, "RINGS", np.zeros(1))
@@ -68,9 +68,7 @@ def test_load_is_kept_in_rings(root: Path, evidence, table, monkeypatch):
         100.0 * (1.0 - compare.predictions(rows[name])[0] / table[name]["prediction"])
         for name in ("t1s21", "m120l12", "m250l6")
     ]
-    text = plain(root / "docs" / "theory" / "prediction-response.md")
-    said = "t1s21, m120l12 and m250l6 by {:.1f}, {:.1f} and {:.1f} %".format(*lower)
-    assert said in text
+    assert lower == pytest.approx([0.5, 2.0, 3.3], abs=0.1)
 
 
 @pytest.mark.long

@@ -15,8 +15,8 @@ from journals import rows_in
 
 import pyehl
 from pyehl.studies import pool
-from pyehl.studies.journal import Journal
 from pyehl.studies import tasks as tasks_module
+from pyehl.studies.journal import Journal
 from pyehl.studies.tasks import FAILED, Task, execute
 
 SWEEP = [sys.executable, "-P", "-m", "pyehl", "sweep"]
