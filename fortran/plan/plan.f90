@@ -158,13 +158,13 @@ contains
       plan%steps = input%time%steps
       plan%frame_interval = input%output%frame_interval
       plan%duty = plan_duty(input, plan%scales, plan%sliding%inlet_viscosity)
-      plan%duty%rough = plan%surfaces%rough()
       if (plan%duty%active) plan%scheme = wedge_separate
       if (surfaces%rough()) then
          call move_alloc(surfaces%of, plan%surfaces%of)
       else
          call make_surfaces(input, plan%scales, plan%surfaces, status, heights, second_heights)
       end if
+      plan%duty%rough = plan%surfaces%rough()
       if (input%time%start == "prediction" .and. plan%surfaces%move() .and. .not. plan%duty%active) call pick_start(plan)
       call pick_cycle(input, plan)
       call pick_grids(input, plan, status)

@@ -55,6 +55,28 @@ def test_a_constant_duty_is_the_steady_contact_in_bits():
         assert "nothing moves" in solver.describe()
 
 
+def test_roughness_moves_under_a_constant_duty():
+    """As without a duty, up to the steps of the front and those of the scheme."""
+    wave = {
+        "surface.kind": "harmonic", "surface.amplitude": 0.02,
+        "grid.border": "zero", "surface.wavelength": 1.0,
+    }  # fmt: skip
+    step = 5.5 / 176
+    data = pyehl.solve(
+        pyehl.Case(**LINE, duty={"time": [0.0, 128 * step * UNIT], "load": [LOAD] * 2}), wave
+    )
+    plain = pyehl.solve(
+        pyehl.Case(**LINE),
+        wave | {"time.steps": 128, "time.scheme": "paper", "time.start": "front"}
+        | {"time.skip_start": False, "time.estimate_error": False},
+        check=False,
+    )  # fmt: skip
+    assert float(data.cycles_per_step) > 0.0
+    assert data.history_step.size == 128
+    np.testing.assert_allclose(data.history_H_c, plain.history_H_c, rtol=2e-3)
+    assert np.ptp(data.history_H_c.values) > 0.02 * float(data.H_c)
+
+
 def test_what_does_not_move_at_first_is_the_steady_contact():
     """Up to the row at which the load begins to rise; from the first step of a duty on."""
     duty = {"load": [1.0, 1.0, 1.0, 1.1], "mean_velocity": [1.0] * 4}
