@@ -48,8 +48,8 @@ module ehl_duty
       real(dp) :: reference(quantities) = 1.0_dp
       !> Change with time at the nodes, for cubic interpolation; ways of the surfaces there
       real(dp), allocatable, private :: slopes(:, :), way(:, :)
-      !> Time until which all is as in the case, from the beginning on
-      real(dp), private :: rest_ends = 0.0_dp
+      !> Time until which all is as in the case, from the beginning on; before it: the first row is another state
+      real(dp), private :: rest_ends = -1.0_dp
    contains
       procedure :: setup
       procedure :: at
@@ -119,7 +119,7 @@ contains
    pure logical function rests(self, time)
       class(duty_t), intent(in) :: self
       real(dp), intent(in) :: time
-      rests = .not. self%rough .and. time <= self%rest_ends*(1.0_dp + 1.0e-9_dp)
+      rests = .not. self%rough .and. self%rest_ends >= 0.0_dp .and. time <= self%rest_ends*(1.0_dp + 1.0e-9_dp)
    end function rests
 
    !> Slope at the middle of three nodes

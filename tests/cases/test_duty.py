@@ -77,6 +77,22 @@ def test_roughness_moves_under_a_constant_duty():
     assert np.ptp(data.history_H_c.values) > 0.02 * float(data.H_c)
 
 
+@pytest.mark.parametrize("key", ["load", "mean_velocity", "radius_x"])
+def test_a_table_that_begins_elsewhere(key):
+    """The film has gone over from the case to its first row when the table begins."""
+    data = run([0.0, 0.5], **{key: [0.8, 0.8]})
+    name = {"load": "load_per_length", "radius_x": "radius"}.get(key, key)
+    steady = pyehl.solve(
+        pyehl.Case(**LINE | {"contact": LINE["contact"] | {name: 0.8 * LINE["contact"][name]}}),
+        {"grid.border": "zero"},
+    )
+    h = columns(data)
+    assert h["T"][0] < 0.0
+    assert data.history_cycles.values.min() > 0
+    film = data.history_h_c_m.values[np.argmin(np.abs(h["T"]))]
+    assert film == pytest.approx(float(steady.h_c_m), rel=1e-2)
+
+
 def test_what_does_not_move_at_first_is_the_steady_contact():
     """Up to the row at which the load begins to rise; from the first step of a duty on."""
     duty = {"load": [1.0, 1.0, 1.0, 1.1], "mean_velocity": [1.0] * 4}
