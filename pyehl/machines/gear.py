@@ -96,6 +96,7 @@ class GearPair:
 
     mesh: Mesh
     input_power: float  # [W]
+    angular_velocity: float  # of the pinion [rad/s]
     contacts: list[Contact] = field(default_factory=list)
     places: list[dict[str, Any]] = field(default_factory=list)
     facts: dict[str, float] = field(default_factory=dict)
@@ -230,7 +231,7 @@ def gear_pair(machine: Machine) -> GearPair:
     force = v.torque / mesh.base[0]
     # a height C_b at the ends of the face width is a radius b^2/(8 C_b)
     across = [v.face_width**2 / (8.0 * c) if c else math.inf for c in (v.crowning_1, v.crowning_2)]
-    pair = GearPair(mesh, v.torque * omega)
+    pair = GearPair(mesh, v.torque * omega, omega)
     for number, place in enumerate(stations(mesh, v.stations)):
         one, two = mesh.radii(float(place))
         share = mesh.load_share(float(place), v.load_sharing)

@@ -19,6 +19,8 @@ from pyehl.given import Option, path_of
 from pyehl.machines.bearing import Bearing, ball_bearing, roller_bearing
 from pyehl.machines.contact import LONGEST, Film, film_of
 from pyehl.machines.gear import GearPair, gear_pair
+from pyehl.machines.gear_duty import FILES as DUTY
+from pyehl.machines.gear_duty import has_duty, write_duty
 from pyehl.machines.result import MachineResult, row_of, sigma_of, summary_of, table_of
 from pyehl.plots import machine as pictures
 from pyehl.plots.style import save
@@ -127,7 +129,10 @@ def perform(
     InputError if it holds another one or something else; FileError if it cannot be written.
     """
     outcome = Outcome({})
-    names = (*JOURNAL, *FILES) if todo.tasks.tasks else FILES
+    files = FILES
+    if isinstance(todo.made, GearPair) and has_duty(todo.made):
+        files = (*FILES, *DUTY)
+    names = (*JOURNAL, *files) if todo.tasks.tasks else files
     place = None
     if folder is not None:
         place = Destination(Path(folder), command, names, inputs, force=force)
@@ -135,7 +140,7 @@ def perform(
         outcome = gather(todo.tasks.tasks, todo.identity(), place, watcher=watcher, **how)
         found = todo.result(outcome.rows)
         if place is not None:
-            _write(Path(place.folder), todo.machine, found, names)
+            _write(Path(place.folder), todo, found, names)
         return found, outcome
     if place is not None:
         if (Path(place.folder) / NAME).exists():
@@ -147,15 +152,17 @@ def perform(
     found = todo.result({})
     if place is not None:
         with place.fresh() as fresh:
-            _write(fresh, todo.machine, found, names)
+            _write(fresh, todo, found, names)
     return found, outcome
 
 
-def _write(folder: Path, machine: Machine, found: MachineResult, names: tuple[str, ...]) -> None:
+def _write(folder: Path, todo: Prepared, found: MachineResult, names: tuple[str, ...]) -> None:
     """Write the files of a result."""
     write_csv(folder / CSV, list(found.table), found.table.itertuples(index=False, name=None))
     save(pictures.figure(found.kind, found.table, found.summary), folder / PICTURE)
-    (folder / CASE).write_text(machine.text(), encoding="utf-8")
+    (folder / CASE).write_text(todo.machine.text(), encoding="utf-8")
+    if isinstance(todo.made, GearPair) and has_duty(todo.made):
+        write_duty(folder, todo.made, todo.films)
     values = {name: finite(value) for name, value in found.summary.items()}
     write_json(folder / SUMMARY, {**values, "files": list(names)})
 

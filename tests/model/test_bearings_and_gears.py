@@ -5,6 +5,7 @@ import math
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 from document_text import fences, is_shown
 
@@ -631,6 +632,32 @@ def test_case_files_by_formulas(root: Path, tmp_path: Path, name: str, capfd):
         == 0
     )
     assert '"kind": ' in capfd.readouterr().out
+
+
+def test_the_path_of_contact_is_a_duty(root: Path, tmp_path: Path):
+    """The table along the path, and a case that runs with it; B and D are steps of the load."""
+    folder = tmp_path / "out"
+    assert cli.main(["gear", str(root / "cases/fzg_c.nml"), "-q", "-o", str(folder)]) == 0
+    table = pd.read_csv(folder / "contacts.csv")
+    duty = pd.read_csv(folder / "duty.csv")
+    columns = ["time [s]", "load [N/m]", "u1 [m/s]", "u2 [m/s]", "radius_x [m]"]
+    assert list(duty.columns) == columns
+    mean = 0.5 * (duty["u1 [m/s]"] + duty["u2 [m/s]"])
+    np.testing.assert_allclose(
+        (duty["u1 [m/s]"] - duty["u2 [m/s]"]) / mean, table["slide_to_roll"], atol=1e-9
+    )
+    np.testing.assert_allclose(duty["load [N/m]"] * 14e-3, table["load_N"], rtol=1e-9)
+    # the contact goes along the line of action with the velocity of the base circle
+    path = np.diff(table["s_m"]).sum()
+    base = 4.5e-3 * 16 / 2 * math.cos(math.radians(20.0))
+    whole = path / (base * 2.0 * math.pi * 1450.0 / 60.0)
+    assert duty["time [s]"].iloc[-1] == pytest.approx(whole, rel=1e-6)
+    case = pyehl.Case(folder / "duty.nml")
+    np.testing.assert_allclose(case["duty"]["load"], duty["load [N/m]"], rtol=1e-12)
+    data = pyehl.solve(case, {"grid.points": 257})
+    assert float(data.duty_end_s) == pytest.approx(whole, rel=1e-6)
+    # the least film is about that of the stations by formulas
+    assert 0.6 < float(data.duty_h_c_min_m) / table["h_c_m"].min() < 1.2
 
 
 @pytest.mark.parametrize("page", ["bearing", "gear"])

@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The duty of a pair of teeth: what its contact sees from the begin of its path to the end."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from pyehl.arrays import write_csv
+from pyehl.case import trusted
+from pyehl.machines.contact import LINE, Film
+from pyehl.machines.gear import GearPair
+from pyehl.types import Array
+
+CSV, CASE = "duty.csv", "duty.nml"
+FILES = (CSV, CASE)
+"""The table and a case of smooth flanks with it, for ``pyehl run``."""
+
+
+def has_duty(pair: GearPair) -> bool:
+    """Whether all contacts have the same shape, so that one case has them all."""
+    return len({one.shape for one in pair.contacts}) == 1
+
+
+def table(pair: GearPair) -> dict[str, Array]:
+    """Columns of the table by name and unit, (stations,)."""
+    contacts = pair.contacts
+    path = np.array([place["s_m"] for place in pair.places])
+    slide = np.array([one.slide_to_roll for one in contacts])
+    mean = np.array([one.mean_velocity for one in contacts])
+    load = np.array([one.load for one in contacts])
+    columns = {"time [s]": (path - path[0]) / (pair.mesh.base[0] * pair.angular_velocity)}
+    if contacts[0].shape == LINE:
+        columns["load [N/m]"] = load / contacts[0].length
+    else:
+        columns["load [N]"] = load
+    columns["u1 [m/s]"] = mean * (1.0 + 0.5 * slide)
+    columns["u2 [m/s]"] = mean * (1.0 - 0.5 * slide)
+    columns["radius_x [m]"] = np.array([one.radius for one in contacts])
+    return columns
+
+
+def write_duty(folder: Path, pair: GearPair, films: Sequence[Film]) -> None:
+    """Write the table, and the case of the largest load with it."""
+    columns = table(pair)
+    rows = zip(*(column.tolist() for column in columns.values()), strict=True)
+    write_csv(folder / CSV, list(columns), rows)
+    largest = max(films, key=lambda film: film.contact.load)
+    keys = {f"duty.{name.split()[0]}": tuple(values) for name, values in columns.items()}
+    case = trusted(largest.text).smooth().with_options(keys)
+    (folder / CASE).write_text(case.text, encoding="utf-8")
