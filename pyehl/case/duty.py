@@ -5,16 +5,19 @@ A file is comma-separated: a line of names with units, then a line for each time
 blank or begin with '#' are skipped.
 """
 
+import math
 import os
 import re
 from collections.abc import Iterator, Mapping
 from itertools import pairwise
 
+from pyehl.case import physics
 from pyehl.case.groups import DUTY_LISTS
 from pyehl.case.key import NUMBER, to_text
 from pyehl.case.names import did_you_mean
 from pyehl.case.settings import GROUPS, Draft, Settings
 from pyehl.case.source import Source, read_text
+from pyehl.case.writer import group_text
 from pyehl.errors import InputError
 
 MIN_TIMES = 2
@@ -37,6 +40,7 @@ UNITS = {
     "radius_x": METRES,
     "radius_y": METRES,
     "viscosity": {"Pa s": 1.0, "mPa s": 1e-3},
+    "temperature": {"degC": 1.0},
 }
 """Units of each column, by what makes them SI units."""
 HEADER = (
@@ -58,8 +62,37 @@ def complete(draft: Draft) -> None:
         return
     if not os.path.isfile(duty.file):
         draft.refuse("duty.file", f"there is no file {duty.file}", f"a table over time, {HEADER}")
-    for key, values in read_duty(duty.file, is_line=draft.settings.contact.is_line).items():
-        setattr(duty, key, values)
+    table = read_duty(duty.file, is_line=draft.settings.contact.is_line)
+    if "temperature" in table:
+        table["viscosity"] = _viscosities(draft, table)
+    for key in DUTY_LISTS:
+        if key in table:
+            setattr(duty, key, table[key])
+
+
+def _viscosities(draft: Draft, table: Table) -> tuple[float, ...]:
+    """Viscosity at the inlet [Pa s] at the temperatures of a table, by the law of the oil."""
+    oil = draft.settings.lubricant
+    sheet = oil.kinematic_viscosity_40, oil.kinematic_viscosity_100
+    if "viscosity" in table:
+        draft.refuse("duty.file", "columns 'temperature' and 'viscosity'", "one of the two")
+    if not (oil.own_law or all(sheet)):
+        expected = "an oil by name, table or data sheet, or a column 'viscosity [Pa s]'"
+        draft.refuse("duty.file", "a column 'temperature' of an oil at one viscosity", expected)
+    found = []
+    for at in table["temperature"]:
+        if oil.own_law:
+            text = group_text(
+                draft.settings, "lubricant", {"viscosity_law": oil.own_law, "temperature": at}
+            )
+            viscosity = physics.inlet(text)[0]
+        else:
+            viscosity = physics.sheet(at, sheet, oil.density_15, oil.thermal_expansion)[0]
+        if not math.isfinite(viscosity):
+            expected = "temperatures at which the oil is liquid"
+            draft.refuse("duty.file", f"no viscosity of the oil at {to_text(at)} degC", expected)
+        found.append(viscosity)
+    return tuple(found)
 
 
 def check(draft: Draft) -> None:

@@ -129,7 +129,7 @@ def perform(
     InputError if it holds another one or something else; FileError if it cannot be written.
     """
     outcome = Outcome({})
-    files = FILES
+    files: tuple[str, ...] = FILES
     if isinstance(todo.made, GearPair) and has_duty(todo.made):
         files = (*FILES, *DUTY)
     names = (*JOURNAL, *files) if todo.tasks.tasks else files

@@ -349,6 +349,27 @@ def test_a_file_and_arrays_are_the_same_case(tmp_path: Path):
 
 
 @pytest.mark.parametrize(
+    "oil",
+    [{"name": "fva3"}, {"kinematic_viscosity_40": 100.0, "kinematic_viscosity_100": 11.0}],
+    ids=["law", "sheet"],
+)
+def test_temperature_of_the_inlet(tmp_path: Path, oil):
+    """Viscosity by the law of the oil, as in a case at that temperature."""
+    (tmp_path / "duty.csv").write_text("time [ms], temperature [degC]\n0, 60\n1, 80\n2, 60\n")
+    (tmp_path / "case.nml").write_text("&duty file = 'duty.csv' /\n", encoding="utf-8")
+    groups = {"contact": POINT["contact"]}
+    if "name" not in oil:
+        oil = oil | {"pressure_viscosity": 2e-8}
+    read = pyehl.Case(tmp_path / "case.nml", groups | {"lubricant": oil | {"temperature": 60.0}})
+    hot = pyehl.Case(**groups, lubricant=oil | {"temperature": 80.0})
+    cold = pyehl.Case(**groups, lubricant=oil | {"temperature": 60.0})
+    wanted = [case["lubricant"]["viscosity"] for case in (cold, hot, cold)]
+    np.testing.assert_allclose(read["duty"]["viscosity"], wanted, rtol=1e-12)
+    with pytest.raises(pyehl.InputError, match="column 'temperature' of an oil at one viscosity"):
+        pyehl.Case(tmp_path / "case.nml", POINT)
+
+
+@pytest.mark.parametrize(
     ("table", "message"),
     [
         (TABLE.replace("1, 30", "2, 30").replace("2, 40, 2\n", "2, 40, 2\n"), r"csv:4.*increase"),
@@ -393,3 +414,41 @@ def test_others_refuse_a_duty():
     with pytest.raises(pyehl.InputError, match="without &duty"):
         pyehl.predict(case, {"surface.kind": "harmonic"})
     assert any("&duty" in line for line in pyehl.film(case).summary["left_out"])
+
+
+def test_roughness_under_a_reversal():
+    """The wave goes back where it came from: one way and the other add up to none."""
+    time = np.array([0.0, 1.0, 2.0, 3.0]) * 3e-4
+    turn = {"duty": {"time": time, "mean_velocity": [2.0, 2.0, -2.0, -2.0]}}
+    rough = {"surface.kind": "harmonic", "surface.amplitude": 0.02, "surface.wavelength": 1.0}
+    case = pyehl.Case(**POINT | {"grid": POINT["grid"] | {"points": 65}})
+    smooth = pyehl.solve(case, turn)
+    data = pyehl.solve(case, turn, rough)
+    assert data.attrs["status"] == "converged"
+    speed = data.history_speed.values
+    assert speed[0] > 0.0 > speed[-1]
+    films = [d.history_H_c.values for d in (data, smooth)]
+    times = [d.history_T.values for d in (data, smooth)]
+    difference = films[0] - np.interp(times[0], times[1], films[1])
+    # a wave in the film on the way there and on the way back
+    for way in (speed > 0.5, speed < -0.5):
+        assert np.ptp(difference[way]) > 5e-3
+    assert (data.history_H_min.values > 0.0).all()
+
+
+@pytest.mark.parametrize("least", [0.1, 0.01])
+def test_a_load_of_nearly_nothing(least):
+    """The film stays, and the balance of force holds; squeezing oil out keeps it above steady."""
+    time = [0.0, 2.0, 4.0, 6.0]
+    data = run(time, load=[1.0, least, least, 1.0])
+    h = columns(data)
+    assert data.attrs["status"] == "converged"
+    assert np.abs(data.history_load_error).max() < 1e-5
+    assert h["load"].min() == pytest.approx(least)
+    assert (h["H_min"] > 0.0).all()
+    assert h["H_c"].max() > 1.2 * h["H_c"][0]
+
+
+def test_a_load_below_the_least_is_refused():
+    with pytest.raises(pyehl.InputError, match=r"at least 182\.85, 0\.001 of that of the case"):
+        run([0.0, 1.0], load=[1.0, 5e-4])
