@@ -130,6 +130,11 @@ class Inlet:
         0.0, "-", "[0, 1]", "share of the oil missing from inlet.film that returns between them"
     )
 
+    @property
+    def is_short_of_oil(self) -> bool:
+        """Whether the inlet is meant to be short of oil."""
+        return max(self.position_hertz, self.film_hertz) > 0.0
+
 
 @dataclass(slots=True)
 class Grid:

@@ -4,17 +4,12 @@
 from pyehl.case import physics
 from pyehl.case.grid import BEYOND_CONTACT
 from pyehl.case.key import short
-from pyehl.case.settings import Draft, Settings
+from pyehl.case.settings import Draft
 
 KEYS = ("position", "position_hertz", "film", "film_hertz")
 NAMES = tuple(f"inlet.{key}" for key in KEYS)
 ROUNDING = 1e-6
 """Relative difference of values that is none."""
-
-
-def is_short_of_oil(settings: Settings) -> bool:
-    """Whether the inlet is meant to be short of oil."""
-    return max(settings.inlet.position_hertz, settings.inlet.film_hertz) > 0.0
 
 
 def complete(draft: Draft) -> None:
@@ -42,7 +37,7 @@ def check(draft: Draft) -> None:
     if inlet.passages > 1 and not film > 0.0:
         what = "inlet.passages without inlet.film"
         draft.refuse("inlet.passages", what, "the layer of the first passage")
-    if not is_short_of_oil(s):
+    if not inlet.is_short_of_oil:
         return
     point = physics.point(s)
     scale = point.length**2 / s.contact.radius_x if s.contact.si else 0.0

@@ -4,7 +4,6 @@
 from collections.abc import Collection, Iterator, Mapping
 from functools import cache
 
-from pyehl.case.inlet import is_short_of_oil
 from pyehl.case.key import Key, Value, to_text
 from pyehl.case.settings import GROUPS, MACHINES, Settings
 
@@ -93,7 +92,7 @@ def _unwritten(settings: Settings, group: str) -> frozenset[str]:
     if group == "contact":
         return frozenset(_of_contact(settings))
     if group in ("bodies", "inlet"):
-        holds = settings.bodies.given if group == "bodies" else is_short_of_oil(settings)
+        holds = settings.bodies.given if group == "bodies" else settings.inlet.is_short_of_oil
         return frozenset(() if holds else (key.key for key in GROUPS[group]))
     if group == "lubricant":
         return frozenset(_of_lubricant(settings))
