@@ -81,6 +81,36 @@ def lead_to_pages(app: Sphinx, name: str, source: list[str]) -> None:
         source[0] = re.sub(rf"\]\((?:\.\./)+{re.escape(outside)}", f"]({page}", source[0])
 
 
+ROOT = Path(__file__).parent.parent
+SOURCES = {
+    name: path.relative_to(ROOT).as_posix()
+    for folder, kind in (("fortran", "*.f90"), ("pyehl", "*.py"))
+    for path in (ROOT / folder).rglob(kind)
+    for name in (
+        path.relative_to(ROOT).as_posix(),
+        path.relative_to(ROOT / folder).as_posix(),
+        path.name,
+    )
+    if name != "__init__.py"
+}
+"""Files of the source by their paths and by what the chapters write of them."""
+
+
+def lead_to_sources(app: Sphinx, name: str, source: list[str]) -> None:
+    """Make the file names in the tables of a chapter lead to the files."""
+    if not name.startswith("theory/"):
+        return
+
+    def link(found: re.Match[str]) -> str:
+        path = SOURCES.get(found[1])
+        return found[0] if path is None else f"[{found[0]}](../../{path})"
+
+    source[0] = "\n".join(
+        re.sub(r"(?<!\[)`([\w/]+\.(?:f90|py))`", link, line) if line.startswith("|") else line
+        for line in source[0].split("\n")
+    )
+
+
 LONGEST = 155
 """Letters of a description that search engines show."""
 
@@ -105,4 +135,5 @@ def describe(
 def setup(app: Sphinx) -> None:
     """Register what changes the sources and the pages."""
     app.connect("source-read", lead_to_pages)
+    app.connect("source-read", lead_to_sources)
     app.connect("html-page-context", describe)

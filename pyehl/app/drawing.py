@@ -74,7 +74,7 @@ def film_map(found: Film) -> Map:
         float(y[-1] - y[0] + step_y),
         x,
         y,
-        f"a fringe for {red:.3g} nm of film in red, {green:.3g} nm in green",
+        f"a fringe: {red:.3g} nm (red), {green:.3g} nm (green)",
     )
 
 

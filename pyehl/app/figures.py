@@ -37,7 +37,7 @@ def _figure(title: str, x: str, y: str, **more: Any) -> Any:  # noqa: ANN401 (Bo
     }
     made = figure(title=title, x_axis_label=x, y_axis_label=y, **words)
     made.toolbar.autohide = True
-    made.title.text_font_size = "9pt"
+    made.title.update(text_font_size="9pt", text_font_style="normal")
     return made
 
 
@@ -173,17 +173,12 @@ class Pictures:
             (self.edge, drawing.outline(found)),
         ):
             change(source, data={"x": x, "y": y})
-        point = found.point
-        about = f"M = {point.moes_m:.4g}, L = {point.moes_l:.4g}"
-        highest = point.hertz_pressure * 1e-9
-        change(self.fringes.title, text=f"{about}; {made.caption}")
-        change(self.contour.title, text=f"{about}, p_h = {highest:.3g} GPa; h [nm]")
+        highest = found.point.hertz_pressure * 1e-9
+        change(self.fringes.title, text=made.caption)
         self._fit(self.fringes, made)
         for name, line in drawing.centre_lines(found).items():
             change(self.lines[name], data=line)
             picture = self.along if name == "x" else self.across
-            way = "along" if name == "x" else "across"
-            change(picture.title, text=f"{about}; {way} the motion")
             change(picture.extra_y_ranges["film"], end=5.0 * made.central)
             place = line["place"]
             change(picture.x_range, start=float(place[0]), end=float(place[-1]))
@@ -206,15 +201,6 @@ class Pictures:
         for picture in (self.before, self.after):
             change(picture.x_range, start=0.0, end=width)
             change(picture.y_range, start=0.0, end=height)
-        point = made.operating
-        about = f"M = {point.moes_m:.4g}, L = {point.moes_l:.4g}"
-        for picture, what in (
-            (self.before, "surface [nm]"),
-            (self.after, "in the contact [nm]"),
-            (self.bands, "what octaves add"),
-            (self.over, "over the passage"),
-        ):
-            change(picture.title, text=f"{about}; {what}")
         octaves = drawing.octaves(made)
         change(self.octaves, data=octaves)
         if octaves["increase"]:

@@ -60,7 +60,7 @@ def film_rows(found: Film) -> list[tuple[str, str]]:
             (formula["name"], text + (" (outside its range)" if formula["outside"] else ""))
         )
     if found.converged:
-        rows.append(("largest pressure", f"{s['p_max_Pa'] * 1e-9:.4g} GPa"))
+        rows.append(("maximum pressure", f"{s['p_max_Pa'] * 1e-9:.4g} GPa"))
         if s.get("mu_smooth") is not None:
             mu = f"{s['mu_smooth']:.4f} on {_grid(found)} nodes"
             rows.append(("friction μ_s, smooth", mu))
