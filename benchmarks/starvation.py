@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Starved point contacts: films over the oil layer, and random contacts on two grids.
+"""Starved point contacts: films over the oil layer, on meshes to a/128, and of random contacts.
 
     python benchmarks/starvation.py table FILE.csv
+    python benchmarks/starvation.py mesh FILE.csv
     python benchmarks/starvation.py random FILE.csv [--count 60] [--seed 1]
 
 The tables of docs/evidence/starvation.
@@ -74,6 +75,18 @@ def table(grids: tuple[int, ...] = (65, 129, 257)) -> Iterator[dict[str, Any]]:
                 yield row(contact, points, ratio, flooded, density)
 
 
+def mesh() -> Iterator[dict[str, Any]]:
+    """Films with four layers at M = 100, L = 10 on meshes of a/32, a/64 and a/128."""
+    contact: dict[str, Any] = {"moes_m": 100.0, "moes_l": 10.0}
+    density = density_of(contact)
+    for nodes in (32, 64, 128):
+        # on a domain of 4 a
+        points = 4 * nodes + 1
+        flooded = solve(contact, points)
+        for ratio in (0.25, 0.5, 1.0, 2.0):
+            yield row(contact, points, ratio, flooded, density)
+
+
 def random(count: int, seed: int) -> Iterator[dict[str, Any]]:
     """Random circles and ellipses on two grids."""
     draw = np.random.default_rng(seed)
@@ -96,12 +109,14 @@ def random(count: int, seed: int) -> Iterator[dict[str, Any]]:
 def main(words: Sequence[str] | None = None) -> None:
     """Write one of the tables."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("kind", choices=("table", "random"))
+    parser.add_argument("kind", choices=("table", "mesh", "random"))
     parser.add_argument("file", type=Path)
     parser.add_argument("--count", type=int, default=60)
     parser.add_argument("--seed", type=int, default=1)
     args = parser.parse_args(words)
-    rows = table() if args.kind == "table" else random(args.count, args.seed)
+    rows = random(args.count, args.seed)
+    if args.kind != "random":
+        rows = table() if args.kind == "table" else mesh()
     with args.file.open("w", newline="") as out:
         writer = csv.DictWriter(out, COLUMNS, extrasaction="ignore")
         writer.writeheader()

@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """An inlet that is meant to be short of oil: where the oil begins, or the layer that arrives."""
 
+from collections.abc import Mapping
+from typing import Any
+
 from pyehl.case import physics
 from pyehl.case.grid import BEYOND_CONTACT
 from pyehl.case.key import short
 from pyehl.case.settings import Draft
+from pyehl.errors import InputError
 
 KEYS = ("position", "position_hertz", "film", "film_hertz")
 NAMES = tuple(f"inlet.{key}" for key in KEYS)
@@ -73,3 +77,9 @@ def check(draft: Draft) -> None:
 def _agree(draft: Draft, one: str, other: str, value: float, follows: float) -> None:
     if value > 0.0 and abs(value - follows) > ROUNDING * value:
         draft.contradict(one, other, "one of the two")
+
+
+def refuse_inlet(settings: Mapping[str, Any], what: str, expected: str) -> None:
+    """Refuse a resolved case whose inlet is short of oil where a flooded one is wanted."""
+    if settings.get("inlet"):
+        raise InputError(f"&inlet: {what}\nexpected: {expected}")

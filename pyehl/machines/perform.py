@@ -12,6 +12,7 @@ from typing import Any
 from pyehl import namelist
 from pyehl.arrays import write_csv
 from pyehl.case import files_of, trusted
+from pyehl.case.inlet import refuse_inlet
 from pyehl.case.machine import Machine, read_machine
 from pyehl.destination import Destination, finite, write_json
 from pyehl.errors import InputError, did_you_mean
@@ -77,6 +78,9 @@ class Prepared:
         self.number: list[int | None] = []
         for one in self.films:
             if run == "film" or (one.line is None and one.ellipticity > LONGEST):
+                what = f"{one.contact.place}: its film is by formulas of flooded contacts"
+                expected = "run = 'solve' and no ellipse too long for it, or no &inlet"
+                refuse_inlet(one.settings, what, expected)
                 self.number.append(None)
                 continue
             if one.text not in numbers:

@@ -13,6 +13,7 @@ import xarray as xr
 from pyehl import schema
 from pyehl.case import Case, exchanged
 from pyehl.case.duty import refuse_duty
+from pyehl.case.inlet import refuse_inlet
 from pyehl.destination import Destination, new_file, write_json
 from pyehl.given import Option, path_of
 from pyehl.measured_response.measurement import TIERS, measure, with_tiers
@@ -117,6 +118,7 @@ def response(
     inputs = () if isinstance(case, Case) else (case,)
     case = Case(case, *options)
     refuse_duty(case.resolve())
+    refuse_inlet(case.resolve(), "waves are measured in a flooded contact", "a case without &inlet")
     if second:
         case = exchanged(case)
     tiers = TIERS[:-1] if quick else TIERS

@@ -2,6 +2,8 @@
 """Inlets that are short of oil: formulas, conservation, limits, passages, what is refused."""
 
 import json
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -132,3 +134,42 @@ def test_film_has_the_formula():
     layer = pyehl.film(pyehl.Case(contact=CIRCLE, inlet={"film_hertz": 0.05})).formulas[-1]
     first = pyehl.film(pyehl.Case(contact=CIRCLE)).formulas[0]
     assert 0.2 * first["h_c_m"] < layer["h_c_m"] < first["h_c_m"]
+
+
+def without_roughness(root: Path, name: str, folder: Path) -> Path:
+    """A machine of cases/ with smooth surfaces."""
+    text = (root / "cases" / f"{name}.nml").read_text(encoding="utf-8")
+    path = folder / f"{name}.nml"
+    path.write_text(re.sub(r"&(second_)?surface\n.*?\n/\n", "", text, flags=re.DOTALL))
+    return path
+
+
+@pytest.mark.parametrize("inlet", [{"inlet.film": 5e-8}, {"inlet.position": 1e-3}])
+def test_formulas_of_machines_refuse_a_starved_inlet(root: Path, tmp_path: Path, inlet):
+    for call, name in ((pyehl.bearing, "bearing_6206"), (pyehl.gear, "fzg_c")):
+        path = without_roughness(root, name, tmp_path)
+        with pytest.raises(pyehl.InputError, match="formulas of flooded contacts"):
+            call(path, inlet)
+
+
+def test_stations_of_a_starved_gear_are_solved(root: Path, tmp_path: Path):
+    few = {"spur_gear.stations": 5, "inlet.film": 5e-8}
+    found = pyehl.gear(without_roughness(root, "fzg_c", tmp_path), few, run="solve", jobs=1)
+    # the layer, less what is compressed
+    assert set(found.table["status"]) == {"converged"}
+    assert found.table["h_c_m"].between(3.9e-8, 4.2e-8).all()
+
+
+def test_waves_are_not_measured_in_a_starved_contact(root: Path):
+    with pytest.raises(pyehl.InputError, match="waves are measured in a flooded contact"):
+        pyehl.response(root / "cases" / "greased.nml")
+
+
+def test_lines_that_are_nearly_flooded_take_a_position():
+    """From 0.65 to 1 of the flooded film, where a layer has no solution."""
+    flooded = float(pyehl.solve(pyehl.Case(contact=LINE)).H_c)
+    shares = [
+        float(pyehl.solve(pyehl.Case(contact=LINE, inlet={"position_hertz": at})).H_c) / flooded
+        for at in (1.2, 1.5, 2.0, 2.5, 4.0)
+    ]
+    assert shares == pytest.approx([0.646, 0.878, 0.966, 0.986, 0.998], abs=3e-3)
