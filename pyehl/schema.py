@@ -130,7 +130,7 @@ sp | load_error | - | relative error of the force balance
 s | cycles | - | cycles on the finest grid
 s | total_cycles | - | cycles on all grids
 s | residual | - | residual (rms) at the end, as far as it concerns the film
-s | restarts | - | how often the solution began again
+s | restarts | - | restarts of the solution
 s | H_c_rough | a^2/R | central film of a rough surface at rest
 s | H_min_rough | a^2/R | minimum film of the rough contact: at rest, in T_mean, or in a passage
 s | H_min_rough_T | a/u | when

@@ -27,12 +27,11 @@ from runs import RunFailed, Runs
 from pyehl.arrays import write_csv
 from pyehl.destination import Destination, file_errors
 from pyehl.errors import InputError
-from pyehl.plots.style import save
+from pyehl.plots.style import DPI, save
 from pyehl.reports import page
 from pyehl.studies.plan import Plan
 from pyehl.studies.sweep import Watcher
 
-DPI = 130
 # In the order of the report; the order of the work is the same
 MODULES = (table1, figure1, figure2, figure3, figure4, figure5, figure6, table2, figure7)
 PIECES: dict[str, Piece] = {module.NAME: cast(Piece, module) for module in MODULES}

@@ -100,7 +100,7 @@ def show(data: list[Wave], references: References, level: Level) -> Result:
     checks += [check for wave in data for check in _independent(wave)]
     rows = [(w.points, w.scheme, t, r) for w in data for t, r in zip(w.time, w.ratio, strict=True)]
     figure = pictures.wave_history(
-        [(f"{w.points}², {w.scheme} scheme: mean {w.mean:.4f}", w.time, w.ratio) for w in data],
+        [(f"{w.points}², {w.scheme}: mean {w.mean:.4f}", w.time, w.ratio) for w in data],
         printed.value,
     )
     means = ", ".join(f"{w.points} x {w.points} {w.scheme}: {w.mean:.4f}" for w in data)

@@ -81,13 +81,12 @@ def show(data: list[Collapsed], references: References, level: Level) -> Result:
         s_r = c.scatter(c.theta_r, c.fit_r.second, c.fit_r.fourth)
         panels += [
             _panel(
-                f"scheme '{scheme}': scatter {100 * s_16:.0f} % about eq. 16, "
-                f"{100 * s_2:.0f} % about the fit",
+                f"scheme '{scheme}'",
                 r"$\theta_2$", c, c.theta_2,
                 [("eq. 16", ":", eq_16), ("our fit", "-", (c.fit_2.second, c.fit_2.fourth))],
             ),
             _panel(
-                f"scheme '{scheme}': scatter {100 * s_r:.1f} % about the fit",
+                f"scheme '{scheme}'",
                 r"$\theta_r$, from the response", c, c.theta_r,
                 [("our fit", "-", (c.fit_r.second, c.fit_r.fourth)),
                  (r"small waves, $1 + \theta_r^{-2}/4$", "--", (SMALL_WAVES, 0.0))],

@@ -11,7 +11,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from pyehl.plots import style
 from pyehl.plots import surface as panels
-from pyehl.plots.style import BLUE, GREY, VERMILLION, new_figure
+from pyehl.plots.style import BLUE, COLUMN, GREY, PAGE, VERMILLION, new_figure, styled
 from pyehl.surfaces import Topography, psd_isotropic
 from pyehl.types import Array, Indices, Mask
 
@@ -20,20 +20,21 @@ MARKERS = "osD^vP*"
 FIELD_COLOURS = (style.GREY, "black", style.BLUE, style.VERMILLION)
 
 
+@styled()
 def wave_history(runs: Sequence[tuple[str, Array, Array]], mean: float) -> Figure:
     """Draw mu_r/mu_s over time (Fig. 2), with the mean that the paper prints.
 
     `runs`: label, times (n,) [a/u] and mu_r/mu_s (n,) of each.
     """
-    figure = new_figure(6.4, 3.8)
+    figure = new_figure(COLUMN, 3.0)
     ax = figure.subplots()
     for (label, time, ratio), colour in zip(runs, COLOURS, strict=False):
-        ax.plot(time, ratio, color=colour, lw=1.2, label=label)
-    ax.axhline(mean, color="black", lw=1.0, ls="--", label=f"paper: mean {mean:g}")
+        ax.plot(time, ratio, color=colour, lw=0.9, label=label)
+    ax.axhline(mean, color="black", lw=0.8, ls="--", label=f"mean of the paper: {mean:g}")
     ax.axhline(1.0, color=GREY, lw=0.8, ls=":")
     ax.set_xlabel("$T = t\\,u/a$")
     ax.set_ylabel(r"$\mu_r/\mu_s$")
-    ax.legend(fontsize="small", loc="lower right")
+    figure.legend(loc="outside lower center")
     return figure
 
 
@@ -53,17 +54,23 @@ class Series:
         return f"{self.moes_m:g}, {self.moes_l:g}, {self.wavelength:g}"
 
 
+@styled()
 def friction_over_film(panels: Sequence[tuple[str, Sequence[Series]]]) -> Figure:
     """Draw mu_r/mu_s over H_c/A_i, a panel for each scheme (Fig. 3)."""
-    figure = new_figure(5.2 * len(panels), 4.6)
+    figure = new_figure(PAGE, 3.4)
     axes = np.atleast_1d(figure.subplots(1, len(panels), sharey=True))
     for mark, ax, (title, series) in zip("abcd", axes, panels, strict=False):
         _points(ax, series, lines=True)
         ax.set_xlabel("$H_c/A_i$")
-        ax.set_title(f"({mark}) {title}", fontsize="medium", loc="left")
+        ax.set_title(f"({mark}) {title}", loc="left")
         _logarithmic(ax)
     axes[0].set_ylabel(r"$\mu_r/\mu_s$")
-    axes[-1].legend(fontsize="x-small", title="$M$, $L$, $\\lambda/a$", ncols=2)
+    figure.legend(
+        *axes[0].get_legend_handles_labels(),
+        loc="outside lower center",
+        ncols=5,
+        title="$M$, $L$, $\\lambda/a$",
+    )
     return figure
 
 
@@ -71,7 +78,7 @@ def _points(ax: Axes, series: Sequence[Series], *, lines: bool) -> None:
     for k, s in enumerate(series):
         colour, marker = COLOURS[k % len(COLOURS)], MARKERS[(k // len(COLOURS) * 3 + k) % 7]
         style = f"{marker}-" if lines else marker
-        ax.plot(s.place, s.friction, style, ms=4, lw=0.9, color=colour, mfc="none", label=s.label)
+        ax.plot(s.place, s.friction, style, ms=3, lw=0.7, color=colour, mfc="none", label=s.label)
 
 
 def _logarithmic(ax: Axes) -> None:
@@ -102,30 +109,30 @@ class Collapse:
     curves: Sequence[tuple[str, str, Array, Array]]
 
 
+@styled()
 def collapses(panels: Sequence[Collapse]) -> Figure:
     """Draw mu_r/mu_s over parameters that may bring all waves on one curve (Fig. 4)."""
     rows = -(-len(panels) // 2)
-    figure = new_figure(10.0, 4.0 * rows)
+    figure = new_figure(PAGE, 2.5 * rows + 0.8)
     axes = np.atleast_1d(figure.subplots(rows, 2, sharey=True)).ravel()
     for mark, ax, panel in zip("abcdef", axes, panels, strict=False):
         _points(ax, panel.series, lines=False)
         for label, line, place, friction in panel.curves:
-            ax.plot(place, friction, line, lw=1.3, color="black", label=label, zorder=3)
-        ax.set_title(f"({mark}) {panel.title}", fontsize="medium", loc="left")
+            ax.plot(place, friction, line, lw=1.0, color="black", label=label, zorder=3)
+        ax.set_title(f"({mark}) {panel.title}", loc="left")
         ax.set(xlabel=panel.abscissa, ylabel=r"$\mu_r/\mu_s$")
         _logarithmic(ax)
         handles, labels = ax.get_legend_handles_labels()
         count = len(panel.curves)
         if count:
-            ax.legend(handles[-count:], labels[-count:], fontsize="x-small", loc="upper right")
+            ax.legend(handles[-count:], labels[-count:], loc="upper right")
     handles, labels = axes[0].get_legend_handles_labels()
     count = len(panels[0].curves)
     figure.legend(
         handles[: len(handles) - count],
         labels[: len(labels) - count],
         loc="outside lower center",
-        ncols=7,
-        fontsize="x-small",
+        ncols=5,
         title="$M$, $L$, $\\lambda/a$",
     )
     return figure
@@ -141,9 +148,10 @@ class Step:
     signed: bool
 
 
+@styled()
 def flow(steps: Sequence[Step], result: str) -> Figure:
     """Draw the steps of the prediction with arrows from each to the next (Fig. 1)."""
-    figure = style.new_figure(12.0, 6.4)
+    figure = style.new_figure(PAGE, 4.2)
     axes = figure.subplots(2, -(-len(steps) // 2)).ravel()
     for k, (ax, step) in enumerate(zip(axes, steps, strict=False)):
         inside = step.field[np.isfinite(step.field)]
@@ -157,18 +165,19 @@ def flow(steps: Sequence[Step], result: str) -> Figure:
         )  # fmt: skip
         style.colour_bar(image, ax, step.unit)
         arrow = r"  $\longrightarrow$" if k + 1 < len(steps) else ""
-        ax.set_title(f"{k + 1}. {step.title}{arrow}", fontsize="medium", loc="left")
+        ax.set_title(f"{k + 1}. {step.title}{arrow}", loc="left")
         ax.set_xticks([])
         ax.set_yticks([])
     for ax in axes[len(steps) :]:
         ax.set_axis_off()
-    figure.suptitle(result, fontsize="medium")
+    figure.suptitle(result, fontsize=8.0)
     return figure
 
 
+@styled()
 def spectrum(topography: Topography) -> Figure:
     """Draw a surface, its two-dimensional spectrum, and the radial mean (Fig. 5)."""
-    figure = style.new_figure(12.0, 3.6)
+    figure = style.new_figure(PAGE, 2.2)
     axes = figure.subplots(1, 3)
     panels.heights(topography, ax=axes[0])
     panels.spectrum_map(topography, ax=axes[1])
@@ -178,18 +187,19 @@ def spectrum(topography: Topography) -> Figure:
     line = c_iso[8] * (q / q[8]) ** -3.6
     axes[2].loglog(q, line, "--", color="black", lw=1.0, label="$q^{-2-2H}$, $H$ = 0.8")
     axes[2].set(xlabel=r"$|q|$ [rad/m]", ylabel=r"$C^{iso}$ [m$^4$]")
-    axes[2].legend(fontsize="small")
+    axes[2].legend()
     style.letter(list(axes))
     return figure
 
 
+@styled()
 def deformed(x: Array, y: Array, inside: Mask, fields: Mapping[str, Array]) -> Figure:
     """Draw roughness fields on one scale, their height distributions and centre lines (Fig. 6).
 
     At places (nx,), (ny,) [a], where `inside` (nx, ny); heights (nx, ny) [m] by name, the
     undeformed ones first, then the simulation.
     """
-    figure = style.new_figure(13.0, 6.6)
+    figure = style.new_figure(PAGE, 4.4)
     grid = figure.add_gridspec(2, len(fields))
     maps = [figure.add_subplot(grid[0, k]) for k in range(len(fields))]
     top = 1e9 * max(float(np.abs(f[inside]).max()) for n, f in fields.items() if n != "undeformed")
@@ -199,7 +209,7 @@ def deformed(x: Array, y: Array, inside: Mask, fields: Mapping[str, Array]) -> F
             cmap=style.DIVERGING, vmin=-top, vmax=top, interpolation="nearest",
         )  # fmt: skip
         rms = 1e9 * float(np.std(field[inside]))
-        ax.set_title(f"{name}: rms {rms:.3g} nm", fontsize="medium", loc="left")
+        ax.set_title(f"{name}\nrms {rms:.3g} nm", loc="left")
         ax.set_xlabel("$X$")
         style.hertz_ticks(ax)
     maps[0].set_ylabel("$Y$")
@@ -217,23 +227,23 @@ def deformed(x: Array, y: Array, inside: Mask, fields: Mapping[str, Array]) -> F
             shown = inside[:, line]
             middle.plot(x[shown], 1e9 * field[shown, line], color=colour, lw=1.1, label=name)
     histogram.set(xlabel="height [nm]", ylabel="share per nm")
-    histogram.legend(fontsize="small")
+    histogram.legend()
     middle.set(xlabel="$X$ on the line $Y$ = 0", ylabel="height [nm]")
-    middle.legend(fontsize="small")
     return figure
 
 
+@styled()
 def by_seed(seeds: Indices, simulated: Array, predicted: Sequence[tuple[str, Array]]) -> Figure:
     """Draw mu_r/mu_s by seed, simulated and predicted (Fig. 7)."""
-    figure = style.new_figure(8.0, 4.2)
+    figure = style.new_figure(COLUMN, 2.8)
     ax = figure.subplots()
-    ax.plot(seeds, simulated, "o", color="black", ms=6, label="simulation")
+    ax.plot(seeds, simulated, "o", color="black", ms=4, label="simulation")
     for (label, values), marker, colour in zip(
         predicted, "sD^", (style.BLUE, style.VERMILLION, style.GREEN), strict=False
     ):
-        ax.plot(seeds, values, marker, color=colour, mfc="none", ms=6, label=label)
+        ax.plot(seeds, values, marker, color=colour, mfc="none", ms=4, label=label)
     ax.axhline(1.0, color=style.GREY, lw=0.8, ls=":")
     ax.set_xticks(seeds)
     ax.set(xlabel="seed of the surface", ylabel=r"$\mu_r/\mu_s$")
-    ax.legend(fontsize="small")
+    figure.legend(loc="outside lower center")
     return figure

@@ -186,7 +186,7 @@ def by_border() -> list[str]:
 def robustness(name: str = "contacts.csv") -> list[str]:
     """Table of docs/robustness.md."""
     lines = [
-        "| contacts | drawn | converged | began again | checked | h_c covered | h_min covered |",
+        "| contacts | drawn | converged | restarted | checked | h_c covered | h_min covered |",
         "|---|---|---|---|---|---|---|",
     ]
     names = ("drawn", "converged", "restarts", "checked", "h_c_covered", "h_min_covered")
