@@ -160,7 +160,7 @@ class _Lubricants:
 class _Cases:
     # what makes the contact, see fortran/bind/ehl_f2py_case.f90; then border, smooth, domain, nodes
     def operating(
-        self, *contact: float
+        self, *contact: float | Sequence[float]
     ) -> tuple[float, float, float, float, float, _Array, int]: ...
     def grid_defaults(
         self, *contact_and_grid: float | Sequence[float]

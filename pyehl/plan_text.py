@@ -60,15 +60,25 @@ def _contact(v: Values) -> Iterator[str]:
             "line       M and L are those of a line, a = b half its width; the round contact with "
             f"the same speed parameter has M = {digits(v['round_m'])}"
         )
+    elif v["roller"]:
+        yield (
+            "roller     M, L, p_h and a = b are those of a line under the mean load per length; "
+            f"length {digits(2.0 * v['y_extent'])} b"
+        )
+        yield _cells(v)
     elif not v["round"]:
         yield (
             "ellipse    semi-axis across the motion over a, that along it: "
             f"{digits(v['ellipticity'])}; R_x/R_y = {digits(v['radius_ratio'])}"
         )
-        yield (
-            f"cells      {digits(v['mesh_y'] / v['mesh_x'], 4)} times as long across the motion as "
-            f"along it: {v['points']} x {v['points_y']} nodes"
-        )
+        yield _cells(v)
+
+
+def _cells(v: Values) -> str:
+    return (
+        f"cells      {digits(v['mesh_y'] / v['mesh_x'], 4)} times as long across the motion as "
+        f"along it: {v['points']} x {v['points_y']} nodes"
+    )
 
 
 def _lubricant(v: Values, settings: Settings) -> Iterator[str]:

@@ -52,6 +52,8 @@ REASONS = {
     21: "the contribution of the omitted waves is not predicted (pyehl run does)",
     22: "the contribution of the omitted waves is not predicted (for surfaces on the move alone)",
     23: "{no_prediction}",
+    24: "the bodies end under load: the pressure there is infinite in theory, and on a grid that "
+    "of its last cell (cell_at_end); a profile that drops more takes the load off the ends",
     31: WITH_HEAT,
     32: "isothermal: lubricant.thermal_friction is 'never'",
     33: "isothermal: the viscosity by temperature is not known "
@@ -233,6 +235,9 @@ def _why_no_result(results: Results, settings: Settings, words: Mapping[int, str
     place, phase = _place(d, "end_"), d["end_phase"]
     help_ = words.get(results.codes["end_help"], "") if phase == SMOOTH else ""
     help_ = help_ or f"give a finer grid (grid.points = {2 * int(d['finest_points']) - 1})"
+    if settings["contact"].get("shape") == "roller":
+        rows = 2 * int(d["finest_rows"]) - 1
+        help_ += f", shorter cells along it (grid.points_y = {rows}) or a profile that drops more"
     if status == "negative film":
         text = _of_negative_film(v, d, place, help_, si=bool(v.get("film_scale_m")))
     elif status == "cycle limit":

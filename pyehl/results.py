@@ -23,7 +23,7 @@ from pyehl.arrays import read_array
 from pyehl.errors import FileError, InputError
 from pyehl.given import path_of
 from pyehl.schema import QUANTITIES, VERSION
-from pyehl.theory.line_contact import LineContact, contact_of
+from pyehl.theory.line_contact import LineContact, scaling_contact
 from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Array
 
@@ -157,7 +157,7 @@ def _solution_dataset(
 ) -> xr.Dataset:
     """Dataset of a folder of ``ehl`` and ``pyehl run``; `arrays` by the names of their files."""
     settings = namelist.values(case)
-    point = contact_of(settings) if "mean_velocity" in settings["contact"] else None
+    point = scaling_contact(settings) if "mean_velocity" in settings["contact"] else None
     found: dict[str, xr.Variable] = {}
     for field in SOLUTION:
         if field.file not in arrays:

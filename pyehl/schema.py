@@ -45,7 +45,7 @@ sp | assessment | | what the result is worth: a word, the reason, and what else 
 s | version | | version of the library
 sp | wall_seconds | s | time of the run
 s | bytes | byte | memory of the solver
-spf | shape | | 'line' of an infinite line contact, whose integrals are per length of it
+spf | shape | | 'line' of an infinite line contact, whose integrals are per length of it; 'roller'
 spfr | moes_m | - | Moes load M
 spfr | moes_l | - | Moes material number L
 spf | moes_m_line | - | Moes load M of a line
@@ -100,6 +100,13 @@ s | error_estimate | | where the estimates are from: 'coarser grids' or 'a prior
 s | P_max | p_h | largest pressure
 s | P_max_error | p_h | estimate of its error, by three grids
 s | P_max_error_note | | why there is none
+s | P_max_X | a | where the pressure of a roller is largest
+s | P_max_Y | a | where
+s | H_min_X | a | where the film of a roller is least
+s | H_min_Y | a | where
+s | P_end | p_h | largest pressure in the last cells of a roller; above 0.1 H_min has no error
+s | cell_at_end | a | length of the last cell of a roller
+s | length | a | length of a roller
 s | F | - | friction integral
 s | F_error | - | estimate of its error, by three grids
 s | F_error_note | | why there is none

@@ -16,6 +16,12 @@ def machines() -> Values:
     }
 
 
+def rollers() -> Values:
+    """Profiles of a roller, and random rollers."""
+    make = script("rollers/make.py")
+    return {name: "\n".join(getattr(make, name)()) for name in ("table", "random")}
+
+
 def deflection() -> Values:
     """Errors of the multi-integration, of theory and of evidence."""
     theory, evidence = script("deflection/make.py").tables()

@@ -7,7 +7,7 @@ module ehl_reason
              reason_coarse_grid, reason_narrow, reason_coarser_none, reason_coarser_inlet, reason_much_supplied, &
              reason_boundary_friction, reason_not_wanted, reason_steps, reason_not_yet, reason_nothing_carried, &
              reason_small_grid, reason_coarser_status, reason_pressures, reason_no_ratio, reason_few_positions, &
-             reason_not_predicted, reason_moving_alone, reason_prediction
+             reason_not_predicted, reason_moving_alone, reason_prediction, reason_end
    public :: friction_with_heat, friction_never, friction_no_slope, friction_no_sliding, friction_newtonian, friction_small, &
              friction_of_rough, friction_no_size, friction_rolling, friction_no_smooth, friction_above_limit, &
              friction_not_converged, friction_wall_at_rest, friction_rolling_line
@@ -17,6 +17,8 @@ module ehl_reason
    !> solution; the ends of a narrow contact
    integer, parameter :: reason_none = 0, reason_no_solution = 1, reason_two_grids = 2, reason_no_limit = 3, &
                          reason_small_domain = 4, reason_inlet = 5, reason_coarse_grid = 6, reason_narrow = 7
+   !> Of a roller that ends under load
+   integer, parameter :: reason_end = 24
    !> Of a load share: no solution on the next coarser grid, or none that resolves the inlet; a boundary film that gives much of
    !> the flow
    integer, parameter :: reason_coarser_none = 8, reason_coarser_inlet = 9, reason_much_supplied = 10

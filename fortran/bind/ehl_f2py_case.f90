@@ -3,7 +3,7 @@
 module ehl_f2py_case
    use, intrinsic :: iso_c_binding, only: c_double, c_int
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use ehl_case, only: case_t, lubricant_case_t
+   use ehl_case, only: case_t, contact_case_t, lubricant_case_t
    use ehl_case_defaults, only: inlet_of => inlet
    use ehl_case_grid, only: fill_grid
    use ehl_case_point, only: find_contact
@@ -22,9 +22,10 @@ module ehl_f2py_case
 contains
 
    !> Hertz pressure [Pa] and radius [m], Moes numbers, M of the round contact, half lengths of the contact [a]
-   subroutine operating(line, si, radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, viscosity, alpha, moes_m, &
-                        moes_l, hertz_pressure, hertz_radius, m, l, round_m, reach, even)
-      integer(c_int), intent(in) :: line, si
+   subroutine operating(line, roller, n_roller, si, radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, &
+                        viscosity, alpha, moes_m, moes_l, hertz_pressure, hertz_radius, m, l, round_m, reach, even)
+      integer(c_int), intent(in) :: line, si, n_roller
+      real(c_double), intent(in) :: roller(n_roller)
       real(c_double), intent(in) :: radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, viscosity, alpha, &
                                     moes_m, moes_l
       real(c_double), intent(out) :: hertz_pressure, hertz_radius, m, l, round_m, reach(2)
@@ -34,8 +35,8 @@ contains
       type(scales_t) :: scales
       type(operating_t) :: point
 
-      call take(input, line, si, radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, viscosity, alpha, moes_m, &
-                moes_l)
+      call take(input, line, roller, si, radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, viscosity, alpha, &
+                moes_m, moes_l)
       call find_contact(input, contact, scales, point)
       hertz_pressure = scales%pressure
       hertz_radius = scales%length
@@ -47,10 +48,11 @@ contains
    end subroutine operating
 
    !> Border (0: find, 1: zero, 2: flooded), domain (NaN: find) and nodes (0: find)
-   subroutine grid_defaults(line, si, radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, viscosity, alpha, &
-                            moes_m, moes_l, border, smooth, domain, points, points_y, widening, reverses, border_out, &
-                            domain_out, points_out, points_y_out)
-      integer(c_int), intent(in) :: line, si
+   subroutine grid_defaults(line, roller, n_roller, si, radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, &
+                            viscosity, alpha, moes_m, moes_l, border, smooth, domain, points, points_y, widening, reverses, &
+                            border_out, domain_out, points_out, points_y_out)
+      integer(c_int), intent(in) :: line, si, n_roller
+      real(c_double), intent(in) :: roller(n_roller)
       real(c_double), intent(in) :: radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, viscosity, alpha, &
                                     moes_m, moes_l
       integer(c_int), intent(in) :: border, smooth, points, points_y, reverses
@@ -63,8 +65,8 @@ contains
       type(scales_t) :: scales
       type(operating_t) :: point
 
-      call take(input, line, si, radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, viscosity, alpha, moes_m, &
-                moes_l)
+      call take(input, line, roller, si, radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, viscosity, alpha, &
+                moes_m, moes_l)
       call find_contact(input, contact, scales, point)
       associate (grid => input%grid)
          grid%border = merge("flooded", "zero   ", border == 2)
@@ -82,16 +84,18 @@ contains
       end associate
    end subroutine grid_defaults
 
-   !> What makes the contact; of a line the load per length, and its M and L
-   pure subroutine take(input, line, si, radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, viscosity, alpha, &
-                        moes_m, moes_l)
+   !> What makes the contact: 0 a point, 1 a line, by the load per length and its M and L, 2 a roller, by its own numbers
+   pure subroutine take(input, line, roller, si, radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, viscosity, &
+                        alpha, moes_m, moes_l)
       type(case_t), intent(inout) :: input
       integer(c_int), intent(in) :: line, si
+      real(c_double), intent(in) :: roller(:)
       real(c_double), intent(in) :: radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, viscosity, alpha, &
                                     moes_m, moes_l
 
       input%contact%si = si /= 0
-      if (line /= 0) input%contact%shape = "line"
+      if (line == 1) input%contact%shape = "line"
+      if (line == 2) call take_roller(input%contact, roller)
       input%contact%load_per_length = load
       input%contact%moes_m_line = moes_m
       input%contact%moes_l_line = moes_l
@@ -106,6 +110,26 @@ contains
       input%lubricant%viscosity = viscosity
       input%lubricant%pressure_viscosity = alpha
    end subroutine take
+
+   !> Length, place of the profile among the words, its numbers and the misalignment; places and drops of a table
+   pure subroutine take_roller(contact, numbers)
+      type(contact_case_t), intent(inout) :: contact
+      real(c_double), intent(in) :: numbers(:)
+      character(len=11), parameter :: profiles(5) = [character(len=11) :: "none", "crown", "logarithmic", "chamfer", "file"]
+      integer :: n
+
+      contact%shape = "roller"
+      contact%length = numbers(1)
+      contact%profile = profiles(nint(numbers(2)))
+      contact%crown_radius = numbers(3)
+      contact%log_amplitude = numbers(4)
+      contact%chamfer_length = numbers(5)
+      contact%chamfer_drop = numbers(6)
+      contact%misalignment = numbers(7)
+      n = (size(numbers) - 7)/2
+      contact%profile_y = numbers(8:7 + n)
+      contact%profile_drop = numbers(8 + n:)
+   end subroutine take_roller
 
    !> Viscosity [Pa s], alpha [1/Pa] and -(d eta/dT)/eta [1/K] at the inlet, by the law of &lubricant
    subroutine inlet(group, viscosity, alpha, slope, stat, key, message)

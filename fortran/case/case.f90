@@ -2,6 +2,7 @@
 !> Everything a case file can say, one type per namelist group, with the defaults
 module ehl_case
    use ehl_kinds, only: dp
+   use ehl_roller, only: profile_t
    use ehl_viscosity_table, only: isotherm_t
    implicit none (type, external)
    private
@@ -22,7 +23,7 @@ module ehl_case
       !> Whether the case was given in SI: then load, mean_velocity, radius and reduced_modulus
       !> hold, else moes_m and moes_l. Not a key; set by the reader.
       logical :: si = .true.
-      !> A point or an infinite line, which has keys of its own
+      !> A point, an infinite line or a roller, which have keys of their own
       character(len=word_length) :: shape = "point"
       real(dp) :: moes_m = 1000.0_dp, moes_l = 10.0_dp
       real(dp) :: moes_m_line = 20.0_dp, moes_l_line = 10.0_dp
@@ -49,8 +50,19 @@ module ehl_case
       real(dp) :: thermal_conductivity = 46.0_dp, thermal_diffusivity = 1.25e-5_dp
       !> Of body 2
       real(dp) :: thermal_conductivity_2 = 0.0_dp, thermal_diffusivity_2 = 0.0_dp
+      !> Of a roller: its length, the profile of both bodies together, its angle
+      real(dp) :: length = 0.0_dp
+      character(len=word_length) :: profile = "none"
+      real(dp) :: crown_radius = 0.0_dp, log_amplitude = 0.0_dp, chamfer_length = 0.0_dp, chamfer_drop = 0.0_dp
+      real(dp) :: misalignment = 0.0_dp
+      !> Table of a profile; made absolute by the reader; what it holds [m]
+      character(len=path_length) :: profile_file = ""
+      real(dp), allocatable, dimension(:) :: profile_y, profile_drop
    contains
       procedure :: is_line
+      procedure :: is_roller
+      procedure :: is_cylinder
+      procedure :: body_profile
       procedure :: size_of_load
       procedure :: moes_numbers
    end type contact_case_t
@@ -270,6 +282,30 @@ contains
       class(contact_case_t), intent(in) :: self
       is_line = self%shape == "line"
    end function is_line
+
+   !> Whether it is a roller of finite length
+   pure logical function is_roller(self)
+      class(contact_case_t), intent(in) :: self
+      is_roller = self%shape == "roller"
+   end function is_roller
+
+   !> Whether it has one radius, and is not curved across the motion but by a profile
+   pure logical function is_cylinder(self)
+      class(contact_case_t), intent(in) :: self
+      is_cylinder = self%is_line() .or. self%is_roller()
+   end function is_cylinder
+
+   !> Profile of both bodies of a roller
+   pure function body_profile(self) result(profile)
+      class(contact_case_t), intent(in) :: self
+      type(profile_t) :: profile
+
+      profile = profile_t(self%profile(:16), self%length, self%crown_radius, self%log_amplitude, self%chamfer_length, &
+                          self%chamfer_drop, self%misalignment)
+      allocate (profile%y(0), profile%table(0))
+      if (allocated(self%profile_y)) profile%y = self%profile_y
+      if (allocated(self%profile_drop)) profile%table = self%profile_drop
+   end function body_profile
 
    !> Whether something changes with time
    pure logical function has_duty(self)

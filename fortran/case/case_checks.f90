@@ -7,6 +7,7 @@ module ehl_case_checks
    use ehl_case_check_lubricant, only: check_lubricant
    use ehl_case_check_surface, only: check_surfaces
    use ehl_case_check_line, only: check_line
+   use ehl_case_check_roller, only: check_roller
    use ehl_case_defaults, only: is_short_of_oil, moes_keys, si_keys, sliding, velocity_ratio
    use ehl_case_point, only: find_contact
    use ehl_case_source, only: case_source_t
@@ -43,6 +44,7 @@ contains
       character(len=:), allocatable :: moes, si, expected
 
       call check_line(source, input, status)
+      call check_roller(source, input, status)
       moes = source%first_given("contact", moes_keys)
       si = source%first_given("contact", si_keys)
       if (moes /= "" .and. si /= "") then
@@ -60,7 +62,7 @@ contains
                                "both, or contact.radius of a round contact", status)
          end if
       end associate
-      if (input%contact%is_line()) then
+      if (input%contact%is_cylinder()) then
          call need(source%first_given("bodies"), "contact", si_keys(4:5), "reduced radius and modulus alone")
       else
          call need(source%first_given("bodies"), "contact", si_keys(5:7), "reduced radii and modulus alone")
@@ -149,7 +151,7 @@ contains
       if (.not. input%bodies%given) return
       associate (b => input%bodies, c => input%contact)
          call agree("radius_x", 1.0_dp/c%radius_x, curvature(b%radius_x1) + curvature(b%radius_x2))
-         if (.not. c%is_line()) call agree("radius_y", 1.0_dp/c%radius_y, curvature(b%radius_y1) + curvature(b%radius_y2))
+         if (.not. c%is_cylinder()) call agree("radius_y", 1.0_dp/c%radius_y, curvature(b%radius_y1) + curvature(b%radius_y2))
          call agree("reduced_modulus", 2.0_dp/c%reduced_modulus, (1.0_dp - b%poisson_1**2)/b%modulus_1 &
                     + (1.0_dp - b%poisson_2**2)/b%modulus_2)
       end associate
@@ -295,7 +297,7 @@ contains
          "'zero': the pressure far from a turned contact is not known", status)
       ends = [-input%grid%x_inlet, input%grid%x_outlet, input%grid%y_extent]
       reach = contact%reach([1, 1, 2])
-      do k = 1, merge(2, 3, contact%is_line())
+      do k = 1, merge(2, 3, input%contact%is_cylinder())
          if (ends(k) < beyond_contact*reach(k)) call source%refuse(trim(borders(k)), trim(borders(k))//" is "//short(ends(k))// &
             " a from the centre, and the contact reaches to "//short(reach(k))//" a", "at least "// &
             short(beyond_contact*reach(k))//" a", status)

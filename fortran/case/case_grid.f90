@@ -22,6 +22,8 @@ module ehl_case_grid
    !> of the contact there. Up to so much alpha p_h: beyond, the pressure spike on the oblique edge is a few nodes wide, and
    !> cycles on such cells throw it about (docs/theory/relaxation.md).
    real(dp), parameter :: largest_smooth = 2.8_dp, smooth_by_kappa = 0.5_dp, blunt_spike = 21.0_dp
+   !> The same of a roller, whose film varies along it by its profile alone but for its ends, and the L below which its spike is low
+   real(dp), parameter :: of_rollers = 2.8_dp, low_spike = 15.0_dp
    !> Largest a-priori error of H_c that the usual grid of a smooth contact may have
    real(dp), parameter :: max_missed = 0.05_dp
 
@@ -41,6 +43,7 @@ contains
       logical, intent(in) :: reverses
       type(domain_t) :: domain
       real(dp) :: errors(2)
+      logical :: blunt
 
       if (.not. given(1) .and. flooded_by_default(contact, point) .and. contact%is_even()) grid%border = "flooded"
       domain = needed_domain(contact, point, grid%border == "flooded")
@@ -51,7 +54,8 @@ contains
          errors = relative_errors(contact, point, (grid%x_outlet - grid%x_inlet)/(grid%points - 1))
          if (errors(1) > max_missed) grid%points = 2*grid%points - 1
       end if
-      if (.not. grid%points_y > 0) grid%points_y = rows(contact, smooth .and. point%alpha_bar < blunt_spike, grid)
+      blunt = point%alpha_bar < blunt_spike .or. (contact%is_roller() .and. point%moes_l < low_spike)
+      if (.not. grid%points_y > 0) grid%points_y = rows(contact, smooth .and. blunt, grid)
    end subroutine fill_grid
 
    !> Largest size of the dry contact under the duty over that of the case
@@ -77,15 +81,16 @@ contains
       logical, intent(in) :: blunt
       type(grid_case_t), intent(in) :: grid
       integer :: levels, intervals(2), halved, multiple
-      real(dp) :: wanted
+      real(dp) :: wanted, ratio
 
       rows = merge(1, grid%points, contact%is_line())
       if (contact%is_round() .or. contact%is_line()) return
       call find_levels(rows, rows, levels, intervals)
       if (levels == 0) return
       halved = (rows - 1)/intervals(1)
-      wanted = 2.0_dp*grid%y_extent*intervals(1)/(cell_ratio(contact%reach(2)/contact%reach(1), blunt) &
-                                                  *(grid%x_outlet - grid%x_inlet))
+      ratio = cell_ratio(contact%reach(2)/contact%reach(1), blunt)
+      if (contact%is_roller() .and. blunt) ratio = of_rollers
+      wanted = 2.0_dp*grid%y_extent*intervals(1)/(ratio*(grid%x_outlet - grid%x_inlet))
       ! many rows are halved further, until they are few
       multiple = 2
       do while (wanted > 0.5_dp*multiple*few_rows)

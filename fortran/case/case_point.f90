@@ -3,7 +3,7 @@
 module ehl_case_point
    use ehl_case, only: case_t
    use ehl_contact, only: contact_t
-   use ehl_contact_factory, only: new_contact
+   use ehl_contact_factory, only: new_contact, new_roller_contact
    use ehl_kinds, only: dp, pi
    use ehl_moes, only: operating_t
    use ehl_scales, only: scales_t
@@ -21,7 +21,13 @@ contains
       type(operating_t), intent(out) :: point
       real(dp) :: numbers(2)
 
-      call new_contact(input%contact%radius_ratio, input%contact%angle*pi/180.0_dp, contact, input%contact%is_line())
+      if (input%contact%is_roller()) then
+         associate (c => input%contact)
+            call new_roller_contact(c%body_profile(), c%load, c%radius_x, c%reduced_modulus, contact)
+         end associate
+      else
+         call new_contact(input%contact%radius_ratio, input%contact%angle*pi/180.0_dp, contact, input%contact%is_line())
+      end if
       associate (c => input%contact, l => input%lubricant)
          if (c%si) then
             scales = contact%scales(c%size_of_load(), c%radius_x, c%reduced_modulus)

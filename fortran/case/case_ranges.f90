@@ -8,12 +8,14 @@ module ehl_case_ranges
    public :: range_of, allows, words_of
 
    character(len=*), parameter :: contact_ranges = &
-      "shape point|line; moes_m (0, 1e6]; moes_l [0, 100]; moes_m_line (0, 1e4]; moes_l_line [0, 100]; " &
+      "shape point|line|roller; moes_m (0, 1e6]; moes_l [0, 100]; moes_m_line (0, 1e4]; moes_l_line [0, 100]; " &
       // "radius_ratio [0.004, 250]; load (0, 1e5]; load_per_length (0, 1e9]; mean_velocity (0, 200]; " &
       // "radius [1e-5, 10]; radius_x 0 or [1e-5, 1000]; radius_y 0 or [1e-5, 1000]; reduced_modulus [1e4, 2e12]; " &
       // "hardness 0 or [1e5, 1e12]; angle [-90, 90]; slide_to_roll [-2, 2]; rough_surface [1, 2]; " &
       // "thermal_conductivity [0.1, 500]; thermal_diffusivity [1e-8, 1e-3]; " &
-      // "thermal_conductivity_2 0 or [0.1, 500]; thermal_diffusivity_2 0 or [1e-8, 1e-3]"
+      // "thermal_conductivity_2 0 or [0.1, 500]; thermal_diffusivity_2 0 or [1e-8, 1e-3]; length 0 or [1e-5, 10]; " &
+      // "profile none|crown|logarithmic|chamfer|file; crown_radius 0 or [1e-4, 1e6]; log_amplitude 0 or [1e-10, 1e-2]; " &
+      // "chamfer_length 0 or [1e-7, 1]; chamfer_drop 0 or [1e-9, 1]; misalignment [-0.1, 0.1]"
    character(len=*), parameter :: bodies_ranges = &
       "radius_x1 [-1e3, 1e3]; radius_y1 [-1e3, 1e3]; radius_x2 [-1e3, 1e3]; radius_y2 [-1e3, 1e3]; " &
       // "modulus_1 [1e3, 2e12]; modulus_2 [1e3, 2e12]; poisson_1 [-0.5, 0.5]; poisson_2 [-0.5, 0.5]"

@@ -23,7 +23,8 @@ module ehl_read_case
    !> What pyehl makes of an oil, a data sheet, two bodies or a finish, and no routine here
    character(len=name_length), parameter :: made_by_pyehl(*) = [character(len=name_length) :: "radius_x", "radius_y", &
       "reduced_modulus", "viscosity", "pressure_viscosity", "temperature_viscosity", "viscosity_law", "inlet_law", &
-      "alpha_origin", "kind", "table_temperature", "table_pressure", "table_viscosity"], &
+      "alpha_origin", "kind", "table_temperature", "table_pressure", "table_viscosity", &
+      "profile_y", "profile_drop"], &
       groups_by_pyehl(*) = [character(len=name_length) :: "contact", "lubricant", "surface", "second_surface"]
    !> Begins an option that a person typed in a shell
    character(len=*), parameter :: typed = "--set "

@@ -64,7 +64,11 @@ contains
       integer :: k
 
       line = ""
-      if (index(key, "table_") == 0) then
+      if (key == "profile_y" .or. key == "profile_drop") then
+         allocate (numbers(0))
+         if (key == "profile_y" .and. allocated(input%contact%profile_y)) numbers = input%contact%profile_y
+         if (key == "profile_drop" .and. allocated(input%contact%profile_drop)) numbers = input%contact%profile_drop
+      else if (index(key, "table_") == 0) then
          numbers = input%duty%list(trim(key))
       else
          if (.not. allocated(input%lubricant%table_viscosity)) return
@@ -90,7 +94,7 @@ contains
       associate (c => input%contact)
          select case (name)
          case ("contact.moes_m", "contact.moes_l", "contact.radius_ratio")
-            holds = .not. (c%si .or. c%is_line())
+            holds = .not. (c%si .or. c%is_cylinder())
          case ("contact.moes_m_line", "contact.moes_l_line")
             holds = c%is_line() .and. .not. c%si
          case ("contact.load")
@@ -98,9 +102,23 @@ contains
          case ("contact.load_per_length")
             holds = c%si .and. c%is_line()
          case ("contact.shape")
-            holds = c%is_line()
-         case ("contact.angle", "grid.y_extent", "grid.points_y")
+            holds = c%is_cylinder()
+         case ("contact.angle")
+            holds = .not. c%is_cylinder()
+         case ("grid.points_y")
             holds = .not. c%is_line()
+         case ("grid.y_extent")
+            holds = .not. c%is_cylinder()
+         case ("contact.length", "contact.profile", "contact.misalignment")
+            holds = c%is_roller()
+         case ("contact.crown_radius")
+            holds = c%is_roller() .and. c%profile == "crown"
+         case ("contact.log_amplitude")
+            holds = c%is_roller() .and. c%profile == "logarithmic"
+         case ("contact.chamfer_length", "contact.chamfer_drop")
+            holds = c%is_roller() .and. c%profile == "chamfer"
+         case ("contact.profile_file", "contact.profile_y", "contact.profile_drop")
+            holds = c%is_roller() .and. c%profile == "file"
          case ("contact.mean_velocity", "contact.reduced_modulus")
             holds = c%si
          case ("contact.radius")

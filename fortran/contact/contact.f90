@@ -27,6 +27,7 @@ module ehl_contact
       procedure :: is_round
       procedure :: is_even
       procedure :: is_line
+      procedure :: is_roller
       procedure :: scales
       procedure :: moes_load
       procedure :: operating
@@ -56,6 +57,15 @@ contains
       class(contact_t), intent(in) :: self
       is_line = self%dimensions == 1
    end function is_line
+
+   !> Whether the bodies end across the motion, at the sides of the domain
+   pure logical function is_roller(self)
+      class(contact_t), intent(in) :: self
+
+      associate (unused => self)
+      end associate
+      is_roller = .false.
+   end function is_roller
 
    !> The scales of the contact in SI units
    pure function scales(self, load, radius, reduced_modulus)

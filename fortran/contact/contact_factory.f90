@@ -5,9 +5,10 @@ module ehl_contact_factory
    use ehl_elliptical, only: new_elliptical
    use ehl_kinds, only: dp
    use ehl_line, only: new_line_contact
+   use ehl_roller, only: new_roller, profile_t
    implicit none (type, external)
    private
-   public :: new_contact
+   public :: new_contact, new_roller_contact
 
 contains
 
@@ -30,4 +31,14 @@ contains
          allocate (contact_t :: contact)
       end if
    end subroutine new_contact
+
+   !> A roller of finite length under a load [N]
+   subroutine new_roller_contact(profile, load, radius, reduced_modulus, contact)
+      type(profile_t), intent(in) :: profile
+      !> Reduced radius along the motion [m], reduced modulus [Pa]
+      real(dp), intent(in) :: load, radius, reduced_modulus
+      class(contact_t), allocatable, intent(out) :: contact
+
+      allocate (contact, source=new_roller(profile, load, radius, reduced_modulus))
+   end subroutine new_roller_contact
 end module ehl_contact_factory

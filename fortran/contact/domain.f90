@@ -66,6 +66,8 @@ contains
    pure logical function flooded_by_default(contact, point)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point
+      flooded_by_default = .false.
+      if (contact%is_roller()) return
       flooded_by_default = contact%is_line() .or. point%round_m < first_usual .or. elongation(contact) > too_wide
    end function flooded_by_default
 
@@ -81,6 +83,15 @@ contains
       if (contact%is_line()) then
          ends = line_ends(contact, point)
          domain = domain_t(ends(1), ends(2), 0.0_dp)
+         return
+      end if
+      if (contact%is_roller()) then
+         ! the line where the load per length is largest; X = 0 stays a node
+         ends = line_ends(contact, point)*contact%reach(1)
+         do while (line_cost(contact, point, ends(1)/contact%reach(1), .false.) > tolerance)
+            ends = 1.1_dp*ends
+         end do
+         domain = domain_t(ends(1), ends(2), contact%reach(2))
          return
       end if
       domain%side = domain%side*sides_over_round(contact)
@@ -141,12 +152,17 @@ contains
       if (present(starved)) then
          if (starved) then
             cost = 0.0_dp
-            if (.not. contact%is_line()) cost = domain_cost(contact, point, domain_t(-far, domain%outlet, domain%side), flooded)
+            if (.not. (contact%is_line() .or. contact%is_roller())) cost = &
+               domain_cost(contact, point, domain_t(-far, domain%outlet, domain%side), flooded)
             return
          end if
       end if
       if (contact%is_line()) then
          cost = line_cost(contact, point, domain%inlet, flooded)
+         return
+      end if
+      if (contact%is_roller()) then
+         cost = line_cost(contact, point, domain%inlet/contact%reach(1), flooded)
          return
       end if
       side = domain%side/sides_over_round(contact)

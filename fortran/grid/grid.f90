@@ -23,6 +23,8 @@ module ehl_grid
       logical :: mirror = .false.
       !> The field repeats along Y: row 1 follows on row ny, and integrals are means over Y
       logical :: periodic = .false.
+      !> The bodies end at the border rows (of a roller): nothing is known of a film there
+      logical :: ends = .false.
    contains
       procedure :: x => x_of
       procedure :: y => y_of
@@ -141,7 +143,7 @@ contains
          return
       end if
       grid = grid_t((self%nx - 1)/step(1) + 1, (self%ny - 1)/step(2) + 1, self%x0, self%y0, step(1)*self%hx, step(2)*self%hy, &
-                    self%mirror)
+                    self%mirror, ends=self%ends)
    end function coarsened
 
    !> A strip over the same domain as another
@@ -171,7 +173,8 @@ contains
          grid = strip_like(self, 2*self%nx - 1, merge(1, 2*self%ny, self%ny == 1), 0.5_dp*self%hx)
          return
       end if
-      grid = grid_t(2*self%nx - 1, 2*self%ny - 1, self%x0, self%y0, 0.5_dp*self%hx, 0.5_dp*self%hy, self%mirror)
+      grid = grid_t(2*self%nx - 1, 2*self%ny - 1, self%x0, self%y0, 0.5_dp*self%hx, 0.5_dp*self%hy, self%mirror, &
+                    ends=self%ends)
    end function finer
 
    !> Area that row j stands for in a sum over the whole contact, per node:

@@ -34,6 +34,8 @@ module ehl_coarse_problem
    !> Second difference along X of the logarithm of the conductance at which half of a change is left at a spike: of 1, 3 and 10
    !> contacts with L from 17 to 27 take the fewest cycles with 1 and 3
    real(dp), parameter :: sharp = 3.0_dp
+   !> Largest pressure that a coarse grid may find for a roller, over that which it began from
+   real(dp), parameter :: wild = 1.5_dp
 
 contains
 
@@ -152,6 +154,14 @@ contains
 
       step = mesh_ratio(fine%grid, coarse%grid)
       dependent = coarsening == coarsening_alcouffe .and. all(step == 2)
+      ! a coarse grid that finds a pressure that cannot be knows nothing of this state
+      if (coarse%grid%ends) then
+         if (.not. maxval(coarse%p) <= wild*maxval(space%p_start)) then
+            coarse%p = space%p_start
+            coarse%h = space%h_start
+            coarse%h00 = fine%h00
+         end if
+      end if
       !$omp parallel do default(none) shared(coarse, space, relaxation_factor) &
       !$omp num_threads(coarse%threads) if(coarse%parallel) schedule(static)
       do j = 1, coarse%grid%ny
@@ -183,6 +193,7 @@ contains
             call interpolate_row(coarse%grid, step, space%p_change, j, row)
          end if
          if (spare_spikes) call weaken_at_spikes(fine%p(:, j), fine%flow%eps(:, j, dir_x), row)
+         if (fine%grid%ends) call weaken_at_ends(fine, j, row)
          row = fine%p(:, j) + row
          call fine%boundary%limit_pressure(fine%p(:, j), 1, j, row)
          call change_flowing(row(2:nx - 1), fine%p(2:nx - 1, j))
@@ -210,6 +221,25 @@ contains
          change(i) = change(i)/(1.0_dp + (maxval(bend(i - 1:i + 1))/sharp)**2)
       end do
    end subroutine weaken_at_spikes
+
+   !> Make the change of a row small where a roller's contact ends along Y within a cell or two of a coarse grid: where the
+   !> logarithm of the conductance bends across the rows by more than `sharp`
+   pure subroutine weaken_at_ends(fine, j, change)
+      type(level_t), intent(in) :: fine
+      integer, intent(in) :: j
+      real(dp), contiguous, intent(inout) :: change(:)
+      real(dp) :: bend
+      integer :: i
+
+      associate (eps => fine%flow%eps(:, :, fine%flow%dir_y), below => fine%grid%south(j), above => fine%grid%north(j))
+         do i = 2, size(change) - 1
+            if (fine%p(i, j) <= cavity_pressure) cycle
+            bend = log(max(eps(i, below), tiny(1.0_dp))) - 2.0_dp*log(max(eps(i, j), tiny(1.0_dp))) &
+                   + log(max(eps(i, above), tiny(1.0_dp)))
+            change(i) = change(i)/(1.0_dp + (max(0.0_dp, bend)/sharp)**2)
+         end do
+      end associate
+   end subroutine weaken_at_ends
 
    !> Mesh sizes of a coarse grid over those of a fine one
    pure function mesh_ratio(fine, coarse) result(step)

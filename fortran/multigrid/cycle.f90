@@ -11,7 +11,7 @@ module ehl_cycle
    use ehl_row_relaxation, only: relax_row
    implicit none (type, external)
    private
-   public :: cycle_options_t, damped_cycle, finest_cycle, max_damping, prolong_solution
+   public :: cycle_options_t, damped_cycle, finest_cycle, max_damping, prolong_solution, refine
    public :: coarsening_classical, coarsening_alcouffe
 
    !> Damped cycles by degree: largest change of the logarithm of a node's conductance, relaxation factors of a sweep and of the

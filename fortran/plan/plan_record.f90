@@ -31,6 +31,7 @@ contains
          call record%set("has_size", scales%has_size())
          call record%set("round", contact%is_round())
          call record%set("line", contact%is_line())
+         call record%set("roller", contact%is_roller())
          call record%set("round_m", point%round_m)
          call record%set("ellipticity radius_ratio", [contact%ellipticity, contact%radius_ratio])
          call record%set("slide_to_roll mean_velocity heat_estimate_K thermal_loading thermal_reduction inlet_viscosity", &

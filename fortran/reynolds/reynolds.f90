@@ -44,6 +44,7 @@
 module ehl_reynolds
    use ehl_flow, only: dir_x
    use ehl_kernel, only: coefficient
+   use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
    use ehl_level, only: cavity_pressure, last_flowing, level_t, zero_inactive_residual
    use ehl_wedge, only: wedge_reach
@@ -213,8 +214,24 @@ contains
          level%h_drho_dp(:, j) = level%h_drho_dp(:, j)*level%h(:, j)
       end do
       !$omp end parallel do
+      if (.not. level%poiseuille%frozen) then
+         do j = 1, size(level%flow%eps, 3)
+            call end_with_body(level%grid, level%flow%eps(:, :, j))
+         end do
+      end if
       if (level%boundary%follows_state()) call find_touching(level)
    end subroutine update_coefficients
+
+   !> Where the bodies end at the border rows there is no film: the oil flows out by the conductance of the last rows within
+   pure subroutine end_with_body(grid, values)
+      type(grid_t), intent(in) :: grid
+      !> Shape (nx, ny)
+      real(dp), contiguous, intent(inout) :: values(:, :)
+
+      if (.not. grid%ends) return
+      values(:, grid%ny) = values(:, grid%ny - 1)
+      if (.not. grid%mirror) values(:, 1) = values(:, 2)
+   end subroutine end_with_body
 
    !> Load that the pressure of a level lacks
    real(dp) function missing_load(level)

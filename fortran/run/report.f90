@@ -23,13 +23,17 @@ contains
       type(contact_run_t), intent(in) :: run
 
       associate (plan => run%plan, point => run%plan%point, scales => run%plan%scales, grid => run%grid)
-         call record%set(trim(merge("moes_m_line moes_l_line", "moes_m moes_l          ", plan%contact%is_line()))// &
+         call record%set(trim(merge("moes_m_line moes_l_line", "moes_m moes_l          ", &
+                                    plan%contact%is_line() .or. plan%contact%is_roller()))// &
                          " alpha_bar speed_parameter hertz_pressure_Pa", &
                          [point%moes_m, point%moes_l, point%alpha_bar, point%speed_parameter, scales%pressure])
          if (scales%has_size()) call record%set("hertz_radius_m film_scale_m", [scales%length, scales%film])
          if (plan%contact%is_line()) then
             call record%set("shape", "line")
             if (.not. grid%is_row()) call record%set("points_y", grid%ny)
+         else if (plan%contact%is_roller()) then
+            call record%set("shape", "roller")
+            call record%set("points_y", grid%full_ny())
          else if (.not. plan%contact%is_round()) then
             call record%set("radius_ratio angle_deg ellipticity", &
                             [plan%contact%radius_ratio, plan%contact%angle*180.0_dp/pi, plan%contact%ellipticity])

@@ -12,6 +12,7 @@ submodule (ehl_solver) ehl_solver_results
    use ehl_report, only: report_friction, report_passage, report_stationary, report_scene, report_transient, report_waves
    use ehl_report_duty, only: report_duty
    use ehl_report_end, only: report_end
+   use ehl_report_roller, only: report_roller
    use ehl_report_smooth, only: report_smooth
    use ehl_report_touching, only: report_touching, why_no_friction
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
@@ -50,6 +51,7 @@ contains
       good = rough .or. self%run%smooth%solved .or. self%run%outcome == outcome_target_missed
       call report_scene(record, self%run)
       call report_smooth(record, self%run%plan, self%run%smooth, self%run%level(), good)
+      call report_roller(record, self%run, good)
       ratio = not_known
       stop_error = not_known
       if (self%run%phase == phase_steps .and. self%run%plan%duty%active) then

@@ -4,6 +4,7 @@ module ehl_smooth_contact
    use ehl_contact, only: contact_t
    use ehl_contact_results, only: contact_results_t, load_tolerance, measure
    use ehl_cycle, only: cycle_options_t, damped_cycle, max_damping, prolong_solution
+   use ehl_dry_start, only: dry_start_t
    use ehl_far_field, only: far_field_t
    use ehl_reynolds, only: refresh
    use ehl_hierarchy, only: hierarchy_t
@@ -16,7 +17,7 @@ module ehl_smooth_contact
    use ehl_level, only: level_t
    use ehl_oil_flow, only: flow_tolerance, leaving
    use ehl_status, only: ehl_no_memory, status_t
-   use ehl_steady_options, only: end_rule_t, rule_of_circles, rule_of_others, steady_options_t
+   use ehl_steady_options, only: end_rule_t, rule_of_circles, rule_of_others, rule_of_rollers, steady_options_t
    implicit none (type, external)
    private
    public :: smooth_contact_t
@@ -59,6 +60,8 @@ module ehl_smooth_contact
    !> The state of the iteration is that of level n
    type, extends(iteration_t) :: smooth_contact_t
       class(contact_t), allocatable, private :: contact
+      !> Dry pressure of a roller
+      type(dry_start_t), private :: dry
       type(steady_options_t), private :: options
       !> When a level ends
       type(end_rule_t), private :: rule = rule_of_circles
@@ -135,6 +138,7 @@ contains
       self%contact = contact
       self%options = options
       self%rule = merge(rule_of_circles, rule_of_others, options%newtonian_circle)
+      if (contact%is_roller()) self%rule = rule_of_rollers
       if (options%flooded) call self%far_field%setup(contact)
       self%max_cycles = options%max_cycles
       self%of_film = .true.
@@ -163,12 +167,15 @@ contains
          level%load = self%contact%load
          if (has_coarser(self%results, self%n)) then
             call prolong_solution(hierarchy%levels(self%n - 1), level)
+            if (self%contact%is_roller()) call self%dry%mend_ends(hierarchy%levels(self%n - 1)%grid, level)
             self%m = self%results(self%n - 1)%m
          else
             do j = 1, grid%ny
                call self%contact%pressure_row(grid%columns(), grid%y(j), level%p(:, j))
             end do
-            level%h00 = self%options%film_expected + self%contact%dry_separation
+            level%h00 = self%contact%dry_separation
+            if (self%contact%is_roller()) call self%dry%begin(level)
+            level%h00 = self%options%film_expected + level%h00
             call refresh(level)
             self%m = measure(level)
          end if

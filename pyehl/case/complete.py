@@ -4,7 +4,7 @@
 from collections.abc import Callable
 from contextlib import suppress
 
-from pyehl.case import contact, duty, grid, inlet, line, lubricant, surfaces
+from pyehl.case import contact, duty, grid, inlet, line, lubricant, roller, surfaces
 from pyehl.case.settings import GROUPS, MACHINES, Draft
 from pyehl.errors import InputError
 
@@ -29,6 +29,7 @@ def check_no_machine(draft: Draft) -> None:
 
 
 COMPLETIONS: tuple[Step, ...] = (
+    roller.complete,
     contact.check_kind,
     contact.complete_radii,
     lubricant.complete_oil,
@@ -46,7 +47,10 @@ COMPLETIONS: tuple[Step, ...] = (
 STEPS: tuple[Step, ...] = (
     check_no_machine,
     line.check_keys,
-    *COMPLETIONS[:6],
+    roller.complete,
+    roller.check_keys,
+    *COMPLETIONS[1:7],
+    roller.check_length,
     contact.check_operating_point,
     duty.complete,
     duty.check,

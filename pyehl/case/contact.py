@@ -188,7 +188,7 @@ def complete_radii(draft: Draft) -> None:
     c = draft.settings.contact
     if not c.si:
         return
-    c.round = c.is_line or not (c.radius_x > 0.0 or c.radius_y > 0.0)
+    c.round = c.is_cylinder or not (c.radius_x > 0.0 or c.radius_y > 0.0)
     if c.round:
         c.radius_x = c.radius_y = c.radius
     elif not (c.radius_x > 0.0 and c.radius_y > 0.0):
@@ -232,7 +232,7 @@ def _complete_bodies(draft: Draft) -> None:
             + (1.0 - b.poisson_2 * b.poisson_2) / b.modulus_2
         ),
     )
-    if c.is_line:
+    if c.is_cylinder:
         _complete_line(draft, first, follows[0], follows[2])
         return
     # a resolved case has these with the bodies

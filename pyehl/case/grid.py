@@ -44,8 +44,8 @@ def check_extent(draft: Draft) -> None:
         expected = "'zero': the pressure far from a turned contact is not known"
         draft.refuse("grid.border", what, expected)
     point = physics.point(draft.settings)
-    # a line has no sides
-    reach_y = 0.0 if draft.settings.contact.is_line else point.reach_y
+    # a line has no sides, and those of a roller are its ends
+    reach_y = 0.0 if draft.settings.contact.is_cylinder else point.reach_y
     reaches = (point.reach_x, point.reach_x, reach_y)
     for end, value, reach in zip(ENDS, (-g.x_inlet, g.x_outlet, g.y_extent), reaches, strict=True):
         if value < BEYOND_CONTACT * reach:

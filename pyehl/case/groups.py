@@ -15,7 +15,9 @@ class Contact:
     """``&contact``: the operating point, by its Moes numbers or in SI units."""
 
     shape: str = word(
-        "point", "point|line", "point contact, or an infinite line with keys of its own"
+        "point",
+        "point|line|roller",
+        "point contact, infinite line, or roller of finite length, with keys of their own",
     )
     moes_m: float = real(1000.0, "-", "(0, 1e6]", "Moes load parameter M")
     moes_l: float = real(10.0, "-", "[0, 100]", "Moes material parameter L")
@@ -32,7 +34,9 @@ class Contact:
     load: float = real(600.0, "N", "(0, 1e5]", "load")
     load_per_length: float = real(2e5, "N/m", "(0, 1e9]", "load on a line, per length")
     mean_velocity: float = real(0.84, "m/s", "(0, 200]", "mean velocity of the two surfaces")
-    radius: float = real(0.018, "m", "[1e-5, 10]", "reduced radius of a round or line contact")
+    radius: float = real(
+        0.018, "m", "[1e-5, 10]", "reduced radius of a round or line contact, or of a roller"
+    )
     radius_x: float = real(
         0.0, "m", "0 or [1e-5, 1000]", "reduced radius in the plane of the motion; 0: radius"
     )
@@ -79,6 +83,22 @@ class Contact:
     thermal_diffusivity_2: float = real(
         0.0, "m^2/s", "0 or [1e-8, 1e-3]", "that of body 2; 0: thermal_diffusivity"
     )
+    length: float = real(0.0, "m", "0 or [1e-5, 10]", "length of a roller")
+    profile: str = word(
+        "none",
+        "none|crown|logarithmic|chamfer|file",
+        "profile of a roller, the sum of both bodies",
+    )
+    crown_radius: float = real(0.0, "m", "0 or [1e-4, 1e6]", "crown: y^2/(2 crown_radius)")
+    log_amplitude: float = real(
+        0.0, "m", "0 or [1e-10, 1e-2]", "logarithmic: -log_amplitude ln(1 - (2y/length)^2)"
+    )
+    chamfer_length: float = real(0.0, "m", "0 or [1e-7, 1]", "length of a chamfer, at both ends")
+    chamfer_drop: float = real(0.0, "m", "0 or [1e-9, 1]", "drop of a chamfer at the end")
+    profile_file: str = path("table of y and drop, two columns in m separated by a comma")
+    misalignment: float = real(0.0, "rad", "[-0.1, 0.1]", "angle between the axes of a roller")
+    profile_y: tuple[float, ...] = numbers("m", "places of profile_file; not for input")
+    profile_drop: tuple[float, ...] = numbers("m", "drops of profile_file; not for input")
     si: bool = True
     """Whether load, mean_velocity, radius and reduced_modulus hold, else moes_m and moes_l."""
     round: bool = True
@@ -88,6 +108,16 @@ class Contact:
     def is_line(self) -> bool:
         """Whether the contact is an infinite line."""
         return self.shape == "line"
+
+    @property
+    def is_roller(self) -> bool:
+        """Whether the contact is a roller of finite length."""
+        return self.shape == "roller"
+
+    @property
+    def is_cylinder(self) -> bool:
+        """Whether it has one radius, and is not curved across the motion but by a profile."""
+        return self.is_line or self.is_roller
 
 
 @dataclass(slots=True)

@@ -57,7 +57,6 @@ OTHER_NAMES: dict[tuple[str, str], str] = {
             SPEEDS,
         ),
         ("line_load load_per_length", "", LINES),
-        ("length", "contact", LINES),
         ("spin spin_ratio spin_velocity", "", SPIN),
         ("starved starvation", "", STARVED),
         ("wear wear_rate wear_coefficient", "", WEAR),

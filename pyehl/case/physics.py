@@ -8,13 +8,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pyehl.case.settings import Settings
+from pyehl.case.settings import KEYS, Settings
 from pyehl.errors import check
 from pyehl.extension import cases, lubricants
 from pyehl.types import Array
 
 BORDERS = ("", "zero", "flooded")
 """As the extension counts them; '' is to be found."""
+PROFILES = KEYS["contact.profile"].choices
+Contact = tuple[float | tuple[float, ...], ...]
 
 
 class Point(NamedTuple):
@@ -40,14 +42,21 @@ class Domain(NamedTuple):
     points_y: int
 
 
-def _contact(settings: Settings) -> tuple[float, ...]:
+def _contact(settings: Settings) -> Contact:
     """Give what makes the contact, in the order of the extension."""
     c, oil = settings.contact, settings.lubricant
     load, moes_m, moes_l = c.load, c.moes_m, c.moes_l
     if c.is_line:
         load, moes_m, moes_l = c.load_per_length, c.moes_m_line, c.moes_l_line
+    roller: tuple[float, ...] = (0.0,)
+    if c.is_roller:
+        roller = (
+            *(c.length, 1.0 + PROFILES.index(c.profile), c.crown_radius, c.log_amplitude),
+            *(c.chamfer_length, c.chamfer_drop, c.misalignment, *c.profile_y, *c.profile_drop),
+        )
     return (
-        *(c.is_line, c.si, c.radius_ratio, c.angle, load, c.mean_velocity, c.radius_x),
+        *(2 if c.is_roller else int(c.is_line), roller, c.si, c.radius_ratio, c.angle),
+        *(load, c.mean_velocity, c.radius_x),
         *(c.reduced_modulus, oil.viscosity, oil.pressure_viscosity, moes_m, moes_l),
     )
 
@@ -58,7 +67,7 @@ def point(settings: Settings) -> Point:
 
 
 @lru_cache(maxsize=256)
-def _point(values: tuple[float, ...]) -> Point:
+def _point(values: Contact) -> Point:
     *numbers, reach, _ = cases.operating(*values)
     return Point(*numbers, *reach.tolist())
 
@@ -86,7 +95,7 @@ def grid_defaults(
 
 @lru_cache(maxsize=256)
 def _grid(
-    values: tuple[float, ...],
+    values: Contact,
     border: str,
     ends: tuple[float | None, ...],
     points: int,

@@ -4,6 +4,7 @@
 from collections.abc import Collection, Iterator, Mapping
 from functools import cache
 
+from pyehl.case import roller
 from pyehl.case.key import Key, Value, to_text
 from pyehl.case.settings import GROUPS, MACHINES, Settings
 
@@ -100,13 +101,18 @@ def _unwritten(settings: Settings, group: str) -> frozenset[str]:
         return frozenset(_of_surface(settings, group))
     if group == "duty":
         return frozenset(_of_duty(settings))
-    strip = settings.contact.is_line and group == "grid"
-    return frozenset(("y_extent", "points_y") if strip else ())
+    cylinder = settings.contact.is_cylinder and group == "grid"
+    rows = ("points_y",) if settings.contact.is_line else ()
+    return frozenset(("y_extent", *rows) if cylinder else ())
 
 
 def _of_contact(settings: Settings) -> Iterator[str]:
     c = settings.contact
-    yield from POINT_ALONE if c.is_line else LINE_ALONE
+    if c.is_roller:
+        yield from (*LINE_ALONE[1:], "angle", *roller.unused(c))
+    else:
+        yield from POINT_ALONE if c.is_line else LINE_ALONE
+        yield from roller.KEYS
     if c.si:
         yield from ("moes_m", "moes_l", "radius_ratio", "moes_m_line", "moes_l_line")
         yield from ("radius_x", "radius_y") if c.round else ("radius",)

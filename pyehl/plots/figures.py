@@ -29,7 +29,7 @@ from pyehl.plots.style import (
 from pyehl.schema import summary_of
 from pyehl.surfaces import Topography, wavenumbers
 from pyehl.theory.ellipse import ellipse
-from pyehl.theory.line_contact import contact_of
+from pyehl.theory.line_contact import scaling_contact
 from pyehl.theory.transport import stiffness
 from pyehl.types import Array
 
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 
 def scales_of(data: xr.Dataset, units: str = "auto") -> Scales | None:
     """Scales of a solution for `units`: 'si', 'hertz', or 'auto' for SI when the case has them."""
-    point = contact_of(namelist.values(data.attrs["case"]))
+    point = scaling_contact(namelist.values(data.attrs["case"]))
     if units == "si" or (units == "auto" and point.si):
         thin = float(summary_of(data).get("H_c") or 0.0) * point.film_scale < THIN
         return Scales(point.hertz_radius, point.hertz_pressure, point.film_scale, thin)
@@ -196,7 +196,7 @@ def _friction(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
         period=float(about["T_mean"]),
         mean=about.get("mu_ratio"),
         formula=transient.eq_16(about, settings),
-        seconds=contact_of(settings).time_scale if scales else 0.0,
+        seconds=scaling_contact(settings).time_scale if scales else 0.0,
         ax=figure.axes[0],
     )
     return figure

@@ -23,10 +23,11 @@ def headline(summary: Mapping[str, Any], scales: Scales | None = None) -> str:
 
     Of the scalars of a solution or a prediction, with scales in SI units, else in Hertz units.
     """
-    line = summary.get("shape") == "line"
+    shape = summary.get("shape")
+    line = shape in ("line", "roller")
     names = ("moes_m_line", "moes_l_line") if line else ("moes_m", "moes_l")
     moes_m, moes_l = (float(summary[name]) for name in names)
-    parts = [*["line contact"] * line, f"M = {moes_m:.4g}", f"L = {moes_l:.4g}"]
+    parts = [*[f"{shape} contact"] * line, f"M = {moes_m:.4g}", f"L = {moes_l:.4g}"]
     parts.append(f"Hertz pressure {summary['hertz_pressure_Pa'] * 1e-9:.3g} GPa")
     for name, word in (("c", "central film"), ("min", "minimum film")):
         si, big = summary.get(f"h_{name}_m"), summary.get(f"H_{name}")

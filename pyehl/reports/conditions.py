@@ -5,14 +5,14 @@ from collections.abc import Mapping
 from typing import Any
 
 from pyehl.surfaces import rough_groups
-from pyehl.theory.line_contact import LineContact, contact_of
+from pyehl.theory.line_contact import LineContact, scaling_contact
 from pyehl.theory.oils import oil
 from pyehl.types import Settings
 
 
 def conditions(settings: Settings) -> dict[str, str]:
     """Give names and values in SI units of a resolved case."""
-    point = contact_of(settings)
+    point = scaling_contact(settings)
     contact, lubricant = settings["contact"], settings["lubricant"]
     found = {}
     if not point.si:
@@ -80,7 +80,7 @@ def surface_words(group: Mapping[str, Any]) -> str:
 
 def numbers(settings: Settings) -> dict[str, str]:
     """Give names and values of the numbers without units, and of the dry contact."""
-    point = contact_of(settings)
+    point = scaling_contact(settings)
     line = isinstance(point, LineContact)
     found = {
         "Moes load M of a line" if line else "Moes load M": f"{point.moes_m:.5g}",

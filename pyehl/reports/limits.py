@@ -2,7 +2,7 @@
 """Which of the limits of the model apply to a result, and what it warns of itself."""
 
 from pyehl.surfaces import FEATURES, rough_groups
-from pyehl.theory.line_contact import LineContact, contact_of
+from pyehl.theory.line_contact import LineContact, scaling_contact
 from pyehl.types import Settings, Values
 
 # Rise of the temperature [K] above which an oil is thinner than computed: by a third at 0.04 1/K,
@@ -24,7 +24,7 @@ NOTES = {
 
 def limits(settings: Settings, summary: Values) -> list[str]:
     """Say which limits of the model apply to a result, a sentence or two each."""
-    point = contact_of(settings)
+    point = scaling_contact(settings)
     law, flow = settings["lubricant"]["shear_law"], settings["lubricant"]["flow"]
     rough = rough_groups(settings)
     predicted = summary.get("kind") == "prediction"

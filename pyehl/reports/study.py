@@ -22,7 +22,7 @@ from pyehl.reports.page import Block
 from pyehl.studies.journal import read_header
 from pyehl.studies.tasks import INSIDE
 from pyehl.studies.tasks import OUTSIDE as OUTSIDE_FORMULA
-from pyehl.theory.line_contact import contact_of
+from pyehl.theory.line_contact import scaling_contact
 from pyehl.theory.transition import FULL_FILM, MIXED, OUTSIDE
 
 STUDY_DPI = 110
@@ -79,7 +79,7 @@ def study_parts(folder: Path) -> tuple[str, Assessment, list[Block]]:
     parts.append(page.paragraph("The first case has:"))
     parts += [page.facts(conditions(settings)), page.facts(numbers(settings))]
     parts.append(page.heading("Results"))
-    point = contact_of(settings)
+    point = scaling_contact(settings)
     about = (
         f"{title}; first case $M$ = {point.moes_m:.4g}, $L$ = {point.moes_l:.4g}, "
         f"$p_h$ = {point.hertz_pressure * 1e-9:.3g} GPa"

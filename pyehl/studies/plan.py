@@ -28,7 +28,7 @@ from pyehl.studies.pool import processors
 from pyehl.studies.study import Point, Study
 from pyehl.studies.tasks import Task
 from pyehl.surfaces import FEATURES, rough_groups
-from pyehl.theory.line_contact import AnyContact, contact_of
+from pyehl.theory.line_contact import AnyContact, scaling_contact
 from pyehl.theory.line_contact import formula_film as film_by_formula
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.shear import ShearLaw
@@ -89,7 +89,7 @@ def seconds_of(settings: Settings, run: str, *, shared: bool = False, full: bool
 
 def _strip(settings: Settings) -> float:
     """Rows of the strip of a line contact over its nodes along X; one row is next to nothing."""
-    grid, b = settings["grid"], contact_of(settings).hertz_radius
+    grid, b = settings["grid"], scaling_contact(settings).hertz_radius
     widths = [0.0]
     for surface in (settings[group] for group in rough_groups(settings)):
         if surface["kind"] == "harmonic":
@@ -102,7 +102,7 @@ def _strip(settings: Settings) -> float:
 
 def _predict_seconds(settings: Settings, aspect: float, *, shared: bool, full: bool) -> float:
     rough = [settings[group] for group in rough_groups(settings)]
-    point = contact_of(settings)
+    point = scaling_contact(settings)
     thins = ShearLaw.from_settings(settings).in_flow
     sides = [int(s["pixels"]) if s["kind"] == "fractal" else 256 for s in rough]
     alone = sum(PREDICTION + PREDICTION_PIXEL * side**2 for side in sides)
@@ -129,14 +129,14 @@ def _time_to_settle(surface: Mapping[str, Any], settings: Settings) -> float:
         # from where it matters until it has left
         width = surface.get("width")
         if width is None:
-            width = float(surface["width_m"]) / contact_of(settings).hertz_radius
+            width = float(surface["width_m"]) / scaling_contact(settings).hertz_radius
         return (2.3 + 1.2 * float(width)) / float(surface["velocity_ratio"])
     if surface["kind"] == "harmonic":
         period = float(surface["wavelength_x"])
     elif settings["contact"].get("moes_l") == 0.0:
         period = 2.0  # no length follows from M alone
     else:
-        period = float(surface["length_x"]) / contact_of(settings).hertz_radius
+        period = float(surface["length_x"]) / scaling_contact(settings).hertz_radius
     way = 1.05 - max(-1.5, float(surface["x_start"]))
     return (way + 3.0 * period) / float(surface["velocity_ratio"])
 
@@ -344,7 +344,7 @@ def _check(study: Study, case: Case, settings: Settings, checked: set[str]) -> N
 
 def formula_film(settings: Settings) -> tuple[AnyContact, float]:
     """Give the operating point of a resolved case and its central film by formula [m]."""
-    contact = contact_of(settings)
+    contact = scaling_contact(settings)
     return contact, film_by_formula(contact, Lubricant.from_settings(settings))
 
 

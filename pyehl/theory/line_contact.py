@@ -135,13 +135,15 @@ class LineContact:
 
     @classmethod
     def from_settings(cls, settings: Settings) -> Self:
-        """From the groups ``contact`` and ``lubricant`` of a resolved case of a line.
+        """From the groups ``contact`` and ``lubricant`` of a resolved case of a line or a roller.
+
+        A roller has its mean load per length.
 
         With ``lubricant.thermal_reduction`` the viscosity is that of the warmer inlet.
         """
         c = typed(Contact, settings["contact"])
         oil = typed(LubricantGroup, settings["lubricant"])
-        if "load_per_length" not in settings["contact"]:
+        if "load_per_length" not in settings["contact"] and not c.is_roller:
             return cls.from_moes(
                 c.moes_m_line,
                 c.moes_l_line,
@@ -150,7 +152,7 @@ class LineContact:
                 slide_to_roll=c.slide_to_roll,
             )
         line = cls(
-            load_per_length=c.load_per_length,
+            load_per_length=c.load / c.length if c.is_roller else c.load_per_length,
             mean_velocity=c.mean_velocity,
             radius=c.radius,
             reduced_modulus=c.reduced_modulus,
@@ -296,6 +298,13 @@ def contact_of(settings: Settings) -> AnyContact:
     if settings["contact"].get("shape") == "line":
         return LineContact.from_settings(settings)
     return OperatingPoint.from_settings(settings)
+
+
+def scaling_contact(settings: Settings) -> AnyContact:
+    """Give the contact whose scales a resolved case has, a line for a roller."""
+    if settings["contact"].get("shape") == "roller":
+        return LineContact.from_settings(settings)
+    return contact_of(settings)
 
 
 def formula_film(contact: AnyContact, lubricant: Lubricant) -> float:

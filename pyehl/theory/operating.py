@@ -29,6 +29,10 @@ NO_LINE = (
     "contact.shape = 'line': this is for point contacts\nexpected: a point contact; run, solve, "
     "film, predict, stribeck, stress, sweep, plot and report take lines"
 )
+NO_ROLLER = (
+    "contact.shape = 'roller': this is for points and lines\nexpected: a point contact or a line; "
+    "check, run, solve, sweep, plot, report and export take rollers"
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -159,8 +163,8 @@ class OperatingPoint:
         """
         c = typed(Contact, settings["contact"])
         oil = typed(LubricantGroup, settings["lubricant"])
-        if c.is_line:
-            raise InputError(NO_LINE)
+        if c.is_cylinder:
+            raise InputError(NO_LINE if c.is_line else NO_ROLLER)
         if "load" not in settings["contact"]:
             return cls.from_moes(
                 c.moes_m,

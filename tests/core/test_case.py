@@ -12,7 +12,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from pyehl import Case, cli, library, namelist
-from pyehl.case import KEYS, resolve
+from pyehl.case import KEYS, resolve, roller
 from pyehl.case.settings import MACHINES
 from pyehl.errors import InputError
 
@@ -40,10 +40,13 @@ def test_resolved_case_reads_back(path: Path):
         "lubricant.alpha_origin", "lubricant.inlet_law", "lubricant.table_temperature",
         "lubricant.table_pressure", "lubricant.table_viscosity",
         "contact.shape", "contact.load_per_length", "contact.moes_m_line", "contact.moes_l_line",
+        *(f"contact.{key}" for key in roller.KEYS),
     }  # fmt: skip
     assert ("inlet" in groups) == (path.name == "greased.nml")
     if groups["contact"].get("shape") == "line":
         excluded |= {"contact.angle", "grid.y_extent", "grid.points_y"}
+    if groups["contact"].get("shape") == "roller":
+        excluded |= {"contact.angle", "grid.y_extent"}
     names = {f"{group}.{key}" for group, keys in groups.items() for key in keys}
     unused = set(KEYS) - names
     laws = ("vogel", "dicke", "yasutomi", "doolittle", "murnaghan", "tait", "range")

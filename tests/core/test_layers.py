@@ -92,7 +92,7 @@ OWNED = [
     ("reynolds/wedge.f90", r"1\.5_dp/\w*time_step"),
     ("reynolds/wedge.f90", r"c\(1\)\*\w+\(i - 1"),
     (
-        "contact/contact.f90 contact/elliptical.f90 contact/line.f90",
+        "contact/contact.f90 contact/elliptical.f90 contact/line.f90 contact/roller.f90",
         r"pi/3\.0_dp|sqrt\(max\(0\.0_dp, 1\.0_dp - x|(?<!%)\bx\w*(?:\(i\))?\*\*2 \+ ",
     ),
     ("grid/grid.f90", r"merge\(.*, j - 1, j == 1\)"),

@@ -1,0 +1,236 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The contact of a roller of finite length: lengths, films and pressures by the line contact (ehl_line) under the mean load per
+!> length. With b and R of that, the profile g of both bodies together and the misalignment theta the gap is
+!>
+!>    G = X^2/2 + (R/b^2) (g(bY) + theta b Y),    |Y| <= L/2,    L = length/b
+!>
+!>    crown        g = y^2/(2 R_crown)
+!>    logarithmic  g = -A ln(1 - (2y/length)^2)  (Johns & Gohar 1981, as in ISO/TS 16281), no more than that a thousandth of
+!>                 the length from the end
+!>    chamfer      g = slope of a straight chamfer times the distance from its beginning
+!>    file         a table, straight between its points
+!>
+!> The domain ends with the roller: P = 0 there. The half-space that is deflected goes on.
+module ehl_roller
+   use ehl_contact, only: contact_t
+   use ehl_kinds, only: dp, pi
+   use ehl_line, only: new_line_contact
+   use ehl_moes, only: operating_t
+   use ehl_scales, only: scales_t
+   implicit none (type, external)
+   private
+   public :: profile_t, new_roller, roller_t
+
+   !> Profile of both bodies together, in metres
+   type :: profile_t
+      character(len=16) :: kind = "none"
+      !> Of the roller; radius of a crown; A; length of each chamfer and the drop at its end; angle [rad]
+      real(dp) :: length = 0.0_dp, crown_radius = 0.0_dp, log_amplitude = 0.0_dp, chamfer_length = 0.0_dp, &
+                  chamfer_drop = 0.0_dp, misalignment = 0.0_dp
+      !> A table, by rising y
+      real(dp), allocatable :: y(:), table(:)
+   contains
+      procedure :: drop
+      procedure :: is_symmetric
+   end type profile_t
+
+   type, extends(contact_t) :: roller_t
+      type(profile_t) :: profile
+      !> b, and R/b^2
+      real(dp), private :: width = 1.0_dp, per_metre = 1.0_dp
+   contains
+      procedure :: is_even
+      procedure :: is_roller
+      procedure :: scales
+      procedure :: moes_load
+      procedure :: operating
+      procedure :: film_formula
+      procedure :: area
+      procedure :: flash_area
+      procedure :: gap_row
+      procedure :: pressure_row
+   end type roller_t
+
+   !> Share of half the length at which the logarithm ends
+   real(dp), parameter :: last = 0.998_dp
+   !> Gap at the end, where no body is [b^2/R], and what of Y is rounding
+   real(dp), parameter :: open = 2.0_dp, rounding = 1.0e-9_dp
+   !> Slices that the load is shared by
+   integer, parameter :: slices = 200
+
+contains
+
+   !> The contact under a load [N]
+   pure function new_roller(profile, load, radius, reduced_modulus) result(contact)
+      type(profile_t), intent(in) :: profile
+      real(dp), intent(in) :: load, radius, reduced_modulus
+      type(roller_t) :: contact
+      type(scales_t) :: scales
+
+      contact%profile = profile
+      scales = contact%scales(load, radius, reduced_modulus)
+      contact%width = scales%length
+      contact%per_metre = 1.0_dp/scales%film
+      contact%radius_ratio = 0.0_dp
+      contact%ellipticity = 0.5_dp*profile%length/scales%length
+      contact%load = pi*contact%ellipticity
+      contact%kernel_factor = 0.5_dp/pi
+      ! that of a line, whose deflection counts from |X - X'| = 1, and 2 asinh(L/2) in the middle for its factor 2
+      contact%dry_separation = -0.25_dp - 0.5_dp*log(2.0_dp) - 0.5_dp*log(2.0_dp*contact%ellipticity)
+      contact%reach = [sqrt(largest_share(contact)), contact%ellipticity]
+   end function new_roller
+
+   !> Largest load per length over its mean, where slices of the roller carry as much as they are pressed in (Palmgren):
+   !> 1 + (mean of the drop - drop)/d over what touches, d the approach of bodies without a profile
+   pure real(dp) function largest_share(contact)
+      type(roller_t), intent(in) :: contact
+      real(dp) :: gap(slices), row(1), low, high, approach
+      integer :: k
+
+      do k = 1, slices
+         call contact%gap_row([0.0_dp], contact%ellipticity*((2.0_dp*k - 1.0_dp)/slices - 1.0_dp), row)
+         gap(k) = row(1)
+      end do
+      low = minval(gap)
+      high = low + slices*abs(contact%dry_separation)
+      do k = 1, 60
+         approach = 0.5_dp*(low + high)
+         if (sum(max(0.0_dp, approach - gap)) > slices*abs(contact%dry_separation)) then
+            high = approach
+         else
+            low = approach
+         end if
+      end do
+      largest_share = max(1.0_dp, (approach - minval(gap))/abs(contact%dry_separation))
+   end function largest_share
+
+   !> Drop of the profile at y [m]
+   pure real(dp) function drop(self, y)
+      class(profile_t), intent(in) :: self
+      real(dp), intent(in) :: y
+      real(dp) :: s
+      integer :: k
+
+      select case (self%kind)
+      case ("crown")
+         drop = 0.5_dp*y**2/self%crown_radius
+      case ("logarithmic")
+         s = min(last, 2.0_dp*abs(y)/self%length)
+         drop = -self%log_amplitude*log(1.0_dp - s**2)
+      case ("chamfer")
+         s = abs(y) - (0.5_dp*self%length - self%chamfer_length)
+         drop = self%chamfer_drop*max(0.0_dp, s)/self%chamfer_length
+      case ("file")
+         drop = 0.0_dp
+         if (size(self%y) < 2 .or. size(self%table) /= size(self%y)) return
+         k = max(1, min(size(self%y) - 1, count(self%y <= y)))
+         s = (y - self%y(k))/(self%y(k + 1) - self%y(k))
+         drop = self%table(k) + min(1.0_dp, max(0.0_dp, s))*(self%table(k + 1) - self%table(k))
+      case default
+         drop = 0.0_dp
+      end select
+   end function drop
+
+   !> Whether both halves are the same
+   pure logical function is_symmetric(self)
+      class(profile_t), intent(in) :: self
+      integer :: k
+
+      is_symmetric = .not. abs(self%misalignment) > 0.0_dp
+      if (self%kind /= "file" .or. .not. is_symmetric) return
+      do k = 1, size(self%y)
+         is_symmetric = is_symmetric .and. .not. abs(self%drop(self%y(k)) - self%drop(-self%y(k))) > 0.0_dp
+      end do
+   end function is_symmetric
+
+   !> Whether Y > 0 is the mirror image of Y < 0
+   pure logical function is_even(self)
+      class(roller_t), intent(in) :: self
+      is_even = self%profile%is_symmetric()
+   end function is_even
+
+   !> The bodies end
+   pure logical function is_roller(self)
+      class(roller_t), intent(in) :: self
+
+      associate (unused => self)
+      end associate
+      is_roller = .true.
+   end function is_roller
+
+   !> b, b^2/R and p_h by the mean load per length
+   pure function scales(self, load, radius, reduced_modulus)
+      class(roller_t), intent(in) :: self
+      real(dp), intent(in) :: load, radius, reduced_modulus
+      type(scales_t) :: scales
+
+      associate (line => new_line_contact())
+         scales = line%scales(load/self%profile%length, radius, reduced_modulus)
+      end associate
+   end function scales
+
+   !> M of the line
+   pure real(dp) function moes_load(self, load, radius, reduced_modulus, speed)
+      class(roller_t), intent(in) :: self
+      real(dp), intent(in) :: load, radius, reduced_modulus, speed
+
+      associate (line => new_line_contact())
+         moes_load = line%moes_load(load/self%profile%length, radius, reduced_modulus, speed)
+      end associate
+   end function moes_load
+
+   !> Operating point by M and L of the line
+   pure function operating(self, moes_m, moes_l) result(point)
+      class(roller_t), intent(in) :: self
+      real(dp), intent(in) :: moes_m, moes_l
+      type(operating_t) :: point
+
+      associate (unused => self, line => new_line_contact())
+         point = line%operating(moes_m, moes_l)
+      end associate
+   end function operating
+
+   !> That of the line
+   pure real(dp) function film_formula(self, moes_m, moes_l)
+      class(roller_t), intent(in) :: self
+      real(dp), intent(in) :: moes_m, moes_l
+
+      associate (unused => self, line => new_line_contact())
+         film_formula = line%film_formula(moes_m, moes_l)
+      end associate
+   end function film_formula
+
+   !> 2 b by the length
+   pure real(dp) function area(self)
+      class(roller_t), intent(in) :: self
+      area = 4.0_dp*self%ellipticity
+   end function area
+
+   !> The mean over it is 2/3 of the maximum of the Hertz pressure of the line
+   pure real(dp) function flash_area(self, length)
+      class(roller_t), intent(in) :: self
+      real(dp), intent(in) :: length
+      flash_area = 1.5_dp*pi*self%ellipticity*length**2
+   end function flash_area
+
+   !> X^2/2, profile and misalignment
+   pure subroutine gap_row(self, x, y, values)
+      class(roller_t), intent(in) :: self
+      real(dp), intent(in) :: x(:), y
+      real(dp), intent(out) :: values(:)
+
+      associate (metres => self%width*y)
+         values = 0.5_dp*x**2 + self%per_metre*(self%profile%drop(metres) + self%profile%misalignment*metres) &
+                  + merge(open, 0.0_dp, abs(y) > self%ellipticity*(1.0_dp - rounding))
+      end associate
+   end subroutine gap_row
+
+   !> sqrt(1 - X^2): the roller without a profile, its ends apart
+   pure subroutine pressure_row(self, x, y, values)
+      class(roller_t), intent(in) :: self
+      real(dp), intent(in) :: x(:), y
+      real(dp), intent(out) :: values(:)
+
+      values = merge(sqrt(max(0.0_dp, 1.0_dp - x**2)), 0.0_dp, abs(y) < self%ellipticity)
+   end subroutine pressure_row
+end module ehl_roller

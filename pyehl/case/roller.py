@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What belongs to a roller of finite length: its profile, and what it does not have."""
+
+import math
+import os
+from collections.abc import Iterator
+from itertools import pairwise
+
+from pyehl.case.groups import Contact
+from pyehl.case.key import NUMBER, short
+from pyehl.case.settings import Draft
+
+SHAPE = "contact.shape = 'roller'"
+TABLE = "profile_file: lines 'y, drop' in m, y rising from -length/2 to length/2"
+KEYS_OF = {
+    "none": (),
+    "crown": ("crown_radius",),
+    "logarithmic": ("log_amplitude",),
+    "chamfer": ("chamfer_length", "chamfer_drop"),
+    "file": ("profile_file", "profile_y", "profile_drop"),
+}
+"""Keys of each profile."""
+KEYS = ("length", "profile", "misalignment", *(key for keys in KEYS_OF.values() for key in keys))
+"""Keys of a roller."""
+# Keys of other shapes
+OTHERS = (
+    *("moes_m", "moes_l", "radius_ratio", "radius_x", "radius_y", "angle"),
+    *("load_per_length", "moes_m_line", "moes_l_line"),
+)
+# Largest drop over the radius; lengths over half the width of the line contact
+DEEPEST = 0.1
+LENGTHS = 4.0, 400.0
+# Largest share of the length that a table may end before the roller
+ROUNDING = 1e-6
+
+
+def unused(contact: Contact) -> Iterator[str]:
+    """Keys of the profiles that a roller does not have."""
+    yield from (k for kind, keys in KEYS_OF.items() if kind != contact.profile for k in keys)
+
+
+def complete(draft: Draft) -> None:
+    """Read the table of a profile, unless it is gone and a resolved case holds it."""
+    c = draft.settings.contact
+    if not (c.is_roller and c.profile_file):
+        return
+    c.profile_file = draft.absolute("contact.profile_file", c.profile_file)
+    if draft.is_given("contact", "profile_y"):
+        return
+    if not os.path.isfile(c.profile_file):
+        what = f"there is no file {c.profile_file}"
+        draft.refuse("contact.profile_file", what, TABLE)
+    rows = []
+    with open(c.profile_file, encoding="utf-8") as file:
+        for line in file:
+            if not line.strip() or line.lstrip().startswith("#"):
+                continue
+            cells = [cell.strip() for cell in line.split(",")]
+            if len(cells) != 2 or not all(NUMBER.fullmatch(cell) for cell in cells):
+                what = f"{c.profile_file}: '{line.strip()}'"
+                draft.refuse("contact.profile_file", what, TABLE)
+            rows.append([float(cell.lower().replace("d", "e")) for cell in cells])
+    c.profile_y = tuple(row[0] for row in rows)
+    c.profile_drop = tuple(row[1] for row in rows)
+
+
+def check_keys(draft: Draft) -> None:
+    """Refuse what is missing of a roller, keys of other shapes, and what it does not have."""
+    s, c = draft.settings, draft.settings.contact
+    if not c.is_roller:
+        name = draft.first_given(f"contact.{key}" for key in KEYS)
+        if name:
+            draft.refuse(name, f"{name} without {SHAPE}", SHAPE)
+        return
+    name = draft.first_given(f"contact.{key}" for key in OTHERS)
+    if name:
+        expected = "load, radius, length and the keys of a profile"
+        draft.refuse(name, f"{name} with {SHAPE}", expected)
+    if c.length <= 0.0:
+        expected = "the length of the roller [m]"
+        draft.refuse("contact.shape", f"{SHAPE} without contact.length", expected)
+    for name in ("radius_y1", "radius_y2"):
+        if getattr(s.bodies, name) != 0.0:
+            what = f"bodies.{name} with {SHAPE}"
+            draft.refuse(f"bodies.{name}", what, "contact.profile = 'crown' with crown_radius")
+    _check_profile(draft)
+    for name, good, expected in (
+        ("surface.kind", s.surface.kind == "smooth", "'smooth' surfaces"),
+        ("second_surface.kind", s.second_surface.kind == "smooth", "'smooth' surfaces"),
+        ("duty.file", not (s.duty.file or s.duty.time), "a contact in steady motion"),
+        ("inlet.position", max(s.inlet.position, s.inlet.position_hertz) <= 0.0, "a flooded inlet"),
+        ("inlet.film", max(s.inlet.film, s.inlet.film_hertz) <= 0.0, "a flooded inlet"),
+        ("lubricant.boundary_film", s.lubricant.boundary_film <= 0.0, "a full film"),
+        ("grid.border", s.grid.border != "flooded", "'zero'"),
+        ("grid.y_extent", not draft.is_given("grid", "y_extent"), "none: half the length"),
+        ("solver.coarsening", s.solver.coarsening != "alcouffe", "'auto' or 'classical'"),
+    ):
+        if not good:
+            draft.refuse(name, f"{name} with {SHAPE}", expected)
+
+
+def check_length(draft: Draft) -> None:
+    """Refuse a roller that is no line contact, or whose grid would be endless."""
+    c = draft.settings.contact
+    if not c.is_roller:
+        return
+    width = math.sqrt(8.0 * c.load / c.length * c.radius / (math.pi * c.reduced_modulus))
+    if not LENGTHS[0] <= c.length / width <= LENGTHS[1]:
+        what = f"contact.length is {short(c.length / width)} b, b = {short(width)} m"
+        expected = (
+            "4 to 400 b: longer ones are lines, contact.shape = 'line', but for their ends; "
+            "shorter ones points"
+        )
+        draft.refuse("contact.length", what, expected)
+
+
+def _check_profile(draft: Draft) -> None:
+    """Refuse a profile that lacks a key, has one of another, or is too deep."""
+    c = draft.settings.contact
+    for kind, keys in KEYS_OF.items():
+        for key in keys:
+            name = f"contact.{key}"
+            if kind != c.profile and name in draft.given:
+                what = f"{name} with contact.profile = '{c.profile}'"
+                draft.refuse(name, what, f"contact.profile = '{kind}'")
+            if kind == c.profile and not getattr(c, key) and key != "profile_file":
+                missing = "contact.profile_file" if kind == "file" else name
+                what = f"contact.profile = '{kind}' without {missing}"
+                draft.refuse("contact.profile", what, missing)
+    if c.chamfer_length > 0.5 * c.length:
+        what = "contact.chamfer_length is more than half of contact.length"
+        expected = f"at most {short(0.5 * c.length)} m"
+        draft.refuse("contact.chamfer_length", what, expected)
+    if c.profile == "file":
+        half = (0.5 - ROUNDING) * c.length
+        if (
+            len(c.profile_y) != len(c.profile_drop)
+            or any(b <= a for a, b in pairwise(c.profile_y))
+            or not c.profile_y[0] <= -half < half <= c.profile_y[-1]
+        ):
+            draft.refuse("contact.profile_file", "the table does not cover the roller", TABLE)
+    drop = _end_drop(c) + 0.5 * abs(c.misalignment) * c.length
+    if drop > DEEPEST * c.radius:
+        what = (
+            f"the profile drops by {short(drop)} m at the end of the roller, misalignment included"
+        )
+        draft.refuse("contact.profile", what, "a tenth of the radius at most")
+
+
+def _end_drop(c: Contact) -> float:
+    """Drop of a profile at the end of the roller [m]."""
+    if c.profile == "crown":
+        return c.length * c.length / (8.0 * c.crown_radius)
+    if c.profile == "chamfer":
+        return c.chamfer_drop
+    if c.profile == "logarithmic":
+        return -c.log_amplitude * math.log(1.0 - 0.998**2)
+    return max((abs(drop) for drop in c.profile_drop), default=0.0)

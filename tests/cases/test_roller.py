@@ -1,0 +1,208 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Rollers of finite length: against line, ellipse and dry contact, misaligned, what is refused."""
+
+import math
+import subprocess
+
+import numpy as np
+import pytest
+
+import pyehl
+from pyehl.results import settings_of
+from pyehl.theory.line_contact import scaling_contact
+
+ROLLER = {
+    "shape": "roller",
+    "load": 2000.0,
+    "length": 0.01,
+    "radius": 0.01,
+    "mean_velocity": 1.0,
+}
+LOGARITHMIC = {"profile": "logarithmic", "log_amplitude": 3e-6}
+
+
+def roller(points: int = 257, grid: dict[str, object] | None = None, **contact: object):
+    return pyehl.Case(contact=ROLLER | contact, grid={"points": points} | (grid or {}))
+
+
+def test_long_roller_is_a_line_in_the_middle():
+    chamfer = {"profile": "chamfer", "chamfer_length": 1e-3, "chamfer_drop": 1e-5}
+    ds = pyehl.solve(roller(length=0.02, load=4000.0, **chamfer))
+    middle = ds.Y.size // 2
+    per_length = float(ds.p_Pa[:, middle].sum() * (ds.x_m[1] - ds.x_m[0]))
+    assert per_length == pytest.approx(2e5, rel=0.03)
+    line = {"shape": "line", "load_per_length": per_length, "radius": 0.01, "mean_velocity": 1.0}
+    b = scaling_contact(settings_of(ds)).hertz_radius
+    width = math.sqrt(8.0 * per_length * 0.01 / (math.pi * 2.26e11))
+    ends = {"x_inlet": float(ds.X[0]) * b / width, "x_outlet": float(ds.X[-1]) * b / width}
+    flat = pyehl.solve(pyehl.Case(contact=line, grid={"points": 257, "border": "zero"} | ends))
+    scale = scaling_contact(settings_of(ds)).film_scale
+    other = scaling_contact(settings_of(flat)).film_scale
+    for name in ("H_c", "H_c_extrapolated"):
+        assert float(ds[name]) * scale == pytest.approx(float(flat[name]) * other, rel=3e-3)
+    row = ds.h_m[:, middle].values
+    assert row.min() == pytest.approx(float(flat.H_min) * other, rel=3e-3)
+
+
+def test_crown_shorter_than_the_roller_is_an_ellipse():
+    crown = {"profile": "crown", "crown_radius": 0.4, "load": 400.0, "mean_velocity": 0.2}
+    ds = pyehl.solve(roller(513, **crown))
+    ellipse = {"load": 400.0, "radius_x": 0.01, "radius_y": 0.4, "mean_velocity": 0.2}
+    wide = pyehl.solve(pyehl.Case(contact=ellipse, grid={"points": 513}))
+    assert float(ds.P_end) < 1e-3
+    assert float(wide.semi_axis_y_m) < 0.9 * 0.005
+    scales = [scaling_contact(settings_of(one)).film_scale for one in (ds, wide)]
+    for name in ("H_c_extrapolated", "H_min_extrapolated"):
+        limits = [float(one[name]) * scale for one, scale in zip((ds, wide), scales, strict=True)]
+        assert limits[0] == pytest.approx(limits[1], rel=3e-3)
+    assert float(ds.p_max_Pa) == pytest.approx(float(wide.p_max_Pa), rel=3e-3)
+    # nothing ends under load: the errors are known
+    assert math.isfinite(float(ds.H_min_error))
+
+
+def dry_pressure(ds) -> np.ndarray:
+    """Pressure [Pa] of the dry contact on the nodes of a result, by ContactMechanics."""
+    pytest.importorskip("ContactMechanics")
+    from ContactMechanics import FreeFFTElasticHalfSpace
+    from ContactMechanics.Systems import NonSmoothContactSystem
+    from SurfaceTopography import Topography
+
+    c = settings_of(ds)["contact"]
+    x, y = ds.x_m.values, ds.y_m.values
+    inner = np.abs(x) < 2.0 * scaling_contact(settings_of(ds)).hertz_radius
+    gap = x[inner, None] ** 2 / (2.0 * c["radius"]) + (
+        -c["log_amplitude"] * np.log(1.0 - np.minimum(0.998, np.abs(y) / y[-1]) ** 2)
+        + c["misalignment"] * y
+    )
+    # where no body is
+    gap[:, [0, -1]] = 1e-3
+    nodes = gap.shape
+    step = x[1] - x[0], y[1] - y[0]
+    sizes = nodes[0] * step[0], nodes[1] * step[1]
+    half_space = FreeFFTElasticHalfSpace(nodes, 0.5 * c["reduced_modulus"], sizes)
+    system = NonSmoothContactSystem(half_space, Topography(-gap, sizes))
+    found = system.minimize_proxy(external_force=c["load"], pentol=1e-9)
+    assert found.success
+    pressure = np.zeros((x.size, y.size))
+    pressure[inner] = np.asarray(found.jac).reshape(nodes) / math.prod(step)
+    return pressure
+
+
+@pytest.mark.parametrize("misalignment", [0.0, 2e-4])
+def test_vanishing_speed_is_the_dry_contact(misalignment):
+    slow = {"mean_velocity": 0.2, "load": 4000.0, "misalignment": misalignment}
+    ds = pyehl.solve(roller(257, **LOGARITHMIC | {"log_amplitude": 7e-6}, **slow))
+    dry = dry_pressure(ds)
+    step = (ds.x_m[1] - ds.x_m[0]) * (ds.y_m[1] - ds.y_m[0])
+    assert float(dry.sum() * step) == pytest.approx(4000.0, rel=1e-6)
+    difference = np.sqrt(np.mean((ds.p_Pa.values - dry) ** 2)) / dry.max()
+    assert difference < 0.01
+
+
+def test_misalignment_either_way_is_a_mirror_image():
+    one, other = (
+        pyehl.solve(roller(129, **LOGARITHMIC, misalignment=angle)) for angle in (5e-4, -5e-4)
+    )
+    assert float(one.P_max_Y) == pytest.approx(-float(other.P_max_Y), abs=1e-12)
+    np.testing.assert_allclose(one.P.values, other.P.values[:, ::-1], atol=1e-6)
+    # the gap closes where y is negative
+    assert float(one.P_max_Y) < 0.0
+    straight = pyehl.solve(roller(129, **LOGARITHMIC))
+    assert straight.attrs["half_domain"]
+    assert not one.attrs["half_domain"]
+    assert float(one.P_max) > float(straight.P_max)
+
+
+def test_ends_under_load_have_no_error():
+    ds = pyehl.solve(roller(129))
+    assert float(ds.P_end) == float(ds.P_max) > 2.0
+    assert abs(float(ds.P_max_Y)) == pytest.approx(float(ds.Y[-2]))
+    assert float(ds.cell_at_end) == pytest.approx(float(ds.Y[1] - ds.Y[0]))
+    for name in ("H_min", "P_max"):
+        assert math.isnan(float(ds[f"{name}_error"]))
+        assert "end under load" in ds.attrs[f"{name}_error_note"]
+    assert math.isfinite(float(ds.H_c_error))
+
+
+def test_table_of_a_profile(tmp_path):
+    y = np.linspace(-0.005, 0.005, 4001)
+    table = tmp_path / "profile.csv"
+    table.write_text("# y, drop [m]\n" + "\n".join(f"{a:.9e}, {a * a / 2.0:.9e}" for a in y))
+    found = pyehl.solve(roller(129, profile="file", profile_file=str(table)))
+    crown = pyehl.solve(roller(129, profile="crown", crown_radius=1.0))
+    for name in ("H_c", "H_min", "P_max"):
+        assert float(found[name]) == pytest.approx(float(crown[name]), rel=1e-4)
+    # a resolved case holds the table
+    text = found.attrs["case"]
+    table.unlink()
+    again = tmp_path / "again.nml"
+    again.write_text(text)
+    assert float(pyehl.solve(again).H_c) == float(found.H_c)
+
+
+def test_ehl_reads_what_pyehl_resolves(tmp_path, ehl):
+    case = roller(65, **LOGARITHMIC)
+    (tmp_path / "case.nml").write_text(case.text)
+    subprocess.run([ehl, tmp_path / "case.nml", "-o", tmp_path / "out"], check=True)
+    found, ds = pyehl.load(tmp_path / "out"), pyehl.solve(case)
+    np.testing.assert_array_equal(found.P.values, ds.P.values)
+
+
+@pytest.mark.parametrize(
+    ("contact", "words"),
+    [
+        ({"length": None}, "without contact.length"),
+        ({"load_per_length": 1e5}, "load_per_length"),
+        ({"profile": "crown"}, "without contact.crown_radius"),
+        ({"crown_radius": 1.0}, "contact.crown_radius with contact.profile = 'none'"),
+        ({"profile": "chamfer", "chamfer_length": 6e-3, "chamfer_drop": 1e-5}, "more than half"),
+        ({"profile": "crown", "crown_radius": 1e-3}, "the profile drops by"),
+        ({"profile": "file"}, "without contact.profile_file"),
+        ({"radius_y": 0.1}, "contact.radius_y with contact.shape"),
+        ({"angle": 3.0}, "contact.angle with contact.shape"),
+        ({"length": 1.0, "load": 1000.0}, "contact.length is"),
+        ({"misalignment": 0.2}, "misalignment"),
+    ],
+)
+def test_bad_input(contact, words):
+    keys = {name: value for name, value in (ROLLER | contact).items() if value is not None}
+    with pytest.raises(pyehl.InputError, match=words):
+        pyehl.Case(contact=keys).resolve()
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"surface.kind": "harmonic", "surface.amplitude": 0.01}, "surface.kind"),
+        ({"grid.border": "flooded"}, "grid.border"),
+        ({"grid.y_extent": 20.0}, "grid.y_extent"),
+        ({"lubricant.boundary_film": 1e-9}, "boundary_film"),
+        ({"inlet.position_hertz": 2.0}, "inlet.position"),
+        ({"bodies.radius_x1": 0.01, "bodies.radius_y1": 1.0}, "bodies.radius_y1"),
+    ],
+)
+def test_what_a_roller_does_not_have(options, words):
+    case = (
+        roller()
+        if "bodies.radius_x1" not in options
+        else pyehl.Case(contact={k: v for k, v in ROLLER.items() if k != "radius"})
+    )
+    with pytest.raises(pyehl.InputError, match=words):
+        case.with_options(options).resolve()
+
+
+def test_keys_of_a_roller_in_a_point_contact():
+    with pytest.raises(pyehl.InputError, match=r"contact\.length without contact\.shape"):
+        pyehl.Case(contact={"length": 0.01}).resolve()
+
+
+def test_commands_that_do_not_take_rollers():
+    case = roller(65)
+    for command in (pyehl.film, pyehl.response):
+        with pytest.raises(pyehl.EhlError, match="roller"):
+            command(case)
+    # a prediction is of a rough surface
+    with pytest.raises(pyehl.InputError, match="rough surface"):
+        pyehl.predict(case)
+    with pytest.raises(pyehl.InputError, match="roller"):
+        pyehl.stress(pyehl.solve(case))
