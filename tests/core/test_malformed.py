@@ -263,7 +263,7 @@ FAULTS: list[tuple[str, str, list[str], list[str]]] = [
     ("velocity of a surface", "&surface §velocity = 1.0 /", [], ["did you mean 'velocity_ratio'"]),
     ("line load", "&contact §line_load = 1e5 /", [], ["line contacts are not modelled"]),
     ("length of a line", "&contact length = §0.01 /", [], ["without contact.shape = 'roller'"]),
-    ("length of a lubricant", "&lubricant §length = 0.01 /", [], ["belongs to &surface"]),
+    ("length of a lubricant", "&lubricant §length = 0.01 /", [], ["belongs to &contact"]),
     ("spin", "&contact §spin = 0.1 /", [], ["spin is not modelled"]),
     ("starvation", "&contact §starved = .true. /", [], ["inlet.position [m]"]),
     ("wear", "&contact §wear = 1e-8 /", [], ["wear is not modelled"]),

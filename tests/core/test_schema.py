@@ -68,6 +68,7 @@ SOLUTIONS = {
     ),
     "ellipse": "&contact load = 20.0 radius_x = 0.01 radius_y = 0.02 /\n&grid points = 33 /\n",
     "line": "&contact shape = 'line' /\n&grid points = 129 /\n",
+    "roller": "&contact shape = 'roller' length = 0.002 load = 400.0 /\n&grid points = 65 /\n",
     "line by Moes numbers": "&contact shape = 'line' moes_m_line = 5.0 /\n&grid points = 129 /\n",
     "duty": SI + "&duty periodic = .true.\n   time = 0.0, 1e-6, 2e-6\n"
     "   load = 20.0, 19.0, 20.0\n/\n",
