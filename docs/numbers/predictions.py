@@ -99,6 +99,20 @@ def ellipses() -> Values:
     return locals()
 
 
+def wide_predictions() -> Values:
+    """Wide rough contacts, predicted before they were simulated."""
+    predictions = {row["name"]: row for row in read("ellipse/wide_predicted.csv")}
+    runs = [r for r in read("ellipse/wide_simulated.csv") if r["status"] == "converged"]
+    rows = [run | predictions[run["name"]] for run in runs]
+    found = of(rows, "mu_ratio")
+    off = 100.0 * (of(rows, "prediction") / found - 1.0)
+    covered = int(sum(abs(of(rows, "prediction") - found) <= of(rows, "model_error")))
+    thins = np.array([row["law"] != "newtonian" for row in rows])
+    along = np.array([row["lay"] == "along" for row in rows])
+    grid = [100.0 * float(r["mu_ratio_error_grid"] or 0.0) / float(r["mu_ratio"]) for r in rows]
+    return locals()
+
+
 def slips() -> Values:
     """Waves at velocity ratios beyond the fit."""
     worst: dict[str, float] = {}

@@ -34,7 +34,7 @@ import numpy as np
 
 from pyehl.prediction.boundary_film import HOLD, Level, MixedContact
 from pyehl.prediction.friction import Outcome, RoughFriction, broken
-from pyehl.prediction.model import Components, Model, outside_range
+from pyehl.prediction.model import FILM_ELLIPTICITY, Components, Model, outside_range
 from pyehl.prediction.smooth import SmoothContact
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.surfaces import interpolated
@@ -134,7 +134,10 @@ def mixed_film(
         return MixedFilm(OTHER_MODEL)
     found = partial_film(model, waves, boundary, settings, smooth)
     ratio, thinning = model.surfaces[0].velocity_ratio, model.contact.thinning
-    if beyond := outside_range(model.operating, ratio, model.options, thinning):
+    beyond = outside_range(model.operating, ratio, model.options, thinning)
+    if model.operating.ellipse.side > FILM_ELLIPTICITY and "ellipticity" not in beyond:
+        beyond.append("ellipticity")
+    if beyond:
         found = found.unknown(f"outside the range of the response by {', '.join(beyond)}")
     if settings["contact"].get("hardness", 0.0) > 0.0:
         found = found.without_errors(ELASTIC)

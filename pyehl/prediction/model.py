@@ -144,8 +144,9 @@ SHARE_THINNING = 0.1
 NARROW = 0.025
 # Largest ratio at which it was measured
 KNOWN_RATIO = 5.0
-# Ellipticities between which it was
-ELLIPTICITY = [0.39, 4.1]
+# Ellipticities between which it was, and largest one at which film and pressure over roughness were
+ELLIPTICITY = [0.39, 12.1]
+FILM_ELLIPTICITY = 4.1
 # Velocity ratios between which waves were (docs/evidence/response/slip.csv)
 VELOCITY_RATIO = [0.5, 1.5]
 # Of the viscosity, by the film of lubricants that thin in the inlet (docs/evidence/thinning)

@@ -34,6 +34,7 @@ from pyehl.prediction.friction import (
 )
 from pyehl.prediction.mixed_lubrication import NO_FRICTION, MixedFilm, contact_numbers
 from pyehl.prediction.model import (
+    FILM_ELLIPTICITY,
     Model,
     ModelOptions,
     RoughSurface,
@@ -470,8 +471,9 @@ class Prediction:
 
     @property
     def is_known(self) -> bool:
-        """Whether the model is one whose errors were measured, and the case in its range."""
-        return self.options.measured and not self.outside_range
+        """Whether errors of film and pressure over the roughness were measured in such a case."""
+        wide = self.operating.ellipse.side > FILM_ELLIPTICITY
+        return self.options.measured and not self.outside_range and not wide
 
     @property
     def case_text(self) -> str:
