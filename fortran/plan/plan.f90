@@ -168,6 +168,8 @@ contains
       if (input%time%start == "prediction" .and. plan%surfaces%move() .and. .not. plan%duty%active) call pick_start(plan)
       call pick_cycle(input, plan)
       call pick_grids(input, plan, status)
+      ! where the flow thins cycles that spare spikes diverge on coarse grids (kappa = 12, L = 28, Eyring)
+      if (plan%lubricant%shear%thins_flow()) plan%spares_from = plan%levels
       if (status%failed() .or. .not. plan%surfaces%rough()) return
       call plan%surfaces%use_threads(plan%threads)
       call plan%surfaces%find_period(merge(plan%max_periods, automatic_periods, plan%max_periods > 0))
@@ -278,14 +280,13 @@ contains
                                          input%solver%coarsening == "alcouffe")
    end subroutine pick_cycle
 
-   !> Whether the pressure spike of a smooth contact is a few nodes wide along an edge that is oblique to the rows. Where the flow
-   !> thins cycles that spare it diverge on coarse grids (kappa = 12, L = 28, Eyring).
+   !> Whether the pressure spike of a smooth contact is a few nodes wide along an edge that is oblique to the rows
    pure logical function has_sharp_spike(plan)
       type(plan_t), intent(in) :: plan
 
       has_sharp_spike = plan%contact%reach(2) > oblique*plan%contact%reach(1) .and. plan%point%alpha_bar > blunt_spike .and. &
                         plan%point%moes_l > high_spike .and. &
-                        .not. (plan%lubricant%shear%thins_flow() .or. plan%surfaces%rough() .or. plan%touches)
+                        .not. (plan%surfaces%rough() .or. plan%touches)
    end function has_sharp_spike
 
    !> Options of a kind of cycle

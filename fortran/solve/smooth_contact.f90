@@ -197,7 +197,7 @@ contains
       self%cycle_passage = self%passage
       if (level%supply%active) self%layer_central = level%supply%layer(1 + nint(-level%grid%y0/level%grid%hy))
       self%next_cycle = cycle_to_make(self)
-      if (self%residual > near_solution) self%next_cycle%spare_spikes = .false.
+      if (self%residual > near_solution .or. self%n < self%options%spares_from) self%next_cycle%spare_spikes = .false.
       self%max_cycles = self%options%max_cycles
       if (is_end(self%options, self%n) .and. counts_share(self%options, self%m)) then
          self%max_cycles = touching_cycles*self%max_cycles

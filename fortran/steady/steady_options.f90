@@ -19,6 +19,8 @@ module ehl_steady_options
       integer :: levels = 0, start = 0, max_cycles = 0
       !> Cycles of a level, and the second one where it began from a coarser level
       type(cycle_options_t) :: cycle, second_cycle
+      !> First level whose cycles may spare pressure spikes
+      integer :: spares_from = 1
       !> Algebraic error wanted as a share of the discretisation error
       real(dp) :: accuracy = 0.1_dp
       !> Relative error of H_c wanted; 0: none, solve on the finest grid

@@ -145,7 +145,7 @@ NARROW = 0.025
 # Largest ratio at which it was measured
 KNOWN_RATIO = 5.0
 # Ellipticities between which it was, and largest one at which film and pressure over roughness were
-ELLIPTICITY = [0.39, 12.1]
+ELLIPTICITY = [0.39, 10.1]
 FILM_ELLIPTICITY = 4.1
 # Velocity ratios between which waves were (docs/evidence/response/slip.csv)
 VELOCITY_RATIO = [0.5, 1.5]
