@@ -53,7 +53,7 @@ def pressure_and_film(
     name
         Of the coordinate, 'x' or 'y'.
     half
-        Half of the dry contact on this line.
+        Half of the dry contact on this line; infinite where it has no end: no Hertz pressure.
     ax
         Where to draw; None: a new figure. The film has a second axis on the right.
     """
@@ -61,15 +61,10 @@ def pressure_and_film(
     unit, label = style.axis_unit(scales, name)
     unit_p, label_p = style.pressure_unit(scales)
     unit_h, label_h = style.film_unit(scales)
-    hertz = np.linspace(-1.0, 1.0, 401)
-    ax.plot(
-        half * hertz * unit,
-        np.sqrt(1.0 - hertz**2) * unit_p,
-        "--",
-        color=style.GREY,
-        lw=0.9,
-        label="Hertz",
-    )
+    if math.isfinite(half):
+        hertz = np.linspace(-1.0, 1.0, 401)
+        place, dry = half * hertz * unit, np.sqrt(1.0 - hertz**2) * unit_p
+        ax.plot(place, dry, "--", color=style.GREY, lw=0.9, label="Hertz")
     ax.plot(along * unit, pressure * unit_p, color=style.BLUE, lw=1.4, label="pressure")
     twin = ax.twinx()
     twin.plot(along * unit, film * unit_h, color=style.VERMILLION, lw=1.4, label="film")
@@ -132,7 +127,7 @@ def _frame(ax: Axes, x: Array, y: Array, scales: style.Scales | None, outline: O
     unit, label_x = style.axis_unit(scales, "x")
     _, label_y = style.axis_unit(scales, "y")
     ax.add_patch(outline.patch(unit, ls="--", lw=0.9, ec=style.VERMILLION))
-    ax.set_aspect("equal")
+    ax.set_aspect("auto" if outline.ends else "equal")
     across, up, _ = outline.seen(x, y, np.empty((x.size, y.size)))
     wide, high = outline.view(VIEW)
     ax.set(xlim=(max(across[0], -wide) * unit, min(across[-1], wide) * unit))
@@ -167,8 +162,7 @@ def pressure_map(
 
 
 def _bar(image: ScalarMappable, ax: Axes, label: str, outline: Outline) -> None:
-    wide, high = outline.view(VIEW)
-    style.colour_bar(image, ax, label, slender=high / wide)
+    style.colour_bar(image, ax, label, slender=outline.shape(VIEW))
 
 
 def interferogram(

@@ -53,8 +53,7 @@ def _maps(count: int, conditions: str, outline: Outline, lines: float = 0.0) -> 
     """
     if not outline.slender:
         return panels(count, (1.0, 1.0 if count == 1 else 0.92), conditions, sharey=True)
-    wide, high = outline.view(contact.VIEW)
-    return rows([high / wide] * count + ([lines] if lines else []), conditions)
+    return rows([outline.shape(contact.VIEW)] * count + ([lines] if lines else []), conditions)
 
 
 @styled()

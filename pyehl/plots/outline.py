@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.patches import Ellipse
+from matplotlib.patches import Ellipse, Patch, Rectangle
 from numpy.typing import NDArray
 
 from pyehl.schema import summary_of
@@ -19,13 +19,13 @@ if TYPE_CHECKING:
 Array = NDArray[np.floating[Any]]
 # Long over short side of a slender contact
 SLENDER = 2.5
-# Least height of a map over its width
-FLATTEST = 0.11
+# Least height of a map over its width, and that of a roller, whose cells are not of one unit
+FLATTEST, FLATTEST_ROLLER = 0.11, 0.22
 
 
 @dataclass(frozen=True, slots=True)
 class Outline:
-    """The Hertz ellipse in units of its semi-axis a.
+    """The Hertz ellipse in units of its semi-axis a, or the strip of a roller in units of b.
 
     Attributes
     ----------
@@ -33,15 +33,20 @@ class Outline:
         The other semi-axis over a [-].
     angle
         Of the axis of a against the motion, counter-clockwise [deg].
+    ends
+        Whether it is a roller, half as long as `ellipticity` says.
     """
 
     ellipticity: float = 1.0
     angle: float = 0.0
+    ends: bool = False
 
     @classmethod
     def of(cls, data: xr.Dataset) -> Outline:
         """Of a solution."""
         about = summary_of(data)
+        if about.get("shape") == "roller":
+            return cls(0.5 * float(about["length"]), ends=True)
         return cls(float(about.get("ellipticity", 1.0)), float(about.get("angle_deg", 0.0)))
 
     @property
@@ -71,7 +76,15 @@ class Outline:
     def view(self, margin: float) -> tuple[float, float]:
         """Half width and half height of a map with a margin [a]; one that is not too flat."""
         wide, high = (margin * reach for reach in self.box)
+        if self.ends:
+            # a roller ends with its domain
+            return (wide / margin, high) if self.turned else (wide, high / margin)
         return wide, max(high, FLATTEST * wide)
+
+    def shape(self, margin: float) -> float:
+        """Height over width of a map."""
+        wide, high = self.view(margin)
+        return max(high / wide, FLATTEST_ROLLER) if self.ends else high / wide
 
     def seen(self, x: Array, y: Array, field: Array) -> tuple[Array, Array, Array]:
         """Places from left to right, from below to above, and a field of them."""
@@ -79,7 +92,9 @@ class Outline:
 
     @property
     def chords(self) -> tuple[float, float]:
-        """Half of its width on the x axis and on the y axis."""
+        """Half of its width on the x axis and on the y axis; a line has no end along y."""
+        if self.ends:
+            return 1.0, math.inf
         c, s = math.cos(math.radians(self.angle)), math.sin(math.radians(self.angle))
         return 1.0 / math.hypot(c, s / self.ellipticity), 1.0 / math.hypot(s, c / self.ellipticity)
 
@@ -88,13 +103,17 @@ class Outline:
         c, s = math.cos(math.radians(self.angle)), math.sin(math.radians(self.angle))
         along = c * x[:, None] + s * y[None, :]
         across = (c * y[None, :] - s * x[:, None]) / self.ellipticity
+        if self.ends:
+            return np.asarray(np.maximum(abs(along), abs(across)) <= 1.0)
         return np.asarray(along**2 + across**2 <= 1.0)
 
-    def patch(self, radius: float, **style: Any) -> Ellipse:  # noqa: ANN401
+    def patch(self, radius: float, **style: Any) -> Patch:  # noqa: ANN401
         """Draw it, `radius` being a in the unit of the axes."""
         size = 2.0 * radius, 2.0 * self.ellipticity * radius
         # x and y change places: a reflection
         size, angle = (size[::-1], -self.angle) if self.turned else (size, self.angle)
+        if self.ends:
+            return Rectangle((-0.5 * size[0], -0.5 * size[1]), *size, fill=False, **style)
         return Ellipse((0.0, 0.0), *size, angle=angle, fill=False, **style)
 
 

@@ -6,8 +6,10 @@ import subprocess
 
 import numpy as np
 import pytest
+from matplotlib import pyplot as plt
 
 import pyehl
+from pyehl.plots.figures import solution_figures
 from pyehl.results import settings_of
 from pyehl.theory.line_contact import scaling_contact
 
@@ -206,3 +208,17 @@ def test_commands_that_do_not_take_rollers():
         pyehl.predict(case)
     with pytest.raises(pyehl.InputError, match="roller"):
         pyehl.stress(pyehl.solve(case))
+
+
+def test_pictures_show_the_whole_roller():
+    """The strip over the length, on a map as wide as the roller; no Hertz pressure along it."""
+    found = pyehl.solve(roller(129, **LOGARITHMIC))
+    figures = solution_figures(found)
+    half = 0.5 * 10.0  # [mm]
+    top = figures["film"].axes[0]
+    assert top.get_xlim() == pytest.approx((-half, half), rel=0.01)
+    (edge,) = top.patches
+    assert edge.get_bbox().width == pytest.approx(2.0 * half, rel=1e-3)
+    along = [line.get_label() for line in figures["centre_lines"].axes[1].get_lines()]
+    assert along == ["pressure"]
+    plt.close("all")
