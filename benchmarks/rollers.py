@@ -13,7 +13,8 @@ import csv
 import math
 import sys
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from pathlib import Path
 
 import numpy as np
 
@@ -57,14 +58,16 @@ def rollers(seed: int, count: int) -> Iterator[tuple[str, dict[str, float | str]
         yield profile, keys, between(0.008, 0.2)
 
 
-def main() -> int:
+def main(words: Sequence[str] | None = None) -> int:
     """Solve the rollers, print a line for each and the sums."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--count", type=int, default=60)
     parser.add_argument("--points", type=int, default=257)
     parser.add_argument("--csv", default="")
-    arguments = parser.parse_args()
+    arguments = parser.parse_args(words)
+    if arguments.csv and Path(arguments.csv).exists():
+        parser.error(f"--csv {arguments.csv}: exists; expected: a new file")
     rows: list[Row] = []
     for profile, keys, viscosity in rollers(arguments.seed, arguments.count):
         try:
@@ -93,7 +96,7 @@ def main() -> int:
     for (profile, status), count in sorted(found.items()):
         print(f"{profile:11s} {status:14s} {count}")
     if arguments.csv and rows:
-        with open(arguments.csv, "w", newline="", encoding="utf-8") as file:
+        with Path(arguments.csv).open("w", newline="", encoding="utf-8") as file:
             writer = csv.DictWriter(file, rows[0])
             writer.writeheader()
             writer.writerows(rows)

@@ -175,10 +175,24 @@ LINE: dict[str, Mapping[str, Any]] = {
         "contact.radius": 0.01,
     },
 }
+# Keys of a roller, which only runs obey
+END: dict[str, Mapping[str, Any]] = {
+    "contact.length": {},
+    "contact.misalignment": {"contact.misalignment": 1e-4},
+    "contact.profile": {"contact.profile": "crown", "contact.crown_radius": 1.0},
+    "contact.crown_radius": {"contact.profile": "crown", "contact.crown_radius": 1.0},
+    "contact.log_amplitude": {"contact.profile": "logarithmic", "contact.log_amplitude": 3e-6},
+    "contact.chamfer_length": {
+        "contact.profile": "chamfer",
+        "contact.chamfer_length": 1e-3,
+        "contact.chamfer_drop": 1e-5,
+    },
+}
+END["contact.chamfer_drop"] = END["contact.chamfer_length"]
 # A layer of oil meets smooth surfaces: predictions, curves and fits of rough ones have none
 SMOOTH = ("inlet.film", "inlet.film_hertz", "inlet.passages", "inlet.replenishment")
-# A table of viscosities is a file
-TABLE = "lubricant.table"
+# A table of viscosities and one of a profile are files
+TABLE, PROFILE = "lubricant.table", "contact.profile_file"
 ROUGH = {"surface.kind": "harmonic", "surface.amplitude_over_film": 0.1}
 # Groups that are no part of a smooth contact (but a velocity ratio is a slide-to-roll ratio), and
 # the duty, which predictions refuse
@@ -191,8 +205,29 @@ def test_every_key_has_a_value():
     inside = {
         name for name, key in KEYS.items() if name.partition(".")[0] not in OTHERS and key.for_input
     }
-    with_one = VALUES.keys() | LINE.keys() | {TABLE, *SMOOTH}
+    with_one = VALUES.keys() | LINE.keys() | END.keys() | {TABLE, PROFILE, *SMOOTH}
     assert inside == with_one | {f"grid.{name}" for name in OF_RUN}
+
+
+@pytest.mark.parametrize("key", END)
+def test_a_roller_is_refused_by_name_where_it_is_not_obeyed(key: str):
+    """Rather than solved as a point: prediction, `fit-lubricant` and the app."""
+    roller = {
+        "contact.shape": "roller",
+        "contact.load": 2000.0,
+        "contact.length": 0.01,
+        "contact.radius": 0.01,
+        "contact.mean_velocity": 1.0,
+    }
+    case = pyehl.Case.from_text("", roller | END[key] | POINTS)
+    for asked in (
+        lambda: OperatingPoint.from_settings(case.resolve()),  # first of a fit
+        lambda: from_case(case),
+        lambda: pyehl.predict(case.with_options("surface.kind=fractal")),
+        lambda: pyehl.film(case),
+    ):
+        with pytest.raises(pyehl.InputError, match="roller"):
+            asked()
 
 
 def test_a_layer_of_oil_is_refused_beside_roughness():
