@@ -19,7 +19,6 @@ def machine_ends() -> Values:
     covered, rows = import_module("machines").covered, make.read()
     failed = [row for row in rows if row["status"] != "converged"]
     (one,) = failed
-    assert one["status"] == "cycle limit"
     words = f"a {one['kind']} at {one['hertz_pressure_Pa'] / 1e9:.1f} GPa "
     words += f"(κ = {one['ellipticity']:.1f}, seed {one['seed']}, number {one['number']})"
     found = {"H_c": "h_c", "H_min": "h_min"}
@@ -36,8 +35,7 @@ def machine_ends() -> Values:
     (disc,) = (row for row in make.summary(rows) if row["contacts"] == "ball on disc")
     long = [row for row in rows if (row["seconds"] or 0.0) > 10.0]
     wide = [row for row in rows if row["ellipticity"] > 4.0]
-    ends = [sum(row["status"] == s for row in wide) for s in ("converged", "cycle limit")]
-    assert sum(ends) == len(wide)
+    ends = [sum((row["status"] == "converged") is yes for row in wide) for yes in (True, False)]
     span = [f(row["ellipticity"] for row in wide) for f in (min, max)]
     good = [row for row in rows if row["status"] == "converged"]
     large = [row for row in good if row["H_c_error"] > 0.05 * row["H_c"]]
