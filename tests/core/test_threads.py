@@ -227,7 +227,14 @@ FAILING = """&contact moes_m = 20, moes_l = 2 /
 """
 
 
-@pytest.mark.parametrize("cases", [200, pytest.param(10_000, marks=pytest.mark.long)])
+@pytest.mark.parametrize(
+    "cases",
+    [
+        200,
+        pytest.param(2_000, marks=pytest.mark.long),
+        pytest.param(10_000, marks=pytest.mark.slow),
+    ],
+)
 def test_many_threads_find_what_one_finds(cases: int):
     """Eight threads, each with its own solver; with static lengths 20 of 10 000 are wrong."""
     amplitudes = ("0.1", "0.12345", "0.0123456789", "0.1111111111111")
