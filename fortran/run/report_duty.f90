@@ -25,6 +25,8 @@ contains
       real(dp), parameter :: signs(8) = [-1.0_dp, 1.0_dp, -1.0_dp, 1.0_dp, 1.0_dp, 1.0_dp, 1.0_dp, 1.0_dp]
       !> Smooth results whose errors theirs are in proportion to
       character(len=*), parameter :: smooth(8) = [character(len=5) :: "H_c", "H_c", "H_min", "H_min", "P_max", "F", "F", "F"]
+      !> Column of `errors` with that of the time steps
+      integer, parameter :: by_steps(8) = [1, 1, 2, 2, 3, 3, 3, 3]
       real(dp), allocatable :: time(:), values(:), errors(:, :)
       logical, allocatable :: counts(:)
       real(dp) :: found, at, error
@@ -48,7 +50,7 @@ contains
                i = maxloc(signs(k)*values, dim=1, mask=counts)
                found = values(i)
                at = time(i)
-               error = found*(errors(i, min((k + 1)/2, 3)) + record%number(trim(smooth(k))//"_error") &
+               error = found*(errors(i, by_steps(k)) + record%number(trim(smooth(k))//"_error") &
                               /record%number(trim(smooth(k))))
             end if
             call record%set(trim(names(k))//trim(units(k)), found)
