@@ -371,7 +371,7 @@ def _levels(v: Values) -> Iterator[str]:
         if level >= v["start_level"]:
             use = "solution"
         if level == v["start_level"]:
-            use = "solution, from the Hertz pressure"
+            use = f"solution, from the {'dry' if v['roller'] else 'Hertz'} pressure"
         yield f"{level:5d}{points:8d}{points * rows:16d}{mesh:11.6f}   {use}"
         points, mesh = 2 * points - 1, 0.5 * mesh
         rows = 2 * rows if v["strip_width"] else 2 * rows - 1
