@@ -49,19 +49,41 @@ contains
       integer :: j
 
       call refine(self%p, coarse, before)
+      if (.not. presses_at_ends(level%grid, before)) then
+         self%p = max(0.0_dp, before)
+         return
+      end if
       p = level%p
       h00 = level%h00
       level%p = max(0.0_dp, before)
       call solve_dry(level)
       self%p = level%p
       do j = level%grid%first_inner(), level%grid%last_inner()
-         if (level%grid%ny - j > end_rows .and. (level%grid%mirror .or. j > end_rows)) cycle
-         p(:, j) = max(0.0_dp, p(:, j) + self%p(:, j) - before(:, j))
+         if (within(level%grid, j, end_rows)) p(:, j) = max(0.0_dp, p(:, j) + self%p(:, j) - before(:, j))
       end do
       level%p = p
       level%h00 = h00
       call refresh(level)
    end subroutine mend_ends
+
+   !> Whether a pressure reaches the ends, or the rows next to those that would take it
+   pure logical function presses_at_ends(grid, p)
+      type(grid_t), intent(in) :: grid
+      real(dp), intent(in) :: p(:, :)
+      integer :: j
+
+      presses_at_ends = .false.
+      do j = grid%first_inner(), grid%last_inner()
+         if (within(grid, j, 2*end_rows)) presses_at_ends = presses_at_ends .or. any(p(:, j) > 0.0_dp)
+      end do
+   end function presses_at_ends
+
+   !> Whether row j is one of the last few before an end of the bodies
+   pure logical function within(grid, j, rows)
+      type(grid_t), intent(in) :: grid
+      integer, intent(in) :: j, rows
+      within = grid%ny - j <= rows .or. (.not. grid%mirror .and. j <= rows)
+   end function within
 
    !> Pressure of the dry contact, and H00; load and gap (film_rhs) of the level are known
    subroutine solve_dry(level)
