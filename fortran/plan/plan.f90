@@ -3,7 +3,7 @@
 module ehl_plan
    use ehl_case, only: case_t
    use ehl_case_defaults, only: is_short_of_oil
-   use ehl_case_grid, only: blunt_spike
+   use ehl_case_grid, only: blunt_spike, high_spike
    use ehl_case_point, only: find_contact, operating_point
    use ehl_contact, only: contact_t
    use ehl_cycle, only: coarsening_alcouffe, coarsening_classical, cycle_options_t
@@ -48,10 +48,7 @@ module ehl_plan
    !> Extent of the dry contact across the motion over that along it from which on it does so on any grid: cycles go to and
    !> fro between two states there
    real(dp), parameter :: wide = 2.0_dp
-   !> What makes coarse grids leave a spike to the sweeps. L from which on it is high enough for that to pay: at 21 to 28
-   !> contacts take a quarter to two thirds of the cycles, at 6 and 7 up to three times as many
-   real(dp), parameter :: high_spike = 15.0_dp
-   !> Extent across the motion over that along it from which on the trailing edge moves from column to column in a few rows
+   !> What makes coarse grids leave a spike to the sweeps: an extent across the motion over that along it from which on the trailing edge moves from column to column in a few rows
    real(dp), parameter :: oblique = 4.0_dp
 
    !> What the smooth contact needs, and all else
