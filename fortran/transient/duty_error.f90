@@ -44,15 +44,10 @@ contains
       end if
    end subroutine start
 
-   !> Error of the film that a step adds in a row: by the third difference of the films, which BDF2 leaves out
-   pure function added(self, film, steps, j) result(error)
-      class(duty_error_t), intent(in) :: self
-      !> Row j after the step
-      real(dp), intent(in) :: film(:)
+   !> What makes of the films after a step and before it the error that the step adds: the third difference, which BDF2 leaves out
+   pure function factors_of(steps) result(factors)
       !> The step, and those before it
       real(dp), intent(in) :: steps(films_before)
-      integer, intent(in) :: j
-      real(dp) :: error(size(film))
       real(dp) :: t(0:films_before), factors(0:films_before)
       integer :: i, k
 
@@ -65,6 +60,17 @@ contains
          factors(k) = 1.0_dp/product(pack(t(k) - t, [(i /= k, i=0, films_before)]))
       end do
       factors = factors*steps(1)**2*(steps(1) + steps(2))
+   end function factors_of
+
+   !> Error of the film that a step adds in a row
+   pure function added(self, film, factors, j) result(error)
+      class(duty_error_t), intent(in) :: self
+      !> Row j after the step
+      real(dp), intent(in) :: film(:)
+      real(dp), intent(in) :: factors(0:films_before)
+      integer, intent(in) :: j
+      real(dp) :: error(size(film))
+
       error = abs(factors(0)*film + factors(1)*self%films(:, j, 1) + factors(2)*self%films(:, j, 2) &
                   + factors(3)*self%films(:, j, 3))
    end function added
@@ -74,7 +80,7 @@ contains
       class(duty_error_t), intent(in) :: self
       real(dp), intent(in) :: x(:), film(:), steps(films_before), size
       integer, intent(in) :: j
-      worst = maxval(added(self, film, steps, j)/film, mask=abs(x) <= size)
+      worst = maxval(added(self, film, factors_of(steps), j)/film, mask=abs(x) <= size)
    end function worst
 
    !> A step is taken: errors move on with the flow, towards larger X, and its own come to them
@@ -83,16 +89,17 @@ contains
       real(dp), intent(in) :: x(:), film(:, :), steps(films_before)
       !> Way of the flow in the step, half width of the contact along X [a]
       real(dp), intent(in) :: way, size
-      real(dp) :: before(1 - (int(way/(x(2) - x(1))) + 1):ubound(x, 1)), part
+      real(dp) :: before(1 - (int(way/(x(2) - x(1))) + 1):ubound(x, 1)), part, factors(0:films_before)
       integer :: nx, j, k, nodes
 
       nx = ubound(x, 1)
       nodes = int(way/(x(2) - x(1)))
       part = way/(x(2) - x(1)) - nodes
       before = 0.0_dp
+      factors = factors_of(steps)
       do j = 1, ubound(film, 2)
          before(1:) = self%error(:, j)
-         self%error(:, j) = added(self, film(:, j), steps, j) + (1.0_dp - part)*before(1 - nodes:nx - nodes) &
+         self%error(:, j) = added(self, film(:, j), factors, j) + (1.0_dp - part)*before(1 - nodes:nx - nodes) &
                             + part*before(-nodes:nx - nodes - 1)
          where (x < -ahead*size) self%error(:, j) = 0.0_dp
          do k = films_before, 2, -1
