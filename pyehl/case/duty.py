@@ -13,7 +13,7 @@ from itertools import pairwise
 
 from pyehl.case import physics
 from pyehl.case.groups import DUTY_LISTS
-from pyehl.case.key import NUMBER, to_text
+from pyehl.case.key import to_text
 from pyehl.case.names import did_you_mean
 from pyehl.case.settings import GROUPS, Draft, Settings
 from pyehl.case.source import Source, read_text
@@ -215,7 +215,7 @@ def read_duty(path: str, *, is_line: bool) -> Table:
     """Read a file by columns, in SI units; an error names its line."""
     text = read_text(path, f"a table over time, {HEADER}")
     source = Source(path, text.replace("\r", " ") + "\n")
-    lines = _lines(source)
+    lines = source.rows()
     columns: list[tuple[str, float]] = []
     values: list[list[float]] = []
     for first, line in lines:
@@ -228,10 +228,7 @@ def read_duty(path: str, *, is_line: bool) -> Table:
             what = f"{len(cells)} cells under {len(columns)} names"
             source.refuse(first, first + len(line), what, "a number for each name")
         for (name, factor), cell, column in zip(columns, cells, values, strict=True):
-            number = cell.strip()
-            if not NUMBER.fullmatch(number):
-                source.refuse(first, first + len(line), f"{name} = '{number}'", "a number")
-            column.append(float(number.lower().replace("d", "e")) * factor)
+            column.append(source.number(first, line, name, cell) * factor)
         if len(values[0]) > 1:
             _check_time(
                 source, first, line, dict(zip((n for n, _ in columns), values, strict=True))
@@ -239,14 +236,6 @@ def read_duty(path: str, *, is_line: bool) -> Table:
     if not values or len(values[0]) < 2:
         source.refuse(0, 1, "fewer than two times", f"{HEADER}, then a line for each time")
     return {name: tuple(column) for (name, _), column in zip(columns, values, strict=True)}
-
-
-def _lines(source: Source) -> Iterator[tuple[int, str]]:
-    first = 0
-    for line in source.text.removesuffix("\n").split("\n"):
-        if line.strip() and not line.lstrip().startswith("#"):
-            yield first, line
-        first += len(line) + 1
 
 
 def _check_time(source: Source, first: int, line: str, values: dict[str, list[float]]) -> None:

@@ -2,15 +2,16 @@
 """What belongs to a roller of finite length: its profile, and what it does not have."""
 
 import math
-import os
 from collections.abc import Iterator
 from itertools import pairwise
 
 from pyehl.case.groups import Contact
-from pyehl.case.key import NUMBER, short
+from pyehl.case.key import short
 from pyehl.case.settings import Draft
+from pyehl.case.source import Source, read_text
 
 SHAPE = "contact.shape = 'roller'"
+COLUMNS = "y", "drop"
 TABLE = "profile_file: lines 'y, drop' in m, y rising from -length/2 to length/2"
 KEYS_OF = {
     "none": (),
@@ -47,21 +48,17 @@ def complete(draft: Draft) -> None:
     c.profile_file = draft.absolute("contact.profile_file", c.profile_file)
     if draft.is_given("contact", "profile_y"):
         return
-    if not os.path.isfile(c.profile_file):
-        what = f"there is no file {c.profile_file}"
-        draft.refuse("contact.profile_file", what, TABLE)
+    text = read_text(c.profile_file, TABLE)
+    source = Source(c.profile_file, text.replace("\r", " ") + "\n")
     rows = []
-    with open(c.profile_file, encoding="utf-8") as file:
-        for line in file:
-            if not line.strip() or line.lstrip().startswith("#"):
-                continue
-            cells = [cell.strip() for cell in line.split(",")]
-            if len(cells) != 2 or not all(NUMBER.fullmatch(cell) for cell in cells):
-                what = f"{c.profile_file}: '{line.strip()}'"
-                draft.refuse("contact.profile_file", what, TABLE)
-            rows.append([float(cell.lower().replace("d", "e")) for cell in cells])
-    c.profile_y = tuple(row[0] for row in rows)
-    c.profile_drop = tuple(row[1] for row in rows)
+    for first, line in source.rows():
+        cells = line.split(",")
+        if len(cells) != len(COLUMNS):
+            source.refuse(first, first + len(line), f"{len(cells)} cells", TABLE)
+        rows.append(
+            [source.number(first, line, *pair) for pair in zip(COLUMNS, cells, strict=True)]
+        )
+    c.profile_y, c.profile_drop = (tuple(row[k] for row in rows) for k in range(len(COLUMNS)))
 
 
 def check_keys(draft: Draft) -> None:

@@ -6,9 +6,11 @@ Positions are those of Python: the first character, and the one behind the last.
 
 import os
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple, NoReturn
 
+from pyehl.case.key import NUMBER
 from pyehl.errors import InputError
 
 # Longest part of a line that a message shows
@@ -93,6 +95,21 @@ class Source:
             code = ord(match[0])
             what = f"this is not a text file (byte {code})"
             self.refuse(match.start(), match.end(), what, "namelist text")
+
+    def rows(self) -> Iterator[tuple[int, str]]:
+        """Lines of a table and where they begin, without those that are blank or begin with '#'."""
+        first = 0
+        for line in self.text.removesuffix("\n").split("\n"):
+            if line.strip() and not line.lstrip().startswith("#"):
+                yield first, line
+            first += len(line) + 1
+
+    def number(self, first: int, line: str, name: str, cell: str) -> float:
+        """Read a cell of a line of a table as a number, or refuse the line."""
+        text = cell.strip()
+        if not NUMBER.fullmatch(text):
+            self.refuse(first, first + len(line), f"{name} = '{text}'", "a number")
+        return float(text.lower().replace("d", "e"))
 
     def refuse(self, first: int, end: int, what: str, expected: str) -> NoReturn:
         """Refuse what stands at text[first:end]: InputError with a message of four lines.

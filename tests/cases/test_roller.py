@@ -173,6 +173,24 @@ def test_bad_input(contact, words):
 
 
 @pytest.mark.parametrize(
+    ("lines", "words"),
+    [
+        (b"# y, drop\n-0.005, 0\n0.005; 0\n", r"profile\.csv:3:1: error: 1 cells"),
+        (b"-0.005, 0\n0.005, deep\n", r"profile\.csv:2:1: error: drop = 'deep'"),
+        (b"\xff\xfe-0.005, 0\n", r"profile\.csv:1:1: error: y = "),
+        (b"", "without contact.profile_file"),
+        (b"-0.004, 0\n0.004, 0\n", "does not cover the roller"),
+    ],
+)
+def test_a_table_that_is_none(tmp_path, lines, words):
+    """The message names the file and the line."""
+    table = tmp_path / "profile.csv"
+    table.write_bytes(lines)
+    with pytest.raises(pyehl.InputError, match=words):
+        roller(profile="file", profile_file=str(table)).resolve()
+
+
+@pytest.mark.parametrize(
     ("options", "words"),
     [
         ({"surface.kind": "harmonic", "surface.amplitude": 0.01}, "surface.kind"),
