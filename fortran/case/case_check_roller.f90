@@ -93,7 +93,9 @@ contains
          profile = c%body_profile()
          if (c%profile == "file") call check_table(source, profile, status)
          if (status%failed()) return
-         drop = max(profile%drop(0.5_dp*c%length), profile%drop(-0.5_dp*c%length)) + 0.5_dp*abs(c%misalignment)*c%length
+         drop = max(profile%drop(0.5_dp*c%length), profile%drop(-0.5_dp*c%length))
+         if (c%profile == "file") drop = maxval(abs(profile%table))
+         drop = drop + 0.5_dp*abs(c%misalignment)*c%length
          if (drop > deepest*max(c%radius, c%radius_x)) call source%refuse("contact.profile", "the profile drops by "// &
             short(drop)//" m at the end of the roller, misalignment included", "a tenth of the radius at most", status)
       end associate

@@ -22,8 +22,8 @@ SPEEDS = (
     "u2)/mean_velocity"
 )
 LINES = (
-    "line contacts are not modelled: contact.load [N] is that of a point contact, round or "
-    "elliptical up to 30 to 1"
+    "a line has contact.shape = 'line' and contact.load_per_length [N/m], a roller contact.shape = "
+    "'roller', contact.load [N] and contact.length [m]"
 )
 SPIN = (
     "spin is not modelled: both bodies move along x, with contact.mean_velocity and "

@@ -261,7 +261,7 @@ FAULTS: list[tuple[str, str, list[str], list[str]]] = [
     ("speed of a body", "&contact §speed_1 = 1.0 /", [], ["mean_velocity = (u1 + u2)/2"]),
     ("u1", "&contact §u1 = 1.0 /", [], ["slide_to_roll = (u1 - u2)/mean_velocity"]),
     ("velocity of a surface", "&surface §velocity = 1.0 /", [], ["did you mean 'velocity_ratio'"]),
-    ("line load", "&contact §line_load = 1e5 /", [], ["line contacts are not modelled"]),
+    ("line load", "&contact §line_load = 1e5 /", [], ["contact.load_per_length [N/m]"]),
     ("length of a line", "&contact length = §0.01 /", [], ["without contact.shape = 'roller'"]),
     ("length of a lubricant", "&lubricant §length = 0.01 /", [], ["belongs to &contact"]),
     ("spin", "&contact §spin = 0.1 /", [], ["spin is not modelled"]),
