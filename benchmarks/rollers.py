@@ -1,32 +1,37 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Random rollers: how many end with a solution, and how.
 
-    python benchmarks/rollers.py [--seed 1] [--count 60] [--points 257] [--csv rollers.csv]
-
 Loads per length, sizes, speeds and oils as rolling bearings have them; crown, logarithmic profile
-and chamfer, and none; two of three are misaligned, up to the angle that lifts an end of a
-roller without a profile.
+and chamfer, and none; some are misaligned, up to the angle that lifts an end of a roller without a
+profile.
 """
 
 import argparse
-import csv
 import math
 import sys
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from pathlib import Path
+from typing import Any
 
 import numpy as np
+from common import add_number, columns, measure, parser, say, show
+from machines import MODULUS, REFUSED, timed
 
-import pyehl
+from pyehl.errors import InputError
+from pyehl.types import Row
 
-Row = dict[str, float | str]
-# Amplitude of the logarithmic profile of ISO/TS 16281 over the diameter
+PROFILES = ("crown", "logarithmic", "chamfer", "none")
 ISO_AMPLITUDE = 3.5e-4
+"""Amplitude of the logarithmic profile of ISO/TS 16281 over the diameter."""
+KEPT = (
+    *("status", "message", "moes_m_line", "moes_l_line", "alpha_bar", "length", "P_end"),
+    *("H_c", "H_min", "P_max", "total_cycles", "restarts", "seconds"),
+)
+COLUMNS = columns("profile:s drawn:d converged:d median_seconds:.2f largest_seconds:.1f")
 
 
-def rollers(seed: int, count: int) -> Iterator[tuple[str, dict[str, float | str], float]]:
-    """Give profile, keys of ``&contact`` and viscosity [Pa s] of random rollers."""
+def rollers(seed: int, count: int) -> Iterator[dict[str, Any]]:
+    """Draw keys of a case: the first rollers are the same whatever the count."""
     rng = np.random.default_rng(seed)
 
     def between(low: float, high: float) -> float:
@@ -35,11 +40,11 @@ def rollers(seed: int, count: int) -> Iterator[tuple[str, dict[str, float | str]
     for _ in range(count):
         length, radius = between(5e-3, 3e-2), between(3e-3, 1.5e-2)
         per_length = between(5e4, 6e5)
-        width = math.sqrt(8.0 * per_length * radius / (math.pi * 2.26e11))
-        approach = 2.0 * per_length / (math.pi * 2.26e11) * (math.log(2.0 * length / width) + 1.2)
-        profile = str(rng.choice(["crown", "logarithmic", "chamfer", "none"]))
+        width = math.sqrt(8.0 * per_length * radius / (math.pi * MODULUS))
+        approach = 2.0 * per_length / (math.pi * MODULUS) * (math.log(2.0 * length / width) + 1.2)
+        profile = str(rng.choice(PROFILES))
         deep = approach * between(0.3, 2.0)
-        keys: dict[str, float | str] = {
+        keys: dict[str, Any] = {
             "shape": "roller",
             "length": length,
             "radius": radius,
@@ -55,52 +60,62 @@ def rollers(seed: int, count: int) -> Iterator[tuple[str, dict[str, float | str]
         }[profile]
         share = rng.uniform(-0.5, 1.0)
         keys["misalignment"] = max(0.0, share) * approach / length
-        yield profile, keys, between(0.008, 0.2)
+        yield {f"contact.{name}": value for name, value in keys.items()} | {
+            "lubricant.viscosity": between(0.008, 0.2)
+        }
+
+
+def campaign(count: int, seed: int, points: int) -> list[Row]:
+    """Solve so many rollers of a seed on one thread; a row for each."""
+    rows: list[Row] = []
+    for number, keys in enumerate(rollers(seed, count)):
+        try:
+            found = timed(keys | {"grid.points": points, "solver.threads": 1})
+        except InputError as error:
+            found = {"status": REFUSED, "message": str(error)}
+        row = {"number": number, "values": keys} | {name: found.get(name) for name in KEPT}
+        rows.append(row)
+        seconds = f", {row['seconds']:.1f} s" if row["seconds"] else ""
+        say(f"{number + 1} of {count}: {keys['contact.profile']}, {row['status']}{seconds}")
+    return rows
+
+
+def summary(rows: Sequence[Row]) -> list[Row]:
+    """Count and time by profile, and of all."""
+    groups = {
+        name: [row for row in rows if row["values"]["contact.profile"] == name] for name in PROFILES
+    } | {"all": list(rows)}
+    found = []
+    for name, mine in groups.items():
+        seconds = [row["seconds"] for row in mine if row["seconds"]]
+        found.append(
+            {
+                "profile": name,
+                "drawn": len(mine),
+                "converged": Counter(row["status"] for row in mine)["converged"],
+                "median_seconds": float(np.median(seconds)) if seconds else None,
+                "largest_seconds": max(seconds, default=None),
+            }
+        )
+    return found
+
+
+def work(args: argparse.Namespace) -> Row:
+    """Measure and print."""
+    rows = campaign(args.count, args.seed, args.points)
+    found = summary(rows)
+    show(found, COLUMNS, "seconds: of the processor, one thread, all grids of a solution")
+    asked = {name: getattr(args, name) for name in ("seed", "count", "points")}
+    return asked | {"summary": found, "rows": rows}
 
 
 def main(words: Sequence[str] | None = None) -> int:
-    """Solve the rollers, print a line for each and the sums."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--count", type=int, default=60)
-    parser.add_argument("--points", type=int, default=257)
-    parser.add_argument("--csv", default="")
-    arguments = parser.parse_args(words)
-    if arguments.csv and Path(arguments.csv).exists():
-        parser.error(f"--csv {arguments.csv}: exists; expected: a new file")
-    rows: list[Row] = []
-    for profile, keys, viscosity in rollers(arguments.seed, arguments.count):
-        try:
-            ds = pyehl.solve(
-                pyehl.Case(
-                    contact=keys,
-                    lubricant={"viscosity": viscosity},
-                    grid={"points": arguments.points},
-                ),
-                check=False,
-            )
-        except pyehl.InputError as error:
-            print(f"{len(rows):3d} {profile:11s} refused: {str(error).splitlines()[0]}")
-            continue
-        operating = ("moes_m_line", "moes_l_line", "alpha_bar", "length", "P_end")
-        numbers = (*operating, "H_c", "H_min", "P_max", "total_cycles", "restarts")
-        row: Row = {"profile": profile, "status": ds.attrs["status"]}
-        row |= {name: float(ds[name]) if name in ds else math.nan for name in numbers}
-        row |= {"seconds": float(ds["wall_seconds"]), "misalignment": keys["misalignment"]}
-        rows.append(row)
-        text = " ".join(
-            f"{name} {value:.4g}" for name, value in row.items() if not isinstance(value, str)
-        )
-        print(f"{len(rows):3d} {profile:11s} {row['status']!s:14s} {text}", flush=True)
-    found = Counter((str(row["profile"]), str(row["status"])) for row in rows)
-    for (profile, status), count in sorted(found.items()):
-        print(f"{profile:11s} {status:14s} {count}")
-    if arguments.csv and rows:
-        with Path(arguments.csv).open("w", newline="", encoding="utf-8") as file:
-            writer = csv.DictWriter(file, rows[0])
-            writer.writeheader()
-            writer.writerows(rows)
-    return 0
+    """Run the script."""
+    made = parser(__doc__)
+    add_number(made, "seed", 1)
+    add_number(made, "count", 60, "how many rollers", minimum=1)
+    add_number(made, "points", 257, "nodes along X", minimum=3)
+    return measure(work, made, words)
 
 
 if __name__ == "__main__":

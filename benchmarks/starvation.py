@@ -114,13 +114,11 @@ def main(words: Sequence[str] | None = None) -> None:
     parser.add_argument("--count", type=int, default=60)
     parser.add_argument("--seed", type=int, default=1)
     args = parser.parse_args(words)
-    rows = random(args.count, args.seed)
-    if args.kind != "random":
-        rows = table() if args.kind == "table" else mesh()
+    draws = {"table": table, "mesh": mesh, "random": lambda: random(args.count, args.seed)}
     with args.file.open("w", newline="") as out:
         writer = csv.DictWriter(out, COLUMNS, extrasaction="ignore")
         writer.writeheader()
-        for values in rows:
+        for values in draws[args.kind]():
             writer.writerow(values)
             out.flush()
 

@@ -129,7 +129,7 @@ def _one(family: str, generator: np.random.Generator, grids: Sequence[int]) -> S
 
 def _wave(case: StressCase, generator: np.random.Generator, *, at_rest: bool) -> dict[str, Value]:
     velocity = 0.0 if at_rest else float(generator.choice(VELOCITIES))
-    # the grid carries waves of more than two nodes, in time too
+    # the grid resolves waves of more than two nodes, in time too
     minimum = 2.2 * case.mesh
     along = [w for w in WAVELENGTHS if w > minimum * max(1.0, velocity)]
     across = [w for w in WAVELENGTHS if w > minimum]

@@ -4,6 +4,7 @@
 import html
 import re
 import sys
+from collections import Counter
 from importlib.metadata import version as version_of
 from pathlib import Path
 from typing import Any
@@ -82,16 +83,17 @@ def lead_to_pages(app: Sphinx, name: str, source: list[str]) -> None:
 
 
 ROOT = Path(__file__).parent.parent
-SOURCES = {
-    name: path.relative_to(ROOT).as_posix()
+PATHS = [
+    path.relative_to(ROOT)
     for folder, kind in (("fortran", "*.f90"), ("pyehl", "*.py"))
-    for path in (ROOT / folder).rglob(kind)
-    for name in (
-        path.relative_to(ROOT).as_posix(),
-        path.relative_to(ROOT / folder).as_posix(),
-        path.name,
-    )
-    if name != "__init__.py"
+    for path in sorted((ROOT / folder).rglob(kind))
+]
+NAMES = Counter(path.name for path in PATHS)
+SOURCES = {
+    name: path.as_posix()
+    for path in PATHS
+    for name in (path.as_posix(), path.relative_to(path.parts[0]).as_posix(), path.name)
+    if name != path.name or NAMES[name] == 1
 }
 """Files of the source by their paths and by what the chapters write of them."""
 

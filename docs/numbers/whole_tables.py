@@ -19,7 +19,7 @@ def machines() -> Values:
 def rollers() -> Values:
     """Profiles of a roller, and random rollers."""
     make = script("rollers/make.py")
-    return {name: "\n".join(getattr(make, name)()) for name in ("table", "random")}
+    return {name: "\n".join(getattr(make, name)()) for name in ("table", "random", "by_seed")}
 
 
 def deflection() -> Values:

@@ -94,7 +94,7 @@ def simulations(runs: Runs, level: Level) -> tuple[list[Row], list[Made]]:
 
 
 def carried(points: int) -> list[str]:
-    """Options that leave the waves that a grid carries: longer than two nodes."""
+    """Options that leave the waves that a grid resolves: longer than two nodes."""
     _, point = tile()
     shortest = 2.0 * WIDTH / (points - 1) * point.hertz_radius
     return [f"surface.shortest_wavelength={shortest:.6g}"]

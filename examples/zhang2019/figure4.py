@@ -202,7 +202,7 @@ def _damping(data: list[Collapsed], eq_16: tuple[float, float], level: Level) ->
         f"{float(evaluate(np.array(theta), *eq_16)):.3f}. The paper discretises wedge and squeeze "
         "separately, which damps a wave on its way: of its amplitude "
         f"exp(-h^3 k^4 (X + 1)/2) = {left:.2f} is left at the centre. A damped wave is fully "
-        "flattened roughness: too much pressure, too much friction. The narrow scheme carries a "
+        "flattened roughness: too much pressure, too much friction. The narrow scheme convects a "
         "wave at the mean velocity without damping."
     )
     return [Finding("Damping of the paper's scheme on its grid", text)]

@@ -27,7 +27,7 @@ class Meshes:
 
 
 def run(runs: Runs, level: Level) -> Meshes:
-    """Simulate the surface under both schemes, and predict what each mesh carries of it."""
+    """Simulate the surface under both schemes, and predict what each mesh resolves of it."""
     shared = deformed_run(runs, level)
     cases = [
         (mesh, scheme)
@@ -46,7 +46,7 @@ def run(runs: Runs, level: Level) -> Meshes:
     ]
     if level.surface_grid in level.meshes:
         rows.append(_row(level.surface_grid, "simulation, narrow", shared.rows[0]))
-    # a mesh carries waves of more than two nodes
+    # a mesh resolves waves of more than two nodes
     shortest = [2.0 * WIDTH / (mesh - 1) * tile()[1].hertz_radius for mesh in level.meshes]
     shortest = [float(f"{length:.6g}") for length in shortest]
     studies = [shared, made]
@@ -87,7 +87,7 @@ def show(data: Meshes, references: References, level: Level) -> Result:
         for mesh, method, value, seconds in data.rows
     ]
     notes.append(
-        "Predictions count the waves that a mesh carries, those longer than two nodes. Seconds "
+        "Predictions count the waves that a mesh resolves, those longer than two nodes. Seconds "
         "are of one thread, and of a machine that may have had other work."
     )
     return Result(

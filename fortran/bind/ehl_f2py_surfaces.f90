@@ -97,13 +97,13 @@ contains
    end subroutine polynomials
 
    !> Film with its edge moved: see moved_film
-   subroutine film_moved(nx, ny, points, count, all, smooth, centre, x, y, rim, share, moved, place, film)
+   subroutine film_moved(nx, ny, points, count, all, smooth, centre, x, y, edge, share, moved, place, film)
       integer(c_int), intent(in) :: nx, ny, points, count, all
       real(c_double), intent(inout) :: smooth(ny, nx), centre(2), x(points), y(points), share(2, points), moved(count)
-      integer(c_int), intent(inout) :: rim(points), place(points)
+      integer(c_int), intent(inout) :: edge(points), place(points)
       real(c_double), intent(inout) :: film(all)
       !f2py threadsafe
 
-      call moved_film(smooth, centre, x, y, rim, share, moved, place, film)
+      call moved_film(smooth, centre, x, y, edge, share, moved, place, film)
    end subroutine film_moved
 end module ehl_f2py_surfaces

@@ -25,6 +25,7 @@ contains
       type(case_t), intent(in) :: input
       type(status_t), intent(inout) :: status
       real(dp), allocatable :: numbers(:)
+      character(len=:), allocatable :: key
       real(dp) :: least
       integer :: k, n
 
@@ -36,7 +37,11 @@ contains
             if (size(numbers) == 0 .or. size(numbers) == n) cycle
             call refuse(trim(keys(k)), to_text(size(numbers))//" values at "//to_text(n)//" times", "a value at each of duty.time")
          end do
-         if (.not. d%active()) return
+         if (.not. d%active()) then
+            key = source%first_given("duty")
+            if (key /= "") call source%refuse(key, key//" without a table", "values at duty.time", status)
+            return
+         end if
          if (.not. input%contact%si) call refuse("time", "a duty of a contact by Moes numbers", "contact.load, mean_velocity, "// &
                                                  "radius and reduced_modulus: a duty is in SI units")
          if (n < 2) call refuse("time", "a single time", "two rows or more")

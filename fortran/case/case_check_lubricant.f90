@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Laws of the lubricant of a complete case: constants they need, pressures they reach, contacts they can serve
 module ehl_case_check_lubricant
-   use ehl_case, only: case_t
+   use ehl_case, only: case_t, word_length
    use ehl_case_defaults, only: inlet
    use ehl_case_law, only: knows_temperature, make_lubricant, own_law, uses_law
    use ehl_case_source, only: case_source_t
@@ -83,6 +83,16 @@ contains
       associate (l => input%lubricant, c => input%contact)
          knows = knows_temperature(l) .or. l%temperature_viscosity > 0.0_dp
          call refuse(source%given("lubricant.temperature") .and. .not. knows, "lubricant.temperature", unknown, by_law)
+         call refuse(source%given("lubricant.thermal_expansion") .and. .not. knows, "lubricant.thermal_expansion", unknown, by_law)
+         call refuse(source%given("lubricant.density_15") .and. .not. knows_temperature(l), "lubricant.density_15", unknown, by_law)
+         call refuse(source%given("lubricant.thermal_expansion") .and. l%density_law == "tait" .and. &
+                     .not. l%kinematic_viscosity_40 > 0.0_dp, "lubricant.thermal_expansion", &
+                     "beside density_law = 'tait', which has its own", "tait_expansion alone")
+         call refuse(l%range_temperature_max < l%range_temperature_min, "lubricant.range_temperature_max", &
+                     "below range_temperature_min", "a range of temperatures, or both 0")
+         call refuse(all(input%psd%viscosity_law /= [character(len=word_length) :: "roelands", "barus", l%viscosity_law]), &
+                     "psd.viscosity_law", "'"//trim(input%psd%viscosity_law)//"' with lubricant.viscosity_law = '"// &
+                     trim(l%viscosity_law)//"'", "'roelands', 'barus' or that of the lubricant")
          call refuse((l%viscosity_law == "roelands" .or. input%psd%viscosity_law == "roelands") .and. &
                      l%pressure_viscosity > 0.0_dp .and. (l%roelands_z < least_z .or. l%roelands_z > largest_z), &
                      "lubricant.roelands_z", short(l%roelands_z)//", of viscosity, pressure_viscosity and roelands_p0", &

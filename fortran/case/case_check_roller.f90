@@ -50,6 +50,7 @@ contains
                                                     input%inlet%film_hertz) > 0.0_dp, "a flooded inlet")
       call smooth_alone("lubricant.boundary_film", .not. input%lubricant%boundary_film > 0.0_dp, "a full film")
       call smooth_alone("grid.border", .not. (source%given("grid.border") .and. input%grid%border == "flooded"), "'zero'")
+      call smooth_alone("grid.y_extent", .not. source%given("grid.y_extent"), "none: half the length")
       call smooth_alone("solver.coarsening", input%solver%coarsening /= "alcouffe", "'auto' or 'classical'")
 
    contains

@@ -327,6 +327,8 @@ contains
             return
          end if
          if (input%contact%is_line()) return
+         call source%check_range("grid.points_y", real(ny, dp), "grid.y_extent", "domain and grid.points", status)
+         if (status%failed()) return
          call find_levels(nx, nx, levels, intervals)
          step = 2*((nx - 1)/intervals(1))
          if (mod(ny - 1, step) == 0 .and. has_levels(nx, ny)) return

@@ -31,7 +31,7 @@ contains
       if (law == "" .and. l%viscosity_law /= "roelands" .and. l%viscosity_law /= "barus") law = l%viscosity_law
    end function own_law
 
-   !> Whether a law gives the viscosity of the inlet, or how it rises with pressure
+   !> Whether a law gives the viscosity of the inlet, or how it increases with pressure
    pure logical function uses_law(l, name)
       type(lubricant_case_t), intent(in) :: l
       character(len=*), intent(in) :: name

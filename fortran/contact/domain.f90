@@ -5,10 +5,10 @@
 !> with the third power of the distance in thick films, whose load is then slightly wrong, and with the fifth in thin ones,
 !> whose inlet is.
 !>
-!> Or P = 0, which takes away the pressure that a flooded inlet would have: it rises by dP/dX ~ (H - H_c)/H^3, H = H_c + g,
+!> Or P = 0, which takes away the pressure that a flooded inlet would have: it increases by dP/dX ~ (H - H_c)/H^3, H = H_c + g,
 !> with the gap g of the dry contact. Up to a distance x from the centre it has gained the share q(x) = Q(x)/Q(1) of all,
 !> Q(x) = int_x^inf g/(H_c + g)^3 dX, and the film falls by a fixed multiple of what is cut off. In thick films the
-!> pressure beyond the border carries load too: a share of about lambda_bar/x, which the film feels as it feels load.
+!> pressure beyond the border supports load too: a share of about lambda_bar/x, which the film feels as it feels load.
 !>
 !> What the factors were fitted to: docs/evidence/errors.
 module ehl_domain

@@ -16,7 +16,7 @@ module ehl_grid_error
    !> and b/kappa^2 (docs/evidence/errors_ellipses)
    real(dp), parameter :: narrow_central = 0.05_dp, narrow_minimum = 0.3_dp
    !> What a grid misses of thin films whose viscosity is that of the inlet, over h^2/H_c^(1/3), H_c as it is on that grid:
-   !> 0.26 to 0.31 of H_c, up to 0.34 of H_min (L = 0, 655 <= M <= 2304). Where viscosity rises see by_contact.
+   !> 0.26 to 0.31 of H_c, up to 0.34 of H_min (L = 0, 655 <= M <= 2304). Where viscosity increases see by_contact.
    real(dp), parameter :: by_inlet = 0.4_dp
    !> What a narrow contact misses that is solved on a single grid, over the a-priori error: 1.9 and 1.6 at kappa = 0.31, M = 1789
    real(dp), parameter :: alone_and_narrow = 2.0_dp

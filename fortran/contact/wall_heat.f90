@@ -134,7 +134,7 @@ contains
       history = self%own(wall)*sum(parts)
    end function history
 
-   !> What the heat of a cell does, with the rises of the walls that it has from upstream [K], its film h [m] of
+   !> What the heat of a cell does, with the temperature rises of the walls that it has from upstream [K], its film h [m] of
    !> conductivity k_f [W/(m K)]
    pure type(share_t) function share(self, before, film, conductivity)
       class(wall_heat_t), intent(in) :: self

@@ -34,7 +34,7 @@ module ehl_coarse_problem
    !> Second difference along X of the logarithm of the conductance at which half of a change is left at a spike: of 1, 3 and 10
    !> contacts with L from 17 to 27 take the fewest cycles with 1 and 3
    real(dp), parameter :: sharp = 3.0_dp
-   !> Largest pressure that a coarse grid may find for a roller, over that which it began from
+   !> Maximum pressure that a coarse grid may find for a roller, over that which it began from
    real(dp), parameter :: wild = 1.5_dp
 
 contains
@@ -211,7 +211,7 @@ contains
 
       bend = 0.0_dp
       do i = 2, size(p) - 1
-         ! where pressure rises along the motion it is the inlet, which the coarse grids are needed for
+         ! where pressure increases along the motion it is the inlet, which the coarse grids are needed for
          if (p(i + 1) < p(i) .and. min(p(i - 1), p(i + 1)) > cavity_pressure) then
             bend(i) = abs(log(max(eps(i - 1), tiny(1.0_dp))) - 2.0_dp*log(max(eps(i), tiny(1.0_dp))) &
                           + log(max(eps(i + 1), tiny(1.0_dp))))
@@ -330,7 +330,7 @@ contains
    end subroutine begin_coarse
 
    !> Keep the residuals of touching nodes apart, and leave those of flowing nodes: touching nodes pass theirs to touching nodes of
-   !> the coarse level alone. In the equation of a flowing node they would be a source that the motion carries through the contact.
+   !> the coarse level alone. In the equation of a flowing node they would be a source that the motion convects through the contact.
    subroutine separate_touching(boundary, residual)
       type(boundary_film_t), intent(inout) :: boundary
       !> Shape (nx, ny)

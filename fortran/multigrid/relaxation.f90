@@ -25,7 +25,7 @@ module ehl_relaxation
    !> Under-relaxation of distributive changes, and of Gauss-Seidel changes where the wedge and
    !> the Poiseuille term compete; the latter tends to 1 where conductance/mesh-size^2 passes `strong`
    real(dp), parameter :: omega_dipole = 0.7_dp, omega_line = 0.5_dp, strong = 10.0_dp
-   !> The latter between soft bodies: where the viscosity hardly rises the two terms compete in all of the contact, not at its
+   !> The latter between soft bodies: where the viscosity hardly increases the two terms compete in all of the contact, not at its
    !> edge alone, and smooth changes there overshoot (L = 0.5, M = 2000: 4 cycles, not converged in 30 with 0.5)
    real(dp), parameter :: omega_soft = 0.25_dp
    !> The same in time steps, where smooth changes are taken back

@@ -89,7 +89,7 @@ contains
             mean = mean + solve(a, off)
             exit
          end if
-         ! the equations are the slope of a convex function: too far along the change is where that rises steeply
+         ! the equations are the slope of a convex function: too far along the change is where that increases steeply
          if (dot_product(off, change) < -overshoot*slope) then
             change = 0.5_dp*change
             slope = 0.5_dp*slope

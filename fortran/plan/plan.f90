@@ -203,7 +203,7 @@ contains
       has_steps = self%surfaces%move() .or. self%duty%active
    end function has_steps
 
-   !> What of the surfaces a grid carries
+   !> What of the surfaces a grid resolves
    subroutine update_resolved_fraction(self, grid)
       class(plan_t), intent(inout) :: self
       type(grid_t), intent(in) :: grid

@@ -80,7 +80,7 @@ contains
 
       inlet_viscosity = input%lubricant%viscosity
       if (.not. (share > 0.0_dp .and. share < 1.0_dp)) return
-      ! the film rises with viscosity, nowhere by less than its 0.4th power
+      ! the film grows with viscosity, nowhere by less than its 0.4th power
       high = log(inlet_viscosity)
       low = high + 2.5_dp*log(share)
       wanted = share*film_at(input, contact, scales, high)

@@ -161,7 +161,7 @@ contains
       film = contact%film_formula(point%moes_m, point%moes_l)/rho
    end subroutine plan_contact
 
-   !> Whether a case tells how the viscosity falls with temperature
+   !> Whether a case states how the viscosity falls with temperature
    pure logical function knows_temperature(input)
       type(case_t), intent(in) :: input
       knows_temperature = input%contact%si .and. input%lubricant%temperature_viscosity > 0.0_dp

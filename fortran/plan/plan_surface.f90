@@ -235,7 +235,7 @@ contains
       if (.not. status%failed()) tile = transpose(rows)
    end subroutine generate
 
-   !> Refuse surfaces if a grid carries nothing of one
+   !> Refuse surfaces if a grid resolves nothing of one
    subroutine check_carried(surfaces, grid, status)
       type(moving_surfaces_t), intent(in) :: surfaces
       type(grid_t), intent(in) :: grid
@@ -244,7 +244,7 @@ contains
       if (status%failed()) return
       if (surfaces%max_unresolved(grid, aliased_below) < 1.0_dp) return
       call status%fail(ehl_bad_input, "all waves of the surface are shorter than two nodes of the grid of "// &
-                       to_text(grid%nx)//" x "//to_text(grid%full_ny())//" nodes, in space or in the time steps: it carries "// &
+                       to_text(grid%nx)//" x "//to_text(grid%full_ny())//" nodes, in space or in the time steps: it resolves "// &
                        "nothing of them"//new_line("a")//"expected: a finer grid (grid.points), or longer waves")
    end subroutine check_carried
 end module ehl_plan_surface

@@ -20,7 +20,7 @@ module ehl_resolution
 
 contains
 
-   !> Whether the equations have a solution on a grid, as far as that can be told
+   !> Whether the equations have a solution on a grid, as far as that can be known
    pure logical function has_solution(contact, point, grid)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point

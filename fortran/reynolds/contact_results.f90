@@ -19,7 +19,7 @@ module ehl_contact_results
 
    !> Results of one state. Dimensionless: films by a^2/R, pressure by p_h.
    type :: contact_results_t
-      !> Film at X = Y = 0, smallest film, largest pressure
+      !> Film at X = Y = 0, minimum film, maximum pressure
       real(dp) :: film_central = 0.0_dp, film_minimum = 0.0_dp, pressure_maximum = 0.0_dp
       !> Friction integral: iint tau dX dY over the Newtonian stress of eta = eta0 and H = 1. Of a Newtonian lubricant
       !> that is iint eta/(eta0 H) dX dY, whatever the sliding speed (Zhang et al. 2019, eq. 5)

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The flooded inlet of a line contact beyond the border of its domain. There the viscosity rises by alpha_bar P and the density
+!> The flooded inlet of a line contact beyond the border of its domain. There the viscosity increases by alpha_bar P and the density
 !> hardly, and the flow q is that of the whole contact, so that the reduced pressure I follows from the film alone:
 !>
 !>    dI/dX = lambda_bar (H - q)/H^3,   H(X) = H_1 + (X^2 - X_1^2)/2 - (1/2) ln(X/X_1),   P = -ln(1 - alpha_bar I)/alpha_bar

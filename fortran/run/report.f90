@@ -157,7 +157,7 @@ contains
       if (plan%scales%has_size()) call record%set("h_min_rough_m p_max_rough_Pa", values*[plan%scales%film, plan%scales%pressure])
    end subroutine report_rough_extremes
 
-   !> The roughness, smooth film over it, and what of it the grid carries
+   !> The roughness, smooth film over it, and what of it the grid resolves
    subroutine report_waves(record, run)
       type(record_t), intent(inout) :: record
       type(contact_run_t), intent(in) :: run

@@ -16,7 +16,7 @@ module ehl_report_smooth
    public :: report_smooth, touches_for_grid
 
    !> What a domain of twice the size would add to F, int 2/r^2 dA = 4 pi ln 2 over a gap of r^2/2 and the viscosity of
-   !> the inlet. It counts for lubricants whose viscosity hardly rises with pressure.
+   !> the inlet. It counts for lubricants whose viscosity hardly increases with pressure.
    real(dp), parameter :: friction_beyond = 4.0_dp*pi*log(2.0_dp)
    !> The same of a line from an inlet at 2.5 and an outlet at 1.5 on: int 2/X^2 dX over as much again on either side
    real(dp), parameter :: line_friction_beyond = 1.0_dp/2.5_dp + 1.0_dp/1.5_dp
@@ -101,7 +101,7 @@ contains
    end subroutine report_smooth
 
    !> Errors of P_max and F, which need three grids: where a pressure spike is not resolved neither has a limit that the
-   !> grids could tell, for the viscosity in it carries the friction
+   !> grids could show, for the viscosity in it determines the friction
    subroutine report_limits(record, plan, smooth, n, good)
       type(record_t), intent(inout) :: record
       type(plan_t), intent(in) :: plan

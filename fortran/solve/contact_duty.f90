@@ -29,7 +29,7 @@ contains
       end associate
    end procedure duty_row
 
-   !> Where the film is least [a]
+   !> Place of the minimum film [a]
    subroutine find_minimum(level, place)
       type(level_t), intent(in) :: level
       real(dp), intent(out) :: place(2)

@@ -329,7 +329,7 @@ contains
       end if
    end function mu_ratio
 
-   !> Write the state into a folder. Before the first time step there is nothing that is worth it.
+   !> Write the state into a folder. Before the first time step there is nothing to keep.
    subroutine save(self, folder, status)
       class(contact_run_t), intent(inout) :: self
       !> With its '/'

@@ -12,7 +12,7 @@ contains
 
    module procedure begin_steps
       associate (plan => self%plan, transient => self%transient, n => self%smooth%n, m => self%smooth%results(self%smooth%n)%m)
-         ! where a feature passes once, the largest pressure and the minimum film are asked for, not the mean friction alone
+         ! where a feature passes once, the maximum pressure and the minimum film are asked for, not the mean friction alone
          call transient%accuracy%set(self%grid%hx, plan%accuracy, m%friction_newtonian, &
                                      merge(0.0_dp, friction_error(self%smooth%results, n), &
                                            plan%surfaces%pass_once() .or. plan%duty%active))

@@ -44,8 +44,8 @@ contains
 
    !> Discretisation errors of H_c and H_min on level n as they are stated: by the order from 1 to 2 that three grids show, or
    !> that an error above `leading` leaves to two, times a safety factor. The difference of H_min, whose node changes, may be
-   !> small by chance: no less than what the one before becomes by order 2. Where the bodies touch no less than what the grid
-   !> misses of the inlet.
+   !> small by chance: no less than what the one before becomes by order 2. Where the bodies touch the third grid counts if it
+   !> resolves the inlet, and the errors are no less than what the fine grid misses of the inlet.
    pure function stated_errors(fine, results, n, inlet) result(errors)
       !> Results on level n, and what is known of the coarser ones
       type(contact_results_t), intent(in) :: fine
@@ -58,13 +58,13 @@ contains
       order = 2.0_dp - min(1.0_dp, max(0.0_dp, last/fine%films()/leading - 1.0_dp))
       before = 0.0_dp
       if (n > 2) then
-         if (results(n - 2)%solved) then
+         if (results(n - 2)%solved .and. inlet%resolves(results(n - 2)%m, results(n - 2)%mesh)) then
             before = discretisation_error(results(n - 1)%m, results(n - 2)%m)
             order = min(order, log(max(2.0_dp*last, min(4.0_dp*last, before))/last)/log(2.0_dp))
          end if
       end if
-      errors = safety*max(film_errors(fine, results(n - 1)%m, results(n)%mesh, inlet), [0.0_dp, 0.25_dp*before(2)], &
-                          3.0_dp*last/(2.0_dp**order - 1.0_dp))
+      errors = max(film_errors(fine, results(n - 1)%m, results(n)%mesh, inlet), &
+                   safety*max([0.0_dp, 0.25_dp*before(2)], 3.0_dp*last/(2.0_dp**order - 1.0_dp)))
    end function stated_errors
 
    !> Discretisation errors of H_c and H_min by the results on two grids, order 2; where the bodies touch on either no less
@@ -124,7 +124,7 @@ contains
       end associate
    end function friction_error
 
-   !> Whether largest pressure or friction integral on level n and the two coarser ones show no limit: there is a spike of
+   !> Whether maximum pressure or friction integral on level n and the two coarser ones show no limit: there is a spike of
    !> pressure that these grids do not resolve
    pure logical function spike_grows(results, n)
       type(level_result_t), intent(in) :: results(:)

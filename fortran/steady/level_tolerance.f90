@@ -78,7 +78,7 @@ contains
                                                 m%touching%supply <= much_supplied)
    end function counts_share
 
-   !> Whether a boundary film carries most of the load; where it would have to give much contact is not well posed
+   !> Whether a boundary film supports most of the load; where it would have to give much contact is not well posed
    pure logical function rests_on_boundary_film(m)
       type(contact_results_t), intent(in) :: m
       rests_on_boundary_film = m%touching%load_share > mostly_touching .and. m%touching%supply <= much_supplied

@@ -114,16 +114,16 @@ contains
 
    !> Film of the smooth contact, on nodes smooth(y, x), with its edge moved outwards: film(place(p)), from 0, is that at
    !> a point x(p), y(p) brought nearer to the centre, all in nodes from the first one. By the share of its distance
-   !> share(1, p) moved(rim(p)) + share(2, p) moved(rim(p) + 1); `moved` is periodic
-   subroutine moved_film(smooth, centre, x, y, rim, share, moved, place, film)
+   !> share(1, p) moved(edge(p)) + share(2, p) moved(edge(p) + 1); `moved` is periodic
+   subroutine moved_film(smooth, centre, x, y, edge, share, moved, place, film)
       real(real64), intent(in), contiguous :: smooth(0:, 0:), centre(:), x(:), y(:), share(:, :), moved(0:)
-      integer(int32), intent(in), contiguous :: rim(:), place(:)
+      integer(int32), intent(in), contiguous :: edge(:), place(:)
       real(real64), intent(inout), contiguous :: film(0:)
       real(real64) :: left, u, v
       integer :: p, i, j
 
       do p = 1, size(place)
-         left = 1.0_real64 - (share(1, p)*moved(rim(p)) + share(2, p)*moved(modulo(rim(p) + 1, size(moved))))
+         left = 1.0_real64 - (share(1, p)*moved(edge(p)) + share(2, p)*moved(modulo(edge(p) + 1, size(moved))))
          u = centre(1) + left*(x(p) - centre(1))
          v = centre(2) + left*(y(p) - centre(2))
          i = max(0, min(int(u), size(smooth, 2) - 2))

@@ -182,7 +182,7 @@ contains
          h = 0.5_dp*s(k)
          do i = 1, size(b)
             stress = asinh(b(i)*h/sinh(h))
-            ! six points: the last digits go as S rises
+            ! six points: the last digits go as S increases
             phi = 3.0_dp*(h*cosh(h) - sinh(h))/h**3*cosh(stress)
             r = exact_factors(by_eyring, b(i), [s(k), 0.0_dp])
             call is_close(r%stress, stress, 1.0e-7_dp, "mean stress, Eyring, one direction")

@@ -13,7 +13,7 @@ module test_lock
 
 contains
 
-   !> What the system says is told, and the lock is not held then
+   !> The message of the system is passed on, and the lock is not held then
    subroutine run_lock()
       type(status_t) :: fine, bad
 

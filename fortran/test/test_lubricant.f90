@@ -99,7 +99,7 @@ contains
       end associate
    end subroutine glass
 
-   !> dp/d(ln rho) at ambient pressure is the bulk modulus, and rises by K0' with pressure
+   !> dp/d(ln rho) at ambient pressure is the bulk modulus, and increases by K0' with pressure
    subroutine bulk_modulus()
       real(dp), parameter :: hertz = 1.0e9_dp, k0 = 9.234e9_dp*exp(-6.09e-3_dp*313.15_dp), step = 1.0e-6_dp
       type(murnaghan_t) :: law
@@ -113,7 +113,7 @@ contains
       call is_close(maxval(abs(modulus - k0 - 10.545_dp*[0.0_dp, 0.5_dp, 1.0_dp]*hertz)/k0), 0.0_dp, 1.0e-13_dp, &
                     "bulk modulus under pressure")
       call check_density(law, "Murnaghan")
-      ! by Tait it is [K0 + (1 + K0') p] times the volume, so that it rises by K0' at ambient pressure
+      ! by Tait it is [K0 + (1 + K0') p] times the volume, so that it increases by K0' at ambient pressure
       volume = new_tait(9.234e9_dp, 10.545_dp, 6.09e-3_dp, 8.0e-4_dp, 298.15_dp, hertz, 313.15_dp)
       call volume%density([0.0_dp, step, 1.0_dp], rho, slope)
       modulus = rho/slope*hertz
@@ -183,7 +183,7 @@ contains
       call is_close(maxval(abs(at - log(eta/0.1_dp))), 0.0_dp, 1.0e-12_dp, "a table at its pressures")
       call law%log_viscosity([(0.6_dp*k/200, k=1, 200)], values, slope)
       call is_true(maxval(values(2:) - values(:199)) < 0.2_dp, "a table has no jumps")
-      call is_true(minval(values(2:) - values(:199)) > 0.0_dp, "a table rises with pressure")
+      call is_true(minval(values(2:) - values(:199)) > 0.0_dp, "a table increases with pressure")
       call is_close(values(200) - values(199), slope(200)*0.003_dp, 1.0e-12_dp, "straight on behind the table")
       rise = 60.0_dp
       call law%log_viscosity_at(p/1.0e9_dp, rise, at)

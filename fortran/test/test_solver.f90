@@ -73,7 +73,7 @@ contains
       call is_close(point%speed_parameter, 1.0978e-3_dp, 1.0e-7_dp, "speed parameter")
    end subroutine operating_point_of_table_1
 
-   !> The pressure of the dry contact carries its load, and the deflection that it causes fills its gap
+   !> The pressure of the dry contact balances its load, and the deflection that it causes fills its gap
    subroutine shapes_are_consistent(radius_ratio, angle)
       real(dp), intent(in) :: radius_ratio, angle
       class(contact_t), allocatable :: contact
@@ -131,7 +131,7 @@ contains
       call is_close(maxval(abs(p - p_whole)), 0.0_dp, tolerance, "half against whole domain")
    end subroutine half_is_whole
 
-   !> Every step of a short transient run converges and carries the load
+   !> Every step of a short transient run converges and balances the load
    subroutine steps_converge(scheme)
       character(len=*), intent(in) :: scheme
       type(solver_t) :: solver

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Several rough surfaces together: sums of heights, periods, times, what a grid carries
+!> Several rough surfaces together: sums of heights, periods, times, what a grid resolves
 module test_surfaces
    use check, only: is_close, is_equal, is_true
    use ehl_feature, only: new_feature
@@ -62,7 +62,7 @@ contains
       call is_true(moving%move() .and. .not. moving%rest() .and. .not. moving%some_rest(), "one that moves")
       call is_true(resting%rest() .and. .not. resting%move() .and. .not. resting%some_rest(), "one at rest")
       call is_true(all%move() .and. all%some_rest() .and. .not. all%rest(), "one of each")
-      call is_equal(size(all%velocities()), 1, "what is at rest carries nothing along")
+      call is_equal(size(all%velocities()), 1, "what is at rest moves nothing along")
       call all%prepare(grid, status)
       call moving%roughness(grid, 1.5_dp, rr)
       call resting%roughness(grid, 1.5_dp, part)
@@ -154,7 +154,7 @@ contains
       call is_close(two%end_of_passage(), alone%end_of_passage(), 1.0e-13_dp, "until the last has left")
    end subroutine passages
 
-   !> Shares of the variance of both; what a grid carries of the worse one decides
+   !> Shares of the variance of both; what a grid resolves of the worse one decides
    subroutine shares_of_the_variance()
       type(moving_surfaces_t) :: both
       type(grid_t) :: grid

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Parts of a transient run: a step that fails, one that begins again, sweeps, and what is allocated for it
+!> Parts of a transient run: a step that fails, one that restarts, sweeps, and what is allocated for it
 module test_transient
    use check, only: is_close, is_equal, is_true
    use ehl_case, only: case_t
@@ -81,7 +81,7 @@ contains
       call is_true(.not. status%failed(), "transient run")
    end subroutine failed_step_leaves_the_last_state
 
-   !> A prediction that leads nowhere is dropped: the step begins again from the last one and comes to the same end
+   !> A prediction that leads nowhere is dropped: the step restarts from the last one and comes to the same end
    subroutine step_begins_again()
       type(contact_run_t) :: run
       type(status_t) :: status

@@ -7,7 +7,7 @@ module ehl_extremes
    private
    public :: extremes_t, extreme_pressure, extreme_film
 
-   !> Largest pressure; minimum film; largest pressure above that of the smooth contact at the same place; minimum film
+   !> Maximum pressure; minimum film; maximum pressure above that of the smooth contact at the same place; minimum film
    !> over that of the smooth contact there
    integer, parameter :: extreme_pressure = 1, extreme_film = 2, extreme_rise = 3, extreme_ratio = 4
 

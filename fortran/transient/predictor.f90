@@ -20,7 +20,7 @@ module ehl_predictor
 
    type :: predictor_t
       !> Extrapolations: of second order at the node (what stands), and at the nodes where things were that a surface
-      !> carries along, one for each surface that moves; of first order at the node
+      !> moves along, one for each surface that moves; of first order at the node
       integer, private :: candidates = 3
       !> Weights of the candidates but the first, which has the rest; (nx, ny, candidates - 1)
       real(dp), allocatable :: weights(:, :, :)

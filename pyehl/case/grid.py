@@ -78,6 +78,7 @@ def check_points(draft: Draft) -> None:
 
 def _check_rows(draft: Draft) -> None:
     nx, ny = draft.settings.grid.points, draft.settings.grid.points_y
+    draft.check_range("grid.points_y", ny, "grid.y_extent", "domain and grid.points")
     step = 2 * ((nx - 1) // _coarsest(nx, nx))
     if (ny - 1) % step == 0 and _coarsest(nx, ny):
         return

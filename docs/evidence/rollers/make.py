@@ -1,14 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Rollers of one load with four profiles, straight and misaligned, and random rollers.
 
-``python docs/evidence/rollers/make.py`` writes profiles.csv, and random.csv is of
-``python benchmarks/rollers.py --csv docs/evidence/rollers/random.csv``.
+``python docs/evidence/rollers/make.py`` writes profiles.csv; seed_1.json is of
+``python benchmarks/rollers.py --count 40 --seed 1 -o docs/evidence/rollers/seed_1.json``, and
+seed_2.json
+of seed 2.
 """
 
 import csv
+import json
 import math
+from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pyehl
 
@@ -28,6 +33,7 @@ PROFILES: dict[str, dict[str, float]] = {
     "chamfer": {"chamfer_length": 1e-3, "chamfer_drop": 1.25e-5},
 }
 POINTS = 257
+SEEDS = (1, 2)
 
 
 def runs() -> Iterator[dict[str, str | float]]:
@@ -52,7 +58,7 @@ def table() -> list[str]:
     with (HERE / "profiles.csv").open(encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     lines = [
-        "| profile | misalignment | h_c | h_min, at y/length | largest pressure, at y/length |",
+        "| profile | misalignment | h_c | h_min, at y/length | maximum pressure, at y/length |",
         "|---|---|---|---|---|",
     ]
     for row in rows:
@@ -65,7 +71,7 @@ def table() -> list[str]:
         error = n["h_min_error_m"] * 1e9
         known = f" ± {error:.0f}" if math.isfinite(error) else " (error not known)"
         places = [n[name] / n["length"] for name in ("H_min_Y", "P_max_Y")]
-        end = "" if math.isfinite(error) else ", rises with finer cells"
+        end = "" if math.isfinite(error) else ", increases with finer cells"
         lines.append(
             f"| {row['profile']} | {angle} | {films[0]:.0f} nm | {films[1]:.0f}{known} nm, "
             f"{places[0]:+.2f} | {n['p_max_Pa'] * 1e-9:.2f} GPa, {places[1]:+.2f}{end} |"
@@ -74,17 +80,30 @@ def table() -> list[str]:
 
 
 def random() -> list[str]:
-    """Give the table of random.csv."""
-    with (HERE / "random.csv").open(encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
+    """Give the table of the random rollers."""
+    rows = [row for seed in SEEDS for row in _record(seed)]
     lines = ["| profile | rollers | with a solution | without |", "|---|---|---|---|"]
-    for profile in ("logarithmic", "crown", "chamfer", "none"):
-        found = [row["status"] for row in rows if row["profile"] == profile]
-        good = found.count("converged")
-        others = sorted({status for status in found if status != "converged"})
-        failed = ", ".join(f"{status} {found.count(status)}" for status in others) or "–"
-        lines.append(f"| {profile} | {len(found)} | {good} | {failed} |")
+    for profile in PROFILES:
+        mine = [row["status"] for row in rows if row["values"]["contact.profile"] == profile]
+        others = Counter(status for status in mine if status != "converged")
+        failed = ", ".join(f"{status} {count}" for status, count in sorted(others.items())) or "–"
+        lines.append(f"| {profile} | {len(mine)} | {mine.count('converged')} | {failed} |")
     return lines
+
+
+def by_seed() -> list[str]:
+    """Give how many rollers of each seed have a solution."""
+    lines = []
+    for seed in SEEDS:
+        rows = _record(seed)
+        good = sum(row["status"] == "converged" for row in rows)
+        lines.append(f"Seed {seed}: {good} of {len(rows)} have a solution.")
+    return lines
+
+
+def _record(seed: int) -> list[dict[str, Any]]:
+    text = (HERE / f"seed_{seed}.json").read_text("utf-8")
+    return [row for row in json.loads(text)["rows"] if row["status"] != "refused"]
 
 
 def main() -> None:
