@@ -5,11 +5,12 @@ module ehl_case_check_roller
    use ehl_case_source, only: case_source_t
    use ehl_kinds, only: dp
    use ehl_roller, only: profile_t
+   use ehl_scales, only: scales_t
    use ehl_status, only: status_t
    use ehl_text, only: short
    implicit none (type, external)
    private
-   public :: check_roller
+   public :: check_length, check_roller
 
    character(len=*), parameter :: shape = "contact.shape = 'roller'"
    character(len=14), parameter :: roller_keys(10) = [character(len=14) :: "length", "profile", "crown_radius", "log_amplitude", &
@@ -22,6 +23,8 @@ module ehl_case_check_roller
       "file", "profile_y", "file", "profile_drop"], [2, 6])
    !> Largest drop of a profile over the radius
    real(dp), parameter :: deepest = 0.1_dp
+   !> Lengths of a roller over b
+   real(dp), parameter :: shortest = 4.0_dp, longest = 400.0_dp
 
 contains
 
@@ -61,6 +64,22 @@ contains
          if (.not. good) call source%refuse(name, name//" with "//shape, expected, status)
       end subroutine smooth_alone
    end subroutine check_roller
+
+   !> No shorter than a line contact is, no longer than a grid of it may be
+   subroutine check_length(source, input, scales, status)
+      type(case_source_t), intent(in) :: source
+      type(case_t), intent(in) :: input
+      type(scales_t), intent(in) :: scales
+      type(status_t), intent(inout) :: status
+
+      if (status%failed() .or. .not. input%contact%is_roller()) return
+      associate (over_b => input%contact%length/scales%length)
+         if (over_b >= shortest .and. over_b <= longest) return
+         call source%refuse("contact.length", "contact.length is "//short(over_b)//" b, b = "//short(scales%length)//" m", &
+                            "4 to 400 b: longer ones are lines, contact.shape = 'line', but for their ends; shorter ones points", &
+                            status)
+      end associate
+   end subroutine check_length
 
    !> The keys of the profile alone, and all of them
    subroutine check_profile(source, input, status)

@@ -48,6 +48,14 @@ contains
                      "a "//trim(s%kind)//" would begin inside the contact", &
                      "at most "//short(x_matters)//", where its front end is at time 0")
       end if
+      call refuse((feature .or. s%kind == "harmonic") .and. s%shortest_wavelength > 0.0_dp, "shortest_wavelength", &
+                  "there is no spectrum to cut", "0")
+      call refuse((feature .or. s%kind == "harmonic") .and. s%longest_wavelength > 0.0_dp, "longest_wavelength", &
+                  "there is no spectrum to cut", "0")
+      call refuse(s%crop_x_max > 0.0_dp .and. s%crop_x_max <= s%crop_x_min, "crop_x_max", "is not beyond crop_x_min", &
+                  "a larger one, or 0")
+      call refuse(s%crop_y_max > 0.0_dp .and. s%crop_y_max <= s%crop_y_min, "crop_y_max", "is not beyond crop_y_min", &
+                  "a larger one, or 0")
       call refuse(s%longest_wavelength > 0.0_dp .and. s%shortest_wavelength >= s%longest_wavelength, "longest_wavelength", &
                   "not longer than shortest_wavelength", "a longest wavelength above the shortest one, or 0")
       call refuse(s%kind == "map" .and. trim(s%file) == "", "kind", "'map' without file", "file = '...'")

@@ -7,7 +7,7 @@ module ehl_case_checks
    use ehl_case_check_lubricant, only: check_lubricant
    use ehl_case_check_surface, only: check_surfaces
    use ehl_case_check_line, only: check_line
-   use ehl_case_check_roller, only: check_roller
+   use ehl_case_check_roller, only: check_length, check_roller
    use ehl_case_defaults, only: is_short_of_oil, moes_keys, si_keys, sliding, velocity_ratio
    use ehl_case_point, only: find_contact
    use ehl_case_source, only: case_source_t
@@ -129,6 +129,7 @@ contains
       end if
       if (status%failed()) return
       call find_contact(input, contact, scales, point)
+      call check_length(source, input, scales, status)
       call check_point(source, input, scales, point, status)
       call check_inlet(source, input, contact, scales, status)
       call check_domain(source, input, contact, status)
@@ -245,6 +246,8 @@ contains
          if (inlet%position > 0.0_dp) call agree("inlet.position", "inlet.position_hertz", inlet%position/scales%length, &
                                                  inlet%position_hertz)
          if (inlet%film > 0.0_dp) call agree("inlet.film", "inlet.film_hertz", inlet%film/scales%film, inlet%film_hertz)
+         call source%check_range("inlet.position_hertz", inlet%position_hertz, "inlet.position", "it and the contact", status)
+         call source%check_range("inlet.film_hertz", inlet%film_hertz, "inlet.film", "it and the contact", status)
          if (inlet%position_hertz > 0.0_dp) then
             call agree("inlet.position", "grid.x_inlet", inlet%position_hertz, -input%grid%x_inlet)
             least = beyond_contact*contact%reach(1)

@@ -29,6 +29,7 @@ def check_no_machine(draft: Draft) -> None:
 
 
 COMPLETIONS: tuple[Step, ...] = (
+    surfaces.complete_finish,
     roller.complete,
     contact.check_kind,
     contact.complete_radii,
@@ -47,9 +48,10 @@ COMPLETIONS: tuple[Step, ...] = (
 STEPS: tuple[Step, ...] = (
     check_no_machine,
     line.check_keys,
+    surfaces.complete_finish,
     roller.complete,
     roller.check_keys,
-    *COMPLETIONS[1:7],
+    *COMPLETIONS[2:8],
     roller.check_length,
     contact.check_operating_point,
     duty.complete,

@@ -261,6 +261,7 @@ def _complete_line(draft: Draft, first: str, radius: float, modulus: float) -> N
             expected = "the bodies, or reduced radius and modulus, or Moes numbers"
             draft.contradict(first, f"contact.{name}", expected)
     _check_open(draft, "radius_x", b.radius_x1, b.radius_x2, radius)
+    draft.check_range("contact.radius", radius, first, "the bodies")
     c.radius, c.reduced_modulus = radius, modulus
 
 

@@ -43,6 +43,9 @@ def check(draft: Draft) -> None:
         draft.refuse("inlet.passages", what, "the layer of the first passage")
     if not inlet.is_short_of_oil:
         return
+    for name in ("position", "film"):
+        value = getattr(inlet, f"{name}_hertz")
+        draft.check_range(f"inlet.{name}_hertz", value, f"inlet.{name}", "it and the contact")
     point = physics.point(s)
     scale = point.length**2 / s.contact.radius_x if s.contact.si else 0.0
     _agree(draft, "inlet.position", "inlet.position_hertz", inlet.position, position * point.length)

@@ -58,8 +58,13 @@ def complete(draft: Draft) -> None:
             one.x_start = min(one.x_start, late)
 
 
+def complete_finish(draft: Draft) -> None:
+    """Find what finishes stand for: cells and domain depend on whether surfaces are smooth."""
+    for group in GROUPS:
+        _complete_finish(draft, group, getattr(draft.settings, group))
+
+
 def _complete_finish(draft: Draft, group: str, surface: Surface) -> None:
-    """Find what a finish stands for."""
     if surface.finish != "none":
         finish = FINISHES[surface.finish]
         if not draft.is_given(group, "kind"):
@@ -84,7 +89,6 @@ def _complete_finish(draft: Draft, group: str, surface: Surface) -> None:
 
 
 def _complete_pattern(draft: Draft, group: str, surface: Surface) -> None:
-    _complete_finish(draft, group, surface)
     if surface.kind == "fractal":
         surface.length_x = surface.length_x or FRACTAL_LENGTH
         surface.length_y = surface.length_y or FRACTAL_LENGTH

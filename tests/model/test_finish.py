@@ -63,6 +63,16 @@ def test_a_finish_gives_what_is_not_given():
     assert case.with_options({"surface.finish": "polished"}).resolve()["surface"]["hurst"] == 0.8
 
 
+def test_cells_of_a_finish_are_those_of_its_fractal_surface():
+    """A wide smooth contact has cells longer across the motion, which waves do not allow."""
+    wide = {"contact.radius_x": 0.01, "contact.radius_y": 0.3, "contact.load": 300.0}
+    rows = [
+        pyehl.Case.from_text("", wide | keys)["grid"]["points_y"]
+        for keys in ({"surface.finish": "ground"}, {"surface.kind": "fractal"}, {})
+    ]
+    assert rows[0] == rows[1] > rows[2]
+
+
 @pytest.mark.parametrize("ratio", [0.1, 1.0, 5.0])
 def test_the_lay_is_that_of_the_ratio(ratio):
     """Rms slopes along and across have the ratio of the correlation lengths."""
