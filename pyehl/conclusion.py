@@ -163,7 +163,7 @@ def _friction(s: Summary) -> dict[str, str]:
     elif smooth:
         text = smooth
     elif s.text("mu_note") and (s.known("H_c") or s.known("h_c_m")):
-        return {"mu": f"none: {s.text('mu_note')}"}
+        return {"mu": f"not reported: {s.text('mu_note')}"}
     else:
         return {}
     return {"mu": f"{text}; law '{s.text('shear_law')}'"}

@@ -14,8 +14,8 @@ from pyehl.number_text import fixed, megapascals, power
 from pyehl.types import Settings, Values
 
 ALONE = "there is no run on the next coarser grid"
-NO_SIZE = "a ratio alone: moes_m and moes_l give no sliding speed in m/s"
-VANISHING = "a ratio alone, that of vanishing sliding: there is no sliding"
+NO_SIZE = "moes_m and moes_l give no sliding speed in m/s"
+VANISHING = "there is no sliding: the ratio is that of vanishing sliding"
 WITH_HEAT = "with the temperature of film and walls; pressure and film thickness are isothermal"
 OF_ROUGH = (
     "mu has the heat of the rough contact, and mu_smooth with its own is left out: "
@@ -108,9 +108,8 @@ def heat_words(code: int, rise: float) -> str:
 def above_limit(stress: float, limit: float) -> str:
     """Say why there is no coefficient of friction: a Newtonian stress [Pa] that no oil has."""
     return (
-        f"a ratio alone: the Newtonian shear stress reaches {power(stress, 1)} Pa, and oils shear "
-        f"thin above about {megapascals(limit)} (lubricant.eyring_stress): give a "
-        "lubricant.shear_law"
+        f"give a lubricant.shear_law: the Newtonian shear stress of {power(stress, 1)} Pa is "
+        f"unphysical, oils shear thin above about {megapascals(limit)} (lubricant.eyring_stress)"
     )
 
 

@@ -84,7 +84,8 @@ contains
          knows = knows_temperature(l) .or. l%temperature_viscosity > 0.0_dp
          call refuse(source%given("lubricant.temperature") .and. .not. knows, "lubricant.temperature", unknown, by_law)
          call refuse(source%given("lubricant.thermal_expansion") .and. .not. knows, "lubricant.thermal_expansion", unknown, by_law)
-         call refuse(source%given("lubricant.density_15") .and. .not. knows_temperature(l), "lubricant.density_15", unknown, by_law)
+         call refuse(source%given("lubricant.density_15") .and. .not. (knows_temperature(l) .or. &
+                     l%kinematic_viscosity_40 > 0.0_dp), "lubricant.density_15", unknown, by_law)
          call refuse(source%given("lubricant.thermal_expansion") .and. l%density_law == "tait" .and. &
                      .not. l%kinematic_viscosity_40 > 0.0_dp, "lubricant.thermal_expansion", &
                      "beside density_law = 'tait', which has its own", "tait_expansion alone")

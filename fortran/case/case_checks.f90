@@ -69,7 +69,7 @@ contains
       end if
       call need(if_given("lubricant.name"), "lubricant", [character(len=18) :: "viscosity", "pressure_viscosity", &
                                                           "viscosity_law"], "the constants of the oil")
-      call need(if_given("lubricant.kinematic_viscosity_40"), "lubricant", &
+      if (input%lubricant%kinematic_viscosity_40 > 0.0_dp) call need("lubricant.kinematic_viscosity_40", "lubricant", &
                 [character(len=21) :: "viscosity", "pressure_viscosity", "temperature_viscosity"], "the viscosity at the inlet")
       call need(if_given("lubricant.table"), "lubricant", [character(len=17) :: "viscosity_law", "table_temperature", &
                                                            "table_pressure", "table_viscosity"], "another law")

@@ -47,7 +47,7 @@ def absolute_friction(
         if law.law != "newtonian" or stress <= law.eyring_stress:
             smooth, note = mu_smooth, heat.note
         elif math.isnan(stress):
-            note = "a ratio alone: the film of the smooth contact is not known"
+            note = "the film of the smooth contact is not known"
         else:
             note = above_limit(stress, law.eyring_stress)
     mu = mu_ratio * smooth * heat.ratio

@@ -31,6 +31,9 @@ CONTACTS: tuple[dict[str, Value], ...] = (
     {"contact.radius_x": 0.01, "contact.radius_y": 0.03},
     {"surface.kind": "harmonic", "surface.wavelength": 0.5},
     {"surface.kind": "dent", "surface.amplitude": 0.05, "second_surface.kind": "bump"},
+    {"lubricant.kinematic_viscosity_40": 68.0, "lubricant.kinematic_viscosity_100": 8.7},
+    {"lubricant.name": "n100"},
+    {"bodies.radius_x1": 0.02, "bodies.radius_y1": 0.03},
     {"inlet.position_hertz": 1.5, "contact.moes_m": 200.0, "contact.moes_l": 6.0},
 )
 DRAWN: dict[str, list[Key]] = {}
@@ -101,7 +104,7 @@ def test_random_keys(seed: int, count: int):
         assert "resolved case" not in pyehl, f"{text}\n{pyehl}"
         refused += bool(ehl)
         taken += not ehl
-    assert min(refused, taken) > 0.15 * count
+    assert min(refused, taken) > 0.1 * count
 
 
 @pytest.mark.parametrize(

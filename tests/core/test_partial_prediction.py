@@ -156,7 +156,7 @@ def test_curve_says_why_it_has_no_friction(tmp_path, capsys):
     case.write_text(TEXT.format(0.3, 1.2e-7, 0.0) + "&grid points = 65 /\n")
     words = ["stribeck", str(case), "--speed", "0.3", "--jobs", "1", "-o"]
     assert cli.main([*words, str(tmp_path / "out")]) == 0
-    assert "mu         none: the bodies touch, and the friction" in capsys.readouterr().out
+    assert "mu         not reported: the bodies touch, and the friction" in capsys.readouterr().out
     # shares and films are drawn without friction at any point
     assert (tmp_path / "out" / "stribeck.png").is_file()
 

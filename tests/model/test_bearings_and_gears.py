@@ -403,13 +403,11 @@ def test_lines_are_solved(root: Path):
     assert ((fine["h_c_m"] - solved.table["h_c_m"]).abs() <= error).all()
     assert (error < 0.02 * solved.table["h_c_m"]).all()
     assert solved.summary["mu_mean"] == pytest.approx(0.0357, abs=2e-4)
-    for words in (
-        "films within 4 %",
-        "0.0357",
-        "lines and crowned flanks, have the same within 4 %",
-    ):
-        assert words in page
-    # rollers of another material: the line has the reduced modulus of the bodies
+    assert "0.0357" in page
+
+
+def test_rollers_of_a_bearing_are_solved_and_predicted():
+    """Of another material: the line has the reduced modulus of the bodies."""
     hybrid = {"bodies.modulus_1": 3.1e11, "bodies.poisson_1": 0.26}
     rollers = bearing(ROLLERS, hybrid, run="solve", jobs=1).table
     by_formula = bearing(ROLLERS, hybrid).table
@@ -417,7 +415,12 @@ def test_lines_are_solved(root: Path):
     steel = bearing(ROLLERS).table
     assert (by_formula["hertz_pressure_Pa"] > 1.05 * steel["hertz_pressure_Pa"]).all()
     # a prediction has the roughness on lines, too
-    rough = {"surface.kind": "fractal", "surface.rms_height": 2e-8}
+    rough = {
+        "surface.kind": "fractal",
+        "surface.rms_height": 2e-8,
+        "surface.pixels": 64,
+        "grid.points": 257,
+    }
     predicted = bearing(ROLLERS, rough, run="predict", jobs=1).table
     assert set(predicted["status"]) == {"predicted"}
     assert (predicted["h_min_rough_m"] < predicted["h_min_m"]).all()

@@ -68,7 +68,7 @@ def test_measured_data_that_are_refused(tmp_path: Path, text: str, says: str):
 @pytest.mark.parametrize(
     ("law", "text", "says"),
     [
-        ("newtonian", f"{KEY},mu\n1,0.05\n", "it holds mu, the curve mu_ratio (a ratio alone: the"),
+        ("newtonian", f"{KEY},mu\n1,0.05\n", "it holds mu, the curve mu_ratio (give a lubricant"),
         ("eyring", f"{KEY},mu_ratio\n1,1.2\n", "it holds mu_ratio, the curve mu"),
         ("eyring", f"{KEY},mu\n0.1,0.05\n9,0.05\n", "2 of 2 values of contact.mean_velocity are"),
         ("eyring", f"{KEY},mu\n1,0.05\n9,0.05\n", "beyond the curve, which goes from 0.5 to 2"),

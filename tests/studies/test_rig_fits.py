@@ -104,7 +104,7 @@ def test_eyring_stress_is_in_its_interval(tmp_path: Path) -> None:
     random, inside = np.random.default_rng(5), 0
     head = "Step Time (s)\tTraction Coeff (-)\tLube RTD Temp (degC)\tBall Load (N)\t"
     head += "Rolling Speed (mm/s)\tSRR (%)"
-    for _ in range(40):
+    for _ in range(20):
         lines = ["MTM311 Test Data File"]
         for step in range(1, 5):
             noise = 1.0 + 0.02 * random.standard_normal(ratios.size)
@@ -118,7 +118,7 @@ def test_eyring_stress_is_in_its_interval(tmp_path: Path) -> None:
         file.write_text("\n".join(lines), encoding="utf-8")
         (stress,) = pyehl.fit_lubricant(file, case, law="eyring", points=33).parameters
         inside += stress.low < STRESS < stress.high
-    assert inside >= 34
+    assert inside >= 17
 
 
 def test_record_of_measured_films(root: Path) -> None:

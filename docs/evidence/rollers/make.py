@@ -97,7 +97,7 @@ def by_seed() -> list[str]:
     for seed in SEEDS:
         rows = _record(seed)
         good = sum(row["status"] == "converged" for row in rows)
-        lines.append(f"Seed {seed}: {good} of {len(rows)} have a solution.")
+        lines.append(f"- Seed {seed}: {good} of {len(rows)} have a solution.")
     return lines
 
 
