@@ -43,9 +43,6 @@ def check(draft: Draft) -> None:
         draft.refuse("inlet.passages", what, "the layer of the first passage")
     if not inlet.is_short_of_oil:
         return
-    for name in ("position", "film"):
-        value = getattr(inlet, f"{name}_hertz")
-        draft.check_range(f"inlet.{name}_hertz", value, f"inlet.{name}", "it and the contact")
     point = physics.point(s)
     scale = point.length**2 / s.contact.radius_x if s.contact.si else 0.0
     _agree(draft, "inlet.position", "inlet.position_hertz", inlet.position, position * point.length)
@@ -61,7 +58,9 @@ def check(draft: Draft) -> None:
                 f"{short(point.reach_x)} a"
             )
             draft.refuse(key, what, f"at least {short(least)} a")
+        draft.check_range("inlet.position_hertz", position, key, f"{key} and the contact")
         return
+    draft.check_range("inlet.film_hertz", film, key, f"{key} and the contact")
     boundary = s.lubricant.boundary_film
     if s.contact.si and film * scale < boundary * (1.0 - ROUNDING):
         what = f"{key} = {short(film * scale)} m is below the boundary film of {short(boundary)} m"

@@ -1,0 +1,90 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Keys of an inlet that is short of oil, in a complete case
+module ehl_case_check_inlet
+   use ehl_case, only: case_t, surface_case_t
+   use ehl_case_defaults, only: is_short_of_oil
+   use ehl_case_source, only: case_source_t
+   use ehl_contact, only: contact_t
+   use ehl_kinds, only: dp
+   use ehl_scales, only: scales_t
+   use ehl_status, only: status_t
+   use ehl_text, only: short
+   implicit none (type, external)
+   private
+   public :: check_inlet
+
+   !> Minimum distance of the inlet from the centre, in terms of the contact
+   real(dp), parameter :: beyond_contact = 1.05_dp
+   !> Relative difference of values that is none
+   real(dp), parameter :: rounding = 1.0e-6_dp
+
+contains
+
+   !> An inlet that is short of oil has P = 0 at its border, and the oil begins ahead of the contact
+   subroutine check_inlet(source, input, contact, scales, status)
+      type(case_source_t), intent(in) :: source
+      type(case_t), intent(in) :: input
+      class(contact_t), intent(in) :: contact
+      type(scales_t), intent(in) :: scales
+      type(status_t), intent(inout) :: status
+      character(len=*), parameter :: one = "one of the two"
+      character(len=:), allocatable :: key
+      real(dp) :: least
+
+      key = source%first_given("inlet", [character(len=14) :: "position", "position_hertz", "film", "film_hertz"])
+      if (.not. is_short_of_oil(input)) then
+         if (input%inlet%passages > 1) call source%refuse("inlet.passages", "inlet.passages without inlet.film", &
+                                                          "the layer of the first passage", status)
+         if (.not. input%contact%si .and. max(input%inlet%position, input%inlet%film) > 0.0_dp) call source%refuse(key, &
+            key//" in metres with Moes numbers", key//"_hertz, in a or a^2/R", status)
+         return
+      end if
+      associate (inlet => input%inlet)
+         if (inlet%position_hertz > 0.0_dp .and. inlet%film_hertz > 0.0_dp) then
+            call source%refuse(key, "inlet.position with inlet.film", "one of them: the oil begins where the layer fills the gap", &
+                               status)
+         end if
+         if (.not. input%contact%si .and. max(inlet%position, inlet%film) > 0.0_dp) call source%refuse(key, &
+            key//" in metres with Moes numbers", key//"_hertz, in a or a^2/R", status)
+         if (inlet%position > 0.0_dp) call agree("inlet.position", "inlet.position_hertz", inlet%position/scales%length, &
+                                                 inlet%position_hertz)
+         if (inlet%film > 0.0_dp) call agree("inlet.film", "inlet.film_hertz", inlet%film/scales%film, inlet%film_hertz)
+         if (inlet%position_hertz > 0.0_dp) then
+            call agree("inlet.position", "grid.x_inlet", inlet%position_hertz, -input%grid%x_inlet)
+            least = beyond_contact*contact%reach(1)
+            if (inlet%position_hertz < least) call source%refuse(key, key//" is "//short(inlet%position_hertz)// &
+               " a ahead of the centre, and the contact reaches to "//short(contact%reach(1))//" a", &
+               "at least "//short(least)//" a", status)
+            call source%check_range("inlet.position_hertz", inlet%position_hertz, key, key//" and the contact", status)
+         end if
+         if (input%grid%border == "flooded") call source%contradict("grid.border", key, "grid.border = 'zero' or none", status)
+         if (inlet%passages > 1 .and. .not. inlet%film_hertz > 0.0_dp) call source%refuse("inlet.passages", &
+            "inlet.passages without inlet.film", "the layer of the first passage", status)
+         if (.not. inlet%film_hertz > 0.0_dp) return
+         call source%check_range("inlet.film_hertz", inlet%film_hertz, key, key//" and the contact", status)
+         least = input%lubricant%boundary_film
+         if (inlet%film_hertz*scales%film < least*(1.0_dp - rounding)) call source%refuse(key, key//" = "// &
+            short(inlet%film_hertz*scales%film)//" m is below the boundary film of "//short(least)//" m", &
+            "a layer above lubricant.boundary_film", status)
+         if (input%duty%active()) call source%refuse(key, key//" with a duty: a layer arrives at a contact in steady motion", &
+                                                     "inlet.position, or none of &duty", status)
+         call need_smooth("surface", input%surface)
+         call need_smooth("second_surface", input%second_surface)
+      end associate
+
+   contains
+
+      subroutine agree(first, second, value, other)
+         character(len=*), intent(in) :: first, second
+         real(dp), intent(in) :: value, other
+         if (abs(value - other) > rounding*abs(value)) call source%contradict(first, second, one, status)
+      end subroutine agree
+
+      subroutine need_smooth(group, s)
+         character(len=*), intent(in) :: group
+         type(surface_case_t), intent(in) :: s
+         if (s%kind /= "smooth") call source%refuse(group//".kind", group//".kind = '"//trim(s%kind)//"' with "//key, &
+            "smooth surfaces, or inlet.position for a rough contact that is starved", status)
+      end subroutine need_smooth
+   end subroutine check_inlet
+end module ehl_case_check_inlet
