@@ -18,8 +18,8 @@ import numpy as np
 from common import add_number, columns, measure, parser, say, show
 
 import pyehl
+from pyehl.contact.smooth import INLET, RESOLVED
 from pyehl.errors import EhlError, InputError
-from pyehl.prediction.smooth import INLET, RESOLVED
 from pyehl.solver import Solver
 from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant

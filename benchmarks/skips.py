@@ -18,7 +18,7 @@ from numpy import finfo, maximum
 
 from pyehl import library
 from pyehl.case import Case
-from pyehl.prediction import smooth as smooth_contact
+from pyehl.contact import smooth as smooth_contact
 from pyehl.prediction.predict import predict
 from pyehl.types import Row, Values
 

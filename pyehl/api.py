@@ -9,10 +9,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from pyehl.case import Case, files_of
+from pyehl.contact.film_formulas import FilmThickness, sheet
 from pyehl.errors import NotConverged, named
 from pyehl.given import Option, check_kind, path_of
 from pyehl.prediction import result
-from pyehl.prediction.film_formulas import FilmThickness, sheet
 from pyehl.prediction.friction import TRACKS
 from pyehl.prediction.predict import predict as predict_resolved
 from pyehl.prediction.result import Prediction

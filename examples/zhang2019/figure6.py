@@ -10,7 +10,7 @@ from piece import Check, Finding, Level, References, Result
 from runs import Made, Runs
 
 from pyehl import results
-from pyehl.prediction.smooth import solve_contact, zone_of
+from pyehl.contact.smooth import solve_contact, zone_of
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint

@@ -18,7 +18,7 @@ gives mu_r/mu_s = 1 + theta_r^-2/4 for small waves, with nothing fitted to frict
 import numpy as np
 
 from pyehl.case import Case
-from pyehl.prediction.smooth import solve_contact, zone_of
+from pyehl.contact.smooth import solve_contact, zone_of
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import edge_gain, inlet_transfer

@@ -5,8 +5,8 @@ import math
 
 import numpy as np
 
+from pyehl.contact.heat import HeatOf
 from pyehl.machines.contact import Film
-from pyehl.prediction.smooth import HeatOf
 from pyehl.theory.friction import absolute_friction
 from pyehl.theory.heat import Heat
 from pyehl.theory.shear import shear_stress

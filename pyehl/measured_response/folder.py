@@ -14,13 +14,13 @@ from pyehl import schema
 from pyehl.case import Case, exchanged
 from pyehl.case.duty import refuse_duty
 from pyehl.case.inlet import refuse_inlet
+from pyehl.contact.smooth import circle_of, solve_contact, zone_of
 from pyehl.destination import Destination, new_file, write_json
 from pyehl.given import Option, path_of
 from pyehl.measured_response.measurement import TIERS, measure, with_tiers
 from pyehl.netcdf import write_netcdf
 from pyehl.prediction.model import ModelOptions, outside_range
 from pyehl.prediction.response import STATIONS
-from pyehl.prediction.smooth import circle_of, solve_contact, zone_of
 from pyehl.results import scalars
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint

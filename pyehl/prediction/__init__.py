@@ -48,9 +48,9 @@ over the tracks is a property of the spectrum. The absolute friction coefficient
 lubricant at these pressures has no meaning.
 """
 
-from pyehl.prediction.bands import Band
 from pyehl.prediction.friction import RoughFriction
 from pyehl.prediction.model import ModelOptions
 from pyehl.prediction.rough_contact import Response
+from pyehl.prediction.spectrum import Band
 
 __all__ = ["Band", "ModelOptions", "Response", "RoughFriction"]

@@ -12,11 +12,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pyehl import lengths
-from pyehl.prediction.bands import choices, spikes_of, suggested_wavelength
-from pyehl.prediction.friction import known, remedies
-from pyehl.prediction.model import Model
+from pyehl.prediction.friction import below, mean, run
+from pyehl.prediction.model import KNOWN_RATIO, Model, model_error
 from pyehl.prediction.relative_positions import RelativePositions
 from pyehl.prediction.response import FILM_ENDS
+from pyehl.surfaces.map_steps import cropped, prominence
+from pyehl.surfaces.prepare import Preparation
 from pyehl.surfaces.tile import Topography
 from pyehl.types import Array, Indices
 
@@ -124,13 +125,7 @@ def of_model(model: Model, deformed: Sequence[Array], sustained: Sustained) -> B
     found = below_zero(tiles, deformed, semi_axes, sustained)
     if len(tiles) == 1 or found.deepest > 0.0:
         return found
-    first, second = model.in_order
-    lengths_of = [one.topography.length_x / semi_axes[0] for one in (first, second)]
-    positions = RelativePositions(
-        (lengths_of[0], lengths_of[1]),
-        (first.velocity_ratio, second.velocity_ratio),
-        (first.front, second.front),
-    )
+    positions = model.relative_positions
     if positions.passages is None:
         return found
     return _in_common_period(model, positions, deformed, sustained)
@@ -170,6 +165,19 @@ def _in_common_period(
             )
             found = BelowZero(math.nan, float(film[i, j]), at)
     return found
+
+
+Full = Callable[[Topography], bool]
+"""Whether a tile is good enough: its film is full."""
+
+FEW = 0.01
+"""Largest share of a map that counts as a few spikes: more is roughness, not dirt."""
+
+CUT_OFF_TOLERANCE, THRESHOLD_TOLERANCE = 0.05, 0.1
+"""Of a cut-off and of a threshold of spikes, relative."""
+
+MIN_THRESHOLD = 5.0
+"""Below it points of a normal distribution would count as spikes: at 5 one in two million."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -290,3 +298,156 @@ def place_of(tile: Topography, i: int, j: int) -> tuple[float, float]:
     """Place of a pixel on the surface [m]; of a prepared map on the map."""
     made = tile.preparation
     return made.place(i, j) if made else (i * tile.pixel[0], j * tile.pixel[1])
+
+
+def ways_into_range(model: Model) -> str:
+    """Say which cut-offs would bring the ratio into the range of the model; '' for none."""
+    model = model.merged or model
+    if first := remedies(model):
+        return "; " + ", ".join(f"first {option}" for option in first)
+    waves, radius, ways = model.components(), model.operating.hertz_radius, []
+    shortest = min(min(wave.spectrum.pixel) for wave in waves)
+    longest = 2.0 * math.pi / min(float(w.spectrum.q[w.spectrum.q > 0].min()) for w in waves)
+    for numbers in choices(len(model.surfaces)):
+
+        def ratio(length: float, numbers: tuple[int, ...] = numbers) -> float:
+            limit = 2.0 * math.pi / length
+            return below(model, waves, [limit if k in numbers else math.inf for k in model.order])
+
+        def good(length: float, numbers: tuple[int, ...] = numbers) -> bool:
+            found = run(model.without_shorter(numbers, length), 0, brief=True).friction
+            return found.status == "predicted" and found.mu_ratio <= KNOWN_RATIO
+
+        with np.errstate(over="ignore", invalid="ignore"):
+            high = within_range(ratio, shortest, longest)
+            cut = None if high is None else confirmed(high * radius, longest * radius, good)
+        if cut is not None:
+            of_each = [group for k in numbers for group in model.surfaces[k].groups]
+            keys = " and ".join(f"{group}.shortest_wavelength" for group in of_each)
+            ways.append(f"{keys} = {cut:g}")
+    return f"; {', or '.join(ways)} would leave {KNOWN_RATIO:g} or less" if ways else ""
+
+
+def remedies(model: Model) -> list[str]:
+    """Options that take form and line offsets off maps: cuts of waves would take them as well."""
+    return [
+        f"{finding.remedy.replace('surface.', f'{one.groups[0]}.')} ({finding.kind})"
+        for one in model.surfaces
+        if (made := one.topography.preparation) is not None
+        for finding in made.record.findings
+        if finding.kind in ("form", "line offsets")
+    ]
+
+
+def known(model: Model) -> bool:
+    """Whether the error of the ratio is; that of the paper never is, and is not asked for."""
+    return model.options.as_in_paper or math.isfinite(model_error(mean(model)))
+
+
+def choices(count: int) -> list[tuple[int, ...]]:
+    """Numbers of the surfaces of which short waves are cut: each alone, then both."""
+    return [(0,)] if count == 1 else [(0,), (1,), (0, 1)]
+
+
+def suggested_wavelength(
+    shortest: float, longest: float, full: Callable[[float], bool]
+) -> float | None:
+    """Find the cut-off [m] at which the film is full: shorter waves are taken off.
+
+    Bisection in the logarithm of the wavelength to 5 %, between a `shortest` one, two pixels, and
+    the `longest`, the length of the tile; the film need not be full for every longer cut-off, but
+    it is for the one returned. `full` tells whether it is for a cut-off. None if even the longest
+    waves break the film.
+    """
+    low, high = math.log(shortest), math.log(longest)
+    if not full(math.exp(high)):
+        return None
+    while high - low > CUT_OFF_TOLERANCE:
+        middle = 0.5 * (low + high)
+        if full(math.exp(middle)):
+            high = middle
+        else:
+            low = middle
+    rounded = _two_digits(math.exp(high))
+    return rounded if full(rounded) else math.exp(high)
+
+
+def suggested_outliers(
+    away: Array, without_spikes: Callable[[float], Topography], full: Full
+) -> tuple[float, int] | None:
+    """Find the threshold of spikes at which the film is full, if a few points are what breaks it.
+
+    `away` is (nx, ny), see :func:`pyehl.surfaces.map_steps.prominence`; `without_spikes` takes
+    a threshold. Threshold and number of points beyond it; None if more than a few have to go.
+    """
+    allowed = float(np.quantile(away, 1.0 - FEW))
+    low = max(MIN_THRESHOLD, allowed)
+    high = float(away.max())
+    if low >= high or not full(without_spikes(low)):
+        return None
+    below, above = math.log(low), math.log(high)
+    while above - below > THRESHOLD_TOLERANCE:
+        middle = 0.5 * (below + above)
+        if full(without_spikes(math.exp(middle))):
+            below = middle
+        else:
+            above = middle
+    # a threshold that a person would write, on the safe side
+    rounded = float(f"{math.exp(below):.2g}")
+    if rounded > math.exp(below) or rounded < low or not full(without_spikes(rounded)):
+        rounded = math.exp(below)
+    return rounded, int(np.count_nonzero(away > rounded))
+
+
+def spikes_of(
+    made: Preparation,
+    without_spikes: Callable[[float], Topography],
+    full: Full,
+) -> tuple[float, int] | None:
+    """Threshold with a full film, and the number of points beyond it."""
+    heights = made.scan.heights
+    if any(made.options.crop):
+        nx, ny = heights.shape
+        pixel = (made.scan.length_x / nx, made.scan.length_y / ny)
+        heights = cropped(heights, pixel, made.options.crop)
+    try:
+        away = prominence(heights)
+    except ValueError:
+        # no spread to tell spikes by
+        return None
+    return suggested_outliers(away, without_spikes, full)
+
+
+def within_range(below: Callable[[float], float], shortest: float, longest: float) -> float | None:
+    """Wavelength [a] without whose shorter waves mu_r/mu_s is in the range of the model.
+
+    Within a tenth, between a `shortest` one and the `longest` of the surface; None: there is none.
+    `below` gives mu_r/mu_s without waves shorter than a length.
+    """
+    low, high = shortest, longest
+    if not below(high) <= KNOWN_RATIO:
+        return None
+    while high > 1.1 * low:
+        middle = math.sqrt(low * high)
+        low, high = (low, middle) if below(middle) <= KNOWN_RATIO else (middle, high)
+    return high
+
+
+def confirmed(start: float, longest: float, good: Callable[[float], bool]) -> float | None:
+    """First wavelength of two digits, from `start` [m] on in steps of a tenth, that is good.
+
+    None if there is none up to `longest` [m].
+    """
+    value = start
+    while value <= longest:
+        rounded = _two_digits(value)
+        if good(rounded):
+            return rounded
+        value = 1.1 * rounded
+    return None
+
+
+def _two_digits(value: float) -> float:
+    """Two digits of a wavelength, rounded up."""
+    scale = 10.0 ** (math.floor(math.log10(value)) - 1)
+    return float(f"{math.ceil(value / scale - 1e-9) * scale:.2g}")

@@ -7,24 +7,19 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from statistics import fmean
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from pyehl.prediction.bands import Band, joining, known_by_cut_off, remedies_of
-from pyehl.prediction.model import KNOWN_RATIO, PIXEL_POINTS, Components, Model, model_error
+from pyehl.prediction.model import PIXEL_POINTS, Components, Model
 from pyehl.prediction.moving_tile import Component
 from pyehl.prediction.relative_positions import Passage, Positions
 from pyehl.prediction.rough_contact import HertzContact, Response, RoughContact, ShearedContact
-from pyehl.prediction.spectrum import longer_waves
+from pyehl.prediction.spectrum import Band, joining, longer_waves
 from pyehl.surfaces import interpolated, track_offsets
 from pyehl.theory.line_contact import AnyContact
 from pyehl.theory.lubricant import Lubricant
 from pyehl.types import Array
-
-if TYPE_CHECKING:
-    from pyehl.prediction.spectrum import Together
-
 
 BEYOND = "beyond linear response"
 """Status where the ratio is beyond the model."""
@@ -235,17 +230,17 @@ def deformed_surface(
     velocity_ratios: Sequence[float],
     *,
     known: bool,
-    together: Together | None = None,
+    together_rms: float | None = None,
 ) -> dict[str, Any]:
     """Give what a summary says of the deformed surface.
 
     Minimum film of the smooth contact and film limit in m; `known`: whether the errors are, because
-    the model is one that they were measured of and the case in its range; `together`: the sum of
-    two surfaces that move so. NaN for what is not known.
+    the model is one that they were measured of and the case in its range; `together_rms`: rms
+    height of the sum of two deformed surfaces that move together [m]. NaN for what is not known.
     """
     of_each = [float(np.std(response.deformed)) for response in friction.responses]
     deformed = of_each[0]
-    of_all = math.hypot(*of_each) if together is None else together.deformed_rms
+    of_all = together_rms if together_rms is not None else math.hypot(*of_each)
     ratio = film_minimum / of_all if of_all > 0.0 else math.nan
     rms, rise = friction.increase_rms, friction.increase_max
     share, share_error = friction.below_limit, friction.below_limit_error
@@ -310,8 +305,8 @@ def run(
 ) -> Outcome:
     """Friction over the passage, mean and spread over the tracks, and what each band adds.
 
-    `brief`: of the bands the shortest alone, and without a search for what would help where
-    the linear response ends. No tracks: NaN for mean and spread. `waves`: if they were made.
+    `brief`: of the bands the shortest alone. No tracks: NaN for mean and spread. `waves`: if they
+    were made.
     """
     if model.merged is not None:
         together = run(model.merged, tracks, brief=brief)
@@ -327,7 +322,7 @@ def run(
         left = [(w.spectrum.power, np.abs(w.at_centre())) for w in waves]
         contact.watch(film_levels(limit, left, [w.velocity_ratio for w in waves]))
         passage = positions.passage(contact.friction, model.options.positions, LARGEST_RATIO)
-        found = _result(model, contact, waves, passage, brief=brief)
+        found = _result(model, contact, waves, passage)
         if found.status != "predicted":
             return Outcome(found)
         ratios = _over_tracks(model, contact, waves, positions, tracks, found.mu_ratio)
@@ -375,11 +370,6 @@ def mean(model: Model, waves: Components | None = None) -> float:
         return model.positions(waves).short_mean(model.rough_contact(waves).friction)
 
 
-def known(model: Model) -> bool:
-    """Whether the error of the ratio is; that of the paper never is, and is not asked for."""
-    return model.options.as_in_paper or math.isfinite(model_error(mean(model)))
-
-
 def run_and_below(model: Model, *shortest: float) -> tuple[RoughFriction, list[float]]:
     """Friction in brief, and mu_r/mu_s without the waves shorter than some lengths [a].
 
@@ -416,48 +406,15 @@ def _result(
     contact: RoughContact | HertzContact,
     waves: Components,
     passage: Passage,
-    *,
-    brief: bool,
 ) -> RoughFriction:
-    status, message = outcome(contact, passage.ratios, load_balance=model.options.load_balance)
-    if status == BEYOND and not brief:
-        message += _ways_into_range(model, waves)
     return passed(
         contact,
-        (status, message),
+        outcome(contact, passage.ratios, load_balance=model.options.load_balance),
         passage,
         film_unit=model.operating.film_scale,
         shifts=tuple(passage.shifts[model.order.index(k)] for k in range(len(waves))),
         responses=tuple(model.responses(waves)),
     )
-
-
-def _ways_into_range(model: Model, waves: Components) -> str:
-    """Say what would bring the ratio into the range of the model; '' for nothing."""
-    if first := remedies(model):
-        return "; " + ", ".join(f"first {option}" for option in first)
-    return known_by_cut_off(
-        [(" and ".join(f"{g}.shortest_wavelength" for g in s.groups)) for s in model.surfaces],
-        [wave.spectrum for wave in waves],
-        model.order,
-        model.operating.hertz_radius,
-        lambda limits: below(model, waves, limits),
-        lambda numbers, shortest: _within_range(model.without_shorter(numbers, shortest)),
-    )
-
-
-def _within_range(model: Model) -> bool:
-    found = run(model, 0, brief=True).friction
-    return found.status == "predicted" and found.mu_ratio <= KNOWN_RATIO
-
-
-def remedies(model: Model) -> list[str]:
-    """Options that take form and line offsets off maps: cuts of waves would take them too."""
-    return [
-        option.replace("surface.", f"{one.groups[0]}.")
-        for one in model.surfaces
-        for option in remedies_of(one.topography)
-    ]
 
 
 def _bands(model: Model, waves: Components, total: float, *, brief: bool) -> list[Band]:

@@ -25,9 +25,9 @@ friction: integral of tau, eq. 14       :meth:`rough_contact.RoughContact.fricti
                                         paper: :meth:`rough_contact.HertzContact.friction`
 mean over the passage                   :mod:`relative_positions`
 mu_r/mu_s, tracks, bands                :func:`friction.run`
-p_s, h_s: the smooth contact            :func:`smooth.solve_contact`
+p_s, h_s: the smooth contact            :func:`pyehl.contact.smooth.solve_contact`
 contact at a boundary film              :func:`mixed_lubrication.partial_film`
-heat of sliding                         :func:`smooth.heat_of`
+heat of sliding                         :func:`pyehl.contact.smooth.heat_of`
 where the film ends, and a cut-off      :func:`breakdown.below_zero`, :func:`breakdown.advise`
 with which it would not
 errors                                  :func:`model.model_error`
@@ -47,14 +47,15 @@ from functools import cached_property
 
 import numpy as np
 
+from pyehl.contact.smooth import SmoothContact, circle_of, zone_of
 from pyehl.errors import InputError
 from pyehl.prediction.moving_tile import Component, Edge, PixelTile, long_waves
 from pyehl.prediction.relative_positions import Positions, RelativePositions, TilePositions
 from pyehl.prediction.response import Transfer
 from pyehl.prediction.rough_contact import HertzContact, Response, RoughContact
-from pyehl.prediction.smooth import SmoothContact, circle_of, zone_of
-from pyehl.prediction.spectrum import Spectrum, merged, working_grid
+from pyehl.prediction.spectrum import Spectrum, working_grid
 from pyehl.surfaces import FEATURES, Topography, filtered, rough_groups
+from pyehl.surfaces.pair import merged
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.ellipse import Ellipse
 from pyehl.theory.line_contact import AnyContact, contact_of
@@ -417,12 +418,17 @@ class Model:
 
     def positions(self, waves: Components) -> Positions:
         """Give the positions of the surfaces, in order."""
-        radius, tiles = self.operating.hertz_radius, [one.topography for one in self.in_order]
         if len(waves) == 1:
             pixels = waves[0].spectrum.shape[0]
-            return TilePositions(pixels, tiles[0].length_x / pixels)
+            return TilePositions(pixels, self.surfaces[0].topography.length_x / pixels)
+        return self.relative_positions
+
+    @property
+    def relative_positions(self) -> RelativePositions:
+        """Positions of two surfaces, in order."""
         first, second = self.in_order
-        lengths = tiles[0].length_x / radius, tiles[1].length_x / radius
+        radius = self.operating.hertz_radius
+        lengths = first.topography.length_x / radius, second.topography.length_x / radius
         ratios = first.velocity_ratio, second.velocity_ratio
         return RelativePositions(lengths, ratios, (first.front, second.front), radius)
 

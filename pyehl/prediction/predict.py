@@ -19,6 +19,14 @@ import numpy as np
 from pyehl import blas, lengths, surfaces
 from pyehl.case.duty import refuse_duty
 from pyehl.case.surfaces import FINISHES
+from pyehl.contact.smooth import (
+    SmoothContact,
+    heat_of,
+    hertz_contact,
+    read_contact,
+    solve_contact,
+    with_boundary_film,
+)
 from pyehl.errors import InputError
 from pyehl.prediction.breakdown import (
     BelowZero,
@@ -27,19 +35,13 @@ from pyehl.prediction.breakdown import (
     below_zero,
     of_model,
     sustained_by,
+    ways_into_range,
 )
-from pyehl.prediction.friction import TRACKS, Outcome, RoughFriction, broken, run
+from pyehl.prediction.friction import BEYOND, TRACKS, Outcome, RoughFriction, broken, run
 from pyehl.prediction.mixed_lubrication import mixed_film, with_contact
 from pyehl.prediction.model import PIXEL_POINTS, Model, ModelOptions, RoughSurface, unpredictable
-from pyehl.prediction.result import Prediction, read_contact
-from pyehl.prediction.smooth import (
-    SmoothContact,
-    heat_of,
-    hertz_contact,
-    solve_contact,
-    with_boundary_film,
-)
-from pyehl.prediction.spectrum import WORKING_PIXELS, Together
+from pyehl.prediction.result import Prediction, Together
+from pyehl.prediction.spectrum import WORKING_PIXELS
 from pyehl.surfaces import Topography
 from pyehl.theory.line_contact import AnyContact, contact_of, formula_film
 from pyehl.theory.lubricant import Lubricant
@@ -247,6 +249,9 @@ def predict(
     tracks = 0 if brief or operating.ellipse.is_line else tracks
     waves = None if model.merged else model.components()
     outcome = run(model, tracks, brief=brief, waves=waves)
+    if outcome.friction.status == BEYOND and not brief:
+        message = outcome.friction.message + ways_into_range(model)
+        outcome = outcome._replace(friction=replace(outcome.friction, message=message))
     sustained = sustained_by(model)
     below, together = _below(model, outcome.friction, sustained)
     if outcome.friction.status == "predicted" and below.deepest <= 0.0:

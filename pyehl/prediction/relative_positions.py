@@ -18,8 +18,9 @@ from typing import Protocol
 import numpy as np
 
 from pyehl.prediction.moving_tile import Position
-from pyehl.prediction.spectrum import FIRST_POSITIONS, MAX_POSITIONS, SAME
+from pyehl.prediction.spectrum import FIRST_POSITIONS, MAX_POSITIONS
 from pyehl.surfaces import interpolated
+from pyehl.surfaces.pair import SAME
 from pyehl.types import Array
 
 Friction = Callable[[Position], float]

@@ -18,11 +18,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pyehl import display, namelist, schema
-from pyehl.arrays import read_array, write_csv
+from pyehl.arrays import write_csv
 from pyehl.assessment import assess
+from pyehl.contact.smooth import SmoothContact
 from pyehl.destination import Destination, finite, write_json
-from pyehl.errors import InputError
-from pyehl.prediction.bands import BAND_COLUMNS, Band, cutoff_error, records
 from pyehl.prediction.breakdown import Advice, BelowZero
 from pyehl.prediction.friction import (
     TRACKS,
@@ -42,29 +41,100 @@ from pyehl.prediction.model import (
     outside_range,
     why_no_error,
 )
-from pyehl.prediction.smooth import SmoothContact, contact_of, smooth_case
-from pyehl.prediction.spectrum import (
-    SECOND,
-    Together,
-    arrays,
-    composite_rms,
-    findings_of,
-    second_summary,
-    statistics,
-)
+from pyehl.prediction.rough_contact import Response
+from pyehl.prediction.spectrum import BAND_COLUMNS, Band, Spectrum, cutoff_error, records
 from pyehl.reasons import alpha_note
 from pyehl.surfaces import Topography, psd_isotropic
+from pyehl.surfaces.pair import composite_rms, correlation
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.friction import absolute_friction
 from pyehl.theory.heat import Heat
 from pyehl.theory.line_contact import AnyContact
 from pyehl.theory.lubricant import Lubricant
-from pyehl.theory.shear import ShearLaw
 from pyehl.types import Array, Settings
 
 if TYPE_CHECKING:
     import xarray
     from matplotlib.axes import Axes
+
+
+SECOND = "second_"
+"""Before the names of what belongs to the second surface."""
+
+
+@dataclass(frozen=True, slots=True)
+class Together:
+    """The sum of two surfaces that move together."""
+
+    tile: Topography  # undeformed
+    deformed_rms: float  # [m]
+
+
+def arrays(tile: Topography, response: Response, prefix: str = "") -> dict[str, Array]:
+    """Coordinates (nx,), (ny,) [m], heights [m] and response (nx, ny) of a surface."""
+    nx, ny = tile.shape
+    found = {
+        "x": np.arange(nx, dtype=float) * tile.pixel[0],
+        "y": np.arange(ny, dtype=float) * tile.pixel[1],
+        "surface": np.asfortranarray(tile.heights),
+        "deformed": np.asfortranarray(response.deformed),
+        "delta_p": np.asfortranarray(response.pressure),
+    }
+    return {prefix + name: values for name, values in found.items()}
+
+
+def statistics(tile: Topography, response: Response, prefix: str = "") -> dict[str, Any]:
+    """Numbers of a surface that a summary holds."""
+    made = tile.preparation
+    found = {
+        "surface": tile.origin,
+        "surface_preparation": made.record.summary if made else None,
+        "seed": tile.seed,
+        "pixels": list(tile.shape),
+        "length_x_m": tile.length_x,
+        "length_y_m": tile.length_y,
+        "rms_height_m": tile.rms_height,
+        "rms_deformed_m": float(np.std(response.deformed)),
+        "rms_pressure_Pa": float(np.std(response.pressure)),
+    }
+    return {prefix + name: value for name, value in found.items()}
+
+
+def second_summary(
+    tiles: Sequence[Topography],
+    response: Response,
+    velocity_ratio: float,
+    together: Topography | None,
+) -> dict[str, Any]:
+    """Return what a summary holds of the second of two surfaces, and of both.
+
+    `together`: their sum where they move so.
+    """
+    slopes = [_slope(tile) for tile in tiles]
+    return {
+        "second_velocity_ratio": velocity_ratio,
+        **statistics(tiles[1], response, SECOND),
+        "surface_rms_m": composite_rms(tiles, together),
+        "surface_slope": _slope(together) if together else math.hypot(*slopes),
+        "surface_correlation": correlation(tiles[0], tiles[1], together),
+    }
+
+
+def findings_of(tiles: Sequence[Topography]) -> str | None:
+    """Name what the maps have that is no roughness; None if there is nothing."""
+    kinds = [
+        finding.kind
+        for tile in tiles
+        if tile.preparation is not None
+        for finding in tile.preparation.record.findings
+    ]
+    return ", ".join(dict.fromkeys(kinds)) or None
+
+
+def _slope(tile: Topography) -> float:
+    """Rms slope [-]."""
+    waves = Spectrum.of(tile.heights, *tile.size)
+    return math.sqrt(float((np.square(waves.q) * waves.power).sum()))
 
 
 def summary_of(prediction: Prediction) -> dict[str, Any]:
@@ -134,7 +204,7 @@ def summary_of(prediction: Prediction) -> dict[str, Any]:
             prediction.options.film_limit,
             prediction.velocity_ratios,
             known=prediction.is_known,
-            together=prediction.together,
+            together_rms=prediction.together.deformed_rms if prediction.together else None,
         ),
         **contact_numbers(prediction.mixed, boundary, known=prediction.is_known),
         "cavitated_share": f.cavitated_share,
@@ -220,79 +290,6 @@ def draw(prediction: Prediction, folder: str | os.PathLike[str]) -> None:
             LOG.warning("%s: not drawn: %s", path, error or type(error).__name__)
     written = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
     write_json(folder / "summary.json", written | {"files": sorted([*written["files"], *drawn])})
-
-
-def read_contact(folder: str | Path, operating: AnyContact, settings: Settings) -> SmoothContact:
-    """Pressure and film from a result folder, of a smooth contact or under a transient run.
-
-    InputError if it is not the folder of a converged solution of the same contact: M and L, ratio
-    of the radii along and across the motion, the law that the flow obeys, lubricant and border of
-    the domain. The grid may be another.
-    """
-    folder = Path(folder)
-    try:
-        of_folder = namelist.values((folder / "case.nml").read_text(encoding="utf-8"))
-        summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
-        rough = (folder / "P_smooth.npy").is_file()
-        names = ("X", "Y", "P_smooth", "H_smooth") if rough else ("X", "Y", "P", "H")
-        x, y, pressure, film = (read_array(folder / f"{n}.npy") for n in names)
-    except (OSError, ValueError) as error:
-        why = error.strerror if isinstance(error, OSError) and error.strerror else error
-        raise InputError(f"{folder}: not a result folder with fields ({why})") from error
-    if summary["status"] != "converged":
-        raise InputError(f"{folder}: not a solution, its status is '{summary['status']}'")
-    line = "_line" if operating.ellipse.is_line else ""
-    for name, here in ((f"moes_m{line}", operating.moes_m), (f"moes_l{line}", operating.moes_l)):
-        if name not in summary:
-            raise InputError(f"{folder}: a line contact there or in the case, and a point contact")
-        there = summary[name]
-        if not math.isclose(there, here, rel_tol=1e-4):
-            raise InputError(f"{folder}: {name} is {there:.6g} there and {here:.6g} in the case")
-    there = 0.0 if line else float(summary.get("radius_ratio") or 1.0)
-    here = operating.radius_ratio
-    if not math.isclose(there, here, rel_tol=1e-4):
-        raise InputError(f"{folder}: radius_ratio is {there:.6g} there and {here:.6g} in the case")
-    angle = float(of_folder["contact"].get("angle", 0.0))
-    if here != 1.0 and angle != 0.0:
-        raise InputError(f"{folder}: contact.angle is {angle:g} there and 0 in the case")
-    flows = _flow(of_folder), _flow(settings)
-    if flows[0] != flows[1]:
-        raise InputError(f"{folder}: the flow is {flows[0]} there and {flows[1]} in the case")
-    _check_same(folder, of_folder, settings)
-    if (summary.get("contact_load_share") or 0.0) > 0.0:
-        raise InputError(
-            f"{folder}: its bodies touch at the boundary film\nexpected: the contact solved with "
-            "lubricant.boundary_film = 0"
-        )
-    if line:
-        # all rows of a smooth strip are the same
-        y, pressure, film = y[:1], pressure[:, :1], film[:, :1]
-    return contact_of(summary, (x, y), pressure, film, f"smooth contact in {folder}")
-
-
-def _check_same(folder: Path, of_folder: Settings, settings: Settings) -> None:
-    """Refuse the contact of a folder whose lubricant or border is not that of a case."""
-    there, here = (namelist.values(smooth_case(groups)) for groups in (of_folder, settings))
-    names = [("grid", "border"), *(("lubricant", key) for key in here["lubricant"])]
-    for group, key in names:
-        both = there[group].get(key), here[group][key]
-        numbers = [v for v in both if isinstance(v, float)]
-        same = math.isclose(*numbers, rel_tol=1e-4) if len(numbers) == 2 else both[0] == both[1]
-        if not same:
-            words = ["not set" if v is None else namelist.word(v) for v in both]
-            raise InputError(
-                f"{folder}: {group}.{key} is {words[0]} there and {words[1]} in the case"
-            )
-
-
-def _flow(settings: Settings) -> str:
-    """Law of the flow in words, with all that it depends on."""
-    law = ShearLaw.from_settings(settings)
-    if not law.in_flow:
-        return "newtonian"
-    exponent = f" with exponent {law.carreau_exponent:g}" if law.law == "carreau" else ""
-    slip = abs(float(settings["contact"]["slide_to_roll"]))
-    return f"{law.law} at {law.scale:g} Pa{exponent}, slide_to_roll {slip:g},"
 
 
 @dataclass(frozen=True, slots=True, repr=False)

@@ -23,6 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pyehl import extension
+from pyehl.contact.smooth import SmoothContact
 from pyehl.prediction.moving_tile import (
     REACH,
     Component,
@@ -34,7 +35,6 @@ from pyehl.prediction.moving_tile import (
     station_weights,
 )
 from pyehl.prediction.response import FILM_ENDS, STATIONS, film_left
-from pyehl.prediction.smooth import SmoothContact
 from pyehl.theory.disc import EDGE_ANGLES
 from pyehl.theory.line_contact import AnyContact
 from pyehl.theory.lubricant import Lubricant

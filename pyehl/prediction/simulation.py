@@ -18,6 +18,7 @@ import scipy
 
 from pyehl import lengths, surfaces
 from pyehl.case import Case
+from pyehl.contact.smooth import SmoothContact, solve_contact
 from pyehl.errors import EhlError, InputError, InternalError
 from pyehl.handle import SolverHandle, start_fronts, take_start
 from pyehl.prediction.friction import mean, run_and_below
@@ -32,7 +33,6 @@ from pyehl.prediction.model import (
 )
 from pyehl.prediction.moving_tile import REACH, Component, line_weights, slipped, station_weights
 from pyehl.prediction.response import Transfer
-from pyehl.prediction.smooth import SmoothContact, solve_contact
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.surfaces import Topography
 from pyehl.theory.line_contact import AnyContact, contact_of, formula_film

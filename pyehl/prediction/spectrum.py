@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The Fourier components of rough tiles, a table over wavenumber and direction, sums of two tiles.
+"""The Fourier components of rough tiles, a table over wavenumber and direction, and bands.
 
 Units: lengths along the surface by a, heights by a^2/R.
 """
@@ -7,28 +7,22 @@ Units: lengths along the surface by a, heights by a^2/R.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from fractions import Fraction
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pyehl.errors import InputError
-from pyehl.surfaces import MAX_PIXELS, Topography, resampled, shifted
+from pyehl.surfaces import MAX_PIXELS, Topography, resampled
 from pyehl.theory.line_contact import AnyContact
-from pyehl.types import Array, Complex, Indices
-
-if TYPE_CHECKING:
-    from pyehl.prediction.rough_contact import Response
+from pyehl.types import Array, Complex, Indices, Mask
 
 FIRST_POSITIONS = 8
 """Fewest positions of a tile in a passage, and those of a mean over a few."""
 MAX_POSITIONS = 4096
 """Most positions of a passage, as the schema of cases has it."""
-SAME = 1e-9
-"""Relative difference of two lengths or times that is none."""
 WORKING_PIXELS = 48
 """Pixels per semi-axis below which a coarse map is interpolated."""
 
@@ -294,144 +288,104 @@ def _between(values: Array, row: Array, column: Array) -> Array:
     return found
 
 
-SECOND = "second_"
-"""Before the names of what belongs to the second surface."""
-MOST_TILES = 12
-"""Tiles beside each other, along one way, that are added to those of the other surface, as many as
-passages of a common period (:data:`pyehl.prediction.relative_positions.MOST_PASSAGES`)."""
+# A wave at the end of an octave begins the next one, whatever its last digits
+ROUNDING = 1e-9
+# Share of the largest mean square that counts for none: rounding leaves its square, 1e-32
+NOTHING = 1e-20
 
-
-def arrays(tile: Topography, response: Response, prefix: str = "") -> dict[str, Array]:
-    """Coordinates (nx,), (ny,) [m], heights [m] and response (nx, ny) of a surface."""
-    nx, ny = tile.shape
-    found = {
-        "x": np.arange(nx, dtype=float) * tile.pixel[0],
-        "y": np.arange(ny, dtype=float) * tile.pixel[1],
-        "surface": np.asfortranarray(tile.heights),
-        "deformed": np.asfortranarray(response.deformed),
-        "delta_p": np.asfortranarray(response.pressure),
-    }
-    return {prefix + name: values for name, values in found.items()}
-
-
-def statistics(tile: Topography, response: Response, prefix: str = "") -> dict[str, Any]:
-    """Numbers of a surface that a summary holds."""
-    made = tile.preparation
-    found = {
-        "surface": tile.origin,
-        "surface_preparation": made.record.summary if made else None,
-        "seed": tile.seed,
-        "pixels": list(tile.shape),
-        "length_x_m": tile.length_x,
-        "length_y_m": tile.length_y,
-        "rms_height_m": tile.rms_height,
-        "rms_deformed_m": float(np.std(response.deformed)),
-        "rms_pressure_Pa": float(np.std(response.pressure)),
-    }
-    return {prefix + name: value for name, value in found.items()}
+# Attributes of a band, and what they are called in results
+BAND_COLUMNS = {
+    "longest": "longest_m",
+    "shortest": "shortest_m",
+    "rms_height": "rms_height_m",
+    "rms_deformed": "rms_deformed_m",
+    "rms_pressure": "rms_pressure_Pa",
+    "increase": "increase",
+}
 
 
 @dataclass(frozen=True, slots=True)
-class Together:
-    """The sum of two surfaces that move together."""
+class Band:
+    """What a band of wavelengths adds."""
 
-    tile: Topography  # undeformed
-    deformed_rms: float  # [m]
+    # The band of wavelengths 2 pi/|q| [m]
+    longest: float
+    shortest: float
+    rms_height: float  # of the undeformed roughness in the band [m]
+    rms_deformed: float  # of the deformed roughness in the band [m]
+    rms_pressure: float  # of delta p in the band [Pa]
+    # How much mu_r/mu_s grows when this band joins all the longer ones [-]; NaN where the model
+    # does not hold
+    increase: float
 
 
-def second_summary(
-    tiles: Sequence[Topography],
-    response: Response,
-    velocity_ratio: float,
-    together: Topography | None,
-) -> dict[str, Any]:
-    """Return what a summary holds of the second of two surfaces, and of both.
+def octaves(q: Array, power: Array, *, only: int = 0) -> Iterator[tuple[float, Mask, bool]]:
+    """Octaves of wavelengths that hold roughness, longest first; `only` the last so many, 0: all.
 
-    `together`: their sum where they move so.
+    `q` is |q| of the components, of any shape and unit, `power` what each adds to the mean square
+    height; at most `NOTHING` of the largest counts for none (a harmonic pattern has rounding errors
+    in all octaves but its own). Yields the longest wavelength 2 pi/|q| of the octave, which
+    components are in it, and whether it is the last one.
     """
-    slopes = [_slope(tile) for tile in tiles]
-    return {
-        "second_velocity_ratio": velocity_ratio,
-        **statistics(tiles[1], response, SECOND),
-        "surface_rms_m": composite_rms(tiles, together),
-        "surface_slope": _slope(together) if together else math.hypot(*slopes),
-        "surface_correlation": correlation(tiles[0], tiles[1], together),
-    }
+    lowest = float(q[q > 0.0].min())
+    octave = np.full(q.shape, -1)
+    octave[q > 0.0] = np.floor(np.log2(q[q > 0.0] / lowest) + ROUNDING).astype(int)
+    present = power > NOTHING * power.max()
+    filled = [k for k in range(int(octave.max()) + 1) if (present & (octave == k)).any()]
+    for k in filled[-only:]:
+        yield 2.0 * math.pi / (lowest * 2.0**k), octave == k, k == filled[-1]
 
 
-def findings_of(tiles: Sequence[Topography]) -> str | None:
-    """Name what the maps have that is no roughness; None if there is nothing."""
-    kinds = [
-        finding.kind
-        for tile in tiles
-        if tile.preparation is not None
-        for finding in tile.preparation.record.findings
-    ]
-    return ", ".join(dict.fromkeys(kinds)) or None
+def joining(
+    waves: tuple[Array, Array, Array, Array],
+    below: Callable[[float], float],
+    total: float,
+    operating: AnyContact,
+    *,
+    brief: bool,
+) -> list[Band]:
+    """Return what each octave, or the last one alone (`brief`), adds when it joins the longer ones.
 
-
-def composite_rms(tiles: Sequence[Topography], together: Topography | None = None) -> float:
-    """Rms height [m] of one or two surfaces: of their sum where they move `together`.
-
-    Else that of surfaces that have nothing in common, as in the mean over all positions.
+    Of waves, arrays of the same shape: |q| [1/a], mean square height [a^4/R^2], |T| [-], pressure
+    over roughness [p_h R/a^2]. `below` gives mu_r/mu_s of the waves with |q| below a limit [1/a],
+    `total` is that of all.
     """
-    if together is None and len(tiles) == 1:
-        return tiles[0].rms_height
-    return together.rms_height if together else math.hypot(*(tile.rms_height for tile in tiles))
+    q, power, deformed, pressure = waves
+    a, film, p_h = operating.hertz_radius, operating.film_scale, operating.hertz_pressure
+    found: list[Band] = []
+    before = 1.0
+    for longest, inside, last in octaves(q, power, only=2 if brief else 0):
+        ratio = total if last else below(4.0 * np.pi / longest)
+        if brief and not last:
+            before = ratio
+            continue
+        rms = [
+            math.sqrt(float((power * np.square(factor))[inside].sum()))
+            for factor in (np.ones_like(pressure), deformed, pressure)
+        ]
+        found.append(
+            Band(
+                longest=longest * a,
+                shortest=0.5 * longest * a,
+                rms_height=rms[0] * film,
+                rms_deformed=rms[1] * film,
+                rms_pressure=rms[2] * p_h,
+                increase=ratio - before,
+            )
+        )
+        before = ratio
+    return found
 
 
-def correlation(first: Topography, second: Topography, together: Topography | None) -> float:
-    """Correlation of the heights of two surfaces that move `together`; NaN where they do not."""
-    product = first.rms_height * second.rms_height
-    if together is None or product == 0.0:
-        return math.nan
-    squares = first.rms_height**2 + second.rms_height**2
-    return (together.rms_height**2 - squares) / (2.0 * product)
+def cutoff_error(bands: Sequence[Band]) -> float:
+    """Return what the last octave of wavelengths adds to mu_r/mu_s [-], by its modulus.
 
-
-def _slope(tile: Topography) -> float:
-    """Rms slope [-]."""
-    waves = Spectrum.of(tile.heights, *tile.size)
-    return math.sqrt(float((np.square(waves.q) * waves.power).sum()))
-
-
-def sum_of(
-    groups: Sequence[Mapping[str, Any]], tiles: Sequence[Topography], hertz_radius: float
-) -> Topography | None:
-    """Return the sum of the tiles of two groups of a case; None where they do not move together."""
-    one, two = groups
-    if float(one["velocity_ratio"]) != float(two["velocity_ratio"]):
-        return None
-    way = float(two["x_start"]) - float(one["x_start"])
-    return merged(tiles[0], tiles[1], way * hertz_radius)
-
-
-def merged(first: Topography, second: Topography, ahead: float) -> Topography | None:
-    """Return a tile with the heights of two, the second one ahead by a way [m] along the motion.
-
-    It holds whole tiles of both. None: not so few of both are as long, or they have too many
-    pixels.
+    This depends on the cut-off: a measure of what waves shorter than those of the map would
+    add. NaN without bands.
     """
-    if ahead != 0.0:
-        second = shifted(second, ahead)
-    counts = [Fraction(b / a) for a, b in zip(first.size, second.size, strict=True)]
-    counts = [ratio.limit_denominator(MOST_TILES) for ratio in counts]
-    for ratio, a, b in zip(counts, first.size, second.size, strict=True):
-        if ratio.numerator > MOST_TILES or not math.isclose(ratio * a, b, rel_tol=SAME):
-            return None
-    nx, ny = (
-        max(ratio.numerator * m, ratio.denominator * n)
-        for ratio, m, n in zip(counts, first.shape, second.shape, strict=True)
-    )
-    if nx * ny > MAX_PIXELS:
-        return None
-    first = _repeated(first, [ratio.numerator for ratio in counts])
-    second = _repeated(second, [ratio.denominator for ratio in counts])
-    heights = resampled(first, (nx, ny)).heights + resampled(second, (nx, ny)).heights
-    return Topography(heights, first.size, f"{first.origin} and {second.origin}")
+    return abs(bands[-1].increase) if bands else math.nan
 
 
-def _repeated(tile: Topography, times: Sequence[int]) -> Topography:
-    """Return so many of a tile beside each other along x and y."""
-    size = tile.length_x * times[0], tile.length_y * times[1]
-    return replace(tile, heights=np.tile(tile.heights, times), size=size)
+def records(bands: Sequence[Band]) -> list[dict[str, float]]:
+    """Give bands as results have them: names with units and values."""
+    return [{name: getattr(band, key) for key, name in BAND_COLUMNS.items()} for band in bands]

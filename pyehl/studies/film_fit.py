@@ -19,11 +19,11 @@ from numpy.polynomial import chebyshev
 from pyehl import namelist
 from pyehl.arrays import write_csv
 from pyehl.case import KEYS, Case, resolve
+from pyehl.contact.smooth import FINEST, film_of
 from pyehl.destination import Destination, write_json
 from pyehl.errors import EhlError, InputError, did_you_mean
 from pyehl.given import Option, check_kind, path_of
 from pyehl.handle import SolverHandle, results_of
-from pyehl.prediction.smooth import FINEST, film_of
 from pyehl.rigs.quantities import FILM, FRICTION, SLIP, SPEED
 from pyehl.rigs.reading import is_rig, read_rig
 from pyehl.studies.measured_friction import Measured, read_measured

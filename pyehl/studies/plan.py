@@ -18,11 +18,11 @@ from typing import Any
 from pyehl import library, surfaces
 from pyehl.case import Case, files_of
 from pyehl.case.line import TRANSVERSE
+from pyehl.contact.smooth import POINTS, smooth_case
 from pyehl.errors import InputError
 from pyehl.given import key_of
 from pyehl.prediction.model import unpredictable
 from pyehl.prediction.predict import other_spectra_count
-from pyehl.prediction.smooth import POINTS, smooth_case
 from pyehl.solver import Solver
 from pyehl.studies.pool import processors
 from pyehl.studies.study import Point, Study

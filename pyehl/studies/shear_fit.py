@@ -18,11 +18,11 @@ import numpy as np
 from pyehl import namelist, schema
 from pyehl.case import KEYS, resolve
 from pyehl.case.duty import refuse_duty
+from pyehl.contact.smooth import SmoothContact, solve_contact, without_surface
 from pyehl.destination import check_files, check_name
 from pyehl.errors import EhlError, InputError
 from pyehl.given import path_of
 from pyehl.handle import SolverHandle, results_of
-from pyehl.prediction.smooth import SmoothContact, solve_contact, without_surface
 from pyehl.studies.measured_friction import Measured
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.oils import Oil, known_oils, oil

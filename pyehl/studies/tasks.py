@@ -15,8 +15,9 @@ from typing import Any
 
 from pyehl import schema
 from pyehl.case import trusted
+from pyehl.contact import film_formulas
 from pyehl.errors import EhlError, InputError, did_you_mean
-from pyehl.prediction import film_formulas, result
+from pyehl.prediction import result
 from pyehl.prediction.friction import BEYOND
 from pyehl.prediction.predict import predict
 from pyehl.run import run

@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from pyehl.contact.smooth import solve_contact
 from pyehl.errors import InputError
 from pyehl.prediction.model import Model, ModelOptions, RoughSurface
 from pyehl.prediction.moving_tile import Component
 from pyehl.prediction.response import film_left
 from pyehl.prediction.rough_contact import RoughContact
-from pyehl.prediction.smooth import solve_contact
 from pyehl.results import settings_of
 from pyehl.surfaces import Topography
 from pyehl.theory.line_contact import AnyContact, contact_of

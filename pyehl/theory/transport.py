@@ -37,7 +37,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from pyehl.theory.shear import FlowFactors
+from pyehl.theory.line_contact import AnyContact
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.shear import FlowFactors, flow_factors
 from pyehl.types import Array, Complex
 
 INLET = -0.8
@@ -73,6 +75,46 @@ class Zone:
     factors: FlowFactors | None = None
     newtonian: Zone | None = None  # that contact with a Newtonian lubricant; None: it is
     ellipticity: float = 1.0  # semi-axis across the motion over a [-]
+
+
+def zone_on(
+    x: Array, pressure: Array, film: Array, operating: AnyContact, lubricant: Lubricant
+) -> Zone:
+    """Return the zone of a centre line: X [a], P [p_h] and H [a^2/R], (n,) each."""
+    step = 1e-3
+    lower, p, higher = (
+        (pressure + change) * operating.hertz_pressure for change in (-step, 0.0, step)
+    )
+    rho, eta = lubricant.density_ratio(p), lubricant.viscosity_ratio(p)
+    denser, thinner = lubricant.density_ratio(higher), lubricant.density_ratio(lower)
+    factors = None
+    if lubricant.shear.in_flow:
+        factors = _factors(film, np.gradient(pressure, x), eta, operating, lubricant)
+    return Zone(
+        x,
+        pressure,
+        film,
+        rho,
+        np.log(denser / rho) / step,
+        (denser - 2.0 * rho + thinner) / (step**2 * rho),
+        np.log(lubricant.viscosity_ratio(higher) / eta) / step,
+        rho * film**3 / (eta * operating.speed_parameter),
+        1.0 / operating.ellipse.kernel_ratio,
+        factors,
+        ellipticity=operating.ellipse.ellipticity,
+    )
+
+
+def _factors(
+    film: Array, slope: Array, eta: Array, operating: AnyContact, lubricant: Lubricant
+) -> FlowFactors:
+    """Flow factors of films H [a^2/R] by dP/dX [p_h/a] and eta/eta0 [-], (n,) each."""
+    shear = lubricant.shear
+    h = film * operating.film_scale
+    newtonian = eta * lubricant.viscosity * operating.sliding_speed / h
+    gradient = h * slope * (operating.hertz_pressure / operating.hertz_radius)
+    parts = gradient / shear.scale, 0.0 * gradient
+    return flow_factors(shear.law, shear.carreau_exponent, newtonian / shear.scale, parts)
 
 
 class Flow:

@@ -3,10 +3,10 @@
 
 from dataclasses import replace
 
+from pyehl.contact.smooth import hertz_contact
 from pyehl.prediction import Band, ModelOptions, Response, RoughFriction
 from pyehl.prediction.friction import run
 from pyehl.prediction.model import Model
-from pyehl.prediction.smooth import hertz_contact
 from pyehl.surfaces import Topography
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint

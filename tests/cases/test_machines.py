@@ -15,7 +15,7 @@ from scipy.special import elliprd
 
 import pyehl
 from pyehl.conclusion import conclude
-from pyehl.prediction.film_formulas import report
+from pyehl.contact.film_formulas import report
 from pyehl.schema import summary_of
 from pyehl.theory.ellipse import ellipse
 

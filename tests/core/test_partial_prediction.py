@@ -8,14 +8,14 @@ import pytest
 import pyehl
 from pyehl import cli
 from pyehl.commands.predict import report
+from pyehl.contact import smooth
+from pyehl.contact.smooth import touching_points
 from pyehl.plots import surface
 from pyehl.plots.stribeck import draw_stribeck
-from pyehl.prediction import smooth
-from pyehl.prediction.boundary_film import Compliance, lifted
 from pyehl.prediction.predict import predict
-from pyehl.prediction.smooth import touching_points
 from pyehl.schema import summary_of as scalars_of
 from pyehl.studies.curve import CONTACT, CONTACT_EHL, EMPIRICAL, UNITS
+from pyehl.theory.elastic_contact import Compliance, lifted
 from pyehl.theory.friction import OF_ROUGH
 from pyehl.theory.transition import BREAKDOWN, FULL_FILM, Curve, lift_off
 

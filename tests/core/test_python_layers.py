@@ -20,6 +20,7 @@ LAYERS = [
     ["handle"],
     ["results"],
     ["plots"],
+    ["contact"],
     ["prediction", "netcdf"],
     ["predictions"],
     ["solver", "progress", "streams"],

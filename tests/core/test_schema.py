@@ -12,7 +12,7 @@ import pyehl
 from pyehl import schema
 from pyehl.case import KEYS
 from pyehl.case.settings import GROUPS
-from pyehl.prediction.film_formulas import sheet
+from pyehl.contact.film_formulas import sheet
 
 UNITS = {"_N_per_m": "N/m", "_N_m": "N m", "_Pa_s": "Pa s", "_per_Pa": "1/Pa",
          "_m_per_s": "m/s", "_per_s": "1/s", "_Pa": "Pa", "_seconds": "s", "_N": "N", "_K": "K",

@@ -7,8 +7,13 @@ import numpy as np
 import pytest
 
 from pyehl import surfaces
-from pyehl.prediction.bands import suggested_outliers, suggested_wavelength
-from pyehl.prediction.breakdown import BelowZero, advise, below_zero
+from pyehl.prediction.breakdown import (
+    BelowZero,
+    advise,
+    below_zero,
+    suggested_outliers,
+    suggested_wavelength,
+)
 from pyehl.prediction.model import Model
 from pyehl.prediction.predict import predict
 from pyehl.surfaces import Topography, filtered

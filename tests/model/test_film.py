@@ -6,8 +6,8 @@ import reference
 
 import pyehl
 from pyehl.case import Case
-from pyehl.prediction import film_formulas
-from pyehl.prediction.film_formulas import report
+from pyehl.contact import film_formulas
+from pyehl.contact.film_formulas import report
 from pyehl.theory import film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint

@@ -9,8 +9,8 @@ from paper_model import predict_friction
 from scipy.special import elliprd
 
 from pyehl.case import Case
-from pyehl.prediction.film_formulas import report as film_report
-from pyehl.prediction.film_formulas import sheet
+from pyehl.contact.film_formulas import report as film_report
+from pyehl.contact.film_formulas import sheet
 from pyehl.prediction.predict import predict
 from pyehl.solver import Solver
 from pyehl.surfaces import Topography

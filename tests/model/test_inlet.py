@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from pyehl.case import Case
-from pyehl.prediction.smooth import solve_contact, zone_of
+from pyehl.contact.smooth import solve_contact, zone_of
 from pyehl.theory.inlet import END, SPACING, START, _yielding, at_inlet, passed
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint

@@ -10,15 +10,16 @@ import pytest
 
 import pyehl
 from pyehl import cli
-from pyehl.prediction import spectrum
+from pyehl.contact.smooth import solve_contact, zone_of
 from pyehl.prediction.breakdown import of_model
 from pyehl.prediction.friction import run
 from pyehl.prediction.model import Model, ModelOptions, RoughSurface
 from pyehl.prediction.relative_positions import RelativePositions, common_passages
 from pyehl.prediction.response import Transfer
-from pyehl.prediction.smooth import solve_contact, zone_of
-from pyehl.prediction.spectrum import Spectrum, merged
+from pyehl.prediction.spectrum import Spectrum
 from pyehl.surfaces import Topography, fractal
+from pyehl.surfaces import pair as pair_of_tiles
+from pyehl.surfaces.pair import merged
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
@@ -321,7 +322,7 @@ def test_no_tile_of_too_many_pixels(monkeypatch):
     one, other = rough(3, length=4e-4), rough(4, length=4e-4 * 12 / 11)
     both = merged(one, other, 0.0)
     assert both.length_x == pytest.approx(12 * one.length_x)
-    monkeypatch.setattr(spectrum, "MAX_PIXELS", both.heights.size - 1)
+    monkeypatch.setattr(pair_of_tiles, "MAX_PIXELS", both.heights.size - 1)
     assert merged(one, other, 0.0) is None
 
 

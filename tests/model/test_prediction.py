@@ -12,6 +12,7 @@ import scipy.interpolate
 import scipy.ndimage
 
 import pyehl
+from pyehl.contact.smooth import hertz_contact, solve_contact, zone_of
 from pyehl.prediction import model, moving_tile, response, rough_contact
 from pyehl.prediction.friction import outcome, run
 from pyehl.prediction.model import KNOWN_RATIO, Model, ModelOptions
@@ -20,7 +21,6 @@ from pyehl.prediction.predict import predict
 from pyehl.prediction.response import Transfer, _at_amplitude, film_left, loss_at
 from pyehl.prediction.result import read_contact
 from pyehl.prediction.simulation import resolution
-from pyehl.prediction.smooth import hertz_contact, solve_contact, zone_of
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.schema import summary_of
 from pyehl.surfaces import Topography, filtered

@@ -12,11 +12,11 @@ import pytest
 from document_text import plain
 
 import pyehl
+from pyehl.contact.smooth import solve_contact, zone_of
 from pyehl.errors import InputError
 from pyehl.measured_response.folder import shipped_response
 from pyehl.prediction.model import ModelOptions, model_error, outside_range
 from pyehl.prediction.response import AXIS
-from pyehl.prediction.smooth import solve_contact, zone_of
 from pyehl.theory.disc import RADIUS, disc_correction, monomials
 from pyehl.theory.ellipse import Ellipse, ellipse
 from pyehl.theory.ellipse_edge import EllipseEdge, Series

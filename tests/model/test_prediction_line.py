@@ -11,7 +11,7 @@ from numpy.polynomial import chebyshev
 from scipy.special import k0
 
 import pyehl
-from pyehl.prediction.smooth import solve_contact, zone_of
+from pyehl.contact.smooth import solve_contact, zone_of
 from pyehl.surfaces import Topography
 from pyehl.theory.disc import RADIUS
 from pyehl.theory.inlet import at_inlet

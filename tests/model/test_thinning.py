@@ -13,8 +13,8 @@ from document_text import plain
 
 import pyehl
 from pyehl.case import Case
+from pyehl.contact.smooth import solve_contact, zone_of
 from pyehl.prediction.simulation import resolution, starting_pressure
-from pyehl.prediction.smooth import solve_contact, zone_of
 from pyehl.schema import summary_of
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint

@@ -12,8 +12,8 @@ import pyehl
 from pyehl.app.position import from_case
 from pyehl.case import KEYS, trusted
 from pyehl.case.settings import MACHINES
+from pyehl.contact.smooth import OF_RUN, smooth_case, solve_contact
 from pyehl.handle import SolverHandle, results_of
-from pyehl.prediction.smooth import OF_RUN, smooth_case, solve_contact
 from pyehl.studies.curve_plan import plan_curve
 from pyehl.studies.shear_fit import smooth_base
 from pyehl.studies.study import axis

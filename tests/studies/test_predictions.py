@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import pyehl
-from pyehl.prediction import smooth
+from pyehl.contact import smooth
 from pyehl.prediction.predict import predict
 from pyehl.studies.tasks import TRACKS, Task, execute
 from pyehl.surfaces import from_case as from_case_surface

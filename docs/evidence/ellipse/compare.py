@@ -18,10 +18,10 @@ import matplotlib as mpl
 import numpy as np
 
 from cases import HERE, case, read, surface
+from pyehl.contact.smooth import solve_contact
 from pyehl.plots.style import PAGE, new_figure, save, styled
 from pyehl.prediction.friction import run
 from pyehl.prediction.model import Model, ModelOptions, model_error
-from pyehl.prediction.smooth import solve_contact
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 

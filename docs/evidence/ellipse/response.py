@@ -23,15 +23,15 @@ from centre import at_centre
 from numpy.typing import NDArray
 
 from cases import HERE, case_of_circle
+from pyehl.contact.smooth import solve_contact
 from pyehl.handle import SolverHandle
 from pyehl.measured_response.measurement import TIERS, tier_waves
 from pyehl.measured_response.superposition import Superposition, WaveSet, superpose, transient_case
-from pyehl.prediction.smooth import solve_contact, zone_on
 from pyehl.theory.line_contact import circle_with_same_inlet
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import inlet_transfer
-from pyehl.theory.transport import Zone, transport
+from pyehl.theory.transport import Zone, transport, zone_on
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

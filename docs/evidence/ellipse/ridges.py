@@ -16,7 +16,7 @@ import numpy as np
 from centre import at_centre
 
 from cases import HERE, case_of_circle
-from pyehl.prediction.smooth import circle_of, solve_contact, zone_of
+from pyehl.contact.smooth import circle_of, solve_contact, zone_of
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 

@@ -18,9 +18,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cases import HERE, case_of_circle
+from pyehl.contact.smooth import circle_of, solve_contact, zone_of
 from pyehl.measured_response.superposition import transient_case
 from pyehl.prediction.response import AXIS
-from pyehl.prediction.smooth import circle_of, solve_contact, zone_of
 from pyehl.solver import solver_on_heights
 from pyehl.theory.ellipse_edge import EllipseEdge
 from pyehl.theory.lubricant import Lubricant

@@ -31,11 +31,11 @@ import rough  # noqa: E402
 import cases  # noqa: E402
 import pyehl  # noqa: E402
 from pyehl import surfaces  # noqa: E402
+from pyehl.contact.smooth import solve_contact  # noqa: E402
 from pyehl.prediction import response  # noqa: E402
 from pyehl.prediction.model import Model, ModelOptions  # noqa: E402
 from pyehl.prediction.response import Transfer  # noqa: E402
 from pyehl.prediction.rough_contact import RoughContact  # noqa: E402
-from pyehl.prediction.smooth import solve_contact  # noqa: E402
 from pyehl.prediction.spectrum import Spectrum  # noqa: E402
 from pyehl.solver import solver_on_heights  # noqa: E402
 from pyehl.surfaces import Topography, shifted  # noqa: E402

@@ -14,10 +14,10 @@ import matplotlib as mpl
 import numpy as np
 
 from cases import HERE, case, rows, surface
+from pyehl.contact.smooth import hertz_contact, solve_contact
 from pyehl.plots.style import COLUMN, new_figure, save, styled
 from pyehl.prediction.friction import run
 from pyehl.prediction.model import Model, ModelOptions, model_error
-from pyehl.prediction.smooth import hertz_contact, solve_contact
 from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint

@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 
 from cases import HERE, case, surface
+from pyehl.contact.smooth import solve_contact
 from pyehl.prediction.friction import run
 from pyehl.prediction.model import Model, ModelOptions, model_error
-from pyehl.prediction.smooth import solve_contact
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 

@@ -24,12 +24,11 @@ from numpy.typing import NDArray
 from pyehl.case import Case
 from pyehl.measured_response.measurement import TIERS, tier_waves
 from pyehl.measured_response.superposition import FILLING, Superposition, WaveSet, superpose
-from pyehl.prediction.smooth import zone_on
 from pyehl.solver import Solver
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import inlet_base
-from pyehl.theory.transport import Zone, stiffness, transport
+from pyehl.theory.transport import Zone, stiffness, transport, zone_on
 
 Array, Complex = NDArray[np.float64], NDArray[np.complex128]
 HERE = Path(__file__).parent

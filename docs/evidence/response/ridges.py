@@ -18,11 +18,10 @@ from numpy.typing import NDArray
 
 from pyehl.errors import EhlError
 from pyehl.measured_response.superposition import REACH, transient_case
-from pyehl.prediction.smooth import zone_on
 from pyehl.solver import Solver, solver_on_heights
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-from pyehl.theory.transport import stiffness
+from pyehl.theory.transport import stiffness, zone_on
 
 POINTS = 513
 WAVELENGTHS = (2.0, 1.6, 1.0, 0.8, 0.5, 0.25, 0.125)

@@ -24,9 +24,9 @@ import numpy as np
 
 import pyehl
 from pyehl import surfaces
+from pyehl.contact.smooth import solve_contact
 from pyehl.prediction.model import Model, ModelOptions
 from pyehl.prediction.response import film_left
-from pyehl.prediction.smooth import solve_contact
 from pyehl.schema import summary_of
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint

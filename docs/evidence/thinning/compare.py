@@ -24,12 +24,11 @@ from numpy.typing import NDArray
 from waves import PLAN, POINTS, TILE, Run, case_of, twin
 
 from pyehl.case import Case
-from pyehl.prediction.smooth import zone_on
 from pyehl.solver import Solver
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import inlet_transfer
-from pyehl.theory.transport import Zone, transport
+from pyehl.theory.transport import Zone, transport, zone_on
 
 Array, Complex = NDArray[np.float64], NDArray[np.complex128]
 Measured = tuple[Array, Array, Complex]

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from pyehl import display, schema, surfaces
-from pyehl.prediction.spectrum import composite_rms, sum_of
+from pyehl.surfaces.pair import composite_rms, sum_of
 from pyehl.theory import film, line_contact, starvation, stribeck
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.moes_film import regime

@@ -1,35 +1,38 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The smooth contact under a prediction, and the heat of sliding in it.
+"""The smooth contact under a prediction.
 
-It is the case without its surface, solved on grids of the prediction, or the dry contact of the
-paper.
+It is the case without its surface, solved on grids of the prediction or read from a result folder,
+or the dry contact of the paper.
 """
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pyehl import namelist
+from pyehl.arrays import read_array
 from pyehl.case import Case
-from pyehl.errors import EhlError, check
-from pyehl.extension import functions
+from pyehl.contact.heat import HeatOf
+from pyehl.errors import EhlError, InputError
 from pyehl.handle import SolverHandle, results_of
-from pyehl.reasons import NOT_CONVERGED, heat_words, words_of
+from pyehl.reasons import words_of
 from pyehl.surfaces import GROUPS
 from pyehl.theory.heat import Heat
 from pyehl.theory.line_contact import AnyContact, circle_with_same_inlet, formula_film
 from pyehl.theory.line_contact import contact_of as operating_of
 from pyehl.theory.lubricant import Lubricant
-from pyehl.theory.shear import FlowFactors, ShearLaw, flow_factors
-from pyehl.theory.transport import Zone
-from pyehl.types import Array, Mask, Settings
+from pyehl.theory.shear import ShearLaw
+from pyehl.theory.transport import Zone, zone_on
+from pyehl.types import Array, Settings
 
 # Keys that pressure and film of a smooth contact do not depend on. Those of slip and oil they do
 # where the inlet is heated by shear, those of slip and law where the flow thins
@@ -367,46 +370,6 @@ def zone_of(contact: SmoothContact, operating: AnyContact, lubricant: Lubricant)
     return replace(zone, newtonian=zone_of(contact.newtonian, operating, oil))
 
 
-def zone_on(
-    x: Array, pressure: Array, film: Array, operating: AnyContact, lubricant: Lubricant
-) -> Zone:
-    """Return the zone of a centre line: X [a], P [p_h] and H [a^2/R], (n,) each."""
-    step = 1e-3
-    lower, p, higher = (
-        (pressure + change) * operating.hertz_pressure for change in (-step, 0.0, step)
-    )
-    rho, eta = lubricant.density_ratio(p), lubricant.viscosity_ratio(p)
-    denser, thinner = lubricant.density_ratio(higher), lubricant.density_ratio(lower)
-    factors = None
-    if lubricant.shear.in_flow:
-        factors = _factors(film, np.gradient(pressure, x), eta, operating, lubricant)
-    return Zone(
-        x,
-        pressure,
-        film,
-        rho,
-        np.log(denser / rho) / step,
-        (denser - 2.0 * rho + thinner) / (step**2 * rho),
-        np.log(lubricant.viscosity_ratio(higher) / eta) / step,
-        rho * film**3 / (eta * operating.speed_parameter),
-        1.0 / operating.ellipse.kernel_ratio,
-        factors,
-        ellipticity=operating.ellipse.ellipticity,
-    )
-
-
-def _factors(
-    film: Array, slope: Array, eta: Array, operating: AnyContact, lubricant: Lubricant
-) -> FlowFactors:
-    """Flow factors of films H [a^2/R] by dP/dX [p_h/a] and eta/eta0 [-], (n,) each."""
-    shear = lubricant.shear
-    h = film * operating.film_scale
-    newtonian = eta * lubricant.viscosity * operating.sliding_speed / h
-    gradient = h * slope * (operating.hertz_pressure / operating.hertz_radius)
-    parts = gradient / shear.scale, 0.0 * gradient
-    return flow_factors(shear.law, shear.carreau_exponent, newtonian / shear.scale, parts)
-
-
 def heat_of(settings: Settings, contact: SmoothContact, lubricant: Lubricant) -> Heat:
     """Give what the heat of sliding makes of friction in the smooth contact of a resolved case.
 
@@ -420,51 +383,74 @@ def heat_of(settings: Settings, contact: SmoothContact, lubricant: Lubricant) ->
     return nodes(pressure, film, np.zeros(film.shape, dtype=bool))
 
 
-@dataclass(frozen=True, slots=True)
-class HeatOf:
-    """The heat of sliding on the nodes x (m,), y (n,) [a] of a resolved case.
+def read_contact(folder: str | Path, operating: AnyContact, settings: Settings) -> SmoothContact:
+    """Pressure and film from a result folder, of a smooth contact or under a transient run.
 
-    The same as in a run (``fortran/reynolds/heated_friction.f90``); `even`: the rows are those of
-    Y >= 0.
+    InputError if it is not the folder of a converged solution of the same contact: M and L, ratio
+    of the radii along and across the motion, the law that the flow obeys, lubricant and border of
+    the domain. The grid may be another.
     """
-
-    settings: Settings
-    lubricant: Lubricant
-    x: Array
-    y: Array
-    even: bool = False
-
-    def __call__(self, pressure: Array, film: Array, touching: Mask) -> Heat:
-        """Give it for P [p_h], H [a^2/R] and where bodies touch at a boundary film, (m, n) each."""
-        law = {"viscosity_law": self.lubricant.viscosity_law}
-        groups = {
-            "contact": self.settings["contact"],
-            "lubricant": {**self.settings["lubricant"], **law},
-        }
-        x, y = self.x, self.y
-        counts, ratio, rises, reason, estimate, status, message = functions.frictional_heat(
-            namelist.text_of(groups).encode(),
-            np.array(pressure, order="F"),
-            np.array(film, order="F"),
-            np.array(touching, dtype=np.int32, order="F"),
-            x[0],
-            y[0],
-            x[1] - x[0],
-            y[1] - y[0] if y.size > 1 else 1.0,
-            int(self.even),
+    folder = Path(folder)
+    try:
+        of_folder = namelist.values((folder / "case.nml").read_text(encoding="utf-8"))
+        summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+        rough = (folder / "P_smooth.npy").is_file()
+        names = ("X", "Y", "P_smooth", "H_smooth") if rough else ("X", "Y", "P", "H")
+        x, y, pressure, film = (read_array(folder / f"{n}.npy") for n in names)
+    except (OSError, ValueError) as error:
+        why = error.strerror if isinstance(error, OSError) and error.strerror else error
+        raise InputError(f"{folder}: not a result folder with fields ({why})") from error
+    if summary["status"] != "converged":
+        raise InputError(f"{folder}: not a solution, its status is '{summary['status']}'")
+    line = "_line" if operating.ellipse.is_line else ""
+    for name, here in ((f"moes_m{line}", operating.moes_m), (f"moes_l{line}", operating.moes_l)):
+        if name not in summary:
+            raise InputError(f"{folder}: a line contact there or in the case, and a point contact")
+        there = summary[name]
+        if not math.isclose(there, here, rel_tol=1e-4):
+            raise InputError(f"{folder}: {name} is {there:.6g} there and {here:.6g} in the case")
+    there = 0.0 if line else float(summary.get("radius_ratio") or 1.0)
+    here = operating.radius_ratio
+    if not math.isclose(there, here, rel_tol=1e-4):
+        raise InputError(f"{folder}: radius_ratio is {there:.6g} there and {here:.6g} in the case")
+    angle = float(of_folder["contact"].get("angle", 0.0))
+    if here != 1.0 and angle != 0.0:
+        raise InputError(f"{folder}: contact.angle is {angle:g} there and 0 in the case")
+    flows = _flow(of_folder), _flow(settings)
+    if flows[0] != flows[1]:
+        raise InputError(f"{folder}: the flow is {flows[0]} there and {flows[1]} in the case")
+    _check_same(folder, of_folder, settings)
+    if (summary.get("contact_load_share") or 0.0) > 0.0:
+        raise InputError(
+            f"{folder}: its bodies touch at the boundary film\nexpected: the contact solved with "
+            "lubricant.boundary_film = 0"
         )
-        check(status, message)
-        words = heat_words(reason, estimate)
-        if not counts:
-            return Heat(note=words)
-        first, second, third = map(float, rises)
-        note = words if np.isfinite(ratio) else NOT_CONVERGED
-        return Heat(float(ratio), (first, second, third), note)
+    if line:
+        # all rows of a smooth strip are the same
+        y, pressure, film = y[:1], pressure[:, :1], film[:, :1]
+    return contact_of(summary, (x, y), pressure, film, f"smooth contact in {folder}")
 
 
-def mean_heat(parts: Sequence[Heat], weights: Sequence[float]) -> Heat:
-    """Heat of a rough contact in some positions: of friction a mean, of the rises the maximum."""
-    ratio = float(np.average([part.ratio for part in parts], weights=weights))
-    first, second, third = (float(v) for v in np.max([part.rises for part in parts], axis=0))
-    note = parts[0].note if math.isfinite(ratio) else NOT_CONVERGED
-    return Heat(ratio, (first, second, third), note, rough=math.isfinite(first))
+def _check_same(folder: Path, of_folder: Settings, settings: Settings) -> None:
+    """Refuse the contact of a folder whose lubricant or border is not that of a case."""
+    there, here = (namelist.values(smooth_case(groups)) for groups in (of_folder, settings))
+    names = [("grid", "border"), *(("lubricant", key) for key in here["lubricant"])]
+    for group, key in names:
+        both = there[group].get(key), here[group][key]
+        numbers = [v for v in both if isinstance(v, float)]
+        same = math.isclose(*numbers, rel_tol=1e-4) if len(numbers) == 2 else both[0] == both[1]
+        if not same:
+            words = ["not set" if v is None else namelist.word(v) for v in both]
+            raise InputError(
+                f"{folder}: {group}.{key} is {words[0]} there and {words[1]} in the case"
+            )
+
+
+def _flow(settings: Settings) -> str:
+    """Law of the flow in words, with all that it depends on."""
+    law = ShearLaw.from_settings(settings)
+    if not law.in_flow:
+        return "newtonian"
+    exponent = f" with exponent {law.carreau_exponent:g}" if law.law == "carreau" else ""
+    slip = abs(float(settings["contact"]["slide_to_roll"]))
+    return f"{law.law} at {law.scale:g} Pa{exponent}, slide_to_roll {slip:g},"
