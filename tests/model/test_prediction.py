@@ -12,14 +12,14 @@ import scipy.interpolate
 import scipy.ndimage
 
 import pyehl
-from pyehl.contact.smooth import hertz_contact, solve_contact, zone_of
+from pyehl.contact.smooth import hertz_contact, read_contact, solve_contact, zone_of
 from pyehl.prediction import model, moving_tile, response, rough_contact
+from pyehl.prediction.breakdown import ways_into_range
 from pyehl.prediction.friction import outcome, run
 from pyehl.prediction.model import KNOWN_RATIO, Model, ModelOptions
 from pyehl.prediction.moving_tile import WaveTiles
 from pyehl.prediction.predict import predict
 from pyehl.prediction.response import Transfer, _at_amplitude, film_left, loss_at
-from pyehl.prediction.result import read_contact
 from pyehl.prediction.simulation import resolution
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.schema import summary_of
@@ -255,10 +255,11 @@ def test_waves_left_out_are_in_the_error():
 def test_beyond_the_linear_response(contact, table_1):
     """Short waves as high as the film: no number, and a cut-off that would bring one."""
     rough = table_1(seed=21, rms_height=8e-8, hurst=0.4)
-    friction, _, _ = run(passage(contact, rough, 1.03))
+    model = passage(contact, rough, 1.03)
+    friction, _, _ = run(model)
     assert friction.status == "beyond linear response"
     assert np.isnan(friction.mu_ratio)
-    cut = float(re.search(r"shortest_wavelength = (\S+)", friction.message)[1])
+    cut = float(re.search(r"shortest_wavelength = (\S+)", ways_into_range(model))[1])
     # what it says holds when it is done
     taken, _, _ = run(passage(contact, filtered(rough, shortest_wavelength=cut), 1.03))
     assert taken.status == "predicted"
