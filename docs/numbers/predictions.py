@@ -140,6 +140,9 @@ def compared() -> Values:
     low = [row for row in rows if float(row["mu_ratio"]) <= 1.5]
     worst = max(low, key=lambda row: abs(float(row["deviation_percent"])))
     assert worst["name"] == "u108l4"
+    stated = [row for row in rows if row["mu_ratio_error"]]
+    coarse = [r for r in stated if float(r["mu_ratio_error"]) > 0.05 * float(r["mu_ratio"])]
+    assert not any(row["drawn"] == "1" for row in coarse)
     fine = [row for row in rows if row["mu_ratio_1025"]]
     means = [
         percent(float(np.mean(of(fine, name))))

@@ -95,6 +95,8 @@ def ratio_errors() -> Values:
 
     within, known = TABLES.shares(rows, "mu_ratio", "mu_ratio_limit", "mu_ratio_error", 2.0)
     assert within >= 0.9 * known
+    low = [row for row in rows if row["mu_ratio_limit"] and row["mu_ratio_limit"] <= 5.0]
+    within_low, known_low = TABLES.shares(low, "mu_ratio", "mu_ratio_limit", "mu_ratio_error", 2.0)
     cases = {tuple(row[key] for key in make.ROUGH_NAMES) for row in rows if row["mu_ratio_limit"]}
     assert len(cases) >= 40
     whole = {tuple(row[key] for key in make.ROUGH_NAMES) for row in every}
