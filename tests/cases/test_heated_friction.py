@@ -52,7 +52,7 @@ def test_as_another_program_on_the_fields(solve, root):
     heat = done["mu"] * done["hertz_pressure_Pa"] * 0.3 * 5.0
     assert heat == pytest.approx(1e8, rel=0.2)
     share = round(100.0 * (1.0 - done["mu"] / done["mu_isothermal"]), -1)
-    say = f"by {done['temperature_rise_max_K']:.0f} K and takes {share:.0f} % of the friction"
+    say = f"is {done['temperature_rise_max_K']:.0f} K, and friction is {share:.0f} % lower"
     assert say in (root / "docs/theory/temperature.md").read_text(encoding="utf-8")
 
 
