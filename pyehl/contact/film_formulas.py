@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What closed formulas say about the film of a case."""
+"""Film thickness of a case by closed formulas."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from pyehl import display, schema, surfaces
 from pyehl.surfaces.pair import composite_rms, sum_of
 from pyehl.theory import film, line_contact, starvation, stribeck
+from pyehl.theory.line_contact import AnyContact, LineContact, contact_of, formula_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.moes_film import regime
 from pyehl.theory.operating import OperatingPoint
@@ -84,35 +85,27 @@ def _inlet(settings: Settings) -> tuple[float, float]:
 
 
 def sheet(settings: Settings) -> dict[str, Any]:
-    """All that ``pyehl film`` says of a resolved case, as plain numbers in SI units.
+    """All that ``pyehl film`` reports of a resolved case, as plain numbers in SI units.
 
     Inputs, Moes and Hertz numbers, one record per formula, and for a rough surface the Lambda
     ratio and (harmonic only) theta_2 with eq. 16. There are no formulas for an ellipse that is
     turned against the motion, and nothing of a film.
     """
-    if settings["contact"].get("shape") == "line":
-        return _line_sheet(settings)
-    operating = OperatingPoint.from_settings(settings)
-    angle = float(settings["contact"]["angle"])
-    turned = angle != 0.0 and operating.radius_ratio != 1.0
-    lubricant = Lubricant.from_settings(settings)
-    films = [] if turned else film.estimates(operating, lubricant)
-    if films:
-        applying = [f for f in films if f.applies]
-        h_min = next((f.h_min for f in applying if math.isfinite(f.h_min)), math.nan)
-        density = float(lubricant.density_ratio(operating.hertz_pressure))
-        starved = starvation.estimate(
-            *_inlet(settings),
-            (film.central_film(operating, lubricant), h_min),
-            operating.film_scale,
-            density,
-            operating.ellipse.ellipticity,
-        )
-        films += [starved] if starved else []
+    operating, lubricant = contact_of(settings), Lubricant.from_settings(settings)
+    line = "_line" if isinstance(operating, LineContact) else ""
+    films, found = _films(settings, operating, lubricant), _rough_groups(settings)
+    size: dict[str, Any] = {"load_N": operating.load}
+    groups = {}
+    if isinstance(operating, LineContact):
+        size = {"shape": "line", "load_per_length_N_per_m": operating.load_per_length}
+        regime_of = line_contact.regime(operating.moes_m, operating.moes_l)
+    else:
+        groups = {"g_v": operating.viscosity_parameter, "g_e": operating.elasticity_parameter}
+        regime_of = regime(operating.moes_m, operating.moes_l, operating.ellipse)
     result: dict[str, Any] = {
         "kind": "film",
         "schema_version": schema.VERSION,
-        "load_N": operating.load,
+        **size,
         "mean_velocity_m_per_s": operating.mean_velocity,
         "radius_m": operating.radius,
         "reduced_modulus_Pa": operating.reduced_modulus,
@@ -121,8 +114,8 @@ def sheet(settings: Settings) -> dict[str, Any]:
         "viscosity_ambient_Pa_s": lubricant.viscosity,
         "thermal_reduction": operating.thermal_reduction,
         "si": operating.si,
-        "moes_m": operating.moes_m,
-        "moes_l": operating.moes_l,
+        f"moes_m{line}": operating.moes_m,
+        f"moes_l{line}": operating.moes_l,
         "U": operating.speed,
         "G": operating.material,
         "W": operating.load_number,
@@ -131,98 +124,88 @@ def sheet(settings: Settings) -> dict[str, Any]:
         "hertz_pressure_Pa": operating.hertz_pressure,
         "film_scale_m": operating.film_scale,
         "speed_parameter": operating.speed_parameter,
-        "g_v": operating.viscosity_parameter,
-        "g_e": operating.elasticity_parameter,
+        **groups,
         "left_out": left_out(settings, lubricant),
-        "regime": regime(operating.moes_m, operating.moes_l, operating.ellipse),
+        "regime": regime_of,
         "formulas": [_record(f, operating.film_scale) for f in films],
     }
-    if operating.radius_ratio != 1.0:
+    if isinstance(operating, OperatingPoint) and operating.radius_ratio != 1.0:
         result["radius_ratio"] = operating.radius_ratio
         result["ellipticity"] = operating.ellipse.ellipticity
         result["semi_axis_y_m"] = operating.semi_axis_y
-        result["angle_deg"] = angle
-    both = [settings[group] for group in surfaces.rough_groups(settings)]
-    kinds = [str(surface["kind"]) for surface in both]
+        result["angle_deg"] = float(settings["contact"]["angle"])
+    kinds = [str(surface["kind"]) for surface in found]
     result["surface"] = " and ".join(kinds) or "smooth"
-    if turned:
-        return result
-    h_c = film.central_film(operating, lubricant)
-    if both and not set(kinds) & set(surfaces.FEATURES):
+    return result | _of_surfaces(settings, operating, lubricant, films) if films else result
+
+
+def _rough_groups(settings: Settings) -> list[Mapping[str, Any]]:
+    return [settings[group] for group in surfaces.rough_groups(settings)]
+
+
+def _films(
+    settings: Settings, operating: AnyContact, lubricant: Lubricant
+) -> list[film.FilmEstimate]:
+    """Films by the formulas, and by those of starvation; none of an ellipse that is turned."""
+    position, layer = _inlet(settings)
+    if isinstance(operating, LineContact):
+        films = line_contact.estimates(operating, lubricant)
+        if layer > 0.0:
+            density = float(lubricant.density_ratio(operating.hertz_pressure))
+            h_c = line_contact.central_film(operating, lubricant)
+            layer *= operating.film_scale
+            films.append(starvation.line_estimate(layer / density, h_c))
+        return films
+    if float(settings["contact"]["angle"]) != 0.0 and operating.radius_ratio != 1.0:
+        return []
+    films = film.estimates(operating, lubricant)
+    h_min = (f.h_min for f in films if f.applies and math.isfinite(f.h_min))
+    starved = starvation.estimate(
+        position,
+        layer,
+        (film.central_film(operating, lubricant), next(h_min, math.nan)),
+        operating.film_scale,
+        float(lubricant.density_ratio(operating.hertz_pressure)),
+        operating.ellipse.ellipticity,
+    )
+    return [*films, starved] if starved else films
+
+
+def _of_surfaces(
+    settings: Settings,
+    operating: AnyContact,
+    lubricant: Lubricant,
+    films: Sequence[film.FilmEstimate],
+) -> dict[str, Any]:
+    """Rms height and film ratio of rough surfaces, and theta_2 of a waviness under a point."""
+    found: dict[str, Any] = {}
+    both = _rough_groups(settings)
+    kinds = {str(surface["kind"]) for surface in both}
+    h_c = formula_film(operating, lubricant)
+    # of a line, waves of a height over the film do not determine it
+    unknown = {*surfaces.FEATURES, *(("harmonic",) if operating.ellipse.is_line else ())}
+    if both and not kinds & unknown:
         tiles = [
             surfaces.from_settings({**settings, "surface": surface}, operating, h_c)
             for surface in both
         ]
         together = sum_of(both, tiles, operating.hertz_radius) if len(tiles) == 2 else None
-        sigma = composite_rms(tiles, together)
-        result["rms_height_m"] = sigma
-        result["lambda_ratio_central"] = films[0].h_c / sigma if sigma > 0.0 else None
-    if kinds == ["harmonic"] and operating.radius_ratio == 1.0 and operating.moes_l > 0.0:
-        surface, settings = both[0], surfaces.one_rough(settings)
-        amplitude = surfaces.harmonic_amplitude(settings, operating, h_c)
+        found["rms_height_m"] = sigma = composite_rms(tiles, together)
+        central = h_c if operating.ellipse.is_line else films[0].h_c
+        found["lambda_ratio_central"] = central / sigma if sigma > 0.0 else None
+    waves = len(both) == 1 and kinds == {"harmonic"} and operating.moes_l > 0.0
+    if waves and isinstance(operating, OperatingPoint) and operating.radius_ratio == 1.0:
+        (surface,) = both
+        amplitude = surfaces.harmonic_amplitude(surfaces.one_rough(settings), operating, h_c)
         wavelength = min(float(surface["wavelength_x"]), float(surface["wavelength_y"]))
-        ratio = h_c / amplitude
-        theta = float(stribeck.theta_2(operating.moes_m, operating.moes_l, wavelength, ratio))
-        outside = stribeck.in_range(operating.moes_m, operating.moes_l, wavelength, ratio)
+        of = operating.moes_m, operating.moes_l, wavelength, h_c / amplitude
+        theta, outside = float(stribeck.theta_2(*of)), stribeck.in_range(*of)
         if surface["wavelength_x"] != surface["wavelength_y"]:
             outside.append("eq. 16 is for equal wavelengths along X and Y")
-        result["theta_2"] = theta
-        result["mu_ratio_eq_16"] = float(stribeck.relative_friction(theta))
-        result["theta_2_outside"] = outside
-    return result
-
-
-def _line_sheet(settings: Settings) -> dict[str, Any]:
-    """Return the same of a line contact, which is smooth."""
-    line = line_contact.LineContact.from_settings(settings)
-    lubricant = Lubricant.from_settings(settings)
-    both = [settings[group] for group in surfaces.rough_groups(settings)]
-    kinds = [str(surface["kind"]) for surface in both]
-    films = line_contact.estimates(line, lubricant)
-    layer = _inlet(settings)[1] * line.film_scale
-    if layer > 0.0:
-        density = float(lubricant.density_ratio(line.hertz_pressure))
-        films.append(
-            starvation.line_estimate(layer / density, line_contact.central_film(line, lubricant))
-        )
-    result: dict[str, Any] = {
-        "kind": "film",
-        "schema_version": schema.VERSION,
-        "shape": "line",
-        "load_per_length_N_per_m": line.load_per_length,
-        "mean_velocity_m_per_s": line.mean_velocity,
-        "radius_m": line.radius,
-        "reduced_modulus_Pa": line.reduced_modulus,
-        "viscosity_Pa_s": line.viscosity,
-        "pressure_viscosity_per_Pa": line.pressure_viscosity,
-        "viscosity_ambient_Pa_s": lubricant.viscosity,
-        "thermal_reduction": line.thermal_reduction,
-        "si": line.si,
-        "moes_m_line": line.moes_m,
-        "moes_l_line": line.moes_l,
-        "U": line.speed,
-        "G": line.material,
-        "W": line.load_number,
-        "alpha_bar": line.alpha_bar,
-        "hertz_radius_m": line.half_width,
-        "hertz_pressure_Pa": line.hertz_pressure,
-        "film_scale_m": line.film_scale,
-        "speed_parameter": line.speed_parameter,
-        "left_out": left_out(settings, lubricant),
-        "regime": line_contact.regime(line.moes_m, line.moes_l),
-        "formulas": [_record(f, line.film_scale) for f in films],
-        "surface": " and ".join(kinds) or "smooth",
-    }
-    # waves of a height over the film do not determine it
-    if kinds and set(kinds) <= {"map", "fractal"}:
-        h_c = line_contact.central_film(line, lubricant)
-        tiles = [
-            surfaces.from_settings({**settings, "surface": surface}, line, h_c) for surface in both
-        ]
-        together = sum_of(both, tiles, line.half_width) if len(tiles) == 2 else None
-        result["rms_height_m"] = sigma = composite_rms(tiles, together)
-        result["lambda_ratio_central"] = h_c / sigma if sigma > 0.0 else None
-    return result
+        found["theta_2"] = theta
+        found["mu_ratio_eq_16"] = float(stribeck.relative_friction(theta))
+        found["theta_2_outside"] = outside
+    return found
 
 
 def _record(formula: film.FilmEstimate, scale: float) -> dict[str, Any]:

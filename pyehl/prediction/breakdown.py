@@ -270,7 +270,7 @@ def advise(
 
     tiles = [one.topography for one in model.surfaces]
     groups = tuple(one.groups[0] for one in model.surfaces)
-    places = tuple(place_of(tile, *at) for tile, at in zip(tiles, below.pixels, strict=True))
+    places = tuple(_place(tile, *at) for tile, at in zip(tiles, below.pixels, strict=True))
     if first := remedies(model):
         return Advice(below, groups, places, first=tuple(first))
     wavelengths = []
@@ -286,7 +286,7 @@ def advise(
     made = tiles[0].preparation
     if made is not None and without_spikes is not None and not made.options.outliers > 0.0:
         (one,) = model.surfaces
-        spikes = spikes_of(
+        spikes = _spikes(
             made,
             without_spikes,
             lambda tile: full(replace(model, surfaces=(replace(one, topography=tile),))),
@@ -294,7 +294,7 @@ def advise(
     return Advice(below, groups, places, tuple(wavelengths), *(spikes or (None, None)))
 
 
-def place_of(tile: Topography, i: int, j: int) -> tuple[float, float]:
+def _place(tile: Topography, i: int, j: int) -> tuple[float, float]:
     """Place of a pixel on the surface [m]; of a prepared map on the map."""
     made = tile.preparation
     return made.place(i, j) if made else (i * tile.pixel[0], j * tile.pixel[1])
@@ -399,10 +399,8 @@ def suggested_outliers(
     return rounded, int(np.count_nonzero(away > rounded))
 
 
-def spikes_of(
-    made: Preparation,
-    without_spikes: Callable[[float], Topography],
-    full: Full,
+def _spikes(
+    made: Preparation, without_spikes: Callable[[float], Topography], full: Full
 ) -> tuple[float, int] | None:
     """Threshold with a full film, and the number of points beyond it."""
     heights = made.scan.heights

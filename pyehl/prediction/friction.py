@@ -13,8 +13,14 @@ import numpy as np
 
 from pyehl.prediction.model import PIXEL_POINTS, Components, Model
 from pyehl.prediction.moving_tile import Component
-from pyehl.prediction.relative_positions import Passage, Positions
-from pyehl.prediction.rough_contact import HertzContact, Response, RoughContact, ShearedContact
+from pyehl.prediction.relative_positions import Passage, RelativePositions, TilePositions
+from pyehl.prediction.rough_contact import (
+    HertzContact,
+    Response,
+    RoughContact,
+    ShearedContact,
+    thins,
+)
 from pyehl.prediction.spectrum import Band, joining, longer_waves
 from pyehl.surfaces import interpolated, track_offsets
 from pyehl.theory.line_contact import AnyContact
@@ -95,11 +101,6 @@ class RoughFriction:
         return self.shifts[0]
 
 
-def thins(lubricant: Lubricant, operating: AnyContact) -> bool:
-    """Whether the shear stress is another than the Newtonian one."""
-    return lubricant.shear.law != "newtonian" and operating.sliding_speed > 0.0
-
-
 def meaning(lubricant: Lubricant, operating: AnyContact) -> str:
     """Say what mu_r/mu_s is."""
     stress = STRESS_NOTE + ("" if lubricant.shear.in_flow else NEWTONIAN_FLOW_NOTE)
@@ -127,51 +128,6 @@ def outcome(
     return "predicted", "full film throughout the passage"
 
 
-def passed(
-    contact: ShearedContact,
-    outcome: tuple[str, str],
-    passage: Passage,
-    *,
-    film_unit: float,
-    shifts: tuple[Array, ...],
-    responses: tuple[Response, ...],
-) -> RoughFriction:
-    """Put together what a contact has met in a passage, with its status and message.
-
-    `film_unit` [m]; `shifts` and `responses` of the surfaces by number.
-    """
-    ratios, visited = passage.ratios, max(1, contact.count * contact.points)
-    low, share, high = contact.shares() if contact.levels else (math.nan,) * 3
-    status, message = outcome
-    mean = minimum = maximum = math.nan
-    min_film = math.nan if status == "film breakdown" else contact.min_film()
-    if status == "predicted":
-        fine = interpolated(ratios, 8) if passage.periodic else ratios
-        mean, minimum, maximum = (float(v) for v in (ratios.mean(), fine.min(), fine.max()))
-    return RoughFriction(
-        status=status,
-        message=message,
-        mu_ratio=mean,
-        mu_ratio_min=minimum,
-        mu_ratio_max=maximum,
-        position_error=passage.undecided,
-        shifts=shifts,
-        passage=ratios,
-        mu_smooth=contact.mu_smooth(),
-        film_min=min_film * film_unit,
-        increase_rms=contact.increase_rms() * contact.operating.hertz_pressure,
-        increase_max=contact.max_increase * contact.operating.hertz_pressure,
-        pressure_max=contact.max_pressure * contact.operating.hertz_pressure,
-        below_limit=float(share),
-        below_limit_error=0.5 * float(high - low),
-        cavitated_share=contact.cavitated / visited,
-        cavitated_friction=contact.cavitated_bound(minimum) if status == "predicted" else math.nan,
-        load_error=contact.imbalance,
-        ended=contact.ended / visited,
-        responses=responses,
-    )
-
-
 def too_high(height: float) -> str:
     """Say that the deformed roughness is higher than the film sustains, by a height [m]."""
     much = f"{height * 1e9:.3g} nm"
@@ -183,17 +139,14 @@ def broken(friction: RoughFriction, sustained: float) -> RoughFriction:
 
     `sustained`: minimum of what the film sustains less the deformed roughness [m].
     """
-    return replace(
-        friction,
-        status="film breakdown",
-        message=too_high(-sustained),
-        mu_ratio=math.nan,
-        mu_ratio_min=math.nan,
-        mu_ratio_max=math.nan,
-        position_error=math.nan,
-        film_min=math.nan,
-        cavitated_friction=math.nan,
-    )
+    ratios = ("mu_ratio", "mu_ratio_min", "mu_ratio_max", "position_error")
+    lost = unknown(*ratios, "film_min", "cavitated_friction")
+    return replace(friction, status="film breakdown", message=too_high(-sustained), **lost)
+
+
+def unknown(*names: str) -> dict[str, Any]:
+    """Give NaN by names, for `replace`."""
+    return dict.fromkeys(names, math.nan)
 
 
 # Errors against the full simulation, measured in docs/evidence/thinning: relative, and of a film
@@ -335,7 +288,7 @@ def _over_tracks(
     model: Model,
     contact: RoughContact | HertzContact,
     waves: Components,
-    positions: Positions,
+    positions: TilePositions | RelativePositions,
     tracks: int,
     first: float,
 ) -> list[float]:
@@ -402,17 +355,38 @@ def below(model: Model, waves: Components, limits: Sequence[float]) -> float:
 
 
 def _result(
-    model: Model,
-    contact: RoughContact | HertzContact,
-    waves: Components,
-    passage: Passage,
+    model: Model, contact: RoughContact | HertzContact, waves: Components, passage: Passage
 ) -> RoughFriction:
-    return passed(
-        contact,
-        outcome(contact, passage.ratios, load_balance=model.options.load_balance),
-        passage,
-        film_unit=model.operating.film_scale,
+    """Put together what a contact has met in a passage."""
+    ratios, visited = passage.ratios, max(1, contact.count * contact.points)
+    low, share, high = contact.shares() if contact.levels else (math.nan,) * 3
+    status, message = outcome(contact, ratios, load_balance=model.options.load_balance)
+    p_h = model.operating.hertz_pressure
+    mean = minimum = maximum = math.nan
+    min_film = math.nan if status == "film breakdown" else contact.min_film()
+    if status == "predicted":
+        fine = interpolated(ratios, 8) if passage.periodic else ratios
+        mean, minimum, maximum = (float(v) for v in (ratios.mean(), fine.min(), fine.max()))
+    return RoughFriction(
+        status=status,
+        message=message,
+        mu_ratio=mean,
+        mu_ratio_min=minimum,
+        mu_ratio_max=maximum,
+        position_error=passage.undecided,
         shifts=tuple(passage.shifts[model.order.index(k)] for k in range(len(waves))),
+        passage=ratios,
+        mu_smooth=contact.mu_smooth(),
+        film_min=min_film * model.operating.film_scale,
+        increase_rms=contact.increase_rms() * p_h,
+        increase_max=contact.max_increase * p_h,
+        pressure_max=contact.max_pressure * p_h,
+        below_limit=float(share),
+        below_limit_error=0.5 * float(high - low),
+        cavitated_share=contact.cavitated / visited,
+        cavitated_friction=contact.cavitated_bound(minimum) if status == "predicted" else math.nan,
+        load_error=contact.imbalance,
+        ended=contact.ended / visited,
         responses=tuple(model.responses(waves)),
     )
 

@@ -35,8 +35,8 @@ import scipy
 
 from pyehl.contact.heat import HeatOf, mean_heat
 from pyehl.contact.smooth import SmoothContact
-from pyehl.prediction.friction import Outcome, RoughFriction, broken
-from pyehl.prediction.model import FILM_ELLIPTICITY, Components, Model, outside_range
+from pyehl.prediction.friction import Outcome, RoughFriction, broken, unknown
+from pyehl.prediction.model import FILM_ELLIPTICITY, Components, Model
 from pyehl.prediction.moving_tile import slipped
 from pyehl.prediction.response import film_left, loss_at
 from pyehl.prediction.rough_contact import RoughContact, missing
@@ -341,6 +341,11 @@ class MixedFilm:
         """Whether bodies touch."""
         return self.load_share > 0.0
 
+    @property
+    def friction_unknown(self) -> bool:
+        """Whether bodies touch and the friction there is not known."""
+        return self.touches and not math.isfinite(self.friction)
+
     def unknown(self, note: str) -> MixedFilm:
         """Give the same where its numbers are not known, and why: none where bodies may touch."""
         if self.load_share == 0.0 == self.load_share_error:
@@ -349,20 +354,8 @@ class MixedFilm:
 
     def without_errors(self, note: str) -> MixedFilm:
         """Give the same where no error is known, and why."""
-        n = math.nan
-        return replace(
-            self,
-            note=self.note or note,
-            load_share_error=n,
-            area_share_error=n,
-            film_min_error=n,
-            friction_error=n,
-        )
-
-    @property
-    def friction_unknown(self) -> bool:
-        """Whether bodies touch and the friction there is not known."""
-        return self.touches and not math.isfinite(self.friction)
+        errors = ("load_share_error", "area_share_error", "film_min_error", "friction_error")
+        return replace(self, note=self.note or note, **unknown(*errors))
 
 
 def mixed_film(
@@ -380,11 +373,7 @@ def mixed_film(
     if not model.options.measured:
         return MixedFilm(OTHER_MODEL)
     found = partial_film(model, waves, boundary, settings, smooth)
-    ratio, thinning = model.surfaces[0].velocity_ratio, model.contact.thinning
-    beyond = outside_range(model.operating, ratio, model.options, thinning)
-    if model.operating.ellipse.side > FILM_ELLIPTICITY and "ellipticity" not in beyond:
-        beyond.append("ellipticity")
-    if beyond:
+    if beyond := model.outside_range(FILM_ELLIPTICITY):
         found = found.unknown(f"outside the range of the response by {', '.join(beyond)}")
     if settings["contact"].get("hardness", 0.0) > 0.0:
         found = found.without_errors(ELASTIC)
@@ -481,10 +470,8 @@ def with_contact(found: Outcome, mixed: MixedFilm) -> tuple[Outcome, MixedFilm]:
     known = math.isfinite(mixed.friction)
     if friction.status != "predicted":
         # a full film that breaks down has no pressures
-        friction = replace(
-            friction, increase_rms=math.nan, increase_max=math.nan, pressure_max=math.nan
-        )
-        friction = replace(friction, below_limit=math.nan, below_limit_error=math.nan)
+        numbers = ("increase_rms", "increase_max", "pressure_max", "below_limit")
+        friction = replace(friction, **unknown(*numbers, "below_limit_error"))
     friction = replace(
         friction,
         status="predicted",

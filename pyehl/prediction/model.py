@@ -50,7 +50,7 @@ import numpy as np
 from pyehl.contact.smooth import SmoothContact, circle_of, zone_of
 from pyehl.errors import InputError
 from pyehl.prediction.moving_tile import Component, Edge, PixelTile, long_waves
-from pyehl.prediction.relative_positions import Positions, RelativePositions, TilePositions
+from pyehl.prediction.relative_positions import RelativePositions, TilePositions
 from pyehl.prediction.response import Transfer
 from pyehl.prediction.rough_contact import HertzContact, Response, RoughContact
 from pyehl.prediction.spectrum import Spectrum, working_grid
@@ -191,12 +191,17 @@ def why_no_error(
 
 
 def outside_range(
-    operating: AnyContact, velocity_ratio: float, options: ModelOptions, thinning: float = 1.0
+    operating: AnyContact,
+    velocity_ratio: float,
+    options: ModelOptions,
+    thinning: float = 1.0,
+    widest: float = ELLIPTICITY[1],
 ) -> list[str]:
     """Names of the numbers that lie outside the range in which the response was measured.
 
     `moes_m` and `moes_l` of an elliptical contact are those of the circle with the same dry inlet.
-    `thinning`: viscosity at low shear over that of a Newtonian lubricant with as thick a film.
+    `thinning`: viscosity at low shear over that of a Newtonian lubricant with as thick a film;
+    `widest`: largest ellipticity, of film and pressure over roughness FILM_ELLIPTICITY.
     """
     if options.reduction != "response":
         return []
@@ -210,7 +215,7 @@ def outside_range(
     }
     limits = fitted_range() | {
         "velocity_ratio": VELOCITY_RATIO,
-        "ellipticity": ELLIPTICITY,
+        "ellipticity": [ELLIPTICITY[0], widest],
         "thinning": THINNING,
     }
     return [name for name, v in values.items() if not limits[name][0] <= v <= limits[name][1]]
@@ -416,7 +421,7 @@ class Model:
         stride = self.stride_of(wave.spectrum, points)
         return PixelTile(wave, self.contact.central_film, stride, self.operating)
 
-    def positions(self, waves: Components) -> Positions:
+    def positions(self, waves: Components) -> TilePositions | RelativePositions:
         """Give the positions of the surfaces, in order."""
         if len(waves) == 1:
             pixels = waves[0].spectrum.shape[0]
@@ -431,6 +436,12 @@ class Model:
         lengths = first.topography.length_x / radius, second.topography.length_x / radius
         ratios = first.velocity_ratio, second.velocity_ratio
         return RelativePositions(lengths, ratios, (first.front, second.front), radius)
+
+    def outside_range(self, widest: float = ELLIPTICITY[1]) -> list[str]:
+        """Name what lies outside the range of the response for one of the surfaces, each once."""
+        rest = self.options, self.contact.thinning, widest
+        found = [outside_range(self.operating, s.velocity_ratio, *rest) for s in self.surfaces]
+        return list(dict.fromkeys(name for names in found for name in names))
 
     def without_shorter(self, numbers: Sequence[int], shortest: float) -> Model:
         """Return the model without waves shorter than a length [m] of the surfaces so numbered."""

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -297,18 +297,6 @@ def slipped(x: Array, y: Array, velocity_ratio: float, *, bent: bool) -> Array:
     return (velocity_ratio - 1.0) * (x + inlet)
 
 
-class Tile(Protocol):
-    """A moving tile on the points of a contact."""
-
-    def add(self, contact: RoughContact, position: Position, total: Single) -> None:
-        """Add loss of film and gain of pressure (m, n, 2) in a position."""
-        ...
-
-    def at_edge(self, position: Position) -> tuple[Array, Array]:
-        """Give what the edge does in a position, see :meth:`Edge.at`."""
-        ...
-
-
 def _steps(reach: float, pixel: float, pixels: int, stride: int) -> NDArray[np.int32]:
     """Every `stride`-th pixel within a reach [a]; of a line, which has none across, of the tile."""
     if math.isinf(reach):
@@ -351,7 +339,7 @@ class PixelTile:
         self.beside: dict[int, Single | None] = {}
 
     def add(self, contact: RoughContact, position: Position, total: Single) -> None:
-        """Add loss of film and gain of pressure; the track is a multiple of the stride."""
+        """Add loss of film, gain of pressure (m, n, 2); the track is a multiple of the stride."""
         shift, track = (int(pixels) for pixels in position)
         waves = self.waves
         columns = (self.columns - track) // self.stride % waves.driven.shape[2]
@@ -365,7 +353,7 @@ class PixelTile:
         contact.add_free(waves, self.beside[track], places, columns, shift * REFINEMENT, total)
 
     def at_edge(self, position: Position) -> tuple[Array, Array]:
-        """Give what the edge does in a position."""
+        """Give what the edge does in a position, see :meth:`Edge.at`."""
         return self.wave.edge.at(position[0] * self.pixel[0], position[1] * self.pixel[1])
 
 
@@ -409,5 +397,5 @@ class LineTile:
         contact.add_free(self.waves, self.beside, free, self.columns, 0, total)
 
     def at_edge(self, position: Position) -> tuple[Array, Array]:
-        """Give what the edge does in a position."""
+        """Give what the edge does in a position, see :meth:`Edge.at`."""
         return self.edge.at(position[self.number], self.track)

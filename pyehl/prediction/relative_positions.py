@@ -13,7 +13,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from typing import Protocol
 
 import numpy as np
 
@@ -58,21 +57,6 @@ class Passage:
     periodic: bool = True  # whether the positions follow each other and return to the first
 
 
-class Positions(Protocol):
-    """The positions of rough surfaces in a contact."""
-
-    def short_mean(self, friction: Friction, track: int = 0) -> float:
-        """Mean of mu_r/mu_s over a few positions, on a track of the contact."""
-        ...
-
-    def passage(self, friction: Friction, positions: int, largest: float) -> Passage:
-        """Give mu_r/mu_s in so many positions; 0: as many as it takes.
-
-        No more are added to a mean above `largest`.
-        """
-        ...
-
-
 @dataclass(frozen=True, slots=True)
 class TilePositions:
     """The positions of one tile: whole pixels over its length."""
@@ -86,7 +70,10 @@ class TilePositions:
         return float(np.mean([friction((int(step), track)) for step in steps]))
 
     def passage(self, friction: Friction, positions: int, largest: float) -> Passage:
-        """Give mu_r/mu_s over the length of the tile."""
+        """Give mu_r/mu_s in so many positions over the length of the tile; 0: as many as it takes.
+
+        No more are added to a mean above `largest`.
+        """
         n, error = positions or FIRST_POSITIONS, math.nan
         steps = np.arange(n) * (self.pixels // n)
         ratios = np.array([friction((int(step), 0)) for step in steps])

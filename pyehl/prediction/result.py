@@ -29,7 +29,6 @@ from pyehl.prediction.friction import (
     RoughFriction,
     deformed_surface,
     meaning,
-    thins,
 )
 from pyehl.prediction.mixed_lubrication import NO_FRICTION, MixedFilm, contact_numbers
 from pyehl.prediction.model import (
@@ -38,10 +37,9 @@ from pyehl.prediction.model import (
     ModelOptions,
     RoughSurface,
     model_error,
-    outside_range,
     why_no_error,
 )
-from pyehl.prediction.rough_contact import Response
+from pyehl.prediction.rough_contact import Response, thins
 from pyehl.prediction.spectrum import BAND_COLUMNS, Band, Spectrum, cutoff_error, records
 from pyehl.reasons import alpha_note
 from pyehl.surfaces import Topography, psd_isotropic
@@ -443,9 +441,7 @@ class Prediction:
     @property
     def outside_range(self) -> list[str]:
         """What of the case lies outside the range in which the response was measured; mostly []."""
-        how = self.options, self.model.contact.thinning
-        found = [outside_range(self.operating, u, *how) for u in self.velocity_ratios]
-        return list(dict.fromkeys(name for names in found for name in names))
+        return self.model.outside_range()
 
     @property
     def model_error(self) -> float:
@@ -469,8 +465,7 @@ class Prediction:
     @property
     def is_known(self) -> bool:
         """Whether errors of film and pressure over the roughness were measured in such a case."""
-        wide = self.operating.ellipse.side > FILM_ELLIPTICITY
-        return self.options.measured and not self.outside_range and not wide
+        return self.options.measured and not self.model.outside_range(FILM_ELLIPTICITY)
 
     @property
     def case_text(self) -> str:

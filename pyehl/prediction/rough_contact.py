@@ -30,7 +30,6 @@ from pyehl.prediction.moving_tile import (
     LineTile,
     PixelTile,
     Position,
-    Tile,
     WaveTiles,
     station_weights,
 )
@@ -59,6 +58,11 @@ class Response:
     deformed: Array  # deformed roughness rr_d (nx, ny) [m], mean zero, peaks thin the film
 
 
+def thins(lubricant: Lubricant, operating: AnyContact) -> bool:
+    """Whether the shear stress is not the Newtonian one, as it is without sliding."""
+    return lubricant.shear.law != "newtonian" and operating.sliding_speed > 0.0
+
+
 class ShearedContact:
     """Points of a contact, the shear stress integrals over them, and what was met so far."""
 
@@ -69,8 +73,7 @@ class ShearedContact:
 
     def __init__(self, operating: AnyContact, lubricant: Lubricant) -> None:
         self.operating, self.lubricant = operating, lubricant
-        # without sliding the shear stress is the Newtonian one
-        self.thins = lubricant.shear.law != "newtonian" and operating.sliding_speed > 0.0
+        self.thins = thins(lubricant, operating)
         self.cavitated = 0  # points where the pressure is not positive
         self.count = 0  # positions
         self.ended = 0  # points where the film has ended
@@ -238,7 +241,7 @@ class RoughContact(ShearedContact):
         area: float,
         waves: Sequence[Component],
         powers: Sequence[Array] | None,
-        tiles: Sequence[Tile],
+        tiles: Sequence[PixelTile | LineTile],
     ) -> None:
         super().__init__(operating, lubricant)
         self.x, self.y, self.area, self.tiles = x, y, area, tiles

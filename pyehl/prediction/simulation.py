@@ -27,7 +27,6 @@ from pyehl.prediction.model import (
     ModelOptions,
     RoughSurface,
     model_error,
-    outside_range,
     turned,
     unpredictable,
 )
@@ -192,10 +191,8 @@ def starting_pressure(
         If the smooth contact has no solution.
     """
     model = _model(settings, tiles, float(x[1] - x[0]), fronts[0])
-    for one in model.surfaces:
-        ratio, thinning = one.velocity_ratio, model.contact.thinning
-        if beyond := outside_range(model.operating, ratio, model.options, thinning):
-            raise InputError(f"{', '.join(beyond)} outside the range of the prediction")
+    if beyond := model.outside_range():
+        raise InputError(f"{', '.join(beyond)} outside the range of the prediction")
     fronts = fronts[:, list(model.order)]
     if model.merged is not None:
         # the tile of both lies as the first in their order does
