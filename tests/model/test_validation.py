@@ -23,7 +23,8 @@ def rows(root: Path, name: str) -> list[dict[str, str]]:
 
 def test_rows_of_the_other_programs(root: Path, made: dict[str, Any]):
     """How far two rows are apart, and what Carreau's law takes of the film."""
-    text = plain(root / "docs" / "validation.md")
+    pages = "validation.md", "evidence/validation/README.md"
+    text = "".join(plain(root / "docs" / page) for page in pages)
     with (root / "pyehl/studies/references/smooth.csv").open(encoding="utf-8") as stream:
         known = {
             (r["lubricant.roelands_z"], r["grid.points"]): r
