@@ -47,8 +47,8 @@ def solve(
         Values that replace those of the case, as of `Case`.
     surface, second_surface
         Rough surfaces in place of those of the case: a `Topography`, or an array of heights [m] of
-        shape (nx, ny), peaks positive, with the size that the case says. Keys that prepare a map do
-        not apply to them. They are written beside the results.
+        shape (nx, ny), peaks positive, with the size of the case. Keys that prepare a map do not
+        apply to them. They are written beside the results.
     output
         Result folder, as ``pyehl run -o`` writes it, with checkpoints of a transient run beside
         it; None: nothing is kept on disk.

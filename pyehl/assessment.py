@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a solution or a prediction is worth to an engineer: one line, from its summary."""
+"""Assessment of a solution or a prediction: one line, from its summary."""
 
 import math
 from collections.abc import Mapping
@@ -36,7 +36,7 @@ NO_INLET = "the grid does not resolve the inlet"
 
 @dataclass(frozen=True, slots=True)
 class Assessment:
-    """What a result is worth.
+    """Assessment of a result.
 
     Attributes
     ----------
@@ -44,7 +44,7 @@ class Assessment:
         'no result', 'film breakdown', 'beyond the solids', 'unresolved inlet', 'mixed film',
         'yielding solids', 'thin film', 'unresolved waves' or 'full film', the reason, and what else
         there is to know.
-    worth
+    confidence
         'holds', 'with care' or 'no result'.
     """
 
@@ -152,7 +152,7 @@ def _yielding(s: Summary) -> list[str]:
 def _film(s: Summary) -> list[str]:
     """Film that is thin beside molecules or beside the roughness."""
     ratio = s.number("lambda_ratio")
-    if _finite_above(MOLECULAR, _least(s)):
+    if _finite_above(MOLECULAR, _h_min(s)):
         return [
             f"thin film: {_minimum_film(s)}, below {rounded(MOLECULAR * 1e9, 2)} nm, where "
             "additives and what a scan does not show count, and asperities may touch"
@@ -266,7 +266,7 @@ def _slenderness(s: Summary) -> list[str]:
 
 def _minimum_film(s: Summary) -> str:
     """Give the minimum film in words."""
-    film, ratio = _least(s), s.number("lambda_ratio")
+    film, ratio = _h_min(s), s.number("lambda_ratio")
     if s.known("h_min_rough_m"):
         return f"the minimum film over the roughness is {rounded(film * 1e9)} nm"
     if math.isfinite(film):
@@ -280,7 +280,7 @@ def _minimum_film(s: Summary) -> str:
     return "smooth surfaces; the case gives no size in metres"
 
 
-def _least(s: Summary) -> float:
+def _h_min(s: Summary) -> float:
     """Give the minimum film [m]: over the roughness where it is known."""
     return s.number("h_min_rough_m" if s.known("h_min_rough_m") else "h_min_m")
 

@@ -85,7 +85,7 @@ def _execute(args: argparse.Namespace) -> int:
         status = int(args.execute(args))
         sys.stdout.flush()
     except BrokenPipeError:
-        # nobody reads on, as behind `| head`
+        # the reader is closed, as behind `| head`
         mute()
         return EXIT_FAILED
     except OSError as error:

@@ -22,7 +22,7 @@ class Conclusion:
         What was found, by name, and behind it the assessment.
     assessment
         A word and the reason for it.
-    worth
+    confidence
         'holds', 'with care' or 'no result'.
     """
 
@@ -39,7 +39,7 @@ def conclude(values: Mapping[str, Any]) -> Conclusion:
     """Give the last lines of a solution or a prediction from its summary, and assess it.
 
     Films and pressure with their errors, in nm and GPa where the case has a size, friction, heat,
-    and what all that is worth.
+    and how far all that can be relied on.
     """
     s = Summary(values)
     found = assess(values)

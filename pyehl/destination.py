@@ -4,7 +4,7 @@
 A folder takes a result of one kind if it is empty, or holds an earlier result of this kind and
 nothing else; the rule, its messages and the exchange in one step are those of the library, the same
 for ``ehl``. A single file is written where nothing is, or over a file of the same command, which
-says so in its metadata; never onto what the command reads. Links are kept, their targets used.
+states so in its metadata; never onto what the command reads. Links are kept, their targets used.
 """
 
 import errno
@@ -32,7 +32,7 @@ NEAR = 64 * 1024
 
 
 def mark(command: str) -> str:
-    """Give what a file says of itself that a command made."""
+    """Give what a file states of itself that a command made."""
     return f"pyehl {command}: replaced when made again"
 
 
@@ -42,7 +42,7 @@ def _lines(items: Iterable[AnyPath]) -> bytes:
 
 @contextmanager
 def file_errors(path: AnyPath, what: str = "cannot be written") -> Iterator[None]:
-    """Put the name of a file or folder before what the system says of it, as FileError."""
+    """Put the name of a file or folder before the message of the system, as FileError."""
     try:
         yield
     except FileError:
@@ -113,7 +113,7 @@ class Destination:
         check(*functions.finish_folder(*self._given(), os.fsencode(fresh)))
 
     def claim(self, values: Mapping[str, object]) -> None:
-        """Make the folder, or resume in it; its summary says whose it is from the start.
+        """Make the folder, or resume in it; its summary states whose it is from the start.
 
         InputError as `check`; FileError if the folder cannot be written.
         """
@@ -143,7 +143,7 @@ def check_files(
 ) -> None:
     """Refuse files that must not be written by a command, such as 'plot', which reads `inputs`.
 
-    `known` tells whether the command wrote a file that is there; default: the file has its `mark`.
+    `known`: whether the command wrote a file that is there; default: the file has its `mark`.
     InputError with the file in the way, and the way out.
     """
     sources = {os.path.realpath(source) for source in inputs}

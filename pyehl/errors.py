@@ -25,7 +25,7 @@ class EhlError(Exception):
 
 
 class InputError(EhlError, ValueError):
-    """A case or an argument is not acceptable; the message says where and why.
+    """A case or an argument is not acceptable; the message states where and why.
 
     Examples
     --------
@@ -103,7 +103,7 @@ CLASSES: dict[int, type[EhlError]] = {
 
 
 def check(status: int, message: bytes) -> None:
-    """Raise what a status says: the class of EhlError that belongs to it, unless it is 0."""
+    """Raise the error of a status: the class of EhlError that belongs to it, unless it is 0."""
     if status != 0:
         raise CLASSES.get(status, InternalError)(message.decode(errors="replace").rstrip())
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Values as namelist text and back, for text as the Fortran writer and this module make it.
 
-What a user wrote is read by Fortran alone, which says what is wrong with it.
+What a user wrote is read by Fortran alone, which states what is wrong with it.
 """
 
 import re

@@ -26,7 +26,7 @@ class Predictions:
     case
         The case of the run.
     tiles
-        Its surfaces by group, where they are not made as the case says; of a large one a part.
+        Its surfaces by group, where they are not made as the case states; of a large one a part.
     whole
         Whether none of `tiles` is a part of the surface alone.
 

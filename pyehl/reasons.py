@@ -289,7 +289,7 @@ def _of_negative_film(v: Values, d: Values, place: str, help_: str, *, si: bool)
         text += " or more: give a smoother surface"
     if si and not d["boundary_film_given"]:
         text += " or lubricant.boundary_film"
-    return text + ("; pyehl predict says where the film ends" if d["surfaces_repeat"] else "")
+    return text + ("; pyehl predict reports where the film ends" if d["surfaces_repeat"] else "")
 
 
 def _place(d: Values, prefix: str) -> str:

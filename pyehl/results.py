@@ -3,7 +3,7 @@
 
 Capital letters (X, Y, T, P, H, RR, A_d) are in Hertz units: a, a/u, p_h, a^2/R. Names that end in
 a unit (``_m``, ``_Pa``, ``_s``) are in that unit; they are there when the case was given in SI
-units. No two names differ only in case, so that readers that do not tell them apart can open an
+units. No two names differ only in case, so that readers that do not distinguish them can open an
 exported file.
 """
 
@@ -112,7 +112,7 @@ def settings_of(data: xr.Dataset) -> dict[str, dict[str, Any]]:
 
 
 def unit_of(name: str) -> str:
-    """Give the unit of a quantity, or that the end of a name says; '1' where there is none."""
+    """Give the unit of a quantity, or that at the end of a name; '1' where there is none."""
     if name in SCALARS:
         return SCALARS[name].unit if SCALARS[name].unit in SI else "1"
     return next((unit for end, unit in SUFFIXES.items() if name.endswith(end)), "1")

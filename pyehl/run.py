@@ -49,7 +49,7 @@ def signals_to(take: Callable[[int, FrameType | None], None]) -> Iterator[None]:
 
 
 class StopRequest:
-    """Whether somebody wants the run to stop; a second signal acts at once."""
+    """Whether the user wants the run to stop; a second signal acts at once."""
 
     def __init__(self) -> None:
         self.wanted = False
@@ -62,12 +62,12 @@ class StopRequest:
 
 
 def _silent(_: object) -> None:
-    """Take what a run tells."""
+    """Drop the progress of a run."""
 
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """How a run ended: whether it converged, and whether somebody stopped it."""
+    """How a run ended: whether it converged, and whether it was stopped."""
 
     converged: bool
     interrupted: bool

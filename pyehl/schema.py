@@ -41,7 +41,7 @@ sprt | files | | names of the files of the result in its folder
 sp | status | | 'converged', 'predicted', or why there is no result
 s | converged | | whether the results are a solution
 sp | message | | the status in a sentence; of a run that has no result
-sp | assessment | | what the result is worth: a word, the reason, and what else to know
+sp | assessment | | assessment: a word, the reason, and what else to know
 s | version | | version of the library
 sp | wall_seconds | s | time of the run
 s | bytes | byte | memory of the solver
@@ -97,14 +97,14 @@ s | H_min_error_grid | a^2/R | part of it from the grid
 s | H_min_error_domain | a^2/R | part of it from the borders of the domain
 s | H_min_algebraic_error | a^2/R | part of the error that more cycles would take away
 s | error_estimate | | where the estimates are from: 'coarser grids' or 'a priori'
-s | P_max | p_h | largest pressure
+s | P_max | p_h | maximum pressure
 s | P_max_error | p_h | estimate of its error, by three grids
 s | P_max_error_note | | why there is none
-s | P_max_X | a | where the pressure of a roller is largest
+s | P_max_X | a | place of the maximum pressure of a roller
 s | P_max_Y | a | where
-s | H_min_X | a | where the film of a roller is least
+s | H_min_X | a | place of the minimum film thickness of a roller
 s | H_min_Y | a | where
-s | P_end | p_h | largest pressure in the last cells of a roller; above 0.1 H_min has no error
+s | P_end | p_h | maximum pressure in the last cells of a roller; above 0.1 H_min has no error
 s | cell_at_end | a | length of the last cell of a roller
 s | length | a | length of a roller
 s | F | - | friction integral
@@ -112,7 +112,7 @@ s | F_error | - | estimate of its error, by three grids
 s | F_error_note | | why there is none
 s | last_H_c | a^2/R | central film at the end of a run without a solution
 s | last_H_min | a^2/R | minimum film at the end of a run without a solution
-s | last_P_max | p_h | largest pressure at the end of a run without a solution
+s | last_P_max | p_h | maximum pressure at the end of a run without a solution
 s | last_F | - | friction integral at the end of a run without a solution
 s | last_mu_ratio | - | mu_r/mu_s at the end of a run without a solution
 s | last_mu_ratio_mean | - | its mean over a period at the end of a run without a solution
@@ -121,7 +121,7 @@ sp | h_c_error_m | m | estimate of its error
 p | h_c_source | | where it is from
 sp | h_min_m | m | minimum film of the smooth contact
 sp | h_min_error_m | m | estimate of its error
-sp | p_max_Pa | Pa | largest pressure of the smooth contact
+sp | p_max_Pa | Pa | maximum pressure of the smooth contact
 s | H_c_flooded | a^2/R | central film of a flooded inlet, by formula; where it is short of oil
 s | starvation | - | H_c over it
 s | starvation_by_formula | - | the same by formula (docs/theory/starvation.md)
@@ -144,12 +144,12 @@ s | H_min_rough_T | a/u | when
 s | H_min_rough_X | a | where
 s | H_min_rough_Y | a | where
 sp | h_min_rough_m | m | minimum film of the rough contact, as H_min_rough
-s | P_max_rough | p_h | largest pressure of the rough contact: at rest, in T_mean, or in a passage
+s | P_max_rough | p_h | maximum pressure of the rough contact: at rest, in T_mean, or in a passage
 s | P_max_rough_T | a/u | when
 s | P_max_rough_X | a | where
 s | P_max_rough_Y | a | where
-sp | p_max_rough_Pa | Pa | largest pressure of the rough contact; predicted: within 0.8 a
-s | P_rise_max | p_h | largest rise of the pressure over the smooth contact at the same place
+sp | p_max_rough_Pa | Pa | maximum pressure of the rough contact; predicted: within 0.8 a
+s | P_rise_max | p_h | maximum pressure increase over the smooth contact at the same place
 s | P_rise_max_T | a/u | when
 s | P_rise_max_X | a | where
 s | P_rise_max_Y | a | where
@@ -164,7 +164,7 @@ s | x_start | a | origin of a rough surface at rest
 s | second_x_start | a | that of the second surface
 sp | mu_ratio | - | friction over that of the smooth contact: mean over a period or a passage
 sp | mu_ratio_min | - | its minimum over the passage
-sp | mu_ratio_max | - | its largest value
+sp | mu_ratio_max | - | its maximum
 s | mu_ratio_extrapolated | - | mu_ratio extrapolated to fine grids, where both resolve the surface
 s | mu_ratio_error | - | error of mu_ratio: the sum of its parts; null if one is not known
 sp | mu_ratio_error_note | | why the error is not known; else empty
@@ -185,7 +185,7 @@ sp | mu | - | coefficient of friction of the rough contact, with heat where it c
 sp | mu_smooth | - | coefficient of friction of the smooth contact, with heat where it counts
 sp | mu_isothermal | - | mu without heat
 sp | mu_smooth_isothermal | - | mu_smooth without heat
-sp | temperature_rise_max_K | K | largest mean rise across the film; rough: at the end of a run
+sp | temperature_rise_max_K | K | maximum mean rise across the film; rough: at the end of a run
 sp | temperature_rise_wall_1_max_K | K | the same of the surface of body 1
 sp | temperature_rise_wall_2_max_K | K | the same of the surface of body 2
 sp | boundary_film | a^2/R | film at ambient pressure at which bodies touch
@@ -202,9 +202,9 @@ s | plastic_depth_max_m | m | maximum depth of plastic deformation
 s | flowing_load_share_at_hardness | - | share of the load where they yield under a flowing film
 s | layer_supply | - | mass defect of the boundary film there, over the flow along with the surfaces
 sp | mu_note | | what mu holds and leaves out
-sp | flash_temperature_K | K | largest rise of the surfaces by a formula (Tian & Kennedy), at mu
+sp | flash_temperature_K | K | maximum rise of the surfaces by a formula (Tian & Kennedy), at mu
 sp | shear_rate_mean_per_s | 1/s | mean shear rate
-sp | shear_stress_max_Pa | Pa | largest shear stress
+sp | shear_stress_max_Pa | Pa | maximum shear stress
 s | rolling_moment | p_h a^3 | iint H/2 dP/dX of the smooth contact, which resists the rolling
 s | rolling_moment_N_m | N m | the same
 s | rolling_moment_N | N | the same of a line, per length
@@ -225,31 +225,31 @@ p | spectrum_beside | | h_min and mu_r/mu_s with other roll-offs, where Ra or a 
 p | surface_findings | | what of the maps is no roughness: form, line offsets, stitching step, dust
 sp | surface_correlation | - | correlation of the heights of two surfaces that move together
 s | variance_cut | - | share of the height's variance that was cut on purpose
-s | variance_left_out | - | share of it in waves that the grid does not carry
+s | variance_left_out | - | share of it in waves that are not on the grid
 s | variance_unresolved | - | share of it in waves that the grid does not resolve
 s | scheme | | time scheme
-s | duty_h_c_min_m | m | least central film over the duty, of a periodic one over its last period
+s | duty_h_c_min_m | m | minimum central film over the duty, of a periodic one over its last period
 s | duty_h_c_min_t_s | s | when
 s | duty_h_c_min_error_m | m | estimate of its error: grid and domain as of the case, and time steps
-s | duty_h_c_max_m | m | largest central film
+s | duty_h_c_max_m | m | maximum central film
 s | duty_h_c_max_t_s | s | when
 s | duty_h_c_max_error_m | m | estimate of its error
-s | duty_h_min_min_m | m | least minimum film
+s | duty_h_min_min_m | m | minimum of the minimum film
 s | duty_h_min_min_t_s | s | when
 s | duty_h_min_min_error_m | m | estimate of its error
-s | duty_h_min_max_m | m | largest minimum film
+s | duty_h_min_max_m | m | maximum of the minimum film
 s | duty_h_min_max_t_s | s | when
 s | duty_h_min_max_error_m | m | estimate of its error
-s | duty_p_max_Pa | Pa | largest pressure over the duty
+s | duty_p_max_Pa | Pa | maximum pressure over the duty
 s | duty_p_max_t_s | s | when
 s | duty_p_max_error_Pa | Pa | estimate of its error
-s | duty_mu_max | - | largest coefficient of friction; null where it is not known at all times
+s | duty_mu_max | - | maximum coefficient of friction; null where it is not known at all times
 s | duty_mu_max_t_s | s | when
 s | duty_mu_max_error | - | estimate of its error
-s | duty_power_max_W | W | largest power of friction, of a line per length
+s | duty_power_max_W | W | maximum power of friction, of a line per length
 s | duty_power_max_t_s | s | when
 s | duty_power_max_error_W | W | estimate of its error
-s | duty_flash_max_K | K | largest flash temperature, of walls in a steady state
+s | duty_flash_max_K | K | maximum flash temperature, of walls in a steady state
 s | duty_flash_max_t_s | s | when
 s | duty_flash_max_error_K | K | estimate of its error
 s | duty_period_change | - | relative change of the mean central film from the last period but one
@@ -300,9 +300,9 @@ p | rms_deformed_error_m | m | estimate of its error
 p | lambda_ratio_deformed | - | h_min/rms_deformed_m: smooth contact, deformed surface
 p | lambda_ratio_deformed_error | - | estimate of its error
 p | rms_pressure_Pa | Pa | rms of the pressure change at the centre
-p | p_rise_rms_Pa | Pa | rms of the rise of the pressure over a passage, within 0.5 a of the centre
+p | p_rise_rms_Pa | Pa | rms of the pressure increase over a passage, within 0.5 a of the centre
 p | p_rise_rms_error_Pa | Pa | estimate of its error
-p | p_rise_max_Pa | Pa | largest rise of the pressure over a passage, within 0.8 a of the centre
+p | p_rise_max_Pa | Pa | maximum pressure increase over a passage, within 0.8 a of the centre
 p | p_rise_max_error_Pa | Pa | estimate of its error
 p | second_surface | | the second surface in words
 p | second_seed | - | its seed

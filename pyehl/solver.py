@@ -93,7 +93,7 @@ class Solver(SolverHandle):
         Values that replace those of the case, as of `Case`.
     surface, second_surface
         Rough surfaces in place of those of the case: a `pyehl.Topography`, or an array of heights
-        [m] with the size that the case says. Keys that prepare a map do not apply to them.
+        [m] with the size of the case. Keys that prepare a map do not apply to them.
 
     Raises
     ------

@@ -19,7 +19,7 @@ from pyehl.types import Array
 
 COARSE, FINE = 129, (257, 513)
 """Nodes a side while a control moves, and when it rests."""
-REST = 0.12
+DELAY = 0.12
 """A control that has not been changed for so long rests [s]: a hand that drags a slider changes it
 more often, and a finer film may still come within 0.4 s."""
 CURVES = {"mean velocity": "velocity", "slide-to-roll ratio": "slide_to_roll"}
@@ -120,7 +120,7 @@ def follow(position: Position, known: dict[int, Film]) -> Callable[[Ticket], Non
         ticket.answer_with(found)
         if position.rough and ticket.newest():
             ticket.answer_with(rough(position))
-        if not ticket.rest(REST):
+        if not ticket.wait(DELAY):
             return
         for points in FINE:
             found = film(position, points, ticket.newest, known)

@@ -88,7 +88,7 @@ class Page:
         return self.worker, self.curves, *self.parcels.values()
 
     def _later(self, show: Any, generation: int, answer: Any) -> None:  # noqa: ANN401
-        """Show what a worker says when the page has time; called in its thread."""
+        """Show what a worker reports when the page has time; called in its thread."""
         self.document.add_next_tick_callback(partial(show, generation, answer))
 
     def soon(self, do: Callable[[], None]) -> None:
@@ -169,7 +169,7 @@ class Page:
             self.layout.show_rough([(a, self.uploads.nameless(b)) for a, b in rows])
 
     def open_case(self, name: str, data: bytes) -> None:
-        """Put the controls where an uploaded case file says."""
+        """Set the controls by an uploaded case file."""
         try:
             text = data.decode("utf-8-sig")
             case = Case.from_text(text, origin=name)
@@ -186,7 +186,7 @@ class Page:
         self._moved()
 
     def upload(self, name: str, data: bytes) -> None:
-        """Take a height map, or say what its reader says."""
+        """Take a height map, or say what its reader reports."""
         try:
             path = self.uploads.add(name, data, self._wish.map_message())
             wish = replace(self._wish.turned("surface", "map"), file=path)

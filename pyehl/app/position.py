@@ -64,7 +64,7 @@ class Position:
     values
         By the names of `pyehl.app.controls.CONTROLS`.
     base
-        What else the case says, as namelist text.
+        The other keys of the case, as namelist text.
     modulus
         E' [Pa] of an opened case, until the moduli are turned; 0: by the moduli.
     file
@@ -185,7 +185,7 @@ class Position:
         return (*controls, self.modulus, self.base, self.oil)
 
     def map_message(self) -> dict[str, Value]:
-        """Give what the case says of its height map, as `Uploads.check` takes it."""
+        """Give the keys of the case for its height map, as `Uploads.check` takes it."""
         kept = namelist.values(self.base).get("surface", {})
         keys = ("channel", "height_unit", "lateral_unit")
         found = {key: kept[key] for key in keys if key in kept}
@@ -209,7 +209,7 @@ def _kept(text: str) -> str:
 
 
 def from_case(case: Case, files: Mapping[str, str] | None = None) -> tuple[Position, str]:
-    """Put the controls where a case says; with a note on what is shown another way.
+    """Set the controls by a case; with a note on what is shown another way.
 
     `files` are the maps that may be read, by their names; None: those of the case itself. A case
     by M and L becomes one in SI units with the radius and the modulus of a steel ball. InputError

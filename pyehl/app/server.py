@@ -21,7 +21,7 @@ from pyehl.errors import InputError
 
 ADDRESS = "127.0.0.1"
 HOSTS = (ADDRESS, "localhost")
-"""What a browser on this machine calls it: any other name was bound to the loopback by somebody."""
+"""What a browser on this machine calls it: any other name was bound to the loopback by others."""
 # A tab that was closed is gone after so long [ms]. One whose browser has to wait for those of many
 # others is not there yet: its page would be made a second time.
 UNUSED, LOOK = 30_000, 3000

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Files that were uploaded to one page: kept in a folder of their own, gone with the page.
 
-The page knows their names alone. What a reader says of a file names it, not where it lies.
+The page knows their names alone. What a reader reports of a file names it, not where it lies.
 """
 
 import re
@@ -31,7 +31,7 @@ class Uploads:
     def add(self, name: str, data: bytes, given: Mapping[str, Any] | None = None) -> str:
         """Keep a height map if it can be read; returns where. A map of the same name is replaced.
 
-        `given` is what a case says of it, as `check` takes it. InputError with the words of the
+        `given` is what a case states of it, as `check` takes it. InputError with the words of the
         reader; what was there of this name is kept then.
         """
         base = re.sub(r"[^\w.\- ]", "_", Path(name.replace("\\", "/")).name).lstrip(".")
@@ -52,7 +52,7 @@ class Uploads:
     def check(self, path: str, given: Mapping[str, Any]) -> None:
         """Read a map; InputError with the words of the reader.
 
-        `given` has what a case says of it: ``length_x``, ``length_y`` [m] or 0, ``channel``,
+        `given` has what a case states of it: ``length_x``, ``length_y`` [m] or 0, ``channel``,
         ``height_unit``, ``lateral_unit``, each of them or none.
         """
         known = {name: value for name, value in given.items() if value}

@@ -17,13 +17,13 @@ NOTHING = {"display": "none"}
 
 
 class ControlWidget:
-    """A control on the page; `turned` is called with its name and value when somebody turns it."""
+    """A control on the page; `turned` is called with its name and value when the user turns it."""
 
     def __init__(
         self, control: Control | Choice, value: Value, turned: Callable[[str, Value], None]
     ) -> None:
         self.control, self._turned = control, turned
-        # while the page itself moves the control nobody has turned it
+        # while the page itself moves the control the user has not turned it
         self._quiet = False
         self.error = Div(
             text="", styles=NOTHING, width=WIDTH, margin=(0, 5, 0, 5), name=f"error_{control.name}"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the page says: numbers with errors, formulas beside them, Python lines."""
+"""What the page shows: numbers with errors, formulas beside them, Python lines."""
 
 import json
 import math

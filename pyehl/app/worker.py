@@ -34,10 +34,10 @@ class Ticket:
             return False
         return self.newest() or time.monotonic() - self._began < GRACE
 
-    def rest(self, seconds: float) -> bool:
+    def wait(self, seconds: float) -> bool:
         """Wait until so long after its beginning; whether the job is the newest one still."""
         left = seconds - (time.monotonic() - self._began)
-        return self._worker.rest(self.generation, max(0.0, left))
+        return self._worker.wait(self.generation, max(0.0, left))
 
     def answer_with(self, answer: Any) -> None:  # noqa: ANN401 (of any kind)
         """Hand over an answer."""
@@ -72,7 +72,7 @@ class Worker:
             self._changed.notify_all()
             return self.generation
 
-    def rest(self, generation: int, seconds: float) -> bool:
+    def wait(self, generation: int, seconds: float) -> bool:
         """Wait so long, or until there is a newer job; whether there is none."""
         with self._changed:
             self._changed.wait_for(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A case: what a namelist file says, checked and completed."""
+"""A case: what a namelist file states, checked and completed."""
 
 from __future__ import annotations
 

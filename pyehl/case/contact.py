@@ -281,7 +281,7 @@ def _check_open(draft: Draft, name: str, one: float, other: float, reduced: floa
         draft.check_range(f"contact.{name}", reduced, key, "the bodies")
         return
     if key not in draft.given:
-        # a flat body that nobody gave
+        # a flat body that was not set
         key = draft.first_given(known for known in KEYS if known.startswith("bodies."))
     what = (
         f"bodies.{name}1 = {short(one)} and {name}2 = {short(other)}: the gap does not open in "

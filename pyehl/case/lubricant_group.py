@@ -210,10 +210,10 @@ class Lubricant:
         return self.inlet_law if simple else self.viscosity_law
 
     def uses_law(self, law: str) -> bool:
-        """Whether a law tells the viscosity of the inlet, or how it rises with pressure."""
+        """Whether a law gives the viscosity of the inlet, or how it increases with pressure."""
         return law in (self.own_law, self.viscosity_law)
 
     @property
     def knows_temperature(self) -> bool:
-        """Whether a law of viscosity or density tells how the oil changes with temperature."""
+        """Whether a law of viscosity or density gives how the oil changes with temperature."""
         return self.own_law != "" or self.density_law in ("murnaghan", "tait")

@@ -17,7 +17,7 @@ from pyehl.case.writer import case_text
 from pyehl.errors import InputError
 from pyehl.given import Option, options_of, path_of
 
-# What the machine says of each contact, and no key
+# What the machine gives of each contact, and no key
 FOLLOWS = (
     *(f"contact.{key}" for key in ("moes_m", "moes_l", "radius_ratio", "load", "mean_velocity")),
     *(f"contact.{key}" for key in ("shape", *LINE_KEYS)),
@@ -108,7 +108,7 @@ class Machine:
         """Give the resolved case of one contact, of values by ``group.key``.
 
         Without `bodies` it has the reduced modulus in their place. InputError, which points to the
-        machine, if there is no such contact; `place` says which.
+        machine, if there is no such contact; `place` names it.
         """
         draft = Draft(copy.deepcopy(self.draft.settings), self.draft.sources)
         skipped = MACHINES if bodies else (*MACHINES, "bodies")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What to say of a name of a key or group that nobody knows."""
+"""Messages for unknown names of keys and groups."""
 
 from collections.abc import Iterable
 

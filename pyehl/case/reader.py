@@ -77,7 +77,7 @@ class _Groups:
         self.marked: set[str] = set()
 
     def read(self) -> set[str]:
-        """Read all groups; the keys that the text says nobody gave."""
+        """Read all groups; the keys that the text marks as not set."""
         self.source.check_characters()
         seen: set[str] = set()
         while (opening := self._next()).kind != END:
@@ -286,7 +286,7 @@ def _settled(draft: Draft, marked: set[str]) -> Draft:
     """Take a marked value as not given if it is what follows from those that were given.
 
     So an option on a written case does the same as on the case that it was written from, and a
-    value that somebody has changed counts as given.
+    value that was changed counts as given.
     """
     trial = Draft(Settings(), draft.sources[:1])
     settled = Draft(Settings(), draft.sources)

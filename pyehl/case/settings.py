@@ -123,7 +123,7 @@ class Draft:
         self.sources[place.source].refuse(place.first, place.name_end, what, expected)
 
     def check_range(self, name: str, value: float, culprit: str, origin: str) -> None:
-        """Refuse a value that nobody gave and that its range does not allow, at its culprit."""
+        """Refuse a value that was not set and that its range does not allow, at its culprit."""
         key = KEYS[name]
         if not key.allows(value):
             what = f"{name} = {short(value)} follows from {origin}"
@@ -142,7 +142,7 @@ class Draft:
             if path[:1] != "/":
                 path = f"{os.getcwd()}/{path}"
         if path.endswith(" "):
-            # a namelist cannot tell it from the name without
+            # a namelist cannot distinguish it from the name without
             self.refuse(name, f"{name}: the name ends with a blank", "a file of another name")
         if len(os.fsencode(path)) > LONGEST_PATH:
             what = f"{name}: the full name is longer than {LONGEST_PATH} characters"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""From a piece of text to the value of one key, or a message that says why not."""
+"""From a piece of text to the value of one key, or a message that states why not."""
 
 from typing import NoReturn
 

@@ -30,8 +30,8 @@ def case_text(settings: Settings, given: Collection[str]) -> str:
     """Give a case as text.
 
     Of keys that exclude each other only the one that holds is written. Values that are not among
-    those `given` are marked as defaults, or as derived from others. A second surface that nobody
-    asked for is left out.
+    those `given` are marked as defaults, or as derived from others. A second surface that is
+    not set is left out.
     """
     blocks = []
     for group, keys in GROUPS.items():
@@ -89,7 +89,7 @@ def _default_line(key: Key) -> str:
 
 
 def _unwritten(settings: Settings, group: str) -> frozenset[str]:
-    """Keys of a group that carry no value, or whose rival does."""
+    """Keys of a group that have no value, or whose rival does."""
     if group == "contact":
         return frozenset(_of_contact(settings))
     if group in ("bodies", "inlet"):

@@ -67,7 +67,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--boundary-friction",
         type=float,
         metavar="MU",
-        help="add what an empirical law says of thin films, where asperities have this friction",
+        help="add what an empirical law gives for thin films, where asperities have this friction",
     )
     parser.add_argument(
         "--load-share",

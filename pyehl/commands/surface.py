@@ -73,7 +73,7 @@ def execute(args: argparse.Namespace) -> int:
     kind = settings["surface"]["kind"]
     if kind == "map":
         how = str(settings["surface"]["profile"])
-        # a profile, and no key says what surface is to be made of it
+        # a profile, and no key states what surface is to be made of it
         bare = how == "none" and not is_case and is_profile(settings["surface"]["file"])
         if bare or how != "none":
             print_spectrum(settings["surface"])
@@ -115,7 +115,7 @@ def execute(args: argparse.Namespace) -> int:
 
 
 def print_spectrum(surface: Mapping[str, Any]) -> None:
-    """Print what the profile of the group ``surface`` says of the surface."""
+    """Print the parameters that the profile of the group ``surface`` gives."""
     ridges = surface["profile"] == "ridges"
     found = fit(profile_of(surface), str(surface["detrend"]), ridges=ridges)
     print("\n".join(found.report()))

@@ -89,7 +89,7 @@ def execute(args: argparse.Namespace) -> int:
     try:
         study = make(**_arguments(args))
     except InputError as error:
-        # what a study file says is reported with its place
+        # what a study file states is reported with its place
         if args.case.endswith(".toml") and args.case not in str(error):
             raise InputError(f"{args.case}: error: {error}") from error
         raise

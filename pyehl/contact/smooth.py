@@ -58,7 +58,7 @@ OF_RUN = ("points", "points_y", "target_error", "max_points")
 INLET, RESOLVED = 1.3, 0.12
 """A grid misses the share INLET (h/H^(2/3))^2 of the film that the inlet makes; what it may miss
 where bodies touch (``fortran/steady/inlet.f90``)."""
-THINNEST, THICKER = 0.3, 1.15
+MINIMUM, THICKER = 0.3, 1.15
 """Minimum film of a smooth contact over the central one, and the error of the formula for that."""
 FINEST = 1025
 """Nodes per side of the finest grid that is tried."""
@@ -118,8 +118,8 @@ def touching_points(settings: Settings) -> int:
         return points
     while 2 * points - 1 <= FINEST:
         missed = INLET * (length / (points - 1)) ** 2 * film ** (-4.0 / 3.0)
-        # the film of a grid is thinner by more than it misses where it is thinnest
-        if missed <= RESOLVED or boundary <= THINNEST * (1.0 - 2.0 * missed) * film:
+        # the film of a grid is thinner by more than it misses at its minimum
+        if missed <= RESOLVED or boundary <= MINIMUM * (1.0 - 2.0 * missed) * film:
             break
         points = 2 * points - 1
     return points
@@ -132,7 +132,7 @@ inlet error of the grid (4 % at M = 1000) is not in it. Grids up to FINEST are t
 no solution, or none to extrapolate from: the inlet of a contact under a high load is steep (M above
 2000 or so)."""
 CYCLES = 100
-"""Least `max_cycles` with a boundary film: of the 112 contacts of docs/evidence/inlet/share.csv
+"""Fewest `max_cycles` with a boundary film: of the 112 contacts of docs/evidence/inlet/share.csv
 that converge 13 take more than 30 cycles, and none more than 90."""
 TOUCHES = 1.2
 """Films thicker than this many boundary films are taken not to touch: with such a one the contacts
@@ -214,7 +214,7 @@ def with_boundary_film(
 ) -> SmoothContact:
     """Smooth contact with the boundary film of a case; `contact`, that without, if it is thinner.
 
-    On the first grid that resolves its inlet. Its films are NaN, and the source says why, where
+    On the first grid that resolves its inlet. Its films are NaN, and the source states why, where
     none does or it does not converge.
     """
     operating = operating_of(settings)

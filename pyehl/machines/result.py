@@ -87,7 +87,7 @@ class MachineResult:
     table
         A row for each contact, `COLUMNS` as far as they have a value.
     summary
-        Numbers of the whole, with units in their names; ``left_out`` says what they do not have.
+        Numbers of the whole, with units in their names; ``left_out``: what they do not have.
     """
 
     kind: str

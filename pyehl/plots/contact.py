@@ -22,7 +22,7 @@ from pyehl.types import Array
 RED, GREEN = 633e-9, 532e-9
 REFRACTIVE_INDEX = 1.5
 # Films [m] whose fringes this light distinguishes; for others the fringes are a share of the film
-THINNEST, THICKEST = 0.9e-7, 1.2e-6
+MIN_FILM, MAX_FILM = 0.9e-7, 1.2e-6
 RED_SHARE = 0.9
 # Fringes after which the contrast has faded, as under filtered light
 COHERENT_FRINGES = 8.0
@@ -85,7 +85,7 @@ def fringe_spacings(central: float, scales: style.Scales | None) -> tuple[float,
         Central film, in the unit of films with scales and in Hertz units without.
     """
     metre = 1.0 if scales is None else style.film_unit(scales)[0] / scales.film
-    if scales is not None and THINNEST <= central / metre <= THICKEST:
+    if scales is not None and MIN_FILM <= central / metre <= MAX_FILM:
         red, green = (metre * light / (2.0 * REFRACTIVE_INDEX) for light in (RED, GREEN))
         return red, green
     return RED_SHARE * central, RED_SHARE * central * GREEN / RED

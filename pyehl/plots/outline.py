@@ -34,7 +34,7 @@ class Outline:
     angle
         Of the axis of a against the motion, counter-clockwise [deg].
     ends
-        Whether it is a roller, half as long as `ellipticity` says.
+        Whether it is a roller, half as long as by `ellipticity`.
     """
 
     ellipticity: float = 1.0

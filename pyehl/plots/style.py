@@ -3,7 +3,7 @@
 
 Figures are drawn for print: letters of 8 points, one column or one page wide, no titles. Maps are
 colour-blind safe; lengths are in mm, films in nm or um, pressures in GPa when scales are given,
-else in Hertz units. Labels are plain text where it says the same: to set mathematics takes as long
+else in Hertz units. Labels are plain text where it means the same: to set mathematics takes as long
 as the rest of a panel.
 """
 
@@ -253,7 +253,7 @@ def extent_of(
 
 
 def save(figure: Figure, path: str | Path, dpi: int = DPI, command: str = "plot") -> Path:
-    """Write a figure as PNG (or what the suffix says), whole or not at all; returns the path.
+    """Write a figure as PNG (or what the suffix names), whole or not at all; returns the path.
 
     Its metadata say whose picture it is (`command`), and its conditions, the label of the figure.
     FileError if it cannot be written.

@@ -218,12 +218,12 @@ def passage(
 
 
 def octaves(bands: Sequence[tuple[float, float, float]], *, ax: Axes | None = None) -> Axes:
-    """Draw what each octave of wavelengths adds to mu_r/mu_s, and the rise over the cut-off.
+    """Draw what each octave of wavelengths adds to mu_r/mu_s, and the increase over the cut-off.
 
     Parameters
     ----------
     bands
-        Longest and shortest wavelength [m] and rise [-] of each octave; NaN where it is not known.
+        Longest and shortest wavelength [m] and increase [-] of each octave; NaN where not known.
     """
     ax = style.axes_or_new(ax, 3.8, 2.9)
     ax.set(xlabel="wavelength of the component [μm]", ylabel=f"contribution to {RATIO}")
@@ -231,9 +231,9 @@ def octaves(bands: Sequence[tuple[float, float, float]], *, ax: Axes | None = No
     if not known:
         style.not_known(ax)
         return ax
-    for longest, shortest, rise in known:
+    for longest, shortest, increase in known:
         ax.fill_between(
-            [shortest * 1e6, longest * 1e6], 0.0, [rise, rise], color=style.GREEN, alpha=0.75,
+            [shortest * 1e6, longest * 1e6], 0.0, [increase] * 2, color=style.GREEN, alpha=0.75,
             lw=0.8, ec="white",
         )  # fmt: skip
     cut, total = [band[1] * 1e6 for band in known], np.cumsum([band[2] for band in known])

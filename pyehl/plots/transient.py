@@ -117,14 +117,14 @@ def extremes_history(
     *,
     ax: Axes | None = None,
 ) -> Axes:
-    """Largest pressure and films over time, while a single feature passes.
+    """Maximum pressure and films over time, while a single feature passes.
 
     Parameters
     ----------
     time
         (n,) T [a/u].
     pressure
-        (n,) largest pressure in Hertz units.
+        (n,) maximum pressure in Hertz units.
     films
         (n,) films in Hertz units by their labels.
     scales

@@ -9,7 +9,7 @@ that hold them; :func:`pyehl.prediction.predict.predict` predicts a resolved cas
 
 ``reduction="response"`` (default)
     The complex response of the contact, :mod:`pyehl.theory.response`: a driven wave that moves with
-    the roughness and a free wave that the inlet makes and the mean velocity carries, so that the
+    the roughness and a free wave that the inlet makes, convected at the mean velocity, so that the
     friction depends on the velocity ratio. Compared with the full simulation in
     docs/evidence/prediction.
 ``reduction="amplitude"``
@@ -20,7 +20,7 @@ Readings of the paper
 ---------------------
 * Eq. 10 as printed multiplies the modulus of the component; the phase must be kept, else every
   surface would become a symmetric peak at the origin. The phase is kept here.
-* Eqs 9 and 12 both print a factor 4/(Nx Ny); a transform and its inverse carry 1/(Nx Ny) once
+* Eqs 9 and 12 both print a factor 4/(Nx Ny); a transform and its inverse have 1/(Nx Ny) once
   between them, and Parseval holds in m^2.
 * The half-space resists a wave of wavenumber |q| by E'|q|/4 per height of flattening
   (``stiffness="exact"``; Johnson 1985, Contact Mechanics, section 13.2). Eq. 11,

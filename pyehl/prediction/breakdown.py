@@ -356,7 +356,7 @@ def suggested_wavelength(
 
     Bisection in the logarithm of the wavelength to 5 %, between a `shortest` one, two pixels, and
     the `longest`, the length of the tile; the film need not be full for every longer cut-off, but
-    it is for the one returned. `full` tells whether it is for a cut-off. None if even the longest
+    it is for the one returned. `full`: whether it is for a cut-off. None if even the longest
     waves break the film.
     """
     low, high = math.log(shortest), math.log(longest)
@@ -411,7 +411,7 @@ def _spikes(
     try:
         away = prominence(heights)
     except ValueError:
-        # no spread to tell spikes by
+        # no spread that spikes could exceed
         return None
     return suggested_outliers(away, without_spikes, full)
 

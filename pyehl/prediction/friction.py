@@ -72,7 +72,7 @@ class RoughFriction:
     # a Newtonian lubricant
     mu_smooth: float
     film_min: float  # minimum film over the passage [m]; NaN where it ends
-    # Rise of the pressure over the passage, its rms within NEAR
+    # Increase of the pressure over the passage, its rms within NEAR
     # and the maximum within INNER [Pa]
     increase_rms: float
     increase_max: float
@@ -185,7 +185,7 @@ def deformed_surface(
     known: bool,
     together_rms: float | None = None,
 ) -> dict[str, Any]:
-    """Give what a summary says of the deformed surface.
+    """Give the numbers of a summary on the deformed surface.
 
     Minimum film of the smooth contact and film limit in m; `known`: whether the errors are, because
     the model is one that they were measured of and the case in its range; `together_rms`: rms
@@ -195,16 +195,16 @@ def deformed_surface(
     deformed = of_each[0]
     of_all = together_rms if together_rms is not None else math.hypot(*of_each)
     ratio = film_minimum / of_all if of_all > 0.0 else math.nan
-    rms, rise = friction.increase_rms, friction.increase_max
+    rms, increase = friction.increase_rms, friction.increase_max
     share, share_error = friction.below_limit, friction.below_limit_error
     if friction.status != "predicted":
-        rms = rise = share = share_error = math.nan
+        rms = increase = share = share_error = math.nan
     values = {
         "h_min_rough_m": (friction.film_min, film_share(*velocity_ratios) * of_all),
         "rms_deformed_m": (deformed, RMS_DEFORMED_ERROR * deformed),
         "lambda_ratio_deformed": (ratio, RMS_DEFORMED_ERROR * ratio),
         "p_rise_rms_Pa": (rms, INCREASE_RMS_ERROR * rms),
-        "p_rise_max_Pa": (rise, INCREASE_ERROR * rise),
+        "p_rise_max_Pa": (increase, INCREASE_ERROR * increase),
         "film_below_limit_share": (share, share_error),
     }
     found: dict[str, Any] = {"film_limit_m": film_limit or None}

@@ -5,7 +5,7 @@ The film of the response, at one position of the tile after another, must not be
 boundary film (``lubricant.boundary_film``; under pressure it is compressed as the lubricant is). A
 pressure p_c of contact lifts it. It bends the surfaces as if the roughness r were r - p_c/K there,
 K being the stiffness of the half-space, and the fluid flattens that as it does any roughness. So
-the loss of film falls by T p_c/K and the pressure rises by T p_c, T by the response for waves that
+the loss of film falls by T p_c/K and the pressure grows by T p_c, T by the response for waves that
 move with the lubricant as the films of touching nodes do. For waves as long as the contact T is
 near zero: the load that solid contact carries there the fluid no longer does, and the mean film
 remains that of the inlet.
@@ -15,7 +15,7 @@ gives. A column of lubricant that a peak has passed has the film of the boundary
 that gives each the most that it has lacked on the way through the contact, on which peaks that slip
 pass it one after the other, and all films are thicker by the mean s of that:
 
-    s = < max(0, h_b - h_least - s) >,   h_least the minimum film of the column on its way.
+    s = < max(0, h_b - h_min - s) >,   h_min the minimum film of the column on its way.
 
 Without roughness this is not the solution of the smooth contact: the boundary film makes the film
 of its inlet thinner there. By as much as all films had to be thinner or thicker for the load share
@@ -217,7 +217,7 @@ class MixedContact:
     def _state(
         self, change: Array, thicker: float, held: Lifted | None
     ) -> tuple[Lifted | None, tuple[Array, Array, Mask]]:
-        """Pressure, film and where bodies touch (m, n), by loss of film and rise of pressure.
+        """Pressure, film and where bodies touch (m, n), by loss of film and increase of pressure.
 
         `change` (m, n, 2) where films are thicker by a length; also what holds the film off the
         boundary film, None: it is not solved, from what did so in a similar state.
@@ -501,7 +501,7 @@ def _lost(friction: RoughFriction, mixed: MixedFilm) -> RoughFriction:
 
 
 def contact_numbers(mixed: MixedFilm | None, boundary: float, *, known: bool) -> dict[str, Any]:
-    """Give what a summary says of contact with a boundary film [a^2/R]; nothing without one.
+    """Give the numbers of a summary on contact with a boundary film [a^2/R]; nothing without one.
 
     `known`: whether the case lies in the range that the response was measured in.
     """

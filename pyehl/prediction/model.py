@@ -133,10 +133,10 @@ class ModelOptions:
 
 
 # Error of mu_r/mu_s against the full simulation: a part that small waves and tracks make at any
-# ratio, and a part that grows with the rise. Measured in docs/evidence/prediction.
+# ratio, and a part that grows with the increase. Measured in docs/evidence/prediction.
 CONSTANT = 0.01
 SHARE_OF_INCREASE = 0.07
-# The same where the flow obeys a shear law, which hardly lets the friction rise
+# The same where the flow obeys a shear law, which hardly lets the friction increase
 # (docs/evidence/thinning)
 CONSTANT_THINNING = 0.004
 SHARE_THINNING = 0.1
@@ -342,7 +342,7 @@ class Model:
         stiffening = PAPER_STIFFNESS if options.stiffness == "paper" else 1.0
         waves = [(s.qx[:, np.newaxis], s.qy[np.newaxis, :]) for s in spectra]
         return [
-            Transfer.carried(
+            Transfer.uniform(
                 component_amplitude_ratio(*q, 1.0, *moes, convention=convention), stiffening
             )
             for q in waves

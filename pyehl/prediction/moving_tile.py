@@ -2,7 +2,7 @@
 """Film and pressure waves of a moving rough tile on the points of a contact, by linear response.
 
 The tile is taken apart into plane waves; each becomes a driven wave, which moves with the
-roughness, and a free wave, made in the inlet and carried at the mean velocity
+roughness, and a free wave, made in the inlet and convected at the mean velocity
 (:mod:`pyehl.theory.response`). Both change slowly on their way, so that they are made at a few
 stations along the motion and interpolated; the free wave also on a few lines beside the centre
 line. Waves longer than half the contact radius depend on the edge of the contact
@@ -52,8 +52,8 @@ class Edge:
 
     `coefficients` (n, m) of the polynomials [p_h] for the waves of the tile with wavenumbers
     qx >= 0, qy (m,) [1/a]: of :func:`pyehl.theory.disc.monomials` (n = 28) in a circle, of
-    :mod:`pyehl.theory.ellipse_edge` in an ellipse. `rim` (k, m): how far they move the edge
-    outwards at EDGE_ANGLES [semi-axes].
+    :mod:`pyehl.theory.ellipse_edge` in an ellipse. `displacement` (k, m): that of the edge,
+    outwards, at EDGE_ANGLES [semi-axes].
     """
 
     def __init__(
@@ -61,10 +61,10 @@ class Edge:
         qx: Array,
         qy: Array,
         coefficients: Complex,
-        rim: Complex,
+        displacement: Complex,
         shape: Ellipse | StripEdge,
     ) -> None:
-        self.qx, self.qy, self.coefficients, self.rim = qx, qy, coefficients, rim
+        self.qx, self.qy, self.coefficients, self.displacement = qx, qy, coefficients, displacement
         self.shape = shape
 
     @classmethod
@@ -83,8 +83,11 @@ class Edge:
             i, j = long_waves(spectrum, shape.largest)
             amplitude = spectrum.amplitudes(i, j, flattened[i, j])
             qx, qy = spectrum.qx[i], spectrum.qy[j]
-            found, rim = shape.correction(qx, qy) * amplitude, shape.rim(qx, qy) * amplitude
-            return cls(qx, qy, found, rim, shape)
+            found, displacement = (
+                shape.correction(qx, qy) * amplitude,
+                shape.displacement(qx, qy) * amplitude,
+            )
+            return cls(qx, qy, found, displacement, shape)
         ellipse = None if shape.radius_ratio == 1.0 else ellipse_edge(shape)
         i, j = long_waves(spectrum, ellipse.largest if ellipse else LARGEST)
         qx, qy = spectrum.qx[i], spectrum.qy[j]
@@ -93,8 +96,8 @@ class Edge:
             nothing = np.zeros((0, 0), complex), np.zeros((EDGE_ANGLES.size, 0), complex)
             return cls(qx, qy, *nothing, shape)
         found = ellipse.correction(qx, qy) if ellipse else disc_correction(qx, qy)
-        rim = ellipse.rim(qx, qy) if ellipse else edge_of_disc(qx, qy)
-        found, rim = found * amplitude, rim * amplitude
+        displacement = ellipse.displacement(qx, qy) if ellipse else edge_of_disc(qx, qy)
+        found, displacement = found * amplitude, displacement * amplitude
         if ellipse and beside is not None:
             # a wave whose amplitude changes across the motion is a sum of waves
             parts = -spectrum.amplitudes(i, j) * beside[:, i, j]
@@ -105,13 +108,13 @@ class Edge:
                 if feels.any():
                     wave = qx[feels], there[feels]
                     found[:, feels] += ellipse.correction(*wave) * part[feels]
-                    rim[:, feels] += ellipse.rim(*wave) * part[feels]
-        return cls(qx, qy, found, rim, shape)
+                    displacement[:, feels] += ellipse.displacement(*wave) * part[feels]
+        return cls(qx, qy, found, displacement, shape)
 
     def below(self, limit: float) -> Edge:
         """Return the part of the waves with |q| below a limit [1/a]."""
         keep = np.hypot(self.qx, self.qy) < limit
-        parts = self.coefficients[:, keep], self.rim[:, keep]
+        parts = self.coefficients[:, keep], self.displacement[:, keep]
         return Edge(self.qx[keep], self.qy[keep], *parts, self.shape)
 
     def at(self, shift: float, track: float) -> tuple[Array, Array]:
@@ -120,7 +123,7 @@ class Edge:
         For a tile moved along and across the motion [a].
         """
         phase = np.exp(-1j * (self.qx * shift + self.qy * track))
-        return (self.coefficients @ phase).real, (self.rim @ phase).real
+        return (self.coefficients @ phase).real, (self.displacement @ phase).real
 
     def polynomials(self, x: Array, y: Array) -> Array:
         """Polynomials (n, ...) at places by the semi-axes, held constant near the edge."""

@@ -225,7 +225,7 @@ def predict(
     `tracks` across the surface, 1 to `MAX_TRACKS`, are for mean and spread; `smooth` is a result
     folder with the smooth contact, in place of a solution on the spot; `surface` and
     `second_surface` are surfaces before their spectrum is cut and off their track, by default made
-    as the case says. `brief`:
+    as the case states. `brief`:
     mu_r/mu_s and its errors, bit for bit the same, but no tracks, of the bands the shortest alone,
     and no search for a cut-off with which there is a ratio.
 

@@ -22,7 +22,7 @@ For Gaussian P1 the mean of P2 exp(b P1), and with it the friction, is then that
 for every b.
 
 What the inlet makes of second order was not derived but measured, in the fields of simulations
-(docs/evidence/fields). The lubricant carries it at the mean velocity, as it does the free
+(docs/evidence/fields). It is convected at the mean velocity, as it does the free
 wave: a pressure INLET_PRESSURE P0^2, P0 the pressure of first order that the waves would have
 where they are if they had not slipped since the inlet. With slip P0 is less and less like P1: only
 its part along P1^2, (<P0 P1>/s^2)^2 INLET_PRESSURE, is added to gamma. And the film regains
@@ -108,7 +108,7 @@ class SecondOrder:
         tables: Sequence[WaveTable],
         ratios: Sequence[Complex],
         pressures: Sequence[Complex],
-        carried: Sequence[Complex],
+        convected: Sequence[Complex],
     ) -> None:
         self._tables = tables
         kx, ky = np.concatenate([table.coarse(COARSER) for table in tables], axis=1)
@@ -125,7 +125,7 @@ class SecondOrder:
         )
         t, pressure, earlier = (
             np.concatenate([coarsened(part, COARSER) for part in parts], axis=1)
-            for parts in (ratios, pressures, carried)
+            for parts in (ratios, pressures, convected)
         )
         self._squared = np.abs(pressure) ** 2
         mixed = (pressure * np.conj(t)).real
@@ -230,9 +230,9 @@ class _Entering:
     def variance(self, zone: Zone, mesh: float) -> float:
         """Mean square of their pressure at X = 0 where they leak as in a zone [p_h^2]."""
         few = self.table.coarse()
-        carried = coarsened(self._inlet[self._axis], 1) * np.exp(1j * few[0] * self._slip)
+        convected = coarsened(self._inlet[self._axis], 1) * np.exp(1j * few[0] * self._slip)
         driven, free = transport(zone, *few, self.ratio, CENTRE, mesh)[MIDDLE]
-        pressure = zone.stiffness * wave_pressure(*few, self.ratio, driven, free * carried)
+        pressure = zone.stiffness * wave_pressure(*few, self.ratio, driven, free * convected)
         return float(self.table.gathered(self._power) @ np.square(np.abs(pressure)))
 
     def at_stations(self, zone: Zone, mesh: float) -> _AtStations:
@@ -243,7 +243,7 @@ class _Entering:
         parts = [(d, f * inlet * t) for (d, f), t in zip(stations, turned, strict=True)]
         k = zone.stiffness
         pressures = [k * wave_pressure(kx, ky, self.ratio, d, f) for d, f in parts]
-        carried = [
+        convected = [
             k * t * wave_pressure(kx, ky, self.ratio, np.zeros_like(d), f * inlet)
             for (d, f), t in zip(stations, turned, strict=True)
         ]
@@ -267,7 +267,7 @@ class _Entering:
                 for one, other in zip(lines, lines[::-1], strict=True)
             ]
         ratios = np.array([d + f for d, f in parts])
-        return _AtStations(found, ratios, np.array(pressures), np.array(carried))
+        return _AtStations(found, ratios, np.array(pressures), np.array(convected))
 
 
 class _AtStations(NamedTuple):
@@ -278,7 +278,7 @@ class _AtStations(NamedTuple):
     # Of the table (n, m): T, pressure, and pressure without the slip since the inlet
     ratios: Complex
     pressures: Complex
-    carried: Complex
+    convected: Complex
 
 
 @dataclass(frozen=True, slots=True)
@@ -344,7 +344,7 @@ class Transfer:
         ]
 
     @classmethod
-    def carried(cls, ratio: Array, stiffening: float = 1.0) -> Transfer:
+    def uniform(cls, ratio: Array, stiffening: float = 1.0) -> Transfer:
         """Return a real ratio that is the same everywhere and moves with the roughness."""
         driven = [ratio.astype(np.complex128)] * STATIONS.size
         return cls(driven, [], [], bent=False, stiffening=stiffening)

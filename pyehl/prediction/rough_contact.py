@@ -91,12 +91,12 @@ class ShearedContact:
         self.levels, self.below = levels, np.zeros(len(levels), dtype=np.int64)
 
     def meet(
-        self, rise: Array | Single, pressure: Array, film: Array, inner: Mask, near: Mask
+        self, increase: Array | Single, pressure: Array, film: Array, inner: Mask, near: Mask
     ) -> None:
-        """Note what a position has: rise of pressure, pressure and film at points within."""
-        squares = np.square(rise, dtype=np.float64)
+        """Note what a position has: increase of pressure, pressure and film at points within."""
+        squares = np.square(increase, dtype=np.float64)
         self.squared_increase += float(squares.mean(where=near)) if near.any() else math.nan
-        greatest = float(rise.max(where=inner, initial=-math.inf))
+        greatest = float(increase.max(where=inner, initial=-math.inf))
         self.max_increase = max(self.max_increase, greatest)
         greatest = float(pressure.max(where=inner, initial=-math.inf))
         self.max_pressure = max(self.max_pressure, greatest)
@@ -108,7 +108,7 @@ class ShearedContact:
         return self.minimum_film
 
     def increase_rms(self) -> float:
-        """Rms of the rise of the pressure over the positions within NEAR [p_h]."""
+        """Rms of the increase of the pressure over the positions within NEAR [p_h]."""
         return math.sqrt(self.squared_increase / max(1, self.count))
 
     def shares(self) -> Array:
@@ -255,7 +255,7 @@ class RoughContact(ShearedContact):
         self.inner, self.near = (radius < r for r in (INNER, NEAR))
         self.rings = np.searchsorted(RINGS, radius, side="right") - 1
         edge = max((wave.edge for wave in waves), key=lambda edge: edge.coefficients.shape)
-        self.contact, self.moved = smooth, np.zeros(edge.rim.shape[0])
+        self.contact, self.moved = smooth, np.zeros(edge.displacement.shape[0])
         self.strip = edge.shape if isinstance(edge.shape, StripEdge) else None
         self.outer, self.lowest = self._outer(smooth), float(smooth.film.min())
         self.minimum = math.inf
@@ -409,7 +409,7 @@ class RoughContact(ShearedContact):
     def _outer(self, contact: SmoothContact) -> tuple[NDArray[Any], ...]:
         """Points whose film moves with the edge, as `smooth_film` takes them.
 
-        Film (ny, nx), centre and points in nodes of the smooth contact, the place on the rim before
+        Film (ny, nx), centre and points in nodes of the smooth contact, the node on the edge before
         each and the shares of this and the next one over the distance from the centre, and the
         place of the point.
         """
@@ -420,15 +420,15 @@ class RoughContact(ShearedContact):
         centre = np.array([-contact.x[0] / steps[0], -contact.y[0] / steps[1]])
         count = EDGE_ANGLES.size
         angle = np.arctan2(self.across[j], self.x[i]) * (0.5 * count / math.pi)
-        rim = np.floor(angle)
-        share = np.stack([1.0 - (angle - rim), angle - rim], axis=-1)
+        before = np.floor(angle)
+        share = np.stack([1.0 - (angle - before), angle - before], axis=-1)
         share /= self.radius[i, j][:, np.newaxis]
         return (
             np.asfortranarray(contact.film.T),
             centre,
             centre[0] + self.x[i] / steps[0],
             centre[1] + self.y[j] / steps[1],
-            (rim.astype(np.int32) % count).astype(np.int32),
+            (before.astype(np.int32) % count).astype(np.int32),
             share.T,
             np.ravel_multi_index((i, j), self.film.shape).astype(np.int32),
         )
@@ -441,13 +441,13 @@ class RoughContact(ShearedContact):
         at = self.y[j] % strip.width * (strip.places / strip.width)
         place = np.minimum(np.floor(at).astype(np.int32), strip.places - 1)
         share = np.stack([1.0 - (at - place), at - place]) / self.radius[i, j]
-        rim = place + (self.x[i] > 0.0) * (strip.places + 1)
+        before = place + (self.x[i] > 0.0) * (strip.places + 1)
         return (
             np.asfortranarray(np.repeat(contact.film.T, 2, axis=0)),
             np.array([-contact.x[0] / step, 0.0]),
             (self.x[i] - contact.x[0]) / step,
             np.zeros(i.size),
-            rim.astype(np.int32),
+            before.astype(np.int32),
             np.asfortranarray(share),
             np.ravel_multi_index((i, j), self.film.shape).astype(np.int32),
         )

@@ -53,9 +53,9 @@ class Resolution:
     """How much of a predicted mu_r/mu_s a grid resolves."""
 
     mu_ratio: float  # predicted with all waves [-]
-    # The same without the waves that have fewer than NODES, or CARRIED nodes [-]
+    # The same without the waves that have fewer than NODES, or ON_GRID nodes [-]
     resolved: float
-    carried: float
+    on_grid: float
     shortest: float  # wavelength that has NODES nodes [m]
     part: str = ""  # which part of a large surface it was predicted with; empty: the whole
 
@@ -91,11 +91,11 @@ class Resolution:
 
     @property
     def left_out(self) -> float:
-        """Part of the ratio in waves with fewer than CARRIED nodes [-].
+        """Part of the ratio in waves with fewer than ON_GRID nodes [-].
 
         They are not in the error from two grids: neither grid resolves them.
         """
-        return self.mu_ratio - self.carried
+        return self.mu_ratio - self.on_grid
 
 
 def resolution(case: Case, tiles: Mapping[str, Topography] | None = None) -> Resolution | None:
@@ -103,7 +103,7 @@ def resolution(case: Case, tiles: Mapping[str, Topography] | None = None) -> Res
 
     None for surfaces that are no tile of heights on the move, and for those without waves that the
     grid does not resolve. `tiles` are the surfaces by group on their tracks, of a large one a part,
-    before their spectrum is cut; one that is not there is made as the case says, of a large one the
+    before their spectrum is cut; one that is not there is made by the case, of a large one the
     part of :func:`pyehl.surfaces.part_of`. EhlError if the smooth contact has no solution, or the
     prediction gives no ratio; InputError or FileError if a surface is not usable.
     """
@@ -138,9 +138,9 @@ def resolution(case: Case, tiles: Mapping[str, Topography] | None = None) -> Res
     friction, below = run_and_below(model, NODES * mesh, ON_GRID * mesh)
     if not math.isfinite(friction.mu_ratio):
         raise EhlError(f"{friction.status}: {friction.message}")
-    resolved, carried = below
+    resolved, on_grid = below
     parts = " and ".join(part for _, part in found if part)
-    return Resolution(friction.mu_ratio, resolved, carried, shortest, parts)
+    return Resolution(friction.mu_ratio, resolved, on_grid, shortest, parts)
 
 
 def _tile(
@@ -177,7 +177,7 @@ def starting_pressure(
     settings
         The resolved case.
     tiles
-        Its surfaces by group on their tracks, where they are not made as the case says.
+        Its surfaces by group on their tracks, where they are not made as the case states.
     x, y
         Nodes of the grid of the run (nx,), (ny,) [a].
     fronts
@@ -198,11 +198,11 @@ def starting_pressure(
         # the tile of both lies as the first in their order does
         model, fronts = model.merged, fronts[:, :1]
     waves = model.components()
-    # takes the waves that the grid does not carry off the spectra
-    carried = [_GridWaves(wave, model, x, y) for wave in waves]
+    # takes the waves that are not on the grid off the spectra
+    on_grid = [_GridWaves(wave, model, x, y) for wave in waves]
     if not math.isfinite(model_error(mean(model, waves))):
         raise InputError("the pressures are beyond a linear response")
-    return _pressure(carried, x, y, fronts)
+    return _pressure(on_grid, x, y, fronts)
 
 
 def _pressure(waves: Sequence[_GridWaves], x: Array, y: Array, fronts: Array) -> Array:

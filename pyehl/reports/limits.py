@@ -59,7 +59,7 @@ def limits(settings: Settings, summary: Values) -> list[str]:
         )
     if point.hertz_pressure > HIGH_PRESSURE:
         found.append(
-            "Above a Hertz pressure of 4 GPa few grids were tried; the status says what came of it."
+            "Above a Hertz pressure of 4 GPa few grids were tried; the status has the outcome."
         )
     if isinstance(point, LineContact):
         found.append(
@@ -111,7 +111,7 @@ def unheated(summary: Values) -> float | None:
 
 
 def warnings(summary: Values) -> list[str]:
-    """Give what a summary says of what is not known or to be taken with care."""
+    """Give what a summary states of what is not known or to be taken with care."""
     found = [
         f"{words}: {summary[name]}."
         for name, words in NOTES.items()

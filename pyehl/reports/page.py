@@ -2,7 +2,7 @@
 """Pages: HTML in one file, with its style and its pictures in it.
 
 A page is a list of blocks of plain text and numbers; the template ``page.html`` shows and escapes
-them. A page may not load anything: it tells the browser so, too.
+them. A page may not load anything: the browser is instructed so, too.
 """
 
 import base64
@@ -63,7 +63,7 @@ def table(
 
 
 def picture(png: bytes, alternative: str, caption: str) -> Block:
-    """Put a PNG into the page; `alternative` says in words what it shows."""
+    """Put a PNG into the page; `alternative` states in words what it shows."""
     data = base64.b64encode(png).decode()
     return {"form": "picture", "data": data, "alternative": alternative, "caption": caption}
 
@@ -71,7 +71,7 @@ def picture(png: bytes, alternative: str, caption: str) -> Block:
 def render(
     title: str, parts: Iterable[Part], command: str, hide: Callable[[Any], Any] | None = None
 ) -> str:
-    """Give a whole page, which says which command made it; `hide` is applied to what it shows."""
+    """Give a whole page, which states which command made it; `hide` is applied to what it shows."""
     from jinja2 import Environment  # noqa: PLC0415 (it takes long to import)
 
     text = resources.files("pyehl").joinpath("reports", "page.html").read_text(encoding="utf-8")

@@ -44,7 +44,7 @@ FILM = Quantity(
     "m",
     ("average film", "central film", "film thickness", "central film thickness", "film"),
 )
-LEAST = Quantity("h_min_m", "m", ("minimum film", "minimum film thickness"))
+MINIMUM_FILM = Quantity("h_min_m", "m", ("minimum film", "minimum film thickness"))
 FRICTION = Quantity(
     "mu",
     "-",
@@ -54,7 +54,7 @@ FRICTION = Quantity(
 FILM_ERROR = Quantity("h_c_error_m", "m", ("standard deviation", "film error"))
 ERROR = Quantity("error", "-", ("error", "mu error", "friction error"))
 CONDITIONS = (SPEED, SLIP, LOAD, TEMPERATURE)
-MEASURED = (FILM, LEAST, FRICTION)
+MEASURED = (FILM, MINIMUM_FILM, FRICTION)
 ERRORS = {FILM: FILM_ERROR, FRICTION: ERROR}
 QUANTITIES = (*CONDITIONS, *MEASURED, FILM_ERROR, ERROR)
 

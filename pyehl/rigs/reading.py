@@ -37,7 +37,7 @@ class Step:
 
 @dataclass(frozen=True, slots=True)
 class RigFile:
-    """What a rig measured: `format` says which reader took the file."""
+    """What a rig measured: `format` states which reader took the file."""
 
     name: str
     format: str

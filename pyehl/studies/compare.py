@@ -223,7 +223,7 @@ class Results:
             return row[name]
         if not self.case:
             raise InputError(
-                f"{self.name}: there is no column '{name}', and no journal beside it that says "
+                f"{self.name}: there is no column '{name}', and no journal beside it that states "
                 "what the case was"
             )
         varied = (option(key, row[key]) for key in self.vary)

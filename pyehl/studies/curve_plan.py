@@ -100,8 +100,7 @@ def plan_curve(
     Every value of an axis, keys of `KEYS`, meets those of the others. The passage of the surface
     is solved in full at `ehl` points, spread over the curve; at each point there are `seeds`
     surfaces, of the seed of the case and those that follow. `load_share` adds what an empirical law
-    says of thin films. InputError if a case is not acceptable, which it names, or if there are too
-    many.
+    gives for thin films. InputError names a case that is not acceptable, or if there are too many.
     """
     study = make(case, axes, options=options, run="predict")
     size = study.size
@@ -149,7 +148,7 @@ def plan_curve(
 
 
 def _check_share(settings: Settings) -> None:
-    """Refuse what the empirical law of a thin film says nothing of."""
+    """Refuse what the empirical law of a thin film does not cover."""
     if not surfaces.rough_groups(settings):
         raise InputError(
             "boundary friction: surface.kind = 'smooth' has no Lambda\nexpected: a rough surface"

@@ -214,7 +214,7 @@ def stribeck(
     surfaces
         Surfaces at each point: of the seed of the case and those that follow.
     boundary_friction
-        Coefficient of friction of the asperities [-]: adds what an empirical law says of thin films
+        Coefficient of friction of the asperities [-]: adds what an empirical law has for thin films
         (``mu_empirical``); None: no number where the film ends.
     load_share
         B and C of that law: exp(-B (h_c/sigma)^C) of the load is on asperities.
@@ -232,7 +232,7 @@ def stribeck(
     -------
     xarray.Dataset
         Its dimensions are what the curve goes over, named as by `sweep`; columns as in
-        ``stribeck.csv`` with units, NaN where there is no number; ``status`` says what holds at
+        ``stribeck.csv`` with units, NaN where there is no number; ``status`` states what holds at
         each point.
 
     Raises

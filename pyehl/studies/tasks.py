@@ -64,7 +64,7 @@ def known(run: str) -> list[str]:
 def checked(outputs: Sequence[str], run: str, origin: str = "") -> tuple[str, ...]:
     """Give the names asked for, each once.
 
-    InputError for one that no table has, with the nearest; `origin` says where it stands.
+    InputError for one that no table has, with the nearest; `origin` states where it stands.
     """
     names = known(run)
     for name in outputs:

@@ -324,7 +324,7 @@ def a_iso(kappa: float, contamination: float, bearing: str) -> float:
     Returns
     -------
     float
-        At most 50, as the standard says. NaN below `KAPPA_MIN`, where it gives none.
+        At most 50, as the standard states. NaN below `KAPPA_MIN`, where it gives none.
 
     Raises
     ------

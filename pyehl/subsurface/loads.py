@@ -376,7 +376,7 @@ def predicted_loads(data: xr.Dataset, *, body: int | None, friction: str | float
     def pressures(k: int) -> Array:
         found = pressure.copy()
         gained = contact.pressure + np.where(contact.inside, change(k)[..., 1], 0.0)
-        # cavitation: `cavitated_share` of the prediction says on how much of the contact
+        # cavitation: `cavitated_share` of the prediction states on how much of the contact
         found[inner] = np.maximum(gained, 0.0)
         return found
 

@@ -77,7 +77,7 @@ class Peak:
     time: float = math.nan
 
     def take(self, values: Array, loads: Loads, time: float) -> bool:
-        """Take over the largest of values (nx, ny); tell whether it is larger."""
+        """Take over the largest of values (nx, ny); return whether it is larger."""
         i, j = np.unravel_index(int(values.argmax()), values.shape)
         if not values[i, j] > self.value:
             return False
@@ -237,7 +237,7 @@ def share_above(rows: list[Row], depth: float) -> float:
 NEAR = 0.25
 CHANGE_INNER, CHANGE_OUTER = INCREASE_ERROR, 1.0
 """Error of a predicted change of the near-surface shear by the roughness, over that change: within
-`INNER` that of the largest rise of pressure; outside, where the roughness moves the edge of the
+`INNER` that of the maximum increase of pressure; outside, where the roughness moves the edge of the
 contact and the linear response does not, all of it (docs/evidence/subsurface)."""
 
 Scalar = tuple[str, float, str, str]

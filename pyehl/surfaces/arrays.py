@@ -46,7 +46,7 @@ def unit_of(text: str) -> float | None:
 
 @dataclass(slots=True)
 class Found:
-    """A height map as its file has it, with what the file says of units and size."""
+    """A height map as its file has it, with what the file states of units and size."""
 
     # (nx, ny) in the numbers of the file, NaN where missing
     heights: Array
@@ -127,7 +127,7 @@ def check_pixels(
     """Refuse a surface that the memory that is free cannot hold while it is worked on.
 
     A map (nx, ny), called `origin`, of which a tile has `tiles` times as many pixels (4:
-    mirrored), and so many copies are held at once; `way` says what would do. NoMemoryError with
+    mirrored), and so many copies are held at once; `way`: what would do. NoMemoryError with
     the bytes needed and free.
     """
     need = 8.0 * pixels[0] * pixels[1] * tiles * copies

@@ -153,7 +153,7 @@ def dust(z: Array, pixel: tuple[float, float], corner: tuple[float, float]) -> l
 
 
 def dust_points(z: Array, limit: float) -> Mask:
-    """Where on a levelled map specks of several pixels are, with a rim of one pixel.
+    """Where on a levelled map specks of several pixels are, with a margin of one pixel.
 
     Those that stand out by more than `limit` standard deviations.
     """

@@ -189,13 +189,13 @@ def scan_of(surface: Mapping[str, Any]) -> Scan:
 def profile_of(surface: Mapping[str, Any]) -> Profile:
     """Read the profile of the group ``surface``; a length of 0 is that of the file."""
     s = Keys.of(surface)
-    # nobody types m for a profile of micrometres
+    # m is not typed for a profile of micrometres
     unit = s.height_unit if s.height_unit != "m" else None
     return read_profile(s.file, s.length_x or None, unit)
 
 
 def tile_of(scan: Scan, options: Options = NEUTRAL) -> Topography:
-    """Prepare a map, see :func:`pyehl.surfaces.prepare.prepare`; the tile carries the record."""
+    """Prepare a map, see :func:`pyehl.surfaces.prepare.prepare`; the tile has the record."""
     made = prepare(scan, options)
     return Topography(made.tile, made.lengths, scan.origin, None, made)
 
@@ -211,7 +211,7 @@ def moved(tile: Topography, surface: Mapping[str, Any]) -> Topography:
 
 
 def finished(tile: Topography, surface: Mapping[str, Any]) -> Topography:
-    """Put a tile on its track and cut its spectrum, as the group ``surface`` of a case says.
+    """Put a tile on its track and cut its spectrum, as the group ``surface`` of a case states.
 
     The solver cuts the spectrum of its surfaces itself.
     """

@@ -54,7 +54,7 @@ def read_instrument(path: Path, channel: str = "", text: bytes | None = None) ->
             f"not installed: {INSTALL}; or save the heights in m as .npy"
         ) from None
     try:
-        # what NumPy says of damaged files goes into the reason, or nowhere
+        # messages of NumPy on damaged files go into the reason, or nowhere
         with np.errstate(all="ignore"):
             if text is not None:
                 return _read(path, lookup_reader_by_format["asc"], io.BytesIO(text), channel)
@@ -75,7 +75,7 @@ def _is_of_the_system(error: Exception) -> bool:
 
 
 def _source(path: Path) -> str | io.BytesIO:
-    """Place of a file, or what it says in the form that the package reads."""
+    """Place of a file, or what it states in the form that the package reads."""
     plain = VARIANTS.get(path.suffix.lower())
     data = None if plain is None else plain(path.read_bytes())
     return str(path) if data is None else io.BytesIO(data)
@@ -129,7 +129,7 @@ def _first(
 
 
 def _reason(error: Exception) -> str:
-    """Give what a reader says, in one line."""
+    """Give what a reader reports, in one line."""
     message = " ".join(str(error).split()).rstrip(".")
     if isinstance(error, KeyError):
         return f"there is no {message} in it" if message else "a part of it is missing"
@@ -211,7 +211,7 @@ def _check_size(path: Path, shape: tuple[int, ...]) -> None:
                 stored = sum(member.file_size for member in archive.infolist())
         if shape[0] * shape[1] > stored:
             raise InputError(
-                f"{path}: its header says {shape[0]} x {shape[1]} points, but there are {stored} "
+                f"{path}: its header states {shape[0]} x {shape[1]} points, but there are {stored} "
                 "bytes in it: it is damaged"
             ) from None
         raise

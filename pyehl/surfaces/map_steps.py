@@ -211,9 +211,9 @@ def unmirrored(i: int, j: int, shape: tuple[int, int]) -> tuple[int, int]:
 
 
 def windowed(heights: Array) -> Array:
-    """Map brought down to its mean along its rim by a raised cosine over a tenth of each side.
+    """Map brought down to its mean along its margin by a raised cosine over a tenth of each side.
 
-    Inside nothing changes; the rim loses roughness, so that the rms falls.
+    Inside nothing changes; the margin loses roughness, so that the rms falls.
     """
     half = heights.shape[1] // 2
     mean = float(heights.mean())
@@ -225,7 +225,7 @@ def windowed(heights: Array) -> Array:
     return tile
 
 
-def rim(shape: tuple[int, int]) -> int:
+def margin(shape: tuple[int, int]) -> int:
     """Points (nx, ny) of a map that `windowed` brings down."""
     inside = [int(np.count_nonzero(_taper(n) == 1.0)) for n in shape]
     return shape[0] * shape[1] - inside[0] * inside[1]
@@ -262,7 +262,7 @@ MAX_MISSING = 0.1
 
 GOOD_BLOCKS, GOOD_PART, MIN_PART = 48, 0.02, 0.1
 """Blocks per side by which a good part of a map is looked for, the share that may be missing in it,
-and the least share of the map that it is worth."""
+and the smallest share of the map that is taken."""
 SHOWN_COLUMNS, SHOWN_ROWS = 48, 20
 """Letters that show where points are missing."""
 
@@ -278,7 +278,7 @@ MAD_TO_SIGMA = 1.482602218505602
 def filled(
     heights: Array, pixel: tuple[float, float], corner: tuple[float, float] = (0.0, 0.0)
 ) -> Array:
-    """Map whose missing points are harmonic: Laplace z = 0, z given on the rim of each hole.
+    """Map whose missing points are harmonic: Laplace z = 0, z given on the edge of each hole.
 
     Five-point differences; at the edge of the map the slope across it is zero. A plane is
     harmonic, so a hole in a plane is filled exactly (where it does not touch the edge). Heights

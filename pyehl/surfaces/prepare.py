@@ -163,7 +163,7 @@ def _join(work: WorkingMap, options: Options, why: dict[str, str]) -> None:
         work.do("edges", "mirror", prepared, why["edges"])
     elif options.edges == "window":
         tile = map_steps.windowed(prepared)
-        work.do("edges", "window", tile, why["edges"], changed=map_steps.rim(tile.shape))
+        work.do("edges", "window", tile, why["edges"], changed=map_steps.margin(tile.shape))
         tile -= tile.mean()
     elif (steep := map_steps.jump(prepared)) > JUMP:
         note = (
@@ -213,7 +213,7 @@ SUFFIXES = (".npy", ".txt", ".nc")
 
 
 def write_map(tile: Topography, path: str | Path) -> Path:
-    """Write a tile, whole or not at all; the suffix of the path says as what.
+    """Write a tile, whole or not at all, in the format of the suffix of the path.
 
     ``.npy`` holds the heights alone, (nx, ny) in Fortran order. Text has one x per line and its
     size in the header, ``# length_x = ... m``. netCDF holds ``heights(x, y)`` with the coordinates

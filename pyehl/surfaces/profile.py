@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a profile says of a surface: rms height, Hurst exponent and roll-off with their bands.
+"""Parameters of a surface by a profile: rms height, Hurst exponent and roll-off with their bands.
 
 The periodogram of the levelled profile under a Hann window is fitted, by Whittle's likelihood, with
 that of an isotropic self-affine surface, C2D ~ max(q, q_r)^(-2 - 2 H), or of ridges across the
@@ -24,8 +24,8 @@ from pyehl.types import Array, Mask
 BAND = 1.959963984540054
 """Standard deviations of a band of 95 %."""
 KNEE = 1.4
-"""Factor of the band of the roll-off: at a sharp knee the curvature of the likelihood says too
-little; without it the band holds the truth in 77 to 92 of 100 made profiles."""
+"""Factor of the band of the roll-off: at a sharp knee the curvature of the likelihood gives too
+small a band; without it the band holds the truth in 77 to 92 of 100 made profiles."""
 SHORTEST = 6.0
 """Shortest wavelength that is fitted [points]: shorter ones are those of stylus and noise."""
 WORTH = 2.0
@@ -190,7 +190,7 @@ def scan_of_profile(
     """Make a map of a profile: 'isotropic', of its spectrum, or 'ridges', itself extended across.
 
     The isotropic one is a periodic square as long as the profile, with so many pixels per side; the
-    rms height is that of the waves that they carry. InputError as :func:`fit`.
+    rms height is that of the waves that they include. InputError as :func:`fit`.
     """
     words = f"; {profile.note}" if profile.note else ""
     if how == "ridges":

@@ -238,7 +238,7 @@ class Scan:
     # Whether it is an array (`.npy`, text), with no word about how it came about, or a file of an
     # instrument
     is_array: bool = True
-    is_periodic: bool = False  # whether the file says that the map can be repeated without a seam
+    is_periodic: bool = False  # whether the file states that the map can be repeated without a seam
     channel: str = ""  # name of the channel or data set; empty for arrays
     # Where the size is from: 'the file' or 'surface.length_x, surface.length_y'
     size_from: str = "surface.length_x, surface.length_y"
@@ -285,7 +285,7 @@ def _read(path: Path, given: Sizes, channel: str, height_unit: str, lateral_unit
     if length == 0:
         raise InputError(f"{path}: the file is empty")
     if path.suffix.lower() != ".npy":
-        # a line of text may be as long as the file; the header of an array tells more
+        # a line of text may be as long as the file; the header of an array has more
         check_memory(f"{path}: a file of this length", length)
     found = _found(path, channel)
     notes = [*found.notes, *_measured(path, found, height_unit)]

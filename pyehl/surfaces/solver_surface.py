@@ -30,7 +30,7 @@ from pyehl.types import Array, Settings
 LOG = logging.getLogger(__name__)
 
 Surface = Topography | ArrayLike
-"""A tile, or heights [m] of shape (nx, ny) that have the size that the case says."""
+"""A tile, or heights [m] of shape (nx, ny) that have the size that the case states."""
 
 IN_MEMORY = {
     "surface": "heights in memory",

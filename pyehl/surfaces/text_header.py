@@ -93,7 +93,7 @@ class Header:
     # Metres in the units of the columns x, y and z of a list
     columns: tuple[float, ...] = ()
     channel: str = ""
-    # Heights that the header says are none
+    # Heights that the header states are none
     marks: list[float] = field(default_factory=list)
     # Whether the heights have a unit that is none of length: volts, degrees
     is_other: bool = False
@@ -102,7 +102,7 @@ class Header:
     notes: list[str] = field(default_factory=list)
 
     @property
-    def says(self) -> bool:
+    def is_informative(self) -> bool:
         """Whether there is more than a comment on heights."""
         return bool(
             any(v is not None for v in (*self.size, *self.bare, *self.pitch, *self.points))
@@ -238,7 +238,7 @@ def _settle(header: Header, found: dict[tuple[str, int], set[float]]) -> None:
     """Take what is given once."""
     for (kind, side), values in list(found.items()):
         if len(values) > 1:
-            header.notes.append(f"the header says its {kind} in two ways: neither was taken")
+            header.notes.append(f"the header states its {kind} in two ways: neither was taken")
             del found[(kind, side)]
 
     def once(kind: str, side: int = 0) -> float | None:

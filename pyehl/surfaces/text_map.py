@@ -230,13 +230,13 @@ SQUARE = 0.01
 
 
 def read_text_map(path: Path, encoding: str, channel: str = "") -> Found:
-    """Heights of a text, and what its header says of their unit and of the size.
+    """Heights of a text, and what its header states of their unit and of the size.
 
     One x per line, as arrays have it, where nothing but comments stands above the numbers; under
     a header lines run along x, as those of images do. A first line and a first column of places
     are the axes of the table, whose lines run along x, too.
 
-    InputError names the line and column of what cannot be read, and a header that says another
+    InputError names the line and column of what cannot be read, and a header that states another
     number of lines or points than there are.
     """
     tables = tables_of(path, encoding)
@@ -271,7 +271,7 @@ def _picked(
 ) -> tuple[Table, Header]:
     """Table of a channel by name or number; the first one of heights where none is wanted."""
     names = [header.channel or f"table {n}" for n, header in enumerate(headers, 1)]
-    if not any(header.says for header in headers):
+    if not any(header.is_informative for header in headers):
         raise InputError(
             f"{path}: surface.channel = '{wanted}', but .npy and text hold one map alone"
         )
@@ -305,7 +305,7 @@ def _found(path: Path, table: Table, header: Header) -> Found:
             f"the first three of {rows.shape[1]} columns are x, y and z, the others were not read"
         )
         rows = rows[:, :3]
-    image = words or header.says or axes is not None
+    image = words or header.is_informative or axes is not None
     if is_list(rows):
         found = _points(path, rows, table, header)
         found.notes += [note for note in (axes.note if axes else "", more) if note]
@@ -315,7 +315,7 @@ def _found(path: Path, table: Table, header: Header) -> Found:
     turned = _check_points(path, table, rows, header)
     found = Found(np.ascontiguousarray(rows if turned else rows.T), header.height_unit)
     if turned:
-        found.notes.append("by the points that its header says, the file has one x per line")
+        found.notes.append("by the points that its header states, the file has one x per line")
         axes = axes and axes.turned()
     _size(found, header, axes)
     return found
@@ -393,7 +393,7 @@ def _unit_at_end(cell: str) -> float | None:
 
 
 def _check_points(path: Path, table: Table, rows: Array, header: Header) -> bool:
-    """Refuse a table that has not the lines and points that its header says.
+    """Refuse a table that has not the lines and points that its header states.
 
     True if it has, with one x per line: x along the lines is what files of images have.
     """
@@ -417,7 +417,7 @@ def _check_points(path: Path, table: Table, rows: Array, header: Header) -> bool
         return True
     raise InputError(
         f"{path}:{table.line}: the table has {columns} heights in a line and {lines} lines, but "
-        f"the header says {columns if x is None else x} x {lines if y is None else y}"
+        f"the header states {columns if x is None else x} x {lines if y is None else y}"
     )
 
 
@@ -435,7 +435,7 @@ def _size(found: Found, header: Header, axes: Axes | None) -> None:
         # a length may be from the first to the last point
         if whole and part and abs(whole - part) > 1.5 * part / shape[side]:
             found.notes.append(
-                f"the header says a length of {whole:.6g} m along {'xy'[side]} and pixels of "
+                f"the header states a length of {whole:.6g} m along {'xy'[side]} and pixels of "
                 f"{part / shape[side]:.6g} m, {part:.6g} m in all: the length was taken"
             )
     if x is None and y is None and axes is not None:

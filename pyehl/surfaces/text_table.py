@@ -242,7 +242,7 @@ def tables_of(path: Path, encoding: str) -> list[Table]:
             continue
         if footer and rows:
             # numbers behind words are the next table where the words are its header
-            if header_of(footer).says:
+            if header_of(footer).is_informative:
                 table.rows = np.array(rows)
                 tables.append(table)
                 table = Table(footer, np.empty((0, 0)), number, cells)

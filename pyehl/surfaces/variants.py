@@ -42,7 +42,7 @@ class ZygoMap:
 
 
 def read_zygo(lines: Iterable[str]) -> ZygoMap:
-    """Read a Zygo text file; ValueError says which line is not what it should be."""
+    """Read a Zygo text file; ValueError states which line is not what it should be."""
     rest = iter(lines)
     header = [line.strip() for line in islice(rest, HEADER_LINES)]
     if len(header) < HEADER_LINES or not header[0].startswith(ZYGO_MAGIC):
@@ -108,7 +108,7 @@ def _listed_heights(
         heights[i, j] = value
         seen += 1
     if seen != heights.size:
-        raise ValueError(f"{seen} points, but line 4 says {shape[0]} x {shape[1]}")
+        raise ValueError(f"{seen} points, but line 4 states {shape[0]} x {shape[1]}")
     return heights
 
 
@@ -167,7 +167,7 @@ def plain_tmd(data: bytes) -> bytes | None:
 def nms_missing(path: Path) -> NDArray[np.bool_] | None:
     """Where (nx, ny) a NMS file has no heights: the largest whole number of two bytes.
 
-    The scale of its heights ends at the number below. None if the file is shorter than it says.
+    The scale of its heights ends at the number below. None if the file is shorter than it states.
     """
     with path.open("rb") as stream:
         stream.seek(NMS_POINTS)
@@ -189,7 +189,7 @@ MAX_XML = 2**28
 def plain_x3p(data: bytes) -> bytes | None:
     """Give the same surface in the plain form; None if it is that already, or no X3P.
 
-    ValueError says what is wrong with heights in the XML.
+    ValueError states what is wrong with heights in the XML.
     """
     try:
         archive = zipfile.ZipFile(io.BytesIO(data))

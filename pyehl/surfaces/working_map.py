@@ -50,12 +50,12 @@ def defaults(options: Options, scan: Scan) -> tuple[Options, dict[str, str]]:
 
     A file of an instrument is a map of a part: it lies at an angle that is the stage's and not
     the surface's, and its edges do not match. An array is taken at its word, as is a file that
-    says that it is periodic: nothing is taken off, and it is repeated. A part of an array, or an
+    states that it is periodic: nothing is taken off, and it is repeated. A part of an array, or an
     array that was turned, is no longer periodic.
     """
     why = {"detrend": "given", "edges": "given"}
     tile = scan.is_array or scan.is_periodic
-    what = "an array is taken at its word" if scan.is_array else "the file says it is periodic"
+    what = "an array is taken at its word" if scan.is_array else "the file states it is periodic"
     if options.detrend == "auto":
         options = replace(options, detrend="none" if tile else "tilt")
         why["detrend"] = what if tile else "the tilt of a scan is that of the stage"

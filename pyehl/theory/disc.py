@@ -24,14 +24,14 @@ from numpy.polynomial import legendre
 from pyehl.types import Array, Complex
 
 DEGREE = 6
-"""Degree of the polynomials in x, y that carry the correction."""
+"""Degree of the polynomials in x, y of the correction."""
 LARGEST = 14.0
 """Largest wavenumber |q| that needs it [1/a]: shorter waves, below 0.45 a, feel no edge."""
 RADIUS = 0.8
 """Radius within which they are fitted; most of the friction arises there. Nearer to the edge
 the pressure of a disc with a fixed edge is singular and that of a contact is not."""
 
-RIM = 1e-5
+NEXT_TO_EDGE = 1e-5
 """z at which the pressure next to the edge is taken."""
 EDGE_ANGLES = np.linspace(0.0, 2.0 * math.pi, 96, endpoint=False)
 """Places along the edge at which it is known how far it is moved."""
@@ -120,9 +120,9 @@ def _fit() -> tuple[Array, Array, list[tuple[range, Array]], Array]:
 
 
 @lru_cache(maxsize=1)
-def _at_rim() -> list[tuple[range, Array]]:
+def _next_to_edge() -> list[tuple[range, Array]]:
     """Radial parts next to the edge."""
-    return _radial(np.array([RIM]), math.ceil(LARGEST) + 12)
+    return _radial(np.array([NEXT_TO_EDGE]), math.ceil(LARGEST) + 12)
 
 
 def disc_correction(qx: Array, qy: Array) -> Complex:
@@ -142,4 +142,4 @@ def edge_of_disc(qx: Array, qy: Array) -> Complex:
     The pressure c/z of the fixed edge is what the Hertz pressure z gains where the edge lies
     further out by c.
     """
-    return RIM * _series(qx, qy, EDGE_ANGLES, _at_rim())
+    return NEXT_TO_EDGE * _series(qx, qy, EDGE_ANGLES, _next_to_edge())

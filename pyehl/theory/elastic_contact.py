@@ -66,7 +66,9 @@ def lifted(
     first = start.pressure if start is not None and start.pressure.any() else guess
     found = _solved(gap, allowed, compliance, scale, first)
     if found is None or found.pressure.sum() > most:
-        found = _solved(gap, allowed, compliance, scale, guess * (most / guess.sum()), carried=True)
+        found = _solved(
+            gap, allowed, compliance, scale, guess * (most / guess.sum()), fixed_load=True
+        )
     return found
 
 
@@ -77,24 +79,24 @@ def _solved(
     scale: float,
     pressure: Array,
     *,
-    carried: bool = False,
+    fixed_load: bool = False,
 ) -> Lifted | None:
-    """Solve from a first guess, whose sum stays as it is if `carried`; None: not solved."""
+    """Solve from a first guess, whose sum stays as it is with `fixed_load`; None: not solved."""
     total, lift = float(pressure.sum()), compliance(pressure)
     step, last, restart = np.zeros_like(gap), 1.0, True
     for _ in range(MOST_STEPS):
         touching = pressure > 0.0
         error = np.where(allowed, gap + lift, 0.0)
-        rise = -float(error[touching].mean()) if carried else 0.0
-        error[allowed] += rise
+        raised = -float(error[touching].mean()) if fixed_load else 0.0
+        error[allowed] += raised
         square = float(np.square(error[touching]).sum())
         rms = math.sqrt(square / max(1, int(touching.sum())))
         if rms < ENOUGH * scale and -float(error.min()) < DEEPEST * scale:
-            return Lifted(pressure, lift + rise)
+            return Lifted(pressure, lift + raised)
         step = np.where(touching, error + (0.0 if restart else square / last) * step, 0.0)
         last = square
         change = compliance(step)
-        if carried:
+        if fixed_load:
             change -= change[touching].mean()
         down = float((change * step)[touching].sum())
         if not down > 0.0:
@@ -104,7 +106,7 @@ def _solved(
         comes = allowed & (pressure <= 0.0) & (error < 0.0)
         restart = bool((comes | (touching & (pressure <= 0.0))).any())
         pressure[comes] -= length * error[comes]
-        if carried:
+        if fixed_load:
             pressure *= total / pressure.sum()
         lift = compliance(pressure)
     return None

@@ -15,7 +15,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.polynomial import chebyshev
 
-from pyehl.theory.disc import DEGREE, EDGE_ANGLES, LARGEST, RADIUS, RIM, spherical_bessel
+from pyehl.theory.disc import DEGREE, EDGE_ANGLES, LARGEST, NEXT_TO_EDGE, RADIUS, spherical_bessel
 from pyehl.theory.ellipse import Ellipse
 from pyehl.types import Array, Complex
 
@@ -51,9 +51,9 @@ class EllipseEdge:
         # by the semi-axes
         largest = self.largest * max(1.0, kappa)
         self._inside = Series(shape, x, y, largest, self._inverse)
-        radius = math.sqrt(1.0 - RIM * RIM)
+        radius = math.sqrt(1.0 - NEXT_TO_EDGE * NEXT_TO_EDGE)
         x, y = radius * np.cos(EDGE_ANGLES), radius * np.sin(EDGE_ANGLES)
-        self._rim = Series(shape, x, y, largest)
+        self._at_edge = Series(shape, x, y, largest)
 
     def functions(self, x: Array, y: Array) -> Array:
         """Polynomials (n, ...) at places by the semi-axes, x/a and y/b, within RADIUS."""
@@ -74,12 +74,12 @@ class EllipseEdge:
         phase = np.outer(self.x, qx) + np.outer(kappa * self.y, qy)
         return np.asarray(self._inside.of(qx, qy) - self._inverse @ (local * np.exp(1j * phase)))
 
-    def rim(self, qx: Array, qy: Array) -> Complex:
-        """How far waves (m,) move the edge outwards, :func:`pyehl.theory.disc.disc_rim`.
+    def displacement(self, qx: Array, qy: Array) -> Complex:
+        """How far waves (m,) move the edge outwards, :func:`pyehl.theory.disc.edge_of_disc`.
 
         Of the distance from the centre by the semi-axes, at EDGE_ANGLES of x/a and y/b: (n, m).
         """
-        return RIM * self._rim.of(qx, qy)
+        return NEXT_TO_EDGE * self._at_edge.of(qx, qy)
 
 
 @lru_cache(maxsize=4)

@@ -52,12 +52,12 @@ def flash_temperature(
     diffusivity: tuple[float, float],
     potential: float = 1.0,
 ) -> float:
-    """Greatest temperature rise [K] of two surfaces in a Hertz contact.
+    """Maximum temperature rise [K] of two surfaces in a Hertz contact.
 
     Heat in a semi-ellipse over the contact: Tian & Kennedy 1994, J. Tribol. 116, 167, for one
     surface and a circle, 2.32 q a/(k sqrt(pi (1.234 + Pe))), Pe = u a/(2 kappa). On an ellipse
-    1.234 is divided by the square of `potential`, so that a surface at rest is as hot as its
-    potential says; in a narrow one, where heat also flows across the motion, (1.234^m + Pe^m)^(1/m)
+    1.234 is divided by the square of `potential`, so that a surface at rest is as hot as by its
+    potential; in a narrow one, where heat also flows across the motion, (1.234^m + Pe^m)^(1/m)
     with m = potential^0.38 takes the place of the sum. The heat is shared so that both become as
     hot (Blok 1937). Mean heat flux q over the contact [W/m^2], half its length a along the motion
     [m], speeds of the surfaces through the contact [m/s], k [W/(m K)] and kappa [m^2/s] of the

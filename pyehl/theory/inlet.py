@@ -67,10 +67,10 @@ def at_inlet(zone: Zone, qx: Array, qy: Array, velocity_ratio: float) -> Complex
     spread[:, inner + 1, inner] = -1.0 / h + 0.5 * turned[:, 0]
     spread[:, inner + 1, inner + 1] = 1.0 / h + 0.5 * turned[:, 0]
     spread[:, -1] = spread[:, -2]
-    carried = _carried(n, h, slip) * nodes.density
+    convected = _convected(n, h, slip) * nodes.density
     leak = (nodes.across * np.square(qy)[:, np.newaxis])[:, :, np.newaxis] * one
-    system = spread @ flow - leak - carried @ held
-    right = spread @ bending - carried.sum(-1)
+    system = spread @ flow - leak - convected @ held
+    right = spread @ bending - convected.sum(-1)
     # no pressure wave at the start
     system[:, 0], right[:, 0] = one[0], 0.0
     pressure = np.linalg.solve(system, right[..., np.newaxis])[..., 0]
@@ -106,7 +106,7 @@ def _yielding(zone: Zone, qx: Array, qy: Array, slip: Array, x: Array) -> Comple
     return found
 
 
-def _carried(n: int, h: float, slip: Array) -> Complex:
+def _convected(n: int, h: float, slip: Array) -> Complex:
     """d/dX - i slip at n nodes (m, n, n), exact for a wave exp(i slip X)."""
     i = np.arange(2, n - 1)
     difference = np.zeros((n, n))

@@ -77,8 +77,8 @@ class StripEdge:
             found[k, 1][:, wave] = 1j * np.sign(qy[wave]) * part
         return found.reshape(2 * self.across.size * (DEGREE + 1), qx.size)
 
-    def rim(self, qx: Array, qy: Array) -> Complex:
-        """How far waves (m,) move the edges outwards, :func:`pyehl.theory.disc.disc_rim`.
+    def displacement(self, qx: Array, qy: Array) -> Complex:
+        """How far waves (m,) move the edges outwards, :func:`pyehl.theory.disc.edge_of_disc`.
 
         At X = -1, then X = 1, at the ends (n,) of intervals of the width: (2 n, m).
         """

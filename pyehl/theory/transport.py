@@ -16,7 +16,7 @@ H^3/(eta lambda), delta ln eps = g = (c - d ln eta/dP) Pi - 3 T/H the Reynolds e
 
 primes are d/dX; g (rho H)', what the smooth film gains or loses, is left out. The coefficients
 change slowly, so that mu' = a mu + b with a = mu'/mu where no roughness drives. For stiff
-lubricants eps vanishes: mu is made in the inlet and then carried at the mean velocity, a wave of
+lubricants eps vanishes: mu is made in the inlet and then convected at the mean velocity, a wave of
 wavenumber kU (Greenwood & Morales-Espejel 1994; Hooke 1999 to 2007), beside C/(1 + C), C = K H c,
 which compressibility leaves with the roughness. eps |q|^2 Pi, the leak by viscous flow
 (Morales-Espejel & Brizmer 2011), matters for short waves and low pressures; the terms behind it,

@@ -89,7 +89,7 @@ class Tab:
         self.driver = driver
         driver.get(address)
         self.until(lambda: self.run("return Boolean(window.Bokeh && Bokeh.documents.length)"))
-        self.rest(129)
+        self.settle(129)
 
     def run(self, script: str, *arguments: object) -> Any:
         return self.driver.execute_script(script, *arguments)
@@ -136,7 +136,7 @@ class Tab:
             "return m && [m.data.asked[0], m.data.generation[0], m.data.points[0]]"
         )
 
-    def rest(self, points: int = 513) -> None:
+    def settle(self, points: int = 513) -> None:
         """Wait for the answer of where the controls are, on a grid or a finer one."""
 
         def there() -> bool:
@@ -206,7 +206,7 @@ def driver(downloads: Path) -> Iterator[webdriver.Chrome]:
 
 @pytest.fixture
 def tab(driver: webdriver.Chrome, served: Served) -> Tab:
-    """Give a page that nobody has touched."""
+    """Give a page that is untouched."""
     return Tab(driver, served.address)
 
 

@@ -45,13 +45,13 @@ def measure(turns: int) -> dict[int, list[float]]:
     try:
         with chromium() as driver:
             tab = Tab(driver, served.address)
-            tab.rest()
+            tab.settle()
             driver.set_script_timeout(60.0)
             for k in range(turns):
                 found = driver.execute_async_script(WAIT, 200 + (37 * k) % 150)
                 times[129].append(found["129"] * 1e-3)
                 times[257].append(found["257"] * 1e-3)
-                tab.rest()
+                tab.settle()
     finally:
         served.close()
     return times

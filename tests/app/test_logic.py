@@ -79,7 +79,7 @@ CASES = {
 
 @pytest.mark.parametrize("text", CASES.values(), ids=CASES)
 def test_opened_case_is_the_case(text):
-    """Controls where a case says, and back: the same values of all keys."""
+    """Controls where a case states, and back: the same values of all keys."""
     case = Case.from_text(text, {"grid.points": 65})
     position, note = from_case(case)
     assert not note
@@ -292,15 +292,15 @@ def test_case_file_is_short_and_complete(start):
 
 
 def test_worker_does_the_newest_alone():
-    told: list[tuple[int, object]] = []
+    reported: list[tuple[int, object]] = []
     begun, go = threading.Event(), threading.Event()
-    worker = Worker(lambda generation, answer: told.append((generation, answer)))
+    worker = Worker(lambda generation, answer: reported.append((generation, answer)))
 
     def first(ticket):
         begun.set()
         assert go.wait(10.0)
         ticket.answer_with("first")
-        if ticket.rest(5.0):
+        if ticket.wait(5.0):
             ticket.answer_with("never")
 
     assert worker.submit(first) == 1
@@ -309,16 +309,16 @@ def test_worker_does_the_newest_alone():
     last = worker.submit(lambda ticket: ticket.answer_with("last"))
     go.set()
     end = time.monotonic() + 10.0
-    while len(told) < 2 and time.monotonic() < end:
+    while len(reported) < 2 and time.monotonic() < end:
         time.sleep(0.01)
     worker.close()
-    assert told == [(1, "first"), (last, "last")]
+    assert reported == [(1, "first"), (last, "last")]
     assert not worker.alive
 
 
 def test_worker_tells_what_is_raised_and_goes_on():
-    told: list[object] = []
-    worker = Worker(lambda generation, answer: told.append(answer))
+    reported: list[object] = []
+    worker = Worker(lambda generation, answer: reported.append(answer))
     done = threading.Event()
 
     def bad(ticket):
@@ -329,7 +329,7 @@ def test_worker_tells_what_is_raised_and_goes_on():
     worker.submit(lambda ticket: done.set())
     assert done.wait(10.0)
     worker.close()
-    assert [str(answer) for answer in told] == ["no"]
+    assert [str(answer) for answer in reported] == ["no"]
 
 
 def test_closed_worker_stops_a_solver(start):
@@ -374,15 +374,15 @@ def test_upload_is_read_and_refused_in_the_words_of_the_reader(tmp_path):
 
 
 def test_what_a_case_says_of_its_map_is_heard(tmp_path):
-    """Text in nanometres is read as the case says, not as metres."""
+    """Text in nanometres is read as the case states, not as metres."""
     uploads = Uploads()
     text = (
         "&surface kind = 'map' file = 'm.txt' length_x = 1e-4 length_y = 2e-4 height_unit = 'nm' /"
     )
     np.savetxt(tmp_path / "m.txt", np.random.default_rng(1).normal(size=(16, 16)))
     data = (tmp_path / "m.txt").read_bytes()
-    said = {"length_x": 1e-4, "length_y": 1e-4, "height_unit": "nm"}
-    uploads.add("m.txt", data, said)
+    stated = {"length_x": 1e-4, "length_y": 1e-4, "height_unit": "nm"}
+    uploads.add("m.txt", data, stated)
     position, _ = from_case(
         Case.from_text(text.replace("m.txt", uploads.files["m.txt"])), uploads.files
     )

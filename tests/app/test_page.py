@@ -43,7 +43,7 @@ def test_numbers_are_those_of_pyehl_run(tab, tmp_path, capsys):
     before = tab.stamp()[0]
     ActionChains(tab.driver).click_and_hold(handle).move_by_offset(25, 0).release().perform()
     tab.until(lambda: tab.stamp()[0] > before)
-    tab.rest()
+    tab.settle()
     rows = rows_of(tab, "numbers")
     case = tmp_path / "case.nml"
     case.write_text(tab.get("case", "value"))
@@ -52,9 +52,9 @@ def test_numbers_are_those_of_pyehl_run(tab, tmp_path, capsys):
     assert velocity > 0.84
     assert tab.element("velocity", "input").get_attribute("value") == f"{velocity:g}"
     assert main(["run", str(case), "-o", str(tmp_path / "out")]) == 0
-    told = capsys.readouterr().out.replace("+-", "±")
-    assert f"h_c {rows['h_c']}" in told
-    assert f"h_min {rows['h_min']}" in told
+    reported = capsys.readouterr().out.replace("+-", "±")
+    assert f"h_c {rows['h_c']}" in reported
+    assert f"h_min {rows['h_min']}" in reported
     sheet = pyehl.film(case).summary
     for formula in (f for f in sheet["formulas"] if f["applies"]):
         assert f"{formula['h_c_m'] * 1e9:.4g} nm" in rows[formula["name"]]
@@ -63,7 +63,7 @@ def test_numbers_are_those_of_pyehl_run(tab, tmp_path, capsys):
 
 
 def test_wrong_input_is_said_at_its_control(tab):
-    tab.rest()
+    tab.settle()
     answer, asked = rows_of(tab, "numbers"), tab.stamp()[0]
     for text, why in (("abc", "expected a number"), ("-5", "contact.load"), ("1e9", "1e9")):
         tab.type("load", text)
@@ -73,13 +73,13 @@ def test_wrong_input_is_said_at_its_control(tab):
     assert rows_of(tab, "numbers") == answer
     tab.type("load", "300")
     tab.until(lambda: not tab.get("error_load", "text"))
-    tab.rest(129)
+    tab.settle(129)
     assert rows_of(tab, "numbers") != answer
 
 
 def test_surface_is_predicted(tab):
     tab.choose("surface", "fractal")
-    tab.rest()
+    tab.settle()
     tab.until(lambda: "μ_r/μ_s" in tab.get("rough", "text"))
     rows = rows_of(tab, "rough")
     case = pyehl.Case.from_text(tab.get("case", "value"))
@@ -206,7 +206,7 @@ def test_two_tabs_do_not_disturb_each_other_and_end(tab, served, monkeypatch):
     tab.until(lambda: tab.run("return Boolean(window.Bokeh && Bokeh.documents.length)"))
     tab.until(lambda: tab.stamp() is not None)
     tab.type("load", "77")
-    tab.rest()
+    tab.settle()
     assert "load = 77.0" in tab.get("case", "value")
     second = tab.driver.current_window_handle
     tab.driver.switch_to.window(first)
@@ -219,7 +219,7 @@ def test_two_tabs_do_not_disturb_each_other_and_end(tab, served, monkeypatch):
     tab.until(lambda: not Path(closed.uploads._folder.name).exists())
     assert left.worker.alive
     tab.type("load", "99")
-    tab.rest(129)
+    tab.settle(129)
 
 
 @pytest.mark.long
@@ -239,7 +239,7 @@ def test_an_older_answer_never_comes_last(tab, page):
         "for (let k = 0; k < 60; k++) setTimeout(() => { s.value = 150 + k }, 20 * k)"
     )
     time.sleep(1.5)
-    tab.rest()
+    tab.settle()
     assert len(shown) >= 3
     assert all(after >= before for before, after in shown)
     assert tab.stamp()[0] == tab.stamp()[1]
@@ -307,7 +307,7 @@ def test_only_this_machine_and_this_page(served):
 
 @pytest.mark.parametrize("host", ["evil.example", "127.0.0.1.evil.example", "localhost.", ""])
 def test_only_by_the_names_of_this_machine(served, host):
-    """A name that somebody has bound to the loopback gets nothing, not even by its own origin."""
+    """A name that was bound to the loopback gets nothing, not even by its own origin."""
     head = {"Upgrade": "websocket", "Connection": "Upgrade", "Sec-WebSocket-Version": "13"}
     head["Sec-WebSocket-Key"] = "dGhlIHNhbXBsZSBub25jZQ=="
     for name, expected in ((host, 403), ("localhost", 200)):
@@ -346,13 +346,13 @@ def test_many_turns_in_the_browser(tab, served, count: int, kilobytes: int):
             )
             tab.until(lambda before=before: tab.stamp()[0] > before)
             if k % 10 == 0:
-                tab.rest(129)
+                tab.settle(129)
 
-    tab.rest()
+    tab.settle()
     turns(100)
-    tab.rest()
+    tab.settle()
     before = held()
     turns(count)
-    tab.rest()
+    tab.settle()
     after = held()
     assert after - before < kilobytes, json.dumps({"before": before, "after": after})

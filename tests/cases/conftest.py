@@ -124,7 +124,7 @@ def solve(drivers: dict[str, list[str]], tmp_path_factory: pytest.TempPathFactor
 
 @pytest.fixture(scope="session")
 def table() -> Callable[[str], list[dict[str, str]]]:
-    """Rows of a table of reference data in this folder; '#' lines tell where they come from."""
+    """Rows of a table of reference data in this folder; '#' lines state where they come from."""
 
     def read(name: str) -> list[dict[str, str]]:
         lines = (HERE / name).read_text().splitlines()

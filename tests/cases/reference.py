@@ -94,7 +94,7 @@ class SmoothRow:
 
 
 def _table(name: str) -> list[dict[str, str]]:
-    """Rows of a table in pyehl/studies/references, which says where its values are from."""
+    """Rows of a table in pyehl/studies/references, which states where its values are from."""
     text = resources.files("pyehl").joinpath("studies", "references", name).read_text("utf-8")
     return list(csv.DictReader(x for x in text.splitlines() if not x.startswith("#")))
 

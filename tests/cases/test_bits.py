@@ -10,7 +10,7 @@ import pytest
 
 import pyehl
 
-# Words of the summary that speak of the threads and their work space; none that tells seconds is a
+# Words of the summary that speak of the threads and their work space; none that has seconds is a
 # result either
 NOT_RESULTS = {"threads", "bytes"}
 SIZE = {"surface.length_x": 8.29e-4, "surface.length_y": 8.29e-4}

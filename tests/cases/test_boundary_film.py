@@ -57,11 +57,11 @@ def test_full_film_changes_no_bit(solve, case):
     for name in ("P", "H"):
         assert (without.field(name) == with_film.field(name)).all()
     timed = {"bytes", "wall_seconds", "seconds_per_step", "files", "version", "case"}
-    said = {"contact_load_share", "contact_load_share_error", "contact_load_share_error_note"}
-    said |= {f"contact_load_share_error_{part}" for part in ("grid", "stop")}
-    said |= {"contact_area_share", "layer_supply", "mu_note", "boundary_film"}
-    left = {k: v for k, v in without.summary.items() if k not in timed | said}
-    assert left == {k: v for k, v in with_film.summary.items() if k not in timed | said}
+    stated = {"contact_load_share", "contact_load_share_error", "contact_load_share_error_note"}
+    stated |= {f"contact_load_share_error_{part}" for part in ("grid", "stop")}
+    stated |= {"contact_area_share", "layer_supply", "mu_note", "boundary_film"}
+    left = {k: v for k, v in without.summary.items() if k not in timed | stated}
+    assert left == {k: v for k, v in with_film.summary.items() if k not in timed | stated}
 
 
 def test_smooth_dry_limit_is_hertz(solve, root):
@@ -76,7 +76,7 @@ def test_smooth_dry_limit_is_hertz(solve, root):
     assert done["contact_load_share"] == pytest.approx(1.0, abs=5e-3)
     assert done["contact_area_share"] == pytest.approx(1.0, abs=2e-2)
     assert 0.0 < done["contact_load_share_error"] < 0.01
-    # friction is that of the boundary film, which nobody has told
+    # friction is that of the boundary film, which is not set
     assert (done["mu"], done["F"]) == (None, None)
     assert "lubricant.boundary_friction" in done["mu_note"]
 
@@ -245,12 +245,14 @@ def test_rough_dry_limit_full_contact(solve, root, dry):
     assert done.converged
     pressure = dry.dry_pressure(done.summary, done.field)
     off_area = abs(done["contact_area_share"] / dry.dry_area(done.summary, pressure) - 1.0)
-    said = f"pressure to {within(apart(done.field('P'), pressure))} and area to {within(off_area)}"
-    assert said in theory(root, "contact")
+    stated = (
+        f"pressure to {within(apart(done.field('P'), pressure))} and area to {within(off_area)}"
+    )
+    assert stated in theory(root, "contact")
 
 
 def test_rough_dry_limit_partial_contact(solve, root, dry):
-    """Pressure of a dry solver where the waves are not: lubricant in closed valleys carries on."""
+    """Pressure of a dry solver where the waves are not: closed valleys hold lubricant."""
     rest = REST | {"contact.mean_velocity": 0.005, "lubricant.boundary_film": 1e-8}
     done = solve(None, 129, STEEL | rest | {"surface.amplitude": 0.05}, fields=True)
     assert done.converged
@@ -347,7 +349,7 @@ def test_hardness_above_all_pressures_changes_no_bit(solve, case):
     touching = STEEL | {"contact.mean_velocity": 0.05, "lubricant.boundary_film": 3e-8} | case
     elastic = solve(None, 65, touching, fields=True)
     hard = solve(None, 65, touching | {"contact.hardness": 1e12}, fields=True)
-    # 65 nodes may not resolve the inlet: the bodies touch there, and no load share is told
+    # 65 nodes may not resolve the inlet: the bodies touch there, and no load share is reported
     assert elastic["contact_load_share"] is None or elastic["contact_load_share"] > 0.0
     for name in ("P", "H"):
         assert (elastic.field(name) == hard.field(name)).all()
@@ -396,7 +398,7 @@ def test_mixed_film(solve):
     assert 0.0 < parts[1] < 0.05 * share
     first = -round(fine["T_mean"] / fine["x_mesh"])
     assert fine.history["load_share"][first:].mean() == pytest.approx(share, rel=0.05)
-    # the layer carries its share of the friction, and the film no less than nothing
+    # the boundary film has its share of the friction, and the film no less than nothing
     assert 0.1 * share < fine["mu"] < 0.1
     # no film is thinner than the layer, compressed as the lubricant is
     pressure = fine.field("P") * fine["hertz_pressure_Pa"]
@@ -429,7 +431,7 @@ def test_single_nodes_that_touch(solve):
 
 @pytest.mark.long
 def test_contact_of_a_coarse_grid(solve):
-    """Where a grid does not resolve the inlet bodies touch on it, and no error is told."""
+    """Where a grid does not resolve the inlet bodies touch on it, and no error is reported."""
     done = solve(None, 129, STEEL | MIXED, words=True)
     assert done.converged
     assert done["contact_load_share"] > 0.1
@@ -440,7 +442,7 @@ def test_contact_of_a_coarse_grid(solve):
 
 
 def test_a_layer_that_would_have_to_give_much(solve):
-    """A thick one on a coarse grid: the assessment says that the model ends there."""
+    """A thick one on a coarse grid: the assessment states that the model ends there."""
     done = solve(None, 65, STEEL | MIXED | {"lubricant.boundary_film": 8e-8}, words=True)
     assert done.converged
     assert done["layer_supply"] > 0.1
@@ -450,7 +452,7 @@ def test_a_layer_that_would_have_to_give_much(solve):
 
 @pytest.mark.long
 def test_no_error_where_a_layer_that_gives_much_carries_most(solve):
-    """A wave of the stress campaign, whose load share two grids tell no error of."""
+    """A wave of the stress campaign, whose load share two grids give no error of."""
     wave = {
         "contact.load": 220.65341,
         "contact.mean_velocity": 3.8854007,

@@ -49,7 +49,7 @@ def test_light_second_cycles_agree_with_full_ones(solve, point: tuple[float, flo
     assert full.converged
     for name in ("H_c", "H_min"):
         assert abs(light[name] - full[name]) <= 0.1 * full[f"{name}_error"], name
-    # at M = 20 a spike that no grid resolves carries the friction: no error is stated
+    # at M = 20 a spike that no grid resolves has the friction: no error is stated
     if full["F_error"] is not None:
         assert light["F"] == pytest.approx(full["F"], rel=1e-3)
     assert light["total_cycles"] <= full["total_cycles"]

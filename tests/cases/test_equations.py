@@ -199,7 +199,7 @@ def test_mass_balance(march):
     i, j = slice(west, east + 1), slice(south, north + 1)
     assert now.p[i, j].min() > 0.0
 
-    def carried(k: int) -> float:
+    def convected(k: int) -> float:
         """Couette flux between columns k and k + 1, of which the differences of rho H are made."""
         if scheme == "paper":
             return (1.5 * m[k, j] - 0.5 * m[k - 1, j]).sum() * h
@@ -209,8 +209,8 @@ def test_mass_balance(march):
 
     stored = storage(states)[i, j].sum() * h**2
     along, across = now.flux(0), now.flux(1)
-    inflow = carried(west - 1) + along[west - 1, j].sum() * h
-    outflow = carried(east) + along[east, j].sum() * h
+    inflow = convected(west - 1) + along[west - 1, j].sum() * h
+    outflow = convected(east) + along[east, j].sum() * h
     outflow += (across[i, north] - across[i, south - 1]).sum() * h
     # The residuals add up to no more than their rms over the whole plane lets them (Cauchy-Schwarz)
     allowed = left(done) * h**2 * np.sqrt(m[i, j].size * m.size)

@@ -162,7 +162,7 @@ def test_extremes_and_the_end(solve: Any):
 
 @pytest.mark.parametrize("ratio", [0.6, 1.0, 1.6])
 def test_film_moves_with_the_mean_velocity(ratio: float, solve: Any):
-    """In the contact nothing flows by pressure: what is made of the film in the inlet is carried.
+    """In the contact nothing flows by pressure: what is made of the film in the inlet is convected.
 
     So whatever the velocity of a small dent, what it leaves in the film moves with the mean one.
     """

@@ -43,12 +43,12 @@ def test_as_another_program_on_the_fields(solve, root):
     assert done["flash_temperature_K"] == pytest.approx(np.mean(walls), rel=0.03)
     assert "temperature" in done["mu_note"]
     text = (root / "docs/theory/temperature.md").read_text(encoding="utf-8")
-    for said in (
+    for stated in (
         f"| {done['mu']:.4f}; isothermal {done['mu_isothermal']:.4f} |",
         f"| {done['temperature_rise_max_K']:.1f} K; {np.mean(walls):.1f} K |",
         f"Tian & Kennedy at that friction: {done['flash_temperature_K']:.1f} K",
     ):
-        assert said in text
+        assert stated in text
     heat = done["mu"] * done["hertz_pressure_Pa"] * 0.3 * 5.0
     assert heat == pytest.approx(1e8, rel=0.2)
     share = round(100.0 * (1.0 - done["mu"] / done["mu_isothermal"]), -1)
@@ -66,7 +66,7 @@ def test_traction_rises_and_falls(solve, root, srr, mu):
 
 
 def test_where_it_does_not_count(solve):
-    """Slow sliding: not computed, and it would change nothing that could be told."""
+    """Slow sliding: not computed, and it would change nothing that could be seen."""
     slow = FAST | {"contact.slide_to_roll": 5e-5}
     left_out = solve(None, 65, slow, words=True)
     always = solve(None, 65, slow | {"lubricant.thermal_friction": "always"})

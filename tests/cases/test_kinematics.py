@@ -10,7 +10,7 @@ from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.shear import ShearLaw, shear_stress
 
-# M = 200 in SI units: 65 x 65 nodes carry the contact
+# M = 200 in SI units: 65 x 65 nodes resolve the contact
 SI = {"contact.load": 120.0, "lubricant.density_law": "incompressible"}
 OPERATING = OperatingPoint(load=120.0)
 WAVE = {"surface.kind": "harmonic", "surface.amplitude_over_film": 0.3, "time.steps": 60}

@@ -177,7 +177,7 @@ def test_flooded_border(moes_m, moes_l):
     error = float(near.H_c_error_domain)
     assert float(near.H_c_extrapolated) == pytest.approx(film, rel=1e-3)
     assert error < 1e-3 * film
-    # P = 0 takes film, no more than is said
+    # P = 0 takes film, no more than is stated
     for inlet in (-2.0, -4.0):
         zero = pyehl.solve(moes(moes_m, moes_l, 1025, border="zero", x_inlet=inlet), check=False)
         lost = film - float(zero.H_c_extrapolated)
@@ -274,13 +274,13 @@ def test_strip_of_a_transverse_wave(tmp_path):
 
 
 def test_strip_of_waves_across():
-    """Long crests are as transverse waves; friction rises by half, as the square of the heights."""
+    """Long crests are as transverse waves; friction grows by half, as the square of the heights."""
     small = {"surface.wavelength_x": 1.0, "surface.amplitude_over_film": 0.05}
     row = pyehl.solve(moes(20, 10, 129), TRANSVERSE, small)
     long = pyehl.solve(moes(20, 10, 129), {**TRANSVERSE, "surface.wavelength_y": 4.0}, small)
     assert float(long.amplitude_ratio) == pytest.approx(float(row.amplitude_ratio), rel=0.02)
-    rises = [float(found.mu_ratio) - 1.0 for found in (row, long)]
-    assert rises[1] == pytest.approx(0.5 * rises[0], rel=0.05)
+    increases = [float(found.mu_ratio) - 1.0 for found in (row, long)]
+    assert increases[1] == pytest.approx(0.5 * increases[0], rel=0.05)
 
 
 def test_strip_is_the_middle_of_a_wide_ellipse():

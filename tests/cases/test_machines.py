@@ -23,7 +23,7 @@ NUMBER = re.compile(r"\d+\.\d+(?:E[-+]\d+)?")
 
 
 def texts(page: Path) -> list[str]:
-    """Lines of what a page says that is printed."""
+    """Lines of what a page states that is printed."""
     blocks = re.findall(r"^```text\n(.*?)^```$", page.read_text(encoding="utf-8"), re.M | re.S)
     return [line for block in blocks for line in block.splitlines()]
 
@@ -239,10 +239,10 @@ def test_resumed_on_an_ellipse(drive, tmp_path: Path):
 def test_bad_input_has_place_and_remedy(text: str, place: str, message: str, remedy: str):
     with pytest.raises(pyehl.InputError) as caught:
         pyehl.Case.from_text(text)
-    said = str(caught.value)
-    assert place in said.partition("\n")[0], said
-    assert message in said, said
-    assert remedy in said.partition("expected")[2], said
+    stated = str(caught.value)
+    assert place in stated.partition("\n")[0], stated
+    assert message in stated, stated
+    assert remedy in stated.partition("expected")[2], stated
 
 
 @pytest.mark.parametrize(

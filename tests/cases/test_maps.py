@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Height maps at the nodes: heights, cut spectra, waves that a grid does not carry, memory."""
+"""Height maps at the nodes: heights, cut spectra, waves that a grid does not resolve, memory."""
 
 import json
 import subprocess
@@ -18,7 +18,7 @@ from pyehl.surfaces import Topography
 from pyehl.surfaces.map_steps import mirrored
 from pyehl.surfaces.reading import read_scan
 
-# A light load, which 65 x 65 nodes carry; at rest the heights of the tile on the nodes are the
+# A light load, which 65 x 65 nodes resolve; at rest the heights of the tile on the nodes are the
 # field RR
 REST = {
     "contact.load": 20.0,
@@ -237,7 +237,7 @@ def test_map_larger_than_memory_is_refused(drive, tmp_path: Path):
     assert not (tmp_path / "out").exists()
 
 
-# The grid carries all waves of the coarser map, of the finer one those that are left and not all
+# The grid resolves all waves of the coarser map, of the finer one those that are left and not all
 @pytest.mark.parametrize(("pixel", "cut"), [(8e-6, 24e-6), (4e-5, 0.0)])
 @pytest.mark.parametrize("shape", [(12, 12), (13, 9), (9, 12), (16, 7)])
 def test_mirrored_map_is_its_tile(shape: tuple[int, int], pixel: float, cut: float):
@@ -290,7 +290,7 @@ print(json.dumps([done.returncode, use.ru_maxrss, use.ru_utime]))
 def measured(ehl: str, folder: Path, pixels: int) -> tuple[float, float]:
     """Largest memory [bytes] and time of the processor [s] of a run with a map, of one step."""
     np.save(folder / f"{pixels}.npy", rough((pixels, pixels)))
-    # 0.03 m: the grid carries all waves
+    # 0.03 m: the grid resolves all waves
     (folder / "case.nml").write_text(
         f"&surface kind = 'map', file = '{pixels}.npy', length_x = 0.03, length_y = 0.03 /\n"
         "&contact load = 20.0 /\n&grid points = 257 /\n&time steps = 1 /\n"

@@ -56,7 +56,7 @@ def test_same_mean_in_fewer_steps(settings: dict[str, Any]):
     assert float(other.steps) <= 0.7 * float(front.steps)
     stop = float(front.mu_ratio_error_stop) + float(other.mu_ratio_error_stop)
     assert float(other.mu_ratio) == pytest.approx(float(front.mu_ratio), abs=stop)
-    # an error that says something
+    # an error that states something
     assert stop < 0.01 * float(front.mu_ratio)
 
 
@@ -92,7 +92,7 @@ def test_the_run_on_the_coarser_grid_starts_there_too():
 def test_every_surface_lies_where_the_prediction_has_it(
     tile: dict[str, Any], monkeypatch: pytest.MonkeyPatch
 ):
-    """The field of the start, carried to the end of the run, is the simulated one: to 0.1 a."""
+    """The field of the start, followed to the end of the run, is the simulated one: to 0.1 a."""
     given: list[Any] = []
 
     def keep(*arguments: Any) -> Any:

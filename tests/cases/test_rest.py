@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-# M = 200: 65 x 65 nodes carry the contact, and a wave has eight of them
+# M = 200: 65 x 65 nodes resolve the contact, and a wave has eight of them
 POINT, POINTS, WAVELENGTH = (200.0, 10.0), 65, 0.5
 WAVE = {
     "surface.kind": "harmonic",
@@ -113,7 +113,7 @@ def test_map_at_rest_equals_wave_at_rest(solve, tmp_path):
 
 
 def test_higher_than_the_film(solve):
-    """Waves that would pierce the film at once grow in parts; what does not converge says so."""
+    """Waves that would pierce the film at once grow in parts; what does not converge states so."""
     done = solve(POINT, POINTS, REST | {"surface.amplitude": 0.0712})
     assert done.converged
     assert done["rough_parts"] > 1

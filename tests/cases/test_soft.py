@@ -44,9 +44,9 @@ def test_rigid_bodies(moes_m):
     first = film.estimates(point, Lubricant())[0]
     assert (first.name, first.outside) == ("Brewe-Hamrock-Taylor", ())
     assert -0.03 < first.h_c / point.film_scale / float(ds.H_c) - 1.0 < -0.005
-    told = solved(moes(moes_m, 10.0, 129))
+    reported = solved(moes(moes_m, 10.0, 129))
     off = formulas(OperatingPoint.from_moes(moes_m, 10.0))["Brewe-Hamrock-Taylor"].h_c
-    off = off / OperatingPoint.from_moes(moes_m, 10.0).film_scale / float(told.H_c) - 1.0
+    off = off / OperatingPoint.from_moes(moes_m, 10.0).film_scale / float(reported.H_c) - 1.0
     assert off == pytest.approx({0.2: -0.01, 1.0: -0.018, 2.0: -0.076}[moes_m], abs=2e-3)
     # 140.1 (U/W)^2 R for a ball on a plane
     least = 140.1 * (point.speed / point.load_number) ** 2
@@ -81,7 +81,7 @@ def test_soft_ellipses(radius_ratio, moes_m, off):
     h_min = film.hamrock_dowson_soft(1e-8, load_number, unit.ellipse.ellipticity)[1] * scale
     assert h_min / float(ds.H_min_extrapolated) - 1.0 == pytest.approx(off, abs=0.005)
     outside = formulas(unit)["Hamrock-Dowson soft"].outside
-    assert any(said.startswith("R_x/R_y") for said in outside) == (off < -0.1)
+    assert any(stated.startswith("R_x/R_y") for stated in outside) == (off < -0.1)
 
 
 @pytest.mark.parametrize(
@@ -137,9 +137,9 @@ def test_water(root: Path):
 
 
 def test_strain_is_named(root: Path):
-    told = str(pyehl.solve(root / "cases/soft.nml", {"grid.points": 65}).attrs["assessment"])
-    assert "the contact radius is 0.11 of the radius of curvature (p_h/E' = 0.034)" in told
-    assert "a strain of about 2.1 %" in told
+    reported = str(pyehl.solve(root / "cases/soft.nml", {"grid.points": 65}).attrs["assessment"])
+    assert "the contact radius is 0.11 of the radius of curvature (p_h/E' = 0.034)" in reported
+    assert "a strain of about 2.1 %" in reported
     small = {"contact.load": 0.01, "grid.points": 65}
     assert "strain" not in str(pyehl.solve(root / "cases/soft.nml", small).attrs["assessment"])
     with pytest.raises(pyehl.InputError, match="exceeds that of the ball"):

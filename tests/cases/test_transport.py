@@ -22,7 +22,7 @@ def amplitude(scheme: str, wavelength: float, h: float) -> tuple[np.ndarray, np.
     steps = 2 * n + period
     for step in range(steps):
         earlier, before, now = before, now, np.zeros(n)
-        # The inlet and its neighbour carry the wave as it is
+        # The inlet and its neighbour have the wave as it is
         now[:2] = np.sin(k * (x[:2] - step * h))
         if scheme == "narrow":
             now[2:] = (2.0 * before[1:-1] - 0.5 * earlier[:-2]) / 1.5

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 import numpy as np
 import pytest
 
-# M = 200: 65 x 65 nodes carry the contact
+# M = 200: 65 x 65 nodes resolve the contact
 POINT, POINTS = (200.0, 10.0), 65
 BASE = {
     "grid.x_inlet": -2.5,
@@ -72,7 +72,7 @@ def test_both_at_the_mean_velocity_are_one(solve):
 
 
 def test_at_rest_in_all_words(solve):
-    """One rough surface at rest beside a smooth one on the move: the same bits however said."""
+    """One rough surface at rest beside a smooth one on the move: the same bits however stated."""
     still = OTHER | {"velocity_ratio": 0.0}
     runs = [
         solve(POINT, POINTS, keys, fields=True)
@@ -166,19 +166,19 @@ def test_small_waves_add(solve):
     assert apart[0] / apart[1] == pytest.approx(2.0, rel=0.1)
 
 
-def test_rises_of_small_waves_add(solve):
+def test_increases_of_small_waves_add(solve):
     """Over a common period the waves meet in all positions: cross terms leave no mean."""
     apart = []
     for amplitude in (2e-3, 1e-3):
         wave, other = WAVE | {"amplitude": amplitude}, OTHER | {"amplitude": amplitude}
-        rise = [
+        increase = [
             solve(POINT, POINTS, surfaces_of(*pair, slide_to_roll=0.5) | {"solver.accuracy": 0.01})[
                 "mu_ratio"
             ]
             - 1.0
             for pair in ((wave, other), (wave, {}), ({}, other))
         ]
-        apart.append(abs(rise[0] - rise[1] - rise[2]) / rise[0])
+        apart.append(abs(increase[0] - increase[1] - increase[2]) / increase[0])
     # 0.0055 and 0.0014: of second order in the amplitude once more
     assert apart[0] < 0.01
     assert apart[0] / apart[1] == pytest.approx(4.0, rel=0.15)
@@ -222,7 +222,7 @@ def test_surfaces_that_hardly_meet(solve):
     assert "time.max_periods = 99" in short["mu_ratio_error_note"]
     whole = solve(POINT, POINTS, keys | {"time.max_periods": 99})
     assert whole["T_period"] == pytest.approx(100.0, rel=1e-12)
-    # a third of the rise depends on positions that the mean leaves out: docs/theory/transient.md
+    # a third of the increase hangs on positions that the mean leaves out: docs/theory/transient.md
     assert short["mu_ratio"] == pytest.approx(1.0124, abs=5e-5)
     assert whole["mu_ratio"] == pytest.approx(1.0181, abs=5e-5)
 

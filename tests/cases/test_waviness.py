@@ -121,7 +121,7 @@ def test_other_cases_converge(solve, point: tuple[float, float], wavelength: flo
 
 @pytest.mark.long
 def test_extrapolated_ratio_is_nearer_to_finer_grids(solve):
-    """The run on the coarser grid that tells the error gives a better value too."""
+    """The run on the coarser grid that gives the error gives a better value too."""
     finest = next(r for r in WAVINESS if (r.points, r.scheme) == (513, "narrow"))
     wave = settings(finest) | {"time.estimate_error": True}
     done = solve((1000.0, 10.0), 257, wave)
@@ -193,7 +193,7 @@ def test_page_has_what_either_coarsening_costs(root: Path):
 @pytest.mark.slow
 @pytest.mark.parametrize("coarsening", ["auto", "classical"])
 def test_hardest_wave_converges(root: Path, solve, coarsening: str):
-    """Friction hangs on single nodes: the mean takes several periods, and says how sure it is."""
+    """Friction hangs on single nodes: the mean takes several periods, and states how sure it is."""
     done = solve((500.0, 15.0), 513, HARDEST | {"solver.coarsening": coarsening}, timeout=1800.0)
     assert done.converged
     assert done["mu_ratio_error_stop"] <= 0.02 * done["mu_ratio"]

@@ -431,12 +431,12 @@ def test_examples_in_docstrings(name: str, root: Path, tmp_path: Path, monkeypat
 def test_a_case_that_cannot_be_planned_is_named(tmp_path: Path, capsys, drive):
     """By check and both drivers, with the keys."""
     (tmp_path / "case.nml").write_text("&contact moes_m = 100.0 /\n&surface kind = 'fractal' /\n")
-    said = [drive(driver, "case.nml", "-o", "out").stderr for driver in ("ehl", "pyehl")]
+    stated = [drive(driver, "case.nml", "-o", "out").stderr for driver in ("ehl", "pyehl")]
     assert cli.main(["check", str(tmp_path / "case.nml")]) == 2
-    said.append(capsys.readouterr().err.removeprefix(f"{tmp_path}/"))
-    assert len(set(said)) == 1
-    assert said[0].startswith("case.nml: surface.kind = 'fractal': ")
-    assert "expected: contact.load" in said[0]
+    stated.append(capsys.readouterr().err.removeprefix(f"{tmp_path}/"))
+    assert len(set(stated)) == 1
+    assert stated[0].startswith("case.nml: surface.kind = 'fractal': ")
+    assert "expected: contact.load" in stated[0]
 
 
 def test_plot_takes_a_prediction_or_says_what_it_takes():
@@ -450,7 +450,7 @@ def test_plot_takes_a_prediction_or_says_what_it_takes():
 
 
 @pytest.mark.parametrize(
-    ("command", "stopped", "says"),
+    ("command", "stopped", "states"),
     [
         ("predict", "pyehl.commands.predict.predict", "no result is written"),
         ("stribeck", "pyehl.commands.stribeck.plan_curve", "no result is written"),
@@ -458,7 +458,7 @@ def test_plot_takes_a_prediction_or_says_what_it_takes():
     ],
 )
 def test_an_interrupt_says_what_is_kept(
-    cases: Path, tmp_path: Path, capsys, monkeypatch, command: str, stopped: str, says: str
+    cases: Path, tmp_path: Path, capsys, monkeypatch, command: str, stopped: str, states: str
 ):
     def interrupted(*args, **words):
         raise KeyboardInterrupt
@@ -467,4 +467,4 @@ def test_an_interrupt_says_what_is_kept(
     words = [command, str(cases / "table1.nml"), "-o", str(tmp_path / "out")]
     words += ["--speed", "0.3", "--quiet"] if command == "stribeck" else []
     assert cli.main(words) == 130
-    assert f"interrupted; {says}" in capsys.readouterr().err
+    assert f"interrupted; {states}" in capsys.readouterr().err

@@ -148,7 +148,7 @@ def test_what_a_terminal_hands_over_need_not_be_text(quick: str):
 
 def test_faults_of_the_package_stay_what_they_are(cases: Path, tmp_path: Path, monkeypatch):
     """An error that no argument has caused is no bad input."""
-    # where there is no folder 'out' of somebody else
+    # where there is no folder 'out' of another program
     monkeypatch.chdir(tmp_path)
 
     def broken(*_: object, **__: object) -> None:

@@ -26,9 +26,9 @@ def test_codes_are_those_of_the_library(root: Path):
 
 def test_no_solution():
     none: dict[str, Any] = {"status": "cycle limit", "H_c": None}
-    said = "assessment no result: the status is 'cycle limit'"
-    assert str(conclude(none)) == said
-    assert str(conclude(none | {"message": "too coarse"})) == f"{said}: too coarse"
+    stated = "assessment no result: the status is 'cycle limit'"
+    assert str(conclude(none)) == stated
+    assert str(conclude(none | {"message": "too coarse"})) == f"{stated}: too coarse"
 
 
 def test_smooth_contact_without_a_size():

@@ -224,7 +224,7 @@ def test_readme_of_cases_lists_every_key(root: Path):
         assert unit == ("" if key.unit == "-" else key.unit), name
         assert allowed == key.allowed, name
         assert meaning, name
-        # What the reader derives from other keys is said in words
+        # What the reader derives from other keys is stated in words
         if default not in {"derived", "none"}:
             assert default == key.default, name
 

@@ -49,7 +49,7 @@ EXEMPT = {
     "meson": ".ci/run",
     "sphinx-build": ".ci/run",
     "ford": ".ci/run",
-    "pyehl app": "app/test_page.py; it ends when somebody ends it",
+    "pyehl app": "app/test_page.py; it ends when the user ends it",
 }
 # Options of meson itself, that are not in meson.options
 MESON_OPTIONS = {"buildtype"}
@@ -333,7 +333,7 @@ def test_theory_names_routines_that_are_there(root: Path):
 
 
 def test_theory_names_files_that_are_there(root: Path):
-    """Every chapter says where its equations are computed, by files that exist."""
+    """Every chapter states where its equations are computed, by files that exist."""
     folders = ("fortran", "pyehl", "tests", "docs")
     files = {path.name for folder in folders for path in (root / folder).rglob("*.*")}
     chapters = [p for p in (root / "docs/theory").glob("*.md") if "toctree" not in p.read_text()]

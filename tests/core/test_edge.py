@@ -127,6 +127,6 @@ def test_folder_taken_away_from_a_run(folder: Path):
         while process.poll() is None and not any(gone.iterdir()) and time.monotonic() < until:
             time.sleep(0.01)
         shutil.rmtree(gone)
-        told = process.communicate()[1]
+        reported = process.communicate()[1]
     assert process.returncode in (0, 1, 2)
-    assert "Traceback" not in told
+    assert "Traceback" not in reported

@@ -397,11 +397,11 @@ def test_program_refuses_it(drive, tmp_path: Path, name, marked, options, parts)
     assert "error: " in done.stderr
     assert done.stderr.splitlines()[-1].startswith("expected: ")
     assert [path.name for path in tmp_path.iterdir()] == ["case.nml"]
-    with pytest.raises(InputError) as told:
+    with pytest.raises(InputError) as reported:
         Case.from_text(
             place(marked)[0], [f"--set {option}" for option in options], origin="case.nml"
         )
-    what = str(told.value).splitlines()[0].partition("error: ")[2]
+    what = str(reported.value).splitlines()[0].partition("error: ")[2]
     names = re.findall(r"[a-z]\w+(?=\.)|\b\w+_\w+|&\w+|'\w+'", what)
     found = any(name.strip("&'").lower() in done.stderr.lower() for name in names)
     assert found or not names or name in NAMELESS

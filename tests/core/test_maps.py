@@ -51,7 +51,7 @@ def run(case: str | Path, folder: Path, *options: str) -> int:
 
 
 def test_run_of_a_scan(scan: Path, tmp_path: Path, capsys):
-    """The plan, the summary and the plan.txt tell how it was prepared; the tile has its size."""
+    """The plan, the summary and the plan.txt report how it was prepared; the tile has its size."""
     case = write_case(tmp_path / "case.nml", "scan.x3p", "outliers = 50.0")
     assert cli.main(["check", case]) == 0
     plan = capsys.readouterr().out
@@ -137,7 +137,7 @@ def test_neutral_arrays_have_the_same_bits(tmp_path: Path, drive, numbers: str, 
     assert drive("ehl", case, "-o", "ehl").returncode == run(case, tmp_path / "pyehl") == 1
     for name in ("P.npy", "H.npy"):
         assert (tmp_path / "ehl" / name).read_bytes() == (tmp_path / "pyehl" / name).read_bytes()
-    # that nothing was done to it is said, too
+    # that nothing was done to it is stated, too
     summary = json.loads((tmp_path / "pyehl" / "summary.json").read_text())
     assert summary["surface_preparation"]["steps"] == []
     assert "taken as it is" in (tmp_path / "pyehl" / "plan.txt").read_text()

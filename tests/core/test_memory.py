@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The need of memory and time is told and checked before anything is taken."""
+"""The need of memory and time is reported and checked before anything is taken."""
 
 import json
 import re
@@ -43,7 +43,7 @@ def test_memory_of_the_machine(tmp_path: Path):
 
 @pytest.mark.parametrize("where", ["a/b", "a", ""])
 def test_limit_of_a_control_group_or_of_one_around_it(tmp_path: Path, where: str):
-    """Version 2. Pages of files that nobody uses count as free."""
+    """Version 2. Pages of unused files count as free."""
     group = f"sys/fs/cgroup/{where}/"
     root = fake(
         tmp_path,
@@ -98,17 +98,17 @@ def test_need_covers_what_is_taken(points: int, kind: str):
 def test_need_of_many_points_is_told(cases: Path):
     """Before the finest grid is set up; a smooth contact of 4097 points is half of the domain."""
     with pyehl.Solver(cases / "quick.nml", "grid.points=4097") as solver:
-        told = re.search(r"need +about ([\d.]+) GB of memory and (\d+) s", solver.describe())
-    assert told is not None
-    assert 1.2 < float(told[1]) < 2.5
-    assert 2 < int(told[2]) < 60
+        reported = re.search(r"need +about ([\d.]+) GB of memory and (\d+) s", solver.describe())
+    assert reported is not None
+    assert 1.2 < float(reported[1]) < 2.5
+    assert 2 < int(reported[2]) < 60
 
 
 def test_what_does_not_fit_is_refused_by_its_key(cases: Path, tmp_path: Path):
     large = ("surface.kind=harmonic", "output.frame_interval=1e-12", "time.steps=10000000")
     with pytest.raises(NoMemoryError, match=r"grid.points = 4097 .*frame_interval = 1e-12 needs"):
         pyehl.Solver(cases / "quick.nml", "grid.points=4097", *large)
-    # 8192 pixels need more than this, and nobody waits for them
+    # 8192 pixels need more than this, and no run uses them
     for words in (("check",), ("run", "-o", "out"), ("predict", "-o", "out")):
         done = limited(
             tmp_path,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A run without an answer says why, where it ended and what to do, in one line."""
+"""A run without an answer states why, where it ended and what to do, in one line."""
 
 from typing import Any
 
@@ -43,17 +43,19 @@ def test_film_breakdown_of_a_run():
     )
     assert found["assessment"].endswith(
         "; the shortest waves have 7 nodes, and as high as the film they need 32: give a finer "
-        "grid (grid.points = 129), a smoother surface; pyehl predict says where the film ends"
+        "grid (grid.points = 129), a smoother surface; pyehl predict reports where the film ends"
     )
 
 
 def test_film_breakdown_of_a_feature_in_metres():
     """Nothing is predicted of a feature; where a film has metres a boundary film can be given."""
-    told = end(IN_METRES.format("height_m = 6e-7 width = 0.5"))["assessment"]
-    assert told.startswith("film breakdown: no solution with a positive film for the time step to ")
-    assert ", minimum film before " in told
-    assert " nm; " in told
-    assert told.endswith("a smoother surface or lubricant.boundary_film")
+    reported = end(IN_METRES.format("height_m = 6e-7 width = 0.5"))["assessment"]
+    assert reported.startswith(
+        "film breakdown: no solution with a positive film for the time step to "
+    )
+    assert ", minimum film before " in reported
+    assert " nm; " in reported
+    assert reported.endswith("a smoother surface or lubricant.boundary_film")
 
 
 @pytest.mark.parametrize(
@@ -128,6 +130,6 @@ def test_interrupted_in_the_run_for_the_grid_error(ratio: float, at: str):
             assert not solver.done
             solver.advance()
         solver.interrupt()
-        told = solver.summary["message"]
-    assert told.startswith(f"stopped from outside in the run for the grid error: {at}")
-    assert " on 33 x 33 nodes" in told
+        reported = solver.summary["message"]
+    assert reported.startswith(f"stopped from outside in the run for the grid error: {at}")
+    assert " on 33 x 33 nodes" in reported

@@ -47,10 +47,10 @@ def last_lines(text: str) -> list[str]:
     return lines[first : next(k for k, line in enumerate(lines) if line.startswith("results:"))]
 
 
-@pytest.fixture(scope="module", params=["left out", "carried"])
+@pytest.fixture(scope="module", params=["left out", "on the grid"])
 def everywhere(request, tmp_path_factory, drivers) -> tuple[dict[str, dict[str, Any]], bool]:
     """The numbers of one case by all ways to get them."""
-    text = {"left out": LEFT_OUT, "carried": ON_GRID}[request.param]
+    text = {"left out": LEFT_OUT, "on the grid": ON_GRID}[request.param]
     folder = tmp_path_factory.mktemp("numbers")
     case = Case.from_text(text)
     found = {}
@@ -85,7 +85,7 @@ def test_the_error_is_one_number(everywhere):
 
 def test_last_lines(drive, tmp_path: Path):
     """And where pyehl predicts a part of the error, that of `ehl` is not known."""
-    for name, text in (("left out", LEFT_OUT), ("carried", ON_GRID)):
+    for name, text in (("left out", LEFT_OUT), ("on the grid", ON_GRID)):
         (tmp_path / "case.nml").write_text(text)
         values = {}
         for driver in ("ehl", "pyehl"):
@@ -102,7 +102,7 @@ def test_last_lines(drive, tmp_path: Path):
         decimals = 1 - int(np.floor(np.log10(v["mu_ratio_error"])))
         ratio = f"mu_r/mu_s  {v['mu_ratio']:.{decimals}f} +- {v['mu_ratio_error']:.{decimals}f}"
         assert lines[4] == f"{ratio} (grid)"
-        if name == "carried":
+        if name == "on the grid":
             # these waves add next to nothing, which a prediction alone can say
             assert assess(values["ehl"]).text.startswith(
                 "unresolved waves: they hold 5.2 % of the "
@@ -271,7 +271,7 @@ def test_no_ratio_is_none(text: str):
         assert solver.conclusion().endswith(values["assessment"])
 
 
-def test_least_rough_film_is_that_of_the_time_of_the_mean():
+def test_minimum_rough_film_is_that_of_the_time_of_the_mean():
     data = pyehl.solve(Case.from_text(ON_GRID))
     mean = data.history_T > float(data.history_T[-1]) - float(data.T_mean) - 1e-9
     least = float(data.history_H_min[mean].min())
@@ -323,7 +323,7 @@ def test_no_error_where_no_limit_is_in_sight():
         assert (found["mu_ratio_error"] is not None) == known
         assert ("no limit is in sight" in found["mu_ratio_error_note"]) != known
         if known:
-            # what the error of the film makes of the rise
+            # what the error of the film makes of the increase
             film = found["H_c_error_grid"] / found["H_c"]
             assert found["mu_ratio_error_grid"] >= 1.99 * film * abs(found["mu_ratio"] - 1.0)
 

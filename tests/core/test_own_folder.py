@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A run has its folder for itself, knows before it computes that it can be written, and says so."""
+"""A run has its folder for itself, checks before it computes that it can be written."""
 
 import os
 import signal

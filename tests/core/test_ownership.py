@@ -246,7 +246,7 @@ def command_of(words: list[str]) -> list[str]:
     return [sys.executable, "-P", "-m", "pyehl", *words]
 
 
-# that folders are made on the way is nobody's but `Destination`'s
+# that folders are made on the way is for `Destination` alone
 @pytest.mark.parametrize(
     ("name", "deep"), [*((name, False) for name in FOLDERS), ("ehl", True), ("sweep", True)]
 )
@@ -468,9 +468,9 @@ def test_both_drivers_say_the_same(call: Call, tmp_path: Path):
     (tmp_path / "file").write_text("mine")
     foreign(tmp_path / "out")
     for words in (["out"], ["file"], ["file/deep"], ["/"], [".", "--force"]):
-        told = [call(name, "-o", *words) for name in ("run", "ehl")]
-        assert told[0].stderr == told[1].stderr
-        assert told[0].returncode == told[1].returncode == 2
+        reported = [call(name, "-o", *words) for name in ("run", "ehl")]
+        assert reported[0].stderr == reported[1].stderr
+        assert reported[0].returncode == reported[1].returncode == 2
 
 
 def test_whole_at_every_instant(ehl: str, call: Call, tmp_path: Path):

@@ -74,9 +74,9 @@ def test_narrow_figures_have_their_panels_below_one_another(moving):
 def test_every_figure_names_its_conditions(moving):
     for width in (0.0, 0.084):
         for name, figure in pyehl.plot(moving, width=width).items():
-            told = figure.get_label()
-            assert "M =" in told, name
-            assert "Hertz pressure" in told, name
+            reported = figure.get_label()
+            assert "M =" in reported, name
+            assert "Hertz pressure" in reported, name
             assert figure.get_suptitle() == "", name
 
 

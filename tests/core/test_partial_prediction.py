@@ -67,7 +67,7 @@ def test_share_grows_with_the_layer_up_to_dry_contact():
     # friction is that of the layer there
     assert found[-1]["mu"] == pytest.approx(0.1, rel=0.05)
     assert all(s["contact_load_share_error"] >= 0.0 for s in found[:-1])
-    # of dry contact no film says how it misses that of the smooth one
+    # of dry contact no film states how it misses that of the smooth one
     assert found[-1]["contact_load_share_error"] is None
     assert "no film has the load share" in found[-1]["contact_load_share_error_note"]
     assert all(s["status"] == "predicted" for s in found)
@@ -194,7 +194,7 @@ def test_heat_where_bodies_touch():
 
 @pytest.mark.parametrize(("heat", "surfaces"), [("auto", 2), ("never", 1)])
 def test_friction_of_a_curve_is_its_ratio_times_that_of_the_smooth_contact(heat, surfaces):
-    """In every row, or mu_smooth is missing and the row says why."""
+    """In every row, or mu_smooth is missing and the row states why."""
     case = pyehl.Case.from_text(HOT.format(1.2e-7) + "&grid points = 65 /\n")
     case = case.with_options({"lubricant.thermal_friction": heat})
     speeds = {"contact.mean_velocity": [0.3, 3.0]}
@@ -238,9 +238,9 @@ def test_contact_where_a_full_film_breaks_down(tmp_path, capsys):
     assert summary["contact_load_share"] > 0.1
     names = "p_rise_rms_Pa", "p_rise_max_Pa", "mu_ratio_tracks"
     assert [summary.get(name) for name in names] == [None] * 3
-    said = capsys.readouterr().out
-    assert "deformed   rms" in said
-    assert "maximum increase" not in said
+    stated = capsys.readouterr().out
+    assert "deformed   rms" in stated
+    assert "maximum increase" not in stated
     assert (tmp_path / "out" / "passage.png").is_file()
 
 

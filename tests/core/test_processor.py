@@ -29,15 +29,15 @@ def test_choice(wanted: str, has_v3: bool, flags: set[str], suffix: str):
 
 
 @pytest.mark.parametrize(
-    ("wanted", "has_v3", "flags", "said"),
+    ("wanted", "has_v3", "flags", "stated"),
     [
         ("i386", True, V3_FLAGS, "PYEHL_CPU=i386: 'baseline' or 'x86-64-v3'"),
         ("baseline", False, V3_FLAGS, "one build only"),
         ("x86-64-v3", True, V3_FLAGS - {"fma", "bmi2"}, "missing on this processor: bmi2, fma"),
     ],
 )
-def test_what_cannot_be_had_is_refused(wanted: str, has_v3: bool, flags: set[str], said: str):
-    with pytest.raises(InputError, match=said):
+def test_what_cannot_be_had_is_refused(wanted: str, has_v3: bool, flags: set[str], stated: str):
+    with pytest.raises(InputError, match=stated):
         choose(wanted, has_v3, flags)
 
 

@@ -365,15 +365,15 @@ def test_assessment(changed, word, why, kind):
 
 def test_limits_that_apply(root):
     settings = pyehl.Case(root / "cases/table1.nml").resolve()
-    told = " ".join(limits(settings, {"kind": "prediction"}))
-    assert "Newtonian" in told
-    assert "one track" in told
+    reported = " ".join(limits(settings, {"kind": "prediction"}))
+    assert "Newtonian" in reported
+    assert "one track" in reported
     thinning = pyehl.Case(root / "cases/table1.nml", "lubricant.shear_law=eyring").resolve()
     plain = {**thinning, "lubricant": {**thinning["lubricant"], "flow": "newtonian"}}
     for kind in ("prediction", "solution"):
-        # flow = 'consistent', unless a case says otherwise
-        told = " ".join(limits(thinning, {"kind": kind}))
-        assert "film and waves are Newtonian" not in told
+        # flow = 'consistent', unless a case states otherwise
+        reported = " ".join(limits(thinning, {"kind": kind}))
+        assert "film and waves are Newtonian" not in reported
         assert "film and waves are Newtonian" in " ".join(limits(plain, {"kind": kind}))
     # contact at a boundary film is never denied
     layer = pyehl.Case(root / "cases/table1.nml", "lubricant.boundary_film=4e-8").resolve()
@@ -390,7 +390,7 @@ def test_limits_that_apply(root):
         (thinning, {"kind": "solution", "status": "converged"}, "there is no mixed lubrication"),
     ):
         assert words in limits(groups, summary)[0]
-    # a measured response has no friction of which something could be said
+    # a measured response has no friction of which something could be stated
     assert len(limits(thinning, {"kind": "response"})) == 2
     assert warnings({"status": "converged"}) == []
     assert "moes_m" in warnings({"status": "predicted", "outside_range": ["moes_m"]})[0]

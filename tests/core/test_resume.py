@@ -78,7 +78,7 @@ def stop_after_steps(drive, tmp_path: Path, driver: str, steps: int, *words: str
 
 @pytest.fixture(scope="module")
 def unbroken(drivers, tmp_path_factory) -> dict[str, Path]:
-    """Results of runs that nobody disturbed, by case text."""
+    """Results of runs that was not disturbed, by case text."""
     made = {}
     for name, text, driver in (
         ("wave", WAVE.format(points=65, extra=""), "ehl"),
@@ -96,7 +96,7 @@ def unbroken(drivers, tmp_path_factory) -> dict[str, Path]:
 
 @pytest.mark.parametrize("driver", ["ehl", "pyehl"])
 @pytest.mark.parametrize(
-    ("extra", "options", "assessment", "says"),
+    ("extra", "options", "assessment", "states"),
     [
         (
             "amplitude_over_film = 0.2",
@@ -113,14 +113,14 @@ def unbroken(drivers, tmp_path_factory) -> dict[str, Path]:
     ],
 )
 def test_only_what_could_end_otherwise_is_offered(
-    drive, tmp_path: Path, driver: str, extra: str, options: str, assessment: str, says: str
+    drive, tmp_path: Path, driver: str, extra: str, options: str, assessment: str, states: str
 ):
     (tmp_path / "case.nml").write_text(WAVE.format(points=65, extra=f"wavelength = 1.0 {extra}"))
     done = drive(driver, "case.nml", "-o", "out", "--set", options)
     assert done.returncode == 1
     *_, last = done.stdout.splitlines()
-    assert last.endswith("--resume out") == bool(says)
-    assert says in last
+    assert last.endswith("--resume out") == bool(states)
+    assert states in last
     if driver == "pyehl":
         assert f"assessment {assessment}" in done.stdout
 

@@ -109,10 +109,10 @@ def test_plan_has_the_heights_of_both(height: str, words: str):
     """Shares of the variance are per cents."""
     text = CONTACT + FRACTAL.format("surface")
     text += f"&second_surface kind = 'harmonic' amplitude{height} wavelength = 0.5 /\n"
-    told = str(pyehl.check(Case.from_text(text)))
-    assert "surface    &surface: rms height " in told
-    assert f"surface    &second_surface: rms height {words}" in told
-    share = told.partition("hold ")[2]
+    reported = str(pyehl.check(Case.from_text(text)))
+    assert "surface    &surface: rms height " in reported
+    assert f"surface    &second_surface: rms height {words}" in reported
+    share = reported.partition("hold ")[2]
     assert re.match(r"[\d.]+ % of the variance of the surface; (less than )?[\d.]+ % of it", share)
 
 
@@ -230,7 +230,7 @@ def test_given_surfaces_are_kept_for_both_drivers(drive, heights, tmp_path: Path
 
 
 def test_maps_are_prepared(heights, tmp_path: Path, monkeypatch, capsys):
-    """Each map by its own keys; the plan and the summary tell of both."""
+    """Each map by its own keys; the plan and the summary report both."""
     monkeypatch.chdir(tmp_path)
     text = CONTACT + MAP.format("surface", "one", "detrend = 'tilt'")
     text += MAP.format("second_surface", "two", "edges = 'mirror' track = 1e-5 sign = -1")

@@ -11,10 +11,10 @@ def test_keys_defaults_and_ranges_of_the_solver_are_those_of_the_table():
     room = np.empty(65536, np.int32)
     length = cases.defaults(room)
     assert length <= room.size
-    told = room[:length].astype(np.uint8).tobytes()
+    reported = room[:length].astype(np.uint8).tobytes()
     solver = {
         name: (default, allowed)
-        for name, default, allowed in (line.split("\t") for line in told.decode().splitlines())
+        for name, default, allowed in (line.split("\t") for line in reported.decode().splitlines())
     }
     # what the solver does not choose between: truth values, oils by name; lists have no default
     table = {

@@ -71,7 +71,7 @@ def test_default_convention_is_the_nearest(simulated):
 
 @pytest.mark.slow
 def test_table_can_be_made_anew(simulated, drivers, cases, tmp_path):
-    """The surface with the smallest rise, by the command at the head of the table."""
+    """The surface with the smallest increase, by the command at the head of the table."""
     command = "".join(
         line.lstrip("# ").rstrip("\\")
         for line in TABLE.read_text().splitlines()

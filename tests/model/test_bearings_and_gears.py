@@ -389,7 +389,7 @@ def test_friction_by_formulas_beside_solved_contacts(root: Path):
 
 
 def test_lines_are_solved(root: Path):
-    """The page says 4 % for films and friction, and a mean coefficient of 0.0357."""
+    """The page states 4 % for films and friction, and a mean coefficient of 0.0357."""
     page = (root / "docs" / "howto" / "gear.md").read_text()
     path = root / "cases" / "fzg_c.nml"
     options = {"spur_gear.stations": 9}
@@ -590,9 +590,9 @@ def test_messages_point_into_the_file(tmp_path: Path, capfd: pytest.CaptureFixtu
     path = tmp_path / "bearing.nml"
     path.write_text(FILE)
     assert cli.main(["bearing", str(path), "-o", str(tmp_path / "out")]) == 2
-    told = capfd.readouterr().err
-    assert f"{path}:4:12: error: 17 balls" in told
-    assert "\n  4 |    balls = 17\n    |            ^^\nexpected: at most 15 balls" in told
+    reported = capfd.readouterr().err
+    assert f"{path}:4:12: error: 17 balls" in reported
+    assert "\n  4 |    balls = 17\n    |            ^^\nexpected: at most 15 balls" in reported
     assert not (tmp_path / "out").exists()
     assert cli.main(["gear", str(path)]) == 2
     assert "'pyehl bearing' takes it" in capfd.readouterr().err
@@ -615,9 +615,9 @@ FILES = {
 def test_case_files_by_formulas(root: Path, tmp_path: Path, name: str, capfd):
     folder, (command, group) = tmp_path / "out", FILES[name]
     assert cli.main([command, str(root / "cases" / f"{name}.nml"), "-o", str(folder)]) == 0
-    told = capfd.readouterr().out
+    reported = capfd.readouterr().out
     for word in ("h_c [nm]", "Lambda", "left out", str(folder / "contacts.csv")):
-        assert word in told
+        assert word in reported
     assert (folder / "contacts.png").stat().st_size > 10_000
     # the resolved group reads back as the same machine
     text = (folder / "machine.nml").read_text()
@@ -659,7 +659,7 @@ def test_the_path_of_contact_is_a_duty(root: Path, tmp_path: Path):
     np.testing.assert_allclose(case["duty"]["load"], duty["load [N/m]"], rtol=1e-12)
     data = pyehl.solve(case, {"grid.points": 257})
     assert float(data.duty_end_s) == pytest.approx(whole, rel=1e-6)
-    # the least film is about that of the stations by formulas
+    # the minimum film is about that of the stations by formulas
     assert 0.6 < float(data.duty_h_c_min_m) / table["h_c_m"].min() < 1.2
 
 

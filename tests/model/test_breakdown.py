@@ -50,7 +50,7 @@ def test_share_of_one_pixel_is_its_chord():
 
 
 def test_film_that_is_thin_at_the_rim():
-    """A pixel meets the thinnest film of its row."""
+    """A pixel meets the minimum film of its row."""
     deformed = np.zeros((100, 200))
     deformed[7, 30] = 0.5
 
@@ -80,13 +80,13 @@ def test_cut_off_that_carries_is_found():
     short = LENGTH / 32
     tile = Topography(wave(LENGTH / 4, 0.5) + wave(short, 1.0), (LENGTH, LENGTH))
 
-    def carries(shortest):
+    def is_full(shortest):
         return np.abs(filtered(tile, shortest).heights).max() < 0.8
 
     limits = 2.0 * LENGTH / 256, LENGTH
-    found = suggested_wavelength(*limits, carries)
-    assert carries(found)
-    assert not carries(0.9 * found)
+    found = suggested_wavelength(*limits, is_full)
+    assert is_full(found)
+    assert not is_full(0.9 * found)
     assert short < found < 1.15 * short
     assert suggested_wavelength(*limits, lambda shortest: False) is None
 
@@ -139,7 +139,7 @@ def test_film_breakdown_says_where_and_what_would_carry(scan):
     assert advice.outlier_points == 2
     text = "\n".join(advice.report())
     assert "2 points count as spikes and are removed" in text
-    # what is proposed carries
+    # what is proposed has a full film
     scan["surface"]["outliers"] = advice.outliers
     good = predict(scan)
     assert good.friction.status == "predicted"

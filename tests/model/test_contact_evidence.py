@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Load shares of a boundary film: docs/evidence/contact says what its table has."""
+"""Load shares of a boundary film: docs/evidence/contact states what its table has."""
 
 from pathlib import Path
 

@@ -28,10 +28,10 @@ def test_this_build_makes_the_stored_errors(evidence):
 def test_share_in_the_friction_of_a_short_wave(root: Path):
     found = share_of_deflection()
     share = f"{100.0 * found['share']:.1f} % of the grid error there"
-    for page, said in (
+    for page, stated in (
         ("theory/deflection.md", "it is {:.2f} %, " + share),
         ("evidence/workprec/README.md", "makes {:.2f} % of μ_r/μ_s"),
         ("evidence/workprec/README.md", share),
     ):
         text = plain(root / "docs" / page)
-        assert said.format(100.0 * found["difference"]) in text
+        assert stated.format(100.0 * found["difference"]) in text

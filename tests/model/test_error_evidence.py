@@ -38,7 +38,7 @@ def page(root: Path, name: str) -> str:
 
 
 def test_estimate_of_the_domain(root: Path, beside):
-    """What `fit.py` says of the contacts that the estimate was fitted to."""
+    """What `fit.py` states of the contacts that the estimate was fitted to."""
     fit, text = beside("errors", "fit"), page(root, "errors")
     flooded, zero = (fit.shares_covered(border, "H_c") for border in ("flooded", "zero"))
     assert (
@@ -60,14 +60,14 @@ def test_cells_of_ellipses(root: Path, script):
     assert len(lines) == 7
     for kappa, moes_m, cells in lines:
         found = show.cells(rows, (float(kappa), float(moes_m)))
-        told = [cell.strip() for cell in cells.split("|")]
-        for ratio, cell in zip((0.25, 0.5, 1.0), told, strict=False):
+        reported = [cell.strip() for cell in cells.split("|")]
+        for ratio, cell in zip((0.25, 0.5, 1.0), reported, strict=False):
             near = [error for shape, (_, error) in found.items() if abs(shape - ratio) < 0.02]
             assert cell == (f"{100.0 * near[0]:.2f} %" if near else "")
-        if told[3]:
-            ratio = float(re.findall(r"1 : ([\d.]+)", told[3])[0])
+        if reported[3]:
+            ratio = float(re.findall(r"1 : ([\d.]+)", reported[3])[0])
             (near,) = (error for shape, (_, error) in found.items() if abs(shape - ratio) < 0.04)
-            assert told[3].startswith(f"{100.0 * near:.2f} %")
+            assert reported[3].startswith(f"{100.0 * near:.2f} %")
 
 
 def test_waves_beside_the_centre_line_on_the_page(root: Path, beside):
@@ -83,9 +83,9 @@ def test_waves_beside_the_centre_line_on_the_page(root: Path, beside):
         ]
         for y in (0.5, 0.625)
     )
-    said = f"{half[0]} at (1000, 10), {half[1]} at (500, 5) and {half[2]} at (200, 10) (rms)"
+    stated = f"{half[0]} at (1000, 10), {half[1]} at (500, 5) and {half[2]} at (200, 10) (rms)"
     text = page(root, "response")
-    assert said in text
+    assert stated in text
     assert f"at Y = 0.625 to {more[0]}, {more[1]} and {more[2]}." in text
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The prediction against simulated cases: docs/evidence/prediction says what it says."""
+"""The prediction against simulated cases: docs/evidence/prediction states what it states."""
 
 import csv
 import math
@@ -107,18 +107,18 @@ def test_page_of_the_theory_prints_the_bands(root: Path):
     for column, ratio in ((0, 1.0), (2, 1.01)):
         keys = {"surface.seed": 21, "surface.velocity_ratio": ratio}
         found = pyehl.predict(root / "cases/table1.nml", keys)
-        rises = [band.increase for band in found.bands]
-        assert [line[column] for line in table] == pytest.approx(rises, abs=6e-4)
-        totals = [1.0 + sum(rises[: k + 1]) for k in range(len(rises))]
+        increases = [band.increase for band in found.bands]
+        assert [line[column] for line in table] == pytest.approx(increases, abs=6e-4)
+        totals = [1.0 + sum(increases[: k + 1]) for k in range(len(increases))]
         assert [line[column + 1] for line in table] == pytest.approx(totals, abs=6e-4)
     short = [band.longest < 1.01 * found.operating.hertz_radius / 16.0 for band in found.bands]
-    below = sum(rise for rise, is_short in zip(rises, short, strict=True) if is_short)
+    below = sum(increase for increase, is_short in zip(increases, short, strict=True) if is_short)
     assert f"add {below:.2f};" in text
-    assert f"by −{below - sum(rises):.2f}" in text
+    assert f"by −{below - sum(increases):.2f}" in text
 
 
 def test_pressure_of_ridges(root: Path):
-    """docs/evidence/response says by how much it is above K (1 - T), and what the response has."""
+    """docs/evidence/response: by how much it is above K (1 - T), and what the response has."""
     folder = root / "docs" / "evidence" / "response"
     heavy, light, lost, gains = [], [], [], []
     with (folder / "ridges.csv").open(newline="", encoding="utf-8") as stream:

@@ -104,13 +104,13 @@ def test_ellipses():
 
 
 def test_says_what_the_formulas_do_not_know():
-    told = {
+    reported = {
         "grid.border": "zero",
         "grid.x_inlet": -1.5,
         "lubricant.shear_law": "eyring",
         "lubricant.boundary_film": 1e-9,
     }
-    values = film_formulas.sheet(Case.from_text("", told).resolve())
+    values = film_formulas.sheet(Case.from_text("", reported).resolve())
     keys = [text.split(" = ")[0] for text in values["left_out"]]
     assert keys == ["grid.x_inlet", "lubricant.shear_law", "lubricant.boundary_film"]
     assert "left out: grid.x_inlet = -1.5" in report(values)

@@ -53,7 +53,7 @@ def test_the_form_of_a_ball_is_named_with_its_key(centre):
     made = prepare(scan(z), Options(detrend="curvature"))
     assert made.record.findings == ()
     assert made.prepared.std() == pytest.approx(2e-8, rel=0.1)
-    # an array is taken at its word, and told
+    # an array is taken at its word, and reported
     kinds = [f.remedy for f in found_in_array(z)]
     assert kinds[0].startswith("surface.detrend=")
 
@@ -162,7 +162,7 @@ def test_dust_of_several_pixels_is_found():
     made = prepare(scan(z), Options(outliers=6.0))
     assert made.record.findings == ()
     steps = {step.name: step for step in made.steps}
-    # with rims of a pixel
+    # with margins of a pixel
     assert steps["outliers"].changed == 6 * 6 + 5 * 5
     assert made.prepared.std() == pytest.approx(prepare(scan(rough())).prepared.std(), rel=0.02)
 
@@ -248,7 +248,7 @@ def test_a_scan_of_many_contacts_says_its_cost_and_offers_a_part(caplog, monkeyp
     surface = Topography(made.tile, made.lengths, "wide", None, made)
     caplog.set_level(logging.INFO, "pyehl")
     case = pyehl.Case.from_text("&surface kind='fractal' /")
-    # told before the calculation begins
+    # reported before the calculation begins
     monkeypatch.setattr("pyehl.prediction.predict.Model", None)
     with pytest.raises(TypeError):
         pyehl.predict(case, surface=surface)

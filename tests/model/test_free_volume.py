@@ -201,6 +201,6 @@ def test_both_programs_take_the_law(drivers: dict[str, list[str]], tmp_path: Pat
         summary = json.loads((folder / "summary.json").read_text())
         found.append((summary["H_c"], summary["mu"]))
     assert found[0] == found[1]
-    # the last is that of pyehl, which says what holds of the lubricant
+    # the last is that of pyehl, which states what holds of the lubricant
     assert "doolittle viscosity at 60.0 degC" in summary["lubricant_note"]
     assert "BEYOND in pressure" in summary["lubricant_note"]

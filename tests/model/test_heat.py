@@ -111,9 +111,9 @@ def test_flash_temperature_limits():
     s = np.linspace(0.0, 1.0, 201)[:, np.newaxis]
     v = (np.arange(2000) + 0.5) / 2000 * np.sqrt(1.0 + s)
     root = np.sqrt(np.maximum(0.0, 1.0 - (s - v**2) ** 2))
-    greatest = float((2.0 * root * np.sqrt(1.0 + s) / 2000).sum(axis=1).max())
+    maximum = float((2.0 * root * np.sqrt(1.0 + s) / 2000).sum(axis=1).max())
     u = 1e5
-    expected = 0.5 * 1.5 * q / k * math.sqrt(kappa * a / (math.pi * u)) * greatest
+    expected = 0.5 * 1.5 * q / k * math.sqrt(kappa * a / (math.pi * u)) * maximum
     assert flash_temperature(q, a, (u, u), (k, k), (kappa, kappa)) == pytest.approx(
         expected, rel=2e-3
     )
@@ -167,7 +167,7 @@ def test_absolute_friction_of_the_solver():
         assert solver.run()
         s = solver.summary
     point = OperatingPoint(slide_to_roll=-2.0)
-    # tau -> tau_L = 0.06 p: the whole load is borne by fluid pressure, p = 0 outside apart
+    # tau -> tau_L = 0.06 p: the whole load is on the fluid pressure, p = 0 outside apart
     assert s["mu"] == s["mu_smooth"] == pytest.approx(0.06, rel=1e-2)
     assert s["mu"] < 0.06
     assert s["shear_stress_max_Pa"] == pytest.approx(0.06 * s["p_max_Pa"], rel=1e-6)
@@ -180,7 +180,7 @@ def test_absolute_friction_of_the_solver():
     assert s["flash_temperature_K"] == pytest.approx(rise, rel=1e-12)
     assert "isothermal" in s["mu_note"]
     h = s["H_c"] * point.film_scale
-    # most of the film is about as thick as in the centre, and 1/h is greater at the rim
+    # most of the film is about as thick as in the centre, and 1/h is greater at the edge
     assert 1.0 < s["shear_rate_mean_per_s"] * h / point.sliding_speed < 2.0
 
 
@@ -189,7 +189,7 @@ def test_eyring_friction_of_table_1():
     with Solver(Case.from_text("", keys)) as solver:
         assert solver.run()
         s = solver.summary
-    # a semi-ellipse of pressure and a uniform film: the rim is thinner, the inlet carries too
+    # a semi-ellipse of pressure and a uniform film: the edge is thinner, the inlet carries load too
     flat = Topography(np.zeros((64, 64)), (8.29e-4, 8.29e-4))
     oil = Lubricant(shear=ShearLaw("eyring"))
     uniform = predict_friction(flat, OperatingPoint(), oil, s["h_c_m"])

@@ -98,7 +98,7 @@ def test_every_oil_has_sources_and_runs():
 
 
 def test_films_by_two_laws_with_one_alpha(root: Path):
-    """FVA 3 by its own law and by Roelands', as the page of the theory says."""
+    """FVA 3 by its own law and by Roelands', as the page of the theory states."""
     own = Case.from_text("", {"lubricant.name": "fva3", "lubricant.temperature": 40.0})
     known = own.resolve()["lubricant"]
     names = ("viscosity", "pressure_viscosity", "density_law")
@@ -209,8 +209,8 @@ def test_alpha_star_and_alpha_film(root: Path):
     oil = Lubricant.from_name("fva3", 40.0)
     assert reciprocal_isoviscous(oil) < film_forming(oil) < oil.pressure_viscosity
     three = (reciprocal_isoviscous(oil), film_forming(oil), oil.pressure_viscosity)
-    said = "{:.1f}, {:.1f} and {:.1f} /GPa for FVA 3".format(*(1e9 * alpha for alpha in three))
-    assert said in (root / "docs/theory/lubricants.md").read_text(encoding="utf-8")
+    stated = "{:.1f}, {:.1f} and {:.1f} /GPa for FVA 3".format(*(1e9 * alpha for alpha in three))
+    assert stated in (root / "docs/theory/lubricants.md").read_text(encoding="utf-8")
     # van Leeuwen 2009, as Arana et al. print it (eq. 35): for Roelands, approximately
     roelands = Lubricant()
     alpha, z, p0 = roelands.pressure_viscosity, roelands.roelands_z, roelands.roelands_p0
@@ -299,7 +299,7 @@ def test_a_table_begins_at_ambient_pressure(table: Path):
 
 
 def test_a_range_of_pressures_alone():
-    """Of the temperatures nothing is known, and nothing is said."""
+    """Of the temperatures nothing is known, and nothing is stated."""
     note = str(pyehl.check(Case.from_text(""), T9, {"lubricant.range_pressure_max": 1e9}))
     assert "measured up to 1.000E+09 Pa" in note
     assert "degC and up" not in note

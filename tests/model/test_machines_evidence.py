@@ -40,13 +40,13 @@ def test_pages_have_the_constants_of_the_sources(root: Path):
     assert f"the first residual of a grid is above {max_residual:g}" in cycles
     assert f"more than {constant(steady, 'max_growth'):g} times the one before" in cycles
     words = {3.0: "three", 4.0: "four", 5.0: "fifth", 8.0: "eight"}
-    for file, name, said in (
+    for file, name, stated in (
         (steady, "undamped_after", "After {} good cycles the degree falls"),
         (steady, "patience", "the residual has not halved in {} cycles"),
         (steady, "stalls_after", "From the {} cycle of a grid on"),
         ("multigrid/anderson.f90", "depth", "over {} differences at the most"),
     ):
-        assert said.format(words[constant(file, name)]) in cycles, name
+        assert stated.format(words[constant(file, name)]) in cycles, name
 
 
 def test_damping_is_that_of_the_sources(root: Path):

@@ -129,13 +129,13 @@ def test_small_waves_are_deformed_as_if_alone(contact):
 
 
 @pytest.mark.long
-def test_rises_of_small_waves_add(contact):
+def test_increases_of_small_waves_add(contact):
     """Where they meet in all positions, products of waves of different surfaces have no mean."""
     tiles = rough(3, 2e-9), rough(4, 2e-9, 3.1e-4)
-    rise, _, _ = run(pair(contact, tiles, (1.1, 0.9)), 0)
+    both_rough, _, _ = run(pair(contact, tiles, (1.1, 0.9)), 0)
     each = [run(alone(contact, t, u), 0)[0] for t, u in zip(tiles, (1.1, 0.9), strict=True)]
-    sum_of_rises = sum(one.mu_ratio - 1.0 for one in each)
-    assert rise.mu_ratio - 1.0 == pytest.approx(sum_of_rises, rel=0.05)
+    sum_of_increases = sum(one.mu_ratio - 1.0 for one in each)
+    assert both_rough.mu_ratio - 1.0 == pytest.approx(sum_of_increases, rel=0.05)
 
 
 def test_cross_terms_of_second_order(contact):
@@ -275,9 +275,9 @@ def test_what_would_carry():
     cut = about["suggested_second_shortest_wavelength_m"]
     both = about["suggested_both_shortest_wavelength_m"]
     assert 0.0 < both <= cut
-    told = "\n".join(found.advice.report())
-    assert "of surface meets x = " in told
-    assert f"second_surface.shortest_wavelength = {cut:.4g}" in told
+    reported = "\n".join(found.advice.report())
+    assert "of surface meets x = " in reported
+    assert f"second_surface.shortest_wavelength = {cut:.4g}" in reported
     mended = pyehl.predict(
         pyehl.Case.from_text(breaking(), {"second_surface.shortest_wavelength": cut})
     )
@@ -380,9 +380,9 @@ def test_folder(tmp_path, monkeypatch, capsys):
     text = SI + FIRST.format("surface") + SECOND.format("second_surface")
     (tmp_path / "case.nml").write_text(text)
     assert cli.main(["predict", "case.nml", "--tracks", "2", "-o", "out"]) == 0
-    told = capsys.readouterr().out
-    assert "second     fractal" in told
-    assert "complex response at velocity ratio 1.1 and 0.9" in told
+    reported = capsys.readouterr().out
+    assert "second     fractal" in reported
+    assert "complex response at velocity ratio 1.1 and 0.9" in reported
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     pictures = {"second_surface_spectrum.png", "second_roughness.png", "roughness.png"}
     assert pictures <= set(summary["files"])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Predicted and simulated pairs of rough surfaces: docs/evidence/pairs says what it says."""
+"""Predicted and simulated pairs of rough surfaces: docs/evidence/pairs states what it states."""
 
 import sys
 from pathlib import Path

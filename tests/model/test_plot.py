@@ -83,7 +83,7 @@ def test_pressure_and_film_in_si(fields, scales):
 
 
 def test_a_tile_of_nanometres_is_drawn_as_far_as_it_can_be_seen():
-    """Of 20 000 x 20 000 pixels in the contact a picture shows a part, and says so."""
+    """Of 20 000 x 20 000 pixels in the contact a picture shows a part, and states so."""
     tile = Topography(np.random.default_rng(1).normal(0.0, 1e-9, (64, 48)), (6.4e-7, 4.8e-7))
     ax = surface.roughness(tile, tile.heights, 1e-4, name="(a) undeformed,")
     (image,) = ax.get_images()

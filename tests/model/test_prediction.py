@@ -98,7 +98,7 @@ def test_a_wave_in_the_contact_is_its_transfer():
     free = np.real(0.2 * np.exp(1j * (q * fine + 0.6)))
     # brighter by what linear interpolation between four points a pixel dims
     assert waves.free[0][:, 5, 0] == pytest.approx(free, abs=2e-3 * 0.2)
-    # the free wave has the wavenumber of a surface that is carried at the mean velocity
+    # the free wave has the wavenumber of a surface that is convected at the mean velocity
     assert waves.free[0][:, 5, 1] == pytest.approx(-1.2 * k * free, abs=2e-3 * 0.2 * k)
 
 
@@ -116,11 +116,11 @@ def test_real_ratio_that_moves_with_the_roughness(table_1, settings):
 
 
 def test_slip_turns_the_free_wave(contact, table_1):
-    """One per cent of slip, forward or backward, makes the rise of a Table 1 surface."""
+    """One per cent of slip, forward or backward, makes the increase of a Table 1 surface."""
     tile = table_1(seed=21)
-    rise = {u: run(passage(contact, tile, u), tracks=1)[0].mu_ratio for u in (0.99, 1.0, 1.01)}
-    assert rise[1.0] < 1.0 < min(rise[0.99], rise[1.01])
-    assert rise[0.99] == pytest.approx(rise[1.01], rel=0.1)
+    ratio = {u: run(passage(contact, tile, u), tracks=1)[0].mu_ratio for u in (0.99, 1.0, 1.01)}
+    assert ratio[1.0] < 1.0 < min(ratio[0.99], ratio[1.01])
+    assert ratio[0.99] == pytest.approx(ratio[1.01], rel=0.1)
 
 
 def test_a_surface_in_motion_and_its_mirror_image(contact, table_1):
@@ -226,7 +226,7 @@ def test_turned_ellipse_is_no_smooth_contact_of_another(tmp_path):
 
 
 def test_what_a_grid_does_not_resolve():
-    """More of the rise hangs on unresolved waves on a coarser grid; the parts agree with bands."""
+    """More friction hangs on unresolved waves on a coarser grid; the parts agree with bands."""
     found = {}
     for points in (129, 513):
         case = pyehl.Case(CASES / "table1.nml", f"grid.points={points}")
@@ -245,7 +245,7 @@ def test_waves_left_out_are_in_the_error():
     options = *options, "grid.x_inlet=-2.5", "grid.x_outlet=1.5", "grid.y_extent=2.0"
     summary = summary_of(pyehl.solve(CASES / "table1.nml", *options))
     assert summary["variance_left_out"] > 0.0
-    # grids that do not carry all waves have no common limit to extrapolate to
+    # grids that do not resolve all waves have no common limit to extrapolate to
     assert "mu_ratio_extrapolated" not in summary
     assert abs(summary["mu_ratio_unresolved"]) > summary["mu_ratio_error_left_out"] > 0.0
     parts = [summary[f"mu_ratio_error_{part}"] for part in ("grid", "stop", "left_out", "domain")]
@@ -260,7 +260,7 @@ def test_beyond_the_linear_response(contact, table_1):
     assert friction.status == "beyond linear response"
     assert np.isnan(friction.mu_ratio)
     cut = float(re.search(r"shortest_wavelength = (\S+)", ways_into_range(model))[1])
-    # what it says holds when it is done
+    # what it states holds when it is done
     taken, _, _ = run(passage(contact, filtered(rough, shortest_wavelength=cut), 1.03))
     assert taken.status == "predicted"
     assert 1.0 < taken.mu_ratio <= KNOWN_RATIO
@@ -329,7 +329,7 @@ def test_second_order_keeps_the_mass_of_every_column(contact, monkeypatch):
     ("ratio", "least", "most"), [(1.0, 0.9, 1.3), (1.01, 0.1, 0.9), (1.1, 0.0, 0.03)]
 )
 def test_second_order_of_the_inlet_fades_with_slip(contact, monkeypatch, ratio, least, most):
-    """It is carried, so that of its square what is along that of the pressure remains."""
+    """It is convected, so that of its square what is along that of the pressure remains."""
     length, n = 1.0, 64
     zone = zone_of(contact, POINT, OIL)
     heights = np.random.default_rng(5).standard_normal((n, n))
@@ -341,9 +341,9 @@ def test_second_order_of_the_inlet_fades_with_slip(contact, monkeypatch, ratio, 
     without, _ = transfer.second.of(spectrum.power)
     turn = np.exp(1j * spectrum.qx[:, np.newaxis] * (ratio - 1.0))
     free = free_stiffness(spectrum.qx[:, np.newaxis], spectrum.qy, ratio) * transfer.free[1]
-    carried = spectrum.tile(turn * (stiffness(spectrum.q) - free))
+    convected = spectrum.tile(turn * (stiffness(spectrum.q) - free))
     pressure = spectrum.tile(transfer.pressure_at_centre(spectrum, ratio))
-    share = np.mean(carried * pressure) / pressure.var()
+    share = np.mean(convected * pressure) / pressure.var()
     assert (whole - without)[1] == pytest.approx(0.5 * share**2, rel=0.05, abs=2e-3)
     assert least <= share**2 <= most
 
@@ -352,14 +352,14 @@ def test_film_of_second_order(contact, table_1):
     """The film regains 0.4 of the square of its loss, and ends at 1.6 of the smooth one."""
     one = passage(contact, table_1(seed=21), 1.01)
     points = one.rough_contact(one.components())
-    thinnest = np.where(points.inside, points.film, np.inf)
+    inside = np.where(points.inside, points.film, np.inf)
     change = np.zeros((*points.film.shape, 2), dtype=np.float32)
     change[..., 0] = 0.3 * points.film
     one_film = points.sheared(change, points.smooth_film())
     lost = 1.0 - 0.3 + 0.4 * 0.3**2
     assert one_film == pytest.approx(1.0 / lost, rel=1e-4)
     missing = contact.minimum_film - contact.film.min()
-    assert points.minimum == pytest.approx(lost * thinnest.min() + missing, abs=0.3 * missing)
+    assert points.minimum == pytest.approx(lost * inside.min() + missing, abs=0.3 * missing)
     change[..., 0] = 1.5 * points.film
     assert points.sheared(change, points.smooth_film()) == pytest.approx(
         1.0 / float(film_left(np.array(1.5))), rel=1e-4
@@ -451,7 +451,7 @@ def test_free_waves_beside_the_centre_line(contact, table_1):
 
 
 def test_free_waves_swell_where_the_pressure_is_lower(contact, table_1):
-    """They carry a mass: beside the centre line they are thicker by the ratio of the densities."""
+    """They have a mass: beside the centre line they are thicker by the ratio of the densities."""
     one = passage(contact, table_1(seed=21), 1.0)
     points = one.rough_contact(one.components())
     middle, off = points.x.size // 2, int(np.argmin(np.abs(points.y - 0.8)))

@@ -279,9 +279,9 @@ def test_readme_says_what_the_table_says(compare):
     limits = compare.LIMITS
     for low, high, words in zip(limits[:-1], limits[1:], lines, strict=True):
         part = [row for row in table if low < row["mu_ratio"] <= high]
-        count, *told = map(float, words)
+        count, *reported = map(float, words)
         assert count == len(part)
-        for (mean, largest, covered), end in ((told[:3], "_before"), (told[3:], "")):
+        for (mean, largest, covered), end in ((reported[:3], "_before"), (reported[3:], "")):
             off = [row[f"deviation{end}_percent"] for row in part]
             assert mean == pytest.approx(sum(off) / len(off), abs=0.06)
             assert largest == pytest.approx(max(map(abs, off)), abs=0.06)
@@ -305,10 +305,10 @@ def test_page_shows_the_finer_grid(compare):
             abs(run["mu_ratio"] - coarse["mu_ratio"]), abs=1e-5
         )
         assert abs(coarse["prediction"] - run["mu_ratio"]) <= coarse["model_error"]
-    run, said = fine["k050b"], table["k050b"]["prediction"]
+    run, stated = fine["k050b"], table["k050b"]["prediction"]
     limit = run["mu_ratio"] + run["mu_ratio_error_grid"] / 3.0
     assert (
-        f"approaches {limit:.3f} with order 2, {100.0 * (1.0 - said / limit):.1f} % above" in text
+        f"approaches {limit:.3f} with order 2, {100.0 * (1.0 - stated / limit):.1f} % above" in text
     )
 
 

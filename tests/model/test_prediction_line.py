@@ -127,12 +127,12 @@ def _rows(root: Path, name: str) -> dict[str, dict[str, str]]:
 
 def test_predicted_before_simulated(root: Path):
     """Deviations of committed predictions: 2 % to a ratio of 1.5, 6 % to 2.5; 0.5 % with a law."""
-    said, found = _rows(root, "committed.csv"), _rows(root, "simulated.csv")
-    assert set(said) == set(found)
+    stated, found = _rows(root, "committed.csv"), _rows(root, "simulated.csv")
+    assert set(stated) == set(found)
     held = []
     for name, row in found.items():
-        p, s = float(said[name]["mu_ratio"]), float(row["mu_ratio"])
-        held.append(abs(p - s) <= float(said[name]["mu_ratio_model_error"]))
+        p, s = float(stated[name]["mu_ratio"]), float(row["mu_ratio"])
+        held.append(abs(p - s) <= float(stated[name]["mu_ratio_model_error"]))
         limit = 0.005 if name[0] == "e" else 0.02 if s < 1.5 else 0.06
         # one transverse wave is 2.3 % off
         assert abs(p / s - 1.0) < (0.025 if name == "across2" else limit)

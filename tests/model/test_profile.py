@@ -131,9 +131,9 @@ def test_bands_hold_the_truth(hurst, rolloff):
     for seed in range(20):
         found = fit(made(hurst, rolloff, seed), ridges=True)
         held["hurst"] += found.hurst_band[0] <= hurst <= found.hurst_band[1]
-        # one that is not told from none is none
-        told = found.rolloff_band[0] <= rolloff <= found.rolloff_band[1]
-        held["rolloff"] += told or found.rolloff == 0.0
+        # one that is not distinguished from none is none
+        reported = found.rolloff_band[0] <= rolloff <= found.rolloff_band[1]
+        held["rolloff"] += reported or found.rolloff == 0.0
         held["rms"] += found.rms_band[0] <= 3e-7 <= found.rms_band[1]
         assert found.hurst_band[1] - found.hurst_band[0] < 0.5
     assert held["hurst"] >= 17

@@ -43,7 +43,7 @@ def test_waves_across_the_motion_against_quadrature(wave):
         lambda t: math.exp(z * math.cos(t)) / (1 - d * math.cos(t)) / math.pi, 0, math.pi
     )
     result = predict_friction(wave(height, wavelength), POINT, BARUS, FILM)
-    # but for the rim, where p_s + delta p < 0 counts as cavitated
+    # but for the edge of the contact, where p_s + delta p < 0 counts as cavitated
     assert result.mu_ratio == pytest.approx(expected, rel=1e-9)
     assert expected > 1.1
 

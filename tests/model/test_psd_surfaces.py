@@ -44,7 +44,7 @@ def test_twenty_surfaces(table_1, twenty):
     ratios = twenty(ROELANDS)
     assert 1.03 < ratios.mean() < 1.15
     assert 0.05 < ratios.std(ddof=1) < 0.16
-    # second order: exp(s^2/2) for pressure, and the film that thins where the pressure rises
+    # second order: exp(s^2/2) for pressure, and the film that thins where the pressure increases
     slope = (
         float(
             ROELANDS.log_viscosity_ratio(POINT.hertz_pressure + 1e5)
@@ -74,8 +74,8 @@ def test_below_equation_16():
     rough = surfaces.harmonic(0.4 * film, side, side, (32, 32))
     result = predict_friction(rough, point, ROELANDS, film)
     theta = stribeck.theta_2(1000.0, 10.0, 0.5, 2.5)
-    rise = float(stribeck.relative_friction(theta)) - 1
-    assert 0.4 < (result.mu_ratio - 1) / rise < 0.9
+    increase = float(stribeck.relative_friction(theta)) - 1
+    assert 0.4 < (result.mu_ratio - 1) / increase < 0.9
 
 
 # --- tracks

@@ -20,7 +20,7 @@ SIZE = (3e-5, 2e-5)
 
 
 def slope_map(nx=30, ny=20):
-    """Heights that tell x from y, and which end is which: 2 nm a pixel along x, 7 along y."""
+    """Heights that differ along x and y, and from end to end: 2 nm a pixel along x, 7 along y."""
     return 1e-9 * (2.0 * np.arange(nx)[:, None] + 7.0 * np.arange(ny)[None, :])
 
 
@@ -288,7 +288,7 @@ TABLE = "0,5;1,5;2,5;3,5;4,5\n1,0;2,0;3,0;4,0;5,0\n-1;0;1;2;3\n0;0;0;0;7,25\n"
     ],
 )
 def test_table_under_header_lines(tmp_path, header, size, unit):
-    """A spreadsheet's: lines along x, decimal commas; what the header says of size and unit."""
+    """A spreadsheet's: lines along x, decimal commas; what the header states of size and unit."""
     path = tmp_path / "table.csv"
     path.write_text(header + TABLE, encoding="utf-8")
     given = (2e-5, 3e-5) if size == (None, None) else (None, None)
@@ -381,7 +381,7 @@ def test_text_export_in_another_language(tmp_path):
 
 @pytest.mark.parametrize("suffix", ["mat", "h5"])
 def test_files_without_size_and_unit(tmp_path, suffix):
-    """Both lengths are needed; the heights are then taken in m, which the record says."""
+    """Both lengths are needed; the heights are then taken in m, which the record states."""
     z = slope_map()
     path = tmp_path / f"scan.{suffix}"
     if suffix == "mat":

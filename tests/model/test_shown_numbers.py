@@ -25,7 +25,7 @@ from pyehl.theory.response import edge_gain
 
 
 @pytest.fixture(scope="module")
-def says(root: Path):
+def states(root: Path):
     """Assert that words stand in a page."""
 
     def check(page: str, *words: str) -> None:
@@ -36,23 +36,23 @@ def says(root: Path):
 
 
 @pytest.mark.long
-def test_smooth_contact_of_the_readme(says, cases: Path):
+def test_smooth_contact_of_the_readme(states, cases: Path):
     found = summary_of(pyehl.solve(cases / "finish.nml", {"surface.kind": "smooth"}))
     film = 1e9 * found["h_c_m"] / found["H_c"] * found["H_c_extrapolated"]
-    says(
+    states(
         "README.md",
         f"is {1e9 * found['h_c_m']:.1f} nm on this grid and {film:.1f} nm extrapolated",
     )
 
 
-def test_stress_of_a_newtonian_oil(says, cases: Path):
+def test_stress_of_a_newtonian_oil(states, cases: Path):
     found = summary_of(pyehl.solve(cases / "table1.nml", {"surface.kind": "smooth"}))
     assert found["shear_stress_max_Pa"] == pytest.approx(2e13, rel=0.1)
-    says("docs/theory/prediction-compared.md", "whose shear stress here would be 2·10¹³ Pa")
+    states("docs/theory/prediction-compared.md", "whose shear stress here would be 2·10¹³ Pa")
 
 
 @pytest.mark.long
-def test_tutorial(says, cases: Path):
+def test_tutorial(states, cases: Path):
     smooth = {"surface.kind": "smooth", "grid.target_error": 0.02}
     found = summary_of(pyehl.solve(cases / "finish.nml", smooth))
     values = [found[f"H_c{end}"] for end in ("", "_extrapolated", "_error", "_error_grid")]
@@ -62,7 +62,7 @@ def test_tutorial(says, cases: Path):
         for height in (1e-7, 4e-8)
     )
     low = 1.0 - 0.17
-    says(
+    states(
         "docs/tutorial.md",
         say.format(*values),
         f"The roughness adds {percent(100.0 * (ground['mu_ratio'] - 1.0))} to the friction",
@@ -73,12 +73,12 @@ def test_tutorial(says, cases: Path):
 
 
 @pytest.mark.long
-def test_measured_surface(says, cases: Path):
+def test_measured_surface(states, cases: Path):
     found = pyehl.predict(cases / "scan.nml", {"surface.outliers": 100}, tracks=4)
     steps = found.summary["surface_preparation"]["steps"]
     rms = [1e9 * found.summary[f"rms_{name}_m"] for name in ("height", "deformed")]
     strongest = max(found.bands, key=lambda band: band.increase)
-    says(
+    states(
         "docs/howto/measured-surface.md",
         "the rms height falls from {:.1f} nm to {:.1f} nm".format(*rms),
         f"waves of {1e6 * strongest.shortest:.0f} to {1e6 * strongest.longest:.0f} μm",
@@ -87,7 +87,7 @@ def test_measured_surface(says, cases: Path):
 
 
 @pytest.mark.long
-def test_traction_near_the_origin(says, cases: Path):
+def test_traction_near_the_origin(states, cases: Path):
     """In proportion to the ratio below 1e-6, and no more at 1e-5."""
     slopes = [
         float(pyehl.solve(cases / "mtm.nml", {"contact.slide_to_roll": s, "grid.points": 129}).mu)
@@ -96,31 +96,33 @@ def test_traction_near_the_origin(says, cases: Path):
     ]
     assert slopes[1] / slopes[0] > 0.85
     assert slopes[2] / slopes[0] < 0.5
-    says("docs/howto/traction.md", "in proportion to the ratio only below 10⁻⁶")
+    states("docs/howto/traction.md", "in proportion to the ratio only below 10⁻⁶")
     assert np.exp(-1.8 * 2.0**1.2) < 0.02
-    says("docs/howto/traction.md", "above h_c/σ = 2 nearly all of the load is on the film")
+    states("docs/howto/traction.md", "above h_c/σ = 2 nearly all of the load is on the film")
 
 
 @pytest.mark.long
-def test_fitted_shear_law(says, cases: Path):
+def test_fitted_shear_law(states, cases: Path):
     case = pyehl.Case(cases / "traction.nml", ["grid.points=65"])
     (found,) = pyehl.fit_lubricant(cases / "traction.csv", case).parameters
     value, low, high = (f"{1e-6 * v:.1f}" for v in (found.value, found.low, found.high))
-    says("docs/howto/lubricants.md", f"finds {value} MPa with a 95 % interval from {low} to {high}")
+    states(
+        "docs/howto/lubricants.md", f"finds {value} MPa with a 95 % interval from {low} to {high}"
+    )
 
 
 @pytest.mark.parametrize(("name", "case"), [("gear", "gear_pair"), ("bearing", "ball_bearing")])
-def test_ellipses_whose_film_was_not_compared(says, cases: Path, name: str, case: str):
+def test_ellipses_whose_film_was_not_compared(states, cases: Path, name: str, case: str):
     kappa = pyehl.film(cases / f"{case}.nml").summary["ellipticity"]
     assert FILM_ELLIPTICITY < kappa < ELLIPTICITY[1]
-    says(
+    states(
         f"docs/howto/{name}.md",
         f"up to an ellipticity of {FILM_ELLIPTICITY:g}, and this one is {kappa:.1f}.",
     )
 
 
 @pytest.mark.long
-def test_limits(says, cases: Path):
+def test_limits(states, cases: Path):
     """Scatter over the scan lines, and the viscosity of a high pressure."""
     found = pyehl.predict(cases / "table1.nml").summary
     spread = found["mu_ratio_tracks_spread"] / found["mu_ratio_tracks"]
@@ -129,17 +131,17 @@ def test_limits(says, cases: Path):
     power = np.log(Lubricant().viscosity_ratio(pressure)) + 1e-9
     superscript = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
     say = f"is e{f'{power:.0f}'.translate(superscript)} times that at its edge"
-    says("docs/limits.md", f"scatters by about {100.0 * spread:.0f} % between", say)
+    states("docs/limits.md", f"scatters by about {100.0 * spread:.0f} % between", say)
     heavy = {"contact.moes_m": 2000.0, "contact.moes_l": 20.0, "grid.points": 513}
     assert pyehl.solve(pyehl.Case.from_text("", heavy)).attrs["status"] == "converged"
 
 
-def test_constants_of_the_prediction(says):
+def test_constants_of_the_prediction(states):
     """Where a film ends, what the inlet makes, what oblique waves take."""
     ends, film, least = response.FILM_ENDS, response.INLET_FILM, response.QUADRATIC
-    says("docs/conventions.md", f"the waves take more than {ends:g} times the smooth film")
-    says("docs/theory/prediction.md", f"first order exceeds {ends:g} times the smooth film")
-    says(
+    states("docs/conventions.md", f"the waves take more than {ends:g} times the smooth film")
+    states("docs/theory/prediction.md", f"first order exceeds {ends:g} times the smooth film")
+    states(
         "docs/theory/prediction-response.md",
         f"regains ${film:g}\\,t_1^2/H$",
         f"Beyond a loss of ${least:g}\\,H$",
@@ -149,15 +151,15 @@ def test_constants_of_the_prediction(says):
     q = np.geomspace(0.1, 200.0, 20)
     gains = [edge_gain(kx, q, film) for kx in (0.0, 5.0, 20.0) for film in (0.01, 0.03, 0.1)]
     assert 0.03 < np.max(gains) - 1.0 < 0.04
-    says("docs/theory/prediction.md", "take up to 4 % more than that")
+    states("docs/theory/prediction.md", "take up to 4 % more than that")
 
 
-def test_pressure_far_from_the_contact(says):
+def test_pressure_far_from_the_contact(states):
     """Where the film ruptures, and what that adds to the load."""
     angle = brentq(lambda x: np.tan(x) + 3.0 * np.tanh(3.0 * x), 1.6, 2.2)
     second = -0.8 * np.cos(angle) / np.cosh(3.0 * angle)
     load = quad(lambda x: 0.8 * np.cos(x) + second * np.cosh(3.0 * x), 0.0, angle)[0] / 0.8
-    says(
+    states(
         "docs/theory/border.md",
         f"so that φ = {np.degrees(angle):.1f}° and C = {second:.5f}",
         f"The rupture adds {100.0 * (load - 1.0):.0f} % to the load far away",
@@ -165,8 +167,8 @@ def test_pressure_far_from_the_contact(says):
     )
 
 
-def test_what_a_study_may_be(says):
-    says(
+def test_what_a_study_may_be(states):
+    states(
         "docs/howto/sweep.md",
         f"Of more than {plan.MOST} cases `--plan` checks some, for at most five seconds",
         f"{study.MAX_CASES:,} cases".replace(",", " "),
@@ -175,16 +177,16 @@ def test_what_a_study_may_be(says):
     assert plan.PATIENCE == 5.0
 
 
-def test_what_the_page_may_take(root: Path, says):
+def test_what_the_page_may_take(root: Path, states):
     source = (root / "tests/app/latency.py").read_text(encoding="utf-8")
     allowed = re.findall(r"(\d+): (0\.\d+)", source.partition("ALLOWED = ")[2].partition("\n")[0])
     coarse, fine = (f"{1e3 * float(time):.0f} ms on {n} × {n}" for n, time in allowed)
-    says(
+    states(
         "docs/howto/app.md",
-        f"medians of {coarse} nodes and of {fine}, which includes the {answers.REST:g} s",
-        f"When it has rested for {answers.REST:g} s",
+        f"medians of {coarse} nodes and of {fine}, which includes the {answers.DELAY:g} s",
+        f"When it has rested for {answers.DELAY:g} s",
     )
-    says("docs/design.md", f"may go on for {worker.GRACE:g} s")
+    states("docs/design.md", f"may go on for {worker.GRACE:g} s")
 
 
 def test_constants_of_the_solver(root: Path):

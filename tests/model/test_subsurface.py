@@ -275,7 +275,7 @@ def test_smooth_contact() -> None:
 
 
 def test_friction_of_a_run() -> None:
-    """In sum the friction of the run; none where it states none, which is said."""
+    """In sum the friction of the run; none where it states none, which is stated."""
     ds = pyehl.solve(CASES / "mtm.nml", "grid.points=65")
     below = pyehl.stress(ds)
     surface = below.sigma_xz_Pa.isel(Z=0)
@@ -294,9 +294,9 @@ def test_rough_contact(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> No
     words = ["stress", str(run), "-o", str(out), "--friction", "0.05", "--above", "2e8"]
     words += ["--fatigue", "dang-van", "--torsion-limit", "4e8", "--bending-limit", "6.5e8"]
     assert main(words) == 0
-    told = capsys.readouterr().out
-    assert "rough over smooth" in told
-    assert "of the fatigue limit in torsion" in told
+    reported = capsys.readouterr().out
+    assert "rough over smooth" in reported
+    assert "of the fatigue limit in torsion" in reported
     summary = json.loads((out / "summary.json").read_text())
     assert summary["near_surface_share"] > summary["near_surface_share_smooth"]
     assert sorted(path.name for path in out.iterdir()) == sorted(summary["files"])
@@ -330,7 +330,7 @@ def test_mean_and_amplitude() -> None:
 
 
 def test_mean_and_amplitude_need_a_passage() -> None:
-    """A rough contact with too few instants has neither, which is said."""
+    """A rough contact with too few instants has neither, which is stated."""
     rough = pyehl.solve(CASES / "dent.nml", "grid.points=33", "output.frame_interval=0")
     below = pyehl.stress(rough, friction="none")
     assert "shear_amplitude" not in below

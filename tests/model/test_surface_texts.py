@@ -361,7 +361,7 @@ def test_marks_of_missing_points(tmp_path: Path, mark: str):
 
 
 def test_a_height_that_is_there_too_often(tmp_path: Path):
-    """It may be a mark; it is kept, and said."""
+    """It may be a mark; it is kept, and stated."""
     z = np.random.default_rng(2).normal(size=(40, 30))
     marked = np.where(np.random.default_rng(3).uniform(size=z.shape) < 0.02, 0.0, z)
     np.save(tmp_path / "map.npy", 1e-8 * marked)
@@ -400,7 +400,7 @@ def test_zygo_lists(tmp_path: Path, suffix: str):
     ]
     path = write(tmp_path / f"map.{suffix}", [*ZYGO, "#", *listed, "#"], end="\r\n")
     check(path, MISSING)
-    with pytest.raises(InputError, match="279 points, but line 4 says 20 x 14"):
+    with pytest.raises(InputError, match="279 points, but line 4 states 20 x 14"):
         read_scan(write(tmp_path / f"map.{suffix}", [*ZYGO, "#", *listed[1:], "#"]))
     bare = [line.replace("1.5e-06", "0") for line in ZYGO]
     with pytest.raises(InputError, match="line 8 of the file gives no size of a pixel"):

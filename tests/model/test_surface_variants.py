@@ -96,7 +96,7 @@ def test_x3p_with_heights_in_the_xml(tmp_path: Path, form: str):
         (">SUR<", ">PRF<", "FeatureType should be"),
         ("<SizeX>12", "<SizeX>100000", r"(100000 x 9 points|expected|bytes)"),
         (r"<SizeX>12</SizeX>\s*<SizeY>9", "<SizeX>100000</SizeX><SizeY>100000",
-         r"says 100000 x 100000 points, but there are \d+ bytes in it"),
+         r"states 100000 x 100000 points, but there are \d+ bytes in it"),
     ],
 )  # fmt: skip
 def test_the_reason_of_a_reader(tmp_path: Path, pattern: str, new: str, reason: str):
@@ -196,7 +196,7 @@ CheckType = 0
 
 @pytest.mark.parametrize("suffix", ["sdf", "txt", "dat"])
 def test_texts_of_a_known_format(tmp_path: Path, suffix: str):
-    """SDF is read as such, whatever its name is; what its header says wrong is refused."""
+    """SDF is read as such, whatever its name is; what its header states wrong is refused."""
     rows = "\n".join(" ".join("BAD" if np.isnan(v) else f"{1e6 * v:.12f}" for v in HOLES[:, j])
                      for j in range(NY))  # fmt: skip
     path = tmp_path / f"scan.{suffix}"
@@ -262,9 +262,9 @@ def test_readers_change_nothing_of_the_process(tmp_path: Path, capfd):
         print("line")
         count += 1
     thread.join()
-    told = capfd.readouterr()
-    assert told.out.count("line\n") == count
-    assert told.err == ""
+    reported = capfd.readouterr()
+    assert reported.out.count("line\n") == count
+    assert reported.err == ""
 
 
 GROUP = {"kind": "map", "length_x": SIZE[0], "length_y": SIZE[1]}

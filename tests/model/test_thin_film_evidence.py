@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Films as thin as the roughness: docs/evidence/thin_film says what its tables say."""
+"""Films as thin as the roughness: docs/evidence/thin_film states what its tables say."""
 
 from pathlib import Path
 

@@ -117,7 +117,7 @@ def test_the_table_of_waves_is_that_of_this_package(root, evidence):
     np.testing.assert_allclose(found.ravel(), table, atol=2e-3)
 
 
-def test_friction_hardly_rises():
+def test_friction_hardly_increases():
     predicted = pyehl.predict(table_1("surface.length_x=8.29e-4", "surface.length_y=8.29e-4"))
     newtonian = pyehl.predict(
         table_1(
@@ -161,7 +161,7 @@ def test_reference_values(root):
 
 @pytest.mark.parametrize("law", ["eyring", "carreau"])
 def test_what_sliding_and_gradient_do(law):
-    """As docs/theory/thinning.md says."""
+    """As docs/theory/thinning.md states."""
     sliding = np.geomspace(1e-2, 1e6, 60)
     for x, y in ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (10.0, 0.0), (20.0, 20.0)):
         found = flow_factors(law, 0.5, sliding, (x, y))

@@ -35,7 +35,7 @@ from pyehl.studies.sweep import Outcome
 
 @pytest.mark.long
 def test_skips_change_nothing(tmp_path: Path, capsys, monkeypatch):
-    """Rows on small grids; the exit status says that nothing differs."""
+    """Rows on small grids; the exit status states that nothing differs."""
     monkeypatch.setattr(skips, "LEAST", 65)
     monkeypatch.setattr(skips, "PREDICTIONS", 2)
     point = ("contact.moes_m=100.0", "contact.moes_l=6.0", "surface.velocity_ratio=1.01")
@@ -65,7 +65,7 @@ def test_skips_that_change_something_are_told(monkeypatch, capsys):
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("words", "stated"),
     [
         ("deflection --seed 3", "unrecognized arguments: --seed 3"),
         ("deflection --points 2", "2; expected: 3 or more"),
@@ -83,7 +83,7 @@ def test_skips_that_change_something_are_told(monkeypatch, capsys):
     ],
 )
 def test_words_that_a_script_does_not_take(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys, words: str, said: str
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys, words: str, stated: str
 ):
     monkeypatch.chdir(tmp_path)
     name, *rest = words.split()
@@ -92,7 +92,7 @@ def test_words_that_a_script_does_not_take(
     except SystemExit as end:
         status = end.code
     assert status == 2
-    assert said in capsys.readouterr().err
+    assert stated in capsys.readouterr().err
     assert not list(tmp_path.iterdir())
 
 
@@ -427,8 +427,8 @@ def test_seconds_of_a_step(tmp_path: Path, capsys, monkeypatch):
 def test_cases_per_core_hour(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
     words = ["--problems", "film", "--threads", "1,2"]
     assert sweep.main([*words, "-o", str(tmp_path / "b.json")]) == 0
-    told = capsys.readouterr().out
-    assert "cases per core hour" in told
+    reported = capsys.readouterr().out
+    assert "cases per core hour" in reported
     one, two = json.loads((tmp_path / "b.json").read_text())["rows"]
     assert (one["cases"], one["processes"], two["processes"]) == (400, 1, 2)
     assert one["efficiency"] == 1.0

@@ -92,8 +92,8 @@ def test_a_killed_worker_takes_nothing_with_it(
             time.sleep(0.01)
         found[0].kill()
         rows_then = len(rows_in(folder))
-        told, _ = process.communicate(timeout=240)
-    assert process.returncode == 0, told
+        reported, _ = process.communicate(timeout=240)
+    assert process.returncode == 0, reported
     assert rows_then < 40
     with (folder / "results.csv").open(newline="") as stream:
         rows = list(csv.DictReader(stream))

@@ -57,9 +57,9 @@ def test_own_references(
         output=folder,
     )
     assert main(["compare", str(folder), name]) == 1
-    told = capsys.readouterr().out
-    assert f"{values} of {values} values pass" in told
-    assert "rows of the table have no result" in told
+    reported = capsys.readouterr().out
+    assert f"{values} of {values} values pass" in reported
+    assert "rows of the table have no result" in reported
     assert main(["compare", str(folder), name, "--partial"]) == 0
 
 
@@ -79,9 +79,9 @@ def test_a_wrong_value_fails(study: tuple[Path, list[float]], tmp_path: Path, ca
         tmp_path / "wrong.csv", HEAD, f"50,10,{first},1e-6", f"100,10,{1.01 * second},1e-3"
     )
     assert main(["compare", str(folder), str(wrong)]) == 1
-    told = capsys.readouterr().out
-    assert "-0.99 %" in told
-    assert "1 of 2 values pass" in told
+    reported = capsys.readouterr().out
+    assert "-0.99 %" in reported
+    assert "1 of 2 values pass" in reported
     assert main(["compare", str(folder), str(wrong), "-q"]) == 1
     assert "pass" not in capsys.readouterr().out
 
@@ -133,7 +133,7 @@ def test_any_csv(tmp_path: Path):
     assert main(["compare", str(rows), str(table)]) == 0
     strict = write(tmp_path / "strict.csv", "contact.load,mu,mu_atol", "200,0.051,0.0002")
     assert main(["compare", str(rows), str(strict)]) == 1
-    # nothing says what the temperature was
+    # nothing states what the temperature was
     other = write(tmp_path / "other.csv", "lubricant.temperature,mu,mu_atol", "40,0.051,0.002")
     assert main(["compare", str(rows), str(other)]) == 2
     for text in ("mu\n", "mu\n1,2\n3,4,5\n"):
@@ -142,7 +142,7 @@ def test_any_csv(tmp_path: Path):
 
 
 @pytest.mark.parametrize(
-    ("lines", "says"),
+    ("lines", "states"),
     [
         (["contact.moes_n,H_c,H_c_rtol", "1,2,3"], "did you mean 'contact.moes_m'"),
         (["H_c,H_d_rtol", "1,2"], "tolerance of no column; did you mean 'H_c'"),
@@ -157,11 +157,11 @@ def test_any_csv(tmp_path: Path):
         (["H_cc,H_cc_rtol", "1,1"], "did you mean 'H_c'"),
     ],
 )
-def test_bad_tables(study: tuple[Path, list[float]], tmp_path: Path, lines: list[str], says: str):
+def test_bad_tables(study: tuple[Path, list[float]], tmp_path: Path, lines: list[str], states: str):
     table = write(tmp_path / "t.csv", *lines)
     with pytest.raises(InputError) as refusal:
         compare(read_results(study[0]), read_reference(table))
-    assert says in str(refusal.value)
+    assert states in str(refusal.value)
     assert "t.csv" in str(refusal.value)
 
 

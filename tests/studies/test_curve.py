@@ -37,11 +37,11 @@ KEY = "contact.mean_velocity"
 
 
 def run(*words: str, expect: int = 0) -> tuple[str, str]:
-    told, complaint = io.StringIO(), io.StringIO()
-    with redirect_stdout(told), redirect_stderr(complaint):
+    reported, complaint = io.StringIO(), io.StringIO()
+    with redirect_stdout(reported), redirect_stderr(complaint):
         status = main(["stribeck", *words])
-    assert status == expect, told.getvalue() + complaint.getvalue()
-    return told.getvalue(), complaint.getvalue()
+    assert status == expect, reported.getvalue() + complaint.getvalue()
+    return reported.getvalue(), complaint.getvalue()
 
 
 def table(folder: Path) -> list[dict[str, str]]:
@@ -55,8 +55,8 @@ def wave(cases: Path, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, s
     folder = tmp_path_factory.mktemp("curve")
     words = (str(cases / "table1.nml"), *WAVE, "--speed", "0.8:3.2:3log", "--ehl", "1")
     (folder / "m.csv").write_text(f"{KEY},mu,error\n1.0,0.043,0.001\n\n3.0,0.044,0.001\n")
-    told, _ = run(*words, "--measured", str(folder / "m.csv"), "-o", str(folder / "out"))
-    return folder / "out", told
+    reported, _ = run(*words, "--measured", str(folder / "m.csv"), "-o", str(folder / "out"))
+    return folder / "out", reported
 
 
 def test_columns(wave: tuple[Path, str], cases: Path):
@@ -114,11 +114,11 @@ def test_smooth_surfaces_have_the_ratio_one(cases: Path, tmp_path: Path):
     case = str(cases / "table1.nml")
     words = ("--set", "lubricant.shear_law=eyring", "--set", "grid.points=129")
     words += ("--speed", "0.5,2", "--slide-to-roll", "0.02,0.2")
-    told, _ = run(case, *words, "--set", "surface.kind=smooth", "-o", str(tmp_path / "s"))
-    assert "and a prediction" not in told
+    reported, _ = run(case, *words, "--set", "surface.kind=smooth", "-o", str(tmp_path / "s"))
+    assert "and a prediction" not in reported
     run(case, *words, "--set", "surface.pixels=64", "-o", str(tmp_path / "r"))
     # which is no finding
-    assert "\nmu_r/mu_s  " not in told
+    assert "\nmu_r/mu_s  " not in reported
     smooth, rough = table(tmp_path / "s"), table(tmp_path / "r")
     assert len(smooth) == len(rough) == 4
     for a, b in zip(smooth, rough, strict=True):
@@ -138,7 +138,7 @@ def test_temperature_and_load(cases: Path, tmp_path: Path):
     sheet = "&lubricant\n   kinematic_viscosity_40 = 46.0\n   kinematic_viscosity_100 = 7.0"
     (tmp_path / "oil.nml").write_text(text.replace("&lubricant", sheet))
     words = ("--set", "grid.points=257", "--set", "surface.pixels=64")
-    told, _ = run(
+    reported, _ = run(
         str(tmp_path / "oil.nml"), *words, "--temperature", "40:60:3", "-o", str(tmp_path / "t")
     )
     rows = table(tmp_path / "t")
@@ -157,7 +157,7 @@ def test_temperature_and_load(cases: Path, tmp_path: Path):
     for name in ("h_c_m", "hersey", "lambda_ratio"):
         values = [float(row[name]) for row in rows]
         assert values == sorted(values, reverse=True), name
-    assert "lubricant.temperature" in told
+    assert "lubricant.temperature" in reported
     _, complaint = run(
         str(cases / "table1.nml"),
         *words,
@@ -183,10 +183,10 @@ def test_temperature_and_load(cases: Path, tmp_path: Path):
 
 
 def test_files_and_words(wave: tuple[Path, str]):
-    folder, told = wave
-    assert "3 points over contact.mean_velocity" in told
-    assert "the full simulation at 1" in told
-    assert "full film at all points" in told
+    folder, reported = wave
+    assert "3 points over contact.mean_velocity" in reported
+    assert "the full simulation at 1" in reported
+    assert "full film at all points" in reported
     with xr.open_dataset(folder / "stribeck.nc") as data:
         assert data.mu_ratio.dims == ("mean_velocity",)
         assert data.h_c_m.attrs["units"] == "m"
@@ -199,7 +199,7 @@ def test_files_and_words(wave: tuple[Path, str]):
 def test_mean_over_surfaces_and_the_end_of_full_film(cases: Path, tmp_path: Path):
     words = ("--set", "grid.points=257", "--set", "surface.pixels=64", "--speed", "0.1,4")
     words += ("--set", "surface.rms_height=1.5e-7")
-    told, _ = run(str(cases / "table1.nml"), *words, "--surfaces", "2", "-o", str(tmp_path))
+    reported, _ = run(str(cases / "table1.nml"), *words, "--surfaces", "2", "-o", str(tmp_path))
     slow, fast = table(tmp_path)
     assert slow["status"] == BREAKDOWN
     assert slow["mu_ratio"] == ""
@@ -222,7 +222,7 @@ def test_mean_over_surfaces_and_the_end_of_full_film(cases: Path, tmp_path: Path
     assert fast["mu_ratio_model_error"] == ("" if None in errors else repr(max(errors)))
     # Newtonian at this pressure: the coefficient has no meaning and is not there
     assert fast["mu"] == ""
-    assert "full film ends between contact.mean_velocity = 0.1 and 4" in told
+    assert "full film ends between contact.mean_velocity = 0.1 and 4" in reported
 
 
 def test_pattern_of_a_map_of_one_wave_is_that_wave(tmp_path: Path):
@@ -246,7 +246,7 @@ def test_pattern_of_a_map_of_one_wave_is_that_wave(tmp_path: Path):
 
 
 @pytest.mark.parametrize(
-    ("statuses", "says"),
+    ("statuses", "states"),
     [
         ([FULL_FILM, FULL_FILM, FULL_FILM], "full film at all points"),
         (
@@ -262,12 +262,12 @@ def test_pattern_of_a_map_of_one_wave_is_that_wave(tmp_path: Path):
         (["not solved", "not solved", "not solved"], "no point has a result"),
     ],
 )
-def test_where_full_film_ends(statuses: list[str], says: str):
-    assert says in full_film_ends("u", [1.0, 2.0, 3.0], statuses)
+def test_where_full_film_ends(statuses: list[str], states: str):
+    assert states in full_film_ends("u", [1.0, 2.0, 3.0], statuses)
 
 
 @pytest.mark.parametrize(
-    ("words", "says"),
+    ("words", "states"),
     [
         ([], "expected at least one of --speed"),
         (["--speed", "0.5", "--set", "surface.kind=smooth", "--ehl", "1"], "no passage to solve"),
@@ -281,28 +281,28 @@ def test_where_full_film_ends(statuses: list[str], says: str):
         (["--speed", "1", "--load", "300", "--measured", "x.csv"], "expected one curve"),
     ],
 )
-def test_curves_that_are_refused(cases: Path, tmp_path: Path, words: list[str], says: str):
+def test_curves_that_are_refused(cases: Path, tmp_path: Path, words: list[str], states: str):
     _, complaint = run(str(cases / "table1.nml"), *words, "-o", str(tmp_path / "out"), expect=2)
-    assert says in complaint
+    assert states in complaint
     assert not (tmp_path / "out").exists()
 
 
 def test_ends_of_a_curve_say_why(cases: Path, tmp_path: Path):
-    """A load that no grid solves, told in words; a ratio larger than any that was compared."""
+    """A load that no grid solves, reported in words; a ratio larger than any that was compared."""
     words = ("--set", "surface.pixels=64", "--set", "grid.points=65", "-o")
-    told, complaint = run(
+    reported, complaint = run(
         str(cases / "table1.nml"), "--speed", "0.005,4", *words, str(tmp_path / "1"), expect=1
     )
     lost, found = table(tmp_path / "1")
     assert lost["status"] == "not solved"
     assert "did not converge on 1025 nodes along X" in lost["message"]
     assert "point 1 of 2 (contact.mean_velocity=0.005): not solved: failed: " in complaint
-    assert "full film at all points with a result; 1 have none" in told
+    assert "full film at all points with a result; 1 have none" in reported
     assert found["status"] == FULL_FILM
     words = ("--set", "surface.pixels=256", "--set", "grid.points=257", "--set")
     words += ("surface.rms_height=7e-8", "-o", str(tmp_path / "2"))
-    told, _ = run(str(cases / "table1.nml"), "--viscosity", "0.01,0.1", *words)
-    assert "curve      outside the range at 1, full film at 1 of 2 points" in told
+    reported, _ = run(str(cases / "table1.nml"), "--viscosity", "0.01,0.1", *words)
+    assert "curve      outside the range at 1, full film at 1 of 2 points" in reported
     high, usual = table(tmp_path / "2")
     assert float(high["mu_ratio"]) > 5.0
     assert high["mu_ratio_model_error"] == ""
@@ -329,26 +329,28 @@ def test_a_point_without_a_smooth_solution_is_not_solved(cases: Path, tmp_path: 
 def test_nothing_solved_is_no_full_film(cases: Path, tmp_path: Path):
     """Neither words nor pictures speak of a film that no point has."""
     words = ("--set", "surface.kind=smooth", "--set", "grid.points=65", "--speed", "0.003,0.005")
-    told, complaint = run(str(cases / "table1.nml"), *words, "-o", str(tmp_path / "out"), expect=1)
-    assert "no point has a result" in told
-    assert "full film" not in told
+    reported, complaint = run(
+        str(cases / "table1.nml"), *words, "-o", str(tmp_path / "out"), expect=1
+    )
+    assert "no point has a result" in reported
+    assert "full film" not in reported
     assert complaint.count(": not solved: ") == 2
     assert "there is no picture" in complaint
     assert not (tmp_path / "out" / "stribeck.png").exists()
-    assert "stribeck.png" not in told
+    assert "stribeck.png" not in reported
 
 
 def test_a_ratio_beyond_linear_response_leaves_the_film(cases: Path, tmp_path: Path):
     """Film and Lambda are known: the point is judged by them, and the ratio alone is missing."""
     words = ("--set", "surface.pixels=128", "--set", "surface.rms_height=5e-8", "--set")
     words += ("surface.hurst=0.3", "--set", "grid.points=257", "--speed", "0.84,4")
-    told, complaint = run(str(cases / "table1.nml"), *words, "-o", str(tmp_path))
+    reported, complaint = run(str(cases / "table1.nml"), *words, "-o", str(tmp_path))
     first, second = table(tmp_path)
     assert first["status"] == OUTSIDE
     assert (first["mu_ratio"], first["mu"]) == ("", "")
     assert first["message"].startswith("beyond linear response: pressures that raise mu_r/mu_s to")
     assert "but mu_r/mu_s is not known: pressures that raise" in first["assessment"]
-    assert "no result" not in first["assessment"] + told
+    assert "no result" not in first["assessment"] + reported
     assert float(first["lambda_ratio"]) > 0.5
     assert second["mu_ratio"] != ""
     assert complaint == ""
@@ -357,8 +359,8 @@ def test_a_ratio_beyond_linear_response_leaves_the_film(cases: Path, tmp_path: P
 def test_a_curve_of_breakdown_alone_has_no_picture(cases: Path, tmp_path: Path):
     words = ("--set", "surface.pixels=64", "--set", "surface.rms_height=8e-7", "--set")
     words += ("grid.points=129", "--speed", "0.8,1.6", "-o", str(tmp_path))
-    told, complaint = run(str(cases / "table1.nml"), *words, expect=1)
-    assert "no full film at any point" in told
+    reported, complaint = run(str(cases / "table1.nml"), *words, expect=1)
+    assert "no full film at any point" in reported
     assert "there is no picture" in complaint
     assert {row["status"] for row in table(tmp_path)} == {BREAKDOWN}
     assert not (tmp_path / "stribeck.png").exists()

@@ -15,11 +15,11 @@ from pyehl.studies import study as study_module
 
 def pyehl_(command: str, folder: Path, *words: str, expect: int = 0) -> str:
     """Run a command of studies in this process; what it printed."""
-    told = io.StringIO()
-    with redirect_stdout(told), redirect_stderr(told):
+    reported = io.StringIO()
+    with redirect_stdout(reported), redirect_stderr(reported):
         status = main([command, *words, "-o", str(folder)])
-    assert status == expect, told.getvalue()
-    return told.getvalue()
+    assert status == expect, reported.getvalue()
+    return reported.getvalue()
 
 
 def heights(seed: int) -> np.ndarray:
@@ -52,8 +52,8 @@ def test_a_study_goes_on_where_its_map_has_moved(mapped: tuple[Path, list[str]])
     """What the map is counts, not where it lies; the same name elsewhere is another map."""
     folder, words = mapped
     (folder / "in").rename(folder / "moved")
-    told = pyehl_("sweep", folder / "out", str(folder / "moved" / "case.nml"), *words)
-    assert "2 of them are done" in told
+    reported = pyehl_("sweep", folder / "out", str(folder / "moved" / "case.nml"), *words)
+    assert "2 of them are done" in reported
     (folder / "other").mkdir()
     np.save(folder / "other" / "scan.npy", heights(1))
     (folder / "other" / "case.nml").write_text((folder / "moved" / "case.nml").read_text())

@@ -30,9 +30,9 @@ def test_rows_come_back(tmp_path: Path):
     with Journal(tmp_path, STUDY) as journal:
         journal.append([(0, {"x": 0.1 + 0.2}), (2, {"x": None, "status": "failed"})])
         journal.append([(1, {"x": 1e-300, "message": 'two\nlines, "quoted" µ'})])
-        told = dict(journal.rows)
-    assert rows_of(tmp_path) == told
-    assert told[0]["x"] == 0.1 + 0.2
+        reported = dict(journal.rows)
+    assert rows_of(tmp_path) == reported
+    assert reported[0]["x"] == 0.1 + 0.2
 
 
 def test_killed_anywhere_it_has_all_rows_before(tmp_path: Path):
@@ -106,7 +106,7 @@ def test_difference_of_the_same_is_nothing():
 
 
 def test_two_processes_do_not_write_one_journal(tmp_path: Path):
-    """The second one is told which process works on it; what the study is can be read."""
+    """The second one is informed which process works on it; what the study is can be read."""
     code = (
         "import sys, json; from pyehl.studies.journal import Journal\n"
         f"with Journal({str(tmp_path)!r}, {STUDY!r}) as journal:\n"

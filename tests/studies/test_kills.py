@@ -107,8 +107,8 @@ def begin(folder: Path, case: Path) -> subprocess.Popen[str]:
 
 def finish(folder: Path, case: Path) -> None:
     process = begin(folder, case)
-    told, complaint = process.communicate(timeout=300)
-    assert process.returncode == 0, told + complaint
+    reported, complaint = process.communicate(timeout=300)
+    assert process.returncode == 0, reported + complaint
 
 
 def children(process: subprocess.Popen[str]) -> list[int]:
@@ -126,7 +126,7 @@ def wait_for_rows(folder: Path, count: int) -> None:
 
 
 def check_whole(folder: Path, unbroken: Path) -> None:
-    """Every case once, with the numbers of a study that nobody stopped."""
+    """Every case once, with the numbers of a study that was not stopped."""
     assert list(rows_in(folder)) == list(range(200))
     for a, b in zip(table(folder), table(unbroken), strict=True):
         assert {k: v for k, v in a.items() if k != "seconds"} == {
@@ -147,8 +147,8 @@ def test_ctrl_c_keeps_everything(cases: Path, tmp_path: Path, unbroken: Path):
     process = begin(folder, cases / "quick.nml")
     wait_for_rows(folder, 3)
     process.send_signal(signal.SIGINT)
-    told, complaint = process.communicate(timeout=60)
-    assert process.returncode == 130, told + complaint
+    reported, complaint = process.communicate(timeout=60)
+    assert process.returncode == 130, reported + complaint
     assert "the same command resumes it" in complaint
     finished = rows_in(folder)
     assert 3 <= len(finished) < 200

@@ -41,7 +41,7 @@ def test_measured_data_over_other_abscissae(tmp_path: Path):
 
 
 @pytest.mark.parametrize(
-    ("text", "says"),
+    ("text", "states"),
     [
         ("", "the columns are none"),
         ("speed,mu\n1,2\n", "expected: one of u, hersey"),
@@ -58,15 +58,15 @@ def test_measured_data_over_other_abscissae(tmp_path: Path):
         ("u,mu\n", "there are no rows"),
     ],
 )
-def test_measured_data_that_are_refused(tmp_path: Path, text: str, says: str):
+def test_measured_data_that_are_refused(tmp_path: Path, text: str, states: str):
     (tmp_path / "m.csv").write_text(text)
     with pytest.raises(InputError) as refusal:
         read_measured(tmp_path / "m.csv", "u")
-    assert says in str(refusal.value)
+    assert states in str(refusal.value)
 
 
 @pytest.mark.parametrize(
-    ("law", "text", "says"),
+    ("law", "text", "states"),
     [
         ("newtonian", f"{KEY},mu\n1,0.05\n", "it holds mu, the curve mu_ratio (give a lubricant"),
         ("eyring", f"{KEY},mu_ratio\n1,1.2\n", "it holds mu_ratio, the curve mu"),
@@ -80,7 +80,7 @@ def test_measured_data_that_are_refused(tmp_path: Path, text: str, says: str):
     ],
 )
 def test_measured_data_are_refused_before_the_first_case(
-    cases: Path, tmp_path: Path, law: str, text: str, says: str
+    cases: Path, tmp_path: Path, law: str, text: str, states: str
 ):
     file = tmp_path / "m.csv"
     if text:
@@ -88,7 +88,7 @@ def test_measured_data_are_refused_before_the_first_case(
     words = ("--set", f"lubricant.shear_law={law}", "--speed", "0.5,2", "--measured", str(file))
     complaint = run(str(cases / "table1.nml"), *words, "-o", str(tmp_path / "o"), expect=2)
     assert str(file) in complaint
-    assert says in complaint
+    assert states in complaint
     assert "Errno" not in complaint
     assert not (tmp_path / "o").exists()
 

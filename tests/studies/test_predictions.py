@@ -16,7 +16,7 @@ from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
-# What a prediction costs, not what it says
+# What a prediction costs, not what it states
 OWN = {"seconds", "wall_seconds"}
 SMALL = ("surface.pixels=64",)
 # A ratio, no film, pressures beyond a linear response, the model of the paper, a single wave

@@ -222,11 +222,11 @@ def test_waves_and_surfaces_on_coarse_grids(tmp_path: Path, monkeypatch: pytest.
 
 def test_a_failure_that_a_run_explains():
     check = Check("x", 2.0, 1.0, 0.5, "why", "there", finding="Damping")
-    told = Result([check])
+    reported = Result([check])
     assert "not reproduced: Damping" in check.verdict
-    assert told.passed
-    assert told.line().startswith("not reproduced")
-    bare = replace(told, checks=[replace(check, finding="")])
+    assert reported.passed
+    assert reported.line().startswith("not reproduced")
+    bare = replace(reported, checks=[replace(check, finding="")])
     assert not bare.passed
     assert bare.line().startswith("FAIL")
 
@@ -243,9 +243,9 @@ def test_what_has_no_number_to_judge_is_no_pass():
 def test_command(tmp_path: Path, capsys: Any):
     folder = tmp_path / "out"
     assert main(["--table", "1", "-o", str(folder)]) == 0
-    told = capsys.readouterr().out
-    assert "table 1    pass: 17 of 17" in told
-    assert "report.html" in told
+    reported = capsys.readouterr().out
+    assert "table 1    pass: 17 of 17" in reported
+    assert "report.html" in reported
     page = (folder / "report.html").read_text()
     assert QUICK.leaves_out in page
     assert "numpy" in page

@@ -44,10 +44,10 @@ def test_films_beside_a_study(
     """Films measured 5 % thinner; a step at another temperature is left out."""
     file = rig(tmp_path / "films.txt", 1.0 / 1.05, steps=2)
     assert main(["compare", str(study), "--measured", str(file)]) == 0
-    told = capsys.readouterr().out
-    assert "h_c_m over contact.mean_velocity: 3 measured points" in told
-    assert "3 points, mean +5.0%, rms 5.0%" in told
-    assert "lubricant.temperature = 100 degC, in the case 40 degC" in told
+    reported = capsys.readouterr().out
+    assert "h_c_m over contact.mean_velocity: 3 measured points" in reported
+    assert "3 points, mean +5.0%, rms 5.0%" in reported
+    assert "lubricant.temperature = 100 degC, in the case 40 degC" in reported
 
 
 def test_what_cannot_be_compared(

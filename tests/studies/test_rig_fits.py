@@ -84,9 +84,9 @@ def test_alpha_without_noise(
     out = tmp_path / "out"
     words = ["fit-lubricant", str(file), "--case", str(case), "-o", str(out)]
     assert main([*words, "--set", "lubricant.pressure_viscosity=6e-9"]) == 0
-    told = capsys.readouterr().out
-    assert "left out: Step 1" in told
-    assert re.search(r"a viscosity 10 % too high makes pressure_viscosity 1[12]% too low", told)
+    reported = capsys.readouterr().out
+    assert "left out: Step 1" in reported
+    assert re.search(r"a viscosity 10 % too high makes pressure_viscosity 1[12]% too low", reported)
     group = (out / "lubricant.nml").read_text()
     value = float(group.partition("pressure_viscosity =")[2].split()[0])
     assert value == pytest.approx(ALPHA, rel=2e-3)
@@ -122,7 +122,7 @@ def test_eyring_stress_is_in_its_interval(tmp_path: Path) -> None:
 
 
 def test_record_of_measured_films(root: Path) -> None:
-    """The coefficient and the residual are those of the page; fringe orders are as it says."""
+    """The coefficient and the residual are those of the page; fringe orders are as it states."""
     folder = root / "docs" / "evidence" / "rig"
     page = (folder / "README.md").read_text(encoding="utf-8")
     data, case = folder / "nynas-t3-40.csv", folder / "nynas-t3.nml"
@@ -140,7 +140,7 @@ def test_record_of_measured_films(root: Path) -> None:
 
 
 def test_stribeck_beside_a_rig(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """Films and friction of a curve, measured 5 % lower, deviate by 5.3 %; the range is said."""
+    """Films and friction of a curve, measured 5 % lower, deviate by 5.3 %; the range is stated."""
     case = Path(__file__).resolve().parents[2] / "cases" / "mtm.nml"
     words = [str(case), "--speed", "0.5:2:3log", "--set", "grid.points=65", "-o"]
     curve = tmp_path / "curve"
@@ -154,11 +154,11 @@ def test_stribeck_beside_a_rig(tmp_path: Path, capsys: pytest.CaptureFixture[str
     file.write_text("\n".join(lines))
     capsys.readouterr()
     assert main(["stribeck", *words, str(tmp_path / "beside"), "--measured", str(file)]) == 0
-    told = capsys.readouterr().out
+    reported = capsys.readouterr().out
     for name in ("h_c_m", "mu"):
-        assert f"{name} over contact.mean_velocity: 3 measured points" in told
-    assert told.count("3 points, mean +5.3%, rms 5.3%") == 2
-    assert "0.5 to 0.5: 1 points" not in told
+        assert f"{name} over contact.mean_velocity: 3 measured points" in reported
+    assert reported.count("3 points, mean +5.3%, rms 5.3%") == 2
+    assert "0.5 to 0.5: 1 points" not in reported
     file.write_text("load (N),friction coefficient\n10,0.05\n20,0.06\n")
     assert main(["stribeck", *words, str(tmp_path / "no"), "--measured", str(file)]) == 2
     assert "measured over contact.load; the results go over" in capsys.readouterr().err

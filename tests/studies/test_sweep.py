@@ -24,11 +24,11 @@ from pyehl.studies.tasks import Task
 
 def sweep(folder: Path, *words: str, expect: int = 0) -> tuple[str, str]:
     """Run the command in this process; what it printed on both streams."""
-    told, complaint = io.StringIO(), io.StringIO()
-    with redirect_stdout(told), redirect_stderr(complaint):
+    reported, complaint = io.StringIO(), io.StringIO()
+    with redirect_stdout(reported), redirect_stderr(complaint):
         status = main(["sweep", *words, "-o", str(folder)])
-    assert status == expect, told.getvalue() + complaint.getvalue()
-    return told.getvalue(), complaint.getvalue()
+    assert status == expect, reported.getvalue() + complaint.getvalue()
+    return reported.getvalue(), complaint.getvalue()
 
 
 def table(folder: Path) -> list[dict[str, str]]:
@@ -42,8 +42,8 @@ def done(cases: Path, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, s
     folder = tmp_path_factory.mktemp("sweep") / "new" / "study"
     words = ("--set", "grid.points=65", "--vary", "contact.moes_m=50:200:4log")
     words += ("--vary", "contact.moes_l=5,10")
-    told, _ = sweep(folder, str(cases / "quick.nml"), *words, "--jobs", "2")
-    return folder, told
+    reported, _ = sweep(folder, str(cases / "quick.nml"), *words, "--jobs", "2")
+    return folder, reported
 
 
 def test_table_is_that_of_single_runs(done: tuple[Path, str], cases: Path):
@@ -79,11 +79,11 @@ def test_netcdf_has_what_was_varied_as_dimensions(done: tuple[Path, str]):
 
 
 def test_the_plan_and_the_end_are_told(done: tuple[Path, str]):
-    told = done[1]
-    assert "8 cases (solve): 4 contact.moes_m x 2 contact.moes_l" in told
-    assert "by estimate, 2 worker processes of one thread each" in told
-    assert "8 in the table: 8 converged" in told
-    assert "8 ran now" in told
+    reported = done[1]
+    assert "8 cases (solve): 4 contact.moes_m x 2 contact.moes_l" in reported
+    assert "by estimate, 2 worker processes of one thread each" in reported
+    assert "8 in the table: 8 converged" in reported
+    assert "8 ran now" in reported
 
 
 def test_started_again_it_runs_nothing_twice(done: tuple[Path, str], cases: Path):
@@ -106,7 +106,7 @@ def test_another_study_in_the_same_folder_is_refused(done: tuple[Path, str], cas
 
 
 @pytest.mark.parametrize(
-    ("words", "says"),
+    ("words", "states"),
     [
         (["--vary", "contact.moes_m=100,200,-5"], "case 3 of 3 (contact.moes_m=-5)"),
         (["--vary", "contact.moes_n=100,200"], "did you mean"),
@@ -121,9 +121,9 @@ def test_another_study_in_the_same_folder_is_refused(done: tuple[Path, str], cas
         (["--vary", "contact.moes_m=1:9:1001", "--vary", "contact.moes_l=1:9:1000"], "can have"),
     ],
 )
-def test_one_bad_case_and_nothing_runs(cases: Path, tmp_path: Path, words: list[str], says: str):
+def test_one_bad_case_and_nothing_runs(cases: Path, tmp_path: Path, words: list[str], states: str):
     _, refused = sweep(tmp_path / "out", str(cases / "quick.nml"), *words, expect=2)
-    assert says in refused
+    assert states in refused
     assert not (tmp_path / "out").exists()
 
 
@@ -212,8 +212,8 @@ def test_predictions_share_smooth_contacts(cases: Path):
 def test_a_message_for_each_case_without_a_result(cases: Path, tmp_path: Path):
     """Of those that did not converge, too; in Python the dataset has their status."""
     words = ("--set", "grid.points=65", "--vary", "solver.max_cycles=1,30,2")
-    told, complaint = sweep(tmp_path / "out", str(cases / "quick.nml"), *words, expect=1)
-    assert "1 converged, 2 cycle limit" in told
+    reported, complaint = sweep(tmp_path / "out", str(cases / "quick.nml"), *words, expect=1)
+    assert "1 converged, 2 cycle limit" in reported
     first, last = complaint.splitlines()
     assert first.startswith("case 1 of 3 (solver.max_cycles=1): cycle limit: the residual of ")
     assert last.startswith("case 3 of 3 (solver.max_cycles=2): cycle limit: the residual of ")
@@ -234,11 +234,11 @@ def test_a_case_that_fails_says_so_in_words(cases: Path, tmp_path: Path):
 
 
 def test_a_film_that_breaks_down_is_an_answer(cases: Path, tmp_path: Path):
-    """As on a curve: the study is finished, and the table says of which case there is no ratio."""
+    """As on a curve: the study is finished, and the table has of which case there is no ratio."""
     words = ("--run", "predict", "--set", "surface.pixels=64", "--vary")
     words += ("surface.rms_height=5e-8,8e-7", "--jobs", "1")
-    told, complaint = sweep(tmp_path / "out", str(cases / "table1.nml"), *words)
-    assert "1 film breakdown, 1 predicted" in told
+    reported, complaint = sweep(tmp_path / "out", str(cases / "table1.nml"), *words)
+    assert "1 film breakdown, 1 predicted" in reported
     assert complaint == ""
 
 
@@ -278,14 +278,14 @@ def test_the_time_left_follows_from_what_the_first_cases_took():
 
 @pytest.mark.long
 def test_a_plan_of_a_million_cases(cases: Path, tmp_path: Path):
-    """It checks some, among them both ends of what is varied, and says so."""
+    """It checks some, among them both ends of what is varied, and states so."""
     words = [str(cases / "table1.nml"), "--run", "film", "--plan", "--vary"]
     words += ["contact.load=100:600:1000", "--vary"]
     began = time.monotonic()
-    told, _ = sweep(tmp_path / "out", *words, "contact.mean_velocity=0.1:1:1000")
+    reported, _ = sweep(tmp_path / "out", *words, "contact.mean_velocity=0.1:1:1000")
     assert time.monotonic() - began < 60.0
-    assert "1000000 cases (film)" in told
-    assert "of them, spread over the values of each key; a run checks all before" in told
+    assert "1000000 cases (film)" in reported
+    assert "of them, spread over the values of each key; a run checks all before" in reported
     _, refused = sweep(tmp_path / "out", *words, "contact.mean_velocity=1:-1:1000", expect=2)
     assert "case 1000 of 1000000 (contact.load=100.0, contact.mean_velocity=-1.0)" in refused
 

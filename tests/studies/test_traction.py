@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Traction curves, and what an empirical law says where the film is thin."""
+"""Traction curves, and what an empirical law gives where the film is thin."""
 
 import csv
 import io
@@ -32,11 +32,11 @@ SLIP = "contact.slide_to_roll"
 
 
 def run(*words: str, expect: int = 0) -> str:
-    told, complaint = io.StringIO(), io.StringIO()
-    with redirect_stdout(told), redirect_stderr(complaint):
+    reported, complaint = io.StringIO(), io.StringIO()
+    with redirect_stdout(reported), redirect_stderr(complaint):
         status = main(["stribeck", *words, "--jobs", "1"])
-    assert status == expect, told.getvalue() + complaint.getvalue()
-    return told.getvalue() + complaint.getvalue()
+    assert status == expect, reported.getvalue() + complaint.getvalue()
+    return reported.getvalue() + complaint.getvalue()
 
 
 def columns(folder: Path) -> dict[str, np.ndarray]:
@@ -51,7 +51,7 @@ def test_rise_plateau_and_fall(tmp_path: Path):
     (tmp_path / "ball.nml").write_text(BALL)
     (tmp_path / "measured.csv").write_text(f"{SLIP},mu\n0.1,0.033\n0.3,0.033\n")
     slips = "0,1e-7,2e-7,0.12,0.2,0.5"
-    told = run(
+    reported = run(
         *(str(tmp_path / "ball.nml"), "--slide-to-roll", slips, "-o", str(tmp_path / "out")),
         *("--measured", str(tmp_path / "measured.csv")),
     )
@@ -67,9 +67,9 @@ def test_rise_plateau_and_fall(tmp_path: Path):
     assert (tmp_path / "out" / "stribeck.png").is_file()
     # the deviation at the two measured points on the curve, by hand
     there = np.interp([0.1, 0.3], found[SLIP][1:], mu[1:]) / 0.033 - 1.0
-    assert f"off by {there.mean():+.1%} in the mean" in told
-    assert f"{np.sqrt(np.mean(there**2)):.1%} rms" in told
-    assert "2 of 2 points" in told
+    assert f"off by {there.mean():+.1%} in the mean" in reported
+    assert f"{np.sqrt(np.mean(there**2)):.1%} rms" in reported
+    assert "2 of 2 points" in reported
 
 
 def test_load_share_by_hand():
@@ -98,7 +98,7 @@ def test_empirical_left_end(tmp_path: Path):
     )
     words = (str(tmp_path / "ball.nml"), "--speed", "0.2,0.8,10", "--slide-to-roll", "0.05")
     words += ("--set", "grid.points=129")
-    told = run(*words, "-o", str(tmp_path / "out"), "--boundary-friction", "0.12", expect=0)
+    reported = run(*words, "-o", str(tmp_path / "out"), "--boundary-friction", "0.12", expect=0)
     found = columns(tmp_path / "out")
     ratio = found["lambda_ratio_central"]
     assert ratio[0] < 0.5
@@ -112,12 +112,12 @@ def test_empirical_left_end(tmp_path: Path):
     # where the film ends it has the friction of the smooth contact
     assert share[0] * 0.12 < found["mu_empirical"][0] < share[0] * 0.12 + (1.0 - share[0]) * 0.06
     assert found["mu_empirical"][2] == pytest.approx(found["mu"][2], rel=0.01)
-    assert "empirical: exp(-1.8 (h_c/sigma)^1.2)" in told
+    assert "empirical: exp(-1.8 (h_c/sigma)^1.2)" in reported
     # the same curve with another law: nothing is computed again
-    told = run(*words, "-o", str(tmp_path / "out"), *("--boundary-friction", "0.1"))
-    assert "6 of 6 tasks are done" in told
-    told = run(*words, "-o", str(tmp_path / "out"))
-    assert "empirical:" not in told
+    reported = run(*words, "-o", str(tmp_path / "out"), *("--boundary-friction", "0.1"))
+    assert "6 of 6 tasks are done" in reported
+    reported = run(*words, "-o", str(tmp_path / "out"))
+    assert "empirical:" not in reported
     assert not [name for name in columns(tmp_path / "out") if "empirical" in name]
 
 

@@ -39,7 +39,7 @@ def test_texts(text: str, values: tuple[object, ...]):
 
 
 @pytest.mark.parametrize(
-    ("text", "says"),
+    ("text", "states"),
     [
         ("a.b", "expected group.key=VALUES"),
         ("a.b=", "expected group.key=VALUES"),
@@ -56,10 +56,10 @@ def test_texts(text: str, values: tuple[object, ...]):
         ("a.b=1,red", "numbers and words"),
     ],
 )
-def test_texts_that_are_refused(text: str, says: str):
+def test_texts_that_are_refused(text: str, states: str):
     with pytest.raises(InputError) as refusal:
         parse_axis(text)
-    assert says in str(refusal.value)
+    assert states in str(refusal.value)
 
 
 def test_values_of_python():
@@ -123,7 +123,7 @@ def test_keys_that_move_together():
 
 
 @pytest.mark.parametrize(
-    ("make_it", "says"),
+    ("make_it", "states"),
     [
         (study, "nothing is varied"),
         (lambda: study("a.x=1:2", "a.x=3"), "varied twice"),
@@ -136,10 +136,10 @@ def test_keys_that_move_together():
         (lambda: study("a.x=1:2000", "a.y=1:2000"), "4000000 cases"),
     ],
 )
-def test_studies_that_are_refused(make_it, says: str):
+def test_studies_that_are_refused(make_it, states: str):
     with pytest.raises(InputError) as refusal:
         make_it()
-    assert says in str(refusal.value)
+    assert states in str(refusal.value)
 
 
 def test_study_file(tmp_path: Path):
@@ -167,7 +167,7 @@ def test_study_file(tmp_path: Path):
 
 
 @pytest.mark.parametrize(
-    ("text", "says"),
+    ("text", "states"),
     [
         ("case = 'c.nml'\nvari = 1", "did you mean 'vary'"),
         ("vary = {}", "there is no 'case'"),
@@ -178,12 +178,12 @@ def test_study_file(tmp_path: Path):
         ("case = ", "Invalid value"),
     ],
 )
-def test_study_files_that_are_refused(tmp_path: Path, text: str, says: str):
+def test_study_files_that_are_refused(tmp_path: Path, text: str, states: str):
     path = tmp_path / "study.toml"
     path.write_text(text)
     with pytest.raises(InputError) as refusal:
         make(**read_study(path))
-    assert says in str(refusal.value)
+    assert states in str(refusal.value)
     assert "study.toml" in str(refusal.value)
 
 
