@@ -87,8 +87,9 @@ def within(off: float) -> str:
 
 
 def theory(root: Path, name: str) -> str:
-    """Text of a chapter of the theory."""
-    return plain(root / "docs" / "theory" / f"{name}.md")
+    """Text of a chapter of the theory and of its record."""
+    pages = f"theory/{name}.md", f"evidence/{name}/README.md"
+    return "".join(plain(root / "docs" / page) for page in pages)
 
 
 # A ball on a disc in a traction machine: at 0.01 m/s the film is 3.67 nm on ever finer
