@@ -12,7 +12,7 @@ remains that of the inlet.
 
 It is thicker where contact would otherwise carry more than the load, and by what the boundary film
 gives. A column of lubricant that a peak has passed has the film of the boundary film at least. So
-that gives each the most that it has lacked on the way through the contact, on which peaks that slip
+that gives each its largest deficit on the way through the contact, on which peaks that slip
 pass it one after the other, and all films are thicker by the mean s of that:
 
     s = < max(0, h_b - h_min - s) >,   h_min the minimum film of the column on its way.
@@ -131,7 +131,7 @@ class MixedContact:
         unit = 1.0 if self.rough.thins else model.lubricant.viscosity * o.sliding_speed
         known = friction > 0.0 and o.sliding_speed > 0.0
         self.rubbing = friction * o.hertz_pressure / unit if known else math.nan
-        # films that were scaled to the extrapolated central film lack something at the sides
+        # films that were scaled to the extrapolated central film are off at the sides
         self.film = self.rough.film + missing(model.contact, self.rough.film, self.rough.lowest)
         self.way = self._way()
         self.load = float(self.rough.pressure.sum(where=self.rough.inside))
@@ -146,15 +146,15 @@ class MixedContact:
         way = slipped(rough.x[:, np.newaxis], rough.across, self.velocity_ratio, bent=True)
         return np.rint(way / (self.stride * self.tile.pixel[0])).astype(int)
 
-    def _given(self, lack: Array) -> float:
-        """Film that the boundary film gives [a^2/R], by what each point lacks of it (m, n)."""
-        most = lack.copy()
+    def _given(self, deficit: Array) -> float:
+        """Film that the boundary film gives [a^2/R], by its deficit at each point (m, n)."""
+        most = deficit.copy()
         direction = 1 if self.velocity_ratio > 1.0 else -1
         for step in range(1, int(np.abs(self.way).max()) + 1):
             # peaks that are faster than the lubricant are ahead of where they met it
-            met = np.full_like(lack, -np.inf)
+            met = np.full_like(deficit, -np.inf)
             ahead, here = slice(step, None), slice(None, -step)
-            met[here if direction > 0 else ahead] = lack[ahead if direction > 0 else here]
+            met[here if direction > 0 else ahead] = deficit[ahead if direction > 0 else here]
             passed = np.abs(self.way) >= step
             most[passed] = np.maximum(most, met)[passed]
         of_all = most[self.rough.inside]
@@ -236,8 +236,8 @@ class MixedContact:
 
     def _share(self, pressure: Array, touching: Mask) -> float:
         """Share of the load at the boundary film."""
-        carried = float(pressure.sum(where=self.rough.inside))
-        return float(pressure.sum(where=touching)) / carried
+        whole = float(pressure.sum(where=self.rough.inside))
+        return float(pressure.sum(where=touching)) / whole
 
     def film_off(self, share: float) -> float:
         """Film [a^2/R] by which all were thicker in a smooth contact with a load share.
@@ -265,26 +265,20 @@ class MixedContact:
         return self.rough.inside & (film <= (1.0 + HOLD) * floor) & (pressure > 0.0)
 
     def _stress(self, pressure: Array, film: Array, touching: Mask) -> float:
-        """Sum of the shear stress; NaN where that of the boundary film is not known.
-
-        The boundary film has friction by its share of the load, whatever the points of friction
-        carry.
-        """
+        """Sum of the shear stress, of the boundary film by its load share; NaN: not known."""
         stress, inside = self.rough.stress(pressure, film), self.rough.inside
         flowing = float(stress.sum(where=inside & ~touching))
         if not touching.any():
             return flowing
-        share = float(pressure.sum(where=touching) / pressure.sum(where=inside))
-        return flowing + self.rubbing * self.whole_load * share
+        return flowing + self.rubbing * self.whole_load * self._share(pressure, touching)
 
     def heat(self, steps: Indices, settings: Settings) -> Heat | None:
         """Heat of sliding at some positions: of friction a mean, of the rises the maximum.
 
         None where bodies do not touch, or the friction of the boundary film is not known.
         """
-        if not any(touching.any() for _, _, touching in self.found.values()):
-            return None
-        if not math.isfinite(self.rubbing):
+        touches = any(touching.any() for _, _, touching in self.found.values())
+        if not (touches and math.isfinite(self.rubbing)):
             return None
         heat_of = HeatOf(settings, self.model.lubricant, self.rough.x, self.rough.y)
         found = [self.found[int(step)] for step in steps]
@@ -306,13 +300,6 @@ class MixedContact:
         if math.isfinite(off) and (state := self._of_smooth(off)) is not None:
             pressure, _, touching = state
         return self._stress(pressure, film, touching)
-
-    def coefficient(self, stress: float) -> float:
-        """Coefficient of friction of a sum of shear stress [-]."""
-        o = self.model.operating
-        newtonian = self.model.lubricant.viscosity * o.sliding_speed
-        found = stress * self.rough.area / o.load
-        return found if self.rough.thins else found * newtonian
 
 
 @dataclass(frozen=True, slots=True)
@@ -428,7 +415,7 @@ def partial_film(
         film_min_error=max(HOLD * minimum[0], *(abs(film - minimum[0]) for film in minimum[1:])),
         friction=ratio,
         friction_error=ratio_error,
-        mu_smooth=contact.coefficient(smooth),
+        mu_smooth=contact.rough.coefficient(smooth),
         shift=np.asarray(steps * grid.pixel[0], dtype=float),
         passage=np.array(levels[0].stress) / smooth,
         heat=heat,

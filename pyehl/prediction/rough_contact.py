@@ -126,9 +126,11 @@ class ShearedContact:
 
     def mu_smooth(self) -> float:
         """Coefficient of friction of the smooth contact [-]; NaN where it overflows."""
-        if not math.isfinite(self.smooth):
-            return math.nan
-        found = self.smooth * self.area / self.operating.load
+        return self.coefficient(self.smooth) if math.isfinite(self.smooth) else math.nan
+
+    def coefficient(self, stress: float) -> float:
+        """Coefficient of friction of a sum of shear stress, as `stress` has it [-]."""
+        found = stress * self.area / self.operating.load
         newtonian = self.lubricant.viscosity * self.operating.sliding_speed
         return found if self.thins else found * newtonian
 
@@ -503,9 +505,9 @@ class RoughContact(ShearedContact):
 
 
 def missing(contact: SmoothContact, film: Array, minimum: float) -> Array | float:
-    """Give what films H_s [a^2/R] of a smooth contact lack beside those extrapolated.
+    """Correct films H_s [a^2/R] of a smooth contact to those extrapolated: what is to be added.
 
-    They are scaled to the extrapolated central film; the minimum film lacks more than that, on the
+    They are scaled to the extrapolated central film; the minimum film needs more than that, on the
     grid of the smooth contact, whose `minimum` film it is. In between it is linear in the film.
     """
     central = contact.central_film

@@ -62,7 +62,7 @@ class Measured:
     error: Array
 
     def outside(self, places: Array) -> int:
-        """Give the number of its places that a curve over `places` (NaN: not known) lacks."""
+        """Count its places outside of a curve over `places` (NaN: not known)."""
         known = places[np.isfinite(places)]
         inside = (self.places >= known.min()) & (self.places <= known.max()) if known.size else []
         return self.places.size - int(np.count_nonzero(inside))
