@@ -81,7 +81,7 @@ def test_measured_surface(states, cases: Path):
     states(
         "docs/howto/measured-surface.md",
         "the rms height falls from {:.1f} nm to {:.1f} nm".format(*rms),
-        f"waves of {1e6 * strongest.shortest:.0f} to {1e6 * strongest.longest:.0f} μm",
+        f"aves of {1e6 * strongest.shortest:.0f} to {1e6 * strongest.longest:.0f} μm add the largest",
     )
     assert steps[0]["points_changed"] == 3
 
