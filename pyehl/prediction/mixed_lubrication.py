@@ -385,7 +385,7 @@ def partial_film(
     points = WAVE_POINTS / _shortest(wave.spectrum, power)
     within = min(max(points, CONTACT_POINTS[0]), CONTACT_POINTS[1])
     contact = MixedContact(model, waves, grid, within, boundary, friction)
-    # what the smooth film may be off, where that is more: bodies touch where it is least
+    # what the smooth film may be off, where that is more: bodies touch at its minimum
     of_smooth = np.nan_to_num(model.contact.minimum_film_error)
     margin = max(TOUCHING_FILM_ERROR * math.sqrt(float(power.sum())), float(of_smooth))
     off = (

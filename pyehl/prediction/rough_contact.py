@@ -96,10 +96,10 @@ class ShearedContact:
         """Note what a position has: increase of pressure, pressure and film at points within."""
         squares = np.square(increase, dtype=np.float64)
         self.squared_increase += float(squares.mean(where=near)) if near.any() else math.nan
-        greatest = float(increase.max(where=inner, initial=-math.inf))
-        self.max_increase = max(self.max_increase, greatest)
-        greatest = float(pressure.max(where=inner, initial=-math.inf))
-        self.max_pressure = max(self.max_pressure, greatest)
+        maximum = float(increase.max(where=inner, initial=-math.inf))
+        self.max_increase = max(self.max_increase, maximum)
+        maximum = float(pressure.max(where=inner, initial=-math.inf))
+        self.max_pressure = max(self.max_pressure, maximum)
         for i, level in enumerate(self.levels):
             self.below[i] += np.count_nonzero(film < level)
 

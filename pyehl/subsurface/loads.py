@@ -63,7 +63,7 @@ class Loads:
     semi_axis_y: float  # [a]; infinite of a line
     operating: AnyContact
     friction_note: str
-    pressure_error: float  # relative, of the largest pressure; NaN where it is not known
+    pressure_error: float  # relative, of the maximum pressure; NaN where it is not known
     period: float  # after which the rough contact repeats itself [a/u]; 0 where it does not
 
     @property
