@@ -324,7 +324,7 @@ def test_only_by_the_names_of_this_machine(served, host):
 @pytest.mark.parametrize(
     ("count", "kilobytes"),
     [
-        pytest.param(200, 20_000, marks=pytest.mark.long),
+        pytest.param(100, 15_000, marks=pytest.mark.long),
         pytest.param(1000, 60_000, marks=pytest.mark.slow),
     ],
 )
@@ -349,7 +349,7 @@ def test_many_turns_in_the_browser(tab, served, count: int, kilobytes: int):
                 tab.settle(129)
 
     tab.settle()
-    turns(100)
+    turns(60)
     tab.settle()
     before = held()
     turns(count)
