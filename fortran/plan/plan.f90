@@ -167,6 +167,7 @@ contains
       call pick_grids(input, plan, status)
       ! where the flow thins cycles that spare spikes diverge on coarse grids (kappa = 12, L = 28, Eyring)
       if (plan%lubricant%shear%thins_flow()) plan%spares_from = plan%levels
+      if (plan%touches .or. plan%contact%reach(2) <= oblique*plan%contact%reach(1)) plan%spares_from = huge(plan%spares_from)
       if (status%failed() .or. .not. plan%surfaces%rough()) return
       call plan%surfaces%use_threads(plan%threads)
       call plan%surfaces%find_period(merge(plan%max_periods, automatic_periods, plan%max_periods > 0))

@@ -40,7 +40,7 @@ module ehl_smooth_contact
    real(dp), parameter :: max_residual = 2.0_dp
    !> Residual from which on coarse grids change sharp pressure spikes too: sweeps alone do not find one that is far off
    !> (kappa = 11, L = 26)
-   real(dp), parameter :: near_solution = 0.05_dp
+   real(dp), parameter :: near_solution = 0.05_dp, near_spared = 0.5_dp
    !> Cycles that are few: on a level that began from a coarser one, and from the Hertz pressure
    integer, parameter :: min_cycles = 2, cycles_from_guess = 3
 
@@ -73,6 +73,8 @@ module ehl_smooth_contact
       logical, private :: damped = .false.
       !> Whether a cycle that ends in no state of the contact is taken back, and cycles that stall are accelerated
       logical, private :: guarded = .false.
+      !> Whether cycles spare spikes on all levels: the last try of a wide contact
+      logical, private :: spares = .false.
       type(guard_t), private :: guard
       !> Whether as much oil arrives as the gap holds. A line lets all oil through that arrives, for nothing flows around it:
       !> first it is solved so, and the layer counts where that takes more.
@@ -197,7 +199,11 @@ contains
       self%cycle_passage = self%passage
       if (level%supply%active) self%layer_central = level%supply%layer(1 + nint(-level%grid%y0/level%grid%hy))
       self%next_cycle = cycle_to_make(self)
-      if (self%residual > near_solution .or. self%n < self%options%spares_from) self%next_cycle%spare_spikes = .false.
+      if (self%residual > near_solution) self%next_cycle%spare_spikes = .false.
+      ! what is taken back later than the first one is mostly a spike that coarse grids throw about
+      if (self%options%guarded .and. self%guard%damping > 0 .and. self%residual > 0.0_dp) self%next_cycle%spare_spikes = .true.
+      if (self%n < self%options%spares_from) self%next_cycle%spare_spikes = .false.
+      if (self%spares .and. self%residual > 0.0_dp) self%next_cycle%spare_spikes = self%residual < near_spared
       self%max_cycles = self%options%max_cycles
       if (is_end(self%options, self%n) .and. counts_share(self%options, self%m)) then
          self%max_cycles = touching_cycles*self%max_cycles
@@ -357,7 +363,7 @@ contains
    end subroutine next_passage
 
    !> A level has no solution: begin anew on the next finer one, where the discrete problem is better posed; from the first level
-   !> on after a failure on the finest one, once with damped cycles and once with guarded ones
+   !> on after a failure on the finest one, once with damped cycles and once with guarded ones, or with ones that spare spikes
    subroutine restart(self, finest, outcome)
       class(smooth_contact_t), intent(inout) :: self
       logical, intent(in) :: finest
@@ -369,6 +375,8 @@ contains
          else if (.not. self%guarded) then
             self%guarded = .true.
             self%damped = .false.
+         else if (self%options%guarded .and. .not. self%spares .and. self%options%spares_from < huge(1)) then
+            self%spares = .true.
          else
             return
          end if
