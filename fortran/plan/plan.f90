@@ -48,7 +48,8 @@ module ehl_plan
    !> Extent of the dry contact across the motion over that along it from which on it does so on any grid: cycles go to and
    !> fro between two states there
    real(dp), parameter :: wide = 2.0_dp
-   !> What makes coarse grids leave a spike to the sweeps: an extent across the motion over that along it from which on the trailing edge moves from column to column in a few rows
+   !> What makes coarse grids leave a spike to the sweeps: an extent across the motion over that along it from which on the
+   !> trailing edge moves from column to column in a few rows
    real(dp), parameter :: oblique = 4.0_dp
 
    !> What the smooth contact needs, and all else
