@@ -112,7 +112,7 @@ def check_length(draft: Draft) -> None:
 
 
 def _check_profile(draft: Draft) -> None:
-    """Refuse a profile with a missing key, with one of another, or is too deep."""
+    """Refuse a profile that misses a key, has one of another, or is too deep."""
     c = draft.settings.contact
     for kind, keys in KEYS_OF.items():
         for key in keys:
