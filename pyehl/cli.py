@@ -43,7 +43,7 @@ SUBCOMMANDS = {
 }
 
 
-def _parser(chosen: str) -> argparse.ArgumentParser:
+def make_parser(chosen: str) -> argparse.ArgumentParser:
     """Make the parser; only the chosen subcommand is imported, and has its arguments."""
     parser = argparse.ArgumentParser(
         prog="pyehl",
@@ -110,7 +110,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     _listen(quiet=not {"-q", "--quiet"}.isdisjoint(words))
 
     def run() -> int:
-        parser = _parser(chosen)
+        parser = make_parser(chosen)
         if chosen not in SUBCOMMANDS and not chosen.startswith("-"):
             if words:
                 hint = did_you_mean(chosen, SUBCOMMANDS)

@@ -193,7 +193,7 @@ def _bend(kx: Array, slip: float) -> Complex:
     return np.asarray(np.exp(1j * slip * np.multiply.outer(behind, kx)))
 
 
-def _at_amplitude(zone: Zone, variance: float) -> Zone:
+def leaking_at_amplitude(zone: Zone, variance: float) -> Zone:
     """Return a contact that leaks as waves of finite pressure do, for their friction.
 
     The leak is div(rho H^3/(eta lambda) grad P): it is slow where the waves raise the pressure and
@@ -316,15 +316,15 @@ class Transfer:
 
         From tables over |q| and direction; `moes` are M, L of the circular contact with the same
         inlet. `at_amplitude`: the waves leak as those of the amplitude of all tiles
-        (:func:`_at_amplitude`), not as small ones. `mesh` [a]: they leak as on a grid. The pressure
-        of second order is one.
+        (:func:`leaking_at_amplitude`), not as small ones. `mesh` [a]: they leak as on a grid. The
+        pressure of second order is one.
         """
         entering = [_Entering(*tile, zone, moes) for tile in tiles]
         leaking = zone
         if at_amplitude:
             for _ in range(REPETITIONS):
                 variance = sum(waves.variance(leaking, mesh) for waves in entering)
-                leaking = _at_amplitude(zone, variance)
+                leaking = leaking_at_amplitude(zone, variance)
         loaded = [waves.at_stations(leaking, mesh) for waves in entering]
         tables = [waves.table for waves in entering]
         of_tables = zip(*(found[1:] for found in loaded), strict=True)

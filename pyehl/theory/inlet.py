@@ -51,7 +51,7 @@ def at_inlet(zone: Zone, qx: Array, qy: Array, velocity_ratio: float) -> Complex
     n, place = x.size, x.size - 1 - last
     slip = qx * (velocity_ratio - 1.0)
     nodes, middles = Flow(zone, x), Flow(zone, x[:-1] + 0.5 * h)
-    yielding = _yielding(zone, qx, qy, slip, x)
+    yielding = wave_flattening(zone, qx, qy, slip, x)
     one = np.eye(n)
     held = yielding + np.diag(nodes.compressibility * nodes.film)
     mean = 0.5 * (one[1:] + one[:-1])
@@ -78,7 +78,7 @@ def at_inlet(zone: Zone, qx: Array, qy: Array, velocity_ratio: float) -> Complex
     return np.asarray(kept * np.exp(-1j * slip * (INLET + 1.0)))
 
 
-def _yielding(zone: Zone, qx: Array, qy: Array, slip: Array, x: Array) -> Complex:
+def wave_flattening(zone: Zone, qx: Array, qy: Array, slip: Array, x: Array) -> Complex:
     """Flattening at places x (n,) by the pressure wave there (m, n, n)."""
     h, n = SPACING, x.size
     more = round((EDGE - x[-1]) / h)

@@ -69,7 +69,7 @@ class StripEdge:
         """
         found = np.zeros((self.across.size, 2, DEGREE + 1, qx.size), dtype=complex)
         orders = chebyshev.chebvander(self._x, ORDERS) / np.sqrt(1.0 - self._x**2)[:, np.newaxis]
-        for k, wave, there in self._each(qx, qy):
+        for k, wave, there in self.waves_and_weights(qx, qy):
             local = np.hypot(qx[wave], qy[wave]) * np.exp(1j * np.outer(self._x, qx[wave]))
             part = self._inverse @ (orders @ there - local)
             found[k, 0][:, wave] = part
@@ -84,13 +84,13 @@ class StripEdge:
         """
         y = np.linspace(0.0, self.width, self.places + 1)
         found = np.zeros((2, y.size, qx.size), dtype=complex)
-        for _, wave, there in self._each(qx, qy):
+        for _, wave, there in self.waves_and_weights(qx, qy):
             phase = np.exp(1j * np.outer(y, qy[wave]))
             for side, sign in enumerate(((-1.0) ** np.arange(ORDERS + 1), np.ones(ORDERS + 1))):
                 found[side][:, wave] = phase * (sign @ there)
         return found.reshape(2 * y.size, qx.size)
 
-    def _each(self, qx: Array, qy: Array) -> Iterator[tuple[int, Indices, Complex]]:
+    def waves_and_weights(self, qx: Array, qy: Array) -> Iterator[tuple[int, Indices, Complex]]:
         """Waves (l,) of each |k_Y|, and weights (orders, l) of T_n/sqrt(1 - X^2) in pressure."""
         from scipy.special import jv  # noqa: PLC0415 (takes as long to load as all the rest)
 

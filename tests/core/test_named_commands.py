@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from document_text import DOCUMENTS
 
-from pyehl.cli import SUBCOMMANDS, _parser
+from pyehl.cli import SUBCOMMANDS, make_parser
 
 
 def test_scripts_in_documents_are_there(root: Path):
@@ -39,7 +39,7 @@ def options_of(parser: argparse.ArgumentParser) -> set[str]:
 
 def test_options_in_documents_are_options(root: Path):
     """Of every `pyehl SUBCOMMAND …` in a text or in a block, run or not."""
-    known = {name: options_of(_parser(name)) for name in SUBCOMMANDS}
+    known = {name: options_of(make_parser(name)) for name in SUBCOMMANDS}
     seen = 0
     for name in DOCUMENTS:
         text = (root / name).read_text()

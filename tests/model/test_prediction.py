@@ -19,7 +19,7 @@ from pyehl.prediction.friction import outcome, run
 from pyehl.prediction.model import KNOWN_RATIO, Model, ModelOptions
 from pyehl.prediction.moving_tile import WaveTiles
 from pyehl.prediction.predict import predict
-from pyehl.prediction.response import Transfer, _at_amplitude, film_left, loss_at
+from pyehl.prediction.response import Transfer, film_left, leaking_at_amplitude, loss_at
 from pyehl.prediction.simulation import resolution
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.schema import summary_of
@@ -286,7 +286,9 @@ def test_leak_at_amplitude_for_gaussian_pressure():
     measured, linear = np.mean(rates, axis=0)
     places = np.array([0.0])
     one = places + 1.0
-    leaking = _at_amplitude(Zone(places, one, one, one, places, places, b * one, one), 0.3**2)
+    leaking = leaking_at_amplitude(
+        Zone(places, one, one, one, places, places, b * one, one), 0.3**2
+    )
     assert measured / linear == pytest.approx(leaking.conductance[0], rel=0.03)
 
 

@@ -34,7 +34,7 @@ def strip(**options: object) -> pyehl.Case:
 def test_pressure_of_a_wave_on_the_strip(kx: float, ky: float):
     """It deflects the strip into the wave, but for a height at k_Y = 0 (K_0 by hand)."""
     edge = StripEdge(np.array([ky]), 2.0 * math.pi / (ky or 1.0))
-    ((_, _, weights),) = edge._each(np.array([kx]), np.array([ky]))
+    ((_, _, weights),) = edge.waves_and_weights(np.array([kx]), np.array([ky]))
     n = 20000
     x = np.cos((np.arange(n) + 0.5) * (math.pi / n))
     product = chebyshev.chebvander(x, ORDERS) @ weights[:, 0]
@@ -50,7 +50,7 @@ def test_correction_of_a_strip():
     """Beyond the half-space, by the polynomials: what the series itself has."""
     kx, ky = np.array([4.0]), np.array([-2.0])
     edge = StripEdge(np.abs(ky), math.pi)
-    ((_, _, weights),) = edge._each(kx, ky)
+    ((_, _, weights),) = edge.waves_and_weights(kx, ky)
     x, y = np.linspace(-0.7, 0.7, 15), np.linspace(0.0, 1.0, 5)
     series = chebyshev.chebvander(x, ORDERS) @ weights[:, 0] / np.sqrt(1.0 - x**2)
     wanted = series - math.hypot(4.0, 2.0) * np.exp(4j * x)
