@@ -49,13 +49,13 @@ contains
 
    !> Border (0: find, 1: zero, 2: flooded), domain (NaN: find) and nodes (0: find)
    subroutine grid_defaults(line, roller, n_roller, si, radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, &
-                            viscosity, alpha, moes_m, moes_l, border, smooth, domain, points, points_y, widening, reverses, &
+                            viscosity, alpha, moes_m, moes_l, border, smooth, thins, domain, points, points_y, widening, reverses, &
                             border_out, domain_out, points_out, points_y_out)
       integer(c_int), intent(in) :: line, si, n_roller
       real(c_double), intent(in) :: roller(n_roller)
       real(c_double), intent(in) :: radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, viscosity, alpha, &
                                     moes_m, moes_l
-      integer(c_int), intent(in) :: border, smooth, points, points_y, reverses
+      integer(c_int), intent(in) :: border, smooth, thins, points, points_y, reverses
       !> Of a duty: by how much the contact is larger at times
       real(c_double), intent(in) :: domain(3), widening
       integer(c_int), intent(out) :: border_out, points_out, points_y_out
@@ -75,7 +75,7 @@ contains
          grid%y_extent = domain(3)
          if (points > 0) grid%points = points
          grid%points_y = points_y
-         call fill_grid(contact, point, smooth /= 0, [border > 0, .not. ieee_is_nan(domain), points > 0], grid, &
+         call fill_grid(contact, point, smooth /= 0, thins /= 0, [border > 0, .not. ieee_is_nan(domain), points > 0], grid, &
                         widening, reverses /= 0)
          border_out = merge(2_c_int, 1_c_int, grid%border == "flooded")
          domain_out = [grid%x_inlet, grid%x_outlet, grid%y_extent]

@@ -59,6 +59,7 @@ contains
       if (is_short_of_oil(input) .and. .not. given(1)) input%grid%border = "zero"
       given(2) = given(2) .or. input%inlet%position_hertz > 0.0_dp
       call fill_grid(contact, point, input%surface%kind == "smooth" .and. input%second_surface%kind == "smooth", &
+                     input%lubricant%shear_law /= "newtonian" .and. input%lubricant%flow == "consistent", &
                      [given(1) .or. input%duty%active() .or. is_short_of_oil(input), given(2:)], input%grid, &
                      widening_of(input), input%duty%reverses())
       if (input%contact%is_line() .and. .not. source%given("solver.deflection")) input%solver%deflection = "fft"

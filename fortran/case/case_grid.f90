@@ -19,9 +19,9 @@ module ehl_case_grid
    !> Least and largest ratio of the sides of a cell
    real(dp), parameter :: min_ratio = 0.25_dp, largest_ratio = 1.41_dp
    !> Largest ratio in a smooth contact, as it is and over kappa: the film of a wide one varies across the motion over the length
-   !> of the contact there. Up to so much alpha p_h and an L of `high_spike`: beyond, the pressure spike on the oblique edge is
-   !> a few nodes wide, and cycles on such cells throw it about (docs/theory/relaxation.md).
-   real(dp), parameter :: largest_smooth = 2.8_dp, smooth_by_kappa = 0.5_dp, blunt_spike = 18.0_dp
+   !> of the contact there. Up to so much alpha p_h, and an L of `high_spike` where the flow does not thin: beyond, the pressure
+   !> spike on the oblique edge is a few nodes wide, and cycles on such cells throw it about (docs/theory/relaxation.md).
+   real(dp), parameter :: largest_smooth = 2.8_dp, smooth_by_kappa = 0.5_dp, blunt_spike = 19.0_dp
    !> L above which the pressure spike is high. Coarse grids that leave it to the sweeps then pay: at L = 21 to 28 contacts take a
    !> quarter to two thirds of the cycles, at 6 and 7 up to three times as many. Below it a roller, whose film varies along it by
    !> its profile alone but for its ends, has the longest cells whatever alpha p_h is
@@ -32,11 +32,11 @@ module ehl_case_grid
 contains
 
    !> Border and domain follow from the operating point, side by side, unless they are given
-   pure subroutine fill_grid(contact, point, smooth, given, grid, widening, reverses)
+   pure subroutine fill_grid(contact, point, smooth, thins, given, grid, widening, reverses)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point
-      !> Whether both surfaces are smooth
-      logical, intent(in) :: smooth
+      !> Whether both surfaces are smooth, and whether the flow thins
+      logical, intent(in) :: smooth, thins
       !> Of grid_keys
       logical, intent(in) :: given(5)
       type(grid_case_t), intent(inout) :: grid
@@ -56,7 +56,8 @@ contains
          errors = relative_errors(contact, point, (grid%x_outlet - grid%x_inlet)/(grid%points - 1))
          if (errors(1) > max_missed) grid%points = 2*grid%points - 1
       end if
-      blunt = point%moes_l < high_spike .and. (point%alpha_bar < blunt_spike .or. contact%is_roller())
+      blunt = point%alpha_bar < blunt_spike .and. (point%moes_l < high_spike .or. thins)
+      if (contact%is_roller()) blunt = point%alpha_bar < blunt_spike .or. point%moes_l < high_spike
       if (.not. grid%points_y > 0) grid%points_y = rows(contact, smooth .and. blunt, grid)
    end subroutine fill_grid
 

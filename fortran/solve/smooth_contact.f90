@@ -199,10 +199,7 @@ contains
       self%cycle_passage = self%passage
       if (level%supply%active) self%layer_central = level%supply%layer(1 + nint(-level%grid%y0/level%grid%hy))
       self%next_cycle = cycle_to_make(self)
-      if (self%residual > near_solution) self%next_cycle%spare_spikes = .false.
-      ! what is taken back later than the first one is mostly a spike that coarse grids throw about
-      if (self%options%guarded .and. self%guard%damping > 0 .and. self%residual > 0.0_dp) self%next_cycle%spare_spikes = .true.
-      if (self%n < self%options%spares_from) self%next_cycle%spare_spikes = .false.
+      if (self%residual > near_solution .or. self%n < self%options%spares_from) self%next_cycle%spare_spikes = .false.
       if (self%spares .and. self%residual > 0.0_dp) self%next_cycle%spare_spikes = self%residual < near_spared
       self%max_cycles = self%options%max_cycles
       if (is_end(self%options, self%n) .and. counts_share(self%options, self%m)) then

@@ -89,8 +89,11 @@ def grid_defaults(
     Nodes along X of smooth surfaces are twice as many where fewer miss much of the film.
     """
     smooth = settings.surface.kind == settings.second_surface.kind == "smooth"
+    oil = settings.lubricant
+    thins = oil.shear_law != "newtonian" and oil.flow == "consistent"
+    kind = smooth, thins
     moving = widening, reverses
-    return _grid(_contact(settings), border, tuple(ends), points, points_y, smooth, moving)
+    return _grid(_contact(settings), border, tuple(ends), points, points_y, kind, moving)
 
 
 @lru_cache(maxsize=256)
@@ -100,13 +103,13 @@ def _grid(
     ends: tuple[float | None, ...],
     points: int,
     points_y: int,
-    smooth: bool,
+    kind: tuple[bool, bool],
     moving: tuple[float, bool],
 ) -> Domain:
     given = [math.nan if end is None else end for end in ends]
     number = BORDERS.index(border)
     found, domain, nx, ny = cases.grid_defaults(
-        *values, number, smooth, given, points, points_y, *moving
+        *values, number, *kind, given, points, points_y, *moving
     )
     x_inlet, x_outlet, y_extent = domain.tolist()
     return Domain(BORDERS[found], x_inlet, x_outlet, y_extent, nx, ny)

@@ -32,7 +32,7 @@ def test_pages_have_the_constants_of_the_sources(root: Path):
     assert f"sharp pressure spike up to {smooth:g} times" in sweeps
     assert f"beyond 1 : {constant('multigrid/workspace.f90', 'long'):g}" in sweeps
     blunt = constant("case/case_grid.f90", "blunt_spike")
-    assert f"p_h$ of {blunt:g} and above" in sweeps
+    assert f"p_h$ of {blunt:g}, and" in sweeps
     cycles = text_of(root, "theory/coarse-grids.md")
     steady = "solve/cycle_guard.f90"
     assert f"more than {constant(steady, 'stalled'):g} of the residual" in cycles
