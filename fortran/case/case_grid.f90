@@ -19,9 +19,9 @@ module ehl_case_grid
    !> Least and largest ratio of the sides of a cell
    real(dp), parameter :: min_ratio = 0.25_dp, largest_ratio = 1.41_dp
    !> Largest ratio in a smooth contact, as it is and over kappa: the film of a wide one varies across the motion over the length
-   !> of the contact there. Up to so much alpha p_h, and an L of `high_spike` where the flow does not thin: beyond, the pressure
-   !> spike on the oblique edge is a few nodes wide, and cycles on such cells throw it about (docs/theory/relaxation.md).
-   real(dp), parameter :: largest_smooth = 2.8_dp, smooth_by_kappa = 0.5_dp, blunt_spike = 19.0_dp
+   !> of the contact there. Up to `blunt_spike` of alpha p_h, and an L of `high_spike` where the flow does not thin: beyond, the
+   !> pressure spike on the oblique edge is a few nodes wide, and cycles on such cells throw it about (docs/theory/relaxation.md).
+   real(dp), parameter :: largest_smooth = 2.8_dp, smooth_by_kappa = 0.5_dp
    !> L above which the pressure spike is high. Coarse grids that leave it to the sweeps then pay: at L = 21 to 28 contacts take a
    !> quarter to two thirds of the cycles, at 6 and 7 up to three times as many. Below it a roller, whose film varies along it by
    !> its profile alone but for its ends, has the longest cells whatever alpha p_h is
@@ -56,10 +56,21 @@ contains
          errors = relative_errors(contact, point, (grid%x_outlet - grid%x_inlet)/(grid%points - 1))
          if (errors(1) > max_missed) grid%points = 2*grid%points - 1
       end if
-      blunt = point%alpha_bar < blunt_spike .and. (point%moes_l < high_spike .or. thins)
-      if (contact%is_roller()) blunt = point%alpha_bar < blunt_spike .or. point%moes_l < high_spike
+      blunt = point%alpha_bar < blunt_spike(point%moes_l)
+      if (contact%is_roller()) then
+         blunt = blunt .or. point%moes_l < high_spike
+      else
+         blunt = blunt .and. (point%moes_l < high_spike .or. thins)
+      end if
       if (.not. grid%points_y > 0) grid%points_y = rows(contact, smooth .and. blunt, grid)
    end subroutine fill_grid
+
+   !> Largest alpha p_h of a blunt spike: with long cells a contact at 19.6 and L = 12.8 ends at the cycle limit, and one at
+   !> 20 and L = 3.2 takes a third of the cycles that short ones take
+   pure real(dp) function blunt_spike(moes_l)
+      real(dp), intent(in) :: moes_l
+      blunt_spike = merge(19.0_dp, 21.0_dp, moes_l > 10.0_dp)
+   end function blunt_spike
 
    !> Largest size of the dry contact under the duty over that of the case
    pure real(dp) function widening_of(input)

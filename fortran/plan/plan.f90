@@ -283,8 +283,8 @@ contains
    pure logical function has_sharp_spike(plan)
       type(plan_t), intent(in) :: plan
 
-      has_sharp_spike = plan%contact%reach(2) > oblique*plan%contact%reach(1) .and. plan%point%alpha_bar > blunt_spike .and. &
-                        plan%point%moes_l > high_spike .and. &
+      has_sharp_spike = plan%contact%reach(2) > oblique*plan%contact%reach(1) .and. plan%point%moes_l > high_spike .and. &
+                        plan%point%alpha_bar > blunt_spike(plan%point%moes_l) .and. &
                         .not. (plan%surfaces%rough() .or. plan%touches)
    end function has_sharp_spike
 

@@ -5,8 +5,10 @@ python benchmarks/machines.py --seed 1 -o seed1.json
 python benchmarks/machines.py --seed 2 -o seed2.json
 python benchmarks/machines.py --seed 3 -o seed3.json
 python benchmarks/machines.py --seed 4 --count 16 --fine -o seed4.json
+python benchmarks/machines.py --seed 10 --count 44 -o seed10.json
+python benchmarks/machines.py --seed 12 --count 44 -o seed12.json
 python docs/evidence/machines/make.py read seed1.json seed2.json seed3.json \
-    seed4.json
+    seed4.json seed10.json seed12.json
 python benchmarks/machines.py --shape line --seed 1 --count 200 --fine -o lines1.json
 python benchmarks/machines.py --shape line --seed 7 --count 200 --fine -o lines7.json
 python benchmarks/machines.py --shape line --seed 12 --count 200 --fine -o lines12.json
