@@ -18,9 +18,12 @@ def machine_ends() -> Values:
     make = script("machines/make.py")
     covered, rows = import_module("machines").covered, make.read()
     failed = [row for row in rows if row["status"] != "converged"]
-    (one,) = failed
-    words = f"a {one['kind']} at {one['hertz_pressure_Pa'] / 1e9:.1f} GPa "
-    words += f"(κ = {one['ellipticity']:.1f}, seed {one['seed']}, number {one['number']})"
+    ends_of = ", ".join(
+        f"a {one['kind']} at {one['hertz_pressure_Pa'] / 1e9:.1f} GPa (κ = "
+        f"{one['ellipticity']:.1f}, {NAMES[one['law']]}, seed {one['seed']}, number "
+        f"{one['number']}, `{one['status']}`)"
+        for one in failed
+    )
     found = {"H_c": "h_c", "H_min": "h_min"}
     known = [
         (row, name) for row in rows for name in found if covered(row, name, "error") is not None

@@ -204,7 +204,8 @@ def speed() -> list[str]:
         "|---|---|---|---|---|",
     ]
     for row in summary(read()):
-        times = [f"{row[name]:.2g} s" for name in ("median_seconds", "largest_seconds")]
+        seconds = [row[name] for name in ("median_seconds", "largest_seconds")]
+        times = [f"{each:.0f} s" if each > 10.0 else f"{each:.2g} s" for each in seconds]
         ratios = [f"{row[name]:.1f}" for name in ("median_ratio", "largest_ratio")]
         lines.append(_line(row, times + ratios))
     return lines
