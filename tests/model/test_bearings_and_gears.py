@@ -420,6 +420,7 @@ def test_rollers_of_a_bearing_are_solved_and_predicted():
         "surface.rms_height": 2e-8,
         "surface.pixels": 64,
         "grid.points": 257,
+        "psd.positions": 2,
     }
     predicted = bearing(ROLLERS, rough, run="predict", jobs=1).table
     assert set(predicted["status"]) == {"predicted"}
