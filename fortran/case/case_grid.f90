@@ -65,11 +65,13 @@ contains
       if (.not. grid%points_y > 0) grid%points_y = rows(contact, smooth .and. blunt, grid)
    end subroutine fill_grid
 
-   !> Largest alpha p_h of a blunt spike: with long cells a contact at 19.6 and L = 12.8 ends at the cycle limit, and one at
-   !> 20 and L = 3.2 takes a third of the cycles that short ones take
+   !> Largest alpha p_h of a blunt spike. With long cells a contact at 19.6 and L = 12.8 ends at the cycle limit; with L below 7
+   !> seven with alpha p_h from 26 to 54 take 8 to 21 cycles and 0.1 to 0.6 of the time
    pure real(dp) function blunt_spike(moes_l)
       real(dp), intent(in) :: moes_l
+
       blunt_spike = merge(19.0_dp, 21.0_dp, moes_l > 10.0_dp)
+      if (moes_l < 7.0_dp) blunt_spike = huge(blunt_spike)
    end function blunt_spike
 
    !> Largest size of the dry contact under the duty over that of the case
