@@ -11,9 +11,9 @@ module ehl_case_check_inlet
    use ehl_text, only: short
    implicit none (type, external)
    private
-   public :: check_inlet
+   public :: beyond_contact, check_inlet, rounding
 
-   !> Minimum distance of the inlet from the centre, in terms of the contact
+   !> Minimum distance of the sides of the domain from the centre, in terms of the contact
    real(dp), parameter :: beyond_contact = 1.05_dp
    !> Relative difference of values that is none
    real(dp), parameter :: rounding = 1.0e-6_dp
@@ -32,20 +32,16 @@ contains
       real(dp) :: least
 
       key = source%first_given("inlet", [character(len=14) :: "position", "position_hertz", "film", "film_hertz"])
-      if (.not. is_short_of_oil(input)) then
-         if (input%inlet%passages > 1) call source%refuse("inlet.passages", "inlet.passages without inlet.film", &
-                                                          "the layer of the first passage", status)
-         if (.not. input%contact%si .and. max(input%inlet%position, input%inlet%film) > 0.0_dp) call source%refuse(key, &
-            key//" in metres with Moes numbers", key//"_hertz, in a or a^2/R", status)
-         return
-      end if
       associate (inlet => input%inlet)
+         if (.not. input%contact%si .and. max(inlet%position, inlet%film) > 0.0_dp) call source%refuse(key, &
+            key//" in metres with Moes numbers", key//"_hertz, in a or a^2/R", status)
          if (inlet%position_hertz > 0.0_dp .and. inlet%film_hertz > 0.0_dp) then
             call source%refuse(key, "inlet.position with inlet.film", "one of them: the oil begins where the layer fills the gap", &
                                status)
          end if
-         if (.not. input%contact%si .and. max(inlet%position, inlet%film) > 0.0_dp) call source%refuse(key, &
-            key//" in metres with Moes numbers", key//"_hertz, in a or a^2/R", status)
+         if (inlet%passages > 1 .and. .not. inlet%film_hertz > 0.0_dp) call source%refuse("inlet.passages", &
+            "inlet.passages without inlet.film", "the layer of the first passage", status)
+         if (.not. is_short_of_oil(input)) return
          if (inlet%position > 0.0_dp) call agree("inlet.position", "inlet.position_hertz", inlet%position/scales%length, &
                                                  inlet%position_hertz)
          if (inlet%film > 0.0_dp) call agree("inlet.film", "inlet.film_hertz", inlet%film/scales%film, inlet%film_hertz)
@@ -58,8 +54,6 @@ contains
             call source%check_range("inlet.position_hertz", inlet%position_hertz, key, key//" and the contact", status)
          end if
          if (input%grid%border == "flooded") call source%contradict("grid.border", key, "grid.border = 'zero' or none", status)
-         if (inlet%passages > 1 .and. .not. inlet%film_hertz > 0.0_dp) call source%refuse("inlet.passages", &
-            "inlet.passages without inlet.film", "the layer of the first passage", status)
          if (.not. inlet%film_hertz > 0.0_dp) return
          call source%check_range("inlet.film_hertz", inlet%film_hertz, key, key//" and the contact", status)
          least = input%lubricant%boundary_film

@@ -4,7 +4,7 @@
 module ehl_case_checks
    use ehl_case, only: case_t, surface_case_t
    use ehl_case_check_duty, only: check_duty
-   use ehl_case_check_inlet, only: check_inlet
+   use ehl_case_check_inlet, only: beyond_contact, check_inlet, rounding
    use ehl_case_check_lubricant, only: check_lubricant
    use ehl_case_check_surface, only: check_surfaces
    use ehl_case_check_line, only: check_line
@@ -23,14 +23,12 @@ module ehl_case_checks
    private
    public :: check_given, check_complete
 
-   !> Minimum distance of the sides of the domain, in terms of the contact
-   real(dp), parameter :: beyond_contact = 1.05_dp
    !> Largest M of a round contact with the same equations
    real(dp), parameter :: max_m = 1.0e5_dp
    !> Minimum p_h/E' of a contact that can be meant: 0.1 MPa between steel bodies
    real(dp), parameter :: min_strain = 4.0e-7_dp
-   !> Relative difference of values that is none, and of velocity ratios
-   real(dp), parameter :: rounding = 1.0e-6_dp, same_velocity = 1.0e-9_dp
+   !> Difference of velocity ratios that is none
+   real(dp), parameter :: same_velocity = 1.0e-9_dp
    character(len=*), parameter :: by_pyehl = "what 'pyehl check CASE.nml --resolved out.nml' writes, for ehl out.nml; or ", &
       si_units = "load, mean_velocity, reduced_modulus and radius or radius_x and radius_y", &
       of_line = "moes_m_line and moes_l_line, or load_per_length, mean_velocity, reduced_modulus and radius"
