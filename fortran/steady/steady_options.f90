@@ -32,7 +32,7 @@ module ehl_steady_options
       !> Passages, each with what the one before it leaves, and the share of what is missing that returns between them
       integer :: passages = 1
       real(dp) :: replenishment = 0.0_dp
-      !> Whether what fails on the finest level may begin again with damped cycles
+      !> Whether what fails on the finest level may restart with damped cycles
       logical :: may_restart = .false.
       !> Whether cycles that end in no state of the contact are taken back from the beginning on, and not only after all else
       logical :: guarded = .false.

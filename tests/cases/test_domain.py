@@ -102,7 +102,7 @@ def test_flooded_border_is_that_of_a_large_domain(moes_m: float, moes_l: float):
 
 
 def test_pressure_spike_of_few_nodes_converges():
-    """Where cycles of the usual kind throw the spike about, a careful one begins again."""
+    """Where cycles of the usual kind throw the spike about, damped ones are the restart."""
     found = solved(case_of(200.0, 25.0, 257, **PAPER, border="zero"))
     assert found["restarts"] == 1
     usual = solved(case_of(200.0, 24.0, 257, **PAPER, border="zero"))

@@ -162,7 +162,7 @@ def test_where_there_is_no_prediction_a_front_enters(settings: dict[str, Any], w
 
 
 @pytest.mark.long
-def test_steps_that_fail_begin_again_behind_a_front(tile: dict[str, Any]):
+def test_steps_that_fail_restart_behind_a_front(tile: dict[str, Any]):
     """On this grid the film of this tile, 23 nm rms, becomes negative in the first steps."""
     np.save(tile["surface.file"], 1.15 * np.load(tile["surface.file"]))
     turned = tile | {"surface.rotate": 90.0}

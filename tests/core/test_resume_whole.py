@@ -97,7 +97,7 @@ def test_whole_summary(kind: str, tmp_path: Path):
 @pytest.mark.long
 @pytest.mark.filterwarnings("ignore:time.start")
 def test_steps_from_a_prediction_that_fail_after_a_resumption(tmp_path: Path):
-    """They begin again behind a front, as those of a run that was not stopped."""
+    """They restart behind a front, as those of a run that was not stopped."""
     heights = 2.2e-8 * np.random.default_rng(1).standard_normal((32, 32))
     np.save(tmp_path / "map.npy", heights)
     case = pyehl.Case.from_text(
