@@ -9,7 +9,7 @@ from records import Values, script
 def machines() -> Values:
     """Contacts of machines, their borders and sides, and modes on cells."""
     make, modes = script("machines/make.py"), script("machines/modes.py")
-    names = ("robustness", "speed", "sides", "by_border")
+    names = ("robustness", "speed", "sides", "by_border", "cells")
     return {name: "\n".join(getattr(make, name)()) for name in names} | {
         "lines": "\n".join(make.robustness(make.LINES)),
         "modes": "\n".join(modes.lines()),

@@ -66,7 +66,7 @@ contains
    end subroutine fill_grid
 
    !> Largest alpha p_h of a blunt spike. With long cells a contact at 19.6 and L = 12.8 ends at the cycle limit; with L below 7
-   !> seven with alpha p_h from 26 to 54 take 8 to 21 cycles and 0.1 to 0.6 of the time
+   !> seven of seven with alpha p_h from 26 to 54 are faster (docs/evidence/machines)
    pure real(dp) function blunt_spike(moes_l)
       real(dp), intent(in) :: moes_l
 

@@ -14,6 +14,7 @@ python benchmarks/machines.py --shape line --seed 7 --count 200 --fine -o lines7
 python benchmarks/machines.py --shape line --seed 12 --count 200 --fine -o lines12.json
 python docs/evidence/machines/make.py lines lines1.json lines7.json lines12.json
 python docs/evidence/machines/make.py sides    sides.csv
+python docs/evidence/machines/make.py cells    cells.csv
 python docs/evidence/machines/make.py border   border.csv
 python docs/evidence/machines/make.py show     prints the tables as the documents have them
 """
@@ -25,13 +26,15 @@ import json
 import math
 import sys
 from collections.abc import Iterable
+from itertools import pairwise
 from pathlib import Path
+from statistics import median
 from typing import Any
 
 import pyehl
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "benchmarks"))
-from machines import SETTINGS, radius_ratio, summary, timed
+from machines import SETTINGS, draw, radius_ratio, summary, timed
 
 HERE = Path(__file__).resolve().parent
 LINES = "lines.csv"
@@ -42,7 +45,10 @@ COLUMNS = (
     *("film_scale_m", "fine_status", "H_c_fine", "H_min_fine", "message"),
 )
 WORDS = frozenset(
-    {"kind", "law", "border", "processor", "build", "status", "fine_status", "message"}
+    {
+        *("kind", "law", "border", "processor", "build", "message"),
+        *("status", "fine_status", "long_status"),
+    }
 )
 RUNS = ("seed", "count", "fine", "processor", "build")
 # kappa, and M and L by R_x
@@ -52,6 +58,12 @@ POINTS = (
     (7.0, 5000.0, 15.0),
     (12.0, 100.0, 8.0),
     (18.0, 2000.0, 10.0),
+)
+# As `blunt_spike` in fortran/case/case_grid.f90: alpha p_h up to L = 10 and above; an L
+SHARP, LOW = (21.0, 19.0), 7.0
+CELLS = (
+    *("seed", "number", "law", "ellipticity", "moes_l", "alpha_p_h", "points", "points_y"),
+    *("total_cycles", "seconds", "long_status", "long_total_cycles", "long_seconds"),
 )
 # Algebraic over discretisation error: what the grids differ by is not that of the cycles
 ACCURACY = 0.005
@@ -145,6 +157,45 @@ def measure_sides() -> None:
         rows.append(row)
         print(kappa, row["H_c"], further["H_c"], square["H_c"])
     write("sides.csv", SIDES, rows)
+
+
+def measure_cells() -> None:
+    """Solve wide contacts of contacts.csv with a sharp spike on short cells and on long ones."""
+    rows = []
+    for row in read():
+        contact = draw(row["number"] + 1, row["seed"])[row["number"]]
+        alpha_p_h = contact.values["lubricant.pressure_viscosity"] * contact.pressure
+        sharp = alpha_p_h > SHARP[row["moes_l"] > 10.0]
+        if row["ellipticity"] < 5.0 or row["moes_l"] > 15.0 or not sharp:
+            continue
+        # by default long below this L, else short
+        across = (row["points_y"] - 1) * (2 if row["moes_l"] < LOW else 1)
+        keys = dict(contact.values) | SETTINGS | {"grid.points": row["points"]}
+        short = timed(keys | {"grid.points_y": across + 1})
+        long = timed(keys | {"grid.points_y": across // 2 + 1})
+        found = row | {name: short[name] for name in ("points_y", "total_cycles", "seconds")}
+        found |= {f"long_{name}": long[name] for name in ("status", "total_cycles", "seconds")}
+        rows.append(found | {"alpha_p_h": alpha_p_h})
+    write("cells.csv", CELLS, rows)
+
+
+def cells() -> list[str]:
+    """Time on long cells over that on short ones, by L."""
+    lines = [
+        "| L | contacts | no solution on long cells | faster on long cells | time over that on "
+        "short cells, median |",
+        "|---|---|---|---|---|",
+    ]
+    for low, high in pairwise((0.0, LOW, 10.0, 15.0)):
+        mine = [row for row in read("cells.csv") if low <= row["moes_l"] < high]
+        good = [row for row in mine if row["long_status"] == "converged"]
+        ratios = [row["long_seconds"] / row["seconds"] for row in good]
+        faster = sum(ratio < 1.0 for ratio in ratios)
+        lines.append(
+            f"| {low:g} to {high:g} | {len(mine)} | {len(mine) - len(good)} | {faster} "
+            f"| {median(ratios):.2f} |"
+        )
+    return lines
 
 
 def measure_border() -> None:
@@ -241,7 +292,7 @@ def _percent(value: float, other: float) -> str:
     return f"{100.0 * (other / value - 1.0):+.3f} %"
 
 
-MEASURE = {"sides": measure_sides, "border": measure_border}
+MEASURE = {"sides": measure_sides, "cells": measure_cells, "border": measure_border}
 
 
 def main(words: list[str]) -> None:
