@@ -67,6 +67,34 @@ PLAN: dict[str, Row] = {
     "e5": Row(60.0, 9.0, 1.02, 0.3, seed=25, law=f"{CARREAU} 6e6"),
     "e6": Row(25.0, 14.0, 0.98, 0.3, (0.5, 1.0), law=f"{EYRING} 5e6"),
 }
+DRAWN = 20261128, 8
+"""Seed and number of strips that were drawn, after the plan above was simulated."""
+
+
+def drawn(seed: int, count: int) -> dict[str, Row]:
+    """Draw strips: waves, isotropic surfaces and pairs of them, under every law."""
+    rng = np.random.default_rng(seed)
+    found = {}
+    for number in range(count):
+        moes_m = float(np.exp(rng.uniform(np.log(20.0), np.log(100.0))))
+        law = str(rng.choice(["", f"{EYRING} 5e6", f"{EYRING} 1e7", f"{CARREAU} 6e6"]))
+        waves = [float(length) for length in rng.choice([0.25, 0.5, 1.0, 2.0], 2)]
+        kind = str(rng.choice(["wave", "fractal", "fractal", "two"]))
+        rms = rng.uniform(0.1, 0.35)
+        found[f"d{number + 1}"] = Row(
+            round(moes_m, 1),
+            round(float(rng.uniform(5.0, 14.0)), 1),
+            round(float(rng.uniform(0.95, 1.05)), 3),
+            round(float(rms), 3),
+            (waves[0], waves[1]) if kind == "wave" else None,
+            seed=int(rng.integers(100, 1000)),
+            second=round(float(rng.uniform(0.1, 0.2)), 3) if kind == "two" else 0.0,
+            law=law,
+        )
+    return found
+
+
+PLAN |= drawn(*DRAWN)
 
 
 def case_of(row: Row) -> tuple[pyehl.Case, list[Topography]]:
