@@ -88,3 +88,10 @@ def films() -> Values:
     profiles = (make.read_profiles(make.HERE / f"{n}.csv") for n in ("mourier", "profiles"))
     rows = [[str(cell) for cell in row] for row in make.table(*profiles)]
     return {name: "\n".join(make.lines(rows, name)) for name in ("measured", "simulated")}
+
+
+def catalogue() -> Values:
+    """Random bearings and gear pairs."""
+    make = script("catalogue/make.py")
+    errors = [float(row["h_c_error_max"]) for row in make.read() if row["h_c_error_max"]]
+    return {"lines": "\n".join(make.lines()), "error": 100.0 * max(errors)}

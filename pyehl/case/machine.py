@@ -103,14 +103,20 @@ class Machine:
         return "".join(blocks)
 
     def case_text(
-        self, contact: Mapping[str, Value], place: str = "", *, bodies: bool = True
+        self,
+        contact: Mapping[str, Value],
+        place: str = "",
+        *,
+        bodies: bool = True,
+        may_be_light: bool = False,
     ) -> str:
         """Give the resolved case of one contact, of values by ``group.key``.
 
-        Without `bodies` it has the reduced modulus in their place. InputError, which points to the
-        machine, if there is no such contact; `place` names it.
+        Without `bodies` it has the reduced modulus in their place; `may_be_light` as of `Draft`.
+        InputError, which points to the machine, if there is no such contact; `place` names it.
         """
         draft = Draft(copy.deepcopy(self.draft.settings), self.draft.sources)
+        draft.may_be_light = may_be_light
         skipped = MACHINES if bodies else (*MACHINES, "bodies")
         draft.given = {
             name: where

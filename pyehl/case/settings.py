@@ -90,11 +90,14 @@ class Draft:
         Where they came from: the case file, then the options.
     given
         Places of the keys that were given, by ``group.key``.
+    may_be_light
+        Whether a hardly loaded contact is no slip of units: one of many of a machine.
     """
 
     settings: Settings
     sources: list[Source]
     given: dict[str, Place] = field(default_factory=dict)
+    may_be_light: bool = False
 
     def is_given(self, group: str, *keys: str) -> bool:
         """Whether one of some keys of a group was given."""

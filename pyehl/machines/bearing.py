@@ -30,6 +30,8 @@ STATIC = {BALL: 4.2e9, ROLLER: 4.0e9}
 STEEPEST = 60.0
 # Share by which the axial load of a tapered bearing exceeds that of a single loaded roller
 APART = 1e-3
+# Share of the largest load below which a contact may be lighter than the solver takes it
+LIGHT = 0.5
 # Of bearing steel [kg/m^3]
 DENSITY = 7800.0
 # rad/s of 1/min
@@ -95,7 +97,7 @@ def ball_bearing(machine: Machine) -> Bearing:
         # p_h goes with Q^(1/3), Q with delta^(3/2)
         _check_preload(machine, pressure, STATIC[BALL], 2.0)
     ring = equilibrium(stiffness, BALL, v.balls, clearance, (v.radial_load, v.axial_load), centres)
-    found = Bearing(speed, ring)
+    found, light = Bearing(speed, ring), LIGHT * float(ring.loads.max())
     for number, azimuth in enumerate(azimuths(v.balls)):
         load, angle = float(ring.loads[number]), float(ring.angles[number])
         if load == 0.0:
@@ -106,7 +108,7 @@ def ball_bearing(machine: Machine) -> Bearing:
             # the outer raceway controls the spin, which then is on the inner ring (Jones 1959)
             spin = speed * math.sin(angle) if name == "inner" else 0.0
             place = f"ball {number + 1}, {name} ring"
-            contact = Contact(place, load, u, 0.0, radii, spin=spin)
+            contact = Contact(place, load, u, 0.0, radii, spin=spin, may_be_light=load < light)
             found.add(number + 1, float(azimuth), angle, name, contact)
     _facts(machine, found, pitch, d, math.pi / 6.0 * d**3, free)
     found.facts.update(clearance_m=clearance, contact_angle_free_deg=math.degrees(free))
@@ -131,11 +133,12 @@ def roller_bearing(machine: Machine) -> Bearing:
     stiffness = roller_stiffness(machine.reduced_modulus, v.roller_length)
     u = 0.25 * speed * pitch * (1.0 - (d * math.cos(axis) / pitch) ** 2)
 
-    def contact(place: str, load: float, name: str) -> Contact:
+    def contact(place: str, load: float, name: str, most: float = 0.0) -> Contact:
         # of cones in the plane across the raceway, at half the length of the roller
         raceway = 0.5 * (RINGS[name] * pitch - d * math.cos(axis)) / math.cos(angles[name])
         radii = (0.5 * d / math.cos(half), math.inf, raceway, math.inf)
-        return Contact(place, load, u, 0.0, radii, length=v.roller_length)
+        light = load < LIGHT * most
+        return Contact(place, load, u, 0.0, radii, length=v.roller_length, may_be_light=light)
 
     if v.clearance < 0.0:
         load = stiffness * (-0.5 * v.clearance * math.cos(outer)) ** ROLLER
@@ -147,7 +150,7 @@ def roller_bearing(machine: Machine) -> Bearing:
     for number, azimuth in enumerate(azimuths(v.rollers)):
         load = float(ring.loads[number])
         for name, angle in angles.items() if load > 0.0 else ():
-            one = contact(f"roller {number + 1}, {name} ring", load, name)
+            one = contact(f"roller {number + 1}, {name} ring", load, name, ring.loads.max())
             found.add(number + 1, float(azimuth), angle, name, one)
     _facts(machine, found, pitch, d, 0.25 * math.pi * d**2 * v.roller_length, axis)
     found.facts["clearance_m"] = v.clearance

@@ -5,6 +5,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from pyehl.case.contact import is_light
 from pyehl.case.key import Value
 from pyehl.case.machine import Machine
 from pyehl.namelist import values
@@ -18,6 +19,7 @@ from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Settings
 
 LINE, ELLIPSE = "line", "ellipse"
+RIGID = "rigid-isoviscous"
 # R_x/R_y of an ellipse as wide as a line is near it: half widths agree within 1 %
 WIDE = 0.01
 CROSSED = "minimum film above the central one: two formulas, of which one fails here"
@@ -45,6 +47,8 @@ class Contact:
         Of a line contact [m]; 0: an ellipse.
     spin
         Angular velocity of one body against the other about the normal [rad/s].
+    may_be_light
+        Whether a hardly loaded contact is no slip of units: others of the machine carry its load.
     """
 
     place: str
@@ -54,6 +58,7 @@ class Contact:
     radii: tuple[float, float, float, float]
     length: float = 0.0
     spin: float = 0.0
+    may_be_light: bool = False
 
     @property
     def shape(self) -> str:
@@ -86,7 +91,8 @@ class Contact:
             **self._motion(),
         }
         line: dict[str, Value] = {"contact.shape": LINE, **_rounded(contact)}
-        return machine.case_text(line, self.place, bodies=False)
+        light = self.may_be_light
+        return machine.case_text(line, self.place, bodies=False, may_be_light=light)
 
     def wide_text(self, machine: Machine) -> str:
         """Give the case of a wide ellipse in place of a line, for the heat of a friction formula.
@@ -113,7 +119,7 @@ class Contact:
         contact = {"contact.load": load, **self._motion()}
         for name, radius in zip(("x1", "y1", "x2", "y2"), radii, strict=True):
             contact[f"bodies.radius_{name}"] = radius if math.isfinite(radius) else 0.0
-        return machine.case_text(_rounded(contact), self.place)
+        return machine.case_text(_rounded(contact), self.place, may_be_light=self.may_be_light)
 
 
 def _rounded(values: Mapping[str, float]) -> dict[str, float]:
@@ -174,6 +180,13 @@ class Film:
         return found.moes_m, found.moes_l
 
     @property
+    def is_solvable(self) -> bool:
+        """Whether the solver takes it: no ellipse too long for it, and load enough."""
+        modulus = self.settings["contact"]["reduced_modulus"]
+        long = self.line is None and self.ellipticity > LONGEST
+        return not (long or is_light(self.moes[0], self.hertz_pressure, modulus))
+
+    @property
     def ellipticity(self) -> float:
         """Semi-axis across the motion over that along it [-]; infinite for a line."""
         return math.inf if self.line else self.point.ellipse.ellipticity
@@ -183,7 +196,9 @@ def film_of(contact: Contact, machine: Machine) -> Film:
     """Give the film of a contact by formulas.
 
     Central: Nijenbanning-Venner-Moes, of lines Moes 1992; minimum: Hamrock-Dowson 1977, of lines
-    Dowson-Higginson. InputError if there is no such contact.
+    Dowson-Higginson; of bodies that hardly deform, as some elements at the edge of the load zone
+    are, the minimum is the central film of a formula for rigid bodies. InputError if there is no
+    such contact.
     """
     text = contact.case_text(machine)
     settings = values(text)
@@ -192,8 +207,10 @@ def film_of(contact: Contact, machine: Machine) -> Film:
         point = OperatingPoint.from_settings(settings)
         found = {f.name: f for f in film.estimates(point, oil)}
         central = found["Nijenbanning-Venner-Moes"]
-        minimum = found.get("Hamrock-Dowson") or found["Hamrock-Dowson soft"]
         name = regime(point.moes_m, point.moes_l, point.ellipse)
+        minimum = found.get("Hamrock-Dowson") or found["Hamrock-Dowson soft"]
+        if name == RIGID:
+            minimum = found["Brewe-Hamrock-Taylor"]
         beyond = _beyond(central, minimum)
         h_c, h_min = central.h_c, minimum.h_min
         if h_min > h_c:
@@ -203,9 +220,13 @@ def film_of(contact: Contact, machine: Machine) -> Film:
     wide["lubricant"] = {**wide["lubricant"], "thermal_reduction": False}
     point, line = OperatingPoint.from_settings(wide), LineContact.from_settings(settings)
     formulas = line_contact.estimates(line, oil)
-    beyond = _beyond(*formulas)
-    h_c, h_min = formulas[0].h_c, formulas[1].h_min if len(formulas) > 1 else math.nan
     name = line_contact.regime(line.moes_m, line.moes_l)
+    h_c = formulas[0].h_c
+    if name == RIGID:
+        formulas, h_min = formulas[:1], h_c
+    else:
+        h_min = formulas[1].h_min if len(formulas) > 1 else math.nan
+    beyond = _beyond(*formulas)
     return Film(contact, text, settings, point, line, oil, h_c, h_min, name, beyond, wide)
 
 

@@ -18,7 +18,7 @@ from pyehl.destination import Destination, finite, write_json
 from pyehl.errors import InputError, did_you_mean
 from pyehl.given import Option, path_of
 from pyehl.machines.bearing import Bearing, ball_bearing, roller_bearing
-from pyehl.machines.contact import LONGEST, Film, film_of
+from pyehl.machines.contact import Film, film_of
 from pyehl.machines.gear import GearPair, gear_pair
 from pyehl.machines.gear_duty import FILES as DUTY
 from pyehl.machines.gear_duty import has_duty, write_duty
@@ -77,9 +77,9 @@ class Prepared:
         numbers: dict[str, int] = {}
         self.number: list[int | None] = []
         for one in self.films:
-            if run == "film" or (one.line is None and one.ellipticity > LONGEST):
+            if run == "film" or not one.is_solvable:
                 what = f"{one.contact.place}: its film is by formulas of flooded contacts"
-                expected = "run = 'solve' and no ellipse too long for it, or no &inlet"
+                expected = "run = 'solve' and contacts that the solver takes, or no &inlet"
                 refuse_inlet(one.settings, what, expected)
                 self.number.append(None)
                 continue

@@ -213,6 +213,27 @@ def test_tapered_rollers():
     assert nearly.contacts[0].radius == pytest.approx(straight.contacts[0].radius, rel=1e-3)
 
 
+def test_elements_at_the_edge_of_the_load_zone():
+    """Hardly loaded ones are no reason to refuse the bearing; their bodies are rigid."""
+    oil = {"lubricant.viscosity": 0.3, "lubricant.shear_law": "eyring"}
+    fast = {"roller_bearing.inner_speed": 9000.0, "roller_bearing.axial_load": 1150.0}
+    for keys in (TAPERED | fast, BALLS | {"ball_bearing.axial_load": 900.0}):
+        table = bearing(keys, oil).table
+        assert table["h_c_m"].between(1e-8, 1e-3).all()
+        assert (table["h_min_m"] <= table["h_c_m"]).all()
+    table = bearing(TAPERED | fast, oil).table
+    light = table[table["regime"] == "rigid-isoviscous"]
+    assert 0 < len(light) < len(table)
+    assert light["load_N"].max() < 0.1 * table["load_N"].max()
+    # Martin 1916: h = 4.9 eta u R/w
+    w = light["load_N"] / light["length_m"]
+    film = 4.9 * 0.3 * light["mean_velocity_m_per_s"] * light["radius_m"] / w
+    assert (light["h_min_m"] / film).between(1.0, 1.5).all()
+    # a load that is none on every element is a slip of units
+    with pytest.raises(pyehl.InputError, match="Moes parameter M"):
+        bearing(ROLLERS, oil, {"roller_bearing.radial_load": 0.1})
+
+
 def test_hertz_stiffness():
     """Two equal circles in series: delta = 2 a^2/R with a^3 = 3 w R/(2 E')."""
     load, radius = 100.0, 0.01
