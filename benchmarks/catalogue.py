@@ -243,7 +243,7 @@ def _line_faults(keys: Keys, table: pd.DataFrame) -> list[str]:
     wrong = []
     if not np.allclose(pressure, lines["hertz_pressure_Pa"], rtol=1e-6):
         wrong.append("Hertz pressure of a line")
-    oil = pyehl.Lubricant.from_settings(pyehl.Case(**_nested(keys, "lubricant")).resolve())
+    oil = pyehl.Lubricant.from_settings(pyehl.Case(..., _nested(keys, "lubricant")).resolve())
     flow = oil.viscosity * lines["mean_velocity_m_per_s"] / (STEEL * lines["radius_m"])
     weight = per_length / (STEEL * lines["radius_m"])
     material = oil.pressure_viscosity * STEEL

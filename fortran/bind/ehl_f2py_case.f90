@@ -12,6 +12,7 @@ module ehl_f2py_case
    use ehl_heat, only: dynamic_viscosity, temperature_viscosity
    use ehl_moes, only: operating_t
    use ehl_read_case, only: read_lubricant
+   use ehl_roller, only: body_profile_t
    use ehl_scales, only: scales_t
    use ehl_status, only: status_t
    use ehl_write_case, only: defaults_text
@@ -111,24 +112,24 @@ contains
       input%lubricant%pressure_viscosity = alpha
    end subroutine take
 
-   !> Length, place of the profile among the words, its numbers and the misalignment; places and drops of a table
+   !> Length and misalignment; for each body the place of its profile among the words, its numbers, how many places its table
+   !> has, these places and the drops there
    pure subroutine take_roller(contact, numbers)
       type(contact_case_t), intent(inout) :: contact
       real(c_double), intent(in) :: numbers(:)
-      character(len=11), parameter :: profiles(5) = [character(len=11) :: "none", "crown", "logarithmic", "chamfer", "file"]
-      integer :: n
+      character(len=11), parameter :: kinds(5) = [character(len=11) :: "none", "crown", "logarithmic", "chamfer", "file"]
+      integer :: body, at, n
 
       contact%shape = "roller"
       contact%length = numbers(1)
-      contact%profile = profiles(nint(numbers(2)))
-      contact%crown_radius = numbers(3)
-      contact%log_amplitude = numbers(4)
-      contact%chamfer_length = numbers(5)
-      contact%chamfer_drop = numbers(6)
-      contact%misalignment = numbers(7)
-      n = (size(numbers) - 7)/2
-      contact%profile_y = numbers(8:7 + n)
-      contact%profile_drop = numbers(8 + n:)
+      contact%misalignment = numbers(2)
+      at = 2
+      do body = 1, 2
+         n = nint(numbers(at + 6))
+         contact%profiles(body) = body_profile_t(kinds(nint(numbers(at + 1))), numbers(at + 2), numbers(at + 3), numbers(at + 4), &
+                                                 numbers(at + 5), numbers(at + 7:at + 6 + n), numbers(at + 7 + n:at + 6 + 2*n))
+         at = at + 6 + 2*n
+      end do
    end subroutine take_roller
 
    !> Viscosity [Pa s], alpha [1/Pa] and -(d eta/dT)/eta [1/K] at the inlet, by the law of &lubricant

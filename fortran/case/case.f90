@@ -2,7 +2,7 @@
 !> Everything a case file can say, one type per namelist group, with the defaults
 module ehl_case
    use ehl_kinds, only: dp
-   use ehl_roller, only: profile_t
+   use ehl_roller, only: body_profile_t, profile_t
    use ehl_viscosity_table, only: isotherm_t
    implicit none (type, external)
    private
@@ -50,14 +50,11 @@ module ehl_case
       real(dp) :: thermal_conductivity = 46.0_dp, thermal_diffusivity = 1.25e-5_dp
       !> Of body 2
       real(dp) :: thermal_conductivity_2 = 0.0_dp, thermal_diffusivity_2 = 0.0_dp
-      !> Of a roller: its length, the profile of both bodies together, its angle
-      real(dp) :: length = 0.0_dp
-      character(len=word_length) :: profile = "none"
-      real(dp) :: crown_radius = 0.0_dp, log_amplitude = 0.0_dp, chamfer_length = 0.0_dp, chamfer_drop = 0.0_dp
-      real(dp) :: misalignment = 0.0_dp
-      !> Table of a profile; made absolute by the reader; what it holds [m]
-      character(len=path_length) :: profile_file = ""
-      real(dp), allocatable, dimension(:) :: profile_y, profile_drop
+      !> Of a roller: its length, its angle, the profiles of both bodies and the files of their tables, made absolute by the
+      !> reader
+      real(dp) :: length = 0.0_dp, misalignment = 0.0_dp
+      type(body_profile_t) :: profiles(2)
+      character(len=path_length) :: profile_files(2) = ""
    contains
       procedure :: is_line
       procedure :: is_roller
@@ -300,11 +297,7 @@ contains
       class(contact_case_t), intent(in) :: self
       type(profile_t) :: profile
 
-      profile = profile_t(self%profile(:16), self%length, self%crown_radius, self%log_amplitude, self%chamfer_length, &
-                          self%chamfer_drop, self%misalignment)
-      allocate (profile%y(0), profile%table(0))
-      if (allocated(self%profile_y)) profile%y = self%profile_y
-      if (allocated(self%profile_drop)) profile%table = self%profile_drop
+      profile = profile_t(self%profiles, self%length, self%misalignment)
    end function body_profile
 
    !> Whether something changes with time

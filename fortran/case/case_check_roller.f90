@@ -4,7 +4,7 @@ module ehl_case_check_roller
    use ehl_case, only: case_t, has_no_height
    use ehl_case_source, only: case_source_t
    use ehl_kinds, only: dp
-   use ehl_roller, only: profile_t
+   use ehl_roller, only: body_profile_t, profile_t
    use ehl_scales, only: scales_t
    use ehl_status, only: status_t
    use ehl_text, only: short
@@ -13,8 +13,12 @@ module ehl_case_check_roller
    public :: check_length, check_roller
 
    character(len=*), parameter :: shape = "contact.shape = 'roller'"
-   character(len=14), parameter :: roller_keys(10) = [character(len=14) :: "length", "profile", "crown_radius", "log_amplitude", &
-      "chamfer_length", "chamfer_drop", "profile_file", "profile_y", "profile_drop", "misalignment"]
+   character(len=16), parameter :: roller_keys(18) = [character(len=16) :: "length", "profile", "crown_radius", "log_amplitude", &
+      "chamfer_length", "chamfer_drop", "profile_file", "profile_y", "profile_drop", "misalignment", "profile_2", &
+      "crown_radius_2", "log_amplitude_2", "chamfer_length_2", "chamfer_drop_2", "profile_file_2", "profile_y_2", &
+      "profile_drop_2"]
+   !> What the keys of each body end with
+   character(len=2), parameter :: of_body(2) = ["  ", "_2"]
    character(len=15), parameter :: other_keys(9) = [character(len=15) :: "moes_m", "moes_l", "radius_ratio", "radius_x", &
       "radius_y", "angle", "load_per_length", "moes_m_line", "moes_l_line"]
    !> Keys of the profiles, each with its word
@@ -81,59 +85,80 @@ contains
       end associate
    end subroutine check_length
 
-   !> The keys of the profile alone, and all of them
+   !> Of each body the keys of its profile alone, and all of them; the drop of both together
    subroutine check_profile(source, input, status)
       type(case_source_t), intent(in) :: source
       type(case_t), intent(in) :: input
       type(status_t), intent(inout) :: status
       type(profile_t) :: profile
-      character(len=:), allocatable :: key
       real(dp) :: drop
-      logical :: has(size(of_profile, 2))
-      integer :: k
+      integer :: body
 
+      do body = 1, 2
+         call check_body(source, input%contact%profiles(body), trim(of_body(body)), input%contact%length, status)
+      end do
       if (status%failed()) return
       associate (c => input%contact)
-         has = [c%crown_radius > 0.0_dp, c%log_amplitude > 0.0_dp, c%chamfer_length > 0.0_dp, c%chamfer_drop > 0.0_dp, &
-                .false., .false.]
-         if (allocated(c%profile_y)) has(5) = size(c%profile_y) > 0
-         if (allocated(c%profile_drop)) has(6) = size(c%profile_drop) > 0
-         do k = 1, size(has)
-            key = "contact."//trim(of_profile(2, k))
-            if (c%profile == of_profile(1, k) .and. .not. has(k)) then
-               call source%refuse("contact.profile", "contact.profile = '"//trim(c%profile)//"' without "//key, key, status)
-            else if (c%profile /= of_profile(1, k) .and. source%given(key)) then
-               call source%refuse(key, key//" with contact.profile = '"//trim(c%profile)//"'", &
-                                  "contact.profile = '"//trim(of_profile(1, k))//"'", status)
-            end if
-         end do
-         if (status%failed()) return
-         if (c%chamfer_length > 0.5_dp*c%length) call source%refuse("contact.chamfer_length", &
-            "contact.chamfer_length is more than half of contact.length", "at most "//short(0.5_dp*c%length)//" m", status)
          profile = c%body_profile()
-         if (c%profile == "file") call check_table(source, profile, status)
-         if (status%failed()) return
          drop = max(profile%drop(0.5_dp*c%length), profile%drop(-0.5_dp*c%length))
-         if (c%profile == "file") drop = maxval(abs(profile%table))
+         do body = 1, 2
+            if (profile%of(body)%kind == "file") drop = max(drop, maxval(abs(profile%of(body)%table)))
+         end do
          drop = drop + 0.5_dp*abs(c%misalignment)*c%length
          if (drop > deepest*max(c%radius, c%radius_x)) call source%refuse("contact.profile", "the profile drops by "// &
             short(drop)//" m at the end of the roller, misalignment included", "a tenth of the radius at most", status)
       end associate
    end subroutine check_profile
 
-   !> As many drops as places, which rise and cover the roller
-   subroutine check_table(source, profile, status)
+   !> Keys of one body, whose names have an ending
+   subroutine check_body(source, one, ending, length, status)
       type(case_source_t), intent(in) :: source
-      type(profile_t), intent(in) :: profile
+      type(body_profile_t), intent(in) :: one
+      character(len=*), intent(in) :: ending
+      !> Of the roller [m]
+      real(dp), intent(in) :: length
+      type(status_t), intent(inout) :: status
+      character(len=:), allocatable :: key, profile
+      logical :: has(size(of_profile, 2))
+      integer :: k
+
+      if (status%failed()) return
+      profile = "contact.profile"//ending
+      has = [one%crown_radius > 0.0_dp, one%log_amplitude > 0.0_dp, one%chamfer_length > 0.0_dp, one%chamfer_drop > 0.0_dp, &
+             .false., .false.]
+      if (allocated(one%y)) has(5) = size(one%y) > 0
+      if (allocated(one%table)) has(6) = size(one%table) > 0
+      do k = 1, size(has)
+         key = "contact."//trim(of_profile(2, k))//ending
+         if (one%kind == of_profile(1, k) .and. .not. has(k)) then
+            call source%refuse(profile, profile//" = '"//trim(one%kind)//"' without "//key, key, status)
+         else if (one%kind /= of_profile(1, k) .and. source%given(key)) then
+            call source%refuse(key, key//" with "//profile//" = '"//trim(one%kind)//"'", &
+                               profile//" = '"//trim(of_profile(1, k))//"'", status)
+         end if
+      end do
+      if (status%failed()) return
+      key = "contact.chamfer_length"//ending
+      if (one%chamfer_length > 0.5_dp*length) call source%refuse(key, key//" is more than half of contact.length", &
+                                                                 "at most "//short(0.5_dp*length)//" m", status)
+      if (one%kind == "file") call check_table(source, one, ending, length, status)
+   end subroutine check_body
+
+   !> As many drops as places, which rise and cover the roller
+   subroutine check_table(source, one, ending, length, status)
+      type(case_source_t), intent(in) :: source
+      type(body_profile_t), intent(in) :: one
+      character(len=*), intent(in) :: ending
+      real(dp), intent(in) :: length
       type(status_t), intent(inout) :: status
       logical :: good
 
-      good = size(profile%y) >= 2 .and. size(profile%y) == size(profile%table)
-      if (good) good = all(profile%y(2:) > profile%y(:size(profile%y) - 1))
+      good = size(one%y) >= 2 .and. size(one%y) == size(one%table)
+      if (good) good = all(one%y(2:) > one%y(:size(one%y) - 1))
       ! a rounding of the ends is none
-      if (good) good = profile%y(1) <= -0.499999_dp*profile%length .and. &
-                       profile%y(size(profile%y)) >= 0.499999_dp*profile%length
-      if (.not. good) call source%refuse("contact.profile_y", "contact.profile_y does not cover the roller", &
+      if (good) good = one%y(1) <= -0.499999_dp*length .and. one%y(size(one%y)) >= 0.499999_dp*length
+      if (.not. good) call source%refuse("contact.profile_y"//ending, "contact.profile_y"//ending// &
+                                         " does not cover the roller", &
                                          "places that rise from -length/2 to length/2 [m], a drop for each", status)
    end subroutine check_table
 end module ehl_case_check_roller

@@ -110,19 +110,22 @@ contains
       character(len=line_length), intent(inout) :: lines(:)
       logical, intent(out) :: good
       integer :: stat
-      character(len=word_length), pointer :: shape, profile
-      character(len=path_length), pointer :: profile_file
-      real(dp), allocatable, dimension(:) :: profile_y, profile_drop
+      character(len=word_length), pointer :: shape
+      character(len=len(v%profiles%kind)), pointer :: profile, profile_2
+      character(len=path_length), pointer :: profile_file, profile_file_2
+      real(dp), allocatable, dimension(:) :: profile_y, profile_drop, profile_y_2, profile_drop_2
       real(dp), pointer :: moes_m, moes_l, moes_m_line, moes_l_line, radius_ratio, load, load_per_length, mean_velocity, radius, &
          radius_x, radius_y, reduced_modulus, &
          hardness, angle, slide_to_roll, thermal_conductivity, thermal_diffusivity, thermal_conductivity_2, &
-         thermal_diffusivity_2, length, crown_radius, log_amplitude, chamfer_length, chamfer_drop, misalignment
+         thermal_diffusivity_2, length, misalignment, crown_radius, log_amplitude, chamfer_length, chamfer_drop, crown_radius_2, &
+         log_amplitude_2, chamfer_length_2, chamfer_drop_2
       integer, pointer :: rough_surface
       namelist /contact/ shape, moes_m, moes_l, moes_m_line, moes_l_line, radius_ratio, load, load_per_length, mean_velocity, &
          radius, radius_x, radius_y, reduced_modulus, &
          hardness, angle, slide_to_roll, rough_surface, thermal_conductivity, thermal_diffusivity, thermal_conductivity_2, &
          thermal_diffusivity_2, length, profile, crown_radius, log_amplitude, chamfer_length, chamfer_drop, profile_file, &
-         misalignment, profile_y, profile_drop
+         misalignment, profile_2, crown_radius_2, log_amplitude_2, chamfer_length_2, chamfer_drop_2, profile_file_2, &
+         profile_y, profile_drop, profile_y_2, profile_drop_2
 
       shape => v%shape; moes_m_line => v%moes_m_line; moes_l_line => v%moes_l_line; load_per_length => v%load_per_length
       moes_m => v%moes_m; moes_l => v%moes_l; radius_ratio => v%radius_ratio; load => v%load
@@ -131,17 +134,24 @@ contains
       rough_surface => v%rough_surface; thermal_conductivity => v%thermal_conductivity
       thermal_diffusivity => v%thermal_diffusivity; thermal_conductivity_2 => v%thermal_conductivity_2
       thermal_diffusivity_2 => v%thermal_diffusivity_2
-      length => v%length; profile => v%profile; crown_radius => v%crown_radius; log_amplitude => v%log_amplitude
-      chamfer_length => v%chamfer_length; chamfer_drop => v%chamfer_drop; profile_file => v%profile_file
-      misalignment => v%misalignment
+      length => v%length; misalignment => v%misalignment
+      profile => v%profiles(1)%kind; profile_2 => v%profiles(2)%kind
+      profile_file => v%profile_files(1); profile_file_2 => v%profile_files(2)
+      crown_radius => v%profiles(1)%crown_radius; crown_radius_2 => v%profiles(2)%crown_radius
+      log_amplitude => v%profiles(1)%log_amplitude; log_amplitude_2 => v%profiles(2)%log_amplitude
+      chamfer_length => v%profiles(1)%chamfer_length; chamfer_length_2 => v%profiles(2)%chamfer_length
+      chamfer_drop => v%profiles(1)%chamfer_drop; chamfer_drop_2 => v%profiles(2)%chamfer_drop
       ! as many numbers as a text of this length can hold
-      allocate (profile_y(len(text)/2), profile_drop(len(text)/2), source=huge(1.0_dp))
+      allocate (profile_y(len(text)/2), profile_drop(len(text)/2), profile_y_2(len(text)/2), profile_drop_2(len(text)/2), &
+                source=huge(1.0_dp))
       if (len(text) == 0) then
          write (lines, nml=contact, iostat=stat, delim="apostrophe")
       else
          read (text, nml=contact, iostat=stat)
-         v%profile_y = pack(profile_y, profile_y < huge(1.0_dp))
-         v%profile_drop = pack(profile_drop, profile_drop < huge(1.0_dp))
+         v%profiles(1)%y = pack(profile_y, profile_y < huge(1.0_dp))
+         v%profiles(1)%table = pack(profile_drop, profile_drop < huge(1.0_dp))
+         v%profiles(2)%y = pack(profile_y_2, profile_y_2 < huge(1.0_dp))
+         v%profiles(2)%table = pack(profile_drop_2, profile_drop_2 < huge(1.0_dp))
       end if
       good = stat == 0
    end subroutine contact_group

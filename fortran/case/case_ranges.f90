@@ -15,7 +15,9 @@ module ehl_case_ranges
       // "thermal_conductivity [0.1, 500]; thermal_diffusivity [1e-8, 1e-3]; " &
       // "thermal_conductivity_2 0 or [0.1, 500]; thermal_diffusivity_2 0 or [1e-8, 1e-3]; length 0 or [1e-5, 10]; " &
       // "profile none|crown|logarithmic|chamfer|file; crown_radius 0 or [1e-4, 1e6]; log_amplitude 0 or [1e-10, 1e-2]; " &
-      // "chamfer_length 0 or [1e-7, 1]; chamfer_drop 0 or [1e-9, 1]; misalignment [-0.1, 0.1]"
+      // "chamfer_length 0 or [1e-7, 1]; chamfer_drop 0 or [1e-9, 1]; misalignment [-0.1, 0.1]; " &
+      // "profile_2 none|crown|logarithmic|chamfer|file; crown_radius_2 0 or [1e-4, 1e6]; " &
+      // "log_amplitude_2 0 or [1e-10, 1e-2]; chamfer_length_2 0 or [1e-7, 1]; chamfer_drop_2 0 or [1e-9, 1]"
    character(len=*), parameter :: bodies_ranges = &
       "radius_x1 [-1e3, 1e3]; radius_y1 [-1e3, 1e3]; radius_x2 [-1e3, 1e3]; radius_y2 [-1e3, 1e3]; " &
       // "modulus_1 [1e3, 2e12]; modulus_2 [1e3, 2e12]; poisson_1 [-0.5, 0.5]; poisson_2 [-0.5, 0.5]"

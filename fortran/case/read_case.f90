@@ -24,7 +24,7 @@ module ehl_read_case
    character(len=name_length), parameter :: made_by_pyehl(*) = [character(len=name_length) :: "radius_x", "radius_y", &
       "reduced_modulus", "viscosity", "pressure_viscosity", "temperature_viscosity", "viscosity_law", "inlet_law", &
       "alpha_origin", "kind", "table_temperature", "table_pressure", "table_viscosity", &
-      "profile_y", "profile_drop"], &
+      "profile_y", "profile_drop", "profile_y_2", "profile_drop_2"], &
       groups_by_pyehl(*) = [character(len=name_length) :: "contact", "lubricant", "surface", "second_surface"]
    !> Begins an option that a person typed in a shell
    character(len=*), parameter :: typed = "--set "

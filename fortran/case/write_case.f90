@@ -64,10 +64,12 @@ contains
       integer :: k
 
       line = ""
-      if (key == "profile_y" .or. key == "profile_drop") then
-         allocate (numbers(0))
-         if (key == "profile_y" .and. allocated(input%contact%profile_y)) numbers = input%contact%profile_y
-         if (key == "profile_drop" .and. allocated(input%contact%profile_drop)) numbers = input%contact%profile_drop
+      if (index(key, "profile_") == 1) then
+         associate (one => input%contact%profiles(merge(2, 1, index(key, "_2") > 0)))
+            if (.not. (allocated(one%y) .and. allocated(one%table))) return
+            numbers = one%y
+            if (index(key, "drop") > 0) numbers = one%table
+         end associate
       else if (index(key, "table_") == 0) then
          numbers = input%duty%list(trim(key))
       else
@@ -109,16 +111,17 @@ contains
             holds = .not. c%is_line()
          case ("grid.y_extent")
             holds = .not. c%is_cylinder()
-         case ("contact.length", "contact.profile", "contact.misalignment")
+         case ("contact.length", "contact.profile", "contact.profile_2", "contact.misalignment")
             holds = c%is_roller()
-         case ("contact.crown_radius")
-            holds = c%is_roller() .and. c%profile == "crown"
-         case ("contact.log_amplitude")
-            holds = c%is_roller() .and. c%profile == "logarithmic"
-         case ("contact.chamfer_length", "contact.chamfer_drop")
-            holds = c%is_roller() .and. c%profile == "chamfer"
-         case ("contact.profile_file", "contact.profile_y", "contact.profile_drop")
-            holds = c%is_roller() .and. c%profile == "file"
+         case ("contact.crown_radius", "contact.crown_radius_2")
+            holds = c%is_roller() .and. of_body() == "crown"
+         case ("contact.log_amplitude", "contact.log_amplitude_2")
+            holds = c%is_roller() .and. of_body() == "logarithmic"
+         case ("contact.chamfer_length", "contact.chamfer_drop", "contact.chamfer_length_2", "contact.chamfer_drop_2")
+            holds = c%is_roller() .and. of_body() == "chamfer"
+         case ("contact.profile_file", "contact.profile_y", "contact.profile_drop", "contact.profile_file_2", &
+               "contact.profile_y_2", "contact.profile_drop_2")
+            holds = c%is_roller() .and. of_body() == "file"
          case ("contact.mean_velocity", "contact.reduced_modulus")
             holds = c%si
          case ("contact.radius")
@@ -133,6 +136,14 @@ contains
             continue
          end select
       end associate
+
+   contains
+
+      !> Kind of the profile of the body of a key
+      pure function of_body() result(kind)
+         character(len=len(input%contact%profiles%kind)) :: kind
+         kind = input%contact%profiles(merge(2, 1, index(name, "_2") > 0))%kind
+      end function of_body
    end function holds
 
    !> All keys with default and range, one a line with tabs between

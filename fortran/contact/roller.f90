@@ -10,7 +10,8 @@
 !>    chamfer      g = slope of a straight chamfer times the distance from its beginning
 !>    file         a table, straight between its points
 !>
-!> The domain ends with the roller: P = 0 there. The half-space that is deflected goes on.
+!> Of two bodies with a profile the drops are added. The domain ends with the
+!> roller: P = 0 there. The half-space that is deflected goes on.
 module ehl_roller
    use ehl_contact, only: contact_t
    use ehl_kinds, only: dp, pi
@@ -19,16 +20,23 @@ module ehl_roller
    use ehl_scales, only: scales_t
    implicit none (type, external)
    private
-   public :: profile_t, new_roller, roller_t
+   public :: body_profile_t, profile_t, new_roller, roller_t
 
-   !> Profile of both bodies together, in metres
-   type :: profile_t
+   !> Profile of one body, in metres
+   type :: body_profile_t
       character(len=16) :: kind = "none"
-      !> Of the roller; radius of a crown; A; length of each chamfer and the drop at its end; angle [rad]
-      real(dp) :: length = 0.0_dp, crown_radius = 0.0_dp, log_amplitude = 0.0_dp, chamfer_length = 0.0_dp, &
-                  chamfer_drop = 0.0_dp, misalignment = 0.0_dp
+      !> Radius of a crown; A; length of each chamfer and the drop at its end
+      real(dp) :: crown_radius = 0.0_dp, log_amplitude = 0.0_dp, chamfer_length = 0.0_dp, chamfer_drop = 0.0_dp
       !> A table, by rising y
       real(dp), allocatable :: y(:), table(:)
+   contains
+      procedure :: drop => drop_of_body
+   end type body_profile_t
+
+   !> Profiles of both bodies, length of the roller [m] and angle between the axes [rad]
+   type :: profile_t
+      type(body_profile_t) :: of(2)
+      real(dp) :: length = 0.0_dp, misalignment = 0.0_dp
    contains
       procedure :: drop
       procedure :: is_symmetric
@@ -104,10 +112,17 @@ contains
       largest_share = max(1.0_dp, (approach - minval(gap))/abs(contact%dry_separation))
    end function largest_share
 
-   !> Drop of the profile at y [m]
+   !> Drop of both bodies together at y [m]
    pure real(dp) function drop(self, y)
       class(profile_t), intent(in) :: self
       real(dp), intent(in) :: y
+      drop = self%of(1)%drop(self%length, y) + self%of(2)%drop(self%length, y)
+   end function drop
+
+   !> Drop of one body at y [m], of a roller of a length [m]
+   pure real(dp) function drop_of_body(self, length, y) result(drop)
+      class(body_profile_t), intent(in) :: self
+      real(dp), intent(in) :: length, y
       real(dp) :: s
       integer :: k
 
@@ -115,10 +130,10 @@ contains
       case ("crown")
          drop = 0.5_dp*y**2/self%crown_radius
       case ("logarithmic")
-         s = min(last, 2.0_dp*abs(y)/self%length)
+         s = min(last, 2.0_dp*abs(y)/length)
          drop = -self%log_amplitude*log(1.0_dp - s**2)
       case ("chamfer")
-         s = abs(y) - (0.5_dp*self%length - self%chamfer_length)
+         s = abs(y) - (0.5_dp*length - self%chamfer_length)
          drop = self%chamfer_drop*max(0.0_dp, s)/self%chamfer_length
       case ("file")
          drop = 0.0_dp
@@ -129,17 +144,21 @@ contains
       case default
          drop = 0.0_dp
       end select
-   end function drop
+   end function drop_of_body
 
    !> Whether both halves are the same
    pure logical function is_symmetric(self)
       class(profile_t), intent(in) :: self
-      integer :: k
+      integer :: body, k
 
       is_symmetric = .not. abs(self%misalignment) > 0.0_dp
-      if (self%kind /= "file" .or. .not. is_symmetric) return
-      do k = 1, size(self%y)
-         is_symmetric = is_symmetric .and. .not. abs(self%drop(self%y(k)) - self%drop(-self%y(k))) > 0.0_dp
+      do body = 1, 2
+         associate (one => self%of(body), l => self%length)
+            if (one%kind /= "file") cycle
+            do k = 1, size(one%y)
+               is_symmetric = is_symmetric .and. .not. abs(one%drop(l, one%y(k)) - one%drop(l, -one%y(k))) > 0.0_dp
+            end do
+         end associate
       end do
    end function is_symmetric
 

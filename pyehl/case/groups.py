@@ -6,8 +6,21 @@ stands for "not given". What is no key is set when a case is completed.
 """
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from pyehl.case.key import numbers, path, real, truth, whole, word
+
+
+class Profile(NamedTuple):
+    """Profile of one body of a roller; lengths in m."""
+
+    kind: str
+    crown_radius: float
+    log_amplitude: float
+    chamfer_length: float
+    chamfer_drop: float
+    places: tuple[float, ...]
+    drops: tuple[float, ...]
 
 
 @dataclass(slots=True)
@@ -87,7 +100,7 @@ class Contact:
     profile: str = word(
         "none",
         "none|crown|logarithmic|chamfer|file",
-        "profile of a roller, the sum of both bodies",
+        "profile of body 1 of a roller, or of both bodies together",
     )
     crown_radius: float = real(0.0, "m", "0 or [1e-4, 1e6]", "crown: y^2/(2 crown_radius)")
     log_amplitude: float = real(
@@ -97,8 +110,18 @@ class Contact:
     chamfer_drop: float = real(0.0, "m", "0 or [1e-9, 1]", "drop of a chamfer at the end")
     profile_file: str = path("table of y and drop, two columns in m separated by a comma")
     misalignment: float = real(0.0, "rad", "[-0.1, 0.1]", "angle between the axes of a roller")
+    profile_2: str = word(
+        "none", "none|crown|logarithmic|chamfer|file", "profile of body 2, added to that of body 1"
+    )
+    crown_radius_2: float = real(0.0, "m", "0 or [1e-4, 1e6]", "crown_radius of body 2")
+    log_amplitude_2: float = real(0.0, "m", "0 or [1e-10, 1e-2]", "log_amplitude of body 2")
+    chamfer_length_2: float = real(0.0, "m", "0 or [1e-7, 1]", "chamfer_length of body 2")
+    chamfer_drop_2: float = real(0.0, "m", "0 or [1e-9, 1]", "chamfer_drop of body 2")
+    profile_file_2: str = path("profile_file of body 2")
     profile_y: tuple[float, ...] = numbers("m", "places of profile_file; not for input")
     profile_drop: tuple[float, ...] = numbers("m", "drops of profile_file; not for input")
+    profile_y_2: tuple[float, ...] = numbers("m", "places of profile_file_2; not for input")
+    profile_drop_2: tuple[float, ...] = numbers("m", "drops of profile_file_2; not for input")
     si: bool = True
     """Whether load, mean_velocity, radius and reduced_modulus hold, else moes_m and moes_l."""
     round: bool = True
@@ -113,6 +136,13 @@ class Contact:
     def is_roller(self) -> bool:
         """Whether the contact is a roller of finite length."""
         return self.shape == "roller"
+
+    def of_body(self, body: int) -> Profile:
+        """Profile of a body, 1 or 2: kind, its numbers, places and drops of its table [m]."""
+        end = "_2" if body == 2 else ""
+        names = ("profile", "crown_radius", "log_amplitude", "chamfer_length", "chamfer_drop")
+        found = (getattr(self, f"{name}{end}") for name in (*names, "profile_y", "profile_drop"))
+        return Profile(*found)
 
     @property
     def is_cylinder(self) -> bool:

@@ -50,10 +50,10 @@ def _contact(settings: Settings) -> Contact:
         load, moes_m, moes_l = c.load_per_length, c.moes_m_line, c.moes_l_line
     roller: tuple[float, ...] = (0.0,)
     if c.is_roller:
-        roller = (
-            *(c.length, 1.0 + PROFILES.index(c.profile), c.crown_radius, c.log_amplitude),
-            *(c.chamfer_length, c.chamfer_drop, c.misalignment, *c.profile_y, *c.profile_drop),
-        )
+        roller = (c.length, c.misalignment)
+        for kind, *numbers, places, drops in (c.of_body(1), c.of_body(2)):
+            size = float(len(places))
+            roller = (*roller, 1.0 + PROFILES.index(kind), *numbers, size, *places, *drops)
     return (
         *(2 if c.is_roller else int(c.is_line), roller, c.si, c.radius_ratio, c.angle),
         *(load, c.mean_velocity, c.radius_x),

@@ -3,9 +3,9 @@
 
 import math
 from collections.abc import Iterator
-from itertools import pairwise
+from itertools import chain, pairwise
 
-from pyehl.case.groups import Contact
+from pyehl.case.groups import Contact, Profile
 from pyehl.case.key import short
 from pyehl.case.settings import Draft
 from pyehl.case.source import Source, read_text
@@ -21,7 +21,12 @@ KEYS_OF = {
     "file": ("profile_file", "profile_y", "profile_drop"),
 }
 """Keys of each profile."""
-KEYS = ("length", "profile", "misalignment", *(key for keys in KEYS_OF.values() for key in keys))
+BODIES = ("", "_2")
+"""What the keys of each body end with."""
+KEYS = (
+    *("length", "misalignment"),
+    *(f"{k}{end}" for end in BODIES for k in ("profile", *chain(*KEYS_OF.values()))),
+)
 """Keys of a roller."""
 # Keys of other shapes
 OTHERS = (
@@ -37,19 +42,30 @@ ROUNDING = 1e-6
 
 def unused(contact: Contact) -> Iterator[str]:
     """Keys of the profiles that a roller does not have."""
-    yield from (k for kind, keys in KEYS_OF.items() if kind != contact.profile for k in keys)
+    for end in BODIES:
+        own = getattr(contact, f"profile{end}")
+        yield from (f"{k}{end}" for kind, keys in KEYS_OF.items() if kind != own for k in keys)
 
 
 def complete(draft: Draft) -> None:
     """Read the table of a profile, unless it is gone and a resolved case holds it."""
     c = draft.settings.contact
-    if not (c.is_roller and c.profile_file):
-        return
-    c.profile_file = draft.absolute("contact.profile_file", c.profile_file)
-    if draft.is_given("contact", "profile_y"):
-        return
-    text = read_text(c.profile_file, TABLE)
-    source = Source(c.profile_file, text.replace("\r", " ") + "\n")
+    for end in BODIES:
+        key = f"profile_file{end}"
+        if not (c.is_roller and getattr(c, key)):
+            continue
+        name = draft.absolute(f"contact.{key}", getattr(c, key))
+        setattr(c, key, name)
+        if not draft.is_given("contact", f"profile_y{end}"):
+            places, drops = _read_table(name)
+            setattr(c, f"profile_y{end}", places)
+            setattr(c, f"profile_drop{end}", drops)
+
+
+def _read_table(name: str) -> tuple[tuple[float, ...], ...]:
+    """Places and drops of a file [m]."""
+    text = read_text(name, TABLE)
+    source = Source(name, text.replace("\r", " ") + "\n")
     rows = []
     for first, line in source.rows():
         cells = line.split(",")
@@ -58,7 +74,7 @@ def complete(draft: Draft) -> None:
         rows.append(
             [source.number(first, line, *pair) for pair in zip(COLUMNS, cells, strict=True)]
         )
-    c.profile_y, c.profile_drop = (tuple(row[k] for row in rows) for k in range(len(COLUMNS)))
+    return tuple(tuple(row[k] for row in rows) for k in range(len(COLUMNS)))
 
 
 def check_keys(draft: Draft) -> None:
@@ -112,30 +128,10 @@ def check_length(draft: Draft) -> None:
 
 
 def _check_profile(draft: Draft) -> None:
-    """Refuse a profile that misses a key, has one of another, or is too deep."""
+    """Refuse profiles that miss a key, have one of another, or are too deep together."""
     c = draft.settings.contact
-    for kind, keys in KEYS_OF.items():
-        for key in keys:
-            name = f"contact.{key}"
-            if kind != c.profile and name in draft.given:
-                what = f"{name} with contact.profile = '{c.profile}'"
-                draft.refuse(name, what, f"contact.profile = '{kind}'")
-            if kind == c.profile and not getattr(c, key) and key != "profile_file":
-                missing = "contact.profile_file" if kind == "file" else name
-                what = f"contact.profile = '{kind}' without {missing}"
-                draft.refuse("contact.profile", what, missing)
-    if c.chamfer_length > 0.5 * c.length:
-        what = "contact.chamfer_length is more than half of contact.length"
-        expected = f"at most {short(0.5 * c.length)} m"
-        draft.refuse("contact.chamfer_length", what, expected)
-    if c.profile == "file":
-        half = (0.5 - ROUNDING) * c.length
-        if (
-            len(c.profile_y) != len(c.profile_drop)
-            or any(b <= a for a, b in pairwise(c.profile_y))
-            or not c.profile_y[0] <= -half < half <= c.profile_y[-1]
-        ):
-            draft.refuse("contact.profile_file", "the table does not cover the roller", TABLE)
+    for number, end in enumerate(BODIES):
+        _check_body(draft, c.of_body(number + 1), end)
     drop = _end_drop(c) + 0.5 * abs(c.misalignment) * c.length
     if drop > DEEPEST * c.radius:
         what = (
@@ -144,12 +140,41 @@ def _check_profile(draft: Draft) -> None:
         draft.refuse("contact.profile", what, "a tenth of the radius at most")
 
 
+def _check_body(draft: Draft, own: Profile, end: str) -> None:
+    """Refuse keys of the profile of one body that do not belong together."""
+    c, profile = draft.settings.contact, f"contact.profile{end}"
+    for kind, keys in KEYS_OF.items():
+        for key in keys:
+            name = f"contact.{key}{end}"
+            if kind != own.kind and name in draft.given:
+                draft.refuse(name, f"{name} with {profile} = '{own.kind}'", f"{profile} = '{kind}'")
+            if kind == own.kind and not getattr(c, f"{key}{end}") and key != "profile_file":
+                missing = f"contact.profile_file{end}" if kind == "file" else name
+                draft.refuse(profile, f"{profile} = '{kind}' without {missing}", missing)
+    if own.chamfer_length > 0.5 * c.length:
+        name = f"contact.chamfer_length{end}"
+        expected = f"at most {short(0.5 * c.length)} m"
+        draft.refuse(name, f"{name} is more than half of contact.length", expected)
+    half = (0.5 - ROUNDING) * c.length
+    if own.kind == "file" and (
+        len(own.places) != len(own.drops)
+        or any(b <= a for a, b in pairwise(own.places))
+        or not own.places[0] <= -half < half <= own.places[-1]
+    ):
+        name = f"contact.profile_file{end}"
+        draft.refuse(name, "the table does not cover the roller", TABLE)
+
+
 def _end_drop(c: Contact) -> float:
-    """Drop of a profile at the end of the roller [m]."""
-    if c.profile == "crown":
-        return c.length * c.length / (8.0 * c.crown_radius)
-    if c.profile == "chamfer":
-        return c.chamfer_drop
-    if c.profile == "logarithmic":
-        return -c.log_amplitude * math.log(1.0 - 0.998**2)
-    return max((abs(drop) for drop in c.profile_drop), default=0.0)
+    """Drop of both profiles together at the end of the roller [m]."""
+    drops = 0.0
+    for own in (c.of_body(1), c.of_body(2)):
+        if own.kind == "crown":
+            drops += c.length * c.length / (8.0 * own.crown_radius)
+        elif own.kind == "chamfer":
+            drops += own.chamfer_drop
+        elif own.kind == "logarithmic":
+            drops -= own.log_amplitude * math.log(1.0 - 0.998**2)
+        else:
+            drops += max((abs(drop) for drop in own.drops), default=0.0)
+    return drops

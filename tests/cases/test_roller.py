@@ -115,6 +115,28 @@ def test_misalignment_either_way_is_a_mirror_image():
     assert float(one.P_max) > float(straight.P_max)
 
 
+def test_profiles_of_both_bodies_are_added(ehl, tmp_path):
+    whole = pyehl.solve(roller(65, **LOGARITHMIC))
+    parts = {"profile": "logarithmic", "log_amplitude": 1e-6}
+    both = roller(65, **parts, profile_2="logarithmic", log_amplitude_2=2e-6)
+    found = pyehl.solve(both)
+    np.testing.assert_allclose(found.P.values, whole.P.values, atol=1e-9)
+    # body 2 alone, by the program too
+    two = roller(65, profile_2="logarithmic", log_amplitude_2=3e-6)
+    np.testing.assert_array_equal(pyehl.solve(two).P.values, whole.P.values)
+    case = tmp_path / "case.nml"
+    case.write_text(two.text)
+    subprocess.run([ehl, case, "-q", "-o", tmp_path / "out"], check=True)
+    np.testing.assert_array_equal(pyehl.load(tmp_path / "out").P.values, whole.P.values)
+    # a crown on a chamfered ring is neither
+    mixed = {"profile": "crown", "crown_radius": 2.0, "profile_2": "chamfer"}
+    mixed |= {"chamfer_length_2": 1e-3, "chamfer_drop_2": 5e-6}
+    crown, chamfer = dict(list(mixed.items())[:2]), {"profile": "chamfer"}
+    chamfer |= {"chamfer_length": 1e-3, "chamfer_drop": 5e-6}
+    films = [float(pyehl.solve(roller(65, **keys)).H_c) for keys in (mixed, crown, chamfer)]
+    assert films[0] < min(films[1:])
+
+
 def test_ends_under_load_have_no_error():
     ds = pyehl.solve(roller(129))
     assert float(ds.P_end) == float(ds.P_max) > 2.0
@@ -160,6 +182,8 @@ def test_ehl_reads_what_pyehl_resolves(tmp_path, ehl):
         ({"profile": "chamfer", "chamfer_length": 6e-3, "chamfer_drop": 1e-5}, "more than half"),
         ({"profile": "crown", "crown_radius": 1e-3}, "the profile drops by"),
         ({"profile": "file"}, "without contact.profile_file"),
+        ({"profile_2": "crown"}, "without contact.crown_radius_2"),
+        ({"chamfer_drop_2": 1e-5}, "chamfer_drop_2 with contact.profile_2 = 'none'"),
         ({"radius_y": 0.1}, "contact.radius_y with contact.shape"),
         ({"angle": 3.0}, "contact.angle with contact.shape"),
         ({"length": 1.0, "load": 1000.0}, "contact.length is"),

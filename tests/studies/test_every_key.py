@@ -189,10 +189,15 @@ END: dict[str, Mapping[str, Any]] = {
     },
 }
 END["contact.chamfer_drop"] = END["contact.chamfer_length"]
+END |= {
+    f"{name}_2": {f"{key}_2": value for key, value in keys.items()}
+    for name, keys in END.items()
+    if keys and name != "contact.misalignment"
+}
 # A layer of oil meets smooth surfaces: predictions, curves and fits of rough ones have none
 SMOOTH = ("inlet.film", "inlet.film_hertz", "inlet.passages", "inlet.replenishment")
 # A table of viscosities and one of a profile are files
-TABLE, PROFILE = "lubricant.table", "contact.profile_file"
+TABLE, PROFILE = "lubricant.table", ("contact.profile_file", "contact.profile_file_2")
 ROUGH = {"surface.kind": "harmonic", "surface.amplitude_over_film": 0.1}
 # Groups that are no part of a smooth contact (but a velocity ratio is a slide-to-roll ratio), and
 # the duty, which predictions refuse
@@ -205,7 +210,7 @@ def test_every_key_has_a_value():
     inside = {
         name for name, key in KEYS.items() if name.partition(".")[0] not in OTHERS and key.for_input
     }
-    with_one = VALUES.keys() | LINE.keys() | END.keys() | {TABLE, PROFILE, *SMOOTH}
+    with_one = VALUES.keys() | LINE.keys() | END.keys() | {TABLE, *PROFILE, *SMOOTH}
     assert inside == with_one | {f"grid.{name}" for name in OF_RUN}
 
 
