@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.patches import Polygon, Rectangle
 from PIL import Image
 
@@ -77,7 +78,7 @@ def films(ax: Axes, data: Any) -> None:  # noqa: ANN401
     arrow(ax, (0.0, central), (0.0, 0.0), arrowstyle="<|-|>", lw=0.8, mutation_scale=7)
     ax.text(0.012, 0.4 * central, r"$h_\mathrm{c}$", va="center")
     ax.set(xlim=(-1.4 * unit, 1.3 * unit), ylim=(0.0, 2.3 * central))
-    ax.set(xlabel="$x$ [mm], along the motion", ylabel="film thickness $h$ [nm], $y = 0$")
+    ax.set(xlabel="x [mm], motion →", ylabel="h [nm] at y = 0")
     ax.legend(loc="upper center", ncols=2, frameon=False, handlelength=1.4, columnspacing=1.0)
 
 
@@ -105,18 +106,23 @@ def film_map(ax: Axes, data: Any) -> None:  # noqa: ANN401
         )  # fmt: skip
 
 
+@style.styled()
+def drawn(data: Any) -> Figure:  # noqa: ANN401
+    """Draw the contact, its film along the motion and its map."""
+    figure = style.new_figure(style.PAGE, 0.056 / style.INCH)
+    left, middle, right = figure.subplots(1, 3, width_ratios=(1.0, 1.2, 1.0))
+    sketch(left)
+    films(middle, data)
+    film_map(right, data)
+    return figure
+
+
 def main() -> None:
     """Solve the contact and draw it."""
-    data = pyehl.solve(CASE, CHANGES)
-    with style.styled():
-        figure = style.new_figure(style.PAGE, 0.056 / style.INCH)
-        left, middle, right = figure.subplots(1, 3, width_ratios=(1.0, 1.2, 1.0))
-        sketch(left)
-        films(middle, data)
-        film_map(right, data)
-        on_one_line(style.save(figure, HERE / "contact.svg", dpi=200))
-        # of the first page of the site, which is to be light
-        path = style.save(figure, HERE / "contact.png", dpi=160)
+    figure = drawn(pyehl.solve(CASE, CHANGES))
+    on_one_line(style.save(figure, HERE / "contact.svg", dpi=200))
+    # of the first page of the site, which is to be light
+    path = style.save(figure, HERE / "contact.png", dpi=160)
     with Image.open(path) as picture:
         picture.convert("RGB").quantize(128).save(path, optimize=True)
 

@@ -12,7 +12,8 @@ from contact import on_one_line
 import pyehl
 from pyehl.plots import contact, style
 from pyehl.plots.figures import scales_of
-from pyehl.theory.film import nijenbanning_venner_moes
+from pyehl.theory.moes_film import nijenbanning_venner_moes, regime
+from pyehl.theory.operating import OperatingPoint
 
 HERE = Path(__file__).resolve().parent
 CASE = HERE.parents[1] / "cases" / "finish.nml"
@@ -43,9 +44,9 @@ def moes() -> None:
     m = np.geomspace(5.0, 3000.0, 100)
     for moes_l, colour in zip((2.5, 5.0, 10.0, 20.0), ("black", *style_colours()), strict=True):
         film = [nijenbanning_venner_moes(value, moes_l) for value in m]
-        ax.loglog(m, film, color=colour, label=f"L = {moes_l:g}")
+        ax.loglog(m, film, color=colour, label=f"$L$ = {moes_l:g}")
     style.label_decades(ax.xaxis, ax.yaxis)
-    ax.set(xlabel="M", ylabel=r"$H_\mathrm{c} = h_\mathrm{c}R/a^2$")
+    ax.set(xlabel="$M$", ylabel=r"$H_\mathrm{c} = h_\mathrm{c}R/a^2$")
     ax.grid(visible=True)
     ax.legend()
     on_one_line(style.save(figure, HERE / "moes.svg"))
@@ -56,29 +57,74 @@ def style_colours() -> tuple[str, str, str]:
     return style.BLUE, style.VERMILLION, style.GREEN
 
 
+AREAS = {
+    "rigid-isoviscous": ("rigid,\nisoviscous", (0.6, 3.0)),
+    "elastic-isoviscous": ("elastic, isoviscous:\nrubber, water", (500.0, 0.85)),
+    "rigid-piezoviscous": ("rigid,\npiezo-\nviscous", (11.0, 14.0)),
+    "rigid to elastic-piezoviscous": ("between:\nsteel and oil", (500.0, 13.0)),
+    "elastic-piezoviscous": ("elastic,\npiezo-\nviscous", (7e3, 4.0)),
+}
+"""Regimes, their names in the picture and where these stand (M, L)."""
+SHADES = ("#DCE9F5", "#FBE3D3", "#D9F0E7", "#FFFFFF", "#F6E9F1")
+
+
 @style.styled()
 def regimes() -> None:
-    """Friction and load share of solid contact over Lambda."""
+    """Regimes over M and L, and where the contact of the case is."""
+    m, ell = np.geomspace(0.1, 3e4, 201), np.geomspace(0.5, 25.0, 141)
+    names = np.array([[regime(x, y) for x in m] for y in ell])
+    figure = style.new_figure(style.COLUMN, HEIGHT)
+    ax = figure.subplots()
+    for (name, (text, place)), shade in zip(AREAS.items(), SHADES, strict=True):
+        inside = (names == name).astype(float)
+        ax.contourf(m, ell, inside, levels=[0.5, 1.5], colors=[shade])
+        ax.text(*place, text, ha="center", va="center")
+    point = OperatingPoint.from_settings(pyehl.Case.read(CASE).resolve())
+    ax.plot(point.moes_m, point.moes_l, "o", color=style.VERMILLION, ms=4)
+    ax.annotate(
+        CASE.name, (point.moes_m, point.moes_l), (0, -6), textcoords="offset points",
+        ha="center", va="top", color=style.VERMILLION,
+    )  # fmt: skip
+    ax.set(xscale="log", yscale="log", xlabel="$M$", ylabel="$L$")
+    style.label_decades(ax.xaxis)
+    style.label_log_ticks(ax.yaxis)
+    on_one_line(style.save(figure, HERE / "regimes.svg"))
+
+
+@style.styled()
+def stribeck() -> None:
+    """Friction and load share of solid contact over the speed, with Lambda."""
     text = MIXED.read_text(encoding="utf-8")
     rows = list(csv.DictReader(line for line in text.splitlines() if not line.startswith("#")))
-    speed, friction, share = (
+    speed, friction, share, ratio = (
         np.array([float(row[name]) for row in rows])
-        for name in ("contact.mean_velocity", "mu", "contact_load_share")
+        for name in ("contact.mean_velocity", "mu", "contact_load_share", "lambda_ratio")
     )
-    figure = style.new_figure(style.COLUMN, HEIGHT)
+    figure = style.new_figure(style.COLUMN, 1.1 * HEIGHT)
     ax = figure.subplots()
     ax.semilogx(speed, friction, "o-", color=style.BLUE)
     style.label_log_ticks(ax.xaxis)
-    ax.set(xlabel=r"mean velocity $\bar u$ [m/s]", ylim=(0.0, None))
+    ax.set(xlabel=r"mean velocity $\bar u$ [m/s]", ylim=(0.0, 0.1))
     style.y_label(ax, r"coefficient of friction $\mu$", style.BLUE)
     twin = ax.twinx()
     twin.plot(speed, share, "s--", color=style.VERMILLION)
     twin.set_ylim(0.0, 1.0)
     style.y_label(twin, "load share of solid contact", style.VERMILLION)
-    on_one_line(style.save(figure, HERE / "regimes.svg"))
+    # the share falls below 1 % where the surfaces part
+    parted = float(np.exp(np.interp(-0.01, -share, np.log(speed))))
+    ax.axvline(parted, color=style.GREY, lw=0.8, ls=":")
+    for place, word in ((0.06, "mixed"), (0.25, "full film")):
+        ax.text(place, 0.092, word, ha="center", va="center")
+    above = ax.secondary_xaxis("top")
+    marks = [value for value in (0.7, 1.0, 2.0, 3.0) if ratio.min() <= value <= ratio.max()]
+    above.set_xticks(np.exp(np.interp(marks, ratio, np.log(speed))), [f"{v:g}" for v in marks])
+    above.set_xticks([], minor=True)
+    above.set_xlabel(r"$\Lambda = h_\mathrm{min}/\sigma$")
+    on_one_line(style.save(figure, HERE / "stribeck.svg"))
 
 
 if __name__ == "__main__":
     lines()
     moes()
     regimes()
+    stribeck()

@@ -28,7 +28,8 @@ MODELS = {
     ),
 }
 """Predictions: ours; the paper's model; the same with eq. 11 read literally and Barus' law."""
-SCHEMES = ("paper", "narrow")
+SCHEME_NAMES = {"paper": "scheme of the paper", "narrow": "narrow scheme"}
+SCHEMES = tuple(SCHEME_NAMES)
 VELOCITY_RATIO = 1.01
 CURVES = (
     (1000.0, 10.0, 0.25),

@@ -79,16 +79,17 @@ def show(data: Flow, references: References, level: Level) -> Result:
     tile, response = data.paper.surface, data.paper.friction.response
     steps = [
         Step("roughness $rr$", tile.heights * 1e9, "nm", signed=True),
-        Step("components $|rr_q|$ (eq. 9)", data.spectrum, "log10 of m", signed=False),
-        Step("$A_d/A_i$ of each (eq. 10)", data.ratio, "-", signed=False),
+        Step("components $|rr_q|$ (eq. 9)", data.spectrum, "$\\log_{10}$ of m", signed=False),
+        Step("$A_d/A_i$ of each (eq. 10)", data.ratio, "", signed=False),
         Step("pressure $\\delta p$ (eqs 11, 12)", response.pressure * 1e-6, "MPa",
                             signed=True),
         Step("deformed roughness $rr^d$", response.deformed * 1e9, "nm", signed=True),
-        Step("stress $\\tau_r/\\tau_s$ (eqs 13, 14)", data.stress, "-", signed=False),
+        Step("stress $\\tau_r/\\tau_s$ (eqs 13, 14)", data.stress, "", signed=False),
     ]  # fmt: skip
-    result = (
-        f"seed {SEED}: $\\mu_r/\\mu_s$ = {data.paper.mu_ratio:.3f} by the paper's model over a "
-        f"passage, {data.ours.mu_ratio:.3f} by ours, whose $A_d/A_i$ is complex and knows the slip"
+    caption = (
+        f"The steps as fields of the surface of seed {SEED}: they give mu_r/mu_s = "
+        f"{data.paper.mu_ratio:.3f} by the paper's model over a passage, {data.ours.mu_ratio:.3f} "
+        "by ours, whose A_d/A_i is complex and depends on the slip."
     )
     rows = [
         (name, p.mu_ratio, p.surface.rms_height, float(np.std(p.friction.response.deformed)),
@@ -115,8 +116,8 @@ def show(data: Flow, references: References, level: Level) -> Result:
     return Result(
         checks,
         (("model", "mu_ratio", "rms_height_m", "rms_deformed_m", "rms_pressure_Pa"), rows),
-        pictures.flow(steps, result),
-        "The steps as fields of one surface.",
+        pictures.flow(steps),
+        caption,
         notes,
         alone=data.paper.seconds + data.ours.seconds,
         paper_seconds=f"{references['time.prediction'].value:g} s for each time step",

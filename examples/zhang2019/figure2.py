@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import pictures
-from conditions import SCHEMES
+from conditions import SCHEME_NAMES, SCHEMES
 from piece import Check, Level, References, Result
 from runs import Made, Runs
 
@@ -100,7 +100,7 @@ def show(data: list[Wave], references: References, level: Level) -> Result:
     checks += [check for wave in data for check in _independent(wave)]
     rows = [(w.points, w.scheme, t, r) for w in data for t, r in zip(w.time, w.ratio, strict=True)]
     figure = pictures.wave_history(
-        [(f"{w.points}², {w.scheme}: mean {w.mean:.4f}", w.time, w.ratio) for w in data],
+        [(f"{w.points}², {SCHEME_NAMES[w.scheme]}: {w.mean:.4f}", w.time, w.ratio) for w in data],
         printed.value,
     )
     means = ", ".join(f"{w.points} x {w.points} {w.scheme}: {w.mean:.4f}" for w in data)

@@ -3,7 +3,7 @@
 
 import numpy as np
 import pictures
-from conditions import SCHEMES, WaveSet, smooth_films, waves
+from conditions import SCHEME_NAMES, SCHEMES, WaveSet, smooth_films, waves
 from piece import Level, References, Result
 from runs import Runs
 
@@ -56,7 +56,7 @@ def show(data: list[WaveSet], references: References, level: Level) -> Result:
     """Draw the curves; the paper's own are not published as numbers."""
     grid = f"{level.collapse_grid} x {level.collapse_grid} nodes"
     figure = pictures.friction_over_film(
-        [(f"scheme '{found.scheme}', {grid}", series(found, found.ratio)) for found in data]
+        [(f"{SCHEME_NAMES[found.scheme]}, {grid}", series(found, found.ratio)) for found in data]
     )
     rows = [
         (f.scheme, f.moes_m[k], f.moes_l[k], f.wavelength[k], f.ratio[k], f.amplitude[k],

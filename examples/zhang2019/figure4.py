@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import pictures
-from conditions import SCHEMES, VELOCITY_RATIO, WaveSet, waves
+from conditions import SCHEME_NAMES, SCHEMES, VELOCITY_RATIO, WaveSet, waves
 from curve_fit import Fit, evaluate, fit, scatter
 from figure3 import series, without_result
 from parameter import SMALL_WAVES, response_parameter
@@ -81,12 +81,12 @@ def show(data: list[Collapsed], references: References, level: Level) -> Result:
         s_r = c.scatter(c.theta_r, c.fit_r.second, c.fit_r.fourth)
         panels += [
             _panel(
-                f"scheme '{scheme}'",
+                SCHEME_NAMES[scheme],
                 r"$\theta_2$", c, c.theta_2,
                 [("eq. 16", ":", eq_16), ("our fit", "-", (c.fit_2.second, c.fit_2.fourth))],
             ),
             _panel(
-                f"scheme '{scheme}'",
+                SCHEME_NAMES[scheme],
                 r"$\theta_r$, from the response", c, c.theta_r,
                 [("our fit", "-", (c.fit_r.second, c.fit_r.fourth)),
                  (r"small waves, $1 + \theta_r^{-2}/4$", "--", (SMALL_WAVES, 0.0))],

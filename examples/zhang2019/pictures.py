@@ -3,6 +3,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -11,12 +12,13 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from pyehl.plots import style
 from pyehl.plots import surface as panels
-from pyehl.plots.style import BLUE, COLUMN, GREY, PAGE, VERMILLION, new_figure, styled
+from pyehl.plots.style import COLUMN, GREY, PAGE, new_figure, styled
 from pyehl.surfaces import Topography, psd_isotropic
 from pyehl.types import Array, Indices, Mask
 
-COLOURS = (BLUE, VERMILLION, "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "black")
-MARKERS = "osD^vP*"
+COLOURS = style.COLOURS
+MARKERS = "os^"
+LAMBDA = r"$\lambda/a$"
 FIELD_COLOURS = (style.GREY, "black", style.BLUE, style.VERMILLION)
 
 
@@ -28,13 +30,19 @@ def wave_history(runs: Sequence[tuple[str, Array, Array]], mean: float) -> Figur
     """
     figure = new_figure(COLUMN, 3.0)
     ax = figure.subplots()
+    # the means differ by less than the lines are wide: their end once more, magnified
+    close = ax.inset_axes((0.6, 0.24, 0.38, 0.42))
     for (label, time, ratio), colour in zip(runs, COLOURS, strict=False):
         ax.plot(time, ratio, color=colour, lw=0.9, label=label)
-    ax.axhline(mean, color="black", lw=0.8, ls="--", label=f"mean of the paper: {mean:g}")
+        close.plot(time, ratio, color=colour, lw=0.9)
+    for at in (ax, close):
+        at.axhline(mean, color="black", lw=0.8, ls="--", label=f"mean of the paper: {mean:g}")
     ax.axhline(1.0, color=GREY, lw=0.8, ls=":")
-    ax.set_xlabel("$T = t\\,u/a$")
+    last = max(float(time[-1]) for _, time, _ in runs)
+    close.set(xlim=(last - 1.3, last), ylim=(mean - 0.02, mean + 0.015))
+    ax.set_xlabel(r"$\bar t = t\,\bar u/a$")
     ax.set_ylabel(r"$\mu_r/\mu_s$")
-    figure.legend(loc="outside lower center")
+    figure.legend(*ax.get_legend_handles_labels(), loc="outside lower center")
     return figure
 
 
@@ -50,8 +58,8 @@ class Series:
 
     @property
     def label(self) -> str:
-        """M, L and wavelength."""
-        return f"{self.moes_m:g}, {self.moes_l:g}, {self.wavelength:g}"
+        """Wavelength over the Hertz radius."""
+        return f"{LAMBDA} = {self.wavelength:g}"
 
 
 @styled()
@@ -65,20 +73,35 @@ def friction_over_film(panels: Sequence[tuple[str, Sequence[Series]]]) -> Figure
         ax.set_title(f"({mark}) {title}", loc="left")
         _logarithmic(ax)
     axes[0].set_ylabel(r"$\mu_r/\mu_s$")
-    figure.legend(
-        *axes[0].get_legend_handles_labels(),
-        loc="outside lower center",
-        ncols=5,
-        title="$M$, $L$, $\\lambda/a$",
-    )
+    _legend_of_waves(figure, axes[0])
     return figure
 
 
 def _points(ax: Axes, series: Sequence[Series], *, lines: bool) -> None:
-    for k, s in enumerate(series):
-        colour, marker = COLOURS[k % len(COLOURS)], MARKERS[(k // len(COLOURS) * 3 + k) % 7]
-        style = f"{marker}-" if lines else marker
-        ax.plot(s.place, s.friction, style, ms=3, lw=0.7, color=colour, mfc="none", label=s.label)
+    """Draw the waves in a colour and a marker for each wavelength."""
+    lengths = sorted({s.wavelength for s in series})
+    for s in series:
+        k = lengths.index(s.wavelength)
+        how: dict[str, Any] = {
+            "ms": 3,
+            "lw": 0.7,
+            "color": COLOURS[k],
+            "mfc": "none",
+            "label": s.label,
+        }
+        ax.plot(s.place, s.friction, f"{MARKERS[k % 3]}{'-' * lines}", **how)
+
+
+def _legend_of_waves(figure: Figure, ax: Axes) -> None:
+    """Say below the panels which wavelength is which."""
+    handles, labels = ax.get_legend_handles_labels()
+    waves = {label: h for h, label in zip(handles, labels, strict=True) if LAMBDA in label}
+    figure.legend(
+        [waves[label] for label in sorted(waves)],
+        sorted(waves),
+        loc="outside lower center",
+        ncols=len(waves),
+    )
 
 
 def _logarithmic(ax: Axes) -> None:
@@ -126,15 +149,7 @@ def collapses(panels: Sequence[Collapse]) -> Figure:
         count = len(panel.curves)
         if count:
             ax.legend(handles[-count:], labels[-count:], loc="upper right")
-    handles, labels = axes[0].get_legend_handles_labels()
-    count = len(panels[0].curves)
-    figure.legend(
-        handles[: len(handles) - count],
-        labels[: len(labels) - count],
-        loc="outside lower center",
-        ncols=5,
-        title="$M$, $L$, $\\lambda/a$",
-    )
+    _legend_of_waves(figure, axes[0])
     return figure
 
 
@@ -149,7 +164,7 @@ class Step:
 
 
 @styled()
-def flow(steps: Sequence[Step], result: str) -> Figure:
+def flow(steps: Sequence[Step]) -> Figure:
     """Draw the steps of the prediction with arrows from each to the next (Fig. 1)."""
     figure = style.new_figure(PAGE, 4.2)
     axes = figure.subplots(2, -(-len(steps) // 2)).ravel()
@@ -170,7 +185,6 @@ def flow(steps: Sequence[Step], result: str) -> Figure:
         ax.set_yticks([])
     for ax in axes[len(steps) :]:
         ax.set_axis_off()
-    figure.suptitle(result, fontsize=8.0)
     return figure
 
 
@@ -187,7 +201,7 @@ def spectrum(topography: Topography) -> Figure:
     line = c_iso[8] * (q / q[8]) ** -3.6
     axes[2].loglog(q, line, "--", color="black", lw=1.0, label="$q^{-2-2H}$, $H$ = 0.8")
     axes[2].set(xlabel=r"$|q|$ [rad/m]", ylabel=r"$C^{iso}$ [m$^4$]")
-    axes[2].legend()
+    axes[2].legend(loc="lower left")
     style.letter(list(axes))
     return figure
 
@@ -210,8 +224,8 @@ def deformed(x: Array, y: Array, inside: Mask, fields: Mapping[str, Array]) -> F
         )  # fmt: skip
         rms = 1e9 * float(np.std(field[inside]))
         ax.set_title(f"{name}\nrms {rms:.3g} nm", loc="left")
-        ax.set_xlabel("$X$")
-        style.hertz_ticks(ax)
+        ax.set(xlabel="$X$", xticks=[-0.5, 0.0, 0.5], yticks=[-0.5, 0.0, 0.5])
+        ax.tick_params(labelleft=ax is maps[0])
     maps[0].set_ylabel("$Y$")
     figure.colorbar(image, ax=maps, label="height [nm]", extend="both")
     half = len(fields) // 2
@@ -227,7 +241,7 @@ def deformed(x: Array, y: Array, inside: Mask, fields: Mapping[str, Array]) -> F
             shown = inside[:, line]
             middle.plot(x[shown], 1e9 * field[shown, line], color=colour, lw=1.1, label=name)
     histogram.set(xlabel="height [nm]", ylabel="share per nm")
-    histogram.legend()
+    figure.legend(*histogram.get_legend_handles_labels(), loc="outside lower center", ncols=4)
     middle.set(xlabel="$X$ on the line $Y$ = 0", ylabel="height [nm]")
     return figure
 

@@ -7,8 +7,10 @@ from typing import Any
 
 import numpy as np
 from bokeh.models import (
+    BasicTicker,
     ColorBar,
     ColumnDataSource,
+    Div,
     HoverTool,
     LinearAxis,
     LinearColorMapper,
@@ -26,6 +28,13 @@ from pyehl.types import Array
 
 SIDE = 310
 WHITE = "#ffffff"
+TICKS = 5
+"""Numbers of an axis, about: more would touch in panels of this width."""
+HINTS = {
+    "rough_hint": "The surface is smooth, or its prediction is not there yet.",
+    "curve_hint": "A button computes nine points, which takes some seconds.",
+}
+"""What stands in place of pictures that have nothing to show."""
 
 
 def _figure(title: str, x: str, y: str, **more: Any) -> Any:  # noqa: ANN401 (Bokeh has no types)
@@ -38,6 +47,8 @@ def _figure(title: str, x: str, y: str, **more: Any) -> Any:  # noqa: ANN401 (Bo
     made = figure(title=title, x_axis_label=x, y_axis_label=y, **words)
     made.toolbar.autohide = True
     made.title.update(text_font_size="9pt", text_font_style="normal")
+    if "x_axis_type" not in words:
+        made.xaxis.ticker = BasicTicker(desired_num_ticks=TICKS)
     return made
 
 
@@ -72,13 +83,27 @@ class Pictures:
         self.before, self.after = self._tile_maps()
         self.bands, self.over = self._friction()
         self.curves = [self._curve("film", "h_c [nm]"), self._curve("ratio", "μ_r/μ_s")]
+        self.hints = {name: Div(text=text, width=2 * SIDE + 60) for name, text in HINTS.items()}
+        for picture in (*self._rough(), *self.curves):
+            picture.visible = False
 
     @property
     def figures(self) -> dict[str, Any]:
         """All figures by name."""
         names = ("fringes", "contour", "along", "across", "before", "after", "bands", "over")
         film, ratio = self.curves
-        return {**{n: getattr(self, n) for n in names}, "curve_film": film, "curve_ratio": ratio}
+        found = {n: getattr(self, n) for n in names} | self.hints
+        return {**found, "curve_film": film, "curve_ratio": ratio}
+
+    def _rough(self) -> tuple[Any, ...]:
+        """Give the pictures of a prediction."""
+        return self.before, self.after, self.bands, self.over
+
+    def _reveal(self, hint: str, pictures: Sequence[Any], *, known: bool) -> None:
+        """Show pictures, or in their place why there are none."""
+        for picture in pictures:
+            self.changes.of(picture, visible=known)
+        self.changes.of(self.hints[hint], visible=not known)
 
     def _film_maps(self) -> tuple[Any, Any]:
         place = {"x": "x", "y": "y", "dw": "dw", "dh": "dh"}
@@ -188,6 +213,7 @@ class Pictures:
     def show_rough(self, found: Rough) -> None:
         """Show a prediction; nothing where there is none."""
         made = found.prediction
+        self._reveal("rough_hint", self._rough(), known=made is not None)
         if made is None:
             self._empty(self.tiles, self.octaves, self.passage)
             self.changes.send()
@@ -219,6 +245,7 @@ class Pictures:
     ) -> None:
         """Show a curve as far as it is, over all of its places."""
         change = self.changes.of
+        self._reveal("curve_hint", self.curves, known=True)
         for picture, name in zip(self.curves, ("film", "ratio"), strict=True):
             change(picture.xaxis[0], axis_label=over)
             change(picture.title, text=about)

@@ -70,8 +70,8 @@ TEMPLATE = """
 """
 PICTURES = (
     {"title": "Film", "rows": (("fringes", "contour"), ("along", "across"))},
-    {"title": "Roughness", "rows": (("before", "after"), ("bands", "over"))},
-    {"title": "Curve", "head": "curves", "rows": (("curve_film", "curve_ratio"),)},
+    {"title": "Roughness", "rows": (("rough_hint",), ("before", "after"), ("bands", "over"))},
+    {"title": "Curve", "head": "curves", "rows": (("curve_hint",), ("curve_film", "curve_ratio"))},
 )
 SHOW = """
 document.querySelectorAll('.picture').forEach((part, k) => part.hidden = k !== tabs.active)

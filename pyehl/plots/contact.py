@@ -218,12 +218,6 @@ def interferogram(
     return ax
 
 
-def _round_step(value: float) -> float:
-    """Return the 1, 2 or 5 times a power of ten nearest below a positive value."""
-    power = 10.0 ** math.floor(math.log10(value))
-    return max(step for step in (1.0, 2.0, 5.0) if step * power <= value * (1 + 1e-12)) * power
-
-
 def contours(
     x: Array,
     y: Array,
@@ -254,7 +248,7 @@ def contours(
     unit, _ = style.axis_unit(scales, "x")
     h = film * unit_h
     central, minimum = _central(x, y, h), float(h.min())
-    step = _round_step(max((central - minimum) / 4.0, central / 20.0))
+    step = style.round_below(max((central - minimum) / 4.0, central / 20.0))
     first = step * math.floor(minimum / step)
     levels = np.arange(first, SHOWN * central + 0.5 * step, step)
     shades = colormaps[style.SEQUENTIAL].with_extremes(over="white")

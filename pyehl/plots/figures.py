@@ -222,6 +222,7 @@ def _duty(data: xr.Dataset, title: str) -> Figure:
     steady = transient.quasi_static(history, namelist.values(data.attrs["case"]), float(data.h_c_m))
     transient.duty_history(history, steady, ax=upper)
     transient.duty_itself(history, ax=lower)
+    no_numbers_below(upper)
     return figure
 
 

@@ -26,7 +26,6 @@ LABELS = {
     "lubricant.temperature": "temperature [°C]",
     "contact.slide_to_roll": "slide-to-roll ratio",
 }
-COLOURS = (style.BLUE, style.VERMILLION, style.GREEN, "#CC79A7", "#E69F00", "#56B4E9")
 # Longest over shortest place from which on the axis is logarithmic
 WIDE = 3.0
 
@@ -65,7 +64,7 @@ def draw_stribeck(
     figure = style.new_figure(width, 0.6 + width * (0.68 * friction + 0.9 * contact))
     heights = [1.5] * friction + [1.0] * 2 * contact
     axes = figure.subplots(rows, 1, sharex=True, squeeze=False, height_ratios=heights)[:, 0]
-    coloured = list(zip(curves, COLOURS * 9, strict=False))
+    coloured = list(zip(curves, style.COLOURS * 9, strict=False))
     if contact:
         draw_contact(axes[-2], axes[-1], coloured)
     _scale(axes[-1], np.concatenate([curve.places for curve in curves]))
@@ -142,15 +141,15 @@ def _draw_curve(ax: Axes, curve: Curve, colour: str) -> None:
     x, y = curve.places, curve.friction()
     known = np.isfinite(x) & np.isfinite(y)
     ax.plot(x[known], y[known], "o-", color=colour, label=_named(curve) or "prediction")
+    if curve.absolute and "mu_empirical" in curve.table:
+        empirical = curve.column("mu_empirical")
+        there = np.isfinite(x) & np.isfinite(empirical)
+        ax.plot(x[there], empirical[there], "--", color=colour, label="empirical")
     for width, alpha, label in (
         (curve.friction("mu_ratio_spread"), 0.15, "spread over the surfaces"),
         (curve.friction("mu_ratio_model_error"), 0.35, "error of the model"),
     ):
         style.band(ax, x, y, width, color=colour, alpha=alpha, label=label)
-    if curve.absolute and "mu_empirical" in curve.table:
-        empirical = curve.column("mu_empirical")
-        there = np.isfinite(x) & np.isfinite(empirical)
-        ax.plot(x[there], empirical[there], "--", color=colour, label="empirical")
     full = curve.friction("mu_ratio_ehl")
     if np.isfinite(full).any():
         how = {"fmt": "s", "ms": 5, "mfc": "white", "color": colour, "capsize": 3}
@@ -250,7 +249,7 @@ def draw_traction(
     width = page(1)
     figure = style.new_figure(width, width * (1.25 if warm else 0.8))
     axes = figure.subplots(2 if warm else 1, 1, sharex=True, squeeze=False)[:, 0]
-    for curve, colour in zip(curves, COLOURS * 9, strict=False):
+    for curve, colour in zip(curves, style.COLOURS * 9, strict=False):
         slip = curve.places
         resting = slip == 0.0
         for name, line, words in (

@@ -8,12 +8,10 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from pyehl.plots.style import (
-    BLUE,
+    COLOURS,
     COLUMN,
-    GREEN,
     GREY,
     PAGE,
-    VERMILLION,
     legend_below,
     letter,
     new_figure,
@@ -22,7 +20,7 @@ from pyehl.plots.style import (
 )
 from pyehl.types import Array
 
-COLOURS = (BLUE, VERMILLION, GREEN, "#CC79A7", "#E69F00", "#56B4E9", GREY)
+LINES = (*COLOURS, GREY)
 MARKERS = "os^Dv<>"
 # Values over a larger range are drawn over a logarithmic axis
 WIDE = 20.0
@@ -53,7 +51,7 @@ def study_figure(
                 line.errors,
                 fmt=f"{MARKERS[k % len(MARKERS)]}-",
                 capsize=2,
-                color=COLOURS[k % len(COLOURS)],
+                color=LINES[k % len(LINES)],
                 label=line.label,
             )
         places = np.concatenate([line.places for line in lines])

@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from cycler import cycler
 from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
@@ -37,6 +38,10 @@ DPI = 200
 INCH = 0.0254
 # Widths of a column and of a page of a journal [in]
 COLUMN, PAGE = 0.085 / INCH, 0.175 / INCH
+# Okabe & Ito: distinguishable by everybody
+BLUE, VERMILLION, GREEN, GREY = "#0072B2", "#D55E00", "#009E73", "#666666"
+PURPLE, ORANGE, SKY = "#CC79A7", "#E69F00", "#56B4E9"
+COLOURS = (BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY)
 STYLE: Any = {
     **dict.fromkeys(("font.size", "axes.titlesize", "axes.labelsize", "legend.fontsize"), 8.0),
     **dict.fromkeys(("xtick.labelsize", "ytick.labelsize"), 8.0),
@@ -52,12 +57,11 @@ STYLE: Any = {
     "axes.grid": False,
     "axes.axisbelow": True,
     "mathtext.default": "it",
+    "axes.prop_cycle": cycler(color=COLOURS),
 }
 """The style sheet."""
 # For PNG files: twice as fast as the usual way, and as small
 COMPRESSION = {"compress_type": zlib.Z_RLE}
-# Okabe & Ito: distinguishable by everybody
-BLUE, VERMILLION, GREEN, GREY = "#0072B2", "#D55E00", "#009E73", "#666666"
 SEQUENTIAL, DIVERGING = "viridis", "PuOr_r"
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 # Powers of ten as plain text: to read them as mathematics takes as long as the rest of an axis
@@ -84,6 +88,10 @@ PAGE_WIDTH: ContextVar[float] = ContextVar("PAGE_WIDTH", default=0.0)
 SLENDER = 4.0
 # Letters of 8 points in an inch, and as many as a sign of a legend and the gaps beside it take
 LETTERS_PER_INCH, HANDLE = 14.0, 7
+# Distance of numbers above one another over the width of a map, at least
+CLOSE = 0.035
+# Half width of a band over the height of its axes below which the line hides it
+THIN_BAND = 0.005
 # Height over width of a map from which on it is flat
 FLAT = 0.5
 
@@ -191,12 +199,21 @@ def few_ticks(ax: Axes) -> None:
     """Give each axis of a map as many numbers as there is room for."""
     wide, high = (float(np.ptp(axis.get_view_interval())) for axis in (ax.xaxis, ax.yaxis))
     for axis, share in ((ax.xaxis, wide / high), (ax.yaxis, high / wide)):
-        low, top = axis.get_view_interval()
+        low, top = (float(end) for end in axis.get_view_interval())
         if share < 1.0 / SLENDER:
-            place = 0.0 if low < 0.0 else float(top)
-            axis.set_ticks([place], [f"{place:.3g}"])
+            # numbers above one another need less room than side by side
+            place = round_below(0.85 * min(top, -low)) if low < 0.0 < top else 0.0
+            room = axis is ax.yaxis and place > CLOSE * wide
+            places = [0.0, place, -place][: 1 + 2 * room] if low < 0.0 else [top]
+            axis.set_ticks(places, [f"{p:.3g}".replace("-", "−") for p in places])
         else:
             axis.set_major_locator(MaxNLocator(4 if share > 2.0 else 2 if share < 0.7 else 3))
+
+
+def round_below(value: float) -> float:
+    """Give the 1, 2 or 5 times a power of ten nearest below a positive value."""
+    power = 10.0 ** math.floor(math.log10(value))
+    return next(step * power for step in (5.0, 2.0, 1.0) if step * power <= value * (1 + 1e-12))
 
 
 def contact_heights(
@@ -350,9 +367,14 @@ def points(ax: Axes, x: Array, y: Array, error: Array, **how: Any) -> None:  # n
 
 
 def band(ax: Axes, x: Array, y: Array, error: Array, **how: Any) -> None:  # noqa: ANN401
-    """Shade around a line (n,) where its error is known."""
+    """Shade around a line (n,) that is drawn already, where its error is known.
+
+    A band that is thinner than the line is not in the legend.
+    """
     known = np.isfinite(x) & np.isfinite(y) & np.isfinite(error)
     if known.any():
+        if float(error[known].max()) < THIN_BAND * float(np.ptp(ax.get_ylim())):
+            how.pop("label", None)
         low, high = y[known] - error[known], y[known] + error[known]
         ax.fill_between(x[known], low, high, lw=0, **how)
 

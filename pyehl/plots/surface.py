@@ -213,6 +213,8 @@ def passage(
     ax.set(xlim=(0.0, length * scale), xlabel=name)
     ax.set(ylabel=RATIO)
     ax.ticklabel_format(axis="y", scilimits=SHORT)
+    # at the left is the letter of the panel
+    ax.yaxis.get_offset_text().set(x=1.0, ha="right")
     ax.legend(loc="best")
     return ax
 
@@ -277,6 +279,7 @@ def before_and_after(
     else:
         _map(axes[0], surface.heights, lengths, "surface")
     _spectra(axes[-1], curves, conditions)
+    style.legend_below(figure, axes[-1])
     return figure
 
 
@@ -328,7 +331,6 @@ def _spectra(
         ends += [float(q[0]), float(q[-1])]
     ax.set(xlabel="|q| [rad/µm]", ylabel=C_ISO)
     style.label_decades(ax.xaxis, ax.yaxis)
-    ax.legend(loc="upper right")
     if conditions is None:
         return
     radius, moes_m, moes_l, convention = conditions

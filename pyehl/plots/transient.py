@@ -92,7 +92,9 @@ def friction_history(
     ax.set_xlim(float(time[0]), end)
     low, high = min(1.0, float(ratio.min())), max(float(ratio.max()), formula or 1.0)
     # above the lines is room for what they are
-    ax.set(ylim=(low - 0.05 * (high - low), high + 0.3 * (high - low)), xlabel="T = t u/a")
+    ax.set(ylim=(low - 0.05 * (high - low), high + 0.3 * (high - low)))
+    ax.set(xlabel=r"$\bar t = t\,\bar u/a$")
+    ax.ticklabel_format(axis="y", useOffset=False)
     ax.set_ylabel(r"$\mu_r/\mu_s$")
     if seconds > 0.0:
         scale = seconds * 1e3
@@ -133,7 +135,7 @@ def extremes_history(
     ax = style.axes_or_new(ax, 5.4, 3.4)
     factor, label = style.pressure_unit(scales)
     ax.plot(time, pressure * factor, color=style.BLUE, lw=1.4, label="maximum pressure")
-    ax.set_xlabel("T = t u/a")
+    ax.set_xlabel(r"$\bar t = t\,\bar u/a$")
     style.y_label(ax, label, style.BLUE)
     ax.set_xlim(float(time[0]), float(time[-1]))
     twin = ax.twinx()
@@ -201,8 +203,9 @@ def duty_history(
     ax.plot(time, history["h_c_m"] * nm, color=style.VERMILLION, lw=1.4, label="centre")
     ax.plot(time, history["h_min_m"] * nm, color=style.BLUE, lw=1.4, label="minimum")
     ax.set(xlim=(0.0, float(time[-1])), ylabel="h [nm]")
-    ax.set_ylim(bottom=0.0)
-    ax.legend(loc="lower center", ncols=3, bbox_to_anchor=(0.5, 1.0))
+    # above the lines is room for what they are
+    ax.set_ylim(0.0, 1.18 * ax.get_ylim()[1])
+    ax.legend(loc="upper center", ncols=3)
     return ax
 
 

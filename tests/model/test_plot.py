@@ -12,10 +12,9 @@ import pandas as pd
 import pytest
 import reference
 import xarray as xr
+from apart import assert_apart
 from matplotlib import pyplot
-from matplotlib.axes import Axes
 from matplotlib.image import imread
-from matplotlib.text import Text
 from matplotlib.transforms import Bbox
 
 from pyehl import Case, cli, namelist
@@ -211,38 +210,6 @@ def test_only_a_failed_run_has_words_above_its_panels():
         figure = panels.panels(2, (1.0, 0.8), panels.headline(about))
         assert figure.get_suptitle() == words
         assert "M = 412.9" in figure.get_label()
-
-
-def written(figure):
-    """Boxes of all texts that are seen, by what they say."""
-    figure.savefig(io.BytesIO(), dpi=figure.dpi)
-    numbers = {}
-    for ax in figure.findobj(Axes):
-        for axis in (ax.xaxis, ax.yaxis):
-            low, high = sorted(axis.get_view_interval())
-            margin = 1e-6 * (high - low)
-            for tick in (*axis.get_major_ticks(), *axis.get_minor_ticks()):
-                inside = low - margin <= tick.get_loc() <= high + margin
-                for label in (tick.label1, tick.label2):
-                    numbers[label] = inside and ax.get_visible() and label.get_visible()
-    return [
-        (text.get_text(), text.get_window_extent())
-        for text in figure.findobj(Text)
-        if text.get_text().strip() and text.get_visible() and numbers.get(text, True)
-    ]
-
-
-def assert_apart(figure, name):
-    """No two texts lie on each other, and all are inside of the picture."""
-    found = written(figure)
-    assert len(found) > 5, name
-    for (one, box), (other, next_to) in itertools.combinations(found, 2):
-        assert not box.shrunk(0.98, 0.8).overlaps(next_to.shrunk(0.98, 0.8)), (name, one, other)
-    for text, box in found:
-        inside = figure.bbox.x0 - 1 <= box.x0 and box.x1 <= figure.bbox.x1 + 1
-        assert inside, (name, text)
-        assert figure.bbox.y0 - 1 <= box.y0, (name, text)
-        assert box.y1 <= figure.bbox.y1 + 1, (name, text)
 
 
 @pytest.mark.parametrize("units", ["si", "hertz"])

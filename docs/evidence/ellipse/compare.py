@@ -19,7 +19,7 @@ import numpy as np
 
 from cases import HERE, case, read, surface
 from pyehl.contact.smooth import solve_contact
-from pyehl.plots.style import PAGE, new_figure, save, styled
+from pyehl.plots.style import GREY, PAGE, letter, new_figure, save, styled
 from pyehl.prediction.friction import run
 from pyehl.prediction.model import Model, ModelOptions, model_error
 from pyehl.theory.lubricant import Lubricant
@@ -154,22 +154,22 @@ def draw(table: list[dict[str, Any]]) -> None:
         np.array([r[name] for r in table], dtype=float)
         for name in ("mu_ratio", "mu_ratio_error", "predicted_before", "model_error", "ellipticity")
     )
-    colours = {"c": np.log2(kappa), "cmap": "cividis", "vmin": -2.0, "vmax": 2.0, "zorder": 3}
+    how = {"fmt": "o", "ecolor": GREY, "elinewidth": 0.8}
     line = np.array([1.0, 2.6])
-    axes[0].plot(line, line, color="0.6", linewidth=1)
-    axes[0].errorbar(ratio, before, xerr=error, yerr=model, fmt="none", ecolor="0.5", linewidth=1)
-    dots = axes[0].scatter(ratio, before, s=14, **colours)
+    axes[0].plot(line, line, color=GREY, linewidth=0.8)
+    axes[0].errorbar(ratio, before, xerr=error, yerr=model, **how)
     axes[0].set(
         xlim=line,
         ylim=line,
+        xticks=[1.0, 1.5, 2.0, 2.5],
+        yticks=[1.0, 1.5, 2.0, 2.5],
         aspect="equal",
         xlabel=r"$\mu_r/\mu_s$ simulated, 513 nodes along $X$",
         ylabel=r"$\mu_r/\mu_s$ predicted before",
     )
-    axes[1].axhline(0.0, color="0.6", linewidth=1)
+    axes[1].axhline(0.0, color=GREY, linewidth=0.8)
     off = before - ratio
-    axes[1].errorbar(kappa, off, yerr=error, fmt="none", ecolor="0.5", linewidth=1)
-    axes[1].scatter(kappa, off, s=14, **colours)
+    axes[1].errorbar(kappa, off, yerr=error, **how)
     axes[1].set(
         xscale="log",
         xlabel=r"ellipticity $\kappa$: semi-axis across the motion over $a$",
@@ -179,8 +179,7 @@ def draw(table: list[dict[str, Any]]) -> None:
     axes[1].xaxis.set_major_locator(mpl.ticker.FixedLocator(ticks))
     axes[1].xaxis.set_major_formatter(mpl.ticker.FormatStrFormatter("%g"))
     axes[1].xaxis.set_minor_locator(mpl.ticker.NullLocator())
-    bar = figure.colorbar(dots, ax=axes[1], label=r"$\kappa$", ticks=[-1.0, 0.0, 1.0, 2.0])
-    bar.ax.set_yticklabels(["0.5", "1", "2", "4"])
+    letter(list(axes))
     save(figure, HERE / "ellipse.png")
 
 

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import pyehl
-from pyehl.plots.style import BLUE, PAGE, VERMILLION, new_figure, save, styled
+from pyehl.plots.style import BLUE, PAGE, VERMILLION, band, new_figure, save, styled
 
 HERE = Path(__file__).resolve().parent
 CASE = HERE / "dimple.nml"
@@ -142,7 +142,7 @@ def compare(key: Key, theirs: Array, ours: Array) -> Iterator[tuple[str, float, 
     source, ssr, _ = key
     place, radius = centre(key, theirs), 1e6 * RADIUS[ssr]
     inside = [profile[1, np.abs(profile[0]) <= CONTACT] for profile in (theirs, ours)]
-    yield "least", float(inside[0].min()), float(inside[1].min())
+    yield "minimum", float(inside[0].min()), float(inside[1].min())
     if not place + radius > PLATEAU:
         ends = [p[1, (p[0] > PLATEAU) & (p[0] <= CONTACT)] for p in (theirs, ours)]
         yield "outlet", float(ends[0].min()), float(ends[1].min())
@@ -211,32 +211,49 @@ def vary(name: str, data: dict[Key, Array], found: dict[Key, Array]) -> None:
     write(HERE / f"{name}.csv", ("ssr", "instant", "quantity", "stored_nm", "changed_nm"), rows)
 
 
+def repeated(data: dict[Key, Array], ssr: str = "0") -> float:
+    """Half of the range of the film [nm] at the outlet that should be the same at all instants.
+
+    In pure rolling it is measured four times while the dimple is elsewhere.
+    """
+    keys = [("measured", ssr, instant) for instant in range(1, 5)]
+    found = [
+        theirs
+        for key in keys
+        for what, theirs, _ in compare(key, data[key], data[key])
+        if what == "outlet"
+    ]
+    return 0.5 * (max(found) - min(found))
+
+
 @styled()
 def draw(source: str, data: dict[Key, Array], found: dict[Key, Array]) -> None:
-    """Draw the profiles of all instants."""
+    """Draw the profiles of all instants; measured ones with how well they repeat."""
     figure = new_figure(PAGE, 3.4)
     axes = figure.subplots(2, 5, sharex=True, sharey=True)
     for line, ssr in zip(axes, RADIUS, strict=True):
         for instant, ax in enumerate(line, 1):
             key = source, ssr, instant
-            ax.plot(*data[key], "o-", ms=1.5, lw=0.6, color=VERMILLION, label=source)
+            place, film = data[key]
+            if source == "measured":
+                error = np.full(film.shape, repeated(data))
+                band(ax, place, film, error, color=VERMILLION, alpha=0.3, label="repeatability")
+            ax.plot(place, film, "o-", ms=1.5, lw=0.6, color=VERMILLION, label=source)
             ax.plot(*found[key], lw=1.0, color=BLUE, label="pyehl")
-            ax.text(
-                0.5, 0.93, f"SRR {ssr}, {instant}", transform=ax.transAxes, ha="center", va="top"
-            )
             ax.grid(visible=True)
+        line[0].set_ylabel(f"film [nm], SRR {ssr}".replace("-", "−"))
+    for instant, ax in enumerate(axes[0], 1):
+        ax.set_title(f"instant {instant}")
     axes[0, 0].set(xlim=(-160.0, 165.0), ylim=(100.0, 430.0))
     for ax in axes[-1]:
         ax.set_xlabel(r"$x$ [µm]")
-    for ax in axes[:, 0]:
-        ax.set_ylabel("film [nm]")
-    figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
     save(figure, HERE / f"{source}.png")
 
 
 def lines(rows: Iterable[Sequence[str]], source: str) -> Iterator[str]:
     """Give the table of docs/validation.md: an instant a line, theirs before ours."""
-    names = ["least", "outlet", "plateau", "behind", "ahead"]
+    names = ["minimum", "outlet", "plateau", "behind", "ahead"]
     names += ["dimple"] if source == "simulated" else []
     yield "| slide-to-roll ratio | instant | dimple at [µm] | " + " | ".join(names) + " |"
     yield "|---" * (3 + len(names)) + "|"

@@ -15,7 +15,7 @@ import numpy as np
 
 from cases import HERE, case, rows, surface
 from pyehl.contact.smooth import hertz_contact, solve_contact
-from pyehl.plots.style import COLUMN, new_figure, save, styled
+from pyehl.plots.style import BLUE, COLUMN, VERMILLION, new_figure, save, styled
 from pyehl.prediction.friction import run
 from pyehl.prediction.model import Model, ModelOptions, model_error
 from pyehl.theory.film import central_film
@@ -118,11 +118,11 @@ def draw(table: list[dict[str, float]]) -> None:
     paper = np.array([r["paper"] for r in table])
     line = np.array([0.85, 6.0])
     ax.plot(line, line, color="0.6", linewidth=1, zorder=0)
-    ax.errorbar(x, ours, xerr=error, fmt="o", color="C0", markersize=3, label="prediction")
+    ax.errorbar(x, ours, xerr=error, fmt="o", color=BLUE, lw=0.8, label="prediction")
     rolling = np.array([float(r["velocity_ratio"]) == 1.0 for r in table])
-    for part, face, words in ((rolling, "C3", "rolling"), (~rolling, "none", "slip")):
+    for part, face, words in ((rolling, VERMILLION, "rolling"), (~rolling, "none", "slip")):
         ax.plot(
-            x[part], paper[part], "s", color="C3", markersize=3, markerfacecolor=face,
+            x[part], paper[part], "s", color=VERMILLION, markerfacecolor=face,
             label=f"model of the paper, {words}",
         )  # fmt: skip
     ax.set(

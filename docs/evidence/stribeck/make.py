@@ -40,6 +40,8 @@ FACTOR = 10.0
 SPEEDS = "0.25:8:10log"
 SLIPS = (0.02, 0.1, 0.3)
 SURFACES = ("smooth", "table 1", "short waves x 10")
+# The third one has no full film, thus no friction of a full film, at any of these speeds
+NAMES = ("smooth", "surface of Table 1", "short waves × 10")
 LAWS = ("eyring", "newtonian")
 COLUMNS = (
     "h_c_m h_min_m h_min_rough_m lambda_ratio lambda_ratio_deformed theta_2 hersey mu_smooth mu "
@@ -100,7 +102,7 @@ def draw(found: list[dict[str, str]], path: Path) -> None:
     """Draw coefficient (Eyring) and ratio (Newtonian) over the speed."""
     figure = new_figure(PAGE, 3.6)
     axes = figure.subplots(1, 2)
-    styles = dict(zip(SURFACES, (":", "-", "--"), strict=True))
+    styles = dict(zip(SURFACES, (":", "o-", "s"), strict=True))
     for ax, law, ordinate in zip(axes, LAWS, ("mu", "mu_ratio"), strict=True):
         for surface in SURFACES:
             for slip, colour in zip(SLIPS, (BLUE, VERMILLION, GREEN), strict=True):
@@ -113,11 +115,11 @@ def draw(found: list[dict[str, str]], path: Path) -> None:
                     ax.plot(
                         *zip(*points, strict=True),
                         styles[surface],
-                        marker="o",
-                        ms=2.5,
+                        ms=5.0 if styles[surface] == "s" else 2.5,
+                        mfc="none",
                         lw=1.1,
                         color=colour,
-                        label=f"{surface}, SRR {slip}",
+                        label=f"{NAMES[SURFACES.index(surface)]}, SRR {slip}",
                     )
         ax.set_xscale("log")
         label_log_ticks(ax.xaxis)

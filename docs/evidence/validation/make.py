@@ -18,9 +18,21 @@ from pathlib import Path
 from typing import Any
 
 import xarray as xr
+from matplotlib.lines import Line2D
 
 import pyehl
-from pyehl.plots.style import BLUE, GREEN, PAGE, POWERS, VERMILLION, new_figure, save, styled
+from pyehl.plots.style import (
+    BLUE,
+    GREEN,
+    GREY,
+    PAGE,
+    POWERS,
+    VERMILLION,
+    letter,
+    new_figure,
+    save,
+    styled,
+)
 from pyehl.theory.film import estimates
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -171,31 +183,36 @@ def write(path: Path, columns: tuple[str, ...], rows: Iterator[tuple[Any, ...]])
 
 @styled()
 def draw(rows: list[dict[str, str]]) -> None:
-    """Draw films by formula over those of pyehl."""
+    """Draw films by formula over those of pyehl: a colour a formula, a marker a value of L."""
     figure = new_figure(PAGE, 2.9)
     axes = figure.subplots(1, 2, sharex=True)
     names = sorted({row["formula"] for row in rows})
+    colours = dict(zip(names, (BLUE, VERMILLION, GREEN), strict=True))
+    markers = {"5": "o", "10": "s", "15": "^"}
     for ax, quantity in zip(axes, ("H_c", "H_min"), strict=True):
-        for color, name in zip((BLUE, VERMILLION, GREEN), names, strict=True):
-            for moes_l, marker in {"5": "o", "10": "s", "15": "^"}.items():
+        for name, colour in colours.items():
+            for moes_l, marker in markers.items():
                 chosen = [
-                    row
+                    (float(row["moes_m"]), float(row["ratio"]))
                     for row in rows
                     if (row["formula"], row["quantity"], row["moes_l"]) == (name, quantity, moes_l)
                 ]
-                ax.plot(
-                    [float(row["moes_m"]) for row in chosen],
-                    [float(row["ratio"]) for row in chosen],
-                    marker=marker,
-                    color=color,
-                    label=f"{name}, L = {moes_l}",
-                    lw=1.0,
-                )
-        ax.axhline(1.0, color="0.5", lw=0.8)
+                # the formulas of H_min lie on each other: one has open markers
+                face = colour if name == names[0] else "none"
+                how = {"marker": marker, "color": colour, "lw": 1.0, "mfc": face, "ms": 4.0}
+                if chosen:
+                    ax.plot(*zip(*chosen, strict=True), **how)
+        ax.axhline(1.0, color=GREY, lw=0.8)
         symbol = {"H_c": "$H_c$", "H_min": "$H_\\mathrm{min}$"}[quantity]
-        ax.set(xscale="log", xlabel="M", ylabel=f"{symbol} by formula over pyehl")
+        ax.set(xscale="log", xlabel="$M$", ylabel=f"{symbol} by formula over pyehl")
         ax.xaxis.set_major_formatter(POWERS)
-    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
+    keys = [Line2D([], [], color=colour, label=name) for name, colour in colours.items()]
+    keys += [
+        Line2D([], [], color=GREY, marker=marker, ls="", label=f"$L$ = {moes_l}")
+        for moes_l, marker in markers.items()
+    ]
+    figure.legend(handles=keys, loc="outside lower center", ncols=6)
+    letter(list(axes))
     save(figure, HERE / "validation.png")
 
 
@@ -215,7 +232,7 @@ def show() -> None:
     rows = table_of(HERE / "formulas.csv")
     draw(rows)
     names = sorted({row["formula"] for row in rows})
-    print("\n| formula | quantity | M | least | largest |\n|---|---|---|---|---|")
+    print("\n| formula | quantity | M | minimum | maximum |\n|---|---|---|---|---|")
     for name in names:
         for quantity in ("H_c", "H_min"):
             for low, high in ((20.0, 100.0), (200.0, 2000.0)):
