@@ -70,8 +70,8 @@ contains
          call positive("radius_x")
          call positive("radius_y")
          call positive("viscosity")
-         if (input%contact%is_line() .and. size(d%list("radius_y")) > 0) then
-            call refuse("radius_y", "duty.radius_y of a line", "duty.radius_x alone")
+         if (input%contact%is_cylinder() .and. size(d%list("radius_y")) > 0) then
+            call refuse("radius_y", "duty.radius_y of a "//trim(input%contact%shape), "duty.radius_x alone")
          end if
          if (abs(input%contact%angle) > 0.0_dp .and. size(d%list("radius_x")) + size(d%list("radius_y")) > 0) then
             call refuse("radius_x", "radii that change in a turned contact", "contact.angle = 0.0")

@@ -52,7 +52,6 @@ contains
       call check_profile(source, input, status)
       call smooth_alone("surface.kind", has_no_height(input%surface), "'smooth' surfaces")
       call smooth_alone("second_surface.kind", has_no_height(input%second_surface), "'smooth' surfaces")
-      call smooth_alone("duty.time", .not. input%duty%active(), "a contact in steady motion")
       call smooth_alone("inlet.position", .not. max(input%inlet%position, input%inlet%position_hertz, input%inlet%film, &
                                                     input%inlet%film_hertz) > 0.0_dp, "a flooded inlet")
       call smooth_alone("lubricant.boundary_film", .not. input%lubricant%boundary_film > 0.0_dp, "a full film")

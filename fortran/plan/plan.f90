@@ -28,6 +28,7 @@ module ehl_plan
    use ehl_steady_options, only: steady_options_t
    use ehl_surface, only: aliased_below, resolved_from
    use ehl_predicted_start, only: steps_needed
+   use ehl_step_policy, only: damped_sweep, whole_correction
    use ehl_text, only: fixed, to_text
    use ehl_wedge, only: wedge_narrow, wedge_separate
    implicit none (type, external)
@@ -51,6 +52,8 @@ module ehl_plan
    !> What makes coarse grids leave a spike to the sweeps: an extent across the motion over that along it from which on the
    !> trailing edge moves from column to column in a few rows
    real(dp), parameter :: oblique = 4.0_dp
+   !> Extent from which on all steps under a duty take their changes in parts: 7 cycles a step in place of 80
+   real(dp), parameter :: long = 4.0_dp
 
    !> What the smooth contact needs, and all else
    type, extends(steady_options_t) :: plan_t
@@ -274,7 +277,12 @@ contains
       plan%step_cycle = cycle_of(plan%step_cycle_letter)
       plan%step_cycle%pre = 1
       plan%step_cycle%post = 2
-      plan%coarsening_may_change = input%solver%coarsening == "auto" .and. .not. plan%contact%is_line()
+      plan%step_cycle%finest_only = plan%duty%active .and. plan%contact%reach(2) > wide*plan%contact%reach(1)
+      if (plan%duty%active .and. plan%contact%reach(2) > long*plan%contact%reach(1)) then
+         plan%step_cycle%relaxation_factor = damped_sweep
+         plan%step_cycle%correction_factor = whole_correction
+      end if
+      plan%coarsening_may_change = input%solver%coarsening == "auto" .and. .not. input%contact%is_cylinder()
       plan%step_cycle%coarsening = merge(coarsening_alcouffe, coarsening_classical, &
                                          input%solver%coarsening == "alcouffe")
    end subroutine pick_cycle

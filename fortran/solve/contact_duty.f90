@@ -68,7 +68,7 @@ contains
          speed = abs(t%now%speeds(1) - t%now%speeds(2))*s%mean_velocity
          power = force*speed
          ! the size of the dry contact now
-         size = plan%scales%length*(t%now%load/t%now%curvatures(1))**(1.0_dp/merge(2.0_dp, 3.0_dp, plan%contact%is_line()))
+         size = plan%scales%length*t%growth()
          source = heat_source(plan%contact)
          speeds = abs(t%now%speeds)*s%mean_velocity
          flash = flash_temperature(power/plan%contact%flash_area(size), source(1)*size, source(2), speeds, s%conductivity, &

@@ -50,11 +50,15 @@ contains
                                                        self%duty_steps%before(self%time_step), half_width(self), j), good)
    end procedure judge_duty
 
+   module procedure growth
+      growth = (self%now%load/self%now%curvatures(1)) &
+               **(1.0_dp/merge(2.0_dp, 3.0_dp, self%contact%is_line() .or. self%contact%is_roller()))
+   end procedure growth
+
    !> Half width of the dry contact along X now [a]
    pure real(dp) function half_width(self)
       class(transient_t), intent(in) :: self
-      half_width = self%contact%reach(1) &
-                   *(self%now%load/self%now%curvatures(1))**(1.0_dp/merge(2.0_dp, 3.0_dp, self%contact%is_line()))
+      half_width = self%contact%reach(1)*self%growth()
    end function half_width
 
    module procedure accept_duty

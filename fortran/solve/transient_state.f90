@@ -67,6 +67,7 @@ module ehl_transient_state
       procedure :: end_duty
       procedure :: rests
       procedure :: judge_duty
+      procedure :: growth
       procedure, private :: accept_duty
       procedure :: start
       procedure :: fill
@@ -101,6 +102,12 @@ module ehl_transient_state
          class(transient_t), intent(in) :: self
          logical :: rests
       end function rests
+
+      !> Half width of the dry contact along X now over that of the case
+      pure module function growth(self)
+         class(transient_t), intent(in) :: self
+         real(dp) :: growth
+      end function growth
 
       !> Whether the film of a step is as good as asked for
       module subroutine judge_duty(self, level, good)

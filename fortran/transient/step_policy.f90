@@ -8,7 +8,7 @@ module ehl_step_policy
    private
    public :: step_policy_t
    public :: attempt_predicted, attempt_last, attempt_limited, attempt_damped
-   public :: step_ends, step_goes_on, step_begins_again
+   public :: step_ends, step_goes_on, step_begins_again, damped_sweep, whole_correction
 
    !> Attempts at a step, in this order: from the predicted pressure; from the pressure of the last step, its sweeps
    !> trusted less; the same, trusted even less; the same, changes of sweeps and of coarse grids damped. The next one is made
@@ -19,6 +19,8 @@ module ehl_step_policy
    !> Shares of the changes of a sweep and of a coarse grid that the damped attempt makes. Sweeps that throw a peak
    !> from node to node, and coarse grids that overshoot it, make cycles that return to where they were.
    real(dp), parameter :: damped_sweep = 0.3_dp, damped_correction = 0.5_dp
+   !> That of a coarse grid in a wide contact that is squeezed, where the finest level alone is damped
+   real(dp), parameter :: whole_correction = 0.8_dp
    !> Cycles in which the residual must halve, by attempt; the last one is not given up before so many times the
    !> usual number of cycles, at which it begins at the latest
    integer, parameter :: patience(3) = [4, 8, 8], damped_cycles = 10
@@ -100,8 +102,8 @@ contains
       end if
       if (self%attempt < attempt_damped) return
       self%options%relaxation_factor = damped_sweep
-      self%options%correction_factor = damped_correction
-      self%options%finest_only = self%touching
+      self%options%correction_factor = merge(whole_correction, damped_correction, self%cycle%finest_only)
+      self%options%finest_only = self%touching .or. self%cycle%finest_only
    end subroutine begin_attempt
 
    !> What comes after a cycle that has changed the residual from `before` to `residual`
@@ -120,7 +122,8 @@ contains
       if (self%cycles >= damped_cycles*self%max_cycles) return
       self%past = [residual, self%past(:ubound(self%past, 1) - 1)]
       if (stuck(self)) then
-         self%attempt = merge(attempt_damped, self%attempt + 1, self%touching .or. self%cycles >= self%max_cycles)
+         self%attempt = merge(attempt_damped, self%attempt + 1, self%touching .or. self%cycle%finest_only .or. &
+                              self%cycles >= self%max_cycles)
          next = step_begins_again
          return
       end if

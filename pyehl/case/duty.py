@@ -147,8 +147,8 @@ def _values(draft: Draft, lists: Table) -> Iterator[tuple[str, str, str]]:
     for key in ("radius_x", "radius_y", "viscosity"):
         if min(lists.get(key, (1.0,))) <= 0.0:
             yield key, f"duty.{key} of {to_text(min(lists[key]))}", "positive numbers"
-    if contact.is_line and duty.radius_y:
-        yield "radius_y", "duty.radius_y of a line", "duty.radius_x alone"
+    if contact.is_cylinder and duty.radius_y:
+        yield "radius_y", f"duty.radius_y of a {contact.shape}", "duty.radius_x alone"
     if contact.angle != 0.0 and (duty.radius_x or duty.radius_y):
         key = "radius_x" if duty.radius_x else "radius_y"
         yield key, "radii that change in a turned contact", "contact.angle = 0.0"
@@ -201,7 +201,7 @@ def widening(settings: Settings) -> float:
     if not duty.time or len(loads) != len(radii):
         return 1.0
     largest = max(w * r for w, r in zip(loads, radii, strict=True)) / (load * contact.radius_x)
-    return float(max(1.0, largest) ** (1.0 / 2.0 if contact.is_line else 1.0 / 3.0))
+    return float(max(1.0, largest) ** (1.0 / 2.0 if contact.is_cylinder else 1.0 / 3.0))
 
 
 def reverses(settings: Settings) -> bool:

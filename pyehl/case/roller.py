@@ -100,7 +100,6 @@ def check_keys(draft: Draft) -> None:
     for name, good, expected in (
         ("surface.kind", s.surface.kind == "smooth", "'smooth' surfaces"),
         ("second_surface.kind", s.second_surface.kind == "smooth", "'smooth' surfaces"),
-        ("duty.file", not (s.duty.file or s.duty.time), "a contact in steady motion"),
         ("inlet.position", max(s.inlet.position, s.inlet.position_hertz) <= 0.0, "a flooded inlet"),
         ("inlet.film", max(s.inlet.film, s.inlet.film_hertz) <= 0.0, "a flooded inlet"),
         ("lubricant.boundary_film", s.lubricant.boundary_film <= 0.0, "a full film"),

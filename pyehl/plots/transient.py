@@ -17,7 +17,7 @@ from pyehl.plots import style
 from pyehl.plots.outline import CIRCLE, Outline
 from pyehl.theory import stribeck
 from pyehl.theory.film import central_film
-from pyehl.theory.line_contact import LineContact, contact_of
+from pyehl.theory.line_contact import LineContact, scaling_contact
 from pyehl.theory.line_contact import central_film as line_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.types import Array, Mask, Settings
@@ -160,7 +160,7 @@ def quasi_static(history: Mapping[str, Array], settings: Settings, film: float) 
     """
     if "radius_y" in settings["duty"]:
         return None
-    point, lubricant = contact_of(settings), Lubricant.from_settings(settings)
+    point, lubricant = scaling_contact(settings), Lubricant.from_settings(settings)
 
     def formula(load: float, speed: float, radius: float, viscosity: float) -> float:
         if speed <= 0.0:

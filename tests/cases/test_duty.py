@@ -287,6 +287,57 @@ POINT = {
 }  # fmt: skip
 
 
+ROLLER = {
+    "contact": {
+        "shape": "roller", "length": 4e-3, "radius": 6e-3, "load": 600.0, "mean_velocity": 2.0,
+        "profile": "crown", "crown_radius": 1.0, "slide_to_roll": 0.1,
+    },
+    "lubricant": {"viscosity": 0.04},
+    "grid": {"points": 65},
+}  # fmt: skip
+
+
+def test_a_roller_follows_the_line_in_its_middle():
+    """Under a speed over time; a load that changes has a film of its own."""
+    steady = pyehl.solve(pyehl.Case(**ROLLER))
+    unit = float(steady.hertz_radius_m) / 2.0
+    time = np.linspace(0.0, 4.0, 17) * unit
+    speed = 2.0 * wave(4.0, 0.3)[1][::2]
+    rest = pyehl.solve(pyehl.Case(**ROLLER, duty={"time": time[:2], "load": [600.0] * 2}))
+    np.testing.assert_array_equal(rest.H, steady.H)
+    data = pyehl.solve(pyehl.Case(**ROLLER, duty={"time": time, "mean_velocity": speed}))
+    assert float(data.cycles_per_step) < 15.0
+    # with the load per length that the middle has
+    middle = steady.P.values[:, steady.Y.size // 2]
+    share = float(np.trapezoid(middle, steady.X)) / (np.pi / 2.0)
+    contact = LINE["contact"] | {
+        "load_per_length": share * 600.0 / 4e-3, "mean_velocity": 2.0, "radius": 6e-3,
+    }  # fmt: skip
+    ends = (("x_inlet", 0), ("x_outlet", -1))
+    grid = {key: float(data.X[n]) / np.sqrt(share) for key, n in ends}
+    line = pyehl.Case(contact=contact, lubricant=ROLLER["lubricant"], grid={"points": 65, **grid})
+    other = pyehl.solve(line, {"duty": {"time": time, "mean_velocity": speed}})
+    films = [d.history_H_c.values / float(d.H_c) for d in (data, other)]
+    assert np.ptp(films[0]) > 0.3
+    same = np.interp(data.history_t_s, other.history_t_s, films[1])
+    np.testing.assert_allclose(films[0], same, rtol=3e-3)
+    lighter = pyehl.Case(**ROLLER, duty={"time": [0.0, 4.0 * unit], "load": [600.0, 400.0]})
+    assert float(pyehl.solve(lighter).history_h_c_m[-1]) > 1.01 * float(steady.h_c_m)
+    with pytest.raises(pyehl.InputError, match=r"duty\.radius_y of a roller"):
+        pyehl.Case(**ROLLER, duty={"time": time[:2], "radius_y": [0.1, 0.2]})
+
+
+@pytest.mark.parametrize("radius_y", [0.03, 0.06])
+def test_steps_of_wide_contacts_take_few_cycles(radius_y):
+    """Cells are long in them; undamped cycles take some 80."""
+    contact = {"radius_x": 6e-3, "radius_y": radius_y, "load": 400.0, "mean_velocity": 2.0}
+    case = pyehl.Case(contact=contact, lubricant={"viscosity": 0.04}, grid={"points": 65})
+    time = np.linspace(0.0, 1e-4, 9)
+    load = 400.0 * (1.0 + 0.3 * np.sin(2e4 * np.pi * time))
+    data = pyehl.solve(case, {"duty": {"time": time, "load": load, "interpolation": "cubic"}})
+    assert float(data.cycles_per_step) < 15.0
+
+
 def test_a_motion_the_other_way_is_the_mirror_image():
     """A duty and its negative leave films that are mirror images, to the tolerance of the steps."""
     time = np.array([0.0, 1e-4, 2e-4, 4e-4])
