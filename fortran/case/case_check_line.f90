@@ -33,8 +33,6 @@ contains
       if (source%given("grid.points_y")) key = "grid.points_y"
       if (key /= "") call source%refuse(key, key//" with "//shape, "none: the strip is as wide as the surfaces "// &
                                         "repeat, its cells are nearly square", status)
-      if (input%solver%coarsening == "alcouffe") call source%refuse("solver.coarsening", &
-         "solver.coarsening = 'alcouffe' with "//shape, "'auto' or 'classical'", status)
       if (source%given("solver.deflection") .and. input%solver%deflection /= "fft") call source%refuse("solver.deflection", &
          "solver.deflection = 'mlmi' with "//shape, "'fft': a strip that repeats has no multi-integration", status)
       call check_rough("surface", input%surface)

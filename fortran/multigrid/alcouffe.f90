@@ -15,8 +15,9 @@ module ehl_alcouffe
    !> Weights of interpolation. A fine node between two coarse ones takes from these two, a node
    !> amid four coarse ones takes from the four. Nodes that are not free take and give nothing.
    type :: transfer_t
-      !> Coarse columns and rows
-      integer :: nx = 0, ny = 0
+      !> Coarse columns and rows, and rows of fine nodes between them: on a strip as many, for the one above the last coarse row
+      !> lies below the first one
+      integer :: nx = 0, ny = 0, between = 0
       !> Weights of the nodes between coarse (i, j) and (i+1, j): of the left one, of the right one
       real(dp), allocatable :: along_x(:, :, :)
       !> Weights of the nodes between coarse (i, j) and (i, j+1): of the lower one, of the upper one
@@ -33,6 +34,8 @@ module ehl_alcouffe
       procedure :: find_weights
       procedure :: restrict_row
       procedure :: prolong_row
+      procedure :: north
+      procedure :: south
       procedure :: bytes
    end type transfer_t
 
@@ -50,14 +53,29 @@ contains
       if (status%failed()) return
       self%nx = coarse%nx
       self%ny = coarse%ny
+      self%between = merge(coarse%ny, coarse%ny - 1, coarse%periodic)
       self%threads = threads
       self%parallel = parallel
       associate (nx => coarse%nx, ny => coarse%ny)
-         allocate (self%along_x(2, nx - 1, ny), self%along_y(2, nx, ny - 1), self%centre(4, nx - 1, ny - 1), &
+         allocate (self%along_x(2, nx - 1, ny), self%along_y(2, nx, self%between), self%centre(4, nx - 1, self%between), &
                    self%free(nx, ny), source=0.0_dp, stat=stat)
       end associate
       if (stat /= 0) call status%fail(ehl_no_memory, "no memory for the grid transfer")
    end subroutine setup
+
+   !> The row above a coarse row j
+   elemental integer function north(self, j)
+      class(transfer_t), intent(in) :: self
+      integer, intent(in) :: j
+      north = modulo(j, max(self%ny, 1)) + 1
+   end function north
+
+   !> The row below it; 0 below the first one, but on a strip
+   elemental integer function south(self, j)
+      class(transfer_t), intent(in) :: self
+      integer, intent(in) :: j
+      south = merge(self%ny, j - 1, j == 1 .and. self%between == self%ny)
+   end function south
 
    !> Weights for the operator of the fine grid: couplings as shares of their sum. Couplings to nodes that
    !> are not free and the excess take their shares and give nothing. No differences are formed: rounding
@@ -80,7 +98,7 @@ contains
          do i = 1, self%nx - 1
             self%along_x(:, i, j) = weights_x(2*i, 2*j - 1)
          end do
-         if (j == self%ny) cycle
+         if (j > self%between) cycle
          do i = 1, self%nx
             self%along_y(:, i, j) = weights_y(2*i - 1, 2*j)
          end do
@@ -88,7 +106,7 @@ contains
       !$omp end parallel do
       !$omp parallel do default(none) shared(self, a, free, dependent) private(i) &
       !$omp num_threads(self%threads) if(self%parallel) schedule(static)
-      do j = 1, self%ny - 1
+      do j = 1, self%between
          do i = 1, self%nx - 1
             self%centre(:, i, j) = weights_centre(i, j)
          end do
@@ -101,15 +119,17 @@ contains
       pure function weights_x(i, j) result(w)
          integer, intent(in) :: i, j
          real(dp) :: w(2), rest
+         integer :: below
 
          w = 0.0_dp
          if (free(i, j) <= 0.0_dp) return
          if (dependent(i, j) > 0.0_dp) then
             w = [a%east(i - 1, j) + a%north_west(i, j), a%east(i, j) + a%north_east(i, j)]
-            rest = a%excess(i, j) + a%north(i, j)*(1.0_dp - free(i, j + 1))
-            if (j > 1) then
-               w = w + [a%north_east(i - 1, j - 1), a%north_west(i + 1, j - 1)]
-               rest = rest + a%north(i, j - 1)*(1.0_dp - free(i, j - 1))
+            rest = a%excess(i, j) + a%north(i, j)*(1.0_dp - free(i, a%grid%north(j)))
+            if (a%has_below(j)) then
+               below = a%grid%south(j)
+               w = w + [a%north_east(i - 1, below), a%north_west(i + 1, below)]
+               rest = rest + a%north(i, below)*(1.0_dp - free(i, below))
             end if
             w = w/(w(1) + w(2) + rest)
          else
@@ -133,29 +153,31 @@ contains
          else
             w = 0.5_dp
          end if
-         w = w*[free(i, j - 1), free(i, j + 1)]
+         w = w*[free(i, j - 1), free(i, a%grid%north(j))]
       end function weights_y
 
       !> A fine node amid four coarse ones, from its own equation
       pure function weights_centre(ic, jc) result(w)
          integer, intent(in) :: ic, jc
          real(dp) :: w(4)
-         integer :: i, j
+         integer :: i, j, above, next
 
          w = 0.0_dp
          i = 2*ic
          j = 2*jc
+         above = a%grid%north(j)
+         next = self%north(jc)
          if (free(i, j) <= 0.0_dp) return
          if (dependent(i, j) > 0.0_dp) then
             w = [a%north_east(i - 1, j - 1), a%north_west(i + 1, j - 1), a%north_west(i, j), a%north_east(i, j)] &
-                *[free(i - 1, j - 1), free(i + 1, j - 1), free(i - 1, j + 1), free(i + 1, j + 1)]
+                *[free(i - 1, j - 1), free(i + 1, j - 1), free(i - 1, above), free(i + 1, above)]
             w(1:2) = w(1:2) + a%north(i, j - 1)*self%along_x(:, ic, jc)
-            w(3:4) = w(3:4) + a%north(i, j)*self%along_x(:, ic, jc + 1)
+            w(3:4) = w(3:4) + a%north(i, j)*self%along_x(:, ic, next)
             w([1, 3]) = w([1, 3]) + a%east(i - 1, j)*self%along_y(:, ic, jc)
             w([2, 4]) = w([2, 4]) + a%east(i, j)*self%along_y(:, ic + 1, jc)
             w = w/a%diagonal(i, j)
          else
-            w = 0.25_dp*[free(i - 1, j - 1), free(i + 1, j - 1), free(i - 1, j + 1), free(i + 1, j + 1)]
+            w = 0.25_dp*[free(i - 1, j - 1), free(i + 1, j - 1), free(i - 1, above), free(i + 1, above)]
          end if
       end function weights_centre
    end subroutine find_weights
@@ -172,9 +194,11 @@ contains
       !> Factor of the values of fine row 1, which of a folded grid is one of half cells; not given: it is in them
       real(dp), intent(in), optional :: first_row
       real(dp) :: own
-      integer :: i, k, l
+      integer :: i, k, l, below, south
 
       l = 2*j - 1
+      south = self%south(j)
+      below = 2*south
       own = 1.0_dp
       if (present(first_row) .and. l == 1) own = first_row
       do i = 2, self%nx - 1
@@ -183,9 +207,9 @@ contains
                      + self%along_x(1, i, j)*(own*fine(k + 1, l)) + self%along_x(2, i - 1, j)*(own*fine(k - 1, l)) &
                      + self%along_y(1, i, j)*fine(k, l + 1) &
                      + self%centre(1, i, j)*fine(k + 1, l + 1) + self%centre(2, i - 1, j)*fine(k - 1, l + 1)
-         if (j > 1) values(i) = values(i) + self%along_y(2, i, j - 1)*fine(k, l - 1) &
-                                + self%centre(3, i, j - 1)*fine(k + 1, l - 1) &
-                                + self%centre(4, i - 1, j - 1)*fine(k - 1, l - 1)
+         if (south > 0) values(i) = values(i) + self%along_y(2, i, south)*fine(k, below) &
+                                    + self%centre(3, i, south)*fine(k + 1, below) &
+                                    + self%centre(4, i - 1, south)*fine(k - 1, below)
       end do
    end subroutine restrict_row
 
@@ -197,9 +221,10 @@ contains
       integer, intent(in) :: j
       !> Shape (2 nx - 1)
       real(dp), intent(out) :: values(:)
-      integer :: i, l
+      integer :: i, l, next
 
       l = (j + 1)/2
+      next = self%north(l)
       if (mod(j, 2) == 1) then
          values(1) = self%free(1, l)*coarse(1, l)
          do i = 1, self%nx - 1
@@ -207,11 +232,11 @@ contains
             values(2*i + 1) = self%free(i + 1, l)*coarse(i + 1, l)
          end do
       else
-         values(1) = self%along_y(1, 1, l)*coarse(1, l) + self%along_y(2, 1, l)*coarse(1, l + 1)
+         values(1) = self%along_y(1, 1, l)*coarse(1, l) + self%along_y(2, 1, l)*coarse(1, next)
          do i = 1, self%nx - 1
             values(2*i) = self%centre(1, i, l)*coarse(i, l) + self%centre(2, i, l)*coarse(i + 1, l) &
-                          + self%centre(3, i, l)*coarse(i, l + 1) + self%centre(4, i, l)*coarse(i + 1, l + 1)
-            values(2*i + 1) = self%along_y(1, i + 1, l)*coarse(i + 1, l) + self%along_y(2, i + 1, l)*coarse(i + 1, l + 1)
+                          + self%centre(3, i, l)*coarse(i, next) + self%centre(4, i, l)*coarse(i + 1, next)
+            values(2*i + 1) = self%along_y(1, i + 1, l)*coarse(i + 1, l) + self%along_y(2, i + 1, l)*coarse(i + 1, next)
          end do
       end if
    end subroutine prolong_row

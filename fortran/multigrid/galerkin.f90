@@ -96,14 +96,15 @@ contains
          coarse%north(:, j) = 0.0_dp
          coarse%north_east(:, j) = 0.0_dp
          coarse%north_west(:, j) = 0.0_dp
-         if (j < transfer%ny) call cells(fine, transfer, j, coarse, work%above_east(:, j), work%above_excess(:, j))
+         if (j <= transfer%between) call cells(fine, transfer, j, coarse, work%above_east(:, j), work%above_excess(:, j))
       end do
       !$omp end parallel do
       !$omp parallel do default(none) shared(transfer, work, coarse) &
       !$omp num_threads(transfer%threads) if(transfer%parallel) schedule(static)
-      do j = 2, transfer%ny
-         coarse%east(:, j) = coarse%east(:, j) + work%above_east(:, j - 1)
-         coarse%excess(:, j) = coarse%excess(:, j) + work%above_excess(:, j - 1)
+      do j = 1, transfer%ny
+         if (transfer%south(j) == 0) cycle
+         coarse%east(:, j) = coarse%east(:, j) + work%above_east(:, transfer%south(j))
+         coarse%excess(:, j) = coarse%excess(:, j) + work%above_excess(:, transfer%south(j))
       end do
       !$omp end parallel do
    end subroutine galerkin_product
@@ -146,18 +147,19 @@ contains
       real(dp), dimension(4) :: c, e, n, s, w, corner, excess
       !> Couplings of a cell's corners: sw-se, sw-nw, sw-ne, se-nw, se-ne, nw-ne
       real(dp) :: o(6), pair, ends(2)
-      integer :: i, k, l
+      integer :: i, k, l, above
 
       above_east = 0.0_dp
       above_excess = 0.0_dp
       l = 2*j
+      above = transfer%north(j)
       do i = 1, transfer%nx
          k = 2*i
          w = [transfer%along_y(1, i, j), 0.0_dp, transfer%along_y(2, i, j), 0.0_dp]
          pair = 0.0_dp
          ends = 0.0_dp
          call add_pair(fine%north(k - 1, l - 1), [transfer%free(i, j) - w(1), -w(3)], pair, ends)
-         call add_pair(fine%north(k - 1, l), [-w(1), transfer%free(i, j + 1) - w(3)], pair, ends)
+         call add_pair(fine%north(k - 1, l), [-w(1), transfer%free(i, above) - w(3)], pair, ends)
          if (.not. fine%five) call add_pair(fine%excess(k - 1, l), w([1, 3]), pair, ends)
          coarse%north(i, j) = coarse%north(i, j) + pair
          coarse%excess(i, j) = coarse%excess(i, j) + ends(1)
@@ -165,7 +167,7 @@ contains
          if (i == transfer%nx) cycle
          e = [0.0_dp, transfer%along_y(1, i + 1, j), 0.0_dp, transfer%along_y(2, i + 1, j)]
          s = [transfer%along_x(1, i, j), transfer%along_x(2, i, j), 0.0_dp, 0.0_dp]
-         n = [0.0_dp, 0.0_dp, transfer%along_x(1, i, j + 1), transfer%along_x(2, i, j + 1)]
+         n = [0.0_dp, 0.0_dp, transfer%along_x(1, i, above), transfer%along_x(2, i, above)]
          c = transfer%centre(:, i, j)
          o = 0.0_dp
          excess = 0.0_dp
@@ -174,7 +176,7 @@ contains
          call add_cell(fine%north(k, l - 1), c - s, o, excess)
          call add_cell(fine%north(k, l), c - n, o, excess)
          if (.not. fine%five) then
-            corner = [transfer%free(i, j), transfer%free(i + 1, j), transfer%free(i, j + 1), transfer%free(i + 1, j + 1)]
+            corner = [transfer%free(i, j), transfer%free(i + 1, j), transfer%free(i, above), transfer%free(i + 1, above)]
             call add_cell(fine%excess(k, l), c, o, excess)
             call add_cell(fine%north_east(k - 1, l - 1), c - [corner(1), 0.0_dp, 0.0_dp, 0.0_dp], o, excess)
             call add_cell(fine%north_west(k + 1, l - 1), c - [0.0_dp, corner(2), 0.0_dp, 0.0_dp], o, excess)

@@ -12,7 +12,7 @@ module ehl_plan
    use ehl_friction_mean, only: automatic_periods
    use ehl_film_formula, only: starved_film
    use ehl_grid_error, only: relative_errors
-   use ehl_grid, only: coarsest_most, find_levels, grid_t, new_grid, new_strip
+   use ehl_grid, only: coarsest_most, find_levels, grid_t, new_grid
    use ehl_inlet, only: inlet_t
    use ehl_kinds, only: dp
    use ehl_lubricant, only: lubricant_t
@@ -29,6 +29,7 @@ module ehl_plan
    use ehl_surface, only: aliased_below, resolved_from
    use ehl_predicted_start, only: steps_needed
    use ehl_step_policy, only: damped_sweep, whole_correction
+   use ehl_strip_grid, only: make_strip
    use ehl_text, only: fixed, to_text
    use ehl_wedge, only: wedge_narrow, wedge_separate
    implicit none (type, external)
@@ -282,7 +283,7 @@ contains
          plan%step_cycle%relaxation_factor = damped_sweep
          plan%step_cycle%correction_factor = whole_correction
       end if
-      plan%coarsening_may_change = input%solver%coarsening == "auto" .and. .not. input%contact%is_cylinder()
+      plan%coarsening_may_change = input%solver%coarsening == "auto" .and. .not. (row .or. input%contact%is_roller())
       plan%step_cycle%coarsening = merge(coarsening_alcouffe, coarsening_classical, &
                                          input%solver%coarsening == "alcouffe")
    end subroutine pick_cycle
@@ -346,13 +347,9 @@ contains
       associate (g => input%grid)
          if (plan%contact%is_line()) then
             width = plan%surfaces%width()
-            if (width < 0.0_dp) then
-               call status%fail(ehl_bad_input, "the two surfaces of a line contact have no width in common"//new_line("a")// &
-                                "expected: lengths across the motion one of which is a whole multiple of the other")
-               return
-            end if
-            plan%coarsest = new_strip(intervals(1) + 1, rows_of_strip(width, (g%x_outlet - g%x_inlet)/intervals(1)), g%x_inlet, &
-                                      g%x_outlet, width)
+            call make_strip(width, intervals(1), plan%levels, g%x_inlet, g%x_outlet, plan%surfaces%rough() .and. &
+                            input%solver%coarsening == "alcouffe", plan%coarsest, status)
+            if (status%failed()) return
          else
             plan%coarsest = new_grid(intervals(1) + 1, intervals(2) + 1, g%x_inlet, g%x_outlet, g%y_extent, mirror)
             plan%coarsest%ends = plan%contact%is_roller()
@@ -374,11 +371,4 @@ contains
                             plan%contact%reach(2) > wide*plan%contact%reach(1)
       end associate
    end subroutine pick_grids
-
-   !> Rows of the coarsest grid of a strip with cells that are nearly square: an even number, or one where nothing varies along Y
-   pure integer function rows_of_strip(width, mesh)
-      real(dp), intent(in) :: width, mesh
-      rows_of_strip = 1
-      if (width > 0.0_dp) rows_of_strip = 2*max(1, nint(0.5_dp*width/mesh))
-   end function rows_of_strip
 end module ehl_plan

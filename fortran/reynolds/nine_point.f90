@@ -14,7 +14,7 @@ module ehl_nine_point
    !> (0:nx, ny) with a column of zeros on the left.
    !>
    !> On a folded grid the cells of row 1 are half cells: only their part Y >= 0 counts. So
-   !> the operator stays symmetric, and no coupling leads out of the grid.
+   !> the operator stays symmetric, and no coupling leads out of the grid. On a strip the row above the last one is row 1.
    type :: nine_point_t
       !> Couplings of node (i, j) to (i+1, j), (i, j+1), (i+1, j+1) and (i-1, j+1)
       real(dp), allocatable :: east(:, :), north(:, :), north_east(:, :), north_west(:, :)
@@ -22,9 +22,11 @@ module ehl_nine_point
       real(dp), allocatable :: excess(:, :)
       !> No diagonal couplings and no excess: only east and north need be looked at
       logical :: five = .false.
+      type(grid_t) :: grid
    contains
       procedure :: setup
       procedure :: apply_row
+      procedure :: has_below
       procedure :: diagonal
       procedure :: bytes
    end type nine_point_t
@@ -39,6 +41,7 @@ contains
       integer :: stat
 
       if (status%failed()) return
+      self%grid = grid
       associate (nx => grid%nx, ny => grid%ny)
          allocate (self%east(0:nx, ny), self%north(0:nx, ny), self%north_east(0:nx, ny), &
                    self%north_west(0:nx, ny), self%excess(0:nx, ny), source=0.0_dp, stat=stat)
@@ -54,31 +57,42 @@ contains
       integer, intent(in) :: j
       !> Shape (nx)
       real(dp), intent(inout) :: values(:)
-      integer :: i
+      integer :: i, below, above
 
+      above = self%grid%north(j)
       do i = 2, size(u, 1) - 1
          values(i) = self%east(i, j)*(u(i + 1, j) - u(i, j)) + self%east(i - 1, j)*(u(i - 1, j) - u(i, j)) &
-                     + self%north(i, j)*(u(i, j + 1) - u(i, j)) &
-                     + self%north_east(i, j)*(u(i + 1, j + 1) - u(i, j)) &
-                     + self%north_west(i, j)*(u(i - 1, j + 1) - u(i, j)) - self%excess(i, j)*u(i, j)
+                     + self%north(i, j)*(u(i, above) - u(i, j)) &
+                     + self%north_east(i, j)*(u(i + 1, above) - u(i, j)) &
+                     + self%north_west(i, j)*(u(i - 1, above) - u(i, j)) - self%excess(i, j)*u(i, j)
       end do
-      if (j == 1) return
+      if (.not. self%has_below(j)) return
+      below = self%grid%south(j)
       do i = 2, size(u, 1) - 1
-         values(i) = values(i) + self%north(i, j - 1)*(u(i, j - 1) - u(i, j)) &
-                     + self%north_east(i - 1, j - 1)*(u(i - 1, j - 1) - u(i, j)) &
-                     + self%north_west(i + 1, j - 1)*(u(i + 1, j - 1) - u(i, j))
+         values(i) = values(i) + self%north(i, below)*(u(i, below) - u(i, j)) &
+                     + self%north_east(i - 1, below)*(u(i - 1, below) - u(i, j)) &
+                     + self%north_west(i + 1, below)*(u(i + 1, below) - u(i, j))
       end do
    end subroutine apply_row
+
+   !> Whether couplings of a row below row j are its own: on a folded grid those of row 1 are in its half cells
+   elemental logical function has_below(self, j)
+      class(nine_point_t), intent(in) :: self
+      integer, intent(in) :: j
+      has_below = j > 1 .or. self%grid%periodic
+   end function has_below
 
    !> Sum of all couplings of node (i, j), and its excess; 1 < i < nx
    pure real(dp) function diagonal(self, i, j)
       class(nine_point_t), intent(in) :: self
       integer, intent(in) :: i, j
+      integer :: below
 
       diagonal = self%east(i, j) + self%east(i - 1, j) + self%north(i, j) + self%north_east(i, j) &
                  + self%north_west(i, j) + self%excess(i, j)
-      if (j > 1) diagonal = diagonal + self%north(i, j - 1) + self%north_east(i - 1, j - 1) &
-                            + self%north_west(i + 1, j - 1)
+      if (.not. self%has_below(j)) return
+      below = self%grid%south(j)
+      diagonal = diagonal + self%north(i, below) + self%north_east(i - 1, below) + self%north_west(i + 1, below)
    end function diagonal
 
    !> Allocated bytes

@@ -178,9 +178,11 @@ contains
       integer, intent(in) :: j, first, last
       type(line_terms_t), intent(inout) :: terms
       real(dp) :: cell, q, term
-      integer :: i, k
+      integer :: i, k, below, above
 
       cell = self%grid%cell(j)
+      below = self%grid%south(j)
+      above = self%grid%north(j)
       associate (a => self%product)
          do i = max(first - 1, 1), min(last, self%grid%nx - 1)
             k = i - first + 1
@@ -190,11 +192,11 @@ contains
          do i = max(first, 2), min(last, self%grid%nx - 1)
             k = i - first + 1
             q = a%excess(i, j) + a%north_west(i, j) + a%north(i, j) + a%north_east(i, j)
-            term = a%north_west(i, j)*p(i - 1, j + 1) + a%north(i, j)*p(i, j + 1) + a%north_east(i, j)*p(i + 1, j + 1)
-            if (j > 1) then
-               q = q + a%north_east(i - 1, j - 1) + a%north(i, j - 1) + a%north_west(i + 1, j - 1)
-               term = term + a%north_east(i - 1, j - 1)*p(i - 1, j - 1) + a%north(i, j - 1)*p(i, j - 1) &
-                      + a%north_west(i + 1, j - 1)*p(i + 1, j - 1)
+            term = a%north_west(i, j)*p(i - 1, above) + a%north(i, j)*p(i, above) + a%north_east(i, j)*p(i + 1, above)
+            if (a%has_below(j)) then
+               q = q + a%north_east(i - 1, below) + a%north(i, below) + a%north_west(i + 1, below)
+               term = term + a%north_east(i - 1, below)*p(i - 1, below) + a%north(i, below)*p(i, below) &
+                      + a%north_west(i + 1, below)*p(i + 1, below)
             end if
             terms%rest(k) = rhs(i) - (term - q*p(i, j))/cell - terms%east(k)*(p(i + 1, j) - p(i, j)) &
                             - terms%east(k - 1)*(p(i - 1, j) - p(i, j))
@@ -213,14 +215,16 @@ contains
       integer, intent(out) :: n, neighbour(2, max_neighbours), direction(max_neighbours)
       real(dp), intent(out) :: coupling(max_neighbours), rate(max_neighbours), excess
       real(dp) :: sum_eps
-      integer :: m
+      integer :: m, below, above
 
+      below = self%grid%south(j)
+      above = self%grid%north(j)
       coupling = 0.0_dp
       rate = 0.0_dp
       excess = 0.0_dp
       direction = dir_x
-      neighbour(:, 1:4) = reshape([i + 1, j, i - 1, j, i, self%grid%north(j), i, self%grid%south(j)], [2, 4])
-      neighbour(:, 5:8) = reshape([i - 1, j + 1, i + 1, j + 1, i - 1, j - 1, i + 1, j - 1], [2, 4])
+      neighbour(:, 1:4) = reshape([i + 1, j, i - 1, j, i, above, i, below], [2, 4])
+      neighbour(:, 5:8) = reshape([i - 1, above, i + 1, above, i - 1, below, i + 1, below], [2, 4])
       if (.not. self%frozen) then
          n = merge(2, 4, self%grid%is_row())
          direction(1:4) = [dir_x, dir_x, flow%dir_y, flow%dir_y]
@@ -236,12 +240,12 @@ contains
          return
       end if
       associate (a => self%product)
-         n = merge(8, 6, j > 1)
+         n = merge(8, 6, a%has_below(j))
          coupling(1:3) = [a%east(i, j), a%east(i - 1, j), a%north(i, j)]
          coupling(5:6) = [a%north_west(i, j), a%north_east(i, j)]
-         if (j > 1) then
-            coupling(4) = a%north(i, j - 1)
-            coupling(7:8) = [a%north_east(i - 1, j - 1), a%north_west(i + 1, j - 1)]
+         if (n == 8) then
+            coupling(4) = a%north(i, below)
+            coupling(7:8) = [a%north_east(i - 1, below), a%north_west(i + 1, below)]
          end if
          coupling = coupling/self%grid%cell(j)
          excess = a%excess(i, j)/self%grid%cell(j)
@@ -255,21 +259,22 @@ contains
       integer, intent(in) :: first, last
       type(nine_point_t), intent(inout) :: a
       real(dp) :: rx, ry
-      integer :: i, j
+      integer :: i, j, above
 
       do j = first, last
+         above = self%grid%north(j)
          rx = 0.5_dp*self%grid%cell(j)/self%grid%hx**2
          ry = 0.5_dp*self%grid%hx/self%grid%hy
          if (flow%depends_on_gradient) then
             do i = 1, self%grid%nx - 1
                a%east(i, j) = rx*(flow%tangent(i, j, dir_x) + flow%tangent(i + 1, j, dir_x))
-               a%north(i, j) = ry*(flow%tangent(i, j, flow%dir_y) + flow%tangent(i, j + 1, flow%dir_y))
+               a%north(i, j) = ry*(flow%tangent(i, j, flow%dir_y) + flow%tangent(i, above, flow%dir_y))
             end do
             cycle
          end if
          do i = 1, self%grid%nx - 1
             a%east(i, j) = rx*(flow%eps(i, j, dir_x) + flow%eps(i + 1, j, dir_x))
-            a%north(i, j) = ry*(flow%eps(i, j, flow%dir_y) + flow%eps(i, j + 1, flow%dir_y))
+            a%north(i, j) = ry*(flow%eps(i, j, flow%dir_y) + flow%eps(i, above, flow%dir_y))
          end do
       end do
    end subroutine integrate

@@ -9,7 +9,7 @@ module diffusion
    use check, only: is_true
    use ehl_alcouffe, only: transfer_t
    use ehl_galerkin, only: galerkin_product, product_work_t
-   use ehl_grid, only: grid_t, new_grid
+   use ehl_grid, only: grid_t, new_grid, new_strip
    use ehl_kinds, only: dp, pi
    use ehl_nine_point, only: nine_point_t
    use ehl_status, only: status_t
@@ -34,12 +34,13 @@ module diffusion
 
 contains
 
-   !> Levels of a square, whole or folded
-   subroutine new_problem(p, mirror, rows)
+   !> Levels of a square, whole or folded, or of a strip that repeats along Y
+   subroutine new_problem(p, mirror, rows, strip)
       type(problem_t), allocatable, intent(out) :: p(:)
       logical, intent(in) :: mirror
       !> Nodes along Y, if they are others than along X
       integer, intent(in), optional :: rows
+      logical, intent(in), optional :: strip
       type(status_t) :: status
       integer :: k, ny
 
@@ -47,6 +48,9 @@ contains
       if (present(rows)) ny = rows
       allocate (p(levels))
       p(levels)%grid = new_grid(points, ny, 0.0_dp, 1.0_dp, 0.5_dp, mirror)
+      if (present(strip)) then
+         if (strip) p(levels)%grid = new_strip(points, points - 1, 0.0_dp, 1.0_dp, 1.0_dp)
+      end if
       do k = levels - 1, 1, -1
          p(k)%grid = p(k + 1)%grid%coarser()
       end do
@@ -54,7 +58,7 @@ contains
          associate (nx => p(k)%grid%nx, ny => p(k)%grid%ny)
             allocate (p(k)%d(nx, ny), p(k)%u(nx, ny), p(k)%f(nx, ny), p(k)%r(nx, ny), p(k)%free(nx, ny), &
                       source=0.0_dp)
-            p(k)%free(2:nx - 1, merge(1, 2, mirror):ny - 1) = 1.0_dp
+            p(k)%free(2:nx - 1, p(k)%grid%first_inner():p(k)%grid%last_inner()) = 1.0_dp
          end associate
          call p(k)%a%setup(p(k)%grid, status)
          if (k > 1) call p(k)%transfer%setup(p(k - 1)%grid, 1, .false., status)
@@ -154,8 +158,8 @@ contains
             if (p%grid%mirror .and. j == 1) p%a%east(i, j) = 0.5_dp*p%a%east(i, j)
          end do
       end do
-      do j = 1, p%grid%ny - 1
-         p%a%north(1:, j) = 0.5_dp*(p%d(:, j) + p%d(:, j + 1))
+      do j = 1, p%grid%last_inner()
+         p%a%north(1:, j) = 0.5_dp*(p%d(:, j) + p%d(:, p%grid%north(j)))
       end do
    end subroutine five_point
 
@@ -243,7 +247,7 @@ contains
       integer :: j
 
       p%r = 0.0_dp
-      do j = merge(1, 2, p%grid%mirror), p%grid%ny - 1
+      do j = p%grid%first_inner(), p%grid%last_inner()
          call p%a%apply_row(p%u, j, p%r(:, j))
          p%r(2:p%grid%nx - 1, j) = p%f(2:p%grid%nx - 1, j) + p%r(2:p%grid%nx - 1, j)
       end do

@@ -62,15 +62,15 @@ contains
 
    !> P^T (A (P u)) by the transfers and the operator one after the other, for two products in a row
    !> (five-point and nine-point operators), with nodes that are not free, whole and folded, on as many rows as columns
-   !> and on more
+   !> and on more, and on a strip
    subroutine product_is_the_product()
       type(problem_t), allocatable :: p(:)
       real(dp), allocatable :: wanted(:), made(:)
       real(dp) :: largest, row(points)
       integer :: kind, j, k
 
-      do kind = 0, 3
-         call new_problem(p, mod(kind, 2) == 1, merge(193, points, kind > 1))
+      do kind = 0, 4
+         call new_problem(p, mod(kind, 2) == 1, merge(193, points, kind > 1), strip=kind == 4)
          call noise(p(levels))
          p(levels)%free(40:47, 20:31) = 0.0_dp
          call coarsen(p, alcouffe)
@@ -87,7 +87,7 @@ contains
                call residual(fine)
                allocate (wanted(coarse%grid%nx), made(coarse%grid%nx), source=0.0_dp)
                largest = 0.0_dp
-               do j = merge(1, 2, coarse%grid%mirror), coarse%grid%ny - 1
+               do j = coarse%grid%first_inner(), coarse%grid%last_inner()
                   call fine%transfer%restrict_row(fine%r, j, wanted)
                   call coarse%a%apply_row(coarse%u, j, made)
                   largest = max(largest, maxval(abs(made - wanted)*fine%transfer%free(:, j)))

@@ -12,6 +12,7 @@ module test_reynolds
    use ehl_kinds, only: dp, pi
    use ehl_level, only: level_t
    use ehl_lubricant, only: density_dowson_higginson, lubricant_t, new_lubricant, viscosity_roelands
+   use ehl_nine_point, only: nine_point_t
    use ehl_poiseuille, only: line_terms_t, max_neighbours, poiseuille_t
    use ehl_status, only: status_t
    implicit none (type, external)
@@ -83,9 +84,9 @@ contains
       real(dp) :: p(17, 9), coupling(max_neighbours), rate(max_neighbours), excess, sums, largest(3)
       integer :: i, j, m, n, kind, neighbour(2, max_neighbours), direction(max_neighbours)
 
-      grid = grid_t(nx=17, ny=9, x0=-1.0_dp, y0=0.0_dp, hx=0.1_dp, hy=0.15_dp, mirror=.true.)
-      do kind = 1, 2
-         if (kind == 1) call new_flow(no_lubricant, 1.0_dp, flow)
+      do kind = 1, 3
+         grid = grid_t(nx=17, ny=9, x0=-1.0_dp, y0=0.0_dp, hx=0.1_dp, hy=0.15_dp, mirror=kind < 3, periodic=kind == 3)
+         if (kind /= 2) call new_flow(no_lubricant, 1.0_dp, flow)
          if (kind == 2) then
             deallocate (flow)
             allocate (uneven_flow_t :: flow)
@@ -97,12 +98,13 @@ contains
          call scatter(p)
          call poiseuille%setup(grid)
          call product%setup(grid)
+         product%product = nine_point_t()
          call product%prepare_product(status)
-         call poiseuille%integrate(flow, 1, grid%ny - 1, product%product)
+         call poiseuille%integrate(flow, 1, grid%last_inner(), product%product)
          product%frozen = .true.
          largest = 0.0_dp
          rhs = 0.7_dp
-         do j = 1, grid%ny - 1
+         do j = 1, grid%last_inner()
             call poiseuille%apply_row(p, flow, j, row)
             call product%apply_row(p, flow, j, frozen)
             largest(1) = max(largest(1), maxval(abs(row(2:16) - frozen(2:16))))

@@ -50,9 +50,6 @@ def check_keys(draft: Draft) -> None:
         flat = name.startswith("bodies.") and getattr(s.bodies, name[7:]) == 0.0
         if name in draft.given and not flat:
             draft.refuse(name, f"{name} with {SHAPE}", expected)
-    if s.solver.coarsening == "alcouffe":
-        what = f"solver.coarsening = 'alcouffe' with {SHAPE}"
-        draft.refuse("solver.coarsening", what, "'auto' or 'classical'")
     if draft.is_given("solver", "deflection") and s.solver.deflection != "fft":
         what = f"solver.deflection = 'mlmi' with {SHAPE}"
         draft.refuse(

@@ -308,6 +308,35 @@ def test_strip_is_the_middle_of_a_wide_ellipse():
     assert kept[0] == pytest.approx(kept[1], rel=0.01)
 
 
+def test_alcouffe_on_a_strip():
+    """Transfers by the conductance over the repeating edge: the same but for what cycles leave."""
+    wave = {"surface.kind": "harmonic", "surface.wavelength": 1.0, "time.estimate_error": False}
+    wave |= {"surface.amplitude_over_film": 0.6, "contact.slide_to_roll": 0.0}
+    domain = {"x_inlet": -2.5, "x_outlet": 1.5}
+    classical, alcouffe = (
+        pyehl.solve(moes(20, 10, 129, **domain), wave, {"solver.coarsening": name})
+        for name in ("classical", "alcouffe")
+    )
+    increase = float(classical.mu_ratio) - 1.0
+    assert increase > 1.0
+    assert float(alcouffe.mu_ratio) - 1.0 == pytest.approx(increase, rel=1e-3)
+    assert (alcouffe.P.values != classical.P.values).any()
+    np.testing.assert_allclose(alcouffe.P.values, classical.P.values, atol=5e-3)
+    # one row has nothing to transfer along the line
+    row = {"surface.wavelength_x": 1.0, "surface.wavelength_y": 1e6}
+    with pytest.raises(pyehl.InputError, match="nothing varies along a line"):
+        pyehl.solve(moes(20, 10, 129), wave, row, {"solver.coarsening": "alcouffe"})
+
+
+def test_strip_that_is_too_wide():
+    """Tens of thousands of rows are an oversight, which the message names."""
+    wave = {"surface.kind": "harmonic", "surface.wavelength_x": 1.0, "surface.wavelength_y": 1e3}
+    with pytest.raises(pyehl.InputError, match=r"repeat after 1\.000E\+03 b has .* rows") as info:
+        pyehl.solve(moes(20, 10, 129), wave)
+    assert "wavelength_y = 1e6" in str(info.value)
+    assert pyehl.check(moes(20, 10, 129), {**wave, "surface.wavelength_y": 20.0})
+
+
 def test_strip_carries_a_fractal_surface():
     tile = {
         "surface.kind": "fractal",
@@ -338,7 +367,6 @@ WITH_LINE = {
     "contact.angle=10": "a line is perpendicular to the motion",
     "grid.y_extent=2": "the strip is as wide as the surfaces repeat",
     "grid.points_y=65": "the strip is as wide as the surfaces repeat",
-    "solver.coarsening='alcouffe'": "'auto' or 'classical'",
     "solver.deflection='mlmi'": "a strip that repeats has no multi-integration",
     "surface.kind='dent'": "an endless 'ridge' or 'groove'",
     "second_surface.kind='bump'": "an endless 'ridge' or 'groove'",
