@@ -189,7 +189,14 @@ contains
          end do
          if (i > 1) then
             c = merge(c_first, c_interior, i == 2)
-            if (uneven) a = 0.5_dp - 0.5_dp*g(:, f_other, i)/(g(:, f_east, i) + g(:, f_east, i - 1) + tiny(1.0_dp))
+            if (uneven) then
+               ! nodes that pass oil on are not coupled along X
+               where (g(:, f_east, i) + g(:, f_east, i - 1) > 0.0_dp)
+                  a = 0.5_dp - 0.5_dp*g(:, f_other, i)/(g(:, f_east, i) + g(:, f_east, i - 1) + tiny(1.0_dp))
+               elsewhere
+                  a = 1.0_dp
+               end where
+            end if
             ! inactive nodes do not change; the loop below would not vectorise around this
             changes = merge(0.0_dp, 1.0_dp, g(:, f_p, i) <= cavity_pressure)
             changes = merge(changes, 1.0_dp, g(:, f_residual, i) >= 0.0_dp)

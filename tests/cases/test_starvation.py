@@ -45,6 +45,25 @@ def test_layer_of_a_point_contact(flooded, layer):
     assert 2.0 < exponent < 5.0
 
 
+@pytest.mark.parametrize("law", ["eyring", "carreau"])
+@pytest.mark.parametrize("radius_y", [0.01, 0.03])
+def test_layer_with_a_flow_that_thins(law, radius_y):
+    """A stress that is never reached leaves the film of the Newtonian flow."""
+    contact = {k: v for k, v in SI.items() if k != "radius"}
+    contact |= {"radius_x": 0.01, "radius_y": radius_y, "slide_to_roll": 0.3}
+    case = pyehl.Case(contact=contact, inlet={"film": 1e-7}, grid={"points": 65})
+    plain = pyehl.solve(case)
+    law_of = {"lubricant.shear_law": law}
+    if law == "carreau":
+        law_of["lubricant.carreau_exponent"] = 0.8
+    thin, never = (
+        pyehl.solve(case, law_of, {f"lubricant.{law}_stress": stress}) for stress in (3e6, 1e9)
+    )
+    assert float(never.H_c) == pytest.approx(float(plain.H_c), rel=1e-3)
+    assert abs(float(thin.oil_imbalance)) <= 1e-6
+    assert 0.8 * float(plain.H_c) < float(thin.H_c) < float(plain.H_c)
+
+
 def test_a_thick_layer_floods():
     thick, zero = solve(film_hertz=50.0), solve(grid={"border": "zero"})
     assert float(thick.H_c) == pytest.approx(float(zero.H_c), rel=1e-5)

@@ -140,7 +140,7 @@ def newton() -> Iterator[Row]:
 
 if __name__ == "__main__":
     with (HERE / "table.csv").open("w", newline="", encoding="utf-8") as stream:
-        rows = csv.writer(stream)
+        rows = csv.writer(stream, lineterminator="\n")
         rows.writerow(["case", "quantity", "found", "beside"])
         for part in (periodic, slow, phase, steps, asked, newton):
             rows.writerows((case, name, f"{a:.5g}", f"{b:.5g}") for case, name, a, b in part())
