@@ -61,5 +61,6 @@ contains
       outcome = smooth%verdict(smooth%converged())
       call smooth%guard_cycle(hierarchy, outcome, status)
       call smooth%record()
+      if (outcome == outcome_running .and. smooth%drifts()) call smooth%balance(hierarchy)
    end subroutine one_cycle
 end module ehl_fmg

@@ -41,6 +41,9 @@ module ehl_smooth_contact
    !> Residual from which on coarse grids change sharp pressure spikes too: sweeps alone do not find one that is far off
    !> (kappa = 11, L = 26)
    real(dp), parameter :: near_solution = 0.05_dp, near_spared = 0.5_dp
+   !> Cycles after which the load of a roller may drift, and a relative error of it that is a drift
+   integer, parameter :: drifts_after = 6
+   real(dp), parameter :: small_drift = 1.0e-3_dp
    !> Cycles that are few: on a level that began from a coarser one, and from the Hertz pressure
    integer, parameter :: min_cycles = 2, cycles_from_guess = 3
 
@@ -99,6 +102,7 @@ module ehl_smooth_contact
       procedure :: begin_cycle
       procedure :: estimate_errors
       procedure :: may_scale_load
+      procedure :: drifts
       procedure :: converged
       procedure :: guard_cycle
       procedure :: record
@@ -241,6 +245,15 @@ contains
       if (may_scale_load) may_scale_load = film_per_load*error <= &
                                            self%rule%share_of_load*minval(wanted(self%options, self%results, self%n, self%m))
    end function may_scale_load
+
+   !> Whether the load of a roller drifts away in cycles that leave the rest solved: what coarse grids change at its ends and the
+   !> sweeps take back. The next cycle begins with the right load.
+   pure logical function drifts(self)
+      class(smooth_contact_t), intent(in) :: self
+
+      drifts = self%contact%is_roller() .and. is_end(self%options, self%n) .and. self%cycles >= drifts_after .and. &
+               self%residual <= residual_tolerance .and. abs(self%m%load_error) <= small_drift
+   end function drifts
 
    !> Algebraic error of the load share by its change in a cycle, as that of the films
    pure subroutine estimate_share_error(self, change)

@@ -32,7 +32,7 @@ PROFILES: dict[str, dict[str, float]] = {
     "logarithmic": {"log_amplitude": 4.2e-6},
     "chamfer": {"chamfer_length": 1e-3, "chamfer_drop": 1.25e-5},
 }
-POINTS = 257
+POINTS = 513
 SEEDS = (1, 2)
 
 
