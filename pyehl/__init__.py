@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from pyehl.solver import Solver
     from pyehl.studies.curve_run import stribeck
     from pyehl.studies.film_fit import fit_lubricant
+    from pyehl.studies.quasi_static import quasi_static
     from pyehl.studies.shear_fit import lubricants
     from pyehl.studies.sweep import sweep
     from pyehl.subsurface.result import stress
@@ -63,6 +64,7 @@ __all__ = [
     "lubricants",
     "plot",
     "predict",
+    "quasi_static",
     "report",
     "response",
     "solve",
@@ -91,6 +93,7 @@ _HOMES = {
     "lubricants": "studies.shear_fit",
     "plot": "plots.folder",
     "predict": "api",
+    "quasi_static": "studies.quasi_static",
     "report": "reports.folder",
     "response": "measured_response.folder",
     "solve": "api",

@@ -11,9 +11,9 @@ submodule (ehl_contact_run) ehl_contact_duty
 contains
 
    module procedure duty_names
-      names = [character(len=16) :: "step", "T", "t_s", "speed", "load", "radius_x", "viscosity", "H_c", "H_min", "X_min", &
-               "Y_min", "P_max", "h_c_m", "h_min_m", "p_max_Pa", "mu", "power_W", "flash_K", "load_error", "cycles", "residual", &
-               "c_step_error", "min_step_error"]
+      names = [character(len=16) :: "step", "T", "t_s", "speed", "slide", "load", "radius_x", "radius_y", "viscosity", &
+               "H_c", "H_min", "X_min", "Y_min", "P_max", "h_c_m", "h_min_m", "p_max_Pa", "mu", "power_W", "flash_K", &
+               "load_error", "cycles", "residual", "c_step_error", "min_step_error"]
    end procedure duty_names
 
    module procedure duty_row
@@ -22,10 +22,10 @@ contains
       associate (t => self%transient, m => self%transient%m, scales => self%plan%scales)
          call find_minimum(level, place)
          call find_friction(self, level, mu, power, flash)
-         row = [real(dp) :: t%step, t%time, t%time*t%duty%time_scale, t%now%mean_velocity(), t%now%load, &
-                1.0_dp/t%now%curvatures(1), t%now%viscosity, m%films(), place, m%pressure_maximum, &
-                m%films()*scales%film, m%pressure_maximum*scales%pressure, mu, power, flash, m%load_error, &
-                t%cycles, t%residual, t%film_errors]
+         row = [real(dp) :: t%step, t%time, t%time*t%duty%time_scale, t%now%mean_velocity(), &
+                t%now%speeds(1) - t%now%speeds(2), t%now%load, 1.0_dp/t%now%curvatures, t%now%viscosity, m%films(), &
+                place, m%pressure_maximum, m%films()*scales%film, m%pressure_maximum*scales%pressure, mu, power, flash, &
+                m%load_error, t%cycles, t%residual, t%film_errors]
       end associate
    end procedure duty_row
 

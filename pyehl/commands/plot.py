@@ -10,6 +10,7 @@ from pyehl.plots.folder import FORMATS, UNITS, made, plot
 from pyehl.plots.movie import FRAME_SECONDS, SUFFIXES, movie
 from pyehl.plots.style import DPI
 from pyehl.results import load
+from pyehl.studies.quasi_static import quasi_static
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -50,6 +51,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="S",
         help=f"seconds that a frame of the movie is shown (default: {FRAME_SECONDS:g})",
     )
+    parser.add_argument(
+        "--steady",
+        type=int,
+        default=0,
+        metavar="N",
+        help="solve the steady contact at N instants of a duty, and draw its films beside those of "
+        "the duty (default: 0, a line by the film formula)",
+    )
 
 
 def _metres(text: str) -> float:
@@ -72,7 +81,7 @@ def execute(args: argparse.Namespace) -> int:
         written = [movie(data, made(target), args.movie, args.units, args.frame_seconds)]
     else:
         figures = plot(
-            args.folder,
+            quasi_static(args.folder, args.steady) if args.steady else args.folder,
             target,
             units=args.units,
             format=args.format,

@@ -214,13 +214,18 @@ def _extremes(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
 
 
 def _duty(data: xr.Dataset, title: str) -> Figure:
-    """Films over time, with the central one of steady contacts, and below what changes."""
+    """Films over time, beside them those of steady contacts, and below what changes."""
     figure = rows([0.55, 0.3], title)
     upper, lower = figure.axes
-    names = [str(name) for name in data if str(name).startswith("history_")]
-    history = {name.removeprefix("history_"): data[name].values for name in names}
-    steady = transient.quasi_static(history, namelist.values(data.attrs["case"]), float(data.h_c_m))
-    transient.duty_history(history, steady, ax=upper)
+    history, solved = (
+        {str(n).removeprefix(table): data[n].values for n in data if str(n).startswith(table)}
+        for table in ("history_", "steady_")
+    )
+    formula = None
+    if not solved:
+        settings = namelist.values(data.attrs["case"])
+        formula = transient.quasi_static(history, settings, float(data.h_c_m))
+    transient.duty_history(history, formula, solved or None, ax=upper)
     transient.duty_itself(history, ax=lower)
     no_numbers_below(upper)
     return figure

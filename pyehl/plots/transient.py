@@ -185,7 +185,11 @@ def quasi_static(history: Mapping[str, Array], settings: Settings, film: float) 
 
 
 def duty_history(
-    history: Mapping[str, Array], steady: Array | None = None, *, ax: Axes | None = None
+    history: Mapping[str, Array],
+    steady: Array | None = None,
+    solved: Mapping[str, Array] | None = None,
+    *,
+    ax: Axes | None = None,
 ) -> Axes:
     """Central and minimum film over the time of a duty.
 
@@ -194,18 +198,29 @@ def duty_history(
     history
         Columns of the history, (n,) each: t_s [s], h_c_m, h_min_m [m].
     steady
-        (n,) central films of steady contacts [m]; None: not drawn.
+        (n,) central films of steady contacts [m] by formula; None: not drawn.
+    solved
+        The same columns of steady contacts that are solved; None: not drawn.
     """
     ax = style.axes_or_new(ax, 5.4, 3.0)
     time, nm = history["t_s"] * 1e3, 1e9
     if steady is not None:
-        ax.plot(time, steady * nm, color=style.GREY, lw=1.0, ls="--", label="centre, steady")
+        ax.plot(
+            time, steady * nm, color=style.GREY, lw=1.0, ls="--", label="centre, steady (formula)"
+        )
     ax.plot(time, history["h_c_m"] * nm, color=style.VERMILLION, lw=1.4, label="centre")
     ax.plot(time, history["h_min_m"] * nm, color=style.BLUE, lw=1.4, label="minimum")
+    for name, label, colour in (
+        ("h_c_m", "centre, steady", style.VERMILLION),
+        ("h_min_m", "minimum, steady", style.BLUE),
+    ):
+        if solved is not None:
+            at, film = solved["t_s"] * 1e3, solved[name] * nm
+            ax.plot(at, film, "o", ms=3.5, mfc="none", color=colour, label=label, clip_on=False)
     ax.set(xlim=(0.0, float(time[-1])), ylabel="h [nm]")
     # above the lines is room for what they are
-    ax.set_ylim(0.0, 1.18 * ax.get_ylim()[1])
-    ax.legend(loc="upper center", ncols=3)
+    ax.set_ylim(0.0, (1.18 if solved is None else 1.3) * ax.get_ylim()[1])
+    ax.legend(loc="upper center", ncols=3 if solved is None else 2)
     return ax
 
 

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import pyehl
+from pyehl import cli
 
 LOAD, SPEED, RADIUS, MODULUS = 1.8285e5, 0.4622, 0.01, 2.26e11
 LINE = {
@@ -518,3 +519,53 @@ def test_a_load_of_nearly_nothing(least):
 def test_a_load_below_the_least_is_refused():
     with pytest.raises(pyehl.InputError, match=r"at least 182\.85, 0\.001 of that of the case"):
         run([0.0, 1.0], load=[1.0, 5e-4])
+
+
+STEADY = {
+    "circle": {"load": 40.0, "mean_velocity": 2.0, "radius": 0.01},
+    "ellipse": {"load": 60.0, "mean_velocity": 2.0, "radius_x": 0.01, "radius_y": 0.02},
+    "line": LINE["contact"],
+    "roller": ROLLER["contact"],
+}
+
+
+@pytest.mark.parametrize("shape", STEADY)
+def test_steady_contacts_beside_a_duty(shape):
+    """Without a change they are the contact of the case; of a slow duty its films."""
+    contact = {"reduced_modulus": MODULUS, "slide_to_roll": 0.0} | STEADY[shape]
+    case = pyehl.Case(contact=contact, lubricant={"viscosity": 0.04}, grid={"points": 65})
+    speed, radius = contact["mean_velocity"], contact.get("radius", contact.get("radius_x"))
+    unit = float(pyehl.solve(case).hertz_radius_m) / speed
+    time = np.linspace(0.0, 30.0, 4)
+    duty = {
+        "time": time * unit, "mean_velocity": speed * (1.0 + 0.003 * time),
+        "radius_x": radius * (1.0 + 0.002 * time), "viscosity": 0.04 * (1.0 - 0.002 * time),
+    }  # fmt: skip
+    if shape == "roller":
+        duty = {key: duty[key] for key in ("time", "mean_velocity")}
+    data = pyehl.solve(case, {"duty": duty})
+    found = pyehl.quasi_static(data, [0.0, 20.0 * unit])
+    assert float(found.steady_h_c_m[0]) == pytest.approx(float(data.h_c_m), rel=2e-3)
+    film = float(np.interp(found.steady_t_s[1], data.history_t_s, data.history_h_c_m))
+    assert abs(film / float(data.h_c_m) - 1.0) > 0.01
+    # the lag of the film: a transit of 1.2 in time
+    assert float(found.steady_h_c_m[1]) == pytest.approx(film, rel=6e-3)
+    assert (found.steady_h_c_error_m > 0.0).all()
+    assert "duty" in pyehl.plot(found)
+
+
+def test_steady_contacts_of_a_reversal(tmp_path: Path):
+    """The same both ways; none at rest. The command draws them."""
+    turn = duty(np.linspace(0.0, 2e-4, 5), mean_velocity=[2.0, 1.0, 0.0, -1.0, -2.0])
+    data = pyehl.solve(pyehl.Case(**POINT), turn, output=tmp_path / "out")
+    films = pyehl.quasi_static(data, [0.0, 5e-5, 1e-4, 1.5e-4, 2e-4]).steady_h_c_m.values
+    assert np.isnan(films[2])
+    assert films[1] == pytest.approx(films[3], rel=1e-9)
+    assert films[0] > 1.3 * films[1]
+    assert cli.main(["plot", str(tmp_path / "out"), "--steady", "3"]) == 0
+    assert (tmp_path / "out" / "duty.png").is_file()
+    for wrong in (0, [-1.0], "three"):
+        with pytest.raises(pyehl.InputError, match="instants"):
+            pyehl.quasi_static(data, wrong)
+    with pytest.raises(pyehl.InputError, match="without a duty"):
+        pyehl.quasi_static(pyehl.solve(pyehl.Case(**POINT)))
