@@ -62,7 +62,7 @@ def test_every_function_of_the_table_of_equations_exists(root):
         found = importlib.import_module(".".join(module))
         for part in rest:
             found = getattr(found, part)
-    table = page[page.index("## From equation to code") :]
+    table = page[page.index("## From equation to module") :]
     rows = re.findall(r"^\|.*\|(.*)\|$", table, re.M)
     for path in re.findall(r"`(pyehl/[\w/]+\.py)`", table):
         text = (root / path).read_text(encoding="utf-8")

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The tables of the theory from equation or step to module: each name is in the file named."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+# Chapters that only lead to others
+INDICES = {"numerics", "physics", "predicting"}
+CHAPTERS = sorted(set((ROOT / "docs" / "theory").glob("*.md")), key=lambda path: path.stem)
+SOURCES = [
+    path
+    for folder, kind in (("fortran", "*.f90"), ("pyehl", "*.py"))
+    for path in (ROOT / folder).rglob(kind)
+]
+
+
+def rows(text: str) -> list[str]:
+    """Lines of tables that name code."""
+    return [
+        line
+        for line in text.split("\n")
+        if line.startswith("|") and re.search(r"`[\w/]+\.(?:f90|py)`", line)
+    ]
+
+
+@pytest.mark.parametrize("chapter", CHAPTERS, ids=lambda path: path.stem)
+def test_chapter_leads_to_the_code(chapter):
+    text = chapter.read_text(encoding="utf-8")
+    if chapter.stem in INDICES:
+        return
+    found = rows(text)
+    assert found, "no table from equation or step to module"
+    for row in found:
+        names = re.findall(r"`([^`]+)`", row)
+        files = [name for name in names if re.fullmatch(r"[\w/]+\.(?:f90|py)", name)]
+        places = {
+            name: [path for path in SOURCES if f"/{path.relative_to(ROOT)}".endswith(f"/{name}")]
+            for name in files
+        }
+        assert all(places.values()), (row, places)
+        code = " ".join(path.read_text(encoding="utf-8") for at in places.values() for path in at)
+        known = [name for name in names if re.fullmatch(r"[A-Za-z_]\w*(?:\.\w+)?", name)]
+        for name in set(known) - set(files):
+            assert all(part in code for part in name.split(".")), (name, files)
