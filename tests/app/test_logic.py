@@ -14,6 +14,7 @@ import pyehl
 from pyehl import namelist
 from pyehl.app import answers, downloads, drawing, words
 from pyehl.app.controls import CONTROLS, STEPS, Control
+from pyehl.app.figures import TICKS, Pictures
 from pyehl.app.position import Position, from_case
 from pyehl.app.uploads import Uploads
 from pyehl.app.worker import Worker
@@ -478,3 +479,29 @@ def test_contact_without_friction_of_the_layer():
     thick, _ = from_case(Case.from_text(text.format(friction).replace("1.2e-7", "1e-9")))
     shown = dict(words.film_rows(answers.film(thick, 65, always)))
     assert shown["friction μ_s, smooth"].endswith("on 65 × 65 nodes")
+
+
+def test_pictures_with_nothing_to_show_give_way_to_a_sentence(monkeypatch):
+    """No empty axes; what the browser is sent is what is there."""
+    pictures = Pictures()
+    rough = (pictures.before, pictures.after, pictures.bands, pictures.over)
+    assert not any(picture.visible for picture in (*rough, *pictures.curves))
+    assert all(hint.visible and hint.text for hint in pictures.hints.values())
+    sent = []
+    monkeypatch.setattr(
+        pictures.changes, "of", lambda model, **values: sent.append((model, values))
+    )
+    pictures.show_curve([answers.CurvePoint(0.5, 1e-7, 1e-9)], [0.5, 1.0], "speed", "a curve")
+    for picture in pictures.curves:
+        assert (picture, {"visible": True}) in sent
+    assert (pictures.hints["curve_hint"], {"visible": False}) in sent
+    assert not any(model in rough for model, values in sent if "visible" in values)
+
+
+def test_axes_have_as_many_numbers_as_there_is_room_for():
+    for name, picture in Pictures().figures.items():
+        if name.endswith("_hint") or name == "bands":
+            continue
+        # a number of six letters takes 40 pixels
+        assert picture.xaxis[0].ticker.desired_num_ticks == TICKS
+        assert TICKS * 40 < picture.width - 100
