@@ -308,6 +308,53 @@ def test_strip_is_the_middle_of_a_wide_ellipse():
     assert kept[0] == pytest.approx(kept[1], rel=0.01)
 
 
+def wide_and_line() -> list[pyehl.Case]:
+    """Give an ellipse of kappa = 8 and a line in SI units, of one alpha_bar and speed parameter."""
+    ratio = brentq(lambda d: ellipse(d).ellipticity - 8.0, 1e-3, 0.5)
+    kernel = ellipse(ratio).kernel_ratio
+    line = LineContact.from_moes(20.0, 10.0)
+    modulus, radius = line.reduced_modulus, line.radius
+    round_m = (128.0 * math.pi**3 / (3.0 * line.speed_parameter**3)) ** 0.25
+    moes_m = 8.0 * round_m * kernel**0.25
+    moes_l = line.alpha_bar * math.pi / (1.5 * round_m) ** (1.0 / 3.0) / kernel**0.75
+    # U by L = G (2U)^(1/4), load by M = w/(E' R^2) (2U)^(-3/4)
+    speed = 0.5 * (moes_l / (2.2e-8 * modulus)) ** 4
+    point = {
+        "load": moes_m * (2.0 * speed) ** 0.75 * modulus * radius**2,
+        "radius_x": radius,
+        "radius_y": radius / ratio,
+        "mean_velocity": speed * modulus * radius / 0.04,
+    }
+    flat = {"load_per_length": line.load_per_length, "mean_velocity": line.mean_velocity}
+    flat |= {"shape": "line", "radius": radius}
+    bodies, oil = {"reduced_modulus": modulus}, {"viscosity": 0.04, "pressure_viscosity": 2.2e-8}
+    domain = {"points": 97, "x_inlet": -2.5, "x_outlet": 1.5, "border": "zero"}
+    sides = {"y_extent": 9.0, "points_y": 433}
+    return [
+        pyehl.Case(contact=point | bodies, lubricant=oil, grid=domain | sides),
+        pyehl.Case(contact=flat | bodies, lubricant=oil, grid=domain),
+    ]
+
+
+@pytest.mark.parametrize(("film", "touching"), [(0.08, False), (0.1, True), (0.12, True)])
+def test_boundary_film_in_the_middle_of_a_wide_ellipse(film, touching):
+    """Film and pressure along the motion; both grow apart by 0.6 % without a boundary film."""
+    rows = []
+    for case in wide_and_line():
+        scale = float(pyehl.solve(case).film_scale_m)
+        options = {"lubricant.boundary_film": film * scale, "lubricant.boundary_friction": 0.1}
+        found = pyehl.solve(case, options)
+        middle = found.Y.size // 2
+        rows.append((found.X.values, found.P.values[:, middle], found.H.values[:, middle]))
+        # around an ellipse oil flows; a line lets all of it through
+        assert (float(found.contact_load_share) > 0.7) == touching
+    (x, p, h), (x_line, p_line, h_line) = rows
+    np.testing.assert_allclose(x, x_line)
+    inner = np.abs(x) < 1.0
+    np.testing.assert_allclose(h_line[inner], h[inner], rtol=0.01)
+    assert np.sqrt(np.mean((p_line - p)[inner] ** 2)) < 0.007
+
+
 def test_alcouffe_on_a_strip():
     """Transfers by the conductance over the repeating edge: the same but for what cycles leave."""
     wave = {"surface.kind": "harmonic", "surface.wavelength": 1.0, "time.estimate_error": False}
