@@ -2,8 +2,8 @@
 """Rollers of one load with four profiles, straight and misaligned, and random rollers.
 
 ``python docs/evidence/rollers/make.py`` writes profiles.csv; seed_1.json is of
-``python benchmarks/rollers.py --count 40 --seed 1 -o docs/evidence/rollers/seed_1.json``, the others
-of seeds 2, 31 and 32.
+``python benchmarks/rollers.py --count 40 --seed 1 -o docs/evidence/rollers/seed_1.json``; others
+are of seeds 2, 31 and 32.
 """
 
 import csv
