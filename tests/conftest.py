@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What all tests share: the program, the folder of cases, and a way to run both drivers."""
 
+import contextlib
 import importlib
 import importlib.util
+import io
 import os
 import shutil
+import signal
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
@@ -13,6 +16,8 @@ from types import ModuleType
 from typing import Any
 
 import pytest
+
+from pyehl import cli
 
 # products of small matrices are slower on several threads; before NumPy is loaded
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -98,14 +103,50 @@ def drivers(ehl: str) -> dict[str, list[str]]:
     return {"ehl": [ehl], "pyehl": [sys.executable, "-P", "-m", "pyehl", "run"]}
 
 
+@pytest.fixture(scope="session")
+def command() -> Driver:
+    """Call ``pyehl`` in this process: ``command(folder, "check", "case.nml")``.
+
+    Its start would take longer than most of what is tested. After `seconds` the test fails.
+    """
+
+    def call(
+        folder: Path, *words: str | Path, seconds: int = 300
+    ) -> subprocess.CompletedProcess[str]:
+        def late(*_: Any) -> None:
+            pytest.fail(f"{words}: not done after {seconds} s")
+
+        given = [*map(str, words)]
+        printed, complaints = io.StringIO(), io.StringIO()
+        before = signal.signal(signal.SIGALRM, late)
+        signal.alarm(seconds)
+        try:
+            with (
+                contextlib.chdir(folder),
+                contextlib.redirect_stdout(printed),
+                contextlib.redirect_stderr(complaints),
+            ):
+                status = cli.main(given)
+        except SystemExit as stop:
+            status = int(stop.code or 0)
+        finally:
+            signal.alarm(0)
+            signal.signal(signal.SIGALRM, before)
+        return subprocess.CompletedProcess(given, status, printed.getvalue(), complaints.getvalue())
+
+    return call
+
+
 @pytest.fixture
-def drive(drivers: dict[str, list[str]], tmp_path: Path) -> Driver:
+def drive(ehl: str, command: Driver, tmp_path: Path) -> Driver:
     """Run a driver in an empty folder: ``drive("ehl", "case.nml", "-o", "out")``."""
     environment = {k: v for k, v in os.environ.items() if k != "OMP_NUM_THREADS"}
 
     def call(driver: str, *words: str | Path) -> subprocess.CompletedProcess[str]:
+        if driver == "pyehl":
+            return command(tmp_path, "run", *words)
         return subprocess.run(
-            [*drivers[driver], *map(str, words)],
+            [ehl, *map(str, words)],
             cwd=tmp_path,
             env=environment,
             capture_output=True,

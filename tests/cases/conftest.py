@@ -57,7 +57,11 @@ Solve = Callable[..., Run]
 
 
 @pytest.fixture(scope="session")
-def solve(drivers: dict[str, list[str]], tmp_path_factory: pytest.TempPathFactory) -> Solve:
+def solve(
+    ehl: str,
+    command: Callable[..., subprocess.CompletedProcess[str]],
+    tmp_path_factory: pytest.TempPathFactory,
+) -> Solve:
     """Run the program: ``solve((M, L), points, {"group.key": value})``.
 
     The summary of `ehl` has numbers; with `words` the run is by ``pyehl run``, with sentences.
@@ -98,16 +102,20 @@ def solve(drivers: dict[str, list[str]], tmp_path_factory: pytest.TempPathFactor
         if any(word.startswith(COMPLETED) for word in words):
             name, options = f"{folder.name}.nml", []
             (place / name).write_text(pyehl.Case.from_text("", words).text)
+        given = [name, "-o", folder.name, "--quiet", *options]
         began = time.monotonic()
-        done = subprocess.run(
-            [*drivers[driver], name, "-o", folder.name, "--quiet", *options],
-            cwd=place,
-            env=environment,
-            capture_output=True,
-            text=True,
-            timeout=timeout,
-            check=False,
-        )
+        if driver == "pyehl":
+            done = command(place, "run", *given, seconds=int(timeout))
+        else:
+            done = subprocess.run(
+                [ehl, *given],
+                cwd=place,
+                env=environment,
+                capture_output=True,
+                text=True,
+                timeout=timeout,
+                check=False,
+            )
         seconds = time.monotonic() - began
         assert done.returncode in (0, 1), f"{words}: exit status {done.returncode}, {done.stderr}"
         summary = json.loads((folder / "summary.json").read_text())

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Whether the texts of a picture lie on each other."""
 
-import io
 import itertools
 
 from matplotlib.axis import Axis
@@ -10,7 +9,7 @@ from matplotlib.text import Text
 
 def written(figure):
     """Boxes of all texts that are seen, by what they say."""
-    figure.savefig(io.BytesIO(), dpi=figure.dpi)
+    figure.draw_without_rendering()
     numbers = {}
     # of second axes, too, which are no `Axes`
     for axis in figure.findobj(Axis):

@@ -18,8 +18,8 @@ CASE = (
     "&grid points = 65 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
     "&surface kind = 'harmonic' amplitude_over_film = 0.2 wavelength = 1.0 /\n"
 )
-ONCE = 60.0
-"""Seconds within which input is refused, start of the program included."""
+ONCE = 60
+"""Seconds within which input is refused."""
 MAP = """&contact load = 20.0 /
 &grid points = 33 /
 &surface kind = 'map' file = '{}' length_x = 1e-3 length_y = 1e-3 /
@@ -75,13 +75,9 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.parametrize(("words", "part"), COMMANDS, ids=[" ".join(w[:2]) for w, _ in COMMANDS])
-def test_refused_at_once(folder: Path, words: tuple[str, ...], part: str):
-    done = subprocess.run(
-        [sys.executable, "-P", "-m", "pyehl", *words],
-        cwd=folder, capture_output=True, text=True, timeout=ONCE, check=False,
-    )  # fmt: skip
+def test_refused_at_once(command, folder: Path, words: tuple[str, ...], part: str):
+    done = command(folder, *words, seconds=ONCE)
     assert done.returncode in (1, 2)
-    assert "Traceback" not in done.stderr
     assert part in done.stderr
     assert not (folder / "edge-out").exists()
 
@@ -107,13 +103,11 @@ def test_no_memory_on_the_way(folder: Path):
 
 
 @pytest.mark.parametrize("out", ["file/x", "/proc/pyehl"])
-def test_no_place_for_a_folder(folder: Path, out: str):
+def test_no_place_for_a_folder(command, folder: Path, out: str):
     (folder / "file").write_text("", encoding="utf-8")
-    words = [sys.executable, "-P", "-m", "pyehl", "run", "case.nml", "-o", out]
-    done = subprocess.run(words, cwd=folder, capture_output=True, text=True, check=False)
+    done = command(folder, "run", "case.nml", "-o", out)
     assert done.returncode == 2
     assert out in done.stderr
-    assert "Traceback" not in done.stderr
 
 
 def test_folder_taken_away_from_a_run(folder: Path):

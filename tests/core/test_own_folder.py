@@ -5,7 +5,6 @@ import os
 import signal
 import socket
 import subprocess
-import sys
 import time
 from pathlib import Path
 
@@ -120,7 +119,7 @@ def test_long_name_is_refused_before_computing(drive, case: Path, driver: str, e
     ],
     ids=lambda words: words.partition(" ")[0],
 )
-def test_every_command_refuses_a_long_name(drive, case: Path, words: str):
+def test_every_command_refuses_a_long_name(drive, command, case: Path, words: str):
     folder = case.parent
     keys = {"contact.load": 20.0, "contact.mean_velocity": 1.0, "contact.radius": 0.01}
     surface = {"surface.kind": "fractal", "surface.rms_height": 2e-8, "surface.pixels": 32}
@@ -129,8 +128,7 @@ def test_every_command_refuses_a_long_name(drive, case: Path, words: str):
         done = drive("ehl", "case.nml", "--set", "surface.kind=smooth", "-o", "out", *QUICK)
         assert done.returncode == 0, done.stderr
     before = sorted(folder.iterdir())
-    called = [sys.executable, "-P", "-m", "pyehl", *words.format("x" * 250).split()]
-    done = subprocess.run(called, cwd=folder, capture_output=True, text=True, check=False)
+    done = command(folder, *words.format("x" * 250).split())
     assert done.returncode == 2, done.stderr
     assert "the name is too long\nexpected: a shorter name" in done.stderr
     assert sorted(folder.iterdir()) == before
@@ -153,8 +151,8 @@ def test_what_killed_runs_left_goes(drive, case: Path):
         assert (folder / name / "P.npy").exists()
 
 
-@pytest.mark.parametrize("command", ["run", "predict"])
-def test_next_result_removes_locks_of_killed_runs(drive, drivers, case: Path, command: str):
+@pytest.mark.parametrize("name", ["run", "predict"])
+def test_next_result_removes_locks_of_killed_runs(drivers, command, case: Path, name: str):
     """The state of the killed run stays, as do locks of others and what no run wrote."""
     folder, words = case.parent, [*drivers["ehl"], "case.nml", "-o", "out", "-q"]
     with subprocess.Popen([*words, "--set", "grid.points=257"], cwd=folder) as first:
@@ -168,15 +166,14 @@ def test_next_result_removes_locks_of_killed_runs(drive, drivers, case: Path, co
     start = Path("/proc/self/stat").read_text().rpartition(")")[2].split()[19]
     kept = {"alive.lock": f"{MARK}{os.getpid()} {start} {socket.gethostname()}\n"}
     kept |= {"far.lock": f"{MARK}{dead_process()} 1 another-machine\n", "mine.lock": "notes\n"}
-    for name, text in kept.items():
-        (folder / name).write_text(text)
-    words = [*drivers["pyehl"][:-1], command, "case.nml", "-o", "other"]
-    words += ["--set", "surface.kind='fractal'" if command == "predict" else "grid.points=65"]
-    done = subprocess.run(words, cwd=folder, capture_output=True, text=True, check=False)
+    for lock, text in kept.items():
+        (folder / lock).write_text(text)
+    option = "surface.kind='fractal'" if name == "predict" else "grid.points=65"
+    done = command(folder, name, "case.nml", "-o", "other", "--set", option)
     assert done.returncode == 0, done.stderr
     expected = {"case.nml", "other", "out.checkpoint", *kept}
     assert {path.name for path in folder.iterdir()} == expected
-    assert {name: (folder / name).read_text() for name in kept} == kept
+    assert {lock: (folder / lock).read_text() for lock in kept} == kept
 
 
 @DRIVERS

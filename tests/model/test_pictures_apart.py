@@ -43,7 +43,7 @@ def rows_of(path):
         return [{name: value(cell) for name, cell in r.items()} for r in csv.DictReader(stream)]
 
 
-@pytest.mark.parametrize("units", ["si", "hertz"])
+@pytest.mark.parametrize("units", ["si", pytest.param("hertz", marks=pytest.mark.long)])
 @pytest.mark.parametrize(
     ("case", "count"),
     [("roller", 2), ("duty", 3), ("greased", 2), ("line", 1), ("gear_pair", 5), ("dent", 5)],
@@ -58,7 +58,7 @@ def test_shapes_and_conditions_of_a_contact(cases, case, count, units):
         assert_apart(figure, (case, name))
 
 
-@pytest.mark.parametrize("length", [2e-4, 8e-4])
+@pytest.mark.parametrize("length", [2e-4, pytest.param(8e-4, marks=pytest.mark.long)])
 @pytest.mark.parametrize("kappa", [0.1, 1.0, 25.0])
 def test_prediction_of_two_surfaces(kappa, length):
     """Roughness of both, their spectra and the passage of both."""
@@ -121,6 +121,7 @@ def test_stress_waves_and_a_prepared_scan(cases):
     assert_apart(surface.before_and_after(scan, (2e-4, 1e3, 10.0, "components")), "scan")
 
 
+@pytest.mark.long
 def test_pictures_of_the_primer_and_the_front_page(seen, script, monkeypatch, root, cases):
     """Sketch, films, map of the first picture, and all of the primer."""
     monkeypatch.syspath_prepend(str(root / "docs" / "start"))
@@ -137,6 +138,7 @@ def test_pictures_of_the_primer_and_the_front_page(seen, script, monkeypatch, ro
         assert_apart(made, name)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("folder", "name", "table"),
     [

@@ -2,7 +2,6 @@
 """Pictures: what they show, on fields that are known."""
 
 import dataclasses
-import io
 import itertools
 import json
 import struct
@@ -187,7 +186,8 @@ def test_wavelengths_of_few_octaves_are_readable(count):
     figure = panels.panels(2, (1.0, 0.8), "octaves", room=(0.7, 0.9, 0.1))
     ax = figure.axes[1]
     surface.octaves([(1.2e-4 / 2**k, 0.6e-4 / 2**k, 0.01) for k in range(count)], ax=ax)
-    figure.savefig(io.BytesIO(), dpi=100)
+    figure.set_dpi(100)
+    figure.draw_without_rendering()
     assert clear(ax)
 
 
@@ -200,7 +200,8 @@ def test_slender_maps_are_readable(sides):
     surface.heights(tile, ax=figure.axes[0])
     surface.spectrum_map(tile, ax=figure.axes[1])
     surface.spectrum_line(tile, heights, heights, ax=figure.axes[2])
-    figure.savefig(io.BytesIO(), dpi=100)
+    figure.set_dpi(100)
+    figure.draw_without_rendering()
     assert all(clear(ax) for ax in figure.axes[:3])
 
 
@@ -212,8 +213,17 @@ def test_only_a_failed_run_has_words_above_its_panels():
         assert "M = 412.9" in figure.get_label()
 
 
-@pytest.mark.parametrize("units", ["si", "hertz"])
-@pytest.mark.parametrize("kappa", [0.1, 0.3, 0.45, 1.0, 2.0, 3.0, 6.0, 10.0, 25.0])
+KAPPAS = [0.1, 0.3, 0.45, 1.0, 2.0, 3.0, 6.0, 10.0, 25.0]
+
+
+@pytest.mark.parametrize(
+    ("kappa", "units"),
+    [
+        pytest.param(kappa, units, marks=[pytest.mark.long] if (k + shift) % 2 else [])
+        for shift, units in enumerate(("si", "hertz"))
+        for k, kappa in enumerate(KAPPAS)
+    ],
+)
 def test_no_texts_of_a_solution_collide(kappa, units):
     """Pictures of smooth and rough contacts that are narrow, round and wide."""
     x = kappa * 0.0 + np.linspace(-2.5, 1.5, 65) * max(1.0, 0.3 / kappa)
@@ -257,9 +267,15 @@ def test_no_texts_of_a_rough_surface_collide(kappa):
         assert_apart(figure, name)
 
 
-@pytest.mark.parametrize("key", ["contact.mean_velocity", "lubricant.temperature"])
-@pytest.mark.parametrize("count", [1, 3])
-@pytest.mark.parametrize("contact", [True, False])
+@pytest.mark.parametrize(
+    ("key", "count", "contact"),
+    [
+        ("contact.mean_velocity", 1, True),
+        ("contact.mean_velocity", 3, False),
+        ("lubricant.temperature", 1, False),
+        ("lubricant.temperature", 3, True),
+    ],
+)
 def test_no_texts_of_a_curve_collide(key, count, contact):
     """Stribeck and traction curves with all that can be drawn over them."""
     places = np.array([0.02, 0.1, 0.5, 2.0, 10.0]) * (10.0 if "temp" in key else 1.0)
@@ -357,7 +373,7 @@ def test_writing_in_the_pictures_of_a_prediction_is_whole(settings, rms, length,
     made = figures.prediction_figures(result.summary, result.arrays, result.tables)
     assert len(made) == 3
     for figure in made.values():
-        figure.savefig(io.BytesIO(), dpi=figure.dpi)
+        figure.draw_without_rendering()
         assert "M = " in figure.get_label()
         panels = [ax for ax in figure.axes if ax.get_subplotspec() is not None]
         boxes = {}
