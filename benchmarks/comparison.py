@@ -10,7 +10,7 @@ from numpy import asarray
 
 from pyehl.case import Case
 from pyehl.handle import SolverHandle, results_of
-from pyehl.prediction.simulation import hand_over
+from pyehl.prediction.simulation import transfer
 from pyehl.types import Row, Values
 
 # Bits cannot be equal where sums are taken in another order; the cycles may make it more
@@ -36,7 +36,7 @@ def solve_from_prediction(*options: str) -> dict[str, Any]:
     """Solve the same from the prediction on; what that costs is in it."""
     case = Case.from_text("", [*options, "solver.threads=1", "time.start=prediction"])
     with SolverHandle(case.text) as solver:
-        hand_over(solver, case.resolve(), {}, whole=True)
+        transfer(solver, case.resolve(), {}, whole=True)
         solver.run()
         return results_of(solver).values
 

@@ -36,7 +36,7 @@ SAME = 1e-9
 """Relative difference of numbers that are one number."""
 ENDED = 1e-3
 """That of solutions whose cycles ended at another residual."""
-LEAST, MOST = 100.0, 1000.0
+MIN_M, MAX_M = 100.0, 1000.0
 """M: the range of the response of most contacts."""
 POINTS_ERROR = 0.02
 """Error of friction and load share as sums over the points of a prediction, which are not the nodes
@@ -112,7 +112,7 @@ def _one(number: int, rng: np.random.Generator, grids: Sequence[int]) -> Contact
         point, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
         film = central_film(point, oil)
         missed = INLET * (LENGTH / (points - 1)) ** 2 * (film / point.film_scale) ** (-4.0 / 3.0)
-        if missed > RESOLVED or not LEAST < point.equivalent_moes[0] < MOST:
+        if missed > RESOLVED or not MIN_M < point.equivalent_moes[0] < MAX_M:
             continue
         a = point.hertz_radius
         keys["lubricant.boundary_film"] = float(

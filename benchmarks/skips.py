@@ -46,7 +46,7 @@ EXACTER = "solver.accuracy=0.02"
 # Relative algebraic error at which the first grid of the nested iteration is left
 START_TOLERANCE = 1e-3
 # The grid coarser than this has no solution at Table 1, so that the error is not known
-LEAST = 257
+MIN_POINTS = 257
 # Periods after which a run of fixed length is over: until the start has died out, and one more
 FIXED_PERIODS = 3
 # Surfaces of a sweep
@@ -55,7 +55,7 @@ PREDICTIONS = 20
 
 def smooth_scene(points: int) -> list[Row]:
     """Smooth contact of Table 1 in SI units."""
-    points = max(points, LEAST)
+    points = max(points, MIN_POINTS)
     problem, grid = "smooth contact, SI units", f"grid.points={points}"
 
     def usual() -> Values:
@@ -190,13 +190,13 @@ def _smooth_of(options: Sequence[str], *, symmetric: bool) -> dict[str, Any]:
 
 def wave_scene(points: int) -> list[Row]:
     """Wave of Fig. 2 of Zhang et al. 2019: symmetric in Y."""
-    options = [*WAVE, f"grid.points={max(points, LEAST)}"]
+    options = [*WAVE, f"grid.points={max(points, MIN_POINTS)}"]
     return _run_rows("symmetric wave", options, symmetric=True)
 
 
 def fractal_scene(points: int) -> list[Row]:
     """Fractal surface of Table 1."""
-    options = [*FRACTAL, f"grid.points={max(points, LEAST)}"]
+    options = [*FRACTAL, f"grid.points={max(points, MIN_POINTS)}"]
     return _run_rows("fractal surface", options, symmetric=False)
 
 
@@ -252,7 +252,7 @@ def work(args: argparse.Namespace) -> Row:
 
 def main(words: Sequence[str] | None = None) -> int:
     """Run the script; exit status 1 if skipped work would change a result."""
-    made = parser(__doc__, points=(LEAST,))
+    made = parser(__doc__, points=(MIN_POINTS,))
     add_list(made, "problems", list(PROBLEMS), known=list(PROBLEMS))
     return measure(work, made, words)
 

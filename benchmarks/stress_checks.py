@@ -23,7 +23,7 @@ HELD = 0.01
 """Share of the layer by which the film of a touching node may differ from it."""
 LOAD = 1e-4
 """Error of the load and of the load share as summed here; these are sums over the same nodes."""
-LEAST = 1e-3
+MIN_ERROR = 1e-3
 """Share of the load that any load share may be off by."""
 
 
@@ -61,7 +61,7 @@ def judge_share(row: dict[str, Any], name: str, reported: Mapping[str, Any]) -> 
     if None in (value, other):
         return
     stated = row["contact_load_share_error"]
-    allowed = UNKNOWN_ERROR if stated is None else max(stated, LEAST)
+    allowed = UNKNOWN_ERROR if stated is None else max(stated, MIN_ERROR)
     row["wrong"] = row["wrong"] or abs(value - other) > allowed
 
 

@@ -126,7 +126,7 @@ def _contact(s: Summary) -> list[str]:
     error, supply = s.number("contact_load_share_error"), s.number("layer_supply")
     known = f"an error of {percent(error)} of the load" if math.isfinite(error) else ""
     found = [
-        f"mixed film: {percent(share)} of the load is carried at the boundary film, with "
+        f"mixed film: {percent(share)} of the load is sustained by the boundary film, with "
         f"{known or 'an error that is not known'}"
     ]
     if _finite_above(supply, MUCH_SUPPLIED):
@@ -143,7 +143,7 @@ def _yielding(s: Summary) -> list[str]:
     if not _finite_above(share, 0.0):
         return []
     return [
-        f"yielding solids: {percent(share)} of the load is carried at their hardness, with a "
+        f"yielding solids: {percent(share)} of the load is sustained at their hardness, with a "
         f"plastic depth of up to {rounded(s.number('plastic_depth_max_m') * 1e9)} nm, "
         "as in a first pass"
     ]

@@ -22,7 +22,7 @@ from pyehl.reasons import Results
 from pyehl.types import Array
 
 # Bytes of names and number of values at first
-ROOM, MOST = 16384, 400
+MIN_BYTES, MIN_VALUES = 16384, 400
 NO_HEIGHTS = np.zeros((1, 1), order="F")
 
 
@@ -258,7 +258,7 @@ def plan_of(solver: SolverHandle) -> Results:
 
 
 def _listed(solver: SolverHandle, *, of_plan: bool) -> Results:
-    room, most = ROOM, MOST
+    room, most = MIN_BYTES, MIN_VALUES
     while True:
         names, kinds = np.empty(room, np.int32), np.empty(most, np.int32)
         values = np.empty(most)

@@ -46,9 +46,9 @@ class Predictions:
     def begin(self, solver: SolverHandle) -> None:
         """Hand a solver the start that it needs; mostly it needs none."""
         if start_fronts(solver).size:
-            from pyehl.prediction.simulation import hand_over  # noqa: PLC0415
+            from pyehl.prediction.simulation import transfer  # noqa: PLC0415
 
-            hand_over(solver, self._case.resolve(), self._tiles, whole=self._whole)
+            transfer(solver, self._case.resolve(), self._tiles, whole=self._whole)
 
     def _resolution_once(self) -> Resolution | str | None:
         """Predict what the grid does not resolve; text: why there is no prediction."""
@@ -72,7 +72,7 @@ class Predictions:
             return [f"predicted   no mu_r/mu_s: {found}"]
         return found.report() if found else []
 
-    def hand_over(self, solver: SolverHandle) -> None:
+    def transfer(self, solver: SolverHandle) -> None:
         """Pass to a solver what is predicted, if the error of its mu_ratio depends on it."""
         found_so_far = {} if self._passed else results_of(solver).values
         if found_so_far.get("mu_ratio") is None or not found_so_far["variance_unresolved"]:

@@ -185,7 +185,7 @@ sp | mu | - | coefficient of friction of the rough contact, with heat where it c
 sp | mu_smooth | - | coefficient of friction of the smooth contact, with heat where it counts
 sp | mu_isothermal | - | mu without heat
 sp | mu_smooth_isothermal | - | mu_smooth without heat
-sp | temperature_rise_max_K | K | maximum mean rise across the film; rough: at the end of a run
+sp | temperature_rise_max_K | K | maximum temperature rise, mean across the film; rough: at the end
 sp | temperature_rise_wall_1_max_K | K | the same of the surface of body 1
 sp | temperature_rise_wall_2_max_K | K | the same of the surface of body 2
 sp | boundary_film | a^2/R | film at ambient pressure at which bodies touch
@@ -202,7 +202,7 @@ s | plastic_depth_max_m | m | maximum depth of plastic deformation
 s | flowing_load_share_at_hardness | - | share of the load where they yield under a flowing film
 s | layer_supply | - | mass defect of the boundary film there, over the flow along with the surfaces
 sp | mu_note | | what mu holds and leaves out
-sp | flash_temperature_K | K | maximum rise of the surfaces by a formula (Tian & Kennedy), at mu
+sp | flash_temperature_K | K | maximum temperature rise of the surfaces (Tian & Kennedy), at mu
 sp | shear_rate_mean_per_s | 1/s | mean shear rate
 sp | shear_stress_max_Pa | Pa | maximum shear stress
 s | rolling_moment | p_h a^3 | iint H/2 dP/dX of the smooth contact, which resists the rolling
@@ -265,7 +265,7 @@ s | start_note | | why they did not begin with the prediction that was asked for
 s | steps_skipped | - | steps that were not needed at the start
 s | cycles_per_step | - | cycles of a step
 s | seconds_per_step | s | time of a step
-s | step_residual_allowed | - | largest residual at which a step was allowed to end
+s | step_residual_allowed | - | maximum residual at which a step was allowed to end
 s | coarsening_changed_at | - | step in which the coarsening changed; 0: none
 p | outside_range | | what lies outside of the range of the model
 p | note | | what mu_ratio is
@@ -321,7 +321,7 @@ f | formulas | | what each film formula gives
 r | waves | - | number of waves that were measured
 r | tiers | | runs that they are from: grid, tile, waves, film, residual of the fit
 r | shipped_difference_rms | - | rms difference to the response that the prediction uses, at X = 0
-r | shipped_difference_max | - | largest difference to it
+r | shipped_difference_max | - | maximum difference from it
 r | within_fitted_range | | whether it was fitted at such a point
 """
 

@@ -156,13 +156,13 @@ class Solver(SolverHandle):
         if not self._calls:
             self._predictions.begin(self)
         if super().advance():
-            self._predictions.hand_over(self)
+            self._predictions.transfer(self)
         return self.done
 
     def interrupt(self) -> None:
         """Stop here; the results so far stay readable, with the status 'interrupted'."""
         super().interrupt()
-        self._predictions.hand_over(self)
+        self._predictions.transfer(self)
 
     def __repr__(self) -> str:
         """Give the case and the state in one line."""
@@ -212,7 +212,7 @@ class Solver(SolverHandle):
 
     def conclusion(self) -> str:
         """Describe the results of a run that has ended, with their errors, in a few lines."""
-        self._predictions.hand_over(self)
+        self._predictions.transfer(self)
         return str(conclude(self.summary))
 
     def resumption(self, results: str | os.PathLike[str]) -> str:
@@ -260,7 +260,7 @@ class Solver(SolverHandle):
 
     def _fill(self, folder: Path) -> None:
         """Write all files into an empty folder, with what the library does not know."""
-        self._predictions.hand_over(self)
+        self._predictions.transfer(self)
         self._write(folder)
         lines = [self._plan_text(), *self._lines()]
         (folder / "plan.txt").write_text("\n".join([*lines, ""]), encoding="utf-8")

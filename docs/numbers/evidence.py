@@ -44,8 +44,8 @@ def ellipse() -> Values:
     assert (len(whole), len(cases)) == (6, 30)
     blind = [row for row in rows if row["name"][0] == "r"]
     low, high = (
-        largest(of([r for r in blind if (float(r["mu_ratio"]) <= 1.5) is told], BEFORE), 1)
-        for told in (True, False)
+        largest(of([r for r in blind if (float(r["mu_ratio"]) <= 1.5) is small], BEFORE), 1)
+        for small in (True, False)
     )
     assert all(row["covered_before"] == "1" for row in blind)
     covered = sum(row["covered_before"] == "1" for row in rows)

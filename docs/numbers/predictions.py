@@ -35,7 +35,7 @@ def share_of_contact() -> Values:
 def mixed() -> Values:
     """How good the load share of a prediction is, and how it changes with the mesh."""
     rows = read("partial/table.csv")
-    blind, others = ([r for r in rows if (r["name"][0] == "d") == told] for told in (True, False))
+    blind, others = ([r for r in rows if (r["name"][0] == "d") == first] for first in (True, False))
     worst = np.abs(of(blind, "contact_load_share_predicted") - of(blind, "contact_load_share"))
     covered = int(np.sum(worst <= of(blind, "stated_error")))
     off = np.abs(of(others, "contact_load_share_now") - of(others, "contact_load_share"))

@@ -19,9 +19,9 @@ def others() -> Values:
         assert abs(share) <= LIMITS[row["group"]]
         if row["group"] in ("circle", "ellipse"):
             smooth[row["quantity"]].append(abs(share))
-        told = f"{share:+.2f} %".replace("-", "−")
-        told = told[1:] if told[1:] == "0.00 %" else told
-        lines.append(f"{float(row['theirs']):.5g} | {float(row['ours']):.5g} | {told}")
+        text = f"{share:+.2f} %".replace("-", "−")
+        text = text[1:] if text[1:] == "0.00 %" else text
+        lines.append(f"{float(row['theirs']):.5g} | {float(row['ours']):.5g} | {text}")
     central, least = (f"{max(smooth[name]):.2f}" for name in ("H_c", "H_min"))
     return locals()
 

@@ -94,7 +94,7 @@ def simulations(runs: Runs, level: Level) -> tuple[list[Row], list[Made]]:
     return [*made.rows, *others.rows], [made, others]
 
 
-def carried(points: int) -> list[str]:
+def resolved_waves(points: int) -> list[str]:
     """Options that leave the waves that a grid resolves: longer than two nodes."""
     _, point = tile()
     shortest = 2.0 * WIDTH / (points - 1) * point.hertz_radius
@@ -107,7 +107,7 @@ def predictions(runs: Runs, level: Level, model: str) -> Made:
         f"predictions-{model}-{level.surfaces}-{level.surface_grid}",
         CASE + MODELS[model],
         {"surface.seed": list(range(SEED, SEED + level.surfaces))},
-        options=carried(level.surface_grid),
+        options=resolved_waves(level.surface_grid),
         run="predict",
     )
 

@@ -190,15 +190,15 @@ def _damping(data: list[Collapsed], eq_16: tuple[float, float], level: Level) ->
         ratios += [(float(f.friction[k]), float(c.theta_2[k])) for k in np.flatnonzero(point)]
     if len(ratios) != len(data):
         return []
-    (damped, theta), (carried, _) = ratios
-    if not (math.isfinite(damped) and math.isfinite(carried)):
+    (damped, theta), (narrow, _) = ratios
+    if not (math.isfinite(damped) and math.isfinite(narrow)):
         return []
     mesh = 4.0 / (level.collapse_grid - 1)
     left = math.exp(-0.5 * mesh**3 * (2.0 * math.pi / lam) ** 4)
     text = (
         f"At M = {m:g}, L = {ell:g}, wavelength {lam:g} a, H_c/A_i = {ratio:g} on "
         f"{level.collapse_grid} x {level.collapse_grid} nodes mu_r/mu_s is {damped:.3f} under the "
-        f"scheme of the paper and {carried:.3f} under the narrow scheme; eq. 16 gives "
+        f"scheme of the paper and {narrow:.3f} under the narrow scheme; eq. 16 gives "
         f"{float(evaluate(np.array(theta), *eq_16)):.3f}. The paper discretises wedge and squeeze "
         "separately, which damps a wave on its way: of its amplitude "
         f"exp(-h^3 k^4 (X + 1)/2) = {left:.2f} is left at the centre. A damped wave is fully "

@@ -132,9 +132,9 @@ def _response(waves: _Waves, zone: Zone, point: OperatingPoint, velocity: float,
     for i in range(x.size):
         driven, free = (part.reshape(shape) for part in parts[back[i]])
         here = weight * np.exp(1j * waves.qx[half] * waves.x[i])[:, None]
-        carried = free * np.exp(1j * waves.qx[half] * (velocity - 1.0) * x[i])[:, None]
+        convected = free * np.exp(1j * waves.qx[half] * (velocity - 1.0) * x[i])[:, None]
         for k, inlet in enumerate(inlets):
-            out[k, i] = ((here * (driven + carried * inlet)).sum(axis=0) @ across).real
+            out[k, i] = ((here * (driven + convected * inlet)).sum(axis=0) @ across).real
     return out
 
 
@@ -207,15 +207,15 @@ def _told(
         f"{ours_wide[1]:.3f} and {theirs_wide[1]:.3f}. Towards the sides the inlet is oblique, "
         "and the response has the normal of each line.",
         f"The roughness that the predictions start from is that of the solver to "
-        f"{100 * data.at_node:.2g} % of its rms (what the grid does not carry).",
+        f"{100 * data.at_node:.2g} % of its rms (what the grid does not resolve).",
     ]
     findings = [
         Finding(
             "Free waves and slip in the deformed roughness",
             "The amplitude ratio of the paper moves with the roughness: its deformed surface "
             f"correlates with the simulation by {theirs[0]:.3f}, ours, whose free waves are made "
-            f"in the inlet and carried at the mean velocity, by {ours[0]:.3f}. The paper compares "
-            "height distributions only, which do not see a shift.",
+            f"in the inlet and convected at the mean velocity, by {ours[0]:.3f}. The paper "
+            "compares height distributions only, which do not see a shift.",
         )
     ] if theirs[0] < ours[0] else []  # fmt: skip
     return notes, findings

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import pictures
-from conditions import MODELS, SEED, carried, predictions, simulations
+from conditions import MODELS, SEED, predictions, resolved_waves, simulations
 from piece import Check, Finding, Level, References, Result
 from runs import Made, Runs, friction_of
 from table1 import CASE
@@ -44,7 +44,9 @@ def run(runs: Runs, level: Level) -> Surfaces:
     vary = {"surface.velocity_ratio": list(VELOCITY_RATIOS)}
     slip = [
         runs.study(f"slip-{grid}", CASE + text, vary),
-        runs.study(f"slip-predictions-{grid}", CASE, vary, options=carried(grid), run="predict"),
+        runs.study(
+            f"slip-predictions-{grid}", CASE, vary, options=resolved_waves(grid), run="predict"
+        ),
     ]
     return Surfaces(
         friction_of(rows),

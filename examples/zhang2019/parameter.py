@@ -59,9 +59,9 @@ def _of_contact(moes_m: float, moes_l: float, wavelength: Array, velocity_ratio:
     zone = zone_of(contact, point, oil)
     ((driven, free),) = transport(zone, k, k, velocity_ratio, np.array([0.0]))
     slip = np.exp(1j * k * (velocity_ratio - 1.0))
-    carried = free * inlet_transfer(zone, k, k, (moes_m, moes_l), velocity_ratio) * slip
-    t = driven + carried
+    convected = free * inlet_transfer(zone, k, k, (moes_m, moes_l), velocity_ratio) * slip
+    t = driven + convected
     film = contact.central_film
-    pressure_wave = wave_pressure(k, k, velocity_ratio, driven, carried) * edge_gain(k, k, film)
+    pressure_wave = wave_pressure(k, k, velocity_ratio, driven, convected) * edge_gain(k, k, film)
     across = np.sqrt(0.5 * (1.0 + np.exp(-2.0 * k * k / thickening)))
     return np.asarray(1.0 / (np.abs(thickening * pressure_wave + t / film) * across))

@@ -73,20 +73,20 @@ def _run(args: argparse.Namespace) -> int:
     level, jobs, folder = LEVELS[args.level], jobs_of(args), Path(args.output)
     watchers: list[Terminal] = []
 
-    def tell(text: str) -> None:
+    def report(text: str) -> None:
         if not args.quiet:
             print(text, flush=True)
 
     def watch(name: str, todo: Plan) -> Terminal:
-        tell(name)
+        report(name)
         watchers.append(Terminal(lambda finished: todo.text(jobs, finished), quiet=args.quiet))
         return watchers[-1]
 
     def done(result: Result) -> None:
-        tell(f"{result.name:10} {result.line()}  [{result.wall:.0f} s]")
+        report(f"{result.name:10} {result.line()}  [{result.wall:.0f} s]")
         for check in result.checks:
             if not check.passed:
-                tell(f"           {check}")
+                report(f"           {check}")
 
     try:
         results = reproduce(
@@ -104,7 +104,7 @@ def _run(args: argparse.Namespace) -> int:
     finally:
         for watcher in watchers:
             watcher.close()
-    tell(f"report     {folder / 'report.html'}")
+    report(f"report     {folder / 'report.html'}")
     return 0 if all(r.passed for r in results) else 1
 
 

@@ -16,7 +16,7 @@ from tornado.web import HTTPError, RequestHandler
 
 from pyehl.app.page import Page
 from pyehl.app.position import Position
-from pyehl.app.uploads import LARGEST
+from pyehl.app.uploads import MAX_BYTES
 from pyehl.errors import InputError
 
 ADDRESS = "127.0.0.1"
@@ -69,7 +69,7 @@ def make_server(
             allow_websocket_origin=[f"{host}:{found}" for host in HOSTS],
             check_unused_sessions_milliseconds=LOOK,
             unused_session_lifetime_milliseconds=UNUSED,
-            websocket_max_message_size=2 * LARGEST,
+            websocket_max_message_size=2 * MAX_BYTES,
         )
     except OSError as error:
         raise InputError(

@@ -13,7 +13,7 @@ from typing import Any
 from pyehl.errors import EhlError, InputError
 from pyehl.surfaces.reading import read_scan
 
-LARGEST = 64 * 2**20
+MAX_BYTES = 64 * 2**20
 """Bytes of the largest file that is taken."""
 # What is read for the first time, and what could be read
 PLACES = ("new", "maps")
@@ -37,8 +37,8 @@ class Uploads:
         base = re.sub(r"[^\w.\- ]", "_", Path(name.replace("\\", "/")).name).lstrip(".")
         if not base:
             raise InputError("the map has no name: expected a file")
-        if len(data) > LARGEST:
-            raise InputError(f"{base}: {len(data)} bytes; a map of up to {LARGEST} was expected")
+        if len(data) > MAX_BYTES:
+            raise InputError(f"{base}: {len(data)} bytes; a map of up to {MAX_BYTES} was expected")
         fresh, path = (Path(self._folder.name) / place / base for place in PLACES)
         fresh.write_bytes(data)
         try:

@@ -8,7 +8,7 @@ from pyehl.case.settings import Draft
 # Least distance of the sides of the domain, in terms of the contact
 BEYOND_CONTACT = 1.05
 # Fewest and most intervals per side of the coarsest grid, as in fortran/grid/grid.f90
-FEWEST, MOST = 16, 32
+MIN_COARSEST, MAX_COARSEST = 16, 32
 ENDS = ("x_inlet", "x_outlet", "y_extent")
 
 
@@ -70,8 +70,8 @@ def check_points(draft: Draft) -> None:
         above += 1
     why = "too few grids can be made by halving" if points % 2 else "an even number of points"
     expected = (
-        f"an odd number with points - 1 halved down to an even number of {MOST} or less; the "
-        f"nearest are {below} and {above}"
+        f"an odd number with points - 1 halved down to an even number of {MAX_COARSEST} or less; "
+        f"the nearest are {below} and {above}"
     )
     draft.refuse("grid.points", f"grid.points = {points}: {why}", expected)
 
@@ -93,6 +93,6 @@ def _check_rows(draft: Draft) -> None:
 def _coarsest(nx: int, ny: int) -> int:
     """Intervals along X of the coarsest grid that halving leads to; 0 where there is none."""
     x, y = nx - 1, ny - 1
-    while x % 4 == y % 4 == 0 and min(x, y) >= 2 * FEWEST:
+    while x % 4 == y % 4 == 0 and min(x, y) >= 2 * MIN_COARSEST:
         x, y = x // 2, y // 2
-    return 0 if min(x, y) > MOST or x % 2 or y % 2 or min(nx, ny) < 3 else x
+    return 0 if min(x, y) > MAX_COARSEST or x % 2 or y % 2 or min(nx, ny) < 3 else x

@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import Any, TypeVar
 
 # Digits behind a point or before it that are written plainly
-LEAST, LARGEST = 1e-4, 1e7
+MIN_DECIMAL, MAX_DECIMAL = 1e-4, 1e7
 
 
 def to_text(value: bool | int | float | str | tuple[float, ...]) -> str:
@@ -27,7 +27,7 @@ def to_text(value: bool | int | float | str | tuple[float, ...]) -> str:
 
 def real_text(value: float) -> str:
     """Give the shortest decimal text that reads back as exactly the number."""
-    if LEAST <= abs(value) < LARGEST:
+    if MIN_DECIMAL <= abs(value) < MAX_DECIMAL:
         return repr(value)
     if value == 0.0:
         return "0.0"

@@ -23,7 +23,7 @@ SAME_TEMPERATURE = 0.01
 # Laws without constants of an oil, which rise up to any pressure
 SIMPLE_VISCOSITY, SIMPLE_DENSITY = ("roelands", "barus"), ("dowson-higginson", "incompressible")
 # Roelands exponents of liquids: water has 0.04, mineral oils 0.6
-MIN_Z, LARGEST_Z = 1e-3, 2.0
+MIN_Z, MAX_Z = 1e-3, 2.0
 CONTACT_IN_SI = "load, mean_velocity, radius and reduced_modulus"
 
 
@@ -183,11 +183,11 @@ def _check_roelands(draft: Draft) -> None:
     """Refuse an exponent that no liquid has, at the key that it is from."""
     oil = draft.settings.lubricant
     # without alpha the law has nothing to say
-    if oil.pressure_viscosity <= 0.0 or MIN_Z <= oil.roelands_z <= LARGEST_Z:
+    if oil.pressure_viscosity <= 0.0 or MIN_Z <= oil.roelands_z <= MAX_Z:
         return
     # a small one mostly has its reason in alpha, a large one in the viscosity
     alpha, viscosity = ["pressure_viscosity"], ["viscosity", "kinematic_viscosity_40"]
-    by = viscosity + alpha if oil.roelands_z > LARGEST_Z else alpha + viscosity
+    by = viscosity + alpha if oil.roelands_z > MAX_Z else alpha + viscosity
     names = ("roelands_z", *by, "roelands_p0")
     at = next((name for name in names if draft.is_given("lubricant", name)), "roelands_z")
     what = f"lubricant.roelands_z = {short(oil.roelands_z)}"

@@ -136,7 +136,7 @@ class Source:
         raise InputError(message.encode(errors="surrogateescape").decode(errors="replace"))
 
 
-LARGEST = 1_000_000
+MAX_BYTES = 1_000_000
 """Bytes of the largest file; anything longer is not one."""
 BYTE_ORDER_MARK = "\ufeff"
 
@@ -169,7 +169,7 @@ def _text(path: str) -> str:
     if not os.path.isfile(path):
         raise _Refused("this is a device or a pipe, not a file")
     with open(path, "rb") as file:
-        data = file.read(LARGEST + 1)
-    if len(data) > LARGEST:
-        raise _Refused(f"not a file of at most {LARGEST} bytes")
+        data = file.read(MAX_BYTES + 1)
+    if len(data) > MAX_BYTES:
+        raise _Refused(f"not a file of at most {MAX_BYTES} bytes")
     return data.decode(errors="surrogateescape")

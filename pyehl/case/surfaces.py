@@ -10,7 +10,7 @@ from pyehl.case.settings import Draft
 from pyehl.case.surface_group import Surface
 
 GROUPS = ("surface", "second_surface")
-LARGEST_SEED = 2147483647
+MAX_SEED = 2147483647
 # Size of the tile of Table 1 of Zhang et al. 2019 [m]
 FRACTAL_LENGTH = 8.29e-4
 # Rq over Ra of normal heights
@@ -49,7 +49,7 @@ def complete(draft: Draft) -> None:
         _complete_pattern(draft, group, surface)
     # two fractal surfaces of one seed are the same surface, whose waves add up
     if first.kind == second.kind == "fractal" and not draft.is_given("second_surface", "seed"):
-        second.seed = first.seed + (1 if first.seed < LARGEST_SEED else -1)
+        second.seed = first.seed + (1 if first.seed < MAX_SEED else -1)
     for group, one, other in ((GROUPS[0], first, second), (GROUPS[1], second, first)):
         # a feature comes when the roughness of the other surface has filled the contact, with the
         # film that it made in the inlet

@@ -9,7 +9,7 @@ from typing import Any
 from pyehl.commands.arguments import add_overrides
 from pyehl.commands.watching import Terminal, add_worker_arguments, jobs_of, report_lost
 from pyehl.errors import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, InputError
-from pyehl.studies.plan import MOST, duration, plan
+from pyehl.studies.plan import MAX_CHECKED, duration, plan
 from pyehl.studies.study import RUNS, make, parse_axis, read_study
 from pyehl.studies.sweep import CASES, CSV, NETCDF, Outcome, perform
 from pyehl.studies.tasks import FAILED, FINDINGS, why_none
@@ -45,7 +45,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--plan",
         action="store_true",
-        help=f"check all cases (of more than {MOST} some of them), print the plan, run nothing",
+        help=f"check all cases (of more than {MAX_CHECKED} some of them), print the plan, "
+        "run nothing",
     )
     add_worker_arguments(parser)
 

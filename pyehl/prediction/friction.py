@@ -34,7 +34,7 @@ STATUSES = ("predicted", "film breakdown", BEYOND, "load lost", "overflow")
 TRACKS = 8
 """Tracks over which mean and spread are taken unless asked for otherwise."""
 
-LARGEST_RATIO = 10.0
+MAX_RATIO = 10.0
 """Largest mu_r/mu_s that is reported."""
 
 NEWTONIAN_NOTE = (
@@ -122,7 +122,7 @@ def outcome(
     if not np.all(np.isfinite(ratios)):
         return "overflow", "the viscosity at p_s + delta p is not a number"
     mean = float(ratios.mean())
-    if mean > LARGEST_RATIO:
+    if mean > MAX_RATIO:
         message = f"pressures that raise mu_r/mu_s to {mean:.3g} are beyond a linear response"
         return BEYOND, message
     return "predicted", "full film throughout the passage"
@@ -274,7 +274,7 @@ def run(
         limit = model.options.film_limit / model.operating.film_scale
         left = [(w.spectrum.power, np.abs(w.at_centre())) for w in waves]
         contact.watch(film_levels(limit, left, [w.velocity_ratio for w in waves]))
-        passage = positions.passage(contact.friction, model.options.positions, LARGEST_RATIO)
+        passage = positions.passage(contact.friction, model.options.positions, MAX_RATIO)
         found = _result(model, contact, waves, passage)
         if found.status != "predicted":
             return Outcome(found)

@@ -23,7 +23,14 @@ from numpy.typing import NDArray
 from pyehl import extension
 from pyehl.prediction.response import AXIS, LINES, STATIONS, Transfer
 from pyehl.prediction.spectrum import Spectrum
-from pyehl.theory.disc import EDGE_ANGLES, LARGEST, RADIUS, disc_correction, edge_of_disc, monomials
+from pyehl.theory.disc import (
+    EDGE_ANGLES,
+    MAX_WAVENUMBER,
+    RADIUS,
+    disc_correction,
+    edge_of_disc,
+    monomials,
+)
 from pyehl.theory.ellipse import Ellipse
 from pyehl.theory.ellipse_edge import ellipse_edge
 from pyehl.theory.line_contact import AnyContact
@@ -89,7 +96,7 @@ class Edge:
             )
             return cls(qx, qy, found, displacement, shape)
         ellipse = None if shape.radius_ratio == 1.0 else ellipse_edge(shape)
-        i, j = long_waves(spectrum, ellipse.largest if ellipse else LARGEST)
+        i, j = long_waves(spectrum, ellipse.largest if ellipse else MAX_WAVENUMBER)
         qx, qy = spectrum.qx[i], spectrum.qy[j]
         amplitude = spectrum.amplitudes(i, j, flattened[i, j])
         if not i.size:

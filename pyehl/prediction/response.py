@@ -178,7 +178,7 @@ BENDING = 0.2
 REPETITIONS = 3
 
 
-def _bends(spectrum: Spectrum, velocity_ratio: float) -> bool:
+def _is_bent(spectrum: Spectrum, velocity_ratio: float) -> bool:
     """Whether slip bends the free waves of a tile so much that it must be followed line by line.
 
     The inlet is curved: off the centre line the free wave has slipped less. Where the phase of the
@@ -217,7 +217,10 @@ class _Entering:
         self, spectrum: Spectrum, velocity_ratio: float, zone: Zone, moes: tuple[float, float]
     ) -> None:
         lines = _lines(zone)
-        self.bent, self._axis = lines.size > 1 and _bends(spectrum, velocity_ratio), lines.size // 2
+        self.bent, self._axis = (
+            lines.size > 1 and _is_bent(spectrum, velocity_ratio),
+            lines.size // 2,
+        )
         self.table, self.ratio = WaveTable(spectrum), velocity_ratio
         self._power, self._negative = spectrum.power, spectrum.qy < 0.0
         kx, ky = self.table.kx, self.table.ky

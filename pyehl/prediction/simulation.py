@@ -222,7 +222,7 @@ def _pressure(waves: Sequence[_GridWaves], x: Array, y: Array, fronts: Array) ->
     return pressure
 
 
-def hand_over(
+def transfer(
     solver: SolverHandle, settings: Settings, tiles: Mapping[str, Topography], *, whole: bool
 ) -> None:
     """Give a solver the pressure that it starts from, or report why there is none.

@@ -32,7 +32,7 @@ from pyehl.schema import QUANTITIES
 from pyehl.studies.journal import NAME, read_header
 
 # A page is to stay below this many bytes: its pictures are drawn with fewer dots where need be
-LARGEST = 2_000_000
+MAX_BYTES = 2_000_000
 # Keys that name a file
 FILES = ("file", "table")
 EXPECTED = "expected: what -o of run, predict, stribeck, sweep, bearing, gear or response named"
@@ -120,7 +120,7 @@ def report(
         title, assessment, parts = _content(source, dpi, below)
         parts = [page.verdict(*assessment), *parts, *_versions()]
         text = page.render(title, parts, "report", lambda value: _nameless(value, files))
-        if len(text) < LARGEST:
+        if len(text) < MAX_BYTES:
             break
     page.write_text(path, text)
     if pdf:

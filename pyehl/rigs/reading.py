@@ -23,7 +23,7 @@ from pyehl.types import Array
 
 PCS = re.compile(r"(EHD|MTM|ETM)\d*\s+Test Data File")
 SLIM = "SLIM Mapper"
-LARGEST = 64 * 1024 * 1024
+MAX_BYTES = 64 * 1024 * 1024
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,8 +103,8 @@ def _text(path: str | os.PathLike[str]) -> str:
     """Text of a file, whose encoding instruments choose: UTF-8, UTF-16, else Windows."""
     name = os.fspath(path)
     try:
-        if Path(path).stat().st_size > LARGEST:
-            raise InputError(f"{name}: error: larger than {LARGEST >> 20} MiB: not a rig file")
+        if Path(path).stat().st_size > MAX_BYTES:
+            raise InputError(f"{name}: error: larger than {MAX_BYTES >> 20} MiB: not a rig file")
         data = Path(path).read_bytes()
     except OSError as error:
         raise InputError(f"{name}: cannot read: {error.strerror or error}") from error

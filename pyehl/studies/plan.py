@@ -208,7 +208,7 @@ def wall_seconds(seconds: Sequence[float], jobs: int, repeat: float = 1.0) -> fl
 
 
 THREADS = "solver.threads"
-MOST, PATIENCE = 5000, 5.0
+MAX_CHECKED, PATIENCE = 5000, 5.0
 """Maximum number of cases that a plan without a run checks, and seconds that it takes for them."""
 CASE_BYTES = 12_000
 """Memory of a case that waits, most of it its resolved text."""
@@ -297,11 +297,11 @@ def plan(study: Study, keep: str | os.PathLike[str] | None = None, *, brief: boo
     """Resolve and check all cases of a study.
 
     `keep` is the folder for a result folder of each case. `brief`: a plan that is not to run has,
-    of a study with more than `MOST` cases, as many as `PATIENCE` allows. InputError if a case is
-    not acceptable, with the case and what is wrong with it, or if there are more than fit into
-    memory.
+    of a study with more than `MAX_CHECKED` cases, as many as `PATIENCE` allows. InputError if a
+    case is not acceptable, with the case and what is wrong with it, or if there are more than fit
+    into memory.
     """
-    brief = brief and study.size > MOST
+    brief = brief and study.size > MAX_CHECKED
     if not brief:
         check_memory(study.size)
     fixed = {key_of(text) for text in study.options} | set(study.keys)
@@ -311,7 +311,7 @@ def plan(study: Study, keep: str | os.PathLike[str] | None = None, *, brief: boo
     checked: set[str] = set()
     files: dict[str, None] = {}
     began = time.monotonic()
-    for number in study.spread(MOST) if brief else range(study.size):
+    for number in study.spread(MAX_CHECKED) if brief else range(study.size):
         if brief and time.monotonic() - began > PATIENCE:
             break
         point = study.point(number)

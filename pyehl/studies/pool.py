@@ -9,6 +9,7 @@ does that, and gives a task up when several workers were lost with it
 
 from __future__ import annotations
 
+import atexit
 import os
 import re
 import threading
@@ -38,8 +39,9 @@ ENVIRONMENT = {
     # a module in the current folder is not taken for one of a library
     "PYTHONSAFEPATH": "1",
 }
-# Seconds to wait for the scheduler; seconds between looks for the parent of a worker
-PATIENCE, LOOK = 20, 0.2
+# Seconds to wait for the scheduler; seconds between looks for the parent of a worker; seconds that
+# a worker waits for the next study
+PATIENCE, LOOK, KEPT = 20, 0.2, 10
 
 
 def processors() -> int:
@@ -98,6 +100,8 @@ def _begin(parent: int) -> None:
     # what a library prints goes to standard error
     os.dup2(2, 1)
     threading.Thread(target=_end_without, args=(parent,), daemon=True).start()
+    # its caller waits for the end of a spare one, which has nothing to put in order
+    atexit.register(os._exit, 0)
 
 
 def _end_without(parent: int) -> None:
@@ -109,6 +113,7 @@ def _end_without(parent: int) -> None:
 def rows(tasks: Sequence[Task], jobs: int) -> Generator[list[tuple[int, Row]]]:
     """Do tasks in `jobs` worker processes; yields rows as they come.
 
+    Workers of a study that ended a short time ago are taken: their start takes longer than a task.
     A task whose worker dies is given to another one once more; then its row reports it. When the
     caller stops early, or an exception is raised in it, the workers end at once. InternalError if
     no worker comes as far as its first row.
@@ -120,13 +125,15 @@ def rows(tasks: Sequence[Task], jobs: int) -> Generator[list[tuple[int, Row]]]:
     running: dict[Future[list[Row]], tuple[int, list[Task]]] = {}
     groups, idle = [""] * jobs, list(range(jobs))
     try:
-        executors += [_executor() for _ in range(jobs)]
+        executors += [_spare() for _ in range(jobs)]
         while True:
             while idle and (some := queue.take(groups[idle[-1]])):
                 k = idle.pop()
                 groups[k] = group_of(some[-1])
                 running[_submit(executors[k], some)] = k, some
             if not running:
+                _spares.extend((_place(), executor) for executor in executors)
+                executors.clear()
                 return
             finished: list[tuple[int, Row]] = []
             for future in wait(running, return_when=FIRST_COMPLETED).done:
@@ -159,7 +166,28 @@ def rows(tasks: Sequence[Task], jobs: int) -> Generator[list[tuple[int, Row]]]:
 def _executor() -> ProcessPoolExecutor:
     from loky import ProcessPoolExecutor  # noqa: PLC0415 (it takes long to import)
 
-    return ProcessPoolExecutor(1, initializer=_begin, initargs=(os.getpid(),), env=ENVIRONMENT)
+    return ProcessPoolExecutor(
+        1, timeout=KEPT, initializer=_begin, initargs=(os.getpid(),), env=ENVIRONMENT
+    )
+
+
+_spares: deque[tuple[tuple[int, str], ProcessPoolExecutor]] = deque()
+"""Executors without a task, and the process and folder in which they began."""
+
+
+def _place() -> tuple[int, str]:
+    return os.getpid(), os.path.realpath(os.curdir)
+
+
+def _spare() -> ProcessPoolExecutor:
+    while True:
+        try:
+            place, executor = _spares.popleft()
+        except IndexError:
+            return _executor()
+        if place == _place():
+            return executor
+        executor.shutdown(kill_workers=True)
 
 
 def _submit(executor: ProcessPoolExecutor, tasks: list[Task]) -> Future[list[Row]]:

@@ -288,7 +288,7 @@ class Fatigue:
 
 BEARINGS = ("ball", "roller")
 # Range of the viscosity ratio in which the factor has formulas, and its largest value
-KAPPA_MIN, KAPPA_MAX, LARGEST = 0.1, 4.0, 50.0
+KAPPA_MIN, KAPPA_MAX, MAX_A_ISO = 0.1, 4.0, 50.0
 # Radial bearings, ISO 281:2007, 9.3.3.3: constants by the upper end of kappa: A, B and exponent of
 # A - B/kappa^n; then the exponents of the bracket and of the contamination term
 _BALL = (
@@ -342,4 +342,4 @@ def a_iso(kappa: float, contamination: float, bearing: str) -> float:
     first, second, last = _EXPONENTS[bearing]
     _, a, b, n = next(row for row in table if within <= row[0])
     bracket = 1.0 - (a - b / within**n) ** first * contamination**second
-    return min(LARGEST, 0.1 * bracket**last) if bracket > 0.0 else LARGEST
+    return min(MAX_A_ISO, 0.1 * bracket**last) if bracket > 0.0 else MAX_A_ISO

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 # Of steel, for cases without the group bodies
 DEFAULT_POISSON = 0.3
-LARGEST_FRICTION = 2.0
+MAX_FRICTION = 2.0
 # A step at an edge: traction over the largest one, and over that of the next node
 STEP, FLAT = 0.1, 0.85
 
@@ -124,7 +124,7 @@ def check_friction(friction: str | float) -> None:
     if isinstance(friction, str) and friction in ("run", "none"):
         return
     if isinstance(friction, int | float) and not isinstance(friction, bool):
-        if 0.0 <= friction <= LARGEST_FRICTION:
+        if 0.0 <= friction <= MAX_FRICTION:
             return
     raise InputError(
         f"friction = {friction!r}: expected 'run', 'none', or a coefficient of friction 0 ... 2"

@@ -69,7 +69,7 @@ def defaults(options: Options, scan: Scan) -> tuple[Options, dict[str, str]]:
     return options, why
 
 
-LARGEST = 1e6
+MAX_HEIGHT = 1e6
 """Largest height [m] that is not taken for damage."""
 
 
@@ -207,7 +207,7 @@ class WorkingMap:
             # an infinite height is none
             self.z = np.where(np.isinf(self.z), np.nan, self.z)
         largest = _largest(self.z)
-        if largest > LARGEST:
+        if largest > MAX_HEIGHT:
             raise InputError(
                 f"{scan.origin}: a height of {largest:.3g} m: expected heights in metres"
             )

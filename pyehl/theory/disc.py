@@ -25,7 +25,7 @@ from pyehl.types import Array, Complex
 
 DEGREE = 6
 """Degree of the polynomials in x, y of the correction."""
-LARGEST = 14.0
+MAX_WAVENUMBER = 14.0
 """Largest wavenumber |q| that needs it [1/a]: shorter waves, below 0.45 a, feel no edge."""
 RADIUS = 0.8
 """Radius within which they are fitted; most of the friction arises there. Nearer to the edge
@@ -115,21 +115,21 @@ def _fit() -> tuple[Array, Array, list[tuple[range, Array]], Array]:
     x, y = (values.ravel() for values in np.meshgrid(line, line, indexing="ij"))
     inside = np.hypot(x, y) <= RADIUS
     x, y = x[inside], y[inside]
-    radial = _radial(np.sqrt(1.0 - x * x - y * y), math.ceil(LARGEST) + 12)
+    radial = _radial(np.sqrt(1.0 - x * x - y * y), math.ceil(MAX_WAVENUMBER) + 12)
     return x, y, radial, np.asarray(np.linalg.pinv(monomials(x, y)), dtype=float)
 
 
 @lru_cache(maxsize=1)
 def _next_to_edge() -> list[tuple[range, Array]]:
     """Radial parts next to the edge."""
-    return _radial(np.array([NEXT_TO_EDGE]), math.ceil(LARGEST) + 12)
+    return _radial(np.array([NEXT_TO_EDGE]), math.ceil(MAX_WAVENUMBER) + 12)
 
 
 def disc_correction(qx: Array, qy: Array) -> Complex:
     """Return what a wave on the disc has in pressure beyond the periodic wave, pi/4 |q|.
 
     Wavenumbers (m,) [1/a]; (28, m) coefficients of :func:`monomials` [p_h per a^2/R], right to 1.5
-    % of the pressure of the wave within 0.75 of the radius, for |q| up to LARGEST.
+    % of the pressure of the wave within 0.75 of the radius, for |q| up to MAX_WAVENUMBER.
     """
     x, y, radial, inverse = _fit()
     local = 0.25 * math.pi * np.hypot(qx, qy) * np.exp(1j * (np.outer(x, qx) + np.outer(y, qy)))

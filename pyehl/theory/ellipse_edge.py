@@ -15,7 +15,14 @@ from functools import lru_cache
 import numpy as np
 from numpy.polynomial import chebyshev
 
-from pyehl.theory.disc import DEGREE, EDGE_ANGLES, LARGEST, NEXT_TO_EDGE, RADIUS, spherical_bessel
+from pyehl.theory.disc import (
+    DEGREE,
+    EDGE_ANGLES,
+    MAX_WAVENUMBER,
+    NEXT_TO_EDGE,
+    RADIUS,
+    spherical_bessel,
+)
 from pyehl.theory.ellipse import Ellipse
 from pyehl.types import Array, Complex
 
@@ -36,7 +43,7 @@ class EllipseEdge:
         kappa = shape.ellipticity
         short = min(1.0, kappa)
         # largest wavenumber that feels the edge [1/a]
-        self.largest = LARGEST / short
+        self.largest = MAX_WAVENUMBER / short
         degrees = math.ceil(DEGREE / short), math.ceil(DEGREE * kappa / short)
         i, j = np.meshgrid(*(np.arange(n + 1) for n in degrees), indexing="ij")
         kept = i * degrees[1] + j * degrees[0] <= degrees[0] * degrees[1]

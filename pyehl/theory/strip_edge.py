@@ -15,7 +15,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.polynomial import chebyshev
 
-from pyehl.theory.disc import LARGEST, RADIUS
+from pyehl.theory.disc import MAX_WAVENUMBER, RADIUS
 from pyehl.types import Array, Complex, Indices
 
 DEGREE = 10
@@ -26,7 +26,7 @@ NODES = 256
 """Chebyshev points of the integrals."""
 PER_WAVE = 16
 """Intervals of an edge per shortest wave across the motion."""
-ORDERS = math.ceil(LARGEST) + 12
+ORDERS = math.ceil(MAX_WAVENUMBER) + 12
 """Highest order n: a plane wave has no higher ones."""
 
 
@@ -37,7 +37,7 @@ class StripEdge:
     all of which repeat after a width [b].
     """
 
-    largest = LARGEST
+    largest = MAX_WAVENUMBER
     """Largest wavenumber that feels an edge [1/b]."""
 
     def __init__(self, across: Array, width: float) -> None:

@@ -307,22 +307,20 @@ def test_resolved_case_gives_the_same_bits(ehl: str, tmp_path: Path):
     assert points_y - 1 == 2 * (json.loads((first / "summary.json").read_text())["points_y"] - 1)
 
 
-def test_too_coarse_a_grid_names_one_that_will_do(drivers, tmp_path: Path):
+def test_too_coarse_a_grid_names_one_that_will_do(drive, tmp_path: Path):
     """A narrow contact with a thin film: plan and result say how many nodes it takes."""
     narrow = {"contact.radius_ratio": 25.0, "contact.moes_m": 8.0, "contact.moes_l": 10.0}
     case = pyehl.Case.from_text("", narrow | {"grid.points": 33})
     assert "warning    the grid is too coarse for a solution" in str(pyehl.check(case))
     (tmp_path / "case.nml").write_text(case.text)
-    words = [*drivers["pyehl"], tmp_path / "case.nml", "-o", tmp_path / "out"]
-    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    done = drive("pyehl", "case.nml", "-o", "out")
     assert done.returncode == 1
     (points,) = re.findall(
         r"^assessment .*: the grid is too coarse .*: grid.points = (\d+) or more$",
         done.stdout,
         re.MULTILINE,
     )
-    words = [*words[:-1], tmp_path / "fine", "--set", f"grid.points={points}"]
-    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    done = drive("pyehl", "case.nml", "-o", "fine", "--set", f"grid.points={points}")
     assert done.returncode == 0, done.stdout
     assert "warning" not in done.stdout
     assert json.loads((tmp_path / "fine" / "summary.json").read_text())["restarts"] == 0

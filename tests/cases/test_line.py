@@ -421,11 +421,10 @@ WITH_LINE = {
 
 
 @pytest.mark.parametrize(("option", "remedy"), WITH_LINE.items())
-def test_refused_beside_a_line(root, drivers, tmp_path, option, remedy):
+def test_refused_beside_a_line(root, drive, tmp_path, option, remedy):
     case, key = root / "cases" / "line.nml", option.partition("=")[0]
     for driver in ("ehl", "pyehl"):
-        words = [*drivers[driver], str(case), "-o", str(tmp_path / "out"), "--set", option]
-        run = subprocess.run(words, capture_output=True, text=True, check=False)
+        run = drive(driver, case, "-o", "out", "--set", option)
         assert run.returncode == 2
         assert key in run.stderr
         assert "with contact.shape = 'line'" in run.stderr
@@ -434,13 +433,10 @@ def test_refused_beside_a_line(root, drivers, tmp_path, option, remedy):
 
 
 @pytest.mark.parametrize("key", ["load_per_length", "moes_m_line", "moes_l_line"])
-def test_refused_beside_a_point(root, drivers, tmp_path, key):
+def test_refused_beside_a_point(root, drive, key):
     case = root / "cases" / "quick.nml"
     for driver in ("ehl", "pyehl"):
-        words = [*drivers[driver], str(case), "-o", str(tmp_path / "out"), "--set"]
-        run = subprocess.run(
-            [*words, f"contact.{key}=10.0"], capture_output=True, text=True, check=False
-        )
+        run = drive(driver, case, "-o", "out", "--set", f"contact.{key}=10.0")
         assert run.returncode == 2
         assert f"contact.{key} in a point contact" in run.stderr
         assert "contact.shape = 'line', or contact." in run.stderr

@@ -44,10 +44,9 @@ def row_of(text: str) -> str:
     return " | ".join(f"{film} ± {error} nm" for film, error in films)
 
 
-def test_ball_bearing(root: Path, drivers: dict[str, list[str]], tmp_path: Path):
+def test_ball_bearing(root: Path, drive, tmp_path: Path):
     case, page = root / "cases" / "ball_bearing.nml", root / "docs" / "howto" / "bearing.md"
-    words = [*drivers["pyehl"], case, "-o", tmp_path / "out"]
-    run = subprocess.run(words, capture_output=True, text=True, check=False)
+    run = drive("pyehl", case, "-o", "out")
     assert run.returncode == 0, run.stdout
     sheet = pyehl.film(case).summary
     same(texts(page), f"{report(sheet)}\n{run.stdout}")
@@ -75,7 +74,7 @@ def test_ball_bearing(root: Path, drivers: dict[str, list[str]], tmp_path: Path)
 
 
 @pytest.mark.long
-def test_gear_pair(root: Path, drivers: dict[str, list[str]], tmp_path: Path):
+def test_gear_pair(root: Path, drive, tmp_path: Path):
     """The page has the numbers of the record, and the record those of the smooth contact."""
     case, page = root / "cases" / "gear_pair.nml", root / "docs" / "howto" / "gear.md"
     text = page.read_text(encoding="utf-8")
@@ -98,10 +97,8 @@ def test_gear_pair(root: Path, drivers: dict[str, list[str]], tmp_path: Path):
     assert f"an error of the ratio, {predicted['mu_ratio_model_error']:.4f}, and none" in text
     assert predicted["h_min_rough_error_m"] is None
     assert predicted["outside_range"] == []
-    words = [*drivers["pyehl"], case, "-o", tmp_path / "out"]
-    for group in ("surface", "second_surface"):
-        words += ["--set", f"{group}.kind=smooth"]
-    subprocess.run(words, capture_output=True, check=True)
+    options = ["--set", "surface.kind=smooth", "--set", "second_surface.kind=smooth"]
+    assert drive("pyehl", case, "-o", "out", *options).returncode == 0
     found = json.loads((tmp_path / "out" / "summary.json").read_text())
     for name in ("H_c", "H_min", "H_c_extrapolated", "mu_smooth"):
         # steadied to another tolerance before time steps

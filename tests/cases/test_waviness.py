@@ -86,7 +86,10 @@ def test_reference_rows_on_the_finest_grid(solve, table, row: WavinessRow):
         assert done["mu_ratio"] == pytest.approx(FIG_2["mu_ratio"], rel=AGREEMENT)
 
 
-@pytest.mark.parametrize("scheme", ["narrow", "paper"])
+SCHEMES = ["narrow", pytest.param("paper", marks=pytest.mark.long)]
+
+
+@pytest.mark.parametrize("scheme", SCHEMES)
 def test_algebraic_error_is_what_differs(solve, scheme: str):
     """With tight steps the same discrete problem gives the same digits: five are known."""
     row = small(scheme)
@@ -229,7 +232,7 @@ def test_first_steps_on_the_default_grid(solve, moes_m: float, moes_l: float):
     assert np.abs(done.history["load_error"]).max() <= 1e-6
 
 
-@pytest.mark.parametrize("scheme", ["narrow", "paper"])
+@pytest.mark.parametrize("scheme", SCHEMES)
 def test_start_does_not_matter(solve, scheme: str):
     row = small(scheme)
     inlet = solve(POINT, row.points, settings(row) | TIGHT)
@@ -241,7 +244,7 @@ def test_start_does_not_matter(solve, scheme: str):
     assert near["mu_ratio"] == pytest.approx(inlet["mu_ratio"], rel=2e-4)
 
 
-@pytest.mark.parametrize("scheme", ["narrow", "paper"])
+@pytest.mark.parametrize("scheme", SCHEMES)
 def test_skipped_steps_do_not_matter(solve, scheme: str):
     row = small(scheme)
     short = solve(POINT, row.points, settings(row) | TIGHT)
@@ -258,7 +261,7 @@ def test_skipped_steps_do_not_matter(solve, scheme: str):
     assert short.history["mu_ratio"] == pytest.approx(long.history["mu_ratio"][tail:], rel=1e-6)
 
 
-@pytest.mark.parametrize("scheme", ["narrow", pytest.param("paper", marks=pytest.mark.long)])
+@pytest.mark.parametrize("scheme", SCHEMES)
 def test_half_domain(solve, scheme: str):
     row = small(scheme)
     half, whole = (
@@ -270,7 +273,7 @@ def test_half_domain(solve, scheme: str):
     assert half["mu_ratio"] == pytest.approx(whole["mu_ratio"], rel=5e-5)
 
 
-@pytest.mark.parametrize("scheme", ["narrow", "paper"])
+@pytest.mark.parametrize("scheme", SCHEMES)
 def test_film_is_thinner_under_a_peak(solve, scheme: str):
     # The front lies behind the contact, which is rough at once; a quarter of the amplitude
     # leaves a film under every peak

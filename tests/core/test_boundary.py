@@ -190,8 +190,8 @@ def test_deflection_of_the_hertz_pressure():
 
 def test_texts_of_any_length_arrive_whole(monkeypatch: pytest.MonkeyPatch):
     """The library states how long a list is, and is asked again with that much room."""
-    monkeypatch.setattr(handle, "ROOM", 7)
-    monkeypatch.setattr(handle, "MOST", 3)
+    monkeypatch.setattr(handle, "MIN_BYTES", 7)
+    monkeypatch.setattr(handle, "MIN_VALUES", 3)
     with Solver(Case.from_text("&grid points = 33 /\n")) as solver:
         solver.run()
         short = solver.summary

@@ -14,6 +14,7 @@ import shlex
 import shutil
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -51,6 +52,7 @@ EXEMPT = {
     "ford": ".ci/run",
     "pyehl app": "app/test_page.py; it ends when the user ends it",
 }
+Command = Callable[..., subprocess.CompletedProcess[str]]
 # Options of meson itself, that are not in meson.options
 MESON_OPTIONS = {"buildtype"}
 
@@ -75,10 +77,18 @@ def folder(root: Path, tmp_path: Path) -> Path:
 
 
 def execute(
-    part: str, folder: Path, drivers: dict[str, list[str]], statuses: tuple[int, ...] = (0,)
+    part: str,
+    folder: Path,
+    drivers: dict[str, list[str]],
+    statuses: tuple[int, ...] = (0,),
+    command: Command | None = None,
 ) -> str:
-    """Run one command; returns what it printed, with paths from the folder."""
+    """Run one command, by `command` in this process; what it printed, paths from the folder."""
     words = shlex.split(part.removeprefix(".venv/bin/"))
+    if command is not None and words[0] == "pyehl":
+        done = command(folder, *words[1:])
+        assert done.returncode in statuses, f"{part}\n{done.stdout}{done.stderr}"
+        return done.stdout.replace(f"{folder}/", "")
     programs = {"ehl": drivers["ehl"], "pyehl": drivers["pyehl"][:-1]}
     if words[0] == "python":
         programs["python"] = [sys.executable, str(ROOT / words.pop(1))]
@@ -106,7 +116,9 @@ def assert_shown(shown: str, printed: str) -> None:
 
 
 @pytest.mark.parametrize("name", [name for name in EXECUTED if name != "README.md"])
-def test_commands_work(root: Path, folder: Path, drivers: dict[str, list[str]], name: str):
+def test_commands_work(
+    root: Path, folder: Path, drivers: dict[str, list[str]], command: Command, name: str
+):
     assert commands(root / name) or name.startswith(("docs/", "benchmarks/", "CONTRIBUTING"))
     printed = ""
     compared = 0
@@ -114,11 +126,11 @@ def test_commands_work(root: Path, folder: Path, drivers: dict[str, list[str]], 
         if language == "sh":
             whole = lines_of(block)
             todo = [part for line in whole for part in parts(line) if not is_exempt(part)]
-            printed = "".join(execute(part, folder, drivers) for part in todo)
+            printed = "".join(execute(part, folder, drivers, command=command) for part in todo)
         elif language == "console" and name in SHOWN:
-            command, _, shown = block.removeprefix("$ ").partition("\n")
+            line, _, shown = block.removeprefix("$ ").partition("\n")
             # a status without a result is an answer too
-            assert_shown(shown, execute(command, folder, drivers, (0, 1)))
+            assert_shown(shown, execute(line, folder, drivers, (0, 1), command))
         elif language == "text" and name in SHOWN:
             assert_shown(block, printed)
             compared += 1
@@ -167,6 +179,7 @@ def test_two_commands_of_the_readme(root: Path):
     assert (root / "install").is_file()
 
 
+@pytest.mark.long
 def test_readme_prints_what_is_printed(root: Path, folder: Path, drivers: dict[str, list[str]]):
     """The lines below a command and below Python, number by number; residuals may differ."""
     printed, compared = "", 0

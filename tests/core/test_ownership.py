@@ -315,6 +315,10 @@ FILES = {
 }  # fmt: skip
 
 
+# of whose kind another one is always there
+LONG = ("plot as pdf", "plot as svg", "surface as .txt", "surface as .nc")
+
+
 @pytest.fixture(scope="module")
 def results(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Inputs of commands that write single files."""
@@ -328,7 +332,7 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.parametrize(
-    "name", [pytest.param(n, marks=[pytest.mark.long] if n == "plot as pdf" else []) for n in FILES]
+    "name", [pytest.param(n, marks=[pytest.mark.long] if n in LONG else []) for n in FILES]
 )
 def test_single_files(
     call: Call, results: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
@@ -399,7 +403,7 @@ def test_changed_map_is_foreign(call: Call, tmp_path: Path):
 def test_pictures_and_exports_go_with_the_result(call: Call, tmp_path: Path):
     for driver in ("run", "ehl"):
         assert call(driver, "-o", "out").returncode == 0
-        assert call("plot", "out").returncode == 0
+        assert call("plot", "out", *COARSE).returncode == 0
         assert call("plot", "out", "--format", "svg").returncode == 0
         assert call("export", "out").returncode == 0
         assert call(driver, "-o", "out").returncode == 0

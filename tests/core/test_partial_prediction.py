@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Prediction of contact at a boundary film."""
 
+import functools
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -32,6 +34,7 @@ def predicted(layer: float, friction: float = 0.1, velocity: float = 0.3):
     return summary_of(text)
 
 
+@functools.cache
 def summary_of(text: str):
     # what is looked at is not the mean over tracks
     return pyehl.predict(pyehl.Case.from_text(text), tracks=1).summary
@@ -197,7 +200,7 @@ def test_friction_of_a_curve_is_its_ratio_times_that_of_the_smooth_contact(heat,
     """In every row, or mu_smooth is missing and the row states why."""
     case = pyehl.Case.from_text(HOT.format(1.2e-7) + "&grid points = 65 /\n")
     case = case.with_options({"lubricant.thermal_friction": heat})
-    speeds = {"contact.mean_velocity": [0.3, 3.0]}
+    speeds = {"contact.mean_velocity": [0.3, 3.0] if heat == "auto" else [0.3]}
     curve = pyehl.stribeck(case, speeds, surfaces=surfaces, jobs=1)
     isothermal = curve.mu_ratio.values * curve.mu_smooth_isothermal.values
     assert curve.mu_isothermal.values == pytest.approx(isothermal, rel=1e-12)

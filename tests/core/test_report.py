@@ -21,6 +21,8 @@ from pyehl.reports.assessment import assess
 from pyehl.reports.limits import limits, warnings
 
 LARGEST = 2_000_000
+# Tests that look at pictures
+DRAWN = "test_a_page_for_every_result", "test_a_page_for_a_measured_response", "test_pdf_printed"
 SMALL = "grid.points=65"
 
 
@@ -76,6 +78,16 @@ def read(path: Path) -> Page:
     for part in ("Conditions", "Results", "Limits that apply", "Versions", "How to cite"):
         assert part in page.text
     return page
+
+
+@pytest.fixture(autouse=True)
+def stand_in(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Four pixels in place of a picture that no one looks at: drawing takes most of the time."""
+    if request.node.originalname not in DRAWN:
+        stream = io.BytesIO()
+        Image.fromarray(np.array([[0, 255], [255, 0]], dtype=np.uint8)).save(stream, "png")
+        for module in ("folder", "stress", "study"):
+            monkeypatch.setattr(f"pyehl.reports.{module}.png", lambda *_: stream.getvalue())
 
 
 @pytest.fixture(scope="module")

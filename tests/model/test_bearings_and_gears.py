@@ -442,6 +442,9 @@ def test_rollers_of_a_bearing_are_solved_and_predicted():
         "surface.pixels": 64,
         "grid.points": 257,
         "psd.positions": 2,
+        # as much load on a roller, and fewer of them
+        "roller_bearing.rollers": 5,
+        "roller_bearing.radial_load": 1200.0,
     }
     predicted = bearing(ROLLERS, rough, run="predict", jobs=1).table
     assert set(predicted["status"]) == {"predicted"}

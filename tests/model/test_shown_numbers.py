@@ -171,7 +171,7 @@ def test_pressure_far_from_the_contact(states):
 def test_what_a_study_may_be(states):
     states(
         "docs/howto/sweep.md",
-        f"With more than {plan.MOST} cases `--plan` checks a part, for at most five seconds",
+        f"With more than {plan.MAX_CHECKED} cases `--plan` checks a part, for at most five seconds",
         f"{study.MAX_CASES:,} cases".replace(",", " "),
         f"({plan.CASE_BYTES / 1000:g} kB each)",
     )

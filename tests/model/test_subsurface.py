@@ -259,7 +259,7 @@ def test_life_factor(bearing: str) -> None:
         assert below == pytest.approx(above, rel=1e-3)
     assert cycle.a_iso(2.0, 0.3, bearing) > cycle.a_iso(1.0, 0.3, bearing) > 0.1
     assert cycle.a_iso(1.0, 0.5, bearing) > cycle.a_iso(1.0, 0.1, bearing)
-    assert cycle.a_iso(4.0, 5.0, bearing) == cycle.LARGEST == cycle.a_iso(9.0, 5.0, bearing)
+    assert cycle.a_iso(4.0, 5.0, bearing) == cycle.MAX_A_ISO == cycle.a_iso(9.0, 5.0, bearing)
     assert math.isnan(cycle.a_iso(0.05, 0.3, bearing))
 
 

@@ -36,7 +36,7 @@ from pyehl.studies.sweep import Outcome
 @pytest.mark.long
 def test_skips_change_nothing(tmp_path: Path, capsys, monkeypatch):
     """Rows on small grids; the exit status states that nothing differs."""
-    monkeypatch.setattr(skips, "LEAST", 65)
+    monkeypatch.setattr(skips, "MIN_POINTS", 65)
     monkeypatch.setattr(skips, "PREDICTIONS", 2)
     point = ("contact.moes_m=100.0", "contact.moes_l=6.0", "surface.velocity_ratio=1.01")
     domain = ("grid.x_inlet=-2.5", "grid.x_outlet=1.5", "grid.y_extent=2.0")
@@ -96,6 +96,7 @@ def test_words_that_a_script_does_not_take(
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.long
 def test_skips_of_smooth_contacts():
     rows = skips.skip_rows(["smooth"], 257)
     assert len(rows) >= 2
@@ -267,6 +268,7 @@ def test_fields_that_break_a_condition_are_seen(tmp_path: Path):
     assert stress_checks.broken(tmp_path / "c").startswith("film of the layer")
 
 
+@pytest.mark.long
 def test_contacts_of_machines(tmp_path: Path, capsys, monkeypatch):
     """A handful on a coarse grid: the table, the rows, the ratio to the ball on disc."""
     monkeypatch.setattr(machines, "SETTINGS", {"solver.threads": 1, "grid.points": 129})
@@ -366,7 +368,7 @@ def test_damaged_states(tmp_path: Path, monkeypatch):
     (tmp_path / "case.nml").write_text(faults.CASE)
     trials, counts, bad = faults.damage(tmp_path, np.random.default_rng(1))
     assert (trials, bad) == (4, [])
-    assert counts["same bits"] + counts.get("told", 0) >= 4
+    assert counts["same bits"] + counts.get("reported", 0) >= 4
 
 
 @pytest.mark.slow
@@ -452,6 +454,7 @@ def test_cheapest_setting():
     assert math.isclose(sum(found), sum(workprec.LEVELS))
 
 
+@pytest.mark.long
 def test_predictions_at_a_boundary_film_beside_solutions(tmp_path: Path, capsys):
     """One contact that touches; its numbers belong together, and its load shares agree."""
     (touching,) = [c for c in mixed.draw(4, 1, (65,)) if 0.7 < c.over < 0.9][:1]

@@ -265,6 +265,6 @@ def test_levels_differ_as_they_say():
 
 
 def test_predictions_have_the_waves_of_the_grid():
-    (option,) = conditions.carried(257)
+    (option,) = conditions.resolved_waves(257)
     shortest = Case.from_text(conditions.CASE, [option]).resolve()["surface"]
     assert shortest["shortest_wavelength"] == pytest.approx(8.0 / 256 * 4.154e-4, rel=1e-3)

@@ -131,7 +131,7 @@ def read() -> list[dict[str, str]]:
 def covered(rows: list[dict[str, str]], name: str) -> dict[int, tuple[int, int, int]]:
     """Of each grid the contacts with a stated error, those it covers, and those without a number.
 
-    Against the finest grid, of the contacts that it solves and whose load share it tells.
+    Against the finest grid, of the contacts that it solves and whose load share it states.
     """
     best = {
         row["contact"]: float(row[name])
@@ -141,27 +141,27 @@ def covered(rows: list[dict[str, str]], name: str) -> dict[int, tuple[int, int, 
     found = {}
     for points in GRIDS[:-1]:
         those = [r for r in rows if int(r["points"]) == points and r["contact"] in best]
-        told = [r for r in those if r[name] and r[QUANTITIES[name]]]
+        stated = [r for r in those if r[name] and r[QUANTITIES[name]]]
         good = [
             r
-            for r in told
+            for r in stated
             if abs(float(r[name]) - best[r["contact"]]) <= float(r[QUANTITIES[name]])
         ]
-        found[points] = len(told), len(good), len(those) - len(told)
+        found[points] = len(stated), len(good), len(those) - len(stated)
     return found
 
 
 def by_two_grids(rows: list[dict[str, str]]) -> tuple[int, int]:
     """How many of all central films a third of the change from the coarser grid covers."""
     films = {(r["contact"], int(r["points"])): float(r["h_c_m"] or "nan") for r in rows}
-    told = good = 0
+    stated = good = 0
     for coarse, points in pairwise(GRIDS[:-1]):
         for name in {contact for contact, _ in films}:
             before, film, best = (films.get((name, n), np.nan) for n in (coarse, points, FINEST))
             if np.isfinite(before + film + best):
-                told += 1
+                stated += 1
                 good += abs(film - best) <= abs(film - before) / 3.0
-    return good, told
+    return good, stated
 
 
 def lines() -> list[str]:
@@ -175,11 +175,11 @@ def lines() -> list[str]:
     for name, said in names.items():
         found = covered(rows, name)
         cells = [
-            f"{good} of {told}" + (f", {none} none" if none else "")
-            for told, good, none in found.values()
+            f"{good} of {stated}" + (f", {none} none" if none else "")
+            for stated, good, none in found.values()
         ]
-        told, good = (sum(part[k] for part in found.values()) for k in (0, 1))
-        cells.append(f"{good} of {told} = {100.0 * good / told:.0f} %")
+        stated, good = (sum(part[k] for part in found.values()) for k in (0, 1))
+        cells.append(f"{good} of {stated} = {100.0 * good / stated:.0f} %")
         found_lines.append(f"| {said} | " + " | ".join(cells) + " |")
     return found_lines
 
@@ -187,8 +187,8 @@ def lines() -> list[str]:
 def show() -> None:
     """Print the table of README.md, and what two grids alone would cover."""
     print("\n".join(lines()))
-    good, told = by_two_grids(read())
-    print(f"by two grids alone: {good} of {told}")
+    good, stated = by_two_grids(read())
+    print(f"by two grids alone: {good} of {stated}")
 
 
 if __name__ == "__main__":
