@@ -175,6 +175,12 @@ _spares: deque[tuple[tuple[int, str], ProcessPoolExecutor]] = deque()
 """Executors without a task, and the process and folder in which they began."""
 
 
+@atexit.register
+def _end_spares() -> None:
+    while _spares:
+        _spares.popleft()[1].shutdown(kill_workers=True)
+
+
 def _place() -> tuple[int, str]:
     return os.getpid(), os.path.realpath(os.curdir)
 
