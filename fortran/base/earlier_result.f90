@@ -24,7 +24,7 @@ module ehl_earlier_result
    end type found_t
 
    character(len=*), parameter :: summary = "summary.json"
-   !> What pictures, exports and reports say of themselves, and how their names end
+   !> What pictures, exports and reports name themselves, and how their names end
    character(len=*), parameter :: marks(*) = [character(len=40) :: "pyehl plot: replaced when made again", &
                                               "pyehl export: replaced when made again", &
                                               "pyehl report: replaced when made again"]

@@ -25,7 +25,7 @@ module ehl_reason
    !> Of friction: where bodies touch it is not known
    integer, parameter :: reason_boundary_friction = 11
    !> Of the grid error of the friction ratio, there is no run on the next coarser grid: time.estimate_error; time.steps; not
-   !> yet; nothing of the surface is on that grid; no such grid; it ended with another status; or both runs tell no limit
+   !> yet; nothing of the surface is on that grid; no such grid; it ended with another status; or both runs have no limit
    integer, parameter :: reason_not_wanted = 12, reason_steps = 13, reason_not_yet = 14, reason_nothing_carried = 15, &
                          reason_small_grid = 16, reason_coarser_status = 17, reason_pressures = 18
    !> Of other parts of that error: no ratio; a mean over few positions of two surfaces; waves that are left out, which were not

@@ -202,7 +202,7 @@ contains
                                              periodic=input%contact%is_line()), &
                            lubricant, p, h, .false., 1, found, touching=touching > 0)
             ratio = found%ratio()
-            rises = found%greatest
+            rises = found%max_rise
          end if
       end if
       call reply(status, stat, message)

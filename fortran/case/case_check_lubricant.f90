@@ -22,7 +22,7 @@ module ehl_case_check_lubricant
    !> Maximum pressure at which a law must give a viscosity, over the Hertz pressure
    real(dp), parameter :: beyond_hertz = 1.5_dp
    !> Roelands exponents of liquids: water has 0.04, mineral oils 0.6
-   real(dp), parameter :: least_z = 1.0e-3_dp, largest_z = 2.0_dp
+   real(dp), parameter :: min_z = 1.0e-3_dp, max_z = 2.0_dp
    character(len=*), parameter :: si_units = "load, mean_velocity, radius and reduced_modulus"
 
 contains
@@ -95,7 +95,7 @@ contains
                      "psd.viscosity_law", "'"//trim(input%psd%viscosity_law)//"' with lubricant.viscosity_law = '"// &
                      trim(l%viscosity_law)//"'", "'roelands', 'barus' or that of the lubricant")
          call refuse((l%viscosity_law == "roelands" .or. input%psd%viscosity_law == "roelands") .and. &
-                     l%pressure_viscosity > 0.0_dp .and. (l%roelands_z < least_z .or. l%roelands_z > largest_z), &
+                     l%pressure_viscosity > 0.0_dp .and. (l%roelands_z < min_z .or. l%roelands_z > max_z), &
                      "lubricant.roelands_z", short(l%roelands_z)//", of viscosity, pressure_viscosity and roelands_p0", &
                      "a number in [0.001, 2] under Roelands' law; or viscosity_law = 'barus', which has no roelands_z")
          call refuse(l%limiting_stress > 0.0_dp .and. source%given("lubricant.limiting_coefficient"), &

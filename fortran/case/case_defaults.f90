@@ -8,7 +8,7 @@ module ehl_case_defaults
    use ehl_case_point, only: find_contact
    use ehl_case_source, only: case_source_t
    use ehl_contact, only: contact_t
-   use ehl_heat, only: freezing
+   use ehl_heat, only: zero_celsius
    use ehl_kinds, only: dp
    use ehl_moes, only: operating_t
    use ehl_scales, only: scales_t
@@ -185,9 +185,11 @@ contains
       integer :: k
 
       associate (isotherms => l%isotherms)
-         if (.not. source%given("lubricant.range_temperature_min")) l%range_temperature_min = isotherms(1)%temperature - freezing
+         if (.not. source%given("lubricant.range_temperature_min")) then
+            l%range_temperature_min = isotherms(1)%temperature - zero_celsius
+         end if
          if (.not. source%given("lubricant.range_temperature_max")) then
-           l%range_temperature_max = isotherms(size(isotherms))%temperature - freezing
+           l%range_temperature_max = isotherms(size(isotherms))%temperature - zero_celsius
          end if
          if (.not. source%given("lubricant.range_pressure_max")) then
            l%range_pressure_max = minval([(isotherms(k)%p(size(isotherms(k)%p)), k=1, size(isotherms))])
@@ -222,7 +224,7 @@ contains
                why = "does not rise with two pressures or more at each temperature"
                return
             end if
-            l%isotherms = [l%isotherms, new_isotherm(l%table_temperature(first) + freezing, p, eta)]
+            l%isotherms = [l%isotherms, new_isotherm(l%table_temperature(first) + zero_celsius, p, eta)]
          end associate
          first = last + 1
       end do

@@ -5,7 +5,7 @@ module ehl_case_law
    use ehl_case, only: lubricant_case_t
    use ehl_dicke, only: new_dicke
    use ehl_doolittle, only: new_doolittle
-   use ehl_heat, only: freezing, sheet_density
+   use ehl_heat, only: zero_celsius, sheet_density
    use ehl_kinds, only: dp
    use ehl_lubricant, only: density_constant, density_dowson_higginson, lubricant_t, new_lubricant, viscosity_barus, &
                             viscosity_roelands
@@ -59,7 +59,7 @@ contains
       lubricant = new_lubricant(merge(viscosity_barus, viscosity_roelands, l%viscosity_law == "barus"), &
                                 merge(density_constant, density_dowson_higginson, l%density_law == "incompressible"), &
                                 alpha_bar, hertz_pressure, l%roelands_z, l%roelands_p0, l%temperature_viscosity, expansion, &
-                                l%temperature + freezing)
+                                l%temperature + zero_celsius)
       if (.not. hertz_pressure > 0.0_dp) return
       if (l%viscosity_law /= "barus" .and. l%viscosity_law /= "roelands") then
          call make_viscosity(l, trim(l%viscosity_law), hertz_pressure, law, status)
@@ -69,7 +69,7 @@ contains
       case ("murnaghan")
          deallocate (lubricant%compression)
          allocate (lubricant%compression, source=new_murnaghan(l%murnaghan_modulus, l%murnaghan_rate, l%murnaghan_softening, &
-                                                               expansion, hertz_pressure, l%temperature + freezing))
+                                                               expansion, hertz_pressure, l%temperature + zero_celsius))
       case ("tait")
          deallocate (lubricant%compression)
          allocate (lubricant%compression, source=tait_of(l, hertz_pressure))
@@ -98,15 +98,15 @@ contains
                                             l%temperature))
       case ("doolittle")
          allocate (law, source=new_doolittle(l%doolittle_viscosity, l%doolittle_b, l%doolittle_r0, l%doolittle_expansion, &
-                                             l%doolittle_temperature + freezing, tait_of(l, hertz_pressure), &
-                                             l%temperature + freezing))
+                                             l%doolittle_temperature + zero_celsius, tait_of(l, hertz_pressure), &
+                                             l%temperature + zero_celsius))
       case default
          if (.not. allocated(l%isotherms)) then
             call status%fail(ehl_bad_input, "the law 'table' without table_temperature, table_pressure and table_viscosity")
             return
          end if
          if (size(l%isotherms) == 1) call check_single(l, l%isotherms(1), status)
-         table = new_viscosity_table(l%isotherms, hertz_pressure, l%temperature + freezing, l%temperature_viscosity)
+         table = new_viscosity_table(l%isotherms, hertz_pressure, l%temperature + zero_celsius, l%temperature_viscosity)
          allocate (law, source=table)
       end select
    end subroutine make_viscosity
@@ -118,8 +118,8 @@ contains
       real(dp), intent(in) :: hertz_pressure
       type(tait_t) :: state
 
-      state = new_tait(l%tait_modulus, l%tait_rate, l%tait_softening, l%tait_expansion, l%tait_temperature + freezing, &
-                       hertz_pressure, l%temperature + freezing)
+      state = new_tait(l%tait_modulus, l%tait_rate, l%tait_softening, l%tait_expansion, l%tait_temperature + zero_celsius, &
+                       hertz_pressure, l%temperature + zero_celsius)
    end function tait_of
 
    !> Viscosity at ambient pressure
@@ -137,9 +137,9 @@ contains
       type(isotherm_t), intent(in) :: isotherm
       type(status_t), intent(inout) :: status
 
-      if (abs(isotherm%temperature - l%temperature - freezing) <= 0.01_dp) return
+      if (abs(isotherm%temperature - l%temperature - zero_celsius) <= 0.01_dp) return
       call status%fail(ehl_bad_input, trim(l%table)//": error: the table has the single temperature "// &
-                       to_text(isotherm%temperature - freezing)//" degC, and lubricant.temperature = "// &
+                       to_text(isotherm%temperature - zero_celsius)//" degC, and lubricant.temperature = "// &
                        to_text(l%temperature)//newline//"expected: that temperature, or a table of two or more")
    end subroutine check_single
 end module ehl_case_law

@@ -5,10 +5,10 @@ module ehl_heat
    implicit none (type, external)
    private
    public :: kinematic_viscosity, dynamic_viscosity, temperature_viscosity, thermal_loading, thermal_reduction, &
-             flash_temperature, raised_speed, freezing, sheet_density, walther_t, new_walther
+             flash_temperature, raised_speed, zero_celsius, sheet_density, walther_t, new_walther
 
    !> 0 degC in kelvin, and the temperatures of data sheets [degC]
-   real(dp), parameter :: freezing = 273.15_dp, sheet(2) = [40.0_dp, 100.0_dp], sheet_density = 15.0_dp
+   real(dp), parameter :: zero_celsius = 273.15_dp, sheet(2) = [40.0_dp, 100.0_dp], sheet_density = 15.0_dp
    !> Power of the potential of a narrow contact in raised_speed, by integrals over moving sources: within 6 % of their
    !> maximum rise where the semi-axis across the motion is 1/15 to 30 times that along it, 1 % for a circle
    real(dp), parameter :: narrow = 0.38_dp
@@ -34,7 +34,7 @@ contains
       integer :: k
 
       do k = 1, 2
-         line%log_t(k) = log(sheet(k) + freezing)
+         line%log_t(k) = log(sheet(k) + zero_celsius)
          z = points(k) + 0.7_dp + exp(-1.47_dp - 1.84_dp*points(k) - 0.51_dp*points(k)**2)
          line%double_log(k) = log(log(z))
       end do
@@ -47,7 +47,7 @@ contains
       real(dp) :: z
 
       associate (log_t => line%log_t, double_log => line%double_log)
-         z = exp(exp(double_log(1) + (double_log(2) - double_log(1))*(log(temperature + freezing) - log_t(1)) &
+         z = exp(exp(double_log(1) + (double_log(2) - double_log(1))*(log(temperature + zero_celsius) - log_t(1)) &
                      /(log_t(2) - log_t(1)))) - 0.7_dp
       end associate
       viscosity = z - exp(-0.7487_dp - 3.295_dp*z + 0.6119_dp*z**2 - 0.3193_dp*z**3)

@@ -56,13 +56,13 @@ contains
       integer, intent(in) :: nx, ny
       !> 0: there was memory
       integer, intent(out) :: stat
-      integer :: stretches
+      integer :: blocks
 
-      stretches = (nx - 1)/most + 1
-      self%width = (nx - 1)/stretches + 1
+      blocks = (nx - 1)/most + 1
+      self%width = (nx - 1)/blocks + 1
       self%reach = merge(small/max(1.0_dp, self%law%curvature()/straight), 0.0_dp, self%follows)
-      allocate (self%values(self%width, fields, stretches, ny), source=none, stat=stat)
-      if (stat == 0) allocate (self%changes(self%width, change_fields, stretches, ny), source=0.0_real32, stat=stat)
+      allocate (self%values(self%width, fields, blocks, ny), source=none, stat=stat)
+      if (stat == 0) allocate (self%changes(self%width, change_fields, blocks, ny), source=0.0_real32, stat=stat)
       if (stat /= 0) self%width = 0
    end subroutine setup
 

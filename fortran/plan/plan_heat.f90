@@ -40,7 +40,7 @@ module ehl_plan_heat
 
 contains
 
-   !> Decide by the greatest heat of the contact, that at the Hertz pressure in the central film by formula, or at a boundary
+   !> Decide by the maximum heat of the contact, that at the Hertz pressure in the central film by formula, or at a boundary
    !> film that is thick beside it: the flash temperature of Tian & Kennedy for it, and the mean across the film over that
    function plan_heat(input, contact, scales, sliding, lubricant, film) result(plan)
       type(case_t), intent(in) :: input

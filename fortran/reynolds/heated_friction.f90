@@ -39,7 +39,7 @@ module ehl_heated_friction
       !> Friction integral as in contact_results_t, and that without the heat
       real(dp) :: friction = 0.0_dp, isothermal = 0.0_dp
       !> Maximum increase over the temperature of the inlet [K]: of the mean across the film, of wall 1, of wall 2
-      real(dp) :: greatest(3) = 0.0_dp
+      real(dp) :: max_rise(3) = 0.0_dp
       !> Whether every node was solved
       logical :: solved = .false.
       !> Whether there was memory for the temperature rises at the nodes
@@ -77,7 +77,7 @@ contains
       logical, contiguous, intent(in), optional :: touching(:, :)
       type(wall_heat_t) :: walls
       real(dp), dimension(grid%ny) :: friction, isothermal
-      real(dp) :: greatest(3, grid%ny), rise(grid%nx, 3), newtonian(grid%nx), stress(grid%nx)
+      real(dp) :: max_rise(3, grid%ny), rise(grid%nx, 3), newtonian(grid%nx), stress(grid%nx)
       logical :: solved(grid%ny), solid(grid%nx)
       integer :: j, stat
 
@@ -88,7 +88,7 @@ contains
          if (.not. found%fits) return
       end if
       !$omp parallel do default(none) shared(heat, grid, lubricant, p, h, keep, found, flow, rho, touching, walls, &
-      !$omp friction, isothermal, greatest, solved) private(rise, newtonian, stress, solid) &
+      !$omp friction, isothermal, max_rise, solved) private(rise, newtonian, stress, solid) &
       !$omp num_threads(threads) if(threads > 1) schedule(dynamic)
       do j = 1, grid%ny
          if (present(flow)) then
@@ -102,13 +102,13 @@ contains
          isothermal(j) = sum(stress)*grid%weight(j)
          call heat_row(heat, walls, lubricant, p(:, j), h(:, j), solid, stress, rise, solved(j))
          friction(j) = sum(stress)*grid%weight(j)
-         greatest(:, j) = maxval(rise, dim=1)
+         max_rise(:, j) = maxval(rise, dim=1)
          if (keep) found%rise(:, j, :) = rise
       end do
       !$omp end parallel do
       found%friction = sum(friction)
       found%isothermal = sum(isothermal)
-      found%greatest = maxval(greatest, dim=2)
+      found%max_rise = maxval(max_rise, dim=2)
       found%solved = all(solved)
    end subroutine heat_film
 

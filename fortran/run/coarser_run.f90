@@ -27,10 +27,10 @@ contains
       allocate (self%coarse)
       associate (run => self%run, coarse => self%coarse)
          ! the same roughness, not the same share of another film
-         call run%plan%surfaces%hand_over(surfaces)
+         call run%plan%surfaces%transfer(surfaces)
          call make_plan(input, surfaces, coarse%plan, status)
          ! a plan that failed may not have taken them
-         call run%plan%surfaces%take_back(surfaces)
+         call run%plan%surfaces%reclaim(surfaces)
          coarse%plan%heat%counts = .false.
          call coarse%begin(status)
          coarse%checkpoint = self%coarse_checkpoint
@@ -80,7 +80,7 @@ contains
          self%run%other%done = coarse_step*coarse%transient%step
          self%run%other%seconds = coarse%seconds
          ! why a film ends is read off the waves
-         call self%run%plan%surfaces%take_back(coarse%plan%surfaces)
+         call self%run%plan%surfaces%reclaim(coarse%plan%surfaces)
       end associate
       deallocate (self%coarse)
    end subroutine end_coarse

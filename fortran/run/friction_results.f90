@@ -98,8 +98,8 @@ contains
          found%flash = flash_temperature(found%mu(1)*s%load*speed/plan%contact%flash_area(plan%scales%length), &
                                          source(1)*plan%scales%length, source(2), s%speeds(), s%conductivity, s%diffusivity)
          if (.not. plan%heat%counts) return
-         found%rises = run%smooth_heat%greatest
-         if (rough) found%rises = run%rough_heat%greatest
+         found%rises = run%smooth_heat%max_rise
+         if (rough) found%rises = run%rough_heat%max_rise
          if (.not. ieee_is_finite(found%rises(1))) return
          found%beyond_measured = found%rises(1) > max(0.0_dp, plan%heat%measured_rise)
       end associate

@@ -143,7 +143,7 @@ contains
       if (allocated(self%run%coarser%message)) call record%set_note("coarser_message", self%run%coarser%message)
    end subroutine report_ratio
 
-   !> Whether two grids tell of a limit of the friction ratio, and three of one of the smooth contact
+   !> Whether two grids give a limit of the friction ratio, and three one of the smooth contact
    logical function has_limit(self, ratio)
       type(solver_t), intent(in) :: self
       real(dp), intent(in) :: ratio

@@ -9,7 +9,7 @@ module ehl_checkpoint
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
    use ehl_outcome, only: outcome_running
-   use ehl_sealed_file, only: end_reading, end_sealed, is_sealed, open_sealed
+   use ehl_checksummed_file, only: end_reading, end_checksummed, has_checksum, open_checksummed
    use ehl_status, only: ehl_bad_input, ehl_file, status_t
    use ehl_table, only: table_t
    use ehl_text, only: newline, to_text
@@ -91,15 +91,15 @@ contains
          call name_frame(prefix, k, path)
          done = file_exists(path)
          if (done .and. k <= self%frames) cycle
-         call open_sealed(path, "write", lun, status)
+         call open_checksummed(path, "write", lun, status)
          if (status%failed()) return
          write (lun, iostat=stat, iomsg=reason) frames%times(k), frames%p(k)%values, frames%h(k)%values
-         call end_sealed(lun, path, stat, reason, status)
+         call end_checksummed(lun, path, stat, reason, status)
          if (status%failed()) return
       end do
       self%frames = frames%n
       path = prefix//state_files(1)
-      call open_sealed(path//".new", "write", lun, status)
+      call open_checksummed(path//".new", "write", lun, status)
       if (status%failed()) return
       first = ""
       second = ""
@@ -116,7 +116,7 @@ contains
             len(first), first, len(second), second, &
             (history%row(k), mean%values(k), mean%film(k), mean%roughness(k), k=1, t%step)
       end associate
-      call end_sealed(lun, path//".new", stat, reason, status)
+      call end_checksummed(lun, path//".new", stat, reason, status)
       if (.not. status%failed()) then
          ! one that is damaged must not take the place of the one before it
          if (self%newest /= missing) done = rename_path(path, prefix//state_files(2))
@@ -196,7 +196,7 @@ contains
 
       seconds = 0.0_dp
       outcome = 0.0_dp
-      call open_sealed(self%path, "read", lun, status)
+      call open_checksummed(self%path, "read", lun, status)
       if (status%failed()) return
       call read_head(lun, head, stat)
       transient%step = head%step
@@ -223,7 +223,7 @@ contains
       do k = 1, head%frames
          call name_frame(self%prefix, k, path)
          if (.not. status%failed()) call frames%add(grid, status)
-         if (.not. status%failed()) call open_sealed(path, "read", lun, status)
+         if (.not. status%failed()) call open_checksummed(path, "read", lun, status)
          if (status%failed()) return
          read (lun, iostat=stat, iomsg=reason) frames%times(k), frames%p(k)%values, frames%h(k)%values
          call end_reading(lun, path, stat, reason, status)
@@ -242,21 +242,21 @@ contains
       what_is = missing
       if (.not. file_exists(prefix//name)) return
       what_is = damaged
-      call open_sealed(prefix//name, "read", lun, status)
+      call open_checksummed(prefix//name, "read", lun, status)
       if (status%failed()) return
       read (lun, iostat=stat) version
       if (stat == 0 .and. version /= magic .and. index(version, family) == 1) what_is = other_version
       close (lun)
       ! what is damaged may have any length
       if (what_is == other_version) return
-      if (.not. is_sealed(prefix//name)) return
-      call open_sealed(prefix//name, "read", lun, status)
+      if (.not. has_checksum(prefix//name)) return
+      call open_checksummed(prefix//name, "read", lun, status)
       if (status%failed()) return
       call read_head(lun, head, stat)
       close (lun)
       do k = 1, head%frames
          call name_frame(prefix, k, path)
-         if (.not. is_sealed(path)) return
+         if (.not. has_checksum(path)) return
       end do
       if (stat == 0) what_is = head%step
    end function what_is

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> A height map as a periodic tile that is carried through the contact, or lies in it. Of the tile its waves are kept
+!> A height map as a periodic tile that moves through the contact, or lies in it. Of the tile its waves are kept
 !> alone, in the memory of one copy; for a grid, the heights of the waves that the grid resolves are summed on the rows
 !> of the grid, exactly, at points along X from which those between them are interpolated.
 module ehl_height_map
@@ -21,7 +21,7 @@ module ehl_height_map
    !> The tile is refined along X to so many points for each of its pixels by its Fourier series, and between these
    !> points a polynomial of degree 5 is used: its error is 2e-5 of the amplitude of the shortest wave (two pixels),
    !> and falls with the sixth power of the wavelength. Where the grid resolves fewer waves, so many pixels are enough
-   !> as carry them.
+   !> as resolve them.
    integer, parameter :: refinement = 8
    integer, parameter :: points = 6
 
@@ -36,14 +36,14 @@ module ehl_height_map
    contains
       procedure :: setup
       procedure :: prepare
-      procedure :: hand_over
-      procedure :: take_back
+      procedure :: transfer
+      procedure :: reclaim
       procedure :: height
       procedure :: unresolved
       procedure :: correlation
       procedure :: bytes
       procedure :: bytes_on
-      procedure, private :: carried
+      procedure, private :: resolved_waves
       procedure, private :: refined_points
    end type height_map_t
 
@@ -83,35 +83,35 @@ contains
    end subroutine setup
 
    !> Give the waves to a surface of the same kind that is needed later, on another grid: one copy in memory
-   subroutine hand_over(self, other)
+   subroutine transfer(self, other)
       class(height_map_t), intent(inout) :: self
       class(surface_t), allocatable, intent(out) :: other
       type(tile_waves_t) :: waves
       real(dp), allocatable :: refined(:, :)
 
-      call self%waves%give_to(waves)
+      call self%waves%transfer_to(waves)
       call move_alloc(self%refined, refined)
       allocate (other, source=self)
       call move_alloc(refined, self%refined)
       select type (other)
       type is (height_map_t)
-         call waves%give_to(other%waves)
+         call waves%transfer_to(other%waves)
       end select
-   end subroutine hand_over
+   end subroutine transfer
 
    !> Take the waves back
-   subroutine take_back(self, other)
+   subroutine reclaim(self, other)
       class(height_map_t), intent(inout) :: self
       class(surface_t), intent(inout) :: other
 
       select type (other)
       type is (height_map_t)
-         call other%waves%give_to(self%waves)
+         call other%waves%transfer_to(self%waves)
       end select
-   end subroutine take_back
+   end subroutine reclaim
 
    !> Most periods in the tile, along X and Y, of waves that have at least so many nodes a period, or more than that
-   pure function carried(self, grid, nodes, more) result(most)
+   pure function resolved_waves(self, grid, nodes, more) result(most)
       class(height_map_t), intent(in) :: self
       type(grid_t), intent(in) :: grid
       real(dp), intent(in) :: nodes
@@ -122,7 +122,7 @@ contains
 
       most = int(min(self%waves%length/self%meshes(grid)/nodes*(1.0_dp + merge(-slack, slack, more)), &
                      0.5_dp*self%waves%pixels))
-   end function carried
+   end function resolved_waves
 
    !> Of two tiles of one size
    pure function correlation(self, other) result(both)
@@ -147,7 +147,7 @@ contains
 
       unresolved = 0.0_dp
       if (.not. self%variance > 0.0_dp .or. .not. self%waves%are_here()) return
-      unresolved = max(0.0_dp, 1.0_dp - self%waves%variance(self%carried(grid, nodes, .not. nodes > aliased_below)) &
+      unresolved = max(0.0_dp, 1.0_dp - self%waves%variance(self%resolved_waves(grid, nodes, .not. nodes > aliased_below)) &
                        /self%variance)
    end function unresolved
 
@@ -174,7 +174,7 @@ contains
       type(grid_t), intent(in) :: grid
       integer :: most(2)
 
-      most = self%carried(grid, aliased_below, .true.)
+      most = self%resolved_waves(grid, aliased_below, .true.)
       bytes_on = self%waves%bytes() + 8.0_dp*grid%ny*(self%refined_points(most(1)) + 2.0_dp*most(1))
    end function bytes_on
 
@@ -190,7 +190,7 @@ contains
       integer :: i, j, n, most(2), stat
 
       if (status%failed()) return
-      most = self%carried(grid, aliased_below, .true.)
+      most = self%resolved_waves(grid, aliased_below, .true.)
       n = self%refined_points(most(1))
       if (allocated(self%refined)) deallocate (self%refined)
       allocate (self%refined(n + points - 1, grid%ny), rows(grid%ny, 0:most(1)), column(-most(2):most(2)), &

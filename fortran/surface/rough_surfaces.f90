@@ -46,8 +46,8 @@ module ehl_rough_surfaces
       procedure :: see
       procedure :: max_unresolved
       procedure :: prepare
-      procedure :: hand_over
-      procedure :: take_back
+      procedure :: transfer
+      procedure :: reclaim
       procedure :: roughness
       procedure :: bytes
       procedure :: bytes_on
@@ -212,7 +212,7 @@ contains
    end subroutine prepare
 
    !> Surfaces like these for another grid; what these have been prepared for stays
-   subroutine hand_over(self, other)
+   subroutine transfer(self, other)
       class(rough_surfaces_t), intent(inout) :: self
       !> Has none yet
       class(rough_surfaces_t), intent(inout) :: other
@@ -220,20 +220,20 @@ contains
       integer :: k
 
       do k = 1, self%count()
-         call self%of(k)%surface%hand_over(surface)
+         call self%of(k)%surface%transfer(surface)
          call other%add(self%of(k)%group, surface, 0.0_dp, self%of(k)%body)
       end do
-   end subroutine hand_over
+   end subroutine transfer
 
    !> Take back what was handed over to others that are no longer needed
-   subroutine take_back(self, other)
+   subroutine reclaim(self, other)
       class(rough_surfaces_t), intent(inout) :: self, other
       integer :: k
 
       do k = 1, min(self%count(), other%count())
-         call self%of(k)%surface%take_back(other%of(k)%surface)
+         call self%of(k)%surface%reclaim(other%of(k)%surface)
       end do
-   end subroutine take_back
+   end subroutine reclaim
 
    !> rr(nx, ny): sum of the heights at the nodes, at time T [a^2/R]
    subroutine roughness(self, grid, time, rr, moving, ways)

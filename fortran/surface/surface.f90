@@ -48,8 +48,8 @@ module ehl_surface
       !> Share of the variance in waves that a grid does not resolve
       procedure(unresolved_i), deferred :: unresolved
       procedure :: prepare
-      procedure :: hand_over
-      procedure :: take_back
+      procedure :: transfer
+      procedure :: reclaim
       procedure :: meshes
       procedure :: bytes
       procedure :: rms_height
@@ -102,20 +102,20 @@ contains
    end subroutine prepare
 
    !> A surface like this one for another grid; what this one has been prepared for stays
-   subroutine hand_over(self, other)
+   subroutine transfer(self, other)
       class(surface_t), intent(inout) :: self
       class(surface_t), allocatable, intent(out) :: other
 
       allocate (other, source=self)
-   end subroutine hand_over
+   end subroutine transfer
 
    !> Take back what was handed over to a surface that is no longer needed
-   subroutine take_back(self, other)
+   subroutine reclaim(self, other)
       class(surface_t), intent(inout) :: self, other
 
       associate (unused => self, unused_other => other)
       end associate
-   end subroutine take_back
+   end subroutine reclaim
 
    !> Bytes of its arrays
    pure real(dp) function bytes(self)

@@ -30,7 +30,7 @@ module ehl_tile_waves
       procedure :: mean_square_slope
       procedure :: correlation
       procedure :: column
-      procedure :: give_to
+      procedure :: transfer_to
       procedure :: are_here
       procedure :: bytes
    end type tile_waves_t
@@ -234,7 +234,7 @@ contains
    end function turned
 
    !> Give them away
-   subroutine give_to(self, other)
+   subroutine transfer_to(self, other)
       class(tile_waves_t), intent(inout) :: self
       type(tile_waves_t), intent(inout) :: other
 
@@ -244,7 +244,7 @@ contains
       other%mirrored = self%mirrored
       call move_alloc(self%spectrum, other%spectrum)
       call move_alloc(self%cosines, other%cosines)
-   end subroutine give_to
+   end subroutine transfer_to
 
    !> Whether they have not been given away
    pure logical function are_here(self)

@@ -36,12 +36,12 @@ contains
       call is_true(.not. status%failed(), "options on a written case")
       call is_text(resolved%text, direct%text, "an option on a written case does what it does on the case itself")
       call is_true(resolved%grid%x_inlet < first%grid%x_inlet .and. resolved%grid%points_y == 65, "domain and nodes follow")
-      ! a value that somebody has changed counts, whatever its line says
+      ! a changed value counts, whatever the mark of its line
       call read_case("&grid x_inlet = -3.7 ! derived"//lf//"/", "changed", "", direct, status)
       call is_close(direct%grid%x_inlet, -3.7_dp, 0.0_dp, "a changed value with a mark")
    end subroutine options_move_what_follows
 
-   !> Keys that say nothing to the solver need what pyehl makes of them
+   !> Keys that the solver does not read need what pyehl makes of them
    subroutine what_pyehl_makes_is_asked_for()
       type(case_t) :: input
       type(status_t) :: status

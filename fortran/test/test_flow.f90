@@ -109,7 +109,7 @@ contains
          worst = 0.0_dp
          store = kept_factors_t(laws(l))
          call store%setup(nodes, 1, stat)
-         call is_true(stat == 0 .and. store%width == 43, "stretches of equal width")
+         call is_true(stat == 0 .and. store%width == 43, "blocks of equal width")
          share = merge(0.0_dp, 1.0_dp, laws(l)%law == eyring)
          reach = 0.00999_dp/max(1.0_dp, store%law%curvature()/0.15_dp)
          do k = 1, 40

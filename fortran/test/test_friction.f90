@@ -151,7 +151,7 @@ contains
                              speeds(3) = [0.0_dp, 0.5_dp, 50.0_dp]
       class(contact_t), allocatable :: contact
       type(wall_heat_t) :: walls
-      real(dp) :: x(n), heat(n), source(2), strength, greatest, reach
+      real(dp) :: x(n), heat(n), source(2), strength, hottest, reach
       integer :: i, m, t, u
 
       do m = 1, size(ratios)
@@ -165,12 +165,12 @@ contains
             do u = 1, size(speeds)
                strength = wall_strength(speeds(u), k, kappa, speed_of_rest(contact), a, source(2))
                call walls%start(n, (x(2) - x(1))*a, [strength, strength])
-               greatest = 0.0_dp
+               hottest = 0.0_dp
                do i = 2, n
-                  greatest = max(greatest, walls%history(1, heat, 1, i - 1, i) + walls%own(1)*heat(i))
+                  hottest = max(hottest, walls%history(1, heat, 1, i - 1, i) + walls%own(1)*heat(i))
                end do
                call is_close(flash_temperature(flux, source(1)*a, source(2), [speeds(u), 0.0_dp], [k, none], [kappa, kappa]) &
-                             /greatest, 1.0_dp, 1.5e-3_dp, "row and formula, R_x/R_y = "//to_text(ratios(m)))
+                             /hottest, 1.0_dp, 1.5e-3_dp, "row and formula, R_x/R_y = "//to_text(ratios(m)))
             end do
          end do
       end do
@@ -284,13 +284,13 @@ contains
       call is_true(w*q > 0.5_dp, "the heat counts")
       call is_close(found%ratio()*q0/q, 1.0_dp, 1.0e-7_dp, "friction of a film that heats itself")
       call is_close(maxval(found%rise(:, :, 1))*beta/(w*q), 1.0_dp, 1.0e-7_dp, "its temperature")
-      call is_close(found%greatest(1)*beta/(w*q), 1.0_dp, 1.0e-7_dp, "its greatest temperature")
+      call is_close(found%max_rise(1)*beta/(w*q), 1.0_dp, 1.0e-7_dp, "its maximum temperature")
       level%lubricant = new_lubricant(viscosity_barus, density_dowson_higginson, alpha_bar, hertz_pressure, 0.6_dp, 1.96e8_dp)
       level%lubricant%shear = shear_law_t(shear_limiting, 0.0_dp, 0.05_dp, 1.0_dp, scale, hertz_pressure)
       pressure(20:24, :) = 0.0_dp
       call heat_film(film_heat_t(speed, conductivity, [1.0e-6_dp, 2.0e-6_dp], 1.0e-3_dp, film), level%grid, level%lubricant, &
                      pressure, films, .false., 2, found)
       call is_close(found%ratio(), 1.0_dp, 1.0e-7_dp, "a viscosity that no temperature changes")
-      call is_true(found%greatest(3) > found%greatest(2) .and. .not. allocated(found%rise), "the wall that conducts less is hotter")
+      call is_true(found%max_rise(3) > found%max_rise(2) .and. .not. allocated(found%rise), "the wall that conducts less is hotter")
    end subroutine heated_film
 end module test_friction

@@ -4,7 +4,7 @@ program tester
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use check, only: n_checks, n_failures
    use test_alcouffe, only: run_alcouffe
-   use test_sealed, only: run_sealed
+   use test_checksum, only: run_checksum
    use test_case, only: run_case
    use test_deflection, only: run_deflection
    use test_flow, only: run_flow
@@ -27,8 +27,8 @@ program tester
    select case (suite)
    case ("text")
       call run_text()
-   case ("sealed")
-      call run_sealed()
+   case ("checksum")
+      call run_checksum()
    case ("record")
       call run_record()
    case ("reynolds")

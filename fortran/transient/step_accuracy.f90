@@ -3,7 +3,7 @@
 !> error. Both are measured in the run, with the friction of a Newtonian lubricant whatever its shear law: that
 !> friction feels a wrong pressure most. Where the flow thins, pressure and film are those of the law; the friction of the
 !> law itself is not asked: it may hardly differ from the smooth one where pressures still do. Steps that go on after their
-!> first cycle tell by how much mu_r/mu_s would have been wrong with the residual after it. The grid error of mu_r/mu_s is
+!> first cycle show by how much mu_r/mu_s would have been wrong with the residual after it. The grid error of mu_r/mu_s is
 !> taken to be at least a share of its rise over 1, that of the smooth friction on this grid being the measure; see
 !> docs/design.md.
 module ehl_step_accuracy

@@ -40,7 +40,7 @@ module ehl_step_policy
       !> Kind of coarsening; whether it changes for good when a cycle is slow, and the step in which it did (0: none)
       integer :: coarsening = coarsening_classical, changed_at = 0
       logical :: may_change = .false.
-      !> Whether bodies touch at a boundary film: the conductance of their nodes says nothing about their changes, and the
+      !> Whether bodies touch at a boundary film: the conductance of their nodes does not bound their changes, and the
       !> coarsening stays the classical one
       logical :: touching = .false.
       !> The step under way: its largest residual (rms), whether it makes a cycle more to measure what that does, the

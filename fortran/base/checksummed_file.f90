@@ -1,13 +1,13 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Binary files that end with a checksum of what stands before it
-module ehl_sealed_file
+module ehl_checksummed_file
    use, intrinsic :: iso_fortran_env, only: int64, int8
    use ehl_files, only: file_bytes, flush_file
    use ehl_status, only: ehl_file, status_t
    use ehl_whole_file, only: end_writing
    implicit none (type, external)
    private
-   public :: open_sealed, end_sealed, end_reading, is_sealed
+   public :: open_checksummed, end_checksummed, end_reading, has_checksum
 
    !> Bytes that are read at a time, those of a checksum
    integer, parameter :: block = 65536, of_checksum = 8
@@ -18,7 +18,7 @@ module ehl_sealed_file
 contains
 
    !> Open a file to "write" it, in place of what was there, or to "read" it
-   subroutine open_sealed(path, action, lun, status)
+   subroutine open_checksummed(path, action, lun, status)
       character(len=*), intent(in) :: path, action
       integer, intent(out) :: lun
       type(status_t), intent(inout) :: status
@@ -28,10 +28,10 @@ contains
       open (newunit=lun, file=path, status=trim(merge("replace", "old    ", action == "write")), action=action, &
             access="stream", form="unformatted", iostat=stat, iomsg=reason)
       if (stat /= 0) call status%fail(ehl_file, path//": error: cannot "//action//": "//trim(reason))
-   end subroutine open_sealed
+   end subroutine open_checksummed
 
    !> Close a file that was written and seal it. It is on the disk itself then, lest it is lost with the power.
-   subroutine end_sealed(lun, path, stat, reason, status)
+   subroutine end_checksummed(lun, path, stat, reason, status)
       integer, intent(in) :: lun
       character(len=*), intent(in) :: path
       !> iostat and iomsg of the last write
@@ -53,7 +53,7 @@ contains
       call end_writing(again, path, bytes + of_checksum, sealing, why, status)
       if (status%failed()) return
       if (.not. flush_file(path)) call status%fail(ehl_file, path//": cannot write: it does not get onto the disk")
-   end subroutine end_sealed
+   end subroutine end_checksummed
 
    !> Close a file that was read
    subroutine end_reading(lun, path, stat, reason, status)
@@ -69,20 +69,20 @@ contains
    end subroutine end_reading
 
    !> Whether all of a file is there as it was written
-   logical function is_sealed(path)
+   logical function has_checksum(path)
       character(len=*), intent(in) :: path
       integer(int64) :: bytes, theirs
       integer :: lun, stat
 
-      is_sealed = .false.
+      has_checksum = .false.
       bytes = file_bytes(path) - of_checksum
       if (bytes < 0) return
       open (newunit=lun, file=path, status="old", action="read", access="stream", form="unformatted", iostat=stat)
       if (stat /= 0) return
       read (lun, pos=bytes + 1, iostat=stat) theirs
       close (lun)
-      if (stat == 0) is_sealed = theirs == checksum(path, bytes)
-   end function is_sealed
+      if (stat == 0) has_checksum = theirs == checksum(path, bytes)
+   end function has_checksum
 
    !> Of so many bytes of a file; of those that can be read
    integer(int64) function checksum(path, bytes)
@@ -107,4 +107,4 @@ contains
       end do
       close (lun)
    end function checksum
-end module ehl_sealed_file
+end module ehl_checksummed_file
