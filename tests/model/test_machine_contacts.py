@@ -1,0 +1,419 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Bearings and gears: films and friction of their contacts, case files, bad input."""
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+from document_text import fences, is_shown
+from machine_options import BALLS, FZG, OIL, ROLLERS, TAPERED, bearing, gear, made
+
+import pyehl
+from pyehl import cli
+from pyehl.machines.contact import CROSSED
+from pyehl.machines.perform import Prepared
+
+
+def test_mean_friction_of_a_constant_coefficient():
+    """With the same mu everywhere the mean is that mu, and the loss mu H_V P."""
+    found = gear(FZG, OIL)
+    table, s = found.table, found.summary
+    sliding = table["load_N"] * (table["slide_to_roll"] * table["mean_velocity_m_per_s"]).abs()
+    power = np.trapezoid(0.05 * sliding, table["s_m"]) / s["base_pitch_m"]
+    assert power / (s["loss_factor"] * s["input_power_W"]) == pytest.approx(0.05)
+    assert table["mu"].min() < s["mu_mean"] < table["mu"].max()
+    # H_V of Ohlendorf for a load shared equally: pi (u+1)/(z1 u cos(beta)) (1 - eps + e1^2 + e2^2)
+    equal = gear(FZG, OIL, {"spur_gear.load_sharing": "equal"}).summary
+    pitch = equal["base_pitch_m"]
+    _, pair = made(FZG)
+    e_1, e_2 = pair.mesh.ends[1] / pitch, -pair.mesh.ends[0] / pitch
+    ohlendorf = math.pi * 2.5 / (16 * 1.5) * (1.0 - equal["contact_ratio"] + e_1**2 + e_2**2)
+    assert equal["loss_factor"] == pytest.approx(ohlendorf, rel=1e-3)
+
+
+def test_friction_of_lines_and_ellipses():
+    """Without heat: tau_0 asinh(eta u/(h tau_0)) over the mean pressure, integrated elsewhere."""
+    options = {**FZG, **OIL, "lubricant.thermal_friction": "never"}
+    for crowning, weight in ((0.0, 0.0), (3e-4, 1.0)):
+        found = gear(options, {"spur_gear.crowning_1": crowning})
+        row = found.table.iloc[5]
+        oil = pyehl.Lubricant.from_name("fva3", 60.0)
+        r = (np.arange(20000) + 0.5) / 20000
+        pressure = row["hertz_pressure_Pa"] * np.sqrt(1.0 - r**2)
+        speed = abs(row["slide_to_roll"]) * row["mean_velocity_m_per_s"]
+        newton = oil.viscosity * oil.viscosity_ratio(pressure) * speed / row["h_c_m"]
+        stress = 6e6 * np.arcsinh(newton / 6e6)
+        ratio = np.average(stress, weights=r**weight) / np.average(pressure, weights=r**weight)
+        assert row["mu"] == pytest.approx(ratio, rel=1e-4)
+    # the heat takes friction away
+    warm = gear(FZG, OIL)
+    cold = gear(options)
+    assert np.all((warm.table["mu"] < cold.table["mu"]) | warm.table["mu"].isna())
+
+
+def test_friction_by_formulas_beside_solved_contacts(root: Path):
+    """Within 3 %: crowned flanks on 129 nodes, whose films are 7 to 14 % thinner."""
+    options = {
+        "spur_gear.crowning_1": 2e-4,
+        "spur_gear.torque": 40.0,
+        "spur_gear.stations": 5,
+        "grid.points": 129,
+    }
+    path = root / "cases" / "fzg_c.nml"
+    formula, solved = (
+        pyehl.gear(path, options, run=run, jobs=1).table for run in ("film", "solve")
+    )
+    assert set(solved["status"]) == {"converged"}
+    ratio = (formula["mu"] / solved["mu"]).dropna()
+    assert len(ratio) == len(formula) - 1
+    assert ratio.between(0.97, 1.03).all()
+    assert (formula["h_c_m"] / solved["h_c_m"]).between(1.0, 1.15).all()
+
+
+def test_lines_are_solved(root: Path):
+    """The page states 4 % for films and friction, and a mean coefficient of 0.0357."""
+    page = (root / "docs" / "howto" / "gear.md").read_text()
+    path = root / "cases" / "fzg_c.nml"
+    options = {"spur_gear.stations": 9}
+    formula, solved = (pyehl.gear(path, options, run=run, jobs=1) for run in ("film", "solve"))
+    assert set(solved.table["shape"]) == {"line"}
+    assert set(solved.table["status"]) == {"converged"}
+    assert (formula.table["h_c_m"] / solved.table["h_c_m"]).between(0.96, 1.01).all()
+    assert (formula.table["mu"] / solved.table["mu"]).dropna().between(0.96, 1.04).all()
+    fine = pyehl.gear(path, options, {"grid.points": 1025}, run="solve", jobs=1).table
+    error = solved.table["h_c_error_m"]
+    assert ((fine["h_c_m"] - solved.table["h_c_m"]).abs() <= error).all()
+    assert (error < 0.02 * solved.table["h_c_m"]).all()
+    assert solved.summary["mu_mean"] == pytest.approx(0.0357, abs=2e-4)
+    assert "0.0357" in page
+
+
+def test_rollers_of_a_bearing_are_solved_and_predicted():
+    """Of another material: the line has the reduced modulus of the bodies."""
+    hybrid = {"bodies.modulus_1": 3.1e11, "bodies.poisson_1": 0.26}
+    rollers = bearing(ROLLERS, hybrid, run="solve", jobs=1).table
+    by_formula = bearing(ROLLERS, hybrid).table
+    assert rollers["hertz_pressure_Pa"].to_numpy() == pytest.approx(by_formula["hertz_pressure_Pa"])
+    steel = bearing(ROLLERS).table
+    assert (by_formula["hertz_pressure_Pa"] > 1.05 * steel["hertz_pressure_Pa"]).all()
+    # a prediction has the roughness on lines, too
+    rough = {
+        "surface.kind": "fractal",
+        "surface.rms_height": 2e-8,
+        "surface.pixels": 64,
+        "grid.points": 257,
+        "psd.positions": 2,
+        # as much load on a roller, and fewer of them
+        "roller_bearing.rollers": 5,
+        "roller_bearing.radial_load": 1200.0,
+    }
+    predicted = bearing(ROLLERS, rough, run="predict", jobs=1).table
+    assert set(predicted["status"]) == {"predicted"}
+    assert (predicted["h_min_rough_m"] < predicted["h_min_m"]).all()
+
+
+def test_rolling_resistance_beside_solved_contacts(root: Path):
+    """Both formulas beside a 6204 with a short and a long inlet, as the page has it."""
+    page = (root / "docs" / "howto" / "bearing.md").read_text()
+    case = root / "cases" / "ball_bearing.nml"
+    point = pyehl.OperatingPoint.from_settings(pyehl.Case(case).resolve())
+    shape, radius, alpha = point.ellipse, point.radius, point.pressure_viscosity
+    moment = 7.5 * shape.ellipticity**2 * shape.kernel_ratio**0.25 / point.moes_m
+    load = 0.5 * math.pi * point.hertz_radius * point.hertz_pressure
+    flow = alpha * point.viscosity * point.mean_velocity / radius
+    line = 4.318 * radius / alpha * flow**0.658
+    line *= (load / (point.reduced_modulus * radius)) ** 0.0126
+    shares = []
+    for inlet in (-2.5, -10.0):
+        ds = pyehl.solve(case, {"grid.x_inlet": inlet})
+        p, h = ds.P.values, ds.H.values
+        middle = p.shape[1] // 2
+        row = 0.25 * np.sum((h[1:, middle] + h[:-1, middle]) * np.diff(p[:, middle]))
+        solved = row * point.hertz_pressure * point.film_scale
+        shares.append((float(ds.rolling_moment) / moment, 1.0 - line / solved))
+    assert "0.81 and 1.02 of it" in page
+    assert [share for share, _ in shares] == pytest.approx([0.81, 1.02], abs=0.006)
+    assert "11 to 30 %" in page
+    assert [below for _, below in shares] == pytest.approx([0.11, 0.30], abs=0.006)
+
+
+def test_trial_of_a_gear_pair():
+    """302 N m, FVA 3 at 60 degC; ellipses of a made-up crown had 229 to 356 nm, 0.036 to 0.043."""
+    found = gear(FZG, OIL, {"spur_gear.torque": 302.0})
+    films = found.table["h_c_m"] * 1e9
+    assert films.min() > 229.0
+    assert films.max() < 1.15 * 356.0
+    assert 0.033 < found.summary["mu_mean"] < 0.043
+
+
+def test_sliding_in_a_groove():
+    """Limits: an Eyring stress far below the Newtonian one; a spin alone turns with its torque."""
+    options = {"lubricant.shear_law": "limiting", "lubricant.limiting_stress": 1e5}
+    found = bearing(BALLS, options)
+    row = found.table.iloc[0]
+    # a constant stress k: P = k integral of |du|, du = c (y0^2 - y^2) with the y0 that balances
+    inner = row["half_width_m"], row["half_width_m"] * row["ellipticity"]
+    groove, ball = 0.52 * 9.525e-3, 0.5 * 9.525e-3
+    factor = row["mean_velocity_m_per_s"] / row["radius_m"] * 0.25 * (1 / ball + 1 / groove)
+    y = (np.arange(400000) + 0.5) / 400000 * inner[1]
+    chord = 2.0 * inner[0] * np.sqrt(1.0 - (y / inner[1]) ** 2)
+    share = np.cumsum(chord) / chord.sum()
+    y_0 = y[np.searchsorted(share, 0.5)]
+    power = 1e5 * 2.0 * np.sum(chord * factor * np.abs(y_0**2 - y**2)) * (y[1] - y[0])
+    assert row["sliding_power_W"] == pytest.approx(power, rel=5e-3)
+    # a Newtonian oil has no absolute friction
+    newtonian = bearing(BALLS)
+    assert math.isnan(newtonian.summary["torque_N_m"])
+    assert newtonian.summary["rolling_torque_N_m"] > 0.0
+    pair = gear(FZG)
+    for found in (newtonian, pair):
+        lines = repr(found).splitlines()
+        assert sum("not reported: give a lubricant.shear_law" in line for line in lines) == 3
+        assert not any("no result" in line or "nan" in line for line in lines)
+
+
+def test_rolling_resistance_of_a_line():
+    """Per length, whatever the length: 4.318 (alpha eta0 u/R)^0.658 W^0.0126 R/alpha."""
+    short, long = (
+        bearing(ROLLERS, {f"roller_bearing.{k}": v * f for k, v in
+                      (("roller_length", 9e-3), ("radial_load", 3000.0))}).table.iloc[0]
+        for f in (1.0, 2.0)
+    )  # fmt: skip
+    assert long["rolling_power_W"] == pytest.approx(2.0 * short["rolling_power_W"], rel=2e-3)
+
+
+def test_solved_contacts_and_resuming(tmp_path: Path):
+    """Formulas and solutions agree; mirrored balls are solved once; a second call runs nothing."""
+    options = [
+        BALLS,
+        OIL,
+        {"grid.points": 129},
+        {"ball_bearing.balls": 5, "ball_bearing.radial_load": 100.0},
+    ]
+    by_formula = bearing(*options)
+    folder = tmp_path / "out"
+    solved = bearing(*options, run="solve", output=folder, jobs=1)
+    assert set(solved.table["status"]) == {"converged"}
+    assert solved.table["h_c_m"].to_numpy() == pytest.approx(by_formula.table["h_c_m"], rel=0.1)
+    assert (solved.table["h_c_error_m"] > 0.0).all()
+    assert solved.table["load_N"].to_numpy() == pytest.approx(by_formula.table["load_N"])
+    names = {path.name for path in folder.iterdir()}
+    assert {
+        "contacts.csv",
+        "summary.json",
+        "contacts.png",
+        "machine.nml",
+        "journal.sqlite",
+    } == names
+    again = bearing(*options, run="solve", output=folder, jobs=1)
+    assert again.table.equals(solved.table)
+    with pytest.raises(pyehl.InputError, match="another study"):
+        bearing(*options, {"ball_bearing.clearance": 1e-6}, run="solve", output=folder)
+    with pytest.raises(pyehl.InputError, match="formulas would replace"):
+        bearing(*options, output=folder)
+    assert solved.data["h_c_m"].attrs["units"] == "m"
+
+
+ANGULAR = {"ball_bearing.contact_angle": 25.0, "ball_bearing.axial_load": 1.0}
+HIGH = {
+    "spur_gear.teeth_2": 100,
+    "spur_gear.centre_distance": 0.0,
+    "spur_gear.tip_diameter_2": 0.466,
+}
+BAD = {
+    "balls do not fit": (BALLS, {"ball_bearing.balls": 16}, "do not fit round", "at most 15"),
+    "no rings": (BALLS, {"ball_bearing.ball_diameter": 0.02}, "leave no rings", "below 0.016"),
+    "no pitch": (ROLLERS, {"roller_bearing.pitch_diameter": 0.0}, "not given", "bore"),
+    "no load": (BALLS, {"ball_bearing.radial_load": 0.0}, "no load", "radial_load"),
+    "no speed": (BALLS, {"ball_bearing.outer_speed": 3000.0}, "do not turn", "inner_speed"),
+    "preload": (BALLS, {"ball_bearing.clearance": -5e-4}, "cannot be closed", "at least -"),
+    "roller preload": (ROLLERS, {"roller_bearing.clearance": -5e-4}, "cannot be closed", "10 um"),
+    "too loose": (BALLS, {"ball_bearing.clearance": 9e-4}, "contact angle exceeds", "at most"),
+    "comes apart": (BALLS, {"ball_bearing.contact_angle": 25.0}, "come apart", "axial_load"),
+    "angle and play": (
+        BALLS,
+        ANGULAR | {"ball_bearing.clearance": 1e-5},
+        "is a clearance of",
+        "one of the two",
+    ),
+    "cylinders": (ROLLERS, {"roller_bearing.axial_load": 10.0}, "cylindrical", "contact_angle"),
+    "cone": (TAPERED, {"roller_bearing.roller_angle": 8.0}, "no cone", "at most 7.5"),
+    "apart by rollers": (TAPERED, {"roller_bearing.axial_load": 803.0}, "apart", "803.85"),
+    "undercut": (FZG, {"spur_gear.profile_shift_1": -0.2}, "undercut", "at least 0.065"),
+    "tight": (FZG, {"spur_gear.centre_distance": 0.0914}, "without backlash", "0.0915"),
+    "apart": (FZG, {"spur_gear.centre_distance": 0.0955}, "contact ratio", "1 to 2"),
+    "pointed": (FZG, {"spur_gear.tip_diameter_1": 0.0905}, "pointed", "less than"),
+    "too high": (FZG, HIGH, "below the base circle", "tip_diameter_2 below 0.46"),
+    "no torque": (FZG, {"spur_gear.torque": 0.0}, "torque is 0", "torque of the pinion"),
+    "gear at rest": (FZG, {"spur_gear.speed": 0.0}, "do not turn", "speed"),
+    "rivals": (BALLS, {"contact.load": 100.0}, "contradicts", "follows from"),
+    "huge": (BALLS, {"ball_bearing.radial_load": 9e6}, "ball 1, inner ring", "1e5"),
+    "misspelt": (BALLS, {"ball_bearing.bals": 9}, "unknown key", "did you mean 'balls'"),
+    "range": (BALLS, {"ball_bearing.osculation_inner": 0.4}, "out of range", "0.501"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_bad_input(name: str):
+    options, change, *words = BAD[name]
+    with pytest.raises(pyehl.InputError) as error:
+        (gear if "spur_gear.module" in options else bearing)(options, change)
+    for word in (*words, "expected: "):
+        assert word in str(error.value), str(error.value)
+
+
+FILE = """&ball_bearing
+   pitch_diameter = 0.046
+   ball_diameter = 9.525e-3
+   balls = 17
+   radial_load = 1000.0
+   inner_speed = 1000.0
+/
+"""
+
+
+def test_messages_point_into_the_file(tmp_path: Path, capfd: pytest.CaptureFixture[str]):
+    path = tmp_path / "bearing.nml"
+    path.write_text(FILE)
+    assert cli.main(["bearing", str(path), "-o", str(tmp_path / "out")]) == 2
+    reported = capfd.readouterr().err
+    assert f"{path}:4:12: error: 17 balls" in reported
+    assert "\n  4 |    balls = 17\n    |            ^^\nexpected: at most 15 balls" in reported
+    assert not (tmp_path / "out").exists()
+    assert cli.main(["gear", str(path)]) == 2
+    assert "'pyehl bearing' takes it" in capfd.readouterr().err
+    for command in ("check", "film"):
+        assert cli.main([command, str(path)]) == 2
+        assert "'pyehl bearing', or a case" in capfd.readouterr().err
+    path.write_text("&contact load = 100.0 /\n")
+    assert cli.main(["bearing", str(path)]) == 2
+    assert "there is no &ball_bearing or &roller_bearing" in capfd.readouterr().err
+
+
+FILES = {
+    "bearing_6206": ("bearing", "ball_bearing"),
+    "bearing_nu206": ("bearing", "roller_bearing"),
+    "fzg_c": ("gear", "spur_gear"),
+}
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_case_files_by_formulas(root: Path, tmp_path: Path, name: str, capfd):
+    folder, (command, group) = tmp_path / "out", FILES[name]
+    assert cli.main([command, str(root / "cases" / f"{name}.nml"), "-o", str(folder)]) == 0
+    reported = capfd.readouterr().out
+    for word in ("h_c [nm]", "Lambda", "left out", str(folder / "contacts.csv")):
+        assert word in reported
+    assert (folder / "contacts.png").stat().st_size > 10_000
+    # the resolved group reads back as the same machine
+    text = (folder / "machine.nml").read_text()
+    assert text.startswith(f"&{group}\n")
+    assert cli.main([command, str(folder / "machine.nml"), "-o", str(tmp_path / "again")]) == 0
+    tables = [(place / "contacts.csv").read_text() for place in (folder, tmp_path / "again")]
+    assert tables[0] == tables[1]
+    assert cli.main(["report", str(folder)]) == 0
+    shown = (folder / "report.html").read_text()
+    for word in ("minimum Lambda", "left out", f"&amp;{group}", "data:image/png"):
+        assert word in shown
+    # the page is ours, and goes with the result
+    assert (
+        cli.main([command, str(folder / "machine.nml"), "-o", str(tmp_path / "more"), "--json"])
+        == 0
+    )
+    assert '"kind": ' in capfd.readouterr().out
+
+
+def test_the_path_of_contact_is_a_duty(root: Path, tmp_path: Path):
+    """The table along the path, and a case that runs with it; B and D are steps of the load."""
+    folder = tmp_path / "out"
+    assert cli.main(["gear", str(root / "cases/fzg_c.nml"), "-q", "-o", str(folder)]) == 0
+    table = pd.read_csv(folder / "contacts.csv")
+    duty = pd.read_csv(folder / "duty.csv")
+    columns = ["time [s]", "load [N/m]", "u1 [m/s]", "u2 [m/s]", "radius_x [m]"]
+    assert list(duty.columns) == columns
+    mean = 0.5 * (duty["u1 [m/s]"] + duty["u2 [m/s]"])
+    np.testing.assert_allclose(
+        (duty["u1 [m/s]"] - duty["u2 [m/s]"]) / mean, table["slide_to_roll"], atol=1e-9
+    )
+    np.testing.assert_allclose(duty["load [N/m]"] * 14e-3, table["load_N"], rtol=1e-9)
+    # the contact goes along the line of action with the velocity of the base circle
+    path = np.diff(table["s_m"]).sum()
+    base = 4.5e-3 * 16 / 2 * math.cos(math.radians(20.0))
+    whole = path / (base * 2.0 * math.pi * 1450.0 / 60.0)
+    assert duty["time [s]"].iloc[-1] == pytest.approx(whole, rel=1e-6)
+    case = pyehl.Case(folder / "duty.nml")
+    np.testing.assert_allclose(case["duty"]["load"], duty["load [N/m]"], rtol=1e-12)
+    data = pyehl.solve(case, {"grid.points": 257})
+    assert float(data.duty_end_s) == pytest.approx(whole, rel=1e-6)
+    # the minimum film is about that of the stations by formulas
+    assert 0.6 < float(data.duty_h_c_min_m) / table["h_c_m"].min() < 1.2
+
+
+@pytest.mark.parametrize("page", ["bearing", "gear"])
+def test_pages_show_what_is_printed(root: Path, page: str, monkeypatch, capfd):
+    monkeypatch.chdir(root)
+    path = root / "docs" / "howto" / f"{page}.md"
+    blocks = [text for language, text in fences(path) if language == "console"]
+    for block in blocks:
+        command, *shown = block.removeprefix("$ pyehl ").splitlines()
+        assert cli.main(command.split()) == 0
+        printed = capfd.readouterr().out.splitlines()
+        missing = [s for s in shown if s != "..." and not any(is_shown(s, p) for p in printed)]
+        assert not missing
+    assert len(blocks) == 1
+
+
+def test_prediction_needs_a_rough_surface():
+    with pytest.raises(pyehl.InputError, match="both surfaces are smooth"):
+        bearing(BALLS, run="predict")
+    with pytest.raises(pyehl.InputError, match="did you mean 'solve'"):
+        bearing(BALLS, run="slove")
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_interrupted_before_any_contact(root: Path, name: str):
+    """No film, no friction that needs it, and nothing in their place."""
+    path = root / "cases" / f"{name}.nml"
+    found = Prepared(path, [], (FILES[name][1],), "solve").result({})
+    assert not found.complete
+    assert set(found.table["status"]) == {"not run"}
+    assert found.table[["h_c_m", "h_min_m"]].isna().all(axis=None)
+    assert math.isnan(found.summary["h_min_m"])
+    assert "minimum film                  not reported: a contact has no result" in repr(found)
+
+
+def test_crown_of_a_nanometre_is_a_line():
+    tables = [gear(FZG, OIL, {"spur_gear.crowning_1": crown}).table for crown in (0.0, 1e-9)]
+    assert tables[0].equals(tables[1])
+
+
+def test_formulas_that_contradict_each_other():
+    """A minimum film above the central one, far beyond the ranges of both formulas, is noted."""
+    options = {"lubricant.viscosity": 0.004, "ball_bearing.inner_speed": 100.0}
+    for load, crossed in ((3000.0, True), (10.0, False)):
+        table = bearing(BALLS, options, {"ball_bearing.radial_load": load}).table
+        above = table["h_min_m"] > table["h_c_m"]
+        assert above.any() == crossed
+        assert (table["note"].str.contains(CROSSED) == above).all()
+
+
+def test_pressure_above_the_static_limit_is_noted():
+    for load, yields in ((3000.0, False), (30000.0, True)):
+        found = bearing(BALLS, {"ball_bearing.radial_load": load})
+        assert (found.summary["hertz_pressure_max_Pa"] > 4.2e9) == yields
+        assert ("steel      yields" in repr(found)) == yields
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "message"),
+    [
+        ("ball_bearing.radial_load", 3e6, "radial_load=3000000.*\n.*\n.*\\^"),
+        ("ball_bearing.inner_speed", 1e6, "inner_speed=1000000.*\n.*\n.*\\^"),
+        ("contact.shape", "line", "contact.shape follows from &ball_bearing"),
+    ],
+)
+def test_refused_at_what_causes_it(root: Path, key: str, value: object, message: str):
+    with pytest.raises(pyehl.InputError, match=message):
+        pyehl.bearing(root / "cases" / "bearing_6206.nml", {key: value})
