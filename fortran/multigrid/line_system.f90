@@ -193,7 +193,7 @@ contains
                ! nodes that pass oil on are not coupled along X
                where (g(:, f_east, i) + g(:, f_east, i - 1) > 0.0_dp)
                   a = 0.5_dp - 0.5_dp*g(:, f_other, i)/(g(:, f_east, i) + g(:, f_east, i - 1) + tiny(1.0_dp))
-               elsewhere
+               else where
                   a = 1.0_dp
                end where
             end if
