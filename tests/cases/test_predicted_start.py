@@ -43,7 +43,7 @@ def tile(tmp_path: Path) -> dict[str, Any]:
     [
         WAVE,
         WAVE | {"surface.velocity_ratio": 0.8, "surface.wavelength_y": 1.0},
-        WAVE | {"time.scheme": "paper"},
+        pytest.param(WAVE | {"time.scheme": "paper"}, marks=pytest.mark.long),
         pytest.param({"surface.kind": "fractal"}, marks=pytest.mark.long),
         WAVE | WIDE,
         WAVE | SECOND | {"contact.slide_to_roll": 0.0, "second_surface.wavelength": 0.25},

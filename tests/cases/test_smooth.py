@@ -140,8 +140,14 @@ def test_hertz_limit(solve):
         assert np.abs(change[[0, 0, -1, -1], [0, -1, 0, -1]]).max() < 0.1 * h_c
 
 
-@pytest.mark.parametrize("moes_l", [5.0, 7.5, 11.0, 15.0])
-@pytest.mark.parametrize("moes_m", [20.0, 60.0, 250.0, 700.0, 1300.0, 2000.0])
+@pytest.mark.parametrize(
+    ("moes_m", "moes_l"),
+    [
+        pytest.param(m, n, marks=[pytest.mark.long] if (i + j) % 2 else [])
+        for i, m in enumerate((20.0, 60.0, 250.0, 700.0, 1300.0, 2000.0))
+        for j, n in enumerate((5.0, 7.5, 11.0, 15.0))
+    ],
+)
 def test_default_settings_converge(solve, moes_m: float, moes_l: float):
     done = solve((moes_m, moes_l), 513)
     assert done.converged

@@ -248,7 +248,11 @@ def command_of(words: list[str]) -> list[str]:
 
 # that folders are made on the way is for `Destination` alone
 @pytest.mark.parametrize(
-    ("name", "deep"), [*((name, False) for name in FOLDERS), ("ehl", True), ("sweep", True)]
+    ("name", "deep"),
+    [
+        *(pytest.param(name, False, marks=pytest.mark.long) for name in FOLDERS if name != "run"),
+        *(("run", False), ("ehl", True), ("sweep", True)),
+    ],
 )
 def test_no_permission(ehl: str, tmp_path: Path, name: str, deep: bool):
     text, words = FOLDERS[name]

@@ -195,7 +195,9 @@ def test_heat_where_bodies_touch():
         assert summary["temperature_rise_max_K"] > full["temperature_rise_max_K"]
 
 
-@pytest.mark.parametrize(("heat", "surfaces"), [("auto", 2), ("never", 1)])
+@pytest.mark.parametrize(
+    ("heat", "surfaces"), [("auto", 2), pytest.param("never", 1, marks=pytest.mark.long)]
+)
 def test_friction_of_a_curve_is_its_ratio_times_that_of_the_smooth_contact(heat, surfaces):
     """In every row, or mu_smooth is missing and the row states why."""
     case = pyehl.Case.from_text(HOT.format(1.2e-7) + "&grid points = 65 /\n")

@@ -46,7 +46,10 @@ def rows_of(path):
 @pytest.mark.parametrize("units", ["si", pytest.param("hertz", marks=pytest.mark.long)])
 @pytest.mark.parametrize(
     ("case", "count"),
-    [("roller", 2), ("duty", 3), ("greased", 2), ("line", 1), ("gear_pair", 5), ("dent", 5)],
+    [
+        *(("roller", 2), ("duty", 3), ("greased", 2), ("line", 1), ("dent", 5)),
+        pytest.param("gear_pair", 5, marks=pytest.mark.long),
+    ],
 )
 def test_shapes_and_conditions_of_a_contact(cases, case, count, units):
     """Rollers, loads that change, greased and line contacts, two rough surfaces, a dent."""
