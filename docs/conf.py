@@ -47,6 +47,7 @@ sphinx_gallery_conf = {
     "gallery_dirs": "gallery",
     "filename_pattern": "/plot_",
     "image_scrapers": ("matplotlib", "figure_scraper.scrape"),
+    "reset_modules": ("matplotlib", "figure_scraper.by_the_style_sheet"),
     "within_subsection_order": "FileNameSortKey",
     "abort_on_example_error": True,
     "download_all_examples": False,

@@ -12,8 +12,6 @@ import matplotlib.pyplot as plt
 
 import pyehl
 from pyehl.plots import contact
-from pyehl.plots.panels import headline
-from pyehl.schema import summary_of
 
 ds = pyehl.solve("../../cases/quick.nml")
 ds.attrs["status"], float(ds.H_c), float(ds.H_min)
@@ -21,7 +19,7 @@ ds.attrs["status"], float(ds.H_c), float(ds.H_min)
 # %%
 # The result is an :class:`xarray.Dataset`: its variables have coordinates, units and names.
 
-figure, ax = plt.subplots(figsize=(6.0, 3.6), layout="constrained")
+figure, ax = plt.subplots(figsize=(3.35, 2.4), layout="constrained")
 ds.P.plot(ax=ax, x="X")
 ax.set_aspect("equal")
 plt.show()
@@ -29,9 +27,8 @@ plt.show()
 # %%
 # The functions of ``pyehl.plots`` draw on axes that you give, and return them.
 
-figure, (left, right) = plt.subplots(1, 2, figsize=(9.5, 4.0), layout="constrained")
+figure, (left, right) = plt.subplots(1, 2, figsize=(6.9, 2.9), layout="constrained")
 x, y = ds.X.values, ds.Y.values
 contact.pressure_and_film(x, ds.P.sel(Y=0.0).values, ds.H.sel(Y=0.0).values, ax=left)
 contact.interferogram(x, y, ds.H.values, ax=right)
-figure.suptitle(headline(summary_of(ds)))
 plt.show()

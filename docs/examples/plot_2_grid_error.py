@@ -20,7 +20,7 @@ better = [float(ds.H_c_extrapolated) for ds in runs]
 # %%
 # The error falls by four when the mesh size is halved: the discretisation is of second order.
 
-figure, ax = plt.subplots(figsize=(6.0, 3.8), layout="constrained")
+figure, ax = plt.subplots(figsize=(3.35, 2.4), layout="constrained")
 ax.errorbar(grids, film, yerr=error, fmt="o", capsize=4, label="$H_c$ with its estimated error")
 ax.plot(grids, better, "s", mfc="none", label="extrapolated")
 ax.set_xscale("log", base=2)
@@ -28,7 +28,6 @@ ax.set_xticks(grids, [f"{n} × {n}" for n in grids])
 ax.minorticks_off()
 ax.set_xlabel("nodes")
 ax.set_ylabel("$H_c = h_c R/a^2$")
-ax.set_title("$M$ = 200, $L$ = 10")
 ax.legend()
 plt.show()
 

@@ -10,6 +10,7 @@ Table 1 of Zhang et al. 2019 by published formulas, and by the solver at three s
 import matplotlib.pyplot as plt
 
 import pyehl
+from pyehl.plots.style import label_decades, label_log_ticks
 
 CASE = "../../cases/table1.nml"
 formulas = pyehl.sweep(CASE, {"contact.mean_velocity": "0.1:3:25log"}, run="film", jobs=1)
@@ -23,7 +24,7 @@ sorted(name for name in formulas.data_vars if name.startswith("h_c_m"))
 
 # %%
 
-figure, ax = plt.subplots(figsize=(6.2, 4.2), layout="constrained")
+figure, ax = plt.subplots(figsize=(4.2, 3.0), layout="constrained")
 speed = formulas.mean_velocity
 for name, label, style in (
     ("nijenbanning_venner_moes", "Nijenbanning, Venner & Moes", "-"),
@@ -41,7 +42,8 @@ ax.errorbar(
     label="solver, extrapolated from 257 × 257 nodes",
 )
 ax.set_xlabel("mean velocity [m/s]")
-ax.set_ylabel(r"$h_c$ [$\mu$m]")
-ax.set_title("Central film, contact of Table 1")
+ax.set_ylabel("$h_c$ [µm]")
+label_log_ticks(ax.yaxis, 4)
+label_decades(ax.xaxis)
 ax.legend()
 plt.show()

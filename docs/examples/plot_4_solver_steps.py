@@ -21,13 +21,12 @@ with pyehl.Solver("../../cases/quick.nml", "solver.accuracy=1e-3") as solver:
 # The grids are solved from coarse to fine (full multigrid); each cycle reduces the residual by
 # about ten.
 
-figure, ax = plt.subplots(figsize=(6.2, 3.8), layout="constrained")
+figure, ax = plt.subplots(figsize=(3.35, 2.4), layout="constrained")
 first = 1
 for points, values in residuals.items():
     ax.semilogy(range(first, first + len(values)), values, "o-", label=f"{points} × {points}")
     first += len(values)
 ax.set_xlabel("cycle")
 ax.set_ylabel("residual (rms)")
-ax.set_title("$M$ = 200, $L$ = 10")
 ax.legend(title="nodes")
 plt.show()

@@ -13,8 +13,6 @@ import numpy as np
 import pyehl
 from pyehl.plots import contact, transient
 from pyehl.plots.figures import solution_figures
-from pyehl.plots.panels import headline
-from pyehl.schema import summary_of
 
 ds = pyehl.solve(
     "../../cases/quick.nml",
@@ -33,18 +31,17 @@ ds = pyehl.solve(
 
 x, y = ds.X.values, ds.Y.values
 light = contact.fringe_spacings(float(ds.H_smooth.sel(X=0.0, Y=0.0, method="nearest")), None)
-figure, panels = plt.subplots(1, 4, figsize=(11.0, 3.9), sharey=True, layout="constrained")
-for ax, k in zip(panels, np.arange(-4, 0), strict=True):
+figure, panels = plt.subplots(2, 2, figsize=(6.0, 4.6), layout="constrained")
+for ax, k in zip(panels.ravel(), np.arange(-4, 0), strict=True):
     contact.interferogram(x, y, ds.frame_H.isel(T=k).values, fringes=light, ax=ax)
-    ax.set_title(f"$T$ = {float(ds['T'][k]):.2f}")
+    ax.set_title(rf"$\bar t$ = {float(ds['T'][k]):.2f}", loc="left")
     ax.label_outer()
-figure.suptitle(headline(summary_of(ds)))
 plt.show()
 
 # %%
 # Friction over time. The mean is taken over the last period, which is shaded.
 
-figure, ax = plt.subplots(figsize=(6.4, 3.6), layout="constrained")
+figure, ax = plt.subplots(figsize=(3.35, 2.4), layout="constrained")
 transient.friction_history(
     ds.history_T.values,
     ds.history_mu_ratio.values,

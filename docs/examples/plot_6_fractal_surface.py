@@ -18,17 +18,16 @@ cut = surfaces.filtered(rough, shortest_wavelength=25e-6)
 
 # %%
 
-figure, panels = plt.subplots(1, 3, figsize=(11.5, 3.3), layout="constrained")
+figure, panels = plt.subplots(1, 3, figsize=(6.9, 2.2), layout="constrained")
 for ax, tile, name in zip(panels, (rough, cut), ("as generated", "cut at 25 µm"), strict=False):
     surface.heights(tile, ax=ax)
-    ax.set_title(f"{name}, rms {tile.rms_height * 1e9:.1f} nm")
+    ax.set_title(f"{name},\nrms {tile.rms_height * 1e9:.1f} nm", loc="left")
 for tile, name in ((rough, "as generated"), (cut, "cut at 25 µm")):
     q, c = surfaces.psd_isotropic(tile)
     shown = c > 1e-12 * c.max()
     panels[2].loglog(q[shown] * 1e-6, c[shown], label=name)
 panels[2].set_xlabel(r"$q$ [rad/$\mu$m]")
 panels[2].set_ylabel(r"$C^{iso}$ [m$^4$]")
-panels[2].set_title("radially averaged spectrum")
 panels[2].legend()
 panels[2].set_box_aspect(1.0)
 plt.show()

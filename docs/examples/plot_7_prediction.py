@@ -31,5 +31,4 @@ figures["roughness"]
 # One figure alone, on your own axes:
 
 ax = p.plot()
-ax.set_title("seed 3")
 plt.show()

@@ -24,7 +24,7 @@ table.mu_ratio.dims
 
 # %%
 
-figure, ax = plt.subplots(figsize=(6.2, 3.8), layout="constrained")
+figure, ax = plt.subplots(figsize=(3.35, 2.4), layout="constrained")
 for seed in table.seed.values:
     one = table.sel(seed=seed)
     ax.errorbar(
@@ -37,6 +37,5 @@ for seed in table.seed.values:
     )
 ax.set_xlabel("velocity of the rough surface / mean velocity")
 ax.set_ylabel(r"$\mu_r/\mu_s$, predicted")
-ax.set_title("Contact of Table 1")
 ax.legend()
 plt.show()

@@ -27,7 +27,7 @@ print(tables["newtonian"].status.values)
 # Where the deformed roughness reached through the film the status would say so, and there would be
 # no ratio. An Eyring shear stress levels the peaks of the viscosity, so that the ratio stays close to 1.
 
-figure, ax = plt.subplots(figsize=(6.2, 3.8), layout="constrained")
+figure, ax = plt.subplots(figsize=(3.35, 2.4), layout="constrained")
 for law, table in tables.items():
     label = f"{law.title()} shear stress"
     ax.semilogx(table.lambda_ratio_central, table.mu_ratio, "o-", label=label)
@@ -36,6 +36,5 @@ ax.minorticks_off()
 ax.axhline(1.0, color="grey", ls=":", lw=0.8)
 ax.set_xlabel(r"$h_c/\sigma$, central film over rms height")
 ax.set_ylabel(r"$\mu_r/\mu_s$, predicted")
-ax.set_title("Contact of Table 1, slide-to-roll ratio 0.02")
 ax.legend()
 plt.show()
