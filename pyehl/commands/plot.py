@@ -15,7 +15,10 @@ from pyehl.studies.quasi_static import quasi_static
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
-        "folder", metavar="DIR", type=Path, help="result folder of pyehl run or predict"
+        "folder",
+        metavar="DIR",
+        type=Path,
+        help="result folder of pyehl run, predict, bearing or gear",
     )
     parser.add_argument(
         "-o", "--output", metavar="DIR", type=Path, help="where to write (default: the folder)"

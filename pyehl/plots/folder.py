@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Mapping
 from pathlib import Path
@@ -10,9 +11,10 @@ from typing import TYPE_CHECKING, Protocol
 
 from matplotlib.figure import Figure
 
-from pyehl.destination import check_files
+from pyehl.destination import check_files, file_errors
 from pyehl.errors import InputError
 from pyehl.given import check_kind, path_of
+from pyehl.plots import machine
 from pyehl.plots.figures import prediction_figures, solution_figures
 from pyehl.plots.style import DPI, page_width, save
 from pyehl.schema import summary_of
@@ -29,6 +31,8 @@ FORMATS = ("png", "pdf", "svg")
 MIN_WIDTH, MOST_WIDTH = 0.04, 0.4
 """Widths of figures [m]."""
 UNITS = ("auto", "si", "hertz")
+# Kinds of a summary of a machine element
+MACHINES = ("bearing", "gear")
 # Arrays of a prediction that are drawn, with their units
 PREDICTED = {"surface": "m", "deformed": "m", "delta_p": "Pa"}
 
@@ -134,14 +138,16 @@ def plot(
     if not isinstance(found, kinds):
         raise InputError(f"results of type {type(results).__name__}: {EXPECTED}")
     folder = "the Dataset" if isinstance(found, xr.Dataset) else path_of(found, "results")
-    data = found if isinstance(found, xr.Dataset) else load(folder)
-    if "case" not in data.attrs:
-        raise InputError(f"{folder}: {EXPECTED}")
     with page_width(width):
-        if data.attrs.get("kind") == "prediction":
-            figures = _of_prediction(data)
-        else:
-            figures = solution_figures(data, units)
+        figures = {} if isinstance(found, xr.Dataset) else _of_machine(Path(folder))
+        if not figures:
+            data = found if isinstance(found, xr.Dataset) else load(folder)
+            if "case" not in data.attrs:
+                raise InputError(f"{folder}: {EXPECTED}")
+            if data.attrs.get("kind") == "prediction":
+                figures = _of_prediction(data)
+            else:
+                figures = solution_figures(data, units)
     if not figures:
         raise InputError(
             f"{folder}: there are no fields to draw: the case has output.fields = .false.\n"
@@ -150,6 +156,21 @@ def plot(
     if output is not None:
         save_all(figures, made(path_of(output, "output")), format, dpi)
     return figures
+
+
+def _of_machine(folder: Path) -> dict[str, Figure]:
+    """Draw the folder of a bearing or a gear pair; empty for other folders."""
+    try:
+        summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
+    if not isinstance(summary, dict) or summary.get("kind") not in MACHINES:
+        return {}
+    import pandas as pd  # noqa: PLC0415 (heavy)
+
+    with file_errors(folder / "contacts.csv", "cannot be read"):
+        table = pd.read_csv(folder / "contacts.csv")
+    return {"contacts": machine.figure(str(summary["kind"]), table, summary)}
 
 
 def _of_prediction(data: xr.Dataset) -> dict[str, Figure]:

@@ -417,3 +417,17 @@ def test_pressure_above_the_static_limit_is_noted():
 def test_refused_at_what_causes_it(root: Path, key: str, value: object, message: str):
     with pytest.raises(pyehl.InputError, match=message):
         pyehl.bearing(root / "cases" / "bearing_6206.nml", {key: value})
+
+
+def test_plot_draws_the_folder_of_a_machine(root: Path, tmp_path: Path):
+    """The path of contact and the ring, again; the command may then replace its picture."""
+    for kind, name in (("gear", "fzg_c"), ("bearing", "bearing_6206")):
+        words = [kind, str(root / "cases" / f"{name}.nml"), "-o", str(tmp_path / kind), "-q"]
+        assert cli.main(words) == 0
+        drawn = pyehl.plot(tmp_path / kind)
+        assert list(drawn) == ["contacts"]
+        assert len(drawn["contacts"].axes) == (4 if kind == "gear" else 2)
+        assert cli.main(["plot", str(tmp_path / kind)]) == 0
+        assert cli.main(words) == 0
+        assert cli.main(["plot", str(tmp_path / kind), "-o", str(tmp_path), "--format", "pdf"]) == 0
+    assert (tmp_path / "contacts.pdf").stat().st_size > 1000
