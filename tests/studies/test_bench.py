@@ -10,6 +10,7 @@ import time
 from dataclasses import replace
 from pathlib import Path
 
+import duties
 import faults
 import faults_inputs
 import machines
@@ -476,3 +477,20 @@ def test_numbers_that_do_not_belong_together_are_told():
     assert "no load share and no reason" in mixed.contradictions(lost)
     assert "load share" in mixed.contradictions(good | {"contact_load_share": 1.1})
     assert "not a number" in mixed.contradictions(good | {"mu_ratio": math.nan})
+
+
+@pytest.mark.parametrize(
+    ("inlets", "record"), [(False, "duty/random"), (True, "starvation/inlets")]
+)
+def test_random_duties(root: Path, tmp_path: Path, inlets, record):
+    """The first contact of a seed, as its record has it."""
+    words = ["--count", "1", "--seed", "2", "-o", str(tmp_path / "d.json")]
+    assert duties.main([*words, *(["--inlets"] if inlets else [])]) == 0
+    (row,) = json.loads((tmp_path / "d.json").read_text())["rows"]
+    kept = json.loads((root / f"docs/evidence/{record}_2.json").read_text())
+    first = kept["rows"][0]
+    for name in ("shape", "kind", "values", "status"):
+        assert row[name] == first[name]
+    for name in ("H_c", "H_min") if inlets else ("steps_covered",):
+        assert row[name] == pytest.approx(first[name], rel=1e-3)
+    assert kept["summary"][-1]["drawn"] == len(kept["rows"]) == 40
