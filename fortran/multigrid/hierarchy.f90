@@ -50,6 +50,7 @@ module ehl_hierarchy
       procedure :: supply
       procedure :: prepare_steps
       procedure :: prepare_coarsening
+      procedure :: soften
       procedure :: forget
       procedure :: bytes
    end type hierarchy_t
@@ -189,6 +190,17 @@ contains
       type(grid_t), intent(in) :: grid
       deflection_accuracy = 2.2e-5_dp*(128.0_dp*max(grid%hx, grid%hy))**1.35_dp
    end function deflection_accuracy
+
+   !> Let a lubricant that thins do so on all grids as if the stress of its law were 1/share times as large
+   subroutine soften(self, share)
+      class(hierarchy_t), intent(inout) :: self
+      real(dp), intent(in) :: share
+      integer :: k
+
+      do k = 1, size(self%levels)
+         if (allocated(self%levels(k)%p)) call self%levels(k)%flow%soften(share)
+      end do
+   end subroutine soften
 
    !> Drop what one cycle leaves for the next beyond the fields of its finest level
    subroutine forget(self)

@@ -38,6 +38,7 @@ module ehl_flow
    contains
       procedure :: setup
       procedure :: rescale
+      procedure :: soften
       procedure(find_row), deferred :: find_row
       procedure(film_exponent), deferred :: film_exponent
       procedure(stress_row), deferred :: stress_row
@@ -112,6 +113,15 @@ contains
       end associate
       self%inverse_speed = inverse_speed
    end subroutine rescale
+
+   !> Let a lubricant thin as if the stress of its law were 1/share times as large; a Newtonian one has none
+   subroutine soften(self, share)
+      class(flow_t), intent(inout) :: self
+      real(dp), intent(in) :: share
+
+      associate (unused => self, too => share)
+      end associate
+   end subroutine soften
 
    !> Largest conductance along Y of each node of row j and its four neighbours, in columns 2 to nx-1
    pure subroutine max_neighbour_conductance(self, j, south, north, values)

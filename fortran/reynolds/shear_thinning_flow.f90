@@ -27,8 +27,11 @@ module ehl_shear_thinning_flow
       private
       !> b0, s0
       real(dp) :: sliding = 0.0_dp, gradient = 0.0_dp
+      !> Factor of both
+      real(dp) :: share = 1.0_dp
    contains
       procedure :: rescale
+      procedure :: soften
       procedure :: find_row
       procedure :: film_exponent
       procedure :: stress_row
@@ -64,6 +67,16 @@ contains
       self%kept%follows = stress > 0.0_dp
    end subroutine rescale
 
+   !> Let the lubricant thin as if the stress of its law were 1/share times as large
+   subroutine soften(self, share)
+      class(shear_thinning_flow_t), intent(inout) :: self
+      real(dp), intent(in) :: share
+
+      if (.not. abs(share - self%share) > 0.0_dp) return
+      self%share = share
+      call self%kept%forget()
+   end subroutine soften
+
    !> Conductances of row j and their changes
    pure subroutine find_row(self, lubricant, p, h, rho, drho_dp, j, last)
       class(shear_thinning_flow_t), intent(inout) :: self
@@ -92,7 +105,7 @@ contains
          do k = 1, n
             i = first + k - 1
             newtonian(k) = exp(log_eta(i))
-            b(k) = abs(self%sliding*newtonian(k)/h(i))
+            b(k) = abs(self%share*self%sliding*newtonian(k)/h(i))
             newtonian(k) = rho(i)*h(i)**3/newtonian(k)*self%inverse_speed
             by_density(k) = drho_dp(i)/rho(i)
          end do
@@ -128,8 +141,8 @@ contains
       real(dp) :: rx, ry
       integer :: i, k, north, south, last
 
-      rx = 0.5_dp*self%gradient/self%grid%hx
-      ry = 0.5_dp*self%gradient/self%grid%hy
+      rx = 0.5_dp*self%share*self%gradient/self%grid%hx
+      ry = 0.5_dp*self%share*self%gradient/self%grid%hy
       last = first + n - 1
       south = self%grid%south(j)
       north = self%grid%north(j)
@@ -175,10 +188,10 @@ contains
          last = min(first + self%kept%width - 1, size(p, 1))
          associate (n => last - first + 1)
             call self%gradients(p, h, j, first, n, s)
-            b(:n) = abs(self%sliding*newtonian(first:last))
+            b(:n) = abs(self%share*self%sliding*newtonian(first:last))
             call self%kept%stress(b(:n), s, segment, j, stress(first:last), by_sliding(:n))
             if (self%sliding > 0.0_dp) then
-               stress(first:last) = stress(first:last)/self%sliding
+               stress(first:last) = stress(first:last)/(self%share*self%sliding)
             else
                ! in the limit of vanishing sliding
                stress(first:last) = newtonian(first:last)*by_sliding(:n)

@@ -11,6 +11,9 @@ submodule (ehl_smooth_contact) ehl_cycle_guard
    !> Residual over that before a cycle from which on it is taken back, above the residual of a solution. Of five hard contacts
    !> with L from 17 to 37 all converge with 1.05 and 1.2; with 2 and 4 one ends at the cycle limit (tests/cases/test_machines.py)
    real(dp), parameter :: max_growth = 1.2_dp
+   !> Share of the sliding and of the gradient that a softened flow begins with, and by how much it grows where the residual is
+   !> near that of a solution
+   real(dp), parameter :: least_share = 0.1_dp, share_growth = 3.0_dp
 
 contains
 
@@ -46,22 +49,39 @@ contains
          if (outcome == outcome_running) lost = self%residual > limit
          if (.not. lost) guard%residual_kept = self%residual
          if (lost) then
-            if (guard%damping == max_damping .or. self%cycles >= self%max_cycles) return
+            if (self%cycles >= self%max_cycles) return
+            if (may_soften(self, hierarchy, outcome)) then
+               guard%softened = .true.
+               guard%share = least_share
+               guard%share_before = least_share
+               call hierarchy%soften(least_share)
+               call go_back(self, hierarchy)
+               outcome = outcome_running
+               return
+            end if
+            if (guard%share > 1.05_dp*guard%share_before .and. guard%since <= 2) then
+               guard%share = sqrt(guard%share*guard%share_before)
+               call hierarchy%soften(guard%share)
+               call go_back(self, hierarchy)
+               outcome = outcome_running
+               guard%since = 0
+               return
+            end if
+            if (guard%damping == max_damping) return
             ! the same amount again would be tried again and again
             if (guard%since == 1 .and. guard%was_damped > 0) guard%lasting = guard%was_damped
             guard%damping = max(guard%damping + 1, guard%lasting)
             guard%was_damped = guard%damping
             guard%since = 0
-            call hierarchy%forget()
-            associate (level => hierarchy%levels(self%n))
-               level%p = guard%p_before
-               level%h00 = guard%h00_before
-               call refresh(level)
-               self%m = measure(level)
-            end associate
-            self%residual = guard%residual_kept
+            call go_back(self, hierarchy)
             outcome = outcome_running
-            call self%mixing%finish()
+         else if (guard%share < 1.0_dp .and. self%residual < near_solution) then
+            guard%share_before = guard%share
+            guard%share = min(1.0_dp, share_growth*guard%share)
+            guard%since = 0
+            call hierarchy%soften(guard%share)
+            call update_coefficients(hierarchy%levels(self%n))
+            guard%residual_kept = 0.0_dp
          else if (guard%damping > guard%lasting .and. guard%since >= undamped_after) then
             guard%damping = guard%damping - 1
             guard%since = 0
@@ -78,4 +98,31 @@ contains
       if (outcome /= outcome_running .or. self%cycles < stalls_after) return
       if (self%stall > stalled) call self%mixing%begin(hierarchy%levels(self%n), status)
    end procedure guard_cycle
+
+   !> Whether a cycle from a guess left no numbers for the gradient at its edge, which a flow that thins lets through: factors grow
+   !> exponentially with it
+   pure logical function may_soften(self, hierarchy, outcome)
+      class(smooth_contact_t), intent(in) :: self
+      type(hierarchy_t), intent(in) :: hierarchy
+      integer, intent(in) :: outcome
+
+      may_soften = outcome == outcome_diverged .and. hierarchy%levels(self%n)%flow%depends_on_gradient .and. &
+                   .not. (self%guard%softened .or. has_coarser(self%results, self%n))
+   end function may_soften
+
+   !> The state before the last cycle
+   subroutine go_back(self, hierarchy)
+      class(smooth_contact_t), intent(inout) :: self
+      type(hierarchy_t), intent(inout) :: hierarchy
+
+      call hierarchy%forget()
+      associate (level => hierarchy%levels(self%n))
+         level%p = self%guard%p_before
+         level%h00 = self%guard%h00_before
+         call refresh(level)
+         self%m = measure(level)
+      end associate
+      self%residual = self%guard%residual_kept
+      call self%mixing%finish()
+   end subroutine go_back
 end submodule ehl_cycle_guard

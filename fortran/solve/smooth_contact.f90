@@ -6,7 +6,7 @@ module ehl_smooth_contact
    use ehl_cycle, only: cycle_options_t, damped_cycle, max_damping, prolong_solution
    use ehl_dry_start, only: dry_start_t
    use ehl_far_field, only: far_field_t
-   use ehl_reynolds, only: refresh
+   use ehl_reynolds, only: refresh, update_coefficients
    use ehl_hierarchy, only: hierarchy_t
    use ehl_iteration, only: iteration_t, reduction
    use ehl_kinds, only: dp
@@ -31,6 +31,8 @@ module ehl_smooth_contact
    real(dp), parameter :: steady_film = 1.0e-4_dp
    !> The same of one that is short of oil: what flows back from the contact and around it takes some to balance
    integer, parameter :: starved_cycles = 3
+   !> Most cycles of a level in which a softened flow is to become that of the law
+   integer, parameter :: softened_cycles = 20
    !> What an error of the load changes the film, per relative error: the deflection by the Hertz pressure differs from its
    !> mean under it by 1/5 at the centre and by 3/10 at the edge [a^2/R]
    real(dp), parameter :: film_per_load = 0.3_dp
@@ -56,6 +58,9 @@ module ehl_smooth_contact
       !> State before the last cycle
       real(dp), allocatable :: p_before(:, :)
       real(dp) :: h00_before = 0.0_dp
+      !> Share of the sliding and of the gradient that the law of a flow that thins gets, and whether it was once less than 1
+      real(dp) :: share = 1.0_dp, share_before = 1.0_dp
+      logical :: softened = .false.
       !> Residual after the last cycle that was not taken back, and some cycles ago
       real(dp) :: residual_kept = 0.0_dp, residual_then = huge(1.0_dp)
    end type guard_t
@@ -164,6 +169,7 @@ contains
       call hierarchy%grow(self%n, status)
       if (status%failed()) return
       if (self%damped) call hierarchy%forget()
+      call hierarchy%soften(1.0_dp)
       call hierarchy%supply(merge(huge(1.0_dp), self%options%layer, self%options%layer > 0.0_dp .and. self%floods))
       associate (level => hierarchy%levels(self%n), grid => hierarchy%levels(self%n)%grid)
          do j = 1, grid%ny
@@ -209,6 +215,7 @@ contains
       if (is_end(self%options, self%n) .and. counts_share(self%options, self%m)) then
          self%max_cycles = touching_cycles*self%max_cycles
       end if
+      if (self%guard%share < 1.0_dp) self%max_cycles = min(self%max_cycles, softened_cycles)
       if (self%options%layer > 0.0_dp) self%max_cycles = starved_cycles*self%options%max_cycles
       if (self%guarded) call keep_state(self, level, status)
    end subroutine begin_cycle
@@ -271,7 +278,7 @@ contains
    !> Whether the level is solved; the load must be right where the solution may end
    pure logical function converged(self)
       class(smooth_contact_t), intent(in) :: self
-      converged = self%failure_status() == outcome_running .and. self%m%holds .and. &
+      converged = self%failure_status() == outcome_running .and. self%m%holds .and. .not. self%guard%share < 1.0_dp .and. &
                   (max(abs(self%m%load_error)/load_tolerance, abs(self%m%oil%imbalance)/flow_tolerance) <= 1.0_dp &
                    .or. .not. is_end(self%options, self%n))
       if (converged) converged = accurate(self%options, self%results, self%n, self%m, self%residual, &
@@ -327,7 +334,9 @@ contains
       finest = self%n == self%options%levels
       associate (result => self%results(self%n))
          result%solved = outcome == outcome_converged .or. (outcome == outcome_cycle_limit .and. .not. finest)
-         if (self%guarded .and. outcome == outcome_cycle_limit .and. self%residual > max_residual) result%solved = .false.
+         if (self%guarded .and. outcome == outcome_cycle_limit) then
+            result%solved = result%solved .and. self%residual <= max_residual .and. .not. self%guard%share < 1.0_dp
+         end if
          if (.not. result%solved) then
             call restart(self, finest, outcome)
             return
