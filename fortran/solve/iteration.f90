@@ -105,18 +105,23 @@ contains
 
    !> Reduction q of the error per cycle, by the changes of the last two: q/(1 - q) of the last change is left. The first cycle
    !> also makes up for the grid or the problem that the state comes from, so that its change is no measure of the next.
-   pure real(dp) function reduction(change, change_before, cycles, fall) result(q)
+   pure real(dp) function reduction(change, change_before, cycles, fall, least) result(q)
       real(dp), intent(in) :: change(:), change_before(:)
       !> Cycles made
       integer, intent(in) :: cycles
       !> Residual over that before the last cycle, if it is to bound q: a change can be tiny by chance, and the next one is
       !> then many times as large
       real(dp), intent(in), optional :: fall
+      !> Least reduction; without it `min_reduction`
+      real(dp), intent(in), optional :: least
+      real(dp) :: lower
 
+      lower = min_reduction
+      if (present(least)) lower = least
       q = min_reduction
       if (cycles <= 1) return
       q = min(maxval(change/max(change_before, tiny(1.0_dp))), max_reduction)
       if (present(fall)) q = min(q, fall)
-      q = max(min_reduction, q)
+      q = max(lower, q)
    end function reduction
 end module ehl_iteration

@@ -17,7 +17,7 @@ module ehl_smooth_contact
    use ehl_level, only: level_t
    use ehl_oil_flow, only: flow_tolerance, leaving
    use ehl_status, only: ehl_no_memory, status_t
-   use ehl_steady_options, only: end_rule_t, rule_of_circles, rule_of_others, rule_of_rollers, steady_options_t
+   use ehl_steady_options, only: end_rule_t, rule_of_circles, rule_of_ellipses, rule_of_others, rule_of_rollers, steady_options_t
    implicit none (type, external)
    private
    public :: smooth_contact_t
@@ -149,6 +149,7 @@ contains
       self%contact = contact
       self%options = options
       self%rule = merge(rule_of_circles, rule_of_others, options%newtonian_circle)
+      if (options%guarded .and. .not. options%line) self%rule = rule_of_ellipses
       if (contact%is_roller()) self%rule = rule_of_rollers
       if (options%flooded) call self%far_field%setup(contact)
       self%max_cycles = options%max_cycles
@@ -230,7 +231,7 @@ contains
       change = abs(self%m%films() - before%films())
       fall = huge(fall)
       if (self%rule%bounded .and. self%cycles > 1) fall = self%residual/max(self%residual_before, tiny(1.0_dp))
-      q = reduction(change, self%change, self%cycles, fall)
+      q = reduction(change, self%change, self%cycles, fall, self%rule%min_reduction)
       self%results(self%n)%algebraic = change*q/(1.0_dp - q)
       self%change = change
       self%stall = self%residual/max(self%residual_before, tiny(1.0_dp))

@@ -6,7 +6,7 @@ module ehl_steady_options
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
-   public :: steady_options_t, end_rule_t, max_error, rule_of_circles, rule_of_others, rule_of_rollers
+   public :: steady_options_t, end_rule_t, max_error, rule_of_circles, rule_of_ellipses, rule_of_others, rule_of_rollers
 
    !> Largest relative algebraic error of a result, however coarse its grid
    real(dp), parameter :: max_error = 2.0e-3_dp
@@ -51,12 +51,17 @@ module ehl_steady_options
       real(dp) :: small_load_error, share_of_load
       !> Whether the reduction per cycle is no more than that of the residual, and the error counts that of the load
       logical :: bounded
+      !> Least reduction per cycle that an estimate takes, whatever change and residual show
+      real(dp) :: min_reduction = 0.3_dp
    end type end_rule_t
 
    !> Flows that thin and ellipses often meet the accuracy in the second cycle but for the load, or for a change that was tiny
    !> by chance; the rule of Newtonian circles, which seldom do, would take them to 1/500 of the algebraic error wanted
    type(end_rule_t), parameter :: rule_of_circles = end_rule_t(3.0e-6_dp, 0.1_dp, .false.), &
                                   rule_of_others = end_rule_t(1.0e-5_dp, 0.25_dp, .true.), &
+                                  !> Where change and residual both fall faster than by 0.2, the next change is 0.15 to 0.25 of the
+                                  !> last one
+                                  rule_of_ellipses = end_rule_t(1.0e-5_dp, 0.25_dp, .true., 0.2_dp), &
                                   !> What coarse grids leave to the ends of a roller they change the load by little
                                   rule_of_rollers = end_rule_t(1.0e-4_dp, 0.25_dp, .true.)
 end module ehl_steady_options
