@@ -525,7 +525,8 @@ STEADY = {
     "circle": {"load": 40.0, "mean_velocity": 2.0, "radius": 0.01},
     "ellipse": {"load": 60.0, "mean_velocity": 2.0, "radius_x": 0.01, "radius_y": 0.02},
     "line": LINE["contact"],
-    "roller": ROLLER["contact"],
+    # a thick film, which 65 nodes resolve
+    "roller": ROLLER["contact"] | {"load": 200.0, "mean_velocity": 4.0},
 }
 
 

@@ -312,3 +312,22 @@ def test_sharp_spike_is_left_to_the_sweeps():
         found = solver.summary
     assert found["restarts"] == 0
     assert found["cycles"] <= 12
+
+
+@pytest.mark.long
+def test_a_flow_that_thins_is_softened_at_first():
+    """Without that it had no first cycle on any grid."""
+    contact = {
+        "reduced_modulus": 2.26e11, "load": 9552.0, "radius_x": 0.01413, "radius_y": 0.8384,
+        "mean_velocity": 9.433, "slide_to_roll": 0.06655,
+    }  # fmt: skip
+    oil = {"viscosity": 0.1657, "pressure_viscosity": 2.257e-8, "shear_law": "eyring"}
+    films = {}
+    for stress in (1.301e6, 5.2e6):
+        case = pyehl.Case(contact=contact, lubricant={**oil, "eyring_stress": stress})
+        found = pyehl.solve(case)
+        assert found.attrs["status"] == "converged"
+        assert found.restarts == 0
+        films[stress] = float(found.H_c)
+    # the law of the case is the one at the end: a smaller stress thins the film
+    assert 0.75 < films[1.301e6] / films[5.2e6] < 0.9
