@@ -18,6 +18,8 @@ import uuid
 from collections import Counter, deque
 from collections.abc import Generator, Iterable, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Future, wait
+from contextlib import suppress
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from pyehl.errors import EhlError, InputError, InternalError
@@ -132,7 +134,8 @@ def rows(tasks: Sequence[Task], jobs: int) -> Generator[list[tuple[int, Row]]]:
                 groups[k] = group_of(some[-1])
                 running[_submit(executors[k], some)] = k, some
             if not running:
-                _spares.extend((_place(), executor) for executor in executors)
+                for executor in executors:
+                    _keep(executor)
                 executors.clear()
                 return
             finished: list[tuple[int, Row]] = []
@@ -166,34 +169,57 @@ def rows(tasks: Sequence[Task], jobs: int) -> Generator[list[tuple[int, Row]]]:
 def _executor() -> ProcessPoolExecutor:
     from loky import ProcessPoolExecutor  # noqa: PLC0415 (it takes long to import)
 
-    return ProcessPoolExecutor(
-        1, timeout=KEPT, initializer=_begin, initargs=(os.getpid(),), env=ENVIRONMENT
-    )
+    return ProcessPoolExecutor(1, initializer=_begin, initargs=(os.getpid(),), env=ENVIRONMENT)
 
 
-_spares: deque[tuple[tuple[int, str], ProcessPoolExecutor]] = deque()
-"""Executors without a task, and the process and folder in which they began."""
+@dataclass(eq=False)
+class _Spare:
+    """An executor without a task, and the folder in which it began."""
+
+    executor: ProcessPoolExecutor
+    folder: str
+
+
+_spares: deque[_Spare] = deque()
+# a process that is forked has workers of its own
+os.register_at_fork(after_in_child=_spares.clear)
+
+
+def _keep(executor: ProcessPoolExecutor) -> None:
+    """Keep an executor for the next study, for a time.
+
+    Its own time limit would not do: it does not notice the death of a worker that it starts after
+    the first one has gone.
+    """
+
+    def end() -> None:
+        # another study may have taken it
+        with suppress(ValueError):
+            _spares.remove(spare)
+            executor.shutdown(kill_workers=True)
+
+    spare = _Spare(executor, os.path.realpath(os.curdir))
+    _spares.append(spare)
+    timer = threading.Timer(KEPT, end)
+    timer.daemon = True
+    timer.start()
 
 
 @atexit.register
 def _end_spares() -> None:
     while _spares:
-        _spares.popleft()[1].shutdown(kill_workers=True)
-
-
-def _place() -> tuple[int, str]:
-    return os.getpid(), os.path.realpath(os.curdir)
+        _spares.popleft().executor.shutdown(kill_workers=True)
 
 
 def _spare() -> ProcessPoolExecutor:
     while True:
         try:
-            place, executor = _spares.popleft()
+            spare = _spares.pop()
         except IndexError:
             return _executor()
-        if place == _place():
-            return executor
-        executor.shutdown(kill_workers=True)
+        if spare.folder == os.path.realpath(os.curdir):
+            return spare.executor
+        spare.executor.shutdown(kill_workers=True)
 
 
 def _submit(executor: ProcessPoolExecutor, tasks: list[Task]) -> Future[list[Row]]:

@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import time
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -71,6 +72,38 @@ def test_a_task_that_ends_its_worker_is_a_row(monkeypatch: pytest.MonkeyPatch):
     assert rows[1]["status"] == FAILED
     assert "died 2 times, at last by SIGABRT" in rows[1]["message"]
     assert all(rows[n]["h_c_m"] > 0.0 for n in (0, 2, 3, 4))
+
+
+def runs(process: int) -> bool:
+    with suppress(ProcessLookupError):
+        os.kill(process, 0)
+        return True
+    return False
+
+
+def test_a_worker_waits_for_the_next_study_and_ends(monkeypatch: pytest.MonkeyPatch):
+    """It is taken again within its time; after that a new one is, whose death is noticed."""
+
+    def deadly(tasks: list[Task]) -> list[dict[str, object]]:
+        if tasks[0].number == 1:
+            os.abort()
+        return [{"process": os.getpid()} for _ in tasks]
+
+    def process(number: int) -> object:
+        ((_, row),) = (row for some in pool.rows([Task(number, "", "film")], 1) for row in some)
+        return row.get("process", row.get("status"))
+
+    monkeypatch.setattr(pool, "execute_all", deadly)
+    monkeypatch.setattr(pool, "KEPT", 1.0)
+    first = process(0)
+    assert isinstance(first, int)
+    assert process(2) == first
+    end = time.monotonic() + 30.0
+    while runs(first):
+        assert time.monotonic() < end, "the worker has not ended"
+        time.sleep(0.05)
+    assert process(1) == FAILED
+    assert process(0) != first
 
 
 def test_long_tasks_first_and_sharing_tasks_together():
