@@ -77,16 +77,26 @@ contains
       real(dp), contiguous, intent(inout) :: residual(:)
       real(dp), intent(inout) :: band(-row_below:row_above, level%grid%nx)
       !> Of the changes of film and pressure at i + l
-      real(dp) :: film(-wedge_reach:1), local(-wedge_reach:1), c(0:wedge_reach), part
+      real(dp) :: film(-wedge_reach:1), local(-wedge_reach:1), c(0:wedge_reach)
+      !> The kernel with zeros beside it
+      real(dp) :: kernel(-row_below - 1:row_above + wedge_reach)
+      !> Per node: d ln eps/d ln H, and the film that the conductance is of
+      real(dp), dimension(level%grid%nx) :: exponent, thickness
       type(line_terms_t) :: terms
-      integer :: first, i, k, l
+      integer :: first, i, k, l, m
 
+      kernel = 0.0_dp
+      kernel(-row_reach:row_reach) = near
+      do i = 1, last + 1
+         exponent(i) = level%flow%film_exponent(i, 1, dir_x)
+         thickness(i) = level%boundary%film_at(level%h, i, 1)
+      end do
       do first = 2, last, block_size
          call level%poiseuille%line_row(level%p, level%flow, level%rhs(:, 1), 1, first, min(first + block_size - 1, last), terms)
          do i = first, min(first + block_size - 1, last)
             k = i - first + 1
-            band(:, i) = 0.0_dp
             if (level%p(i, 1) <= cavity_pressure .and. residual(i) >= 0.0_dp) then
+               band(:, i) = 0.0_dp
                band(0, i) = 1.0_dp
                residual(i) = 0.0_dp
                cycle
@@ -102,24 +112,30 @@ contains
                   film(-l) = -c(l)*level%rho(i - l, 1)
                   local(-l) = -c(l)*level%h_drho_dp(i - l, 1)
                end do
-               call add_neighbour(1, terms%east(k), terms%east_rate(k))
-               if (.not. passing(i - 1)) call add_neighbour(-1, terms%east(k - 1), terms%east_rate(k - 1))
+               call add_neighbour(i, 1, terms%east(k), terms%east_rate(k))
+               if (.not. passing(i - 1)) call add_neighbour(i, -1, terms%east(k - 1), terms%east_rate(k - 1))
             end if
+            ! each number once: see solve
+            do l = -row_below, row_above
+               band(l, i) = film(-1)*kernel(l + 1) + film(-2)*kernel(l + 2) + film(0)*kernel(l) + film(1)*kernel(l - 1)
+            end do
             do l = -wedge_reach, 1
-               band(l, i) = band(l, i) + local(l)
-               ! most have no change of the film at i + 1
-               if (.not. abs(film(l)) > 0.0_dp) cycle
-               band(l - row_reach:l + row_reach, i) = band(l - row_reach:l + row_reach, i) + film(l)*near
+               band(l, i) = 0.0_dp
+               do m = -wedge_reach, 1
+                  if (m == l) band(l, i) = band(l, i) + local(l)
+                  band(l, i) = band(l, i) + film(m)*kernel(l - m)
+               end do
             end do
          end do
       end do
 
    contains
 
-      !> The coupling to the node at i + m, and its changes
-      subroutine add_neighbour(m, coupling, rate)
-         integer, intent(in) :: m
+      !> The coupling of node i to that at i + m, and its changes
+      subroutine add_neighbour(i, m, coupling, rate)
+         integer, intent(in) :: i, m
          real(dp), intent(in) :: coupling, rate
+         real(dp) :: part
          integer :: n
 
          local(m) = local(m) + coupling
@@ -127,22 +143,27 @@ contains
          part = rate*(level%p(i + m, 1) - level%p(i, 1))
          do n = min(m, 0), max(m, 0)
             associate (eps => level%flow%eps(i + n, 1, dir_x))
-               film(n) = film(n) + part*level%flow%film_exponent(i + n, 1, dir_x)*eps/level%boundary%film_at(level%h, i + n, 1)
+               film(n) = film(n) + part*exponent(i + n)*eps/thickness(i + n)
                local(n) = local(n) + part*eps*level%flow%dlneps_dp(i + n, 1, dir_x)
             end associate
          end do
       end subroutine add_neighbour
    end subroutine assemble
 
-   !> Solve the equations of nodes 2 to `last` in place, without pivoting: the film answers most to the pressure of its own node
+   !> Solve the equations of nodes 2 to `last` in place, without pivoting: the film answers most to the pressure of its own node.
+   !> A finished equation goes into all of those after it: into one equation after another each would be read at an offset right
+   !> after it was written, which processors wait for.
    pure subroutine solve(band, last, x)
       real(dp), contiguous, intent(inout) :: band(-row_below:, :), x(:)
       integer, intent(in) :: last
       real(dp) :: t
       integer :: i, k, l
 
-      do i = 2, last
-         do k = max(2, i - row_below), i - 1
+      do k = 2, last
+         t = 1.0_dp/band(0, k)
+         band(1:row_above, k) = band(1:row_above, k)*t
+         x(k) = x(k)*t
+         do i = k + 1, min(k + row_below, last)
             t = band(k - i, i)
             if (.not. abs(t) > 0.0_dp) cycle
             !$omp simd
@@ -151,9 +172,6 @@ contains
             end do
             x(i) = x(i) - t*x(k)
          end do
-         t = 1.0_dp/band(0, i)
-         band(1:row_above, i) = band(1:row_above, i)*t
-         x(i) = x(i)*t
       end do
       do i = last, 2, -1
          do k = 1, min(row_above, last - i)
