@@ -2,7 +2,7 @@
 !> Oil that passes a contact whose inlet is short of it (supply.f90): what comes, what leaves behind and at the sides
 module ehl_oil_flow
    use ehl_kinds, only: dp
-   use ehl_level, only: level_t
+   use ehl_level, only: last_flowing, level_t
    use ehl_reynolds, only: flow_operator
    implicit none (type, external)
    private
@@ -18,6 +18,8 @@ module ehl_oil_flow
       real(dp) :: imbalance = 0.0_dp
       !> Whether the layer fills the gap at the border of the domain
       logical :: fills_border = .false.
+      !> Of a line: how much thinner than at its nodes the film may be between two of them [a^2/R]
+      real(dp) :: between = 0.0_dp
    end type oil_flow_t
 
 contains
@@ -44,13 +46,29 @@ contains
             if (grid%is_border(grid%north(j))) side(j) = side(j) &
                + level%poiseuille%across(level%p, level%flow, j, grid%north(j))*grid%images(j)
          end do
-         flow%fills_border = any(level%supply%layer > 0.5_dp*(level%mass_content(1, :) + level%mass_content(2, :)))
+         flow%fills_border = level%supply%held == 1 .and. .not. level%supply%short > 0.0_dp
+         if (level%supply%held == 0) then
+            flow%fills_border = any(level%supply%layer > 0.5_dp*(level%mass_content(1, :) + level%mass_content(2, :)))
+         end if
       end associate
       flow%enters = sum(first)
       flow%leaves = sum(last)
       flow%sides = sum(side)
+      if (level%grid%is_row()) flow%between = between(level%h(:, 1))
+      ! a line that is not flooded has to let all through
+      if (level%supply%held > 0) flow%enters = level%supply%layer(1)
+      if (flow%fills_border .and. level%supply%held > 0) flow%enters = min(flow%enters, flow%leaves)
       flow%imbalance = (flow%enters - flow%leaves - flow%sides)/max(flow%enters, tiny(1.0_dp))
    end function measure_flow
+
+   !> The same of the nodes of a row, each with the curvature there
+   pure real(dp) function between(h)
+      real(dp), intent(in) :: h(:)
+      integer :: n
+
+      n = size(h)
+      between = minval(h) - minval(h(2:n - 1) - max(0.0_dp, h(:n - 2) - 2.0_dp*h(2:n - 1) + h(3:))/8.0_dp)
+   end function between
 
    !> rho H times the fill fraction behind the contact, by row
    function leaving(level) result(layer)
@@ -75,7 +93,12 @@ contains
 
       call flow_operator(level, j, values, passing)
       first = through(2)
-      last = through(level%grid%nx - 1)
+      if (level%supply%held > 0) then
+         ! where the film ruptures
+         last = through(last_flowing(level%p(:, j)))
+      else
+         last = through(level%grid%nx - 1)
+      end if
 
    contains
 

@@ -26,6 +26,10 @@ module ehl_supply
       real(dp), private :: hx = 0.0_dp
       !> rho H that arrives, by row
       real(dp), allocatable :: layer(:)
+      !> Of a line: last node ahead of the film, which stays (solve/meniscus.f90), and what is missing behind it; 0: where it is
+      !> follows from the pressure
+      integer :: held = 0
+      real(dp) :: short = 0.0_dp
    contains
       procedure :: setup
       procedure :: transport_row
@@ -43,6 +47,7 @@ contains
       self%active = layer > 0.0_dp
       if (.not. self%active) return
       self%hx = hx
+      self%held = 0
       self%frozen = .false.
       self%layer = spread(layer, 1, rows)
    end subroutine setup
@@ -63,6 +68,11 @@ contains
       integer :: i
 
       if (present(passing)) passing = .false.
+      if (self%held > 0) then
+         values(2:self%held) = 0.0_dp
+         values(self%held + 1) = values(self%held + 1) - self%short
+         return
+      end if
       ! with it the equation of the first interior column, of first order, has the flow of the others; not where the border is full
       missing = max(0.0_dp, 0.5_dp*(mass_content(1) + mass_content(2)) - self%layer(j))/self%hx
       if (present(passing)) passing(1) = missing > 0.0_dp

@@ -15,6 +15,7 @@ module ehl_smooth_contact
    use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_diverged, outcome_negative_film, outcome_running, &
                           outcome_target_missed
    use ehl_level, only: level_t
+   use ehl_meniscus, only: meniscus_t
    use ehl_oil_flow, only: flow_tolerance, leaving
    use ehl_status, only: ehl_no_memory, status_t
    use ehl_steady_options, only: end_rule_t, rule_of_circles, rule_of_ellipses, rule_of_others, rule_of_rollers, steady_options_t
@@ -31,6 +32,8 @@ module ehl_smooth_contact
    real(dp), parameter :: steady_film = 1.0e-4_dp
    !> The same of one that is short of oil: what flows back from the contact and around it takes some to balance
    integer, parameter :: starved_cycles = 3
+   !> And of a line whose meniscus is held while the flow becomes known: a few for each of its places
+   integer, parameter :: held_cycles = 10
    !> Most cycles of a level in which a softened flow is to become that of the law
    integer, parameter :: softened_cycles = 20
    !> What an error of the load changes the film, per relative error: the deflection by the Hertz pressure differs from its
@@ -87,6 +90,8 @@ module ehl_smooth_contact
       !> Whether as much oil arrives as the gap holds. A line lets all oil through that arrives, for nothing flows around it:
       !> first it is solved so, and the layer counts where that takes more.
       logical, private :: floods = .false.
+      !> Where the film of a line begins that is short of oil, if cycles that let it go have failed
+      type(meniscus_t), private :: meniscus
       !> Passage, that of the last cycle, and its layer in the middle
       integer :: passage = 1, cycle_passage = 1
       real(dp) :: layer_central = 0.0_dp
@@ -152,11 +157,11 @@ contains
       if (options%guarded .and. .not. options%line) self%rule = rule_of_ellipses
       if (contact%is_roller()) self%rule = rule_of_rollers
       if (options%flooded) call self%far_field%setup(contact)
+      self%floods = options%line
       self%max_cycles = options%max_cycles
       self%of_film = .true.
       self%guarded = options%guarded
       self%n = options%start
-      self%floods = options%line
       self%results = spread(level_result_t(), 1, options%levels)
    end subroutine start
 
@@ -193,6 +198,16 @@ contains
             self%m = measure(level)
          end if
       end associate
+      if (self%meniscus%active) then
+         hierarchy%levels%supply%held = 1
+         hierarchy%levels%supply%short = 0.0_dp
+         associate (level => hierarchy%levels(self%n))
+            call self%meniscus%begin(has_coarser(self%results, self%n))
+            call self%meniscus%hold(level)
+            call refresh(level)
+            self%m = measure(level)
+         end associate
+      end if
       self%results(self%n)%mesh = hierarchy%levels(self%n)%grid%hx
       self%cycles = 0
       self%residual = 0.0_dp
@@ -207,6 +222,7 @@ contains
       type(status_t), intent(inout) :: status
 
       if (self%options%flooded) call self%far_field%set_border(level, self%contact%load)
+      if (self%meniscus%active) call follow_meniscus(self, level)
       self%cycle_passage = self%passage
       if (level%supply%active) self%layer_central = level%supply%layer(1 + nint(-level%grid%y0/level%grid%hy))
       self%next_cycle = cycle_to_make(self)
@@ -218,8 +234,24 @@ contains
       end if
       if (self%guard%share < 1.0_dp) self%max_cycles = min(self%max_cycles, softened_cycles)
       if (self%options%layer > 0.0_dp) self%max_cycles = starved_cycles*self%options%max_cycles
+      if (self%meniscus%active) self%max_cycles = held_cycles*self%options%max_cycles
       if (self%guarded) call keep_state(self, level, status)
    end subroutine begin_cycle
+
+   !> Where the flow of a line is known but is not that of its layer its film begins elsewhere
+   subroutine follow_meniscus(self, level)
+      class(smooth_contact_t), intent(inout) :: self
+      type(level_t), intent(inout) :: level
+      logical :: moved
+
+      if (self%cycles == 0) return
+      call self%meniscus%follow(level, self%m%oil%leaves, moved)
+      if (.not. moved) return
+      call refresh(level)
+      self%m = measure(level)
+      self%guard%residual_kept = 0.0_dp
+      call self%mixing%finish()
+   end subroutine follow_meniscus
 
    !> Algebraic errors by the changes in a cycle
    subroutine estimate_errors(self, before)
@@ -397,6 +429,9 @@ contains
             self%damped = .false.
          else if (self%options%guarded .and. .not. self%spares .and. self%options%spares_from < huge(1)) then
             self%spares = .true.
+         else if (self%options%line .and. self%options%layer > 0.0_dp .and. .not. self%meniscus%active) then
+            self%meniscus%active = .true.
+            self%floods = .false.
          else
             return
          end if

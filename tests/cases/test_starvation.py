@@ -184,11 +184,33 @@ def test_waves_are_not_measured_in_a_starved_contact(root: Path):
         pyehl.response(root / "cases" / "greased.nml")
 
 
-def test_lines_that_are_nearly_flooded_take_a_position():
-    """From 0.65 to 1 of the flooded film, where a layer has no solution."""
-    flooded = float(pyehl.solve(pyehl.Case(contact=LINE)).H_c)
-    shares = [
-        float(pyehl.solve(pyehl.Case(contact=LINE, inlet={"position_hertz": at})).H_c) / flooded
-        for at in (1.2, 1.5, 2.0, 2.5, 4.0)
-    ]
-    assert shares == pytest.approx([0.646, 0.878, 0.966, 0.986, 0.998], abs=3e-3)
+def test_lines_that_are_nearly_flooded():
+    """A layer has the film of the position that it fills the gap from, up to the flooded one."""
+    flooded = pyehl.solve(pyehl.Case(contact=LINE))
+    for position, share in ((1.2, 0.646), (1.5, 0.878), (2.0, 0.966), (2.5, 0.986)):
+        place = pyehl.solve(pyehl.Case(contact=LINE, inlet={"position_hertz": position}))
+        assert float(place.H_c) / float(flooded.H_c) == pytest.approx(share, abs=3e-3)
+        layer = solve(LINE, 257, film_hertz=DENSITY * float(place.H_c))
+        assert float(layer.H_c) == pytest.approx(float(place.H_c), rel=0.01)
+        assert float(layer.oil_out) == pytest.approx(float(layer.oil_in), rel=1e-6)
+        if position > 1.5:
+            continue
+        # farther away the film hardly depends on where it begins
+        begins = float(layer.X[np.flatnonzero(layer.P.values.ravel() > 0.0)[0]])
+        assert begins == pytest.approx(-position, abs=0.05)
+
+
+@pytest.mark.parametrize("points", [129, 257])
+@pytest.mark.parametrize("load", [2e4, 1.8e5, 5e5])
+def test_layers_just_below_the_flooded_film_converge(load, points):
+    """The meniscus wanders there: each layer has its film, and oil is conserved."""
+    contact = {"shape": "line", "radius": 0.01, "mean_velocity": 0.4622, "load_per_length": load}
+    case = pyehl.Case(contact=contact, grid={"points": points, "border": "zero"})
+    flooded, thin = pyehl.solve(case), pyehl.solve(case, {"inlet.film": 5e-8})
+    density = 5e-8 / float(thin.h_c_m)
+    for share in (0.9, 0.95, 0.98, 0.995):
+        layer = share * density * float(flooded.h_c_m)
+        found = pyehl.solve(case, {"inlet.film": layer})
+        assert abs(float(found.oil_imbalance)) <= 1e-6
+        # the border of the domain costs some of the last percent
+        assert float(found.h_c_m) / float(flooded.h_c_m) == pytest.approx(share, abs=0.006)

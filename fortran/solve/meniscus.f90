@@ -1,0 +1,185 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Where the film of a line begins that a layer of oil arrives at. Nothing flows around a line, so that all oil passes it and the
+!> flow is known; near that of a flooded contact it hardly depends on the meniscus, whose node then wanders in cycles that let it
+!> go. Here it stays while the contact is solved as with `inlet.position`, and the flow that this finds says where to go:
+!>
+!>    node k with P(k) = 0, and what is missing behind it, 0 <= s <= (G(k) - layer)/hx, so that the flow is that of the layer
+!>
+!> The flow falls with k and with s: first the node is found, by steps that double and then by halves, then s by the Illinois rule.
+module ehl_meniscus
+   use ehl_kinds, only: dp
+   use ehl_level, only: level_t
+   use ehl_oil_flow, only: flow_tolerance
+   implicit none (type, external)
+   private
+   public :: meniscus_t
+
+   !> A flow is known when its change in a cycle is that share of what it is off, and after so many cycles
+   real(dp), parameter :: settled_share = 0.1_dp
+   integer, parameter :: fewest_cycles = 3
+   !> Largest s over (G(k) - layer)/hx: the film at the meniscus changes with s
+   real(dp), parameter :: largest = 1.2_dp
+   !> Shares s nearer to each other than that are the same; with none left the film has changed, and the search begins again
+   real(dp), parameter :: same = 1.0e-12_dp
+
+   type :: meniscus_t
+      logical :: active = .false.
+      !> Node, and the share of the largest s; the largest s [of the operator]
+      integer :: node = 1
+      real(dp) :: share = 0.0_dp
+      real(dp), private :: most = 0.0_dp
+      !> Nodes between which it is; 0: not known. Length of the next step.
+      integer, private :: low = 0, high = 0, step = 1
+      !> Shares between which it is, and how much too much flows with them; which of them stayed in the last step
+      real(dp), private :: shares(2) = [0.0_dp, 1.0_dp], over(2) = 0.0_dp
+      integer, private :: stayed = 0
+      !> Flow after the last cycle, cycles since the meniscus moved
+      real(dp), private :: flow = 0.0_dp
+      integer, private :: cycles = 0
+   contains
+      procedure :: begin
+      procedure :: hold
+      procedure :: follow
+      procedure, private :: search_anew
+      procedure, private :: search_node
+      procedure, private :: search_share
+      procedure, private :: pin
+   end type meniscus_t
+
+contains
+
+   !> Ready for a level, from where it was on one of half the nodes
+   pure subroutine begin(self, from_coarser)
+      class(meniscus_t), intent(inout) :: self
+      logical, intent(in) :: from_coarser
+
+      self%active = .true.
+      self%node = merge(2*self%node - merge(0, 1, self%share > 0.5_dp), 1, from_coarser)
+      call self%search_anew()
+   end subroutine begin
+
+   !> Nothing is known but the node to begin with
+   pure subroutine search_anew(self)
+      class(meniscus_t), intent(inout) :: self
+
+      self%share = 0.0_dp
+      self%low = 0
+      self%high = 0
+      self%step = 1
+      self%cycles = 0
+   end subroutine search_anew
+
+   !> Keep the meniscus at its node
+   subroutine hold(self, level)
+      class(meniscus_t), intent(inout) :: self
+      type(level_t), intent(inout) :: level
+
+      level%supply%held = self%node
+      level%supply%short = self%share*self%most
+      level%p(:self%node, 1) = 0.0_dp
+   end subroutine hold
+
+   !> After a cycle: go on if the flow is known and is not that of the layer
+   subroutine follow(self, level, flow, moved)
+      class(meniscus_t), intent(inout) :: self
+      type(level_t), intent(inout) :: level
+      !> Flow through the contact
+      real(dp), intent(in) :: flow
+      logical, intent(out) :: moved
+      real(dp) :: off, change
+
+      moved = .false.
+      off = flow - level%supply%layer(1)
+      change = abs(flow - self%flow)
+      self%flow = flow
+      self%cycles = self%cycles + 1
+      if (self%cycles < fewest_cycles .or. change > settled_share*abs(off)) return
+      if (abs(off) <= 0.5_dp*flow_tolerance*level%supply%layer(1)) return
+      ! flooded
+      if (self%node == 1 .and. off < 0.0_dp .and. .not. self%share > 0.0_dp) return
+      if (self%high == self%low + 1 .and. self%low > 0) then
+         call self%search_share(off)
+      else
+         call self%search_node(level, off)
+      end if
+      self%cycles = 0
+      moved = .true.
+      call self%hold(level)
+   end subroutine follow
+
+   !> The next node to try; where it is found between two the first of them, and with s
+   subroutine search_node(self, level, off)
+      class(meniscus_t), intent(inout) :: self
+      type(level_t), intent(in) :: level
+      real(dp), intent(in) :: off
+
+      if (off > 0.0_dp) then
+         self%low = self%node
+         self%over(1) = off
+      else
+         self%high = self%node
+         self%over(2) = off
+      end if
+      if (self%low == 0) then
+         self%node = max(1, self%node - self%step)
+      else if (self%high == 0) then
+         self%node = min(self%node + self%step, next_gap(level, self%low))
+      else
+         self%node = (self%low + self%high)/2
+      end if
+      self%step = 2*self%step
+      if (self%low > 0 .and. self%high == self%low + 1) call self%pin(level)
+   end subroutine search_node
+
+   !> The node is known: s between none and that with which the node behind it has no pressure
+   subroutine pin(self, level)
+      class(meniscus_t), intent(inout) :: self
+      type(level_t), intent(in) :: level
+
+      self%node = self%low
+      self%most = largest*(full_flow(level, self%node) - level%supply%layer(1))/level%grid%hx
+      self%shares = [0.0_dp, 1.0_dp]
+      self%stayed = 0
+      self%share = self%over(1)/(self%over(1) - self%over(2))/largest
+   end subroutine pin
+
+   !> The next share, by the Illinois rule; with none left the search begins anew
+   subroutine search_share(self, off)
+      class(meniscus_t), intent(inout) :: self
+      real(dp), intent(in) :: off
+      integer :: side
+
+      side = merge(1, 2, off > 0.0_dp)
+      self%shares(side) = self%share
+      self%over(side) = off
+      if (self%stayed == 3 - side) self%over(3 - side) = 0.5_dp*self%over(3 - side)
+      self%stayed = 3 - side
+      if (self%shares(2) - self%shares(1) <= same) then
+         call self%search_anew()
+         return
+      end if
+      self%share = (self%shares(1)*self%over(2) - self%shares(2)*self%over(1))/(self%over(2) - self%over(1))
+   end subroutine search_share
+
+   !> Flow of a filled gap through the east face of node i
+   pure real(dp) function full_flow(level, i)
+      type(level_t), intent(in) :: level
+      integer, intent(in) :: i
+
+      associate (m => level%mass_content(:, 1))
+         full_flow = 0.5_dp*(m(1) + m(2))
+         if (i > 1) full_flow = 1.5_dp*m(i) - 0.5_dp*m(i - 1)
+      end associate
+   end function full_flow
+
+   !> The next node on whose gap is half as large: a film that begins too near breaks down
+   pure integer function next_gap(level, node) result(i)
+      type(level_t), intent(in) :: level
+      integer, intent(in) :: node
+
+      i = node + 1
+      do while (full_flow(level, i) > 0.5_dp*full_flow(level, node) .and. level%grid%x(i + 1) < 0.0_dp)
+         i = i + 1
+      end do
+   end function next_gap
+end module ehl_meniscus
