@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from document_text import plain
+from machines import KINDS, draw
 from scipy.special import elliprd
 
 import pyehl
@@ -331,3 +332,7 @@ def test_a_flow_that_thins_is_softened_at_first():
         films[stress] = float(found.H_c)
     # the law of the case is the one at the end: a smaller stress thins the film
     assert 0.75 < films[1.301e6] / films[5.2e6] < 0.9
+
+
+def test_kinds_of_the_campaign_come_in_turn():
+    assert [contact.kind for contact in draw(8, 4)] == list(KINDS) * 2

@@ -28,6 +28,10 @@ def test_a_wrong_number_is_replaced(numbers: dict[str, Any]):
     assert "-->63<!--/--> surfaces" in made
     assert "<!--inlet=lines-->\n| " in made
     assert numbers["filled"](made) == made
+    stated = numbers["filled"](
+        "over <!--guard=depth-->0<!--/--> of <!--coarsening=long_x:g--><!--/-->"
+    )
+    assert numbers["plain"](stated) == "over four of 1.6"
     with pytest.raises(KeyError, match="no function nobody"):
         numbers["filled"]("<!--nobody=x-->7<!--/-->")
 
