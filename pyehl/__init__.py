@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Elastohydrodynamically lubricated point contacts with rough surfaces, and their friction.
+"""Elastohydrodynamic lubrication of point and line contacts with rough surfaces, and friction.
 
 A case is a namelist file; the program ``ehl`` and this package solve it with the same compiled
 library and write the same result folder::

@@ -47,7 +47,8 @@ def make_parser(chosen: str) -> argparse.ArgumentParser:
     """Make the parser; only the chosen subcommand is imported, and has its arguments."""
     parser = argparse.ArgumentParser(
         prog="pyehl",
-        description="Elastohydrodynamically lubricated point contacts with rough surfaces.",
+        description="Elastohydrodynamically lubricated contacts with smooth and rough "
+        "surfaces: point and line contacts, rollers, bearings and gears.",
         allow_abbrev=False,
     )
     parser.add_argument("--version", action="store_true", help="print the version")

@@ -132,7 +132,7 @@ contains
    function help_text() result(text)
       character(len=:), allocatable :: text
 
-      text = "Solve an elastohydrodynamically lubricated point contact." // newline // newline &
+      text = "Solve an elastohydrodynamically lubricated point or line contact." // newline // newline &
              // "  ehl CASE.nml -o DIR [--set group.key=value ...] [--force] [--quiet]" // newline &
              // "  ehl --resume DIR [CASE.nml] [-o DIR] [--set group.key=value ...] [--force] [--quiet]" // newline // newline &
              // "  CASE.nml   namelist file, keys as in cases/README.md; every key has a default. What needs a table, a data" // &

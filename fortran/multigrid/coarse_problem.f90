@@ -52,7 +52,7 @@ contains
       call restrict_state(fine, coarse, space, step)
       call set_film_rhs(coarse)
       coarse%poiseuille%frozen = .false.
-      coarse%flow%kept%correcting = .true.
+      coarse%flow%cached%correcting = .true.
       call update_coefficients(coarse)
       if (kind_of_coarsening == coarsening_alcouffe .and. all(step == 2)) call build_galerkin(fine, coarse, coarsening)
       call set_reynolds_rhs(fine, coarse, step, coarsening%transfer)
@@ -175,7 +175,7 @@ contains
          fine%h00 = coarse%h00
       end if
       coarse%poiseuille%frozen = .false.
-      coarse%flow%kept%correcting = .false.
+      coarse%flow%cached%correcting = .false.
       coarse%boundary%frozen = .false.
       coarse%supply%frozen = .false.
       nx = fine%grid%nx

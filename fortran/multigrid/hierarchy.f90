@@ -209,7 +209,7 @@ contains
 
       self%coarsest%factored = .false.
       do k = 1, size(self%levels)
-         call self%levels(k)%flow%kept%forget()
+         call self%levels(k)%flow%cached%forget()
       end do
    end subroutine forget
 

@@ -8,7 +8,7 @@
 module ehl_flow
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_grid, only: grid_t
-   use ehl_kept_factors, only: kept_factors_t
+   use ehl_cached_factors, only: cached_factors_t
    use ehl_kinds, only: dp
    use ehl_lubricant, only: lubricant_t
    use ehl_status, only: ehl_no_memory, status_t
@@ -33,7 +33,7 @@ module ehl_flow
       logical :: depends_on_gradient = .false.
       real(dp), allocatable :: tangent(:, :, :)
       !> Flow factors of the nodes, if there are any
-      type(kept_factors_t) :: kept
+      type(cached_factors_t) :: cached
       type(grid_t) :: grid
    contains
       procedure :: setup
@@ -98,7 +98,7 @@ contains
       allocate (self%eps(grid%nx, grid%ny, self%dir_y), self%dlneps_dp(grid%nx, grid%ny, self%dir_y), source=0.0_dp, &
                 stat=stat)
       if (stat == 0 .and. self%depends_on_gradient) allocate (self%tangent, source=self%eps, stat=stat)
-      if (stat == 0 .and. self%depends_on_gradient) call self%kept%setup(grid%nx, grid%ny, stat)
+      if (stat == 0 .and. self%depends_on_gradient) call self%cached%setup(grid%nx, grid%ny, stat)
       if (stat /= 0) call status%fail(ehl_no_memory, "no memory for the conductances of a grid level")
    end subroutine setup
 
@@ -143,6 +143,6 @@ contains
       class(flow_t), intent(in) :: self
       bytes = 0
       if (allocated(self%eps)) bytes = 16*size(self%eps, kind=int64)
-      if (allocated(self%tangent)) bytes = bytes + 8*size(self%tangent, kind=int64) + self%kept%bytes()
+      if (allocated(self%tangent)) bytes = bytes + 8*size(self%tangent, kind=int64) + self%cached%bytes()
    end function bytes
 end module ehl_flow

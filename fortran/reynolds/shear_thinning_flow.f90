@@ -9,7 +9,7 @@
 !>    S = s0 H grad P,       s0 = p_h a/R over the stress of the law,
 !>
 !> grad P by central differences; each node with the factors that it needs (physics/factor_rows.f90), or those that it had
-!> (physics/kept_factors.f90).
+!> (physics/cached_factors.f90).
 module ehl_shear_thinning_flow
    use ehl_flow, only: dir_x, flow_t
    use ehl_factor_rows, only: factor_rows_t
@@ -46,10 +46,10 @@ contains
       real(dp), intent(in) :: sliding, gradient
       type(shear_thinning_flow_t) :: flow
 
-      flow%kept%law = law
+      flow%cached%law = law
       flow%sliding = sliding
       ! how the stress of a vanishing sliding changes is not known
-      flow%kept%follows = sliding > 0.0_dp
+      flow%cached%follows = sliding > 0.0_dp
       flow%gradient = gradient
       flow%dir_y = dir_y
       flow%depends_on_gradient = .true.
@@ -64,7 +64,7 @@ contains
 
       self%inverse_speed = inverse_speed
       self%sliding = stress
-      self%kept%follows = stress > 0.0_dp
+      self%cached%follows = stress > 0.0_dp
    end subroutine rescale
 
    !> Let the lubricant thin as if the stress of its law were 1/share times as large
@@ -74,7 +74,7 @@ contains
 
       if (.not. abs(share - self%share) > 0.0_dp) return
       self%share = share
-      call self%kept%forget()
+      call self%cached%forget()
    end subroutine soften
 
    !> Conductances of row j and their changes
@@ -98,9 +98,9 @@ contains
          log_eta(last + 2:) = log_eta(last + 1)
          slope(last + 2:) = slope(last + 1)
       end if
-      do segment = 1, (size(p, 1) - 1)/self%kept%width + 1
-         first = (segment - 1)*self%kept%width + 1
-         n = min(self%kept%width, size(p, 1) - first + 1)
+      do segment = 1, (size(p, 1) - 1)/self%cached%width + 1
+         first = (segment - 1)*self%cached%width + 1
+         n = min(self%cached%width, size(p, 1) - first + 1)
          call self%gradients(p, h, j, first, n, s)
          do k = 1, n
             i = first + k - 1
@@ -109,7 +109,7 @@ contains
             newtonian(k) = rho(i)*h(i)**3/newtonian(k)*self%inverse_speed
             by_density(k) = drho_dp(i)/rho(i)
          end do
-         call self%kept%find(b(:n), s, segment, j, factors, without)
+         call self%cached%find(b(:n), s, segment, j, factors, without)
          do k = dir_x, dir_y
             if (without) then
                do i = first, first + n - 1
@@ -162,7 +162,7 @@ contains
    pure real(dp) function film_exponent(self, i, j, direction)
       class(shear_thinning_flow_t), intent(in) :: self
       integer, intent(in) :: i, j, direction
-      film_exponent = self%kept%film_exponent(i, j, direction)
+      film_exponent = self%cached%film_exponent(i, j, direction)
    end function film_exponent
 
    !> Newtonian and real shear stress of row j, the latter by the factors that find_row left
@@ -183,13 +183,13 @@ contains
       end associate
       call lubricant%log_viscosity(p(:, j), log_eta, slope)
       newtonian = exp(log_eta)/h
-      do segment = 1, (size(p, 1) - 1)/self%kept%width + 1
-         first = (segment - 1)*self%kept%width + 1
-         last = min(first + self%kept%width - 1, size(p, 1))
+      do segment = 1, (size(p, 1) - 1)/self%cached%width + 1
+         first = (segment - 1)*self%cached%width + 1
+         last = min(first + self%cached%width - 1, size(p, 1))
          associate (n => last - first + 1)
             call self%gradients(p, h, j, first, n, s)
             b(:n) = abs(self%share*self%sliding*newtonian(first:last))
-            call self%kept%stress(b(:n), s, segment, j, stress(first:last), by_sliding(:n))
+            call self%cached%stress(b(:n), s, segment, j, stress(first:last), by_sliding(:n))
             if (self%sliding > 0.0_dp) then
                stress(first:last) = stress(first:last)/(self%share*self%sliding)
             else

@@ -5,7 +5,7 @@ module test_flow
    use check, only: is_close, is_true
    use ehl_factor_rows, only: factor_rows_t, find_factors, second_order
    use ehl_flow_factors, only: exact_factors, factors_t
-   use ehl_kept_factors, only: kept_factors_t
+   use ehl_cached_factors, only: cached_factors_t
    use ehl_kinds, only: dp
    use ehl_thinning, only: carreau, eyring, most, thinning_t
    implicit none (type, external)
@@ -22,7 +22,7 @@ contains
       call limits()
       call of_second_order()
       call side_by_side()
-      call kept()
+      call cached()
       call changes_against_differences()
    end subroutine run_flow
 
@@ -94,11 +94,11 @@ contains
    end subroutine side_by_side
 
    !> Kept factors follow small changes to first order; larger ones, and what is forgotten, are found anew
-   subroutine kept()
+   subroutine cached()
       type(thinning_t), parameter :: laws(4) = [thinning_t(eyring, 1.0_dp), thinning_t(carreau, 0.3_dp), &
                                                 thinning_t(carreau, 0.5_dp), thinning_t(carreau, 0.8_dp)]
       integer, parameter :: nodes = 2*most + 1
-      type(kept_factors_t) :: store
+      type(cached_factors_t) :: store
       type(factor_rows_t) :: rows, anew
       type(factors_t) :: exact
       real(dp) :: b(nodes), s(nodes, 2), stress(nodes), by_sliding(nodes), phase, share, reach, worst(4)
@@ -107,7 +107,7 @@ contains
 
       do l = 1, size(laws)
          worst = 0.0_dp
-         store = kept_factors_t(laws(l))
+         store = cached_factors_t(laws(l))
          call store%setup(nodes, 1, stat)
          call is_true(stat == 0 .and. store%width == 43, "blocks of equal width")
          share = merge(0.0_dp, 1.0_dp, laws(l)%law == eyring)
@@ -158,7 +158,7 @@ contains
          call is_close(worst(4), 0.0_dp, 5.0e-3_dp, "factors of a correction")
          call is_true(worst(4) > worst(3), "they follow larger changes")
       end do
-   end subroutine kept
+   end subroutine cached
 
    subroutine agree(law, b, s, wanted)
       type(thinning_t), intent(in) :: law

@@ -10,7 +10,7 @@ import numpy as np
 
 from pyehl import api
 from pyehl.app.position import Position
-from pyehl.app.worker import Ticket
+from pyehl.app.worker import JobContext
 from pyehl.errors import EhlError, InputError
 from pyehl.prediction.result import Prediction
 from pyehl.solver import Solver
@@ -106,28 +106,28 @@ def rough(position: Position) -> Rough:
         return Rough(None, str(error))
 
 
-def follow(position: Position, known: dict[int, Film]) -> Callable[[Ticket], None]:
+def follow(position: Position, known: dict[int, Film]) -> Callable[[JobContext], None]:
     """Give the job of a position: coarse at once, the rest when the control rests.
 
     `known` are the last films of the page by their nodes a side, which the job brings up to date.
     """
 
-    def job(ticket: Ticket) -> None:
-        found = film(position, COARSE, ticket.wanted, known)
+    def job(context: JobContext) -> None:
+        found = film(position, COARSE, context.wanted, known)
         if found is None:
             return
         known[COARSE] = found
-        ticket.answer_with(found)
-        if position.rough and ticket.newest():
-            ticket.answer_with(rough(position))
-        if not ticket.wait(DELAY):
+        context.answer_with(found)
+        if position.rough and context.newest():
+            context.answer_with(rough(position))
+        if not context.wait(DELAY):
             return
         for points in FINE:
-            found = film(position, points, ticket.newest, known)
+            found = film(position, points, context.newest, known)
             if found is None:
                 return
             known[points] = found
-            ticket.answer_with(found)
+            context.answer_with(found)
 
     return job
 

@@ -20,7 +20,7 @@ from pyehl.app.figures import Pictures
 from pyehl.app.layout import PICTURES, TEMPLATE, Layout
 from pyehl.app.position import Position, from_case
 from pyehl.app.uploads import Uploads
-from pyehl.app.worker import Ticket, Worker
+from pyehl.app.worker import JobContext, Worker
 from pyehl.case import Case
 from pyehl.errors import EhlError, InputError
 
@@ -219,9 +219,9 @@ class Page:
         )
         values = answers.places(here, control, CURVE_POINTS)
 
-        def job(ticket: Ticket) -> None:
-            for points in answers.curve(here, control, values, ticket.newest):
-                ticket.answer_with((points, values, label, about))
+        def job(context: JobContext) -> None:
+            for points in answers.curve(here, control, values, context.newest):
+                context.answer_with((points, values, label, about))
 
         self.curves.submit(job)
 
@@ -230,12 +230,12 @@ class Page:
         here, layout = self.position, self.layout
         suffix, width = layout.figure_format.value, float(layout.figure_width.value) * 1e-3
 
-        def job(ticket: Ticket) -> None:
+        def job(context: JobContext) -> None:
             if what == REPORT:
                 data = downloads.report_page(here, POINTS)
             else:
                 data = downloads.figures(here, POINTS, suffix, width)
-            ticket.answer_with(data)
+            context.answer_with(data)
 
         self._making.append(what)
         self._say_making()

@@ -17,8 +17,8 @@ from typing import Any
 GRACE = 0.4
 
 
-class Ticket:
-    """What a job knows of the world: whether it is still wanted, and where to report."""
+class JobContext:
+    """What a job is called with: whether it is still wanted, and where to report."""
 
     def __init__(self, worker: Worker, generation: int) -> None:
         self._worker, self.generation = worker, generation
@@ -45,7 +45,7 @@ class Ticket:
             self._worker.deliver(self.generation, answer)
 
 
-Job = Callable[[Ticket], None]
+Job = Callable[[JobContext], None]
 
 
 class Worker:
@@ -101,8 +101,8 @@ class Worker:
                 if self.closed or self._job is None:
                     return
                 job, self._job = self._job, None
-                ticket = Ticket(self, self.generation)
+                context = JobContext(self, self.generation)
             try:
-                job(ticket)
+                job(context)
             except Exception as error:
-                ticket.answer_with(error)
+                context.answer_with(error)

@@ -114,7 +114,7 @@ class Case:
         InputError
             With `origin` in place of a file.
         """
-        return trusted(resolve(text, origin, options))
+        return resolved_case(resolve(text, origin, options))
 
     def __getitem__(self, group: str) -> dict[str, Any]:
         """Values of a group by key, as `resolve` gives them: ``case["grid"]["points"]``."""
@@ -174,7 +174,7 @@ class Case:
         return namelist.values(self.text)
 
 
-def trusted(text: str) -> Case:
+def resolved_case(text: str) -> Case:
     """Give the case of text that a case has resolved before, without reading it anew."""
     case = object.__new__(Case)
     object.__setattr__(case, "text", text)

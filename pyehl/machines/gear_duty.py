@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from pyehl.arrays import write_csv
-from pyehl.case import trusted
+from pyehl.case import resolved_case
 from pyehl.machines.contact import LINE, Film
 from pyehl.machines.gear import GearPair
 from pyehl.types import Array
@@ -47,5 +47,5 @@ def write_duty(folder: Path, pair: GearPair, films: Sequence[Film]) -> None:
     write_csv(folder / CSV, list(columns), rows)
     largest = max(films, key=lambda film: film.contact.load)
     keys = {f"duty.{name.split()[0]}": tuple(values) for name, values in columns.items()}
-    case = trusted(largest.text).smooth().with_options(keys)
+    case = resolved_case(largest.text).smooth().with_options(keys)
     (folder / CASE).write_text(case.text, encoding="utf-8")

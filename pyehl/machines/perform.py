@@ -11,7 +11,7 @@ from typing import Any
 
 from pyehl import namelist
 from pyehl.arrays import write_csv
-from pyehl.case import files_of, trusted
+from pyehl.case import files_of, resolved_case
 from pyehl.case.inlet import refuse_inlet
 from pyehl.case.machine import Machine, read_machine
 from pyehl.destination import Destination, finite, write_json
@@ -84,7 +84,7 @@ class Prepared:
                 self.number.append(None)
                 continue
             if one.text not in numbers:
-                case = trusted(one.text)
+                case = resolved_case(one.text)
                 if run == "solve":
                     case = case.smooth() if rough else case
                 elif why := unpredictable(one.settings):

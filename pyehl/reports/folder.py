@@ -49,8 +49,8 @@ PICTURES = {
     "passage": "μ_r/μ_s over the passage of the surface, and what each octave of wavelengths adds",
 }
 CITATION = (
-    "pyehl {version}: elastohydrodynamically lubricated point contacts with rough surfaces, by the "
-    "pyehl developers.",
+    "pyehl {version}: elastohydrodynamically lubricated point and line contacts with rough "
+    "surfaces, by the pyehl developers.",
     "Y. Zhang, N. Biboulet, C.H. Venner & A.A. Lubrecht, Prediction of the Stribeck curve under "
     "full-film elastohydrodynamic lubrication, Tribology International 2019, doi "
     "10.1016/j.triboint.2019.01.028 (the method).",

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from pyehl import schema
-from pyehl.case import trusted
+from pyehl.case import resolved_case
 from pyehl.contact import film_formulas
 from pyehl.errors import EhlError, InputError, did_you_mean
 from pyehl.prediction import result
@@ -134,7 +134,7 @@ def execute_all(tasks: Sequence[Task]) -> list[Row]:
 
 
 def _solve(task: Task) -> Row:
-    case = trusted(task.text)
+    case = resolved_case(task.text)
     if task.folder:
         run(case, task.folder)
         text = (Path(task.folder) / "summary.json").read_text(encoding="utf-8")
@@ -145,7 +145,7 @@ def _solve(task: Task) -> Row:
 
 
 def _predict(task: Task) -> Row:
-    case = trusted(task.text)
+    case = resolved_case(task.text)
     full = task.full or bool(task.folder)
     prediction = predict(case.resolve(), case.text, brief=not full)
     if task.folder:
@@ -155,7 +155,7 @@ def _predict(task: Task) -> Row:
 
 
 def _film(task: Task) -> Row:
-    values = film_formulas.sheet(trusted(task.text).resolve())
+    values = film_formulas.sheet(resolved_case(task.text).resolve())
     row = _scalars(values)
     row["h_c_m"] = values["formulas"][0]["h_c_m"]
     for formula in values["formulas"]:

@@ -297,17 +297,17 @@ def test_worker_does_the_newest_alone():
     begun, go = threading.Event(), threading.Event()
     worker = Worker(lambda generation, answer: reported.append((generation, answer)))
 
-    def first(ticket):
+    def first(context):
         begun.set()
         assert go.wait(10.0)
-        ticket.answer_with("first")
-        if ticket.wait(5.0):
-            ticket.answer_with("never")
+        context.answer_with("first")
+        if context.wait(5.0):
+            context.answer_with("never")
 
     assert worker.submit(first) == 1
     assert begun.wait(10.0)
-    worker.submit(lambda ticket: ticket.answer_with("overtaken"))
-    last = worker.submit(lambda ticket: ticket.answer_with("last"))
+    worker.submit(lambda context: context.answer_with("overtaken"))
+    last = worker.submit(lambda context: context.answer_with("last"))
     go.set()
     end = time.monotonic() + 10.0
     while len(reported) < 2 and time.monotonic() < end:
@@ -322,12 +322,12 @@ def test_worker_tells_what_is_raised_and_goes_on():
     worker = Worker(lambda generation, answer: reported.append(answer))
     done = threading.Event()
 
-    def bad(ticket):
+    def bad(context):
         raise InputError("no")
 
     worker.submit(bad)
     time.sleep(0.1)
-    worker.submit(lambda ticket: done.set())
+    worker.submit(lambda context: done.set())
     assert done.wait(10.0)
     worker.close()
     assert [str(answer) for answer in reported] == ["no"]
@@ -338,10 +338,10 @@ def test_closed_worker_stops_a_solver(start):
     worker = Worker(lambda generation, answer: None)
     began = threading.Event()
 
-    def job(ticket):
+    def job(context):
         began.set()
-        while ticket.wanted():
-            answers.film(start, 65, ticket.wanted)
+        while context.wanted():
+            answers.film(start, 65, context.wanted)
 
     worker.submit(job)
     assert began.wait(10.0)

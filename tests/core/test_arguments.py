@@ -12,7 +12,7 @@ import pytest
 
 import pyehl
 from pyehl import cli
-from pyehl.case import trusted
+from pyehl.case import resolved_case
 from pyehl.solver import solver_on_heights
 
 SMALL = "grid.points=65"
@@ -128,7 +128,7 @@ def test_a_case_is_checked_at_once_and_resolved_once(monkeypatch):
     assert pyehl.Case.from_text(case.text) == case
     calls = []
     monkeypatch.setattr("pyehl.case.case.resolve", lambda *a, **k: calls.append(a))
-    assert trusted(case.text) == pyehl.Case(case) == case
+    assert resolved_case(case.text) == pyehl.Case(case) == case
     assert calls == []
 
 

@@ -10,7 +10,7 @@ import pytest
 
 import pyehl
 from pyehl.app.position import from_case
-from pyehl.case import KEYS, trusted
+from pyehl.case import KEYS, resolved_case
 from pyehl.case.settings import MACHINES
 from pyehl.contact.smooth import OF_RUN, smooth_case, solve_contact
 from pyehl.handle import SolverHandle, results_of
@@ -301,7 +301,9 @@ def test_curves_and_fits_keep_every_key(key: str, tmp_path: Path):
         return
     speed = contact["mean_velocity"]
     plan = plan_curve(case, [axis("contact.mean_velocity", [speed])])
-    smooth, predicted = (trusted(task.text).resolve() for task in (plan.tasks[0], plan.tasks[1]))
+    smooth, predicted = (
+        resolved_case(task.text).resolve() for task in (plan.tasks[0], plan.tasks[1])
+    )
     assert predicted[group][name] == wanted
     assert smooth[group][name] == wanted
 

@@ -1,16 +1,16 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Flow factors (factor_rows.f90) of the nodes of a grid, kept with their changes: near the sliding B and the gradient
+!> Flow factors (factor_rows.f90) of the nodes of a grid, cached with their changes: near the sliding B and the gradient
 !> S that they were found at, factors and stress follow to first order, with an error below 1e-4 beside that of factor_rows.f90.
-!> Sweeps and cycles change most nodes by less. So factors depend on what was kept, until that is forgotten. Where the
-!> lubricant flows as a Newtonian one nothing is kept: to read and write it costs more than to see that it is not needed.
-module ehl_kept_factors
+!> Sweeps and cycles change most nodes by less. So factors depend on what is cached, until that is forgotten. Where the
+!> lubricant flows as a Newtonian one nothing is cached: to read and write it costs more than to see that it is not needed.
+module ehl_cached_factors
    use, intrinsic :: iso_fortran_env, only: int64, real32
    use ehl_factor_rows, only: factor_rows_t, find_factors, flows_newtonian
    use ehl_kinds, only: dp
    use ehl_thinning, only: eyring, most, thinning_t
    implicit none (type, external)
    private
-   public :: kept_factors_t
+   public :: cached_factors_t
 
    !> Changes that are small: of B, relative to B and this much more; of S, for Carreau relative to 1 + |S|. They are smaller
    !> the other way round where the curvature of F is above `straight`; held by test/test_flow.f90
@@ -21,13 +21,13 @@ module ehl_kept_factors
    real(dp), parameter :: faint = 0.05_dp
    !> B of a node without factors, near no other: all nodes of a segment have factors, or none
    real(dp), parameter :: none = -1.0_dp
-   !> What is kept of a node: B, S, phi and the stress; and as numbers of single precision, since memory is what time goes
+   !> What is cached of a node: B, S, phi and the stress; and as numbers of single precision, since memory is what time goes
    !> to, the changes of phi and of the stress: those of ln(phi) with ln(B), and of ln(phi_x) and ln(phi_y) with S_x, with S_y
    integer, parameter :: f_b = 1, f_s = 2, f_phi = 4, f_stress = 6, fields = 6
    integer, parameter :: c_by_sliding = 1, c_by_x = 3, c_by_y = 5, c_tangent = 7, c_stress_by_sliding = 9, &
                          c_stress_by_gradient = 10, change_fields = 11
 
-   type :: kept_factors_t
+   type :: cached_factors_t
       type(thinning_t) :: law
       !> Whether factors follow small changes, and how large those may be
       logical :: follows = .true.
@@ -46,13 +46,13 @@ module ehl_kept_factors
       procedure :: stress
       procedure :: film_exponent
       procedure :: bytes
-   end type kept_factors_t
+   end type cached_factors_t
 
 contains
 
    !> Allocate what a grid needs
    subroutine setup(self, nx, ny, stat)
-      class(kept_factors_t), intent(inout) :: self
+      class(cached_factors_t), intent(inout) :: self
       integer, intent(in) :: nx, ny
       !> 0: there was memory
       integer, intent(out) :: stat
@@ -68,13 +68,13 @@ contains
 
    !> Find all factors anew when they are needed next
    subroutine forget(self)
-      class(kept_factors_t), intent(inout) :: self
+      class(cached_factors_t), intent(inout) :: self
       if (allocated(self%values)) self%values(:, f_b, :, :) = none
    end subroutine forget
 
    !> Factors of a segment of row j, of size(b) nodes, their changes with the sliding, and that of the flow
    pure subroutine find(self, b, s, segment, j, rows, newtonian)
-      class(kept_factors_t), intent(inout) :: self
+      class(cached_factors_t), intent(inout) :: self
       !> B >= 0, and S along X and along Y of as many nodes, or more, shape (nodes, 2)
       real(dp), contiguous, intent(in) :: b(:), s(:, :)
       integer, intent(in) :: segment, j
@@ -88,17 +88,17 @@ contains
       n = size(b)
       newtonian = flows_newtonian(self%law, b, s)
       if (newtonian) then
-         ! what was kept of another state would be taken for that of this one (film_exponent)
+         ! what was cached of another state would be taken for that of this one (film_exponent)
          if (self%values(1, f_b, segment, j) > none) self%values(:n, f_b, segment, j) = none
          return
       end if
       reach = self%reach*merge(wider, 1.0_dp, self%correcting)
       share = merge(0.0_dp, reach, self%law%law == eyring)
-      associate (kept => self%values(:, :, segment, j))
+      associate (cached => self%values(:, :, segment, j))
          do i = 1, n
-            bound = reach + share*(abs(kept(i, f_s)) + abs(kept(i, f_s + 1)))
-            beyond(i) = max(abs(b(i) - kept(i, f_b)) - reach*(kept(i, f_b) + slight), abs(s(i, 1) - kept(i, f_s)) - bound, &
-                            abs(s(i, 2) - kept(i, f_s + 1)) - bound)
+            bound = reach + share*(abs(cached(i, f_s)) + abs(cached(i, f_s + 1)))
+            beyond(i) = max(abs(b(i) - cached(i, f_b)) - reach*(cached(i, f_b) + slight), abs(s(i, 1) - cached(i, f_s)) - bound, &
+                            abs(s(i, 2) - cached(i, f_s + 1)) - bound)
          end do
          outside = 0
          do i = 1, n
@@ -110,17 +110,17 @@ contains
             n = to - from + 1
             ss(:n, :) = s(from:to, :)
             call find_factors(self%law, b(from:to), ss, found)
-            call keep(b(from:to), ss, found, kept(from:, :), self%changes(from:, :, segment, j))
+            call store(b(from:to), ss, found, cached(from:, :), self%changes(from:, :, segment, j))
          end if
-         call follow(b, s, kept, self%changes(:, :, segment, j), rows)
+         call follow(b, s, cached, self%changes(:, :, segment, j), rows)
       end associate
    end subroutine find
 
-   !> Keep what was found
-   pure subroutine keep(b, s, found, kept, changes)
+   !> Cache what was found
+   pure subroutine store(b, s, found, cached, changes)
       real(dp), intent(in) :: b(:), s(:, :)
       type(factor_rows_t), intent(in) :: found
-      real(dp), intent(inout) :: kept(:, :)
+      real(dp), intent(inout) :: cached(:, :)
       real(real32), intent(inout) :: changes(:, :)
       !> d ln|S_x|/dS_x, d ln|S_y|/dS_y; d ln(phi)/d ln|S| of a direction, by its own part of S and by the other;
       !> 1 along X and 0 across, and the other way round
@@ -135,8 +135,8 @@ contains
             per_y = s(i, 2)/(s(i, 2)**2 + faint**2)
             own = found%tangent(i, d)/found%phi(i, d) - 1.0_dp
             other = found%by_gradient(i, d) - own
-            kept(i, f_s + d - 1) = s(i, d)
-            kept(i, f_phi + d - 1) = found%phi(i, d)
+            cached(i, f_s + d - 1) = s(i, d)
+            cached(i, f_phi + d - 1) = found%phi(i, d)
             changes(i, c_by_sliding + d - 1) = real(found%by_sliding(i, d), real32)
             changes(i, c_by_x + d - 1) = real((along*own + across*other)*per_x, real32)
             changes(i, c_by_y + d - 1) = real((across*own + along*other)*per_y, real32)
@@ -145,16 +145,16 @@ contains
          end do
       end do
       do i = 1, size(b)
-         kept(i, f_b) = b(i)
-         kept(i, f_stress) = found%stress(i)
+         cached(i, f_b) = b(i)
+         cached(i, f_stress) = found%stress(i)
          changes(i, c_stress_by_sliding) = real(found%stress_by_sliding(i), real32)
       end do
-   end subroutine keep
+   end subroutine store
 
    !> Factors to first order
-   pure subroutine follow(b, s, kept, changes, rows)
+   pure subroutine follow(b, s, cached, changes, rows)
       real(dp), contiguous, intent(in) :: b(:), s(:, :)
-      real(dp), contiguous, intent(in) :: kept(:, :)
+      real(dp), contiguous, intent(in) :: cached(:, :)
       real(real32), contiguous, intent(in) :: changes(:, :)
       type(factor_rows_t), intent(inout) :: rows
       !> Changes of ln(B) and of S
@@ -162,22 +162,22 @@ contains
       integer :: i
 
       do i = 1, size(b)
-         db = (b(i) - kept(i, f_b))/(kept(i, f_b) + tiny(1.0_dp))
-         dx = s(i, 1) - kept(i, f_s)
-         dy = s(i, 2) - kept(i, f_s + 1)
+         db = (b(i) - cached(i, f_b))/(cached(i, f_b) + tiny(1.0_dp))
+         dx = s(i, 1) - cached(i, f_s)
+         dy = s(i, 2) - cached(i, f_s + 1)
          rows%by_sliding(i, 1) = changes(i, c_by_sliding)
          rows%by_sliding(i, 2) = changes(i, c_by_sliding + 1)
          rows%tangent(i, 1) = changes(i, c_tangent)
          rows%tangent(i, 2) = changes(i, c_tangent + 1)
-         rows%phi(i, 1) = kept(i, f_phi)*(1.0_dp + rows%by_sliding(i, 1)*db + changes(i, c_by_x)*dx + changes(i, c_by_y)*dy)
-         rows%phi(i, 2) = kept(i, f_phi + 1)*(1.0_dp + rows%by_sliding(i, 2)*db + changes(i, c_by_x + 1)*dx &
+         rows%phi(i, 1) = cached(i, f_phi)*(1.0_dp + rows%by_sliding(i, 1)*db + changes(i, c_by_x)*dx + changes(i, c_by_y)*dy)
+         rows%phi(i, 2) = cached(i, f_phi + 1)*(1.0_dp + rows%by_sliding(i, 2)*db + changes(i, c_by_x + 1)*dx &
                                               + changes(i, c_by_y + 1)*dy)
       end do
    end subroutine follow
 
-   !> Mean stress of a segment of row j, and its change with B, by what is kept
+   !> Mean stress of a segment of row j, and its change with B, by what is cached
    pure subroutine stress(self, b, s, segment, j, values, by_sliding)
-      class(kept_factors_t), intent(in) :: self
+      class(cached_factors_t), intent(in) :: self
       !> As in `find`
       real(dp), contiguous, intent(in) :: b(:), s(:, :)
       integer, intent(in) :: segment, j
@@ -189,19 +189,19 @@ contains
          by_sliding = 1.0_dp
          return
       end if
-      associate (kept => self%values(:, :, segment, j), changes => self%changes(:, :, segment, j))
+      associate (cached => self%values(:, :, segment, j), changes => self%changes(:, :, segment, j))
          do i = 1, size(b)
             by_sliding(i) = changes(i, c_stress_by_sliding)
-            values(i) = kept(i, f_stress) + by_sliding(i)*(b(i) - kept(i, f_b)) &
-                        + changes(i, c_stress_by_gradient)*(s(i, 1) - kept(i, f_s)) &
-                        + changes(i, c_stress_by_gradient + 1)*(s(i, 2) - kept(i, f_s + 1))
+            values(i) = cached(i, f_stress) + by_sliding(i)*(b(i) - cached(i, f_b)) &
+                        + changes(i, c_stress_by_gradient)*(s(i, 1) - cached(i, f_s)) &
+                        + changes(i, c_stress_by_gradient + 1)*(s(i, 2) - cached(i, f_s + 1))
          end do
       end associate
    end subroutine stress
 
-   !> d ln(eps)/d ln(H) at node (i, j), as kept
+   !> d ln(eps)/d ln(H) at node (i, j), as cached
    pure real(dp) function film_exponent(self, i, j, direction)
-      class(kept_factors_t), intent(in) :: self
+      class(cached_factors_t), intent(in) :: self
       integer, intent(in) :: i, j, direction
       real(dp) :: s(2), by_gradient(2)
       integer :: segment, k
@@ -210,9 +210,9 @@ contains
       segment = (i - 1)/self%width + 1
       k = i - (segment - 1)*self%width
       if (.not. self%values(k, f_b, segment, j) > none) return
-      associate (kept => self%values(k, :, segment, j), changes => self%changes(k, :, segment, j))
-         s = kept(f_s:f_s + 1)
-         ! as keep has them
+      associate (cached => self%values(k, :, segment, j), changes => self%changes(k, :, segment, j))
+         s = cached(f_s:f_s + 1)
+         ! as `store` has them
          s = sign(max(abs(s), real(tiny(1.0_real32), dp)), s)
          by_gradient = [changes(c_by_x + direction - 1), changes(c_by_y + direction - 1)]*(s + faint**2/s)
          film_exponent = 3.0_dp - changes(c_by_sliding + direction - 1) + sum(by_gradient)
@@ -221,8 +221,8 @@ contains
 
    !> Allocated bytes
    pure integer(int64) function bytes(self)
-      class(kept_factors_t), intent(in) :: self
+      class(cached_factors_t), intent(in) :: self
       bytes = 0
       if (allocated(self%changes)) bytes = 8*size(self%values, kind=int64) + 4*size(self%changes, kind=int64)
    end function bytes
-end module ehl_kept_factors
+end module ehl_cached_factors
