@@ -197,6 +197,8 @@ def _surface(v: Values, s: Values, settings: Settings) -> str:
         raised = settings[s["group"]]["kind"] in ("bump", "ridge")
         height = f", {power(s['amplitude'], 3)} a^2/R {'high' if raised else 'deep'}"
     size = f"{fixed(s['width'], 4)} a wide{length}{height}, at Y = {fixed(s['y_start'], 4)}"
+    if s["spacing_y"] > 0.0:
+        size += f", repeated along Y every {fixed(s['spacing_y'], 4)} a"
     return f"{text}\n{INDENT}{size}"
 
 

@@ -158,6 +158,7 @@ module ehl_case
       real(dp) :: width_m = 0.0_dp, length_m = 0.0_dp
       real(dp) :: angle = 0.0_dp
       real(dp) :: y_start = 0.0_dp
+      real(dp) :: spacing_y = 0.0_dp
       real(dp) :: wavelength = 0.5_dp
       !> Set by the reader: these, the velocity and the start
       real(dp) :: wavelength_x = 0.5_dp, wavelength_y = 0.5_dp

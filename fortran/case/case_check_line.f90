@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Keys of a point beside a line contact, keys of a line beside a point, and what a line does not have
 module ehl_case_check_line
-   use ehl_case, only: case_t, is_feature, surface_case_t
+   use ehl_case, only: case_t
    use ehl_case_defaults, only: line_keys, point_keys
    use ehl_case_source, only: case_source_t
    use ehl_kinds, only: dp
@@ -35,24 +35,10 @@ contains
                                         "repeat, its cells are nearly square", status)
       if (source%given("solver.deflection") .and. input%solver%deflection /= "fft") call source%refuse("solver.deflection", &
          "solver.deflection = 'mlmi' with "//shape, "'fft': a strip that repeats has no multi-integration", status)
-      call check_rough("surface", input%surface)
-      call check_rough("second_surface", input%second_surface)
       if (input%lubricant%thermal_friction == "always" .and. .not. abs(input%contact%slide_to_roll) < 2.0_dp) then
          call source%refuse("lubricant.thermal_friction", "lubricant.thermal_friction = 'always' with a wall at rest under an "// &
                             "infinite line, which warms for ever", "'auto' or 'never', or a slide_to_roll between -2 and 2", status)
       end if
-
-   contains
-
-      !> What does not repeat across the motion is the same all along the line
-      subroutine check_rough(group, s)
-         character(len=*), intent(in) :: group
-         type(surface_case_t), intent(in) :: s
-         if (.not. is_feature(s%kind)) return
-         if (any(s%kind == ["ridge ", "groove"]) .and. .not. max(abs(s%angle), s%length, s%length_m) > 0.0_dp) return
-         call source%refuse(group//".kind", group//".kind = '"//trim(s%kind)//"' with "//shape, "an endless 'ridge' or "// &
-                            "'groove' with angle = 0.0, or a surface that repeats: 'harmonic', 'map' or 'fractal'", status)
-      end subroutine check_rough
    end subroutine check_line
 
    !> What a point contact has in place of a key of a line

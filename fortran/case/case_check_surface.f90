@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Keys of the surfaces of a complete case that do not go together
 module ehl_case_check_surface
-   use ehl_case, only: case_t, is_feature, surface_case_t
+   use ehl_case, only: case_t, contact_case_t, is_feature, surface_case_t
    use ehl_case_defaults, only: latest_start, waits
    use ehl_case_source, only: case_source_t
    use ehl_files, only: file_exists, is_file
@@ -21,16 +21,15 @@ contains
       type(case_t), intent(in) :: input
       type(status_t), intent(inout) :: status
 
-      call check_surface(source, "surface", input%contact%si, input%surface, input%second_surface, status)
-      call check_surface(source, "second_surface", input%contact%si, input%second_surface, input%surface, status)
+      call check_surface(source, "surface", input%contact, input%surface, input%second_surface, status)
+      call check_surface(source, "second_surface", input%contact, input%second_surface, input%surface, status)
    end subroutine check_surfaces
 
    !> One, beside the other
-   subroutine check_surface(source, group, si, s, other, status)
+   subroutine check_surface(source, group, contact, s, other, status)
       type(case_source_t), intent(in) :: source
       character(len=*), intent(in) :: group
-      !> Whether the contact is given in SI units
-      logical, intent(in) :: si
+      type(contact_case_t), intent(in) :: contact
       type(surface_case_t), intent(in) :: s, other
       type(status_t), intent(inout) :: status
       logical :: feature
@@ -42,12 +41,14 @@ contains
          call exclude("height_m", "amplitude_over_film", s%height_m > 0.0_dp)
          call exclude("width_m", "width", s%width_m > 0.0_dp)
          call exclude("length_m", "length", s%length_m > 0.0_dp)
-         call refuse(.not. si .and. max(s%height_m, s%width_m, s%length_m) > 0.0_dp, "kind", &
+         call refuse(.not. contact%si .and. max(s%height_m, s%width_m, s%length_m) > 0.0_dp, "kind", &
                      "sizes in metres with a contact by Moes numbers", "amplitude, width and length, or a contact in SI units")
          call refuse(s%velocity_ratio > 0.0_dp .and. s%x_start > x_matters, "x_start", &
                      "a "//trim(s%kind)//" would begin inside the contact", &
                      "at most "//short(x_matters)//", where its front end is at time 0")
       end if
+      call refuse(s%spacing_y > 0.0_dp .and. .not. (feature .and. contact%is_line()), "spacing_y", &
+                  "nothing repeats along Y after it", "0, or a single feature on a line contact")
       call refuse((feature .or. s%kind == "harmonic") .and. s%shortest_wavelength > 0.0_dp, "shortest_wavelength", &
                   "there is no spectrum to cut", "0")
       call refuse((feature .or. s%kind == "harmonic") .and. s%longest_wavelength > 0.0_dp, "longest_wavelength", &

@@ -50,7 +50,8 @@ module ehl_case_ranges
       // "wavelength [0.01, 100]; wavelength_x [0.01, 100]; wavelength_y [0.01, 1e6]; velocity_ratio [0, 2]; " &
       // "x_start [-1e5, 1e4]; height_m 0 or [1e-12, 1e-4]; width [0.01, 100]; length 0 or [0.01, 100]; " &
       // "width_m 0 or [1e-9, 0.1]; length_m 0 or [1e-9, 0.1]; angle [-360, 360]; y_start [-20, 20]; " &
-      // "length_x 0 or [1e-9, 1]; length_y 0 or [1e-9, 1]; height_unit m|mm|um|nm; lateral_unit same|m|mm|um|nm; " &
+      // "spacing_y 0 or [0.01, 1000]; length_x 0 or [1e-9, 1]; " &
+      // "length_y 0 or [1e-9, 1]; height_unit m|mm|um|nm; lateral_unit same|m|mm|um|nm; " &
       // "profile none|isotropic|ridges; crop_x_min [0, 1]; crop_x_max [0, 1]; crop_y_min [0, 1]; " &
       // "crop_y_max [0, 1]; sign [-1, 1]; outliers 0 or [3, 1e6]; align_lines none|x|y; fill harmonic|none; " &
       // "detrend auto|none|centre|tilt|curvature; rotate [-360, 360]; edges auto|mirror|window|periodic; " &

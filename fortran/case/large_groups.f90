@@ -88,29 +88,29 @@ contains
       logical, intent(out) :: good
       integer :: stat
       real(dp), pointer :: amplitude, amplitude_over_film, wavelength, wavelength_x, wavelength_y, velocity_ratio, x_start, &
-         height_m, width, length, width_m, length_m, angle, y_start, length_x, length_y, crop_x_min, crop_x_max, crop_y_min, &
-         crop_y_max, outliers, rotate, track, tile_x, tile_y, shortest_wavelength, longest_wavelength, rms_height, ra, rq, &
-         lay_ratio, hurst, rolloff_wavenumber
+         height_m, width, length, width_m, length_m, angle, y_start, spacing_y, length_x, length_y, crop_x_min, crop_x_max, &
+         crop_y_min, crop_y_max, outliers, rotate, track, tile_x, tile_y, shortest_wavelength, longest_wavelength, &
+         rms_height, ra, rq, lay_ratio, hurst, rolloff_wavenumber
       integer, pointer :: sign, pixels, seed
       logical, pointer :: tile_mirrored
       character(len=word_length), pointer :: kind, height_unit, lateral_unit, profile, align_lines, fill, detrend, edges, &
          filter, finish, modulus
       character(len=path_length), pointer :: file, channel
       namelist /surface/ kind, amplitude, amplitude_over_film, wavelength, wavelength_x, wavelength_y, velocity_ratio, &
-         x_start, height_m, width, length, width_m, length_m, angle, y_start, file, channel, length_x, length_y, height_unit, &
-         lateral_unit, profile, crop_x_min, crop_x_max, crop_y_min, crop_y_max, sign, outliers, align_lines, fill, detrend, &
-         rotate, edges, track, tile_x, tile_y, tile_mirrored, shortest_wavelength, longest_wavelength, filter, rms_height, ra, &
-         rq, finish, lay_ratio, hurst, rolloff_wavenumber, pixels, seed, modulus
+         x_start, height_m, width, length, width_m, length_m, angle, y_start, spacing_y, file, channel, length_x, length_y, &
+         height_unit, lateral_unit, profile, crop_x_min, crop_x_max, crop_y_min, crop_y_max, sign, outliers, align_lines, fill, &
+         detrend, rotate, edges, track, tile_x, tile_y, tile_mirrored, shortest_wavelength, longest_wavelength, filter, &
+         rms_height, ra, rq, finish, lay_ratio, hurst, rolloff_wavenumber, pixels, seed, modulus
 
       kind => v%kind; amplitude => v%amplitude; amplitude_over_film => v%amplitude_over_film; wavelength => v%wavelength
       wavelength_x => v%wavelength_x; wavelength_y => v%wavelength_y; velocity_ratio => v%velocity_ratio
       x_start => v%x_start; height_m => v%height_m; width => v%width; length => v%length; width_m => v%width_m
-      length_m => v%length_m; angle => v%angle; y_start => v%y_start; file => v%file; channel => v%channel
-      length_x => v%length_x; length_y => v%length_y; height_unit => v%height_unit; lateral_unit => v%lateral_unit
-      profile => v%profile; crop_x_min => v%crop_x_min; crop_x_max => v%crop_x_max; crop_y_min => v%crop_y_min
-      crop_y_max => v%crop_y_max; sign => v%sign; outliers => v%outliers; align_lines => v%align_lines; fill => v%fill
-      detrend => v%detrend; rotate => v%rotate; edges => v%edges; track => v%track; tile_x => v%tile_x; tile_y => v%tile_y
-      tile_mirrored => v%tile_mirrored; shortest_wavelength => v%shortest_wavelength
+      length_m => v%length_m; angle => v%angle; y_start => v%y_start; spacing_y => v%spacing_y; file => v%file
+      channel => v%channel; length_x => v%length_x; length_y => v%length_y; height_unit => v%height_unit
+      lateral_unit => v%lateral_unit; profile => v%profile; crop_x_min => v%crop_x_min; crop_x_max => v%crop_x_max
+      crop_y_min => v%crop_y_min; crop_y_max => v%crop_y_max; sign => v%sign; outliers => v%outliers; align_lines => v%align_lines
+      fill => v%fill; detrend => v%detrend; rotate => v%rotate; edges => v%edges; track => v%track; tile_x => v%tile_x
+      tile_y => v%tile_y; tile_mirrored => v%tile_mirrored; shortest_wavelength => v%shortest_wavelength
       longest_wavelength => v%longest_wavelength; filter => v%filter; rms_height => v%rms_height; ra => v%ra; rq => v%rq
       finish => v%finish; lay_ratio => v%lay_ratio; hurst => v%hurst; rolloff_wavenumber => v%rolloff_wavenumber
       pixels => v%pixels; seed => v%seed; modulus => v%modulus

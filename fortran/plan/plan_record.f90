@@ -126,6 +126,7 @@ contains
                call record%set(name//"width", feature%width)
                call record%set(name//"length", feature%length)
                call record%set(name//"y_start", feature%y_start)
+               call record%set(name//"spacing_y", feature%period_y)
                call record%set(name//"reach", feature%reach)
             end select
          end associate

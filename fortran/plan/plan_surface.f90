@@ -14,7 +14,7 @@ module ehl_plan_surface
    use ehl_scales, only: scales_t
    use ehl_status, only: ehl_bad_input, ehl_no_memory, status_t
    use ehl_surface, only: aliased_below, surface_t
-   use ehl_text, only: to_text
+   use ehl_text, only: short, to_text
    use ehl_tile_filter, only: filter_t
    implicit none (type, external)
    private
@@ -46,18 +46,19 @@ contains
       if (present(heights)) none(1) = none(1) .and. size(heights) == 0
       if (present(second_heights)) none(2) = none(2) .and. size(second_heights) == 0
       if (none(2) .or. .not. none(1)) call add_surface("surface", s(1), input%contact%rough_surface, &
-                                                       input%contact%si, scales, surfaces, status, heights)
+                                                       input%contact%si, input%contact%is_line(), scales, surfaces, status, heights)
       if (none(1) .or. .not. none(2)) call add_surface("second_surface", s(2), 3 - input%contact%rough_surface, &
-                                                       input%contact%si, scales, surfaces, status, second_heights)
+                                                       input%contact%si, input%contact%is_line(), scales, surfaces, status, &
+                                                       second_heights)
    end subroutine make_surfaces
 
    !> The surface of a group; none where it is smooth
-   subroutine add_surface(group, s, body, si, scales, surfaces, status, heights)
+   subroutine add_surface(group, s, body, si, is_line, scales, surfaces, status, heights)
       character(len=*), intent(in) :: group
       type(surface_case_t), intent(in) :: s
       integer, intent(in) :: body
-      !> Whether the contact is given in SI units
-      logical, intent(in) :: si
+      !> Whether the contact is given in SI units, and whether it is a line
+      logical, intent(in) :: si, is_line
       type(scales_t), intent(in) :: scales
       type(moving_surfaces_t), intent(inout) :: surfaces
       type(status_t), intent(inout) :: status
@@ -74,7 +75,7 @@ contains
       if (present(heights)) has_heights = size(heights) > 0
       if (status%failed() .or. s%kind == "smooth") return
       if (is_feature(s%kind)) then
-         call make_feature(group, s, scales, surface, amplitude_over_film, status)
+         call make_feature(group, s, is_line, scales, surface, amplitude_over_film, status)
       else if (s%kind == "harmonic") then
          allocate (surface, source=new_harmonic(s%amplitude, s%wavelength_x, s%wavelength_y, s%velocity_ratio, s%x_start))
          if (.not. s%amplitude_given) amplitude_over_film = s%amplitude_over_film
@@ -99,9 +100,10 @@ contains
    end subroutine add_surface
 
    !> A single feature
-   subroutine make_feature(group, s, scales, surface, amplitude_over_film, status)
+   subroutine make_feature(group, s, is_line, scales, surface, amplitude_over_film, status)
       character(len=*), intent(in) :: group
       type(surface_case_t), intent(in) :: s
+      logical, intent(in) :: is_line
       type(scales_t), intent(in) :: scales
       class(surface_t), allocatable, intent(out) :: surface
       real(dp), intent(out) :: amplitude_over_film
@@ -122,8 +124,28 @@ contains
                           "the contact"//new_line("a")//"expected: a length, another angle, or a velocity_ratio of 0")
          return
       end if
+      if (is_line) call repeat_feature(group, s, feature, status)
+      if (status%failed()) return
       allocate (surface, source=feature)
    end subroutine make_feature
+
+   !> On a strip it repeats along Y
+   subroutine repeat_feature(group, s, feature, status)
+      character(len=*), intent(in) :: group
+      type(surface_case_t), intent(in) :: s
+      type(feature_t), intent(inout) :: feature
+      type(status_t), intent(inout) :: status
+
+      if (.not. feature%size_y() > 0.0_dp .and. .not. feature%is_endless_across()) then
+         call status%fail(ehl_bad_input, group//".kind = '"//trim(s%kind)//"': without ends at an angle it does not repeat "// &
+                          "along a line"//new_line("a")//"expected: a length, or an angle of 0, 90 or 180")
+         return
+      end if
+      call feature%repeat_along_y(s%spacing_y)
+      if (feature%period_y < feature%size_y()) call status%fail(ehl_bad_input, group//".spacing_y = "// &
+         short(s%spacing_y)//": the "//trim(s%kind)//" takes up "//short(feature%size_y())//" b along the line"// &
+         new_line("a")//"expected: more than that, or 0")
+   end subroutine repeat_feature
 
    !> Refuse a map that has to be prepared, or has no size
    subroutine check_map(group, s, status)

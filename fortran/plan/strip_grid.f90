@@ -30,7 +30,8 @@ contains
 
       if (width < 0.0_dp) then
          call status%fail(ehl_bad_input, "the two surfaces of a line contact have no width in common"//newline// &
-                          "expected: lengths across the motion one of which is a whole multiple of the other")
+                          "expected: lengths across the motion one of which is a whole multiple of the other; of a "// &
+                          "single feature it is spacing_y")
          return
       end if
       rows = 2.0_dp*max(1.0_dp, anint(0.5_dp*width*intervals/(x_outlet - x_inlet)))

@@ -12,6 +12,8 @@ module ehl_feature
    real(dp), parameter :: reach_over_width = 0.6_dp
    !> Square of the distance over the width beyond which nothing is left: 10^(-10 s^2) is below the rounding
    real(dp), parameter :: vanished = 1.6_dp
+   !> Distance of the features of a strip: at least, and over their size along Y
+   real(dp), parameter :: min_spacing = 4.0_dp, apart = 4.0_dp
 
    !> With xi across the feature and eta along it, turned by the angle from X and Y,
    !>
@@ -35,6 +37,9 @@ module ehl_feature
       procedure :: height
       procedure :: unresolved
       procedure :: centre
+      procedure :: repeat_along_y
+      procedure :: is_endless_across
+      procedure :: size_y
       procedure, private :: wavelengths
    end type feature_t
 
@@ -108,6 +113,37 @@ contains
       time = max(out, in + 2.0_dp*x_filled)
    end function passage_time
 
+   !> Let it repeat along Y, on a strip of a line contact: after a distance, or 0 for one at which its neighbours hardly count
+   pure subroutine repeat_along_y(self, distance)
+      class(feature_t), intent(inout) :: self
+      real(dp), intent(in) :: distance
+
+      if (self%is_endless_across()) return
+      self%period_y = distance
+      if (.not. distance > 0.0_dp) self%period_y = max(min_spacing, apart*self%size_y())
+   end subroutine repeat_along_y
+
+   !> Whether it does not vary along Y
+   pure logical function is_endless_across(self)
+      class(feature_t), intent(in) :: self
+      is_endless_across = self%is_line .and. .not. self%length > 0.0_dp .and. .not. abs(self%turn(2)) > 0.0_dp
+   end function is_endless_across
+
+   !> Length along Y that it takes up; 0: it has no end there
+   pure real(dp) function size_y(self)
+      class(feature_t), intent(in) :: self
+
+      associate (c => abs(self%turn(1)), s => abs(self%turn(2)), half => reach_over_width*self%width)
+         if (.not. self%is_line) then
+            size_y = 2.0_dp*reach_over_width*norm2([self%width*s, self%length*c])
+         else if (self%length > 0.0_dp) then
+            size_y = 2.0_dp*(half*s + (0.5_dp*self%length + half)*c)
+         else
+            size_y = merge(0.0_dp, 2.0_dp*half, c > 0.0_dp)
+         end if
+      end associate
+   end function size_y
+
    !> X of the centre at a time
    pure real(dp) function centre(self, time)
       class(feature_t), intent(in) :: self
@@ -129,6 +165,7 @@ contains
       x = grid%columns() - self%centre(time)
       do j = 1, grid%ny
          y = grid%y(j) - self%y_start
+         if (self%period_y > 0.0_dp) y = y - self%period_y*anint(y/self%period_y)
          do i = 1, grid%nx
             across = (x(i)*self%turn(1) + y*self%turn(2))/self%width
             along = y*self%turn(1) - x(i)*self%turn(2)

@@ -23,10 +23,6 @@ POINT_KEYS = {
 }
 TRANSVERSE = 1e6
 """Wavelength across the motion of a wave that does not vary there [b]."""
-ENDLESS = (
-    "an endless 'ridge' or 'groove' with angle = 0.0, or a surface that repeats: 'harmonic', 'map' "
-    "or 'fractal'"
-)
 
 
 def complete(draft: Draft) -> None:
@@ -55,14 +51,6 @@ def check_keys(draft: Draft) -> None:
         draft.refuse(
             "solver.deflection", what, "'fft': a strip that repeats has no multi-integration"
         )
-    for group in ("surface", "second_surface"):
-        surface = getattr(s, group)
-        endless = surface.kind in ("ridge", "groove") and not (
-            surface.angle or surface.length or surface.length_m
-        )
-        if surface.is_feature and not endless:
-            what = f"{group}.kind = '{surface.kind}' with {SHAPE}"
-            draft.refuse(f"{group}.kind", what, ENDLESS)
     if s.lubricant.thermal_friction == "always" and abs(s.contact.slide_to_roll) >= 2.0:
         what = (
             "lubricant.thermal_friction = 'always' with a wall at rest under an infinite line, "

@@ -71,6 +71,12 @@ class Surface:
         "turn a single feature counter-clockwise; 0: it lies across the motion",
     )
     y_start: float = real(0.0, "a", "[-20, 20]", "position of a single feature across the motion")
+    spacing_y: float = real(
+        0.0,
+        "a",
+        "0 or [0.01, 1000]",
+        "on a line a feature repeats after it along the line; 0: 4, or 4 times its size there",
+    )
     file: str = path("height map of kind 'map': .npy, text, instrument file")
     channel: str = text("channel of an instrument file: name, or number from 1")
     length_x: float = real(

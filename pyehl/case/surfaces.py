@@ -149,6 +149,10 @@ def _check_height(draft: Draft, group: str, surface: Surface) -> None:
 
 def _check_feature(draft: Draft, group: str, surface: Surface) -> None:
     """Refuse a size given twice, or in metres where the contact has none, and a late beginning."""
+    if surface.spacing_y > 0.0 and not (surface.is_feature and draft.settings.contact.is_line):
+        key = f"{group}.spacing_y"
+        what = f"{key} = {short(surface.spacing_y)}: nothing repeats along Y after it"
+        draft.refuse(key, what, "0, or a single feature on a line contact")
     if not surface.is_feature:
         return
     rivals = (

@@ -3,6 +3,7 @@
 
 import json
 import math
+import re
 import subprocess
 from pathlib import Path
 
@@ -355,6 +356,45 @@ def test_boundary_film_in_the_middle_of_a_wide_ellipse(film, touching):
     assert np.sqrt(np.mean((p_line - p)[inner] ** 2)) < 0.007
 
 
+def test_dent_in_the_middle_of_a_wide_ellipse():
+    """What a dent changes in pressure and film along its centre, while it is in the contact."""
+    dent = {"surface.kind": "dent", "surface.width": 0.8, "surface.amplitude": 0.05}
+    rolling = {"contact.slide_to_roll": 0.0, "time.estimate_error": False, "time.steps": 38}
+    wide, line = wide_and_line()
+    changes = []
+    for case, spacing in ((wide, 0.0), (line, 0.0), (line, 2.0)):
+        found = pyehl.solve(case, dent, rolling, {"surface.spacing_y": spacing}, check=False)
+        rows = 96 if spacing == 0.0 else 48
+        assert case is wide or found.Y.size == rows
+        smooth = pyehl.solve(case)
+        row = found.Y.size // 2, smooth.Y.size // 2
+        changes.append([(found[f][:, row[0]] - smooth[f][:, row[1]]).values for f in ("P", "H")])
+    inner = np.abs(found.X.values) < 1.0
+    for strip in changes[1:]:
+        for change, expected in zip(strip, changes[0], strict=True):
+            off = np.sqrt(np.mean((change - expected)[inner] ** 2))
+            assert off < 0.005 * np.abs(expected).max()
+    # twice as many on the same length, twice the share of the friction
+    few, many = (
+        float(pyehl.solve(line, dent, {**rolling, "time.steps": 0}, spacing).mu_ratio) - 1.0
+        for spacing in ({"surface.spacing_y": 4.0}, {"surface.spacing_y": 2.0})
+    )
+    assert many == pytest.approx(2.0 * few, rel=0.02)
+
+
+def test_features_that_do_not_repeat_along_a_line():
+    case = moes(20, 10, 97)
+    for options, what in (
+        ({"surface.kind": "ridge", "surface.angle": 30.0}, "does not repeat along a line"),
+        ({"surface.kind": "dent", "surface.spacing_y": 0.5}, "takes up 6.000E-01 b along the line"),
+        ({"surface.kind": "harmonic", "surface.spacing_y": 2.0}, "nothing repeats along Y"),
+    ):
+        with pytest.raises(pyehl.InputError, match=re.escape(what)):
+            pyehl.check(case, {**options, "surface.amplitude": 0.01})
+    with pytest.raises(pyehl.InputError, match="nothing repeats along Y"):
+        pyehl.check("cases/quick.nml", {"surface.kind": "dent", "surface.spacing_y": 2.0})
+
+
 def test_alcouffe_on_a_strip():
     """Transfers by the conductance over the repeating edge: the same but for what cycles leave."""
     wave = {"surface.kind": "harmonic", "surface.wavelength": 1.0, "time.estimate_error": False}
@@ -415,8 +455,6 @@ WITH_LINE = {
     "grid.y_extent=2": "the strip is as wide as the surfaces repeat",
     "grid.points_y=65": "the strip is as wide as the surfaces repeat",
     "solver.deflection='mlmi'": "a strip that repeats has no multi-integration",
-    "surface.kind='dent'": "an endless 'ridge' or 'groove'",
-    "second_surface.kind='bump'": "an endless 'ridge' or 'groove'",
 }
 
 

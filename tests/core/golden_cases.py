@@ -10,8 +10,11 @@ from pyehl.case.settings import KEYS, MACHINES
 from pyehl.errors import InputError
 
 CASES = Path(__file__).resolve().parents[2] / "cases"
-# Keys that are written since, for the solver
-ADDED = ("alpha_origin", "inlet_law", "table_temperature", "table_pressure", "table_viscosity")
+# Keys that are written since: for the solver, and of a feature on a line
+ADDED = (
+    *("alpha_origin", "inlet_law", "table_temperature", "table_pressure", "table_viscosity"),
+    "spacing_y",
+)
 LAW = "&lubricant name = 'n100' temperature = 50.0 /\n"
 # Contexts in which keys are changed
 BASES = {

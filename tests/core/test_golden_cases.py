@@ -5,8 +5,8 @@ The record holds of a resolved case the lines that differ from the case of all d
 one whose key was changed, with what each value is ('given', 'default' or 'derived'), and of a
 refused one the message. Of each key it has a case that takes it, and a refusal where there is one.
 Since then messages list only keys that people give, a gap that does not open names the key that was
-given, numbers are shown as people write them, and the keys ADDED are written for the solver.
-&inlet starves a contact.
+given, numbers are shown as people write them, and the keys ADDED are written too. &inlet starves a
+contact.
 """
 
 import json
