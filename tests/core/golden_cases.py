@@ -170,7 +170,8 @@ def outcome(text: str, options: list[str], folder: Path) -> list[str] | str:
 def without_places(text: str, folder: Path) -> str:
     """Replace the folder of the case, and the current one, from which options name files."""
     text = text.replace(str(folder), "FOLDER").replace(str(Path.cwd()), "CURRENT")
-    # a group that came since
+    # a group and a key that came since
+    text = text.replace("y_start, spacing_y, file", "y_start, file")
     return text.replace("&lubricant, &inlet,", "&lubricant,").replace(
         "lubricant, inlet,", "lubricant,"
     )
