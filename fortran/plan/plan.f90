@@ -144,6 +144,8 @@ contains
       plan%film_starved = merge(min(film, plan%layer/rho), starved_film(film, plan%layer/rho), plan%contact%is_line())
       plan%film_expected = film
       if (plan%layer > 0.0_dp) plan%film_expected = plan%film_starved
+      ! a film that is thicker than the gap where the oil begins carries nothing
+      if (plan%starved) plan%film_expected = min(plan%film_expected, input%grid%x_inlet**2)
       plan%film_expected = max(plan%film_expected, plan%lubricant%boundary_film)
       plan%engine = trim(input%solver%deflection)
       plan%accuracy = input%solver%accuracy

@@ -214,3 +214,18 @@ def test_layers_just_below_the_flooded_film_converge(load, points):
         assert abs(float(found.oil_imbalance)) <= 1e-6
         # the border of the domain costs some of the last percent
         assert float(found.h_c_m) / float(flooded.h_c_m) == pytest.approx(share, abs=0.006)
+
+
+def test_thick_films_that_begin_near_the_contact():
+    """Less than a flooded film of 31: the start does not take that, and a flow that thins converges."""
+    contact = {"radius": 0.004453, "load": 1.028, "mean_velocity": 8.842, "slide_to_roll": 0.434}
+    law = {"lubricant.shear_law": "eyring", "lubricant.eyring_stress": 3.63e6}
+    case = pyehl.Case(contact=contact, lubricant={"viscosity": 0.08571}, grid={"points": 65})
+    films = [
+        float(pyehl.solve(case, law, {"inlet.position_hertz": at}).H_c) for at in (1.1, 1.5, 3)
+    ]
+    assert films == sorted(films)
+    # they have to fit in the gap where the oil begins, x^2/2 and the film
+    assert films[0] < 3.0 * 1.1**2 / 2.0
+    newtonian = pyehl.solve(case, {"inlet.position_hertz": 1.1})
+    assert films[0] < float(newtonian.H_c) == pytest.approx(films[0], rel=0.05)
