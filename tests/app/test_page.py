@@ -77,6 +77,7 @@ def test_wrong_input_is_said_at_its_control(tab):
     assert rows_of(tab, "numbers") != answer
 
 
+@pytest.mark.long
 def test_surface_is_predicted(tab):
     tab.choose("surface", "fractal")
     tab.settle()
@@ -125,6 +126,7 @@ def test_map_is_taken_or_refused_in_the_words_of_its_reader(tab, page, tmp_path)
     assert str(tmp_path) not in everything
 
 
+@pytest.mark.long
 def test_a_surface_that_is_turned_to_smooth_leaves_nothing(tab, page):
     """An answer of the rough contact that comes afterwards is not shown."""
     late = []
@@ -154,6 +156,7 @@ def test_a_surface_that_is_turned_to_smooth_leaves_nothing(tab, page):
     assert tab.run("return Bokeh.documents[0].get_model_by_name('tiles').data.before.length") == 0
 
 
+@pytest.mark.long
 def test_no_solution_is_shown_as_such(tab):
     tab.type("velocity", "0.05")
     tab.type("load", "5000")
@@ -162,6 +165,7 @@ def test_no_solution_is_shown_as_such(tab):
     assert rows["h_c"] == rows["h_min"] == "no solution"
 
 
+@pytest.mark.long
 def test_case_file_is_saved_and_opened(tab, tmp_path, downloads):
     tab.type("load", "321")
     tab.element("save", "button").click()
@@ -182,6 +186,7 @@ def test_case_file_is_saved_and_opened(tab, tmp_path, downloads):
     assert "load = 456.0" in tab.get("case", "value")
 
 
+@pytest.mark.long
 def test_report_is_given(tab, downloads):
     tab.element("fetch_report", "button").click()
     saved = downloads / "report.html"
@@ -190,6 +195,7 @@ def test_report_is_given(tab, downloads):
     assert "Conditions" in saved.read_text()
 
 
+@pytest.mark.long
 def test_curve_is_drawn_on_demand(tab):
     tab.run("Bokeh.documents[0].get_model_by_name('tabs').active = 2")
     tab.element("curve_velocity", "button").click()

@@ -171,7 +171,8 @@ SLOW = {
 }
 
 
-@pytest.mark.parametrize("points", [257, pytest.param(513, marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("points", [257, 513])
 def test_load_share_that_changes_slowly(solve, points):
     """Of a film little thicker than the boundary film: its error counts the residual that is left.
 
@@ -363,6 +364,7 @@ def test_hardness_above_all_pressures_changes_no_bit(solve, case):
     assert [hard[name] for name in more] == [None if unknown else 0.0] * 4
 
 
+@pytest.mark.long
 def test_hardness_in_time_steps(solve):
     """No pressure above the limit in any step, and more contact than of elastic solids."""
     moving = STEEL | MIXED | {"time.max_periods": 3}

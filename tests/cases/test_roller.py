@@ -91,7 +91,8 @@ def dry_pressure(ds) -> np.ndarray:
 
 
 @pytest.mark.parametrize(
-    ("points", "velocity", "misalignment"), [(513, 0.07, 0.0), (257, 0.2, 2e-4)]
+    ("points", "velocity", "misalignment"),
+    [pytest.param(513, 0.07, 0.0, marks=pytest.mark.long), (257, 0.2, 2e-4)],
 )
 def test_vanishing_speed_is_the_dry_contact(points, velocity, misalignment):
     """Rms over the nodes in contact; straight it is 1.5 % at 0.2 m/s and 0.7 % at 0.05 m/s."""

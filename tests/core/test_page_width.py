@@ -48,6 +48,7 @@ def test_pdf_is_as_wide_as_asked_with_its_fonts(moving, tmp_path, given, wide):
         assert b"/Type3" not in data
 
 
+@pytest.mark.long
 def test_svg_needs_no_font(moving, tmp_path):
     pyehl.plot(moving, tmp_path, format="svg", width=0.084)
     for file in tmp_path.glob("*.svg"):
@@ -57,6 +58,7 @@ def test_svg_needs_no_font(moving, tmp_path):
         assert wide == pytest.approx(84.0 * POINTS_PER_MM, abs=0.01)
 
 
+@pytest.mark.long
 def test_narrow_figures_have_their_panels_below_one_another(moving):
     narrow, wide, usual = (pyehl.plot(moving, width=w)["film"] for w in (0.084, 0.174, 0.0))
     left, right = narrow.axes[:2]
@@ -80,6 +82,7 @@ def test_every_figure_names_its_conditions(moving):
             assert figure.get_suptitle() == "", name
 
 
+@pytest.mark.long
 def test_files_name_their_conditions(moving, tmp_path):
     pyehl.plot(moving, tmp_path)
     with Image.open(tmp_path / "film.png") as picture:

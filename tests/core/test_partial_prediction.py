@@ -176,6 +176,7 @@ def test_layer_that_touches_nothing_changes_no_bit_of_friction_with_heat():
     assert without["mu"] < 0.95 * without["mu_isothermal"]
 
 
+@pytest.mark.long
 def test_heat_where_bodies_touch():
     """Friction with heat is that of a full film where contact begins, and that of the layer."""
     # a load with which M is in the range of the prediction

@@ -109,9 +109,16 @@ def folders(tmp_path_factory, root: Path) -> Path:
     return place
 
 
+OTHER_PAGES = [("prediction", 3), ("sweep", 1), ("curve", 1)]
+
+
 @pytest.mark.parametrize(
     ("name", "pictures"),
-    [("smooth", 2), ("rough", 6), ("prediction", 3), ("sweep", 1), ("curve", 1)],
+    [
+        ("smooth", 2),
+        ("rough", 6),
+        *(pytest.param(*case, marks=pytest.mark.long) for case in OTHER_PAGES),
+    ],
 )
 def test_a_page_for_every_result(folders, tmp_path, name, pictures):
     written = pyehl.report(folders / name, tmp_path / "page.html")
@@ -174,6 +181,7 @@ def test_no_result_is_said(tmp_path, root):
     assert "H_c =" not in page.text
 
 
+@pytest.mark.long
 def test_broken_film_is_said(tmp_path, root):
     found = pyehl.predict(
         root / "cases/table1.nml", "surface.rms_height=4e-7", output=tmp_path / "run", plots=False
@@ -408,6 +416,7 @@ def test_limits_that_apply(root):
     assert "moes_m" in warnings({"status": "predicted", "outside_range": ["moes_m"]})[0]
 
 
+@pytest.mark.long
 def test_stress_in_a_report(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """From the folder of the result, from another one, or computed; of another case refused."""
     run, other = tmp_path / "run", tmp_path / "other"

@@ -419,6 +419,7 @@ def test_refused_at_what_causes_it(root: Path, key: str, value: object, message:
         pyehl.bearing(root / "cases" / "bearing_6206.nml", {key: value})
 
 
+@pytest.mark.long
 def test_plot_draws_the_folder_of_a_machine(root: Path, tmp_path: Path):
     """The path of contact and the ring, again; the command may then replace its picture."""
     for kind, name in (("gear", "fzg_c"), ("bearing", "bearing_6206")):

@@ -43,13 +43,11 @@ def rows_of(path):
         return [{name: value(cell) for name, cell in r.items()} for r in csv.DictReader(stream)]
 
 
-@pytest.mark.parametrize("units", ["si", pytest.param("hertz", marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("units", ["si", "hertz"])
 @pytest.mark.parametrize(
     ("case", "count"),
-    [
-        *(("roller", 2), ("duty", 3), ("greased", 2), ("line", 1), ("dent", 5)),
-        pytest.param("gear_pair", 5, marks=pytest.mark.long),
-    ],
+    [("roller", 2), ("duty", 3), ("greased", 2), ("line", 1), ("dent", 5), ("gear_pair", 5)],
 )
 def test_shapes_and_conditions_of_a_contact(cases, case, count, units):
     """Rollers, loads that change, greased and line contacts, two rough surfaces, a dent."""
@@ -61,7 +59,8 @@ def test_shapes_and_conditions_of_a_contact(cases, case, count, units):
         assert_apart(figure, (case, name))
 
 
-@pytest.mark.parametrize("length", [2e-4, pytest.param(8e-4, marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("length", [2e-4, 8e-4])
 @pytest.mark.parametrize("kappa", [0.1, 1.0, 25.0])
 def test_prediction_of_two_surfaces(kappa, length):
     """Roughness of both, their spectra and the passage of both."""
@@ -87,6 +86,7 @@ def test_prediction_of_two_surfaces(kappa, length):
         assert_apart(figure, name)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("height", [1e-9, 3e-8, 5e-7])
 def test_machines(height):
     """Around a bearing and along a path of contact, thick and thin films."""
@@ -103,6 +103,7 @@ def test_machines(height):
     assert_apart(machine.figure("gear", pd.DataFrame(columns), summary), "gear")
 
 
+@pytest.mark.long
 def test_stress_waves_and_a_prepared_scan(cases):
     """Stress below the surface, responses, and a scan before and after."""
     solved = pyehl.solve(

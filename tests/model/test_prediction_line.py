@@ -153,6 +153,7 @@ def test_stress_under_a_line(root: Path):
     assert s["yy"] == pytest.approx(0.3 * (s["xx"] + s["zz"]), abs=2e-3)
 
 
+@pytest.mark.long
 def test_stress_of_a_predicted_strip():
     predicted = pyehl.predict(strip())
     below = pyehl.stress(predicted, friction="none")

@@ -142,6 +142,7 @@ def test_bands_hold_the_truth(hurst, rolloff):
         assert held["rms"] >= 17
 
 
+@pytest.mark.long
 def test_an_isotropic_surface_is_told_by_a_profile():
     """The profile of an isotropic surface falls with an exponent lower by one than the surface."""
     found = []
@@ -156,6 +157,7 @@ def test_an_isotropic_surface_is_told_by_a_profile():
     assert np.mean([f.rms for f in found]) == pytest.approx(3e-7, rel=0.1)
 
 
+@pytest.mark.long
 def test_a_profile_as_ridges(tmp_path, z):
     path = tmp_path / "ridges.prf"
     path.write_text(mahr(z))

@@ -287,6 +287,7 @@ def test_friction_of_a_run() -> None:
     assert pyehl.stress(newtonian).attrs["friction_note"].startswith("without friction: ")
 
 
+@pytest.mark.long
 def test_rough_contact(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """The command on a run with frames: the dent raises the shear near the surface."""
     run, out = tmp_path / "run", tmp_path / "stress"

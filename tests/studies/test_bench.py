@@ -104,6 +104,7 @@ def test_skips_of_smooth_contacts():
     assert all(row["same"] for row in rows)
 
 
+@pytest.mark.long
 def test_smooth_cases_beside_the_circle(monkeypatch):
     """Rows of a law and of an ellipse with the same equations; seconds per node by those."""
     # that of the benchmark has as many nodes as the circle
@@ -163,6 +164,7 @@ def test_stress_campaign(tmp_path: Path, capsys):
     assert stress_cases.draw(8, 3, (65,)) == stress_cases.draw(8, 3, (65,))
 
 
+@pytest.mark.long
 def test_interrupted_stress_keeps_what_is_done(root: Path, tmp_path: Path):
     """By SIGTERM: a sentence, status 130, and the rows that are finished stay in the journal."""
     folder = tmp_path / "s"
@@ -305,6 +307,7 @@ def test_contacts_of_machines_have_the_pressure_that_was_drawn():
         assert 1.0 <= contact.ellipticity < 31.0
 
 
+@pytest.mark.long
 def test_line_contacts(tmp_path: Path):
     """Both kinds in turn, with the pressure of the case; twice the nodes change the film little."""
     words = ["--shape", "line", "--seed", "3", "--count", "6", "--fine"]
@@ -355,6 +358,7 @@ def test_stated_errors_that_miss_are_counted():
     assert wide["median_ratio"] is None
 
 
+@pytest.mark.long
 def test_mutated_inputs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     # it goes there, in a process of its own
     monkeypatch.chdir(tmp_path)
@@ -381,6 +385,7 @@ def test_faults_campaign(tmp_path: Path, capsys):
     assert faults.main([*words, "-o", str(tmp_path / "f")]) == 2
 
 
+@pytest.mark.long
 def test_work_and_precision(tmp_path: Path, capsys):
     words = ["--problems", "smooth", "--points", "65,129,257", "--threads", "1"]
     assert workprec.main([*words, "-o", str(tmp_path / "w.json")]) == 0
@@ -479,6 +484,7 @@ def test_numbers_that_do_not_belong_together_are_told():
     assert "not a number" in mixed.contradictions(good | {"mu_ratio": math.nan})
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("inlets", "record"), [(False, "duty/random"), (True, "starvation/inlets")]
 )
