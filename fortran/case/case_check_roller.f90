@@ -55,7 +55,9 @@ contains
       call smooth_alone("inlet.position", .not. max(input%inlet%position, input%inlet%position_hertz, input%inlet%film, &
                                                     input%inlet%film_hertz) > 0.0_dp, "a flooded inlet")
       call smooth_alone("lubricant.boundary_film", .not. input%lubricant%boundary_film > 0.0_dp, "a full film")
-      call smooth_alone("grid.border", .not. (source%given("grid.border") .and. input%grid%border == "flooded"), "'zero'")
+      call smooth_alone("grid.border", .not. (source%given("grid.border") .and. input%grid%border == "flooded"), &
+                        "'zero': the flow around the ends beyond the border is not known; the default domain is so long "// &
+                        "that P = 0 there costs little")
       call smooth_alone("grid.y_extent", .not. source%given("grid.y_extent"), "none: half the length")
       call smooth_alone("solver.coarsening", input%solver%coarsening /= "alcouffe", "'auto' or 'classical'")
 

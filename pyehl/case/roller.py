@@ -11,6 +11,10 @@ from pyehl.case.settings import Draft
 from pyehl.case.source import Source, read_text
 
 SHAPE = "contact.shape = 'roller'"
+NO_FLOODED_BORDER = (
+    "'zero': the flow around the ends beyond the border is not known; the default domain is so "
+    "long that P = 0 there costs little"
+)
 COLUMNS = "y", "drop"
 TABLE = "profile_file: lines 'y, drop' in m, y rising from -length/2 to length/2"
 KEYS_OF = {
@@ -103,7 +107,7 @@ def check_keys(draft: Draft) -> None:
         ("inlet.position", max(s.inlet.position, s.inlet.position_hertz) <= 0.0, "a flooded inlet"),
         ("inlet.film", max(s.inlet.film, s.inlet.film_hertz) <= 0.0, "a flooded inlet"),
         ("lubricant.boundary_film", s.lubricant.boundary_film <= 0.0, "a full film"),
-        ("grid.border", s.grid.border != "flooded", "'zero'"),
+        ("grid.border", s.grid.border != "flooded", NO_FLOODED_BORDER),
         ("grid.y_extent", not draft.is_given("grid", "y_extent"), "none: half the length"),
         ("solver.coarsening", s.solver.coarsening != "alcouffe", "'auto' or 'classical'"),
     ):

@@ -254,7 +254,7 @@ def test_a_table_that_is_none(tmp_path, lines, words):
     ("options", "words"),
     [
         ({"surface.kind": "harmonic", "surface.amplitude": 0.01}, "surface.kind"),
-        ({"grid.border": "flooded"}, "grid.border"),
+        ({"grid.border": "flooded"}, "flow around the ends beyond the border is not known"),
         ({"grid.y_extent": 20.0}, "grid.y_extent"),
         ({"lubricant.boundary_film": 1e-9}, "boundary_film"),
         ({"inlet.position_hertz": 2.0}, "inlet.position"),
