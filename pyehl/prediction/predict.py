@@ -40,8 +40,9 @@ from pyehl.prediction.breakdown import (
 from pyehl.prediction.friction import BEYOND, TRACKS, Outcome, RoughFriction, broken, run
 from pyehl.prediction.mixed_lubrication import mixed_film, with_contact
 from pyehl.prediction.model import PIXEL_POINTS, Model, ModelOptions, RoughSurface, unpredictable
-from pyehl.prediction.result import Prediction, Together
+from pyehl.prediction.result import Prediction
 from pyehl.prediction.spectrum import WORKING_PIXELS
+from pyehl.prediction.summary import Together
 from pyehl.surfaces import Topography
 from pyehl.theory.line_contact import AnyContact, contact_of, formula_film
 from pyehl.theory.lubricant import Lubricant

@@ -12,6 +12,7 @@ from pyehl.theory.inlet import END, SPACING, START, at_inlet, passed, wave_flatt
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import inlet_transfer
+from pyehl.theory.shear import FlowFactors
 from pyehl.theory.transport import Zone, stiffness, upstream
 
 MOES = (500.0, 8.0)
@@ -30,6 +31,16 @@ def test_a_uniform_wave_deflects_as_on_the_half_space(zone: Zone):
     qx, qy = np.array([15.0, 20.0, 50.0]), np.array([25.0, 30.0, 20.0])
     middle = wave_flattening(zone, qx, qy, 0.0 * qx, x)[:, np.argmin(np.abs(x + 1.1))].sum(-1)
     np.testing.assert_allclose(middle, 1.0 / stiffness(np.hypot(qx, qy)), rtol=0.05)
+
+
+def test_a_narrow_ellipse_deflects_as_a_strip_of_its_width(zone: Zone):
+    """The transform of K_0, and the stiffness of the ellipse; 20 % from those of a circle."""
+    narrow = replace(zone, ellipticity=0.05, stiffness=1.3)
+    x = np.arange(START, END + 0.5 * SPACING, SPACING)
+    qx, qy = np.array([15.0, 20.0]), np.array([0.0, 5.0])
+    middle = wave_flattening(narrow, qx, qy, 0.0 * qx, x)[:, np.argmin(np.abs(x + 1.1))].sum(-1)
+    across = np.hypot(qy, np.exp(-np.euler_gamma) / 0.05)
+    np.testing.assert_allclose(middle, 1.0 / (1.3 * stiffness(np.hypot(qx, across))), rtol=0.05)
 
 
 @pytest.mark.parametrize("ratio", [0.5, 1.0, 1.5])
@@ -53,9 +64,13 @@ def test_waves_between_those_that_are_solved(zone: Zone):
     random = np.random.default_rng(3)
     q, angle = np.exp(random.uniform(0.5, 4.5, 40)), random.uniform(0.0, 0.5 * np.pi, 40)
     qx, qy = q * np.cos(angle), q * np.sin(angle)
-    for ratio in (0.5, 1.5):
-        found = passed(zone, qx, qy, ratio)
-        np.testing.assert_allclose(found, at_inlet(zone, qx, qy, ratio), atol=0.003)
+    one = np.ones_like(zone.x)
+    thinning = replace(
+        zone, factors=FlowFactors(2.0 * one, 1.5 * one, 0.3 * one, 0.1 * one, 2.2 * one)
+    )
+    for contact, ratio in ((zone, 0.5), (zone, 1.5), (thinning, 1.5)):
+        found = passed(contact, qx, qy, ratio)
+        np.testing.assert_allclose(found, at_inlet(contact, qx, qy, ratio), atol=0.003)
 
 
 @pytest.mark.parametrize("edge", [0.8, 1.2])
