@@ -217,7 +217,7 @@ def test_layers_just_below_the_flooded_film_converge(load, points):
 
 
 def test_thick_films_that_begin_near_the_contact():
-    """Less than a flooded film of 31: the start does not take that, and a flow that thins converges."""
+    """Less than a flooded film of 31: the start does not take it, and a thinning flow converges."""
     contact = {"radius": 0.004453, "load": 1.028, "mean_velocity": 8.842, "slide_to_roll": 0.434}
     law = {"lubricant.shear_law": "eyring", "lubricant.eyring_stress": 3.63e6}
     case = pyehl.Case(contact=contact, lubricant={"viscosity": 0.08571}, grid={"points": 65})
