@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Flow factors of lubricants that thin: values of an independent program, closed forms, limits, and changes against
+!> Flow factors of lubricants that thin: values by quadrature (docs/theory/thinning.md), closed forms, limits, and changes against
 !> differences
 module test_flow
    use check, only: is_close, is_true
@@ -26,7 +26,7 @@ contains
       call changes_against_differences()
    end subroutine run_flow
 
-   !> phi_x, phi_y and the mean stress by an independent program
+   !> phi_x, phi_y and the mean stress by quadrature (tests/model/test_thinning.py)
    subroutine values()
       call agree(by_eyring, 0.0_dp, [5.0_dp, 3.0_dp], [2.15284_dp, 2.15284_dp, 0.0_dp])
       call agree(by_eyring, 1.0_dp, [2.0_dp, 2.0_dp], [1.53059_dp, 1.31352_dp, 0.743382_dp])
@@ -166,9 +166,9 @@ contains
       type(factors_t) :: r
 
       r = exact_factors(law, b, s)
-      call is_close(r%phi(1)/wanted(1), 1.0_dp, 1.0e-5_dp, "phi_x by another program")
-      call is_close(r%phi(2)/wanted(2), 1.0_dp, 1.0e-5_dp, "phi_y by another program")
-      call is_close(r%stress, wanted(3), 1.0e-5_dp*max(1.0_dp, wanted(3)), "mean stress by another program")
+      call is_close(r%phi(1)/wanted(1), 1.0_dp, 1.0e-5_dp, "phi_x by quadrature")
+      call is_close(r%phi(2)/wanted(2), 1.0_dp, 1.0e-5_dp, "phi_y by quadrature")
+      call is_close(r%stress, wanted(3), 1.0e-5_dp*max(1.0_dp, wanted(3)), "mean stress by quadrature")
    end subroutine agree
 
    !> One direction, Eyring: int sinh(t + xi S) dxi and int xi sinh(t + xi S) dxi by hand

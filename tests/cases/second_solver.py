@@ -16,6 +16,7 @@ from far_field import far_field
 from numpy.typing import NDArray
 from scipy import linalg, sparse
 from scipy.sparse.linalg import LinearOperator, gmres
+from scipy.special import elliprd
 
 Array = NDArray[np.float64]
 
@@ -62,7 +63,8 @@ class SecondSolver:
     """A contact on the half Y >= 0 of the grid, all nodes in one vector, X first.
 
     The domain is as wide as it is long; `borders` are inlet and outlet [a]. At the border P = 0
-    or, `flooded`, the pressure of a fully flooded contact.
+    or, `flooded`, the pressure of a fully flooded contact. `kappa` is the semi-axis across the
+    motion over that along it; only a round contact is flooded.
     """
 
     def __init__(
@@ -74,8 +76,10 @@ class SecondSolver:
         narrow: bool = True,
         borders: tuple[float, float] = (X_INLET, X_OUTLET),
         flooded: bool = False,
+        kappa: float = 1.0,
     ) -> None:
-        self.flooded, self.start = flooded, borders[0]
+        assert kappa == 1.0 or not flooded
+        self.flooded, self.start, self.kappa = flooded, borders[0], kappa
         self.h = (borders[1] - borders[0]) / (points - 1)
         self.points, self.rows = points, (points + 1) // 2
         self.narrow = narrow
@@ -84,16 +88,22 @@ class SecondSolver:
         self.x, self.y = (a.ravel(order="F") for a in np.meshgrid(x, y, indexing="ij"))
         self.p_hertz = moes_l / np.pi * (1.5 * moes_m) ** (1.0 / 3.0) / ALPHA
         self.speed = (128.0 * np.pi**3 / (3.0 * moes_m**4)) ** (1.0 / 3.0)
+        # Hertz: sqrt(1 - X^2 - (Y/kappa)^2) deflects by a constant less c_x X^2 + c_y Y^2
+        c_x = np.pi * kappa / 3.0 * elliprd(0.0, kappa**2, 1.0)
+        c_y = np.pi * kappa / 3.0 * elliprd(0.0, 1.0, kappa**2)
+        self.radius_ratio, stiff = c_y / c_x, np.pi**2 / (4.0 * c_x)
+        self.p_hertz *= (kappa * stiff) ** (2.0 / 3.0) / kappa
+        self.speed *= kappa * (kappa * stiff) ** (1.0 / 3.0)
         self.weight = np.where(self.y == 0.0, 1.0, 2.0) * self.h**2
         # deflection by the pressure of one cell, at (i, j) nodes from it
         far: Array = self.h * np.arange(points, dtype=np.float64)
-        self.cells = cell(far[:, None], far[None, :], self.h)
+        self.cells = stiff * cell(far[:, None], far[None, :], self.h)
         wrapped = np.zeros((2 * points, 2 * points))
         wrapped[:points, :points] = self.cells
         wrapped[1 - points :, :points] = self.cells[:0:-1]
         wrapped[:, 1 - points :] = wrapped[:, points - 1 : 0 : -1]
         self.transform = scipy.fft.rfft2(wrapped)
-        self.border, self.load = np.zeros(self.x.size), 2.0 * np.pi / 3.0
+        self.border, self.load = np.zeros(self.x.size), 2.0 * np.pi / 3.0 * kappa
         self.inside = (self.x > x[0]) & (self.x < x[-1]) & (self.y < y[-1])
         self.first = np.isclose(self.x, x[1])
         self.neighbours = [self.at(*move) for move in ((1, 0), (-1, 0), (0, 1), (0, -1))]
@@ -256,8 +266,8 @@ class SecondSolver:
 
     def smooth(self) -> tuple[Array, float, Array]:
         """Solve the steady contact."""
-        p = np.sqrt(np.maximum(0.0, 1.0 - self.x**2 - self.y**2))
-        shape = 0.5 * (self.x**2 + self.y**2)
+        p = np.sqrt(np.maximum(0.0, 1.0 - self.x**2 - (self.y / self.kappa) ** 2))
+        shape = 0.5 * (self.x**2 + self.radius_ratio * self.y**2)
         p, h00, film = self.solve(p, -0.9, shape, self.upstream(), np.zeros_like(p))
         while self.flooded:
             before = self.border
@@ -271,7 +281,7 @@ class SecondSolver:
 
     def steps(self, *waves: Wave) -> Iterator[tuple[float, Array]]:
         """mu_r/mu_s and the film after each step, of the mesh size, of a sum of waves."""
-        shape = 0.5 * (self.x**2 + self.y**2)
+        shape = 0.5 * (self.x**2 + self.radius_ratio * self.y**2)
         p, h00, film = self.smooth()
         smooth = self.friction(p, film)
         ways = [(X_MATTERS - 0.5 * w.length_x - self.start) / w.velocity for w in waves]

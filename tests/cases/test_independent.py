@@ -55,6 +55,26 @@ def test_same_friction(
     assert done.history["mu_ratio"] == pytest.approx(ratios, rel=1e-4)
 
 
+@pytest.mark.parametrize("points", [65, pytest.param(129, marks=pytest.mark.long)])
+def test_same_films_of_an_ellipse(solve, table, points: int):
+    """Of the narrow ellipse of smooth_ellipses.csv; on 129 x 129 nodes its row, too."""
+    (row,) = (
+        row for row in table("smooth_ellipses.csv") if (row["kappa"], row["cells"]) == ("0.6", "32")
+    )
+    place = options(1.0) | {"surface.kind": "smooth", "grid.border": "zero"}
+    shape = {"contact.radius_ratio": row["radius_ratio"], "grid.points_y": points}
+    strict = {"solver.deflection": "fft", "solver.accuracy": 1e-4}
+    done = solve((float(row["moes_m"]), float(row["moes_l"])), points, place | shape | strict)
+    assert done.converged
+    second = SecondSolver(float(row["moes_m"]), float(row["moes_l"]), points, kappa=0.6)
+    assert second.radius_ratio == pytest.approx(float(row["radius_ratio"]), rel=1e-5)
+    p, _, film = second.smooth()
+    films = film[np.argmin(second.x**2 + second.y**2)], film[p > 0.0].min()
+    assert (done["H_c"], done["H_min"]) == pytest.approx(films, rel=1e-4)
+    if points == 129:
+        assert films == pytest.approx((float(row["H_c"]), float(row["H_min"])), rel=5e-5)
+
+
 @pytest.mark.long
 def test_same_friction_of_two_waves(solve):
     """One wave on each body, at 1.25 and at 0.75 times the mean velocity."""

@@ -35,7 +35,7 @@ CARREAU = PAPER | {
 WAVE = {"surface.kind": "harmonic", "surface.amplitude": 5e-4, "time.steps": 12}
 
 
-def test_fast_sliding_eyring_as_another_solver(solve):
+def test_fast_sliding_eyring_as_a_newton_solver(solve):
     """Table 1 at a slide-to-roll ratio of 2, on the same grid."""
     done = solve(None, 129, TABLE1 | {"contact.slide_to_roll": 2.0})
     assert done["h_c_m"] == pytest.approx(1.89568e-7, rel=1e-3)
@@ -46,7 +46,7 @@ def test_fast_sliding_eyring_as_another_solver(solve):
 @pytest.mark.parametrize(
     ("srr", "h_c", "h_min"), [(0.1, 6.6841e-7, 4.5041e-7), (0.0, 6.6982e-7, 4.5062e-7)]
 )
-def test_carreau_as_another_solver(solve, srr, h_c, h_min):
+def test_carreau_as_a_newton_solver(solve, srr, h_c, h_min):
     """Films in the limit of fine grids: a fifth thinner than that of a Newtonian oil."""
     done = solve(None, 129, CARREAU | {"contact.slide_to_roll": srr})
     length = done["h_c_m"] / done["H_c"]

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from document_text import plain
+from scipy import optimize
 
 import pyehl
 from pyehl.case import Case
@@ -47,7 +48,7 @@ def table_1(*options: str) -> Case:
         ("carreau", 0.5, 2.0, (5.0, 5.0), (3.06463, 2.8926)),
     ],
 )
-def test_flow_factors_of_another_program(law, exponent, b, s, phi):
+def test_flow_factors_of_the_printed_table(law, exponent, b, s, phi):
     found = flow_factors(law, exponent, [b], s)
     assert (found.along[0], found.across[0]) == pytest.approx(phi, rel=1e-4)
 
@@ -139,8 +140,33 @@ def test_a_law_in_the_friction_alone_states_no_error():
     assert "those of a Newtonian flow" in found.note
 
 
+def by_quadrature(
+    law: str, exponent: float, b: float, s: tuple[float, float], points: int
+) -> list[float]:
+    """phi_x, phi_y and the mean stress along X, by Gauss's rule and SciPy's search for roots."""
+    nodes, weights = np.polynomial.legendre.leggauss(points)
+    xi, weights = 0.5 * nodes[:, None], 0.5 * weights[:, None]
+
+    def shear(mean: np.ndarray) -> np.ndarray:
+        tau = mean + xi * np.asarray(s)
+        size = np.hypot(*tau.T)[:, None]
+        if law == "eyring":
+            return np.sinh(size) / size * tau
+        return (1.0 + size**2) ** ((1.0 - exponent) / (2.0 * exponent)) * tau
+
+    def balance(mean: np.ndarray) -> list[float]:
+        x, y = (weights * shear(mean)).sum(axis=0)
+        return [math.asinh(x) - math.asinh(b), y / (1.0 + b)]
+
+    alone = math.asinh(b) if law == "eyring" else b**exponent
+    found = optimize.root(balance, [alone, 0.0], tol=1e-12)
+    assert np.abs(found.fun).max() < 1e-8
+    flow = (weights * xi * shear(found.x)).sum(axis=0)
+    return [*(12.0 * flow / np.asarray(s)), float(found.x[0])]
+
+
 def test_reference_values(root):
-    """The table of docs/theory/thinning.md: factors of Python, and the rows that Fortran tests."""
+    """The table of docs/theory/thinning.md: quadrature, factors of Python, what Fortran tests."""
     text = plain(root / "docs" / "theory" / "thinning.md")
     source = (root / "fortran" / "test" / "test_flow.f90").read_text(encoding="utf-8")
     calls = [re.sub("_dp", "", line) for line in re.findall(r"call agree\(.*by_.*\)", source)]
@@ -154,9 +180,21 @@ def test_reference_values(root):
         b, x, y, along, across, stress = map(float, ", ".join(cells).split(", "))
         assert [b, x, y, along, across, stress] == values
         law = "eyring" if name == "Eyring" else "carreau"
+        six = by_quadrature(law, 0.5, b, (x, y), points=6)
+        assert six == pytest.approx([along, across, stress], rel=1e-5, abs=1e-9)
+        exact = by_quadrature(law, 0.5, b, (x, y), points=200)
+        coarse = (law, x) == ("carreau", 5.0)
+        assert six == pytest.approx(exact, rel=9e-4 if coarse else 1e-6, abs=1e-9)
         found = flow_factors(law, 0.5, [b], ([x], [y]))
         assert found.along[0] == pytest.approx(along, rel=1e-5)
         assert found.across[0] == pytest.approx(across, rel=1e-5)
+
+
+def test_six_points_through_the_film():
+    """What they leave where a gradient outweighs the sliding, as docs/theory/thinning.md states."""
+    case = "carreau", 0.5, 2.0, (30.0, 0.1)
+    change = np.array(by_quadrature(*case, points=6)) / by_quadrature(*case, points=200) - 1.0
+    assert 100.0 * change == pytest.approx([-0.17, -0.17, -1.75], abs=0.01)
 
 
 @pytest.mark.parametrize("law", ["eyring", "carreau"])

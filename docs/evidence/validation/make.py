@@ -64,7 +64,7 @@ CARREAU = {
     "lubricant.carreau_exponent": 0.8,
     "grid.y_extent": 2.0,
 }
-# Films [m] and friction of the solver with which the flow factors of thinning oils were verified
+# Films [m] and friction by program B of docs/validation.md
 EYRING = {"lubricant.shear_law": "eyring", "lubricant.eyring_stress": 5e6}
 THINNING: dict[str, tuple[Mapping[str, Any], Mapping[str, float]]] = {
     "Eyring 5 MPa, SRR 0.5": (
