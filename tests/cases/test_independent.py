@@ -55,7 +55,7 @@ def test_same_friction(
     assert done.history["mu_ratio"] == pytest.approx(ratios, rel=1e-4)
 
 
-@pytest.mark.parametrize("points", [65, pytest.param(129, marks=pytest.mark.long)])
+@pytest.mark.parametrize("points", [65, pytest.param(129, marks=pytest.mark.slow)])
 def test_same_films_of_an_ellipse(solve, table, points: int):
     """Of the narrow ellipse of smooth_ellipses.csv; on 129 x 129 nodes its row, too."""
     (row,) = (
