@@ -174,8 +174,7 @@ def finer(values: Mapping[str, Any], found: xr.Dataset) -> dict[str, int]:
 
 def step_errors(found: xr.Dataset, half: xr.Dataset) -> tuple[float, float]:
     """Share of instants that stated errors cover, and largest difference over largest error."""
-    stated = {n: found[f"history_{n}_step_error"].values for n in ("c", "min")}
-    errors = (stated["c"], stated["min"], np.maximum(stated["c"], stated["min"]))
+    errors = [found[f"history_{name}_step_error"].values for name in ("c", "min", "p")]
     holds: list[Array] = []
     worst = 0.0
     for name, error in zip(FILMS, errors, strict=True):

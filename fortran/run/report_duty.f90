@@ -26,7 +26,7 @@ contains
       !> Smooth results whose errors theirs are in proportion to
       character(len=*), parameter :: smooth(8) = [character(len=5) :: "H_c", "H_c", "H_min", "H_min", "P_max", "F", "F", "F"]
       !> Column of `errors` with that of the time steps
-      integer, parameter :: by_steps(8) = [1, 1, 2, 2, 3, 3, 3, 3]
+      integer, parameter :: by_steps(8) = [1, 1, 2, 2, 4, 3, 3, 3]
       real(dp), allocatable :: time(:), values(:), errors(:, :)
       logical, allocatable :: counts(:)
       real(dp) :: found, at, error
@@ -35,11 +35,12 @@ contains
       associate (duty => run%plan%duty, t => run%transient)
          allocate (time, source=run%history%column("t_s"))
          allocate (counts(size(time)), source=time >= from(1)*(1.0_dp - 1.0e-9_dp))
-         allocate (errors(size(time), 3))
+         allocate (errors(size(time), 4))
          errors(:, 1) = run%history%column("c_step_error")
          errors(:, 2) = run%history%column("min_step_error")
-         ! pressure and friction follow the film
+         ! friction follows the film
          errors(:, 3) = max(errors(:, 1), errors(:, 2))
+         errors(:, 4) = run%history%column("p_step_error")
          do k = 1, size(names)
             values = run%history%column(trim(columns(k)))
             found = not_known

@@ -8,12 +8,15 @@ submodule (ehl_contact_run) ehl_contact_duty
    use ehl_wall_heat, only: heat_source
    implicit none (type, external)
 
+   !> Error of p_max by its second difference, and what of it is left a step later (docs/evidence/duty)
+   real(dp), parameter :: by_difference = 2.0_dp, left = 0.8_dp
+
 contains
 
    module procedure duty_names
       names = [character(len=16) :: "step", "T", "t_s", "speed", "slide", "load", "radius_x", "radius_y", "viscosity", &
                "H_c", "H_min", "X_min", "Y_min", "P_max", "h_c_m", "h_min_m", "p_max_Pa", "mu", "power_W", "flash_K", &
-               "load_error", "cycles", "residual", "c_step_error", "min_step_error"]
+               "load_error", "cycles", "residual", "c_step_error", "min_step_error", "p_step_error"]
    end procedure duty_names
 
    module procedure duty_row
@@ -25,9 +28,29 @@ contains
          row = [real(dp) :: t%step, t%time, t%time*t%duty%time_scale, t%now%mean_velocity(), &
                 t%now%speeds(1) - t%now%speeds(2), t%now%load, 1.0_dp/t%now%curvatures, t%now%viscosity, m%films(), &
                 place, m%pressure_maximum, m%films()*scales%film, m%pressure_maximum*scales%pressure, mu, power, flash, &
-                m%load_error, t%cycles, t%residual, t%film_errors]
+                m%load_error, t%cycles, t%residual, t%film_errors, &
+                pressure_error(self, t%time*t%duty%time_scale, m%pressure_maximum*scales%pressure)]
       end associate
    end procedure duty_row
+
+   !> Relative error of the maximum pressure that time steps leave: that of the films, or what BDF2 misses of the squeeze of a thick
+   !> film, whose pressure answers to that at once: by the second difference of p_max, as it falls with the steps after
+   real(dp) function pressure_error(self, time, pressure) result(error)
+      class(contact_run_t), intent(in) :: self
+      real(dp), intent(in) :: time, pressure
+      real(dp), allocatable :: t(:), p(:), before(:)
+      integer :: n
+
+      error = maxval(self%transient%film_errors)
+      n = self%history%n_rows()
+      if (n < 2) return
+      t = self%history%column("t_s")
+      p = self%history%column("p_max_Pa")
+      before = self%history%column("p_step_error")
+      associate (slope => (pressure - p(n))/(time - t(n)), slope_before => (p(n) - p(n - 1))/(t(n) - t(n - 1)))
+         error = max(error, left*before(n), by_difference*(time - t(n))**2*abs(slope - slope_before)/(time - t(n - 1))/pressure)
+      end associate
+   end function pressure_error
 
    !> Place of the minimum film [a]
    subroutine find_minimum(level, place)

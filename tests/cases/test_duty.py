@@ -193,9 +193,8 @@ def step_errors(time, grid=None, share=1.0, **duty):
     """Differences of films and pressure to an eighth of the step, and errors stated, relative."""
     one = run(time, grid, time_step=share, **duty)
     other = run(time, grid, time_step=share / 8.0, **duty)
-    stated = {k: one[f"history_{k}_step_error"].values for k in ("c", "min")}
-    stated = {"H_c": stated["c"], "H_min": stated["min"], "P_max": np.maximum(*stated.values())}
-    for name, errors in stated.items():
+    for name, column in (("H_c", "c"), ("H_min", "min"), ("P_max", "p")):
+        errors = one[f"history_{column}_step_error"].values
         values = one[f"history_{name}"].values
         fine = np.interp(one.history_T, other.history_T, other[f"history_{name}"])
         yield name, np.abs(fine / values - 1.0), errors
