@@ -569,3 +569,19 @@ def test_steady_contacts_of_a_reversal(tmp_path: Path):
             pyehl.quasi_static(data, wrong)
     with pytest.raises(pyehl.InputError, match="without a duty"):
         pyehl.quasi_static(pyehl.solve(pyehl.Case(**POINT)))
+
+
+def test_a_roller_takes_an_error_of_its_steps():
+    """With `duty.target_error` films differ by less than that from those of short steps."""
+    contact = {"shape": "roller", "radius": 0.01, "length": 0.004, "load": 200.0}
+    contact |= {"mean_velocity": 1.0, "profile": "crown", "crown_radius": 0.5}
+    table = {"time": (0.0, 1e-4, 2e-4, 4e-4), "load": (200.0, 200.0, 220.0, 220.0)}
+    case = pyehl.Case(contact=contact, grid={"points": 65}, duty=table)
+    usual, short = pyehl.solve(case), pyehl.solve(case, {"duty.time_step": 0.0625})
+    asked = pyehl.solve(case, {"duty.target_error": 5e-3})
+    assert asked.sizes["history"] > usual.sizes["history"]
+    for name, column in (("H_c", "c"), ("H_min", "min")):
+        fine = np.interp(asked.history_T, short.history_T, short[f"history_{name}"])
+        assert np.abs(fine / asked[f"history_{name}"].values - 1.0).max() < 5e-3, name
+        stated = (float(d[f"history_{column}_step_error"].max()) for d in (asked, usual))
+        assert next(stated) < 0.6 * next(stated), name
