@@ -39,7 +39,7 @@ ax.errorbar(
     yerr=solved.H_c_error * unit,
     fmt="ko",
     capsize=3,
-    label="solver, extrapolated from 257 × 257 nodes",
+    label="solver, extrapolated",
 )
 ax.set_xlabel("mean velocity [m/s]")
 ax.set_ylabel("$h_c$ [µm]")

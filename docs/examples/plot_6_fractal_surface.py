@@ -28,6 +28,6 @@ for tile, name in ((rough, "as generated"), (cut, "cut at 25 µm")):
     panels[2].loglog(q[shown] * 1e-6, c[shown], label=name)
 panels[2].set_xlabel(r"$q$ [rad/$\mu$m]")
 panels[2].set_ylabel(r"$C^{iso}$ [m$^4$]")
-panels[2].legend(loc="lower left")
+figure.legend(*panels[2].get_legend_handles_labels(), loc="outside lower right", ncols=2)
 panels[2].set_box_aspect(1.0)
 plt.show()

@@ -201,7 +201,8 @@ def spectrum(topography: Topography) -> Figure:
     line = c_iso[8] * (q / q[8]) ** -3.6
     axes[2].loglog(q, line, "--", color="black", lw=1.0, label="$q^{-2-2H}$, $H$ = 0.8")
     axes[2].set(xlabel=r"$|q|$ [rad/m]", ylabel=r"$C^{iso}$ [m$^4$]")
-    axes[2].legend(loc="lower left")
+    handles, labels = axes[2].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower right", ncols=2)
     style.letter(list(axes))
     return figure
 
