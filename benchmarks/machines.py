@@ -110,6 +110,12 @@ def _roller(rng: np.random.Generator) -> _Shape:
     return _Shape(along, across, (0.6e9, 2.5e9), (0.3, 15.0), 0.1)
 
 
+def _along(rng: np.random.Generator) -> _Shape:
+    """Roller that moves along its axis: R_y of 2 to 20 mm, R_x of 2 to 110 times that."""
+    across = _scale(rng, 2e-3, 0.02)
+    return _Shape(across * _scale(rng, 2.0, 110.0), across, (0.4e9, 1.8e9), (0.1, 15.0), 0.5)
+
+
 DISC = "ball on disc"
 KINDS: dict[str, Callable[[np.random.Generator], _Shape]] = {
     "ball bearing": _bearing,
@@ -118,16 +124,35 @@ KINDS: dict[str, Callable[[np.random.Generator], _Shape]] = {
     "crowned roller": _roller,
 }
 """Kinds of contacts, drawn in turn."""
+NARROW: dict[str, Callable[[np.random.Generator], _Shape]] = {
+    "roller along its axis": _along,
+    DISC: _ball,
+}
+"""The same of narrow contacts, kappa from 0.05 to 0.65."""
 
 
 def draw(count: int, seed: int) -> list[Contact]:
     """Draw contacts: the first ones are the same whatever the count."""
-    kinds = list(KINDS)
-    return [_one(kinds[k % len(kinds)], np.random.default_rng((seed, k))) for k in range(count)]
+    return _in_turn(KINDS, count, seed)
 
 
-def _one(kind: str, rng: np.random.Generator) -> Contact:
-    shape = KINDS[kind](rng)
+def draw_narrow(count: int, seed: int) -> list[Contact]:
+    """Draw contacts that move along their longer axis, and balls on discs in turn: as `draw`."""
+    return _in_turn(NARROW, count, seed)
+
+
+def _in_turn(
+    kinds: Mapping[str, Callable[[np.random.Generator], _Shape]], count: int, seed: int
+) -> list[Contact]:
+    names = list(kinds)
+    rngs = (np.random.default_rng((seed, k)) for k in range(count))
+    return [
+        _one(names[k % len(names)], kinds[names[k % len(names)]](rng), rng)
+        for k, rng in enumerate(rngs)
+    ]
+
+
+def _one(kind: str, shape: _Shape, rng: np.random.Generator) -> Contact:
     keys = {
         "contact.radius_x": shape.radius_x,
         "contact.radius_y": shape.radius_y,
@@ -232,8 +257,8 @@ def _point(keys: Mapping[str, float], load: float) -> OperatingPoint:
     )
 
 
-DRAWS = {"ellipse": draw, "line": draw_lines, "numbers": draw_numbers}
-"""Machines; line contacts; ellipses by M, L and kappa."""
+DRAWS = {"ellipse": draw, "narrow": draw_narrow, "line": draw_lines, "numbers": draw_numbers}
+"""Machines; narrow contacts; line contacts; ellipses by M, L and kappa."""
 
 
 def campaign(count: int, seed: int, *, fine: bool = False, shape: str = "ellipse") -> list[Row]:
@@ -345,7 +370,10 @@ def main(words: Sequence[str] | None = None) -> int:
     add_number(made, "seed", 1)
     add_number(made, "count", 60, "how many contacts, of all kinds in turn", minimum=1)
     made.add_argument(
-        "--shape", choices=DRAWS, default="ellipse", help="ellipse (of machines), line, or numbers"
+        "--shape",
+        choices=DRAWS,
+        default="ellipse",
+        help="ellipse (of machines), narrow, line, or numbers",
     )
     made.add_argument(
         "--fine", action="store_true", help="on twice the nodes too, to check the stated errors"

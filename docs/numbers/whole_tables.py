@@ -9,9 +9,11 @@ from records import Values, script
 def machines() -> Values:
     """Contacts of machines, their borders and sides, and modes on cells."""
     make, modes = script("machines/make.py"), script("machines/modes.py")
-    names = ("robustness", "speed", "sides", "by_border", "cells")
+    names = ("robustness", "speed", "sides", "by_border", "cells", "narrow_sides")
     return {name: "\n".join(getattr(make, name)()) for name in names} | {
         "lines": "\n".join(make.robustness(make.LINES)),
+        "narrow": "\n".join(make.robustness(make.NARROW)),
+        "narrow_times": "\n".join(make.speed(make.NARROW)),
         "modes": "\n".join(modes.lines()),
     }
 

@@ -16,8 +16,9 @@ module ehl_case_grid
    character(len=8), parameter :: grid_keys(5) = [character(len=8) :: "border", "x_inlet", "x_outlet", "y_extent", "points"]
    !> Fewest and most intervals along Y of a coarsest grid
    integer, parameter :: min_rows = 8, few_rows = 32
-   !> Least and largest ratio of the sides of a cell
-   real(dp), parameter :: min_ratio = 0.25_dp, largest_ratio = 1.41_dp
+   !> Least and largest ratio of the sides of a cell; the least of a smooth contact, whose film is least at its ends along the
+   !> motion, over the width of the contact there
+   real(dp), parameter :: min_ratio = 0.25_dp, largest_ratio = 1.41_dp, min_smooth = 0.125_dp
    !> Largest ratio in a smooth contact, as it is and over kappa: the film of a wide one varies across the motion over the length
    !> of the contact there. Up to `blunt_spike` of alpha p_h, and an L of `high_spike` where the flow does not thin: beyond, the
    !> pressure spike on the oblique edge is a few nodes wide, and cycles on such cells throw it about (docs/theory/relaxation.md).
@@ -62,7 +63,7 @@ contains
       else
          blunt = blunt .and. (point%moes_l < high_spike .or. thins)
       end if
-      if (.not. grid%points_y > 0) grid%points_y = rows(contact, smooth .and. blunt, grid)
+      if (.not. grid%points_y > 0) grid%points_y = rows(contact, smooth, smooth .and. blunt, grid)
    end subroutine fill_grid
 
    !> Largest alpha p_h of a blunt spike. With long cells a contact at 19.6 and L = 12.8 ends at the cycle limit; with L below 7
@@ -91,10 +92,10 @@ contains
    end function widening_of
 
    !> Nodes along Y: as many as along X in a round contact, else as many as make cells of the shape wanted
-   pure integer function rows(contact, blunt, grid)
+   pure integer function rows(contact, smooth, blunt, grid)
       class(contact_t), intent(in) :: contact
-      !> Whether both surfaces are smooth and the pressure spike is no sharp one
-      logical, intent(in) :: blunt
+      !> Whether both surfaces are smooth, and the pressure spike is no sharp one
+      logical, intent(in) :: smooth, blunt
       type(grid_case_t), intent(in) :: grid
       integer :: levels, intervals(2), halved, multiple
       real(dp) :: wanted, ratio
@@ -104,7 +105,7 @@ contains
       call find_levels(rows, rows, levels, intervals)
       if (levels == 0) return
       halved = (rows - 1)/intervals(1)
-      ratio = cell_ratio(contact%reach(2)/contact%reach(1), blunt)
+      ratio = cell_ratio(contact%reach(2)/contact%reach(1), smooth, blunt)
       if (contact%is_roller() .and. blunt) ratio = largest_smooth
       wanted = 2.0_dp*grid%y_extent*intervals(1)/(ratio*(grid%x_outlet - grid%x_inlet))
       ! many rows are halved further, until they are few
@@ -117,11 +118,11 @@ contains
 
    !> Side of a cell along Y over that along X: cells longer along the longer axis reach the same error with fewer nodes, as
    !> long as multigrid converges as on square ones
-   pure real(dp) function cell_ratio(elongation, blunt)
+   pure real(dp) function cell_ratio(elongation, smooth, blunt)
       real(dp), intent(in) :: elongation
-      logical, intent(in) :: blunt
+      logical, intent(in) :: smooth, blunt
 
-      cell_ratio = min(largest_ratio, max(min_ratio, elongation))
+      cell_ratio = min(largest_ratio, max(merge(min_smooth, min_ratio, smooth), elongation))
       if (blunt) cell_ratio = max(cell_ratio, min(largest_smooth, smooth_by_kappa*elongation))
    end function cell_ratio
 end module ehl_case_grid

@@ -55,6 +55,11 @@ module ehl_domain
    !> Sides of a wide contact in terms of its half width, and length of the films from which on they are further out: sides half
    !> as far again change H_c by 0.01 % and H_min by up to 0.13 % (docs/evidence/machines)
    real(dp), parameter :: beyond_ends = 1.3_dp, thick_at_ends = 0.95_dp
+   !> Sides of a narrow contact in terms of the length over which its gap opens across the motion (side_scale); what they cost H_c
+   !> and H_min at twice that, with a flooded border and with P = 0, and the decay of that with their distance: upper limits of 46
+   !> drawn contacts (docs/evidence/ellipse/narrow.csv)
+   real(dp), parameter :: beyond_narrow = 4.0_dp, flooded_narrow(2) = [0.009_dp, 0.0125_dp], &
+                          of_narrow(2) = [0.014_dp, 0.028_dp], narrow_decay = 4.0_dp
    !> An inlet so far away that it costs nothing
    real(dp), parameter :: far = 1.0e6_dp
    !> Points of an integral
@@ -106,7 +111,7 @@ contains
          width = unit*ceiling(wanted/unit)
          domain = domain_t(-0.625_dp*width, 0.375_dp*width, 0.5_dp*width*sides_over_round(contact))
       end do
-      domain%side = min(domain%side, side_of_wide(contact, point))
+      domain%side = min(domain%side, side_of_wide(contact, point), side_of_narrow(contact, point))
    end function needed_domain
 
    !> Where the sides of a wide contact are far enough. Its ends are as far from one another as it is wide, and what lies beyond
@@ -123,6 +128,25 @@ contains
       length = sqrt(2.0_dp*contact%film_formula(point%moes_m, point%moes_l)*contact%radius)/contact%reach(1)
       side = contact%reach(2)*(beyond_ends + (2.0_dp - beyond_ends)/wide**2)*max(1.0_dp, length/thick_at_ends)
    end function side_of_wide
+
+   !> Where the sides of a narrow contact are far enough: in terms of its length along the motion they are near, for there the gap
+   !> opens with the radius across the motion
+   pure real(dp) function side_of_narrow(contact, point) result(side)
+      class(contact_t), intent(in) :: contact
+      type(operating_t), intent(in) :: point
+
+      side = huge(side)
+      if (elongation(contact) < 1.0_dp) side = beyond_narrow*side_scale(contact, point)
+   end function side_of_narrow
+
+   !> Length over which the gap opens across the motion: that of the dry contact and that of a film between bodies that are not
+   !> deflected
+   pure real(dp) function side_scale(contact, point)
+      class(contact_t), intent(in) :: contact
+      type(operating_t), intent(in) :: point
+
+      side_scale = sqrt(contact%reach(2)**2 + 2.0_dp*contact%film_formula(point%moes_m, point%moes_l)*contact%radius/contact%ratio)
+   end function side_scale
 
    !> How far the contact reaches across the motion over how far along it
    pure real(dp) function elongation(contact)
@@ -147,7 +171,7 @@ contains
       !> Whether the inlet is where the oil is meant to begin, so that the sides alone cost; not if absent
       logical, intent(in), optional :: starved
       real(dp) :: cost(2)
-      real(dp) :: film, length, whole, inlet, load, sides, side, wide, width
+      real(dp) :: at_sides(2), film, length, whole, inlet, load, sides, side, wide, width
 
       if (present(starved)) then
          if (starved) then
@@ -171,25 +195,28 @@ contains
       associate (lambda_bar => point%speed_parameter)
          if (flooded) then
             length = sqrt(2.0_dp*film)
-            load = lambda_bar*length**2*(load_by_sides/side**3 + load_by_inlet/abs(domain%inlet)**3)
-            cost(1) = load*max(min_by_load, by_load/(1.0_dp + (point%round_m/half_by_load)**2)) &
-                      + by_inlet*min(max_wide, max(1.0_dp, width))*min(length, thin)**inlet_power*(2.5_dp/abs(domain%inlet))**5
+            load = lambda_bar*length**2*max(min_by_load, by_load/(1.0_dp + (point%round_m/half_by_load)**2))
+            at_sides = load*load_by_sides/side**3*[1.0_dp, minimum_over_central]
+            cost = load*load_by_inlet/abs(domain%inlet)**3 + &
+                   by_inlet*min(max_wide, max(1.0_dp, width))*min(length, thin)**inlet_power*(2.5_dp/abs(domain%inlet))**5
             cost(2) = minimum_over_central*cost(1)
          else
             whole = pressure_gain(1.0_dp, film)
             inlet = pressure_gain(-domain%inlet/contact%reach(1), film)/whole
-            sides = pressure_gain(side, film)/whole
+            sides = pressure_gain(max(1.0_dp, side), film)/whole
             wide = elongation(contact)
             if (wide > 1.0_dp .and. side > 1.0_dp) then
                sides = sides*exp(-end_decay*max(0.0_dp, 1.0_dp - film/thick_for_decay)*(wide - 1.0_dp)*(side - 1.0_dp))
             end if
-            load = lambda_bar*(load_beyond_inlet/abs(domain%inlet) + load_beyond_sides/side)
-            cost(1) = of_inlet*max(1.0_dp, (thin_film/film)**thin_power)*inlet + of_sides*sides &
-                      + load*max(sensitivity(contact, point), min_sensitivity*min(1.0_dp, (dented_below/point%round_m)**6))
-            cost(1) = cost(1)*merge(width**wide_power, 1.0_dp/width, width >= 1.0_dp)
-            cost(2) = cost(1) + of_sides_at_minimum*sides
+            load = lambda_bar*max(sensitivity(contact, point), min_sensitivity*min(1.0_dp, (dented_below/point%round_m)**6))
+            width = merge(width**wide_power, 1.0_dp/width, width >= 1.0_dp)
+            at_sides = (of_sides*sides + load*load_beyond_sides/side)*width + [0.0_dp, of_sides_at_minimum*sides]
+            cost = (of_inlet*max(1.0_dp, (thin_film/film)**thin_power)*inlet + load*load_beyond_inlet/abs(domain%inlet))*width
          end if
       end associate
+      if (elongation(contact) < 1.0_dp) at_sides = min(at_sides, merge(flooded_narrow, of_narrow, flooded) &
+                                                       *(2.0_dp*side_scale(contact, point)/domain%side)**narrow_decay)
+      cost = cost + at_sides
    end function domain_cost
 
    !> Layer that fills the gap at a distance from the centre, X < 0

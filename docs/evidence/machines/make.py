@@ -13,6 +13,10 @@ python benchmarks/machines.py --shape line --seed 1 --count 200 --fine -o lines1
 python benchmarks/machines.py --shape line --seed 7 --count 200 --fine -o lines7.json
 python benchmarks/machines.py --shape line --seed 12 --count 200 --fine -o lines12.json
 python docs/evidence/machines/make.py lines lines1.json lines7.json lines12.json
+python benchmarks/machines.py --shape narrow --seed 1 --count 30 --fine -o narrow1.json
+python benchmarks/machines.py --shape narrow --seed 2 --count 60 -o narrow2.json
+python docs/evidence/machines/make.py narrow narrow1.json narrow2.json
+python docs/evidence/machines/make.py narrow_sides    narrow_sides.csv
 python docs/evidence/machines/make.py sides    sides.csv
 python docs/evidence/machines/make.py cells    cells.csv
 python docs/evidence/machines/make.py border   border.csv
@@ -34,10 +38,10 @@ from typing import Any
 import pyehl
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "benchmarks"))
-from machines import SETTINGS, draw, radius_ratio, summary, timed
+from machines import DISC, SETTINGS, draw, draw_narrow, radius_ratio, summary, timed
 
 HERE = Path(__file__).resolve().parent
-LINES = "lines.csv"
+LINES, NARROW = "lines.csv", "narrow.csv"
 COLUMNS = (
     *("seed", "number", "kind", "law", "ellipticity", "hertz_pressure_Pa", "moes_m", "moes_l"),
     *("points", "points_y", "status", "restarts", "cycles", "total_cycles", "seconds"),
@@ -91,6 +95,14 @@ BORDER = (
     *("ellipticity", "moes_m", "moes_l", "border", "x_inlet", "y_extent", "points", "points_y"),
     *("status", "H_c", "H_min", "H_c_error_domain", "H_min_error_domain"),
 )
+# Sides of narrow contacts over `side_scale` of fortran/contact/domain.f90, the first one the limit;
+# contacts of the seed above, most nodes between the middle and the sides
+FURTHER = (10, 6, 4, 3, 2)
+NARROW_DRAWN, NARROW_NODES = 60, 32
+NARROW_SIDES = (
+    *("number", "law", "ellipticity", "moes_m", "moes_l", "border", "over_scale", "status"),
+    *("H_c", "H_min"),
+)
 
 Row = dict[str, Any]
 
@@ -129,7 +141,7 @@ def collect(files: list[str], name: str = "contacts.csv") -> None:
         row["law"] = row["values"].get("lubricant.shear_law", "newtonian")
         row["message"] = (row["message"] or "").partition("\n")[0]
     write(name, COLUMNS, rows)
-    if name == LINES:
+    if name in {LINES, NARROW}:
         return
     runs = [answer | answer["machine"] | {"fine": int(answer["fine"])} for answer in answers]
     write("runs.csv", RUNS, runs)
@@ -236,6 +248,58 @@ def by_border() -> list[str]:
     return lines
 
 
+def measure_narrow_sides() -> None:
+    """Solve narrow contacts on 257 nodes along the motion with either border and sides."""
+    rows = []
+    for number, contact in enumerate(draw_narrow(NARROW_DRAWN, 3)):
+        keys = dict(contact.values) | SETTINGS
+        kappa, ratio = contact.ellipticity, keys["contact.radius_y"] / keys["contact.radius_x"]
+        if contact.kind == DISC or kappa is None:
+            continue
+        film = timed(keys)["H_c"]
+        scale = math.sqrt(kappa**2 + 2.0 * (film or 0.0) * ratio)
+        keys |= {"grid.points": 257, "solver.accuracy": ACCURACY}
+        for border in ("flooded", "zero"):
+            for over in FURTHER:
+                sides = {"grid.border": border, "grid.y_extent": over * scale}
+                row = timed(keys | sides | {"grid.points_y": 2 * over * NARROW_NODES + 1})
+                row |= {"number": number, "ellipticity": kappa, "over_scale": over}
+                row |= {"border": border, "law": keys["lubricant.shear_law"]}
+                rows.append(row)
+                if row["status"] != "converged":
+                    break
+    write("narrow_sides.csv", NARROW_SIDES, rows)
+
+
+def narrow_sides() -> list[str]:
+    """Largest changes by nearer sides, by border and distance."""
+    rows = read("narrow_sides.csv")
+    limits = {
+        (row["number"], row["border"]): row
+        for row in rows
+        if row["over_scale"] == FURTHER[0] and row["status"] == "converged"
+    }
+    lines = [
+        "| sides over the scale | flooded border: h_c, h_min | P = 0: h_c, h_min |",
+        "|---|---|---|",
+    ]
+    for over in FURTHER[1:]:
+        cells = []
+        for border in ("flooded", "zero"):
+            mine = [
+                (row, limits[row["number"], border])
+                for row in rows
+                if (row["border"], row["over_scale"], row["status"]) == (border, over, "converged")
+            ]
+            changes = (
+                max(abs(row[name] / limit[name] - 1.0) for row, limit in mine)
+                for name in ("H_c", "H_min")
+            )
+            cells.append(", ".join(f"{100.0 * change:.3f} %" for change in changes))
+        lines.append(f"| {over} | {' | '.join(cells)} |")
+    return lines
+
+
 def robustness(name: str = "contacts.csv") -> list[str]:
     """Table of docs/robustness.md."""
     lines = [
@@ -248,13 +312,13 @@ def robustness(name: str = "contacts.csv") -> list[str]:
     ]
 
 
-def speed() -> list[str]:
+def speed(name: str = "contacts.csv") -> list[str]:
     """Table of docs/speed.md."""
     lines = [
         "| contacts | median | largest | median over that of the ball on disc | largest over it |",
         "|---|---|---|---|---|",
     ]
-    for row in summary(read()):
+    for row in summary(read(name)):
         seconds = [row[name] for name in ("median_seconds", "largest_seconds")]
         times = [f"{each:.0f} s" if each > 10.0 else f"{each:.2g} s" for each in seconds]
         ratios = [f"{row[name]:.1f}" for name in ("median_ratio", "largest_ratio")]
@@ -292,7 +356,12 @@ def _percent(value: float, other: float) -> str:
     return f"{100.0 * (other / value - 1.0):+.3f} %"
 
 
-MEASURE = {"sides": measure_sides, "cells": measure_cells, "border": measure_border}
+MEASURE = {
+    "sides": measure_sides,
+    "cells": measure_cells,
+    "border": measure_border,
+    "narrow_sides": measure_narrow_sides,
+}
 
 
 def main(words: list[str]) -> None:
@@ -301,6 +370,8 @@ def main(words: list[str]) -> None:
         collect(words[1:])
     elif words[0] == "lines":
         collect(words[1:], LINES)
+    elif words[0] == "narrow":
+        collect(words[1:], NARROW)
     elif words[0] in MEASURE:
         MEASURE[words[0]]()
     else:
