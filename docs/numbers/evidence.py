@@ -131,14 +131,12 @@ def wide_ellipses() -> Values:
 
 def extreme_ellipses() -> Values:
     """Which very narrow and wide contacts converge."""
-    found: dict[str, list[str]] = {}
+    lines: dict[str, str] = {}
     for row in read("errors_ellipses/ends.csv"):
         kappa = "1/30" if row["kappa"].startswith("0.03") else f"{float(row['kappa']):g}"
         heads = f"{float(row['moes_m']):g}", f"{float(row['moes_l']):g}", row["points"]
-        cells = found.setdefault("; ".join((kappa, *heads)), ["", ""])
         ended = row["status"] == "converged"
-        cells[int(row["short_cells"])] = f"{row['cycles']} cycles" if ended else row["status"]
-    lines = {head: " | ".join(cells) for head, cells in found.items()}
+        lines["; ".join((kappa, *heads))] = f"{row['cycles']} cycles" if ended else row["status"]
     return locals()
 
 

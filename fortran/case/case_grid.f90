@@ -27,6 +27,8 @@ module ehl_case_grid
    !> quarter to two thirds of the cycles, at 6 and 7 up to three times as many. Below it a roller, whose film varies along it by
    !> its profile alone but for its ends, has the longest cells whatever alpha p_h is
    real(dp), parameter :: high_spike = 15.0_dp
+   !> Ratio of a cell that is coarsened along both axes
+   real(dp), parameter :: square = 1.0_dp/1.6_dp
    !> Largest a-priori error of H_c that the usual grid of a smooth contact may have
    real(dp), parameter :: max_missed = 0.05_dp
 
@@ -108,8 +110,13 @@ contains
       ratio = cell_ratio(contact%reach(2)/contact%reach(1), smooth, blunt)
       if (contact%is_roller() .and. blunt) ratio = largest_smooth
       wanted = 2.0_dp*grid%y_extent*intervals(1)/(ratio*(grid%x_outlet - grid%x_inlet))
-      ! many rows are halved further, until they are few
+      ! cells that are short along Y are first coarsened along it alone (ehl_hierarchy)
       multiple = 2
+      do while (ratio < square)
+         ratio = 2.0_dp*ratio
+         multiple = 2*multiple
+      end do
+      ! many rows are halved further, until they are few
       do while (wanted > 0.5_dp*multiple*few_rows)
          multiple = 2*multiple
       end do
