@@ -162,7 +162,7 @@ def test_pressure_far_from_the_contact(states):
     load = quad(lambda x: 0.8 * np.cos(x) + second * np.cosh(3.0 * x), 0.0, angle)[0] / 0.8
     states(
         "docs/theory/border.md",
-        f"so that φ = {np.degrees(angle):.1f}° and C = {second:.5f}",
+        rf"so that $\vartheta = {np.degrees(angle):.1f}°$ and $C = {second:.5f}$",
         f"The rupture adds {100.0 * (load - 1.0):.0f} % to the load far away",
         f"to the power −{3.0 + np.sqrt(10.0):.1f}",
     )
