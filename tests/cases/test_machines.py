@@ -274,7 +274,10 @@ def test_default_border_of_a_wide_contact(kappa, border):
 
 @pytest.mark.long
 def test_cycles_whose_residual_grows_are_taken_back():
-    """A crowned roller with L = 32, kappa = 15: left alone these cycles end at the cycle limit."""
+    """A crowned roller with L = 32, kappa = 15: left alone these cycles end at the cycle limit.
+
+    It takes one restart with damped cycles.
+    """
     keys = {
         "contact.radius_x": 0.00370017,
         "contact.radius_y": 0.261986,
@@ -290,7 +293,7 @@ def test_cycles_whose_residual_grows_are_taken_back():
         with pyehl.Solver(pyehl.Case.from_text("", keys | {"grid.points": points})) as solver:
             assert solver.run()
             found.append(solver.summary)
-    assert [done["restarts"] for done in found] == [0, 0]
+    assert [done["restarts"] for done in found] == [1, 1]
     coarse, fine = found
     assert abs(coarse["H_c"] - fine["H_c"]) <= coarse["H_c_error"] + fine["H_c_error"]
 
