@@ -28,6 +28,7 @@ module ehl_table
       procedure :: n_rows
       procedure :: n_columns
       procedure :: column
+      procedure :: entry_of
       procedure :: row
       procedure :: write_csv
    end type table_t
@@ -108,6 +109,20 @@ contains
       end do
       allocate (values(0))
    end function column
+
+   !> The entry of a column in a row; the column exists
+   pure real(dp) function entry_of(self, name, row)
+      class(table_t), intent(in) :: self
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: row
+      integer :: k
+
+      k = 1
+      do while (self%names(k) /= name)
+         k = k + 1
+      end do
+      entry_of = self%values(k, row)
+   end function entry_of
 
    !> Write a heading and one line per row. A column of whole numbers is written without a
    !> point; values that are not finite are left empty.

@@ -38,17 +38,20 @@ contains
    real(dp) function pressure_error(self, time, pressure) result(error)
       class(contact_run_t), intent(in) :: self
       real(dp), intent(in) :: time, pressure
-      real(dp), allocatable :: t(:), p(:), before(:)
-      integer :: n
+      !> In the last two rows
+      real(dp) :: t(2), p(2)
+      integer :: k, n
 
       error = maxval(self%transient%film_errors)
       n = self%history%n_rows()
       if (n < 2) return
-      t = self%history%column("t_s")
-      p = self%history%column("p_max_Pa")
-      before = self%history%column("p_step_error")
-      associate (slope => (pressure - p(n))/(time - t(n)), slope_before => (p(n) - p(n - 1))/(t(n) - t(n - 1)))
-         error = max(error, left*before(n), by_difference*(time - t(n))**2*abs(slope - slope_before)/(time - t(n - 1))/pressure)
+      do k = 1, 2
+         t(k) = self%history%entry_of("t_s", n - 2 + k)
+         p(k) = self%history%entry_of("p_max_Pa", n - 2 + k)
+      end do
+      associate (slope => (pressure - p(2))/(time - t(2)), slope_before => (p(2) - p(1))/(t(2) - t(1)))
+         error = max(error, left*self%history%entry_of("p_step_error", n), &
+                     by_difference*(time - t(2))**2*abs(slope - slope_before)/(time - t(1))/pressure)
       end associate
    end function pressure_error
 
