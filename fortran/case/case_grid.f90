@@ -4,7 +4,7 @@ module ehl_case_grid
    use ehl_case, only: case_t, grid_case_t
    use ehl_contact, only: contact_t
    use ehl_domain, only: domain_t, flooded_by_default, needed_domain
-   use ehl_grid, only: find_levels
+   use ehl_grid, only: find_levels, long_x
    use ehl_grid_error, only: relative_errors
    use ehl_kinds, only: dp
    use ehl_moes, only: operating_t
@@ -16,8 +16,8 @@ module ehl_case_grid
    character(len=8), parameter :: grid_keys(5) = [character(len=8) :: "border", "x_inlet", "x_outlet", "y_extent", "points"]
    !> Fewest and most intervals along Y of a coarsest grid
    integer, parameter :: min_rows = 8, few_rows = 32
-   !> Least and largest ratio of the sides of a cell; the least of a smooth contact, whose film is least at its ends along the
-   !> motion, over the width of the contact there
+   !> Least and largest ratio of the sides of a cell, Y over X; the least in a smooth contact: the film of a narrow one varies across
+   !> the motion over its width
    real(dp), parameter :: min_ratio = 0.25_dp, largest_ratio = 1.41_dp, min_smooth = 0.125_dp
    !> Largest ratio in a smooth contact, as it is and over kappa: the film of a wide one varies across the motion over the length
    !> of the contact there. Up to `blunt_spike` of alpha p_h, and an L of `high_spike` where the flow does not thin: beyond, the
@@ -27,8 +27,6 @@ module ehl_case_grid
    !> quarter to two thirds of the cycles, at 6 and 7 up to three times as many. Below it a roller, whose film varies along it by
    !> its profile alone but for its ends, has the longest cells whatever alpha p_h is
    real(dp), parameter :: high_spike = 15.0_dp
-   !> Ratio of a cell that is coarsened along both axes
-   real(dp), parameter :: square = 1.0_dp/1.6_dp
    !> Largest a-priori error of H_c that the usual grid of a smooth contact may have
    real(dp), parameter :: max_missed = 0.05_dp
 
@@ -112,7 +110,7 @@ contains
       wanted = 2.0_dp*grid%y_extent*intervals(1)/(ratio*(grid%x_outlet - grid%x_inlet))
       ! cells that are short along Y are first coarsened along it alone (ehl_hierarchy)
       multiple = 2
-      do while (ratio < square)
+      do while (ratio < 1.0_dp/long_x)
          ratio = 2.0_dp*ratio
          multiple = 2*multiple
       end do

@@ -56,8 +56,8 @@ module ehl_domain
    !> as far again change H_c by 0.01 % and H_min by up to 0.13 % (docs/evidence/machines)
    real(dp), parameter :: beyond_ends = 1.3_dp, thick_at_ends = 0.95_dp
    !> Sides of a narrow contact in terms of the length over which its gap opens across the motion (side_scale); what they cost H_c
-   !> and H_min at twice that, with a flooded border and with P = 0, and the decay of that with their distance: upper limits of 42
-   !> drawn contacts (docs/evidence/machines/narrow_sides.csv)
+   !> and H_min at twice that, with a flooded border and with P = 0, and the decay of that with their distance: upper limits of 21
+   !> drawn contacts with either border (docs/evidence/machines/narrow_sides.csv)
    real(dp), parameter :: beyond_narrow = 4.0_dp, flooded_narrow(2) = [0.009_dp, 0.0125_dp], &
                           of_narrow(2) = [0.02_dp, 0.032_dp], narrow_decay = 4.0_dp
    !> An inlet so far away that it costs nothing

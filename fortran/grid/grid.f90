@@ -5,10 +5,13 @@ module ehl_grid
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
-   public :: grid_t, new_grid, new_strip, find_levels, coarsest_most
+   public :: grid_t, new_grid, new_strip, find_levels, coarsest_most, long_x
 
    !> Fewest and most intervals per side of the coarsest grid, which is solved directly
    integer, parameter :: coarsest_fewest = 16, coarsest_most = 32
+
+   !> Cells that are so many times as long along X as along Y, or more, are coarsened along Y alone (ehl_hierarchy)
+   real(dp), parameter :: long_x = 1.6_dp
 
    !> Uniform node-centred grid; fields on it are real(dp) arrays of shape (nx, ny), X first.
    !> Lengths are dimensionless, scaled by the Hertz radius a.

@@ -12,7 +12,7 @@ module ehl_hierarchy
    use ehl_deflection_factory, only: new_deflection
    use ehl_flow_factory, only: new_flow
    use ehl_galerkin, only: coarsening_t
-   use ehl_grid, only: grid_t
+   use ehl_grid, only: grid_t, long_x
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
    use ehl_lubricant, only: lubricant_t
@@ -24,8 +24,8 @@ module ehl_hierarchy
 
    !> Nodes of a grid from which several threads pay, measured on two cores that others use too; see docs/design.md
    integer, parameter :: parallel_from = 60000
-   !> Cells that are longer than that along Y, or along X, are coarsened along their short side alone
-   real(dp), parameter :: long_y = 3.0_dp, long_x = 1.6_dp
+   !> Cells that are so many times as long along Y as along X, or more, are coarsened along X alone
+   real(dp), parameter :: long_y = 3.0_dp
    !> Most unknowns of a grid that is solved directly, and fewest intervals along Y
    integer, parameter :: max_unknowns = 250, min_rows = 8
 
