@@ -25,7 +25,8 @@ def constants(file: str, names: str) -> Values:
 
 def coarsening() -> Values:
     """Where grids are coarsened along one side, and until when."""
-    found = constants("multigrid/hierarchy.f90", "long_x long_y max_unknowns")
+    found = constants("multigrid/hierarchy.f90", "long_y max_unknowns")
+    found |= constants("grid/grid.f90", "long_x")
     return found | constants("case/case_grid.f90", "few_rows")
 
 
