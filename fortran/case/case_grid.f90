@@ -16,8 +16,8 @@ module ehl_case_grid
    character(len=8), parameter :: grid_keys(5) = [character(len=8) :: "border", "x_inlet", "x_outlet", "y_extent", "points"]
    !> Fewest and most intervals along Y of a coarsest grid
    integer, parameter :: min_rows = 8, few_rows = 32
-   !> Least and largest ratio of the sides of a cell, Y over X; the least in a smooth contact: the film of a narrow one varies across
-   !> the motion over its width
+   !> Least and largest ratio of the sides of a cell, Y over X; the least in a smooth contact: the film of a narrow one varies
+   !> across the motion over its width
    real(dp), parameter :: min_ratio = 0.25_dp, largest_ratio = 1.41_dp, min_smooth = 0.125_dp
    !> Largest ratio in a smooth contact, as it is and over kappa: the film of a wide one varies across the motion over the length
    !> of the contact there. Up to `blunt_spike` of alpha p_h, and an L of `high_spike` where the flow does not thin: beyond, the
