@@ -63,16 +63,27 @@ LAW = "&lubricant shear_law = 'eyring' /\n"
 CIRCLE = "&contact moes_m = 1000.0 moes_l = 10.0 /\n"
 # kappa = 2, with the same equations as the circle
 ELLIPSE = "&contact moes_m = 2357.0 moes_l = 10.3 radius_ratio = 0.35177 /\n"
+# A strip of 2 b; beside the circle with the same wave
+LINE = "&contact shape = 'line' moes_m_line = 100.0 moes_l_line = 10.0 /\n"
+LONG_WAVE = (
+    "&surface kind = 'harmonic' amplitude = 9.734e-3 wavelength_x = 0.5 wavelength_y = 2.0\n"
+    "velocity_ratio = 1.01 /\n"
+)
+WHOLE = "&solver symmetry = 'full' /\n"
 # The wave is that of Fig. 2 of Zhang et al. 2019, the fractal surface that of Table 1. The contact
 # with a law is that of Table 1, of nearly the same Moes numbers.
 CASES = (
-    Problem("wave", "whole", CIRCLE + WAVE + "&solver symmetry = 'full' /\n"),
+    Problem("wave", "whole", CIRCLE + WAVE + WHOLE),
     Problem("wave", "half", CIRCLE + WAVE),
     Problem("fractal", "whole", FRACTAL),
     Problem("wave-law", "half", WAVE + LAW, "wave"),
     Problem("wave-ellipse", "half", ELLIPSE + WAVE, "wave"),
     Problem("fractal-law", "whole", FRACTAL + LAW, "fractal"),
     Problem("two-fractals", "whole", FRACTAL + SECOND, "fractal"),
+    Problem("long-wave", "whole", CIRCLE + LONG_WAVE + WHOLE),
+    Problem("long-wave", "half", CIRCLE + LONG_WAVE),
+    Problem("strip", "whole", LINE + LONG_WAVE + WHOLE, "long-wave"),
+    Problem("strip", "half", LINE + LONG_WAVE, "long-wave"),
 )
 # Those that are measured unless others are asked for
 USUAL = ("wave", "fractal")

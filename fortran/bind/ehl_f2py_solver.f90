@@ -289,7 +289,7 @@ contains
       if (.not. status%failed()) then
          grid = run%solver%finest()
          x = grid%x([(i, i=1, nx)])
-         y = grid%y([(i, i=1, ny)] - (ny - grid%ny))
+         y = grid%y([(i, i=1, ny)] - grid%rows_below())
       end if
       call reply(status, stat, message)
    end subroutine axes

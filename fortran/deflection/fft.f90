@@ -77,7 +77,7 @@ contains
       self%threads = max(1, threads)
       self%lx = 2*good_size(grid%nx - 1)
       self%ly = 2*good_size(grid%full_ny() - 1)
-      if (grid%periodic) self%ly = grid%ny
+      if (grid%periodic) self%ly = grid%full_ny()
       self%nk = self%lx/2 + 1
       call reserve(self, status)
       if (status%failed()) return

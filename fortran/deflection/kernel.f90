@@ -40,7 +40,7 @@ contains
       type(grid_t), intent(in) :: grid
       real(dp), intent(in) :: factor
       real(dp), contiguous, intent(out) :: k(:, :)
-      real(dp) :: around(0:grid%ny - 1)
+      real(dp) :: around(0:grid%full_ny() - 1)
       integer :: i, j
 
       if (grid%is_row()) then
@@ -49,7 +49,7 @@ contains
          do i = 1, size(k, 1)
             around = strip_column(grid, factor, i - 1)
             do j = 1, size(k, 2)
-               k(i, j) = around(modulo(j - 1, grid%ny))
+               k(i, j) = around(modulo(j - 1, grid%full_ny()))
             end do
          end do
       else
@@ -81,10 +81,10 @@ contains
       type(grid_t), intent(in) :: grid
       real(dp), intent(in) :: factor
       integer, intent(in) :: di, dj
-      real(dp) :: around(0:grid%ny - 1)
+      real(dp) :: around(0:grid%full_ny() - 1)
 
       around = strip_column(grid, factor, di)
-      strip_coefficient = around(modulo(dj, grid%ny))
+      strip_coefficient = around(modulo(dj, grid%full_ny()))
    end function strip_coefficient
 
    !> Coefficients of all rows of a strip by their distance: those of a cell and its repetitions, whose sum over the rows is the
@@ -94,21 +94,21 @@ contains
       type(grid_t), intent(in) :: grid
       real(dp), intent(in) :: factor
       integer, intent(in) :: di
-      real(dp) :: around(0:grid%ny - 1)
+      real(dp) :: around(0:grid%full_ny() - 1)
       integer, parameter :: images = 4
       real(dp) :: x, y, u, width, tail
       integer :: j, m, near, side
 
-      associate (hx => grid%hx, hy => grid%hy)
-         width = grid%ny*hy
+      associate (hx => grid%hx, hy => grid%hy, rows => grid%full_ny())
+         width = rows*hy
          x = abs(di)*hx
-         do j = 0, grid%ny - 1
+         do j = 0, rows - 1
             ! the nearest repetition, so that either side is the same to the bit
-            near = min(j, grid%ny - j)
+            near = min(j, rows - j)
             y = near*hy
             around(j) = 0.0_dp
             do m = -images, images
-               around(j) = around(j) + kernel_coefficient(factor, di, near + m*grid%ny, hx, hy)
+               around(j) = around(j) + kernel_coefficient(factor, di, near + m*rows, hx, hy)
             end do
             tail = 0.0_dp
             do side = -1, 1, 2
@@ -117,7 +117,7 @@ contains
             end do
             around(j) = around(j) + factor*hx*hy*tail
          end do
-         around = around + (row_coefficient(grid, factor, di) - sum(around))/grid%ny
+         around = around + (row_coefficient(grid, factor, di) - sum(around))/rows
       end associate
    end function strip_column
 

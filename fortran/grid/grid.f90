@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> A uniform grid over the contact: whole, folded at the symmetry line Y = 0, or a strip that repeats along Y. One row is a strip
-!> on which nothing varies along Y.
+!> A uniform grid over the contact: whole, folded at the symmetry line Y = 0, or a strip that repeats along Y, whole or folded at
+!> Y = 0 and at half its width. One row is a strip on which nothing varies along Y.
 module ehl_grid
    use ehl_kinds, only: dp
    implicit none (type, external)
@@ -24,7 +24,7 @@ module ehl_grid
       real(dp) :: hx = 0.0_dp, hy = 0.0_dp
       !> Only Y >= 0 is stored: row 1 lies on Y = 0 and the field continues as its mirror image
       logical :: mirror = .false.
-      !> The field repeats along Y: row 1 follows on row ny, and integrals are means over Y
+      !> The field repeats along Y: row 1 follows on row ny, or on a folded strip row ny - 1; integrals are means over Y
       logical :: periodic = .false.
       !> The bodies end at the border rows (of a roller): nothing is known of a film there
       logical :: ends = .false.
@@ -47,6 +47,8 @@ module ehl_grid
       procedure :: images
       procedure :: is_border
       procedure :: full_ny
+      procedure :: rows_below
+      procedure :: stored_row
       procedure :: unfold
    end type grid_t
 
@@ -74,10 +76,12 @@ contains
       end if
    end function new_grid
 
-   !> Grid of nx x ny nodes over a strip of a width that repeats along Y, with a row at Y = 0; one row has square cells
-   pure function new_strip(nx, ny, x_inlet, x_outlet, width) result(grid)
+   !> Grid of nx x ny nodes over a strip of a width that repeats along Y, with a row at Y = 0; one row has square cells. With
+   !> mirror ny is even, and only the ny/2 + 1 rows from Y = 0 to half the width are stored.
+   pure function new_strip(nx, ny, x_inlet, x_outlet, width, mirror) result(grid)
       integer, intent(in) :: nx, ny
       real(dp), intent(in) :: x_inlet, x_outlet, width
+      logical, intent(in), optional :: mirror
       type(grid_t) :: grid
 
       grid%nx = nx
@@ -88,6 +92,10 @@ contains
       if (ny > 1) grid%hy = width/ny
       grid%y0 = -(ny/2)*grid%hy
       grid%periodic = .true.
+      if (present(mirror)) grid%mirror = mirror .and. ny > 1
+      if (.not. grid%mirror) return
+      grid%ny = ny/2 + 1
+      grid%y0 = 0.0_dp
    end function new_strip
 
    !> Levels that a grid of nx x ny nodes has, and intervals of the sides of the coarsest one; no levels where halving
@@ -142,21 +150,22 @@ contains
       type(grid_t) :: grid
 
       if (self%periodic) then
-         grid = strip_like(self, (self%nx - 1)/step(1) + 1, max(1, self%ny/step(2)), step(1)*self%hx)
+         grid = strip_like(self, (self%nx - 1)/step(1) + 1, max(1, self%full_ny()/step(2)), step(1)*self%hx)
          return
       end if
       grid = grid_t((self%nx - 1)/step(1) + 1, (self%ny - 1)/step(2) + 1, self%x0, self%y0, step(1)*self%hx, step(2)*self%hy, &
                     self%mirror, ends=self%ends)
    end function coarsened
 
-   !> A strip over the same domain as another
+   !> A strip over the same domain as another; ny: rows of the whole strip
    pure function strip_like(other, nx, ny, hx) result(grid)
       class(grid_t), intent(in) :: other
       integer, intent(in) :: nx, ny
       real(dp), intent(in) :: hx
       type(grid_t) :: grid
 
-      grid = grid_t(nx, ny, other%x0, other%y0, hx, other%hy*other%ny/ny, periodic=.true.)
+      grid = grid_t(nx, ny, other%x0, other%y0, hx, other%hy*other%full_ny()/ny, other%mirror, periodic=.true.)
+      if (other%mirror) grid%ny = ny/2 + 1
       if (ny == 1) grid%hy = hx
    end function strip_like
 
@@ -164,7 +173,7 @@ contains
    pure function intervals(self)
       class(grid_t), intent(in) :: self
       integer :: intervals(2)
-      intervals = [self%nx - 1, merge(self%ny, self%full_ny() - 1, self%periodic)]
+      intervals = [self%nx - 1, self%full_ny() - merge(0, 1, self%periodic)]
    end function intervals
 
    !> The grid of half the mesh size
@@ -173,7 +182,7 @@ contains
       type(grid_t) :: grid
 
       if (self%periodic) then
-         grid = strip_like(self, 2*self%nx - 1, merge(1, 2*self%ny, self%ny == 1), 0.5_dp*self%hx)
+         grid = strip_like(self, 2*self%nx - 1, merge(1, 2*self%full_ny(), self%ny == 1), 0.5_dp*self%hx)
          return
       end if
       grid = grid_t(2*self%nx - 1, 2*self%ny - 1, self%x0, self%y0, 0.5_dp*self%hx, 0.5_dp*self%hy, self%mirror, &
@@ -186,37 +195,37 @@ contains
       class(grid_t), intent(in) :: self
       integer, intent(in) :: j
       weight = self%hx*self%hy
-      if (self%mirror .and. j > 1) weight = 2.0_dp*weight
-      if (self%periodic) weight = self%hx/self%ny
+      if (self%periodic) weight = self%hx/self%full_ny()
+      weight = self%images(j)*weight
    end function weight
 
-   !> Area of a node's cell in row j; of its half in row 1 of a folded grid
+   !> Area of a node's cell in row j; of its half in the rows where a grid is folded
    elemental real(dp) function cell(self, j)
       class(grid_t), intent(in) :: self
       integer, intent(in) :: j
       cell = self%hx*self%hy
-      if (self%mirror .and. j == 1) cell = 0.5_dp*cell
+      if (self%mirror .and. self%images(j) == 1) cell = 0.5_dp*cell
    end function cell
 
    !> The row below row j: row 0 is row 2 of a folded grid, and the last row of a strip
    elemental integer function south(self, j)
       class(grid_t), intent(in) :: self
       integer, intent(in) :: j
-      south = merge(merge(self%ny, 2, self%periodic), j - 1, j == 1)
+      south = merge(merge(self%ny, 2, self%periodic .and. .not. self%mirror), j - 1, j == 1)
    end function south
 
-   !> The row above row j
+   !> The row above row j: row ny + 1 is row 1 of a strip, row ny - 1 of a folded one
    elemental integer function north(self, j)
       class(grid_t), intent(in) :: self
       integer, intent(in) :: j
-      north = merge(1, j + 1, self%periodic .and. j == self%ny)
+      north = merge(merge(self%ny - 1, 1, self%mirror), j + 1, self%periodic .and. j == self%ny)
    end function north
 
    !> How many rows of the whole domain row j stands for
    elemental integer function images(self, j)
       class(grid_t), intent(in) :: self
       integer, intent(in) :: j
-      images = merge(2, 1, self%mirror .and. j > 1)
+      images = merge(2, 1, self%mirror .and. j > 1 .and. .not. (self%periodic .and. j == self%ny))
    end function images
 
    !> First row that is no border row
@@ -240,7 +249,7 @@ contains
    !> Rows of the whole domain that are no border rows
    pure integer function inner_rows(self)
       class(grid_t), intent(in) :: self
-      inner_rows = merge(self%ny, self%full_ny() - 2, self%periodic)
+      inner_rows = self%full_ny() - merge(0, 2, self%periodic)
    end function inner_rows
 
    !> Whether row j is a border, where P is given
@@ -253,8 +262,28 @@ contains
    !> Rows of the unfolded grid
    pure integer function full_ny(self)
       class(grid_t), intent(in) :: self
-      full_ny = merge(2*self%ny - 1, self%ny, self%mirror)
+      full_ny = merge(2*self%ny - merge(2, 1, self%periodic), self%ny, self%mirror)
    end function full_ny
+
+   !> Rows of the unfolded grid below the first stored one
+   pure integer function rows_below(self)
+      class(grid_t), intent(in) :: self
+      rows_below = merge(self%ny - 1, 0, self%mirror)
+   end function rows_below
+
+   !> The stored row that is row j, which may be outside; of none: j
+   elemental integer function stored_row(self, j)
+      class(grid_t), intent(in) :: self
+      integer, intent(in) :: j
+      stored_row = j
+      if (self%periodic) then
+         stored_row = modulo(j - 1, self%full_ny())
+         if (self%mirror) stored_row = min(stored_row, self%full_ny() - stored_row)
+         stored_row = stored_row + 1
+      else if (self%mirror .and. j < 1) then
+         stored_row = 2 - j
+      end if
+   end function stored_row
 
    !> A stored field on the whole domain, values(nx, full_ny)
    pure subroutine unfold(self, stored, values)
@@ -264,8 +293,7 @@ contains
       integer :: j, row
 
       do j = 1, self%full_ny()
-         row = j - (self%full_ny() - self%ny)
-         if (row < 1) row = 2 - row
+         row = self%stored_row(j - self%rows_below())
          values(:, j) = stored(:, row)
       end do
    end subroutine unfold

@@ -53,7 +53,7 @@ contains
       if (status%failed()) return
       self%nx = coarse%nx
       self%ny = coarse%ny
-      self%between = merge(coarse%ny, coarse%ny - 1, coarse%periodic)
+      self%between = merge(coarse%ny, coarse%ny - 1, coarse%periodic .and. .not. coarse%mirror)
       self%threads = threads
       self%parallel = parallel
       associate (nx => coarse%nx, ny => coarse%ny)
@@ -184,15 +184,15 @@ contains
 
    !> Row j of the transpose of interpolation applied to fine values, in coarse columns 2 to nx-1;
    !> j is no border row
-   pure subroutine restrict_row(self, fine, j, values, first_row)
+   pure subroutine restrict_row(self, fine, j, values, half_cells)
       class(transfer_t), intent(in) :: self
       !> Shape of the fine grid
       real(dp), intent(in) :: fine(:, :)
       integer, intent(in) :: j
       !> Shape (nx)
       real(dp), intent(inout) :: values(:)
-      !> Factor of the values of fine row 1, which of a folded grid is one of half cells; not given: it is in them
-      real(dp), intent(in), optional :: first_row
+      !> Factor of the values of the fine rows of half cells, the first and the last of a folded grid; not given: it is in them
+      real(dp), intent(in), optional :: half_cells
       real(dp) :: own
       integer :: i, k, l, below, south
 
@@ -200,13 +200,14 @@ contains
       south = self%south(j)
       below = 2*south
       own = 1.0_dp
-      if (present(first_row) .and. l == 1) own = first_row
+      if (present(half_cells) .and. (l == 1 .or. l == size(fine, 2))) own = half_cells
       do i = 2, self%nx - 1
          k = 2*i - 1
          values(i) = self%free(i, j)*(own*fine(k, l)) &
-                     + self%along_x(1, i, j)*(own*fine(k + 1, l)) + self%along_x(2, i - 1, j)*(own*fine(k - 1, l)) &
-                     + self%along_y(1, i, j)*fine(k, l + 1) &
-                     + self%centre(1, i, j)*fine(k + 1, l + 1) + self%centre(2, i - 1, j)*fine(k - 1, l + 1)
+                     + self%along_x(1, i, j)*(own*fine(k + 1, l)) + self%along_x(2, i - 1, j)*(own*fine(k - 1, l))
+         if (j <= self%between) values(i) = values(i) + self%along_y(1, i, j)*fine(k, l + 1) &
+                                            + self%centre(1, i, j)*fine(k + 1, l + 1) &
+                                            + self%centre(2, i - 1, j)*fine(k - 1, l + 1)
          if (south > 0) values(i) = values(i) + self%along_y(2, i, south)*fine(k, below) &
                                     + self%centre(3, i, south)*fine(k + 1, below) &
                                     + self%centre(4, i - 1, south)*fine(k - 1, below)

@@ -112,8 +112,8 @@ contains
       do j = coarse%grid%first_inner(), coarse%grid%last_inner()
          call reynolds_operator(coarse, j, operator_row)
          if (coarse%poiseuille%frozen) then
-            ! integrated over the cells: row 1 of a folded grid consists of half cells
-            call transfer%restrict_row(fine%residual, j, residual, first_row=fine%grid%cell(1)/fine%grid%cell(2))
+            ! integrated over the cells, which are half ones where a grid is folded
+            call transfer%restrict_row(fine%residual, j, residual, half_cells=fine%grid%cell(1)/fine%grid%cell(2))
             residual(2:coarse%grid%nx - 1) = residual(2:coarse%grid%nx - 1)*fine%grid%cell(2)/coarse%grid%cell(j)
          else
             call weight_row(coarse%grid, step, fine%residual, j, residual)
@@ -258,7 +258,7 @@ contains
       !> Shape (nx) of the coarse grid
       real(dp), intent(out) :: values(:)
       real(dp) :: mean_y(size(fine, 1))
-      integer :: i, l, below, nx
+      integer :: i, l, below, above, nx
 
       nx = coarse%nx
       l = step(2)*(j - 1) + 1
@@ -267,9 +267,11 @@ contains
       if (step(2) == 1) then
          mean_y = fine(:, l)
       else
-         below = coarse%south(l)
-         if (coarse%periodic .and. l == 1) below = size(fine, 2)
-         mean_y = 0.25_dp*(fine(:, below) + fine(:, l + 1)) + 0.5_dp*fine(:, l)
+         below = l - 1
+         if (l == 1) below = merge(2, size(fine, 2), coarse%mirror)
+         above = l + 1
+         if (l == size(fine, 2)) above = l - 1
+         mean_y = 0.25_dp*(fine(:, below) + fine(:, above)) + 0.5_dp*fine(:, l)
       end if
       if (step(1) == 1) then
          values(2:nx - 1) = mean_y(2:nx - 1)

@@ -80,7 +80,7 @@ contains
             do j = 1, grid%ny
                do i = 1, grid%nx
                   self%k(col, i + (j - 1)*grid%nx) = kernel(1 + abs(i - k), 1 + abs(j - l))
-                  if (grid%mirror .and. l > 1) self%k(col, i + (j - 1)*grid%nx) = &
+                  if (grid%images(l) > 1) self%k(col, i + (j - 1)*grid%nx) = &
                      self%k(col, i + (j - 1)*grid%nx) + kernel(1 + abs(i - k), j + l - 1)
                end do
             end do
@@ -188,7 +188,7 @@ contains
 
       norm = 0.0_dp
       do j = self%first, self%last
-         weight = merge(2.0_dp, 1.0_dp, level%grid%mirror .and. j > 1)
+         weight = level%grid%images(j)
          call reynolds_operator(level, j, row)
          row = level%rhs(:, j) - row
          call level%boundary%residual_row(level%rhs(:, j), level%mass_content(:, j), j, row)

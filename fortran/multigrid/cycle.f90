@@ -173,13 +173,13 @@ contains
       type(grid_t), intent(in) :: grid
       !> Shape of the fine grid
       real(dp), intent(out) :: fine(:, :)
-      integer :: l, n, below
+      integer :: l, n, below, above
 
       n = size(values, 2)
       do l = 1, n
          call refine_line(values(:, l), fine(:, 2*l - 1))
       end do
-      if (grid%periodic) then
+      if (grid%periodic .and. .not. grid%mirror) then
          do l = 2, size(fine, 2), 2
             associate (row => modulo([l - 4, l - 2, l, l + 2], size(fine, 2)) + 1)
                fine(:, l) = (9.0_dp*(fine(:, row(2)) + fine(:, row(3))) - fine(:, row(1)) - fine(:, row(4)))/16.0_dp
@@ -190,8 +190,9 @@ contains
       do l = 1, n - 1
          below = 2*l - 3
          if (l == 1) below = merge(3, 1, grid%mirror)
-         fine(:, 2*l) = (9.0_dp*(fine(:, 2*l - 1) + fine(:, 2*l + 1)) - fine(:, below) &
-                         - fine(:, min(2*l + 3, size(fine, 2))))/16.0_dp
+         above = 2*l + 3
+         if (l == n - 1) above = size(fine, 2) - merge(2, 0, grid%periodic)
+         fine(:, 2*l) = (9.0_dp*(fine(:, 2*l - 1) + fine(:, 2*l + 1)) - fine(:, below) - fine(:, above))/16.0_dp
       end do
    end subroutine refine
 

@@ -90,9 +90,7 @@ contains
          if (from(j) == 0) cycle
          smooth(from(j):to(j)) = 0.0_dp
          do k = -reach, reach
-            row = j + k
-            if (row < 1 .and. level%grid%mirror) row = 2 - row
-            if (level%grid%periodic) row = modulo(row - 1, level%grid%ny) + 1
+            row = level%grid%stored_row(j + k)
             if (row < first .or. row > last) cycle
             do i = from(j), to(j)
                smooth(i) = smooth(i) + binomial(k)*space%mean_change(i, row)

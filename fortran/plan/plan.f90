@@ -349,7 +349,7 @@ contains
       associate (g => input%grid)
          if (plan%contact%is_line()) then
             width = plan%surfaces%width()
-            call make_strip(width, intervals(1), plan%levels, g%x_inlet, g%x_outlet, plan%surfaces%rough() .and. &
+            call make_strip(width, intervals(1), plan%levels, g%x_inlet, g%x_outlet, mirror, plan%surfaces%rough() .and. &
                             input%solver%coarsening == "alcouffe", plan%coarsest, status)
             if (status%failed()) return
          else

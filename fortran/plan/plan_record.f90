@@ -57,7 +57,7 @@ contains
          call record%set("stored_rows", finest%ny)
          call record%set("coarsest_points", g%nx)
          call record%set("coarsest_rows", g%ny)
-         call record%set("strip_width", merge(g%ny*g%hy, 0.0_dp, g%periodic .and. .not. g%is_row()))
+         call record%set("strip_width", merge(g%full_ny()*g%hy, 0.0_dp, g%periodic .and. .not. g%is_row()))
       end associate
       call record%set("levels", plan%levels)
       call record%set("start_level", plan%start)

@@ -15,14 +15,14 @@ module ehl_strip_grid
 contains
 
    !> Coarsest grid with cells that are nearly square: an even number of rows, or one where nothing varies along Y
-   subroutine make_strip(width, intervals, levels, x_inlet, x_outlet, alcouffe, coarsest, status)
+   subroutine make_strip(width, intervals, levels, x_inlet, x_outlet, mirror, alcouffe, coarsest, status)
       !> Width; 0: nothing varies along Y, negative: the surfaces have none in common
       real(dp), intent(in) :: width
       !> Of the coarsest grid along X, and levels
       integer, intent(in) :: intervals, levels
       real(dp), intent(in) :: x_inlet, x_outlet
-      !> Whether transfers by the conductance are asked for
-      logical, intent(in) :: alcouffe
+      !> Whether half of the strip will do, and whether transfers by the conductance are asked for
+      logical, intent(in) :: mirror, alcouffe
       type(grid_t), intent(inout) :: coarsest
       type(status_t), intent(inout) :: status
       character(len=1), parameter :: newline = new_line("a")
@@ -47,6 +47,6 @@ contains
          if (alcouffe) call status%fail(ehl_bad_input, "solver.coarsening = 'alcouffe' where nothing varies along a line"// &
                                         newline//"expected: 'auto' or 'classical'")
       end if
-      coarsest = new_strip(intervals + 1, nint(rows), x_inlet, x_outlet, width)
+      coarsest = new_strip(intervals + 1, nint(rows), x_inlet, x_outlet, width, mirror)
    end subroutine make_strip
 end module ehl_strip_grid

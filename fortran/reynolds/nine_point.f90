@@ -79,7 +79,7 @@ contains
    elemental logical function has_below(self, j)
       class(nine_point_t), intent(in) :: self
       integer, intent(in) :: j
-      has_below = j > 1 .or. self%grid%periodic
+      has_below = j > 1 .or. (self%grid%periodic .and. .not. self%grid%mirror)
    end function has_below
 
    !> Sum of all couplings of node (i, j), and its excess; 1 < i < nx

@@ -265,6 +265,8 @@ contains
          above = self%grid%north(j)
          rx = 0.5_dp*self%grid%cell(j)/self%grid%hx**2
          ry = 0.5_dp*self%grid%hx/self%grid%hy
+         ! where a strip is folded the coupling to the row above is in the half cells below
+         if (self%grid%mirror .and. above < j) ry = 0.0_dp
          if (flow%depends_on_gradient) then
             do i = 1, self%grid%nx - 1
                a%east(i, j) = rx*(flow%tangent(i, j, dir_x) + flow%tangent(i + 1, j, dir_x))

@@ -252,21 +252,23 @@ contains
       coarse%load = missing_load(fine) + pressure_sum(coarse)
    end subroutine pass_load_on
 
-   !> Take a small relative error of the force balance away by scaling the pressure within the border, but where nodes yield; H00
-   !> keeps the mean film under it. Film and coefficients are up to date before and after.
+   !> Take a small relative error of the force balance away by scaling the pressure above that of the border, but where nodes
+   !> yield; H00 keeps the mean film under it. Film and coefficients are up to date before and after.
    subroutine balance_load(level)
       type(level_t), intent(inout) :: level
-      real(dp) :: factor, deflection(level%grid%ny), after(level%grid%nx)
+      real(dp) :: factor, border, deflection(level%grid%ny), after(level%grid%nx)
       integer :: j, nx
 
       nx = level%grid%nx
-      factor = 1.0_dp/(1.0_dp + load_excess(level)/(1.0_dp - fixed_load(level)/level%load))
-      !$omp parallel do default(none) shared(level, factor, deflection, nx) private(after) &
+      border = border_pressure(level)
+      factor = 1.0_dp/(1.0_dp + load_excess(level)/(1.0_dp - fixed_load(level, border)/level%load))
+      !$omp parallel do default(none) shared(level, factor, border, deflection, nx) private(after) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = 1, level%grid%ny
          deflection(j) = sum(level%p(:, j)*(level%h(:, j) - level%h00 - level%film_rhs(:, j)))*level%grid%weight(j)
          if (level%grid%is_border(j)) cycle
-         after(2:nx - 1) = factor*level%p(2:nx - 1, j)
+         ! a step of pressure beside the border, where the conductance is largest, would be a large residual
+         after(2:nx - 1) = factor*level%p(2:nx - 1, j) - (factor - 1.0_dp)*min(level%p(2:nx - 1, j), border)
          call level%boundary%limit_pressure(level%p(2:nx - 1, j), 2, j, after(2:nx - 1))
          level%p(2:nx - 1, j) = after(2:nx - 1)
       end do
@@ -275,9 +277,22 @@ contains
       call refresh(level)
    end subroutine balance_load
 
-   !> What of the load the pressure at the border and where nodes yield sustains
-   pure real(dp) function fixed_load(level)
+   !> Largest pressure at the border: 0 but in flooded contacts
+   pure real(dp) function border_pressure(level)
       type(level_t), intent(in) :: level
+      integer :: j
+
+      border_pressure = max(maxval(level%p(1, :)), maxval(level%p(level%grid%nx, :)))
+      do j = 1, level%grid%ny, max(1, level%grid%ny - 1)
+         if (level%grid%is_border(j)) border_pressure = max(border_pressure, maxval(level%p(:, j)))
+      end do
+   end function border_pressure
+
+   !> What of the load the pressure at the border, up to that of the border and where nodes yield sustains
+   pure real(dp) function fixed_load(level, border)
+      type(level_t), intent(in) :: level
+      !> Largest pressure at the border
+      real(dp), intent(in) :: border
       integer :: j
 
       fixed_load = 0.0_dp
@@ -285,8 +300,9 @@ contains
          if (level%grid%is_border(j)) then
             fixed_load = fixed_load + sum(level%p(:, j))*level%grid%weight(j)
          else
-            fixed_load = fixed_load + (level%p(1, j) + level%p(level%grid%nx, j))*level%grid%weight(j)
-            fixed_load = fixed_load + sum(level%p(:, j), mask=level%boundary%yielding(level%grid%nx, j))*level%grid%weight(j)
+            fixed_load = fixed_load + sum(min(level%p(:, j), border))*level%grid%weight(j)
+            fixed_load = fixed_load + sum(level%p(:, j) - min(level%p(:, j), border), &
+                                          mask=level%boundary%yielding(level%grid%nx, j))*level%grid%weight(j)
          end if
       end do
    end function fixed_load

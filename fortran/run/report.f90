@@ -30,7 +30,7 @@ contains
          if (scales%has_size()) call record%set("hertz_radius_m film_scale_m", [scales%length, scales%film])
          if (plan%contact%is_line()) then
             call record%set("shape", "line")
-            if (.not. grid%is_row()) call record%set("points_y", grid%ny)
+            if (.not. grid%is_row()) call record%set("points_y", grid%full_ny())
          else if (plan%contact%is_roller()) then
             call record%set("shape", "roller")
             call record%set("points_y", grid%full_ny())

@@ -91,7 +91,7 @@ contains
             return
          end if
          x(:) = grid%x([(i, i=1, grid%nx)])
-         y(:) = grid%y([(i, i=1, ny)] - (ny - grid%ny))
+         y(:) = grid%y([(i, i=1, ny)] - grid%rows_below())
       end associate
       call write_npy(folder // "X.npy", x, status)
       if (.not. status%failed()) call write_npy(folder // "Y.npy", y, status)

@@ -2,6 +2,7 @@
 !> What time steps begin with: the smooth contact before a front, a prediction, or a state that was kept
 submodule (ehl_contact_run) ehl_contact_start
    use ehl_reynolds, only: refresh
+   use ehl_grid_error, only: relative_errors
    use ehl_level_result, only: friction_error
    use ehl_outcome, only: outcome_names
    use ehl_status, only: ehl_bad_input
@@ -11,10 +12,14 @@ submodule (ehl_contact_run) ehl_contact_start
 contains
 
    module procedure begin_steps
+      real(dp) :: errors(2)
+
+      ! the friction goes with the inverse of the film
+      errors = relative_errors(self%plan%contact, self%plan%point, self%grid%hx)
       associate (plan => self%plan, transient => self%transient, n => self%smooth%n, m => self%smooth%results(self%smooth%n)%m)
          ! where a feature passes once, the maximum pressure and the minimum film are asked for, not the mean friction alone
          call transient%accuracy%set(self%grid%hx, plan%accuracy, m%friction_newtonian, &
-                                     merge(0.0_dp, friction_error(self%smooth%results, n), &
+                                     merge(0.0_dp, friction_error(self%smooth%results, n, errors(1)), &
                                            plan%surfaces%pass_once() .or. plan%duty%active))
          call transient%policy%set(plan%step_cycle, plan%coarsening_may_change, plan%max_cycles)
          call transient%start(self%hierarchy%levels(n), n, plan%contact, plan%surfaces, plan%duty, plan%skip_start, &

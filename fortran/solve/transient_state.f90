@@ -28,7 +28,7 @@ module ehl_transient_state
    public :: transient_t
 
    !> Relative errors of the force balance that a step may have taken away by scaling its pressure
-   real(dp), parameter :: small_load_error = 1.0e-5_dp
+   real(dp), parameter :: small_load_error = 1.0e-4_dp
 
    !> The state of the iteration is that of a step
    type, extends(iteration_t) :: transient_t

@@ -112,12 +112,14 @@ contains
       if (last <= 0.8_dp*before) limit_error = max(last/3.0_dp, last**2/(before - last))
    end function limit_error
 
-   !> Relative discretisation error of the Newtonian friction integral on level n, as that of H_c; 0: there is no coarser one
-   pure real(dp) function friction_error(results, n)
+   !> Relative discretisation error of the Newtonian friction integral on level n, as that of H_c
+   pure real(dp) function friction_error(results, n, otherwise)
       type(level_result_t), intent(in) :: results(:)
       integer, intent(in) :: n
+      !> What it is where no coarser level has a solution
+      real(dp), intent(in) :: otherwise
 
-      friction_error = 0.0_dp
+      friction_error = otherwise
       if (n == 1) return
       associate (fine => results(n), coarse => results(n - 1))
          if (coarse%solved) friction_error = abs(fine%m%friction_newtonian - coarse%m%friction_newtonian) &

@@ -34,7 +34,7 @@ module diffusion
 
 contains
 
-   !> Levels of a square, whole or folded, or of a strip that repeats along Y
+   !> Levels of a square or of a strip that repeats along Y, whole or folded
    subroutine new_problem(p, mirror, rows, strip)
       type(problem_t), allocatable, intent(out) :: p(:)
       logical, intent(in) :: mirror
@@ -49,7 +49,7 @@ contains
       allocate (p(levels))
       p(levels)%grid = new_grid(points, ny, 0.0_dp, 1.0_dp, 0.5_dp, mirror)
       if (present(strip)) then
-         if (strip) p(levels)%grid = new_strip(points, points - 1, 0.0_dp, 1.0_dp, 1.0_dp)
+         if (strip) p(levels)%grid = new_strip(points, points - 1, 0.0_dp, 1.0_dp, 1.0_dp, mirror)
       end if
       do k = levels - 1, 1, -1
          p(k)%grid = p(k + 1)%grid%coarser()
@@ -155,10 +155,11 @@ contains
       do j = 1, p%grid%ny
          do i = 1, p%grid%nx - 1
             p%a%east(i, j) = 0.5_dp*(p%d(i, j) + p%d(i + 1, j))
-            if (p%grid%mirror .and. j == 1) p%a%east(i, j) = 0.5_dp*p%a%east(i, j)
+            if (p%grid%mirror .and. p%grid%images(j) == 1) p%a%east(i, j) = 0.5_dp*p%a%east(i, j)
          end do
       end do
       do j = 1, p%grid%last_inner()
+         if (p%grid%north(j) < j .and. p%grid%mirror) cycle
          p%a%north(1:, j) = 0.5_dp*(p%d(:, j) + p%d(:, p%grid%north(j)))
       end do
    end subroutine five_point

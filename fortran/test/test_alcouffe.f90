@@ -62,15 +62,15 @@ contains
 
    !> P^T (A (P u)) by the transfers and the operator one after the other, for two products in a row
    !> (five-point and nine-point operators), with nodes that are not free, whole and folded, on as many rows as columns
-   !> and on more, and on a strip
+   !> and on more, and on a strip, whole and folded
    subroutine product_is_the_product()
       type(problem_t), allocatable :: p(:)
       real(dp), allocatable :: wanted(:), made(:)
       real(dp) :: largest, row(points)
       integer :: kind, j, k
 
-      do kind = 0, 4
-         call new_problem(p, mod(kind, 2) == 1, merge(193, points, kind > 1), strip=kind == 4)
+      do kind = 0, 5
+         call new_problem(p, mod(kind, 2) == 1, merge(193, points, kind > 1), strip=kind > 3)
          call noise(p(levels))
          p(levels)%free(40:47, 20:31) = 0.0_dp
          call coarsen(p, alcouffe)

@@ -26,6 +26,7 @@ contains
       call engines_give_hertz()
       call row_is_hertz()
       call strip_is_periodic()
+      call folded_strip_is_a_strip()
       call fft_is_direct()
       call mlmi_is_direct()
       call folded_is_whole()
@@ -123,6 +124,36 @@ contains
       call is_close(maxval(abs(sum(w, dim=2)/grid%ny - of_row(:, 1))), 0.0_dp, 1.0e-12_dp, "strip: its mean is a row")
       call is_true(.not. status%failed(), "engines of a strip")
    end subroutine strip_is_periodic
+
+   !> Half a strip whose pressure is even in Y has the deflection of the whole one
+   subroutine folded_strip_is_a_strip()
+      class(deflection_t), allocatable :: engine
+      type(grid_t) :: grid(2)
+      type(status_t) :: status
+      real(dp), allocatable :: p(:, :), w(:, :), whole(:, :), unfolded(:, :)
+      integer :: j, k
+
+      do k = 1, 2
+         grid(k) = new_strip(129, 24, -3.0_dp, 3.0_dp, 1.2_dp, mirror=k == 2)
+         allocate (p(129, grid(k)%ny), w(129, grid(k)%ny))
+         do j = 1, grid(k)%ny
+            p(:, j) = (1.0_dp + 0.9_dp*cos(2.0_dp*pi*grid(k)%y(j)/1.2_dp))*max(0.0_dp, 1.0_dp - grid(k)%columns()**2)
+         end do
+         call new_deflection("fft", engine, status, grid(k))
+         call engine%setup(grid(k), 0.5_dp/pi, 0.0_dp, 1, status)
+         call engine%apply(p, w)
+         if (k == 1) whole = w
+         if (k == 2) then
+            allocate (unfolded(129, grid(2)%full_ny()))
+            call grid(2)%unfold(w, unfolded)
+            call is_true(grid(2)%ny == 13 .and. grid(2)%full_ny() == 24, "rows of a folded strip")
+            call is_close(sum(grid(2)%weight([(j, j=1, grid(2)%ny)])), grid(1)%hx, 1.0e-14_dp, "weights of a folded strip")
+            call is_close(maxval(abs(unfolded - whole)), 0.0_dp, 1.0e-13_dp, "folded strip")
+         end if
+         deallocate (p, w)
+      end do
+      call is_true(.not. status%failed(), "engines of half a strip")
+   end subroutine folded_strip_is_a_strip
 
    !> W = 1 - r^2/2 inside the contact, its continuation outside. A pressure that is constant
    !> in each cell errs most at the edge of the contact, where its slope is infinite: by 7.7e-4

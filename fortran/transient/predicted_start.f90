@@ -79,9 +79,10 @@ contains
       type(grid_t), intent(in) :: grid
       !> On the whole of the grid, (nx, full_ny, 4), scaled by p_h
       real(dp), intent(in) :: pressure(:, :, :)
+      integer :: j
 
       self%time = start_time(surfaces, grid)
-      self%pressure = pressure(:, grid%full_ny() - grid%ny + 1:, :)
+      self%pressure = pressure(:, [(modulo(grid%rows_below() + j - 1, grid%full_ny()) + 1, j=1, grid%ny)], :)
    end subroutine take
 
    !> The same start on the next coarser grid

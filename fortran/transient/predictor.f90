@@ -165,9 +165,7 @@ contains
       do k = 1, self%candidates
          across = 0.0_dp
          do i = j - reach, merge(j + reach, min(j + reach, level%grid%ny), level%grid%periodic)
-            row = i
-            if (row < 1 .and. level%grid%mirror) row = 2 - row
-            if (level%grid%periodic) row = modulo(i - 1, level%grid%ny) + 1
+            row = level%grid%stored_row(i)
             if (row >= 1) across = across + self%error(:, row, k)
          end do
          do i = first, last

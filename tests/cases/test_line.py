@@ -284,6 +284,28 @@ def test_strip_of_waves_across():
     assert increases[1] == pytest.approx(0.5 * increases[0], rel=0.05)
 
 
+@pytest.mark.parametrize("coarsening", ["classical", "alcouffe"])
+def test_half_of_a_strip_is_enough(coarsening):
+    """Waves that are even in Y: rows from Y = 0 to half the width, to the rounding of the steps."""
+    wave = {"surface.kind": "harmonic", "surface.amplitude": 0.02, "surface.wavelength": 1.0}
+    few = {"time.steps": 6, "time.skip_start": False, "solver.coarsening": coarsening}
+    case = moes(20, 10, 129).with_options(wave | few)
+    half, whole = (
+        pyehl.solve(case.with_options({"solver.symmetry": one}), check=False)
+        for one in ("auto", "full")
+    )
+    assert half.attrs["half_domain"]
+    assert not whole.attrs["half_domain"]
+    np.testing.assert_allclose(half.Y.values, whole.Y.values, atol=1e-15)
+    for name in ("P", "H", "RR"):
+        np.testing.assert_allclose(half[name].values, whole[name].values, atol=1e-9)
+    assert np.ptp(half.H.values, axis=1).max() > 0.01
+    # beside the middle of a dent the strip has no half
+    dent = {"surface.kind": "dent", "surface.width": 0.5, "surface.amplitude": 0.02}
+    aside = moes(20, 10, 65).with_options(dent | few | {"surface.y_start": 0.2})
+    assert not pyehl.solve(aside, check=False).attrs["half_domain"]
+
+
 def test_strip_is_the_middle_of_a_wide_ellipse():
     """Isotropic waves in an ellipse of kappa = 8, with the same a, p_h and speed parameter."""
     ratio = brentq(lambda d: ellipse(d).ellipticity - 8.0, 1e-3, 0.5)
