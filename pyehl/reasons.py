@@ -130,8 +130,8 @@ def alpha_note(settings: Settings) -> str:
         # least and largest z of the oils that are known by name, at 40 and 100 degC, see
         # tests/model/test_lubricants.py
         return (
-            f"alpha = {alpha} 1/Pa at {s['temperature']} degC is an estimate by the z of a mineral "
-            "oil (Roelands): for z = 0.42 to 0.74 the film is 17 % thinner to 12 % thicker; give "
+            f"alpha = {alpha} 1/Pa at {s['temperature']} degC is an estimate by the Z of a mineral "
+            "oil (Roelands): for Z = 0.42 to 0.74 the film is 17 % thinner to 12 % thicker; give "
             "lubricant.pressure_viscosity"
         )
     if origin == "default":

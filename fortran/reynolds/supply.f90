@@ -26,8 +26,8 @@ module ehl_supply
       real(dp), private :: hx = 0.0_dp
       !> rho H that arrives, by row
       real(dp), allocatable :: layer(:)
-      !> Of a line: last node ahead of the film, which stays (solve/meniscus.f90), and what is missing behind it; 0: where it is
-      !> follows from the pressure
+      !> Of a line: last node upstream of the film where it is fixed (solve/meniscus.f90), and the mass defect downstream of it;
+      !> 0: the node follows from the pressure
       integer :: held = 0
       real(dp) :: short = 0.0_dp
    contains

@@ -1,11 +1,11 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Where the film of a line begins that a layer of oil arrives at. Nothing flows around a line, so that all oil passes it and the
-!> flow is known; near that of a flooded contact it hardly depends on the meniscus, whose node then wanders in cycles that let it
-!> go. Here it stays while the contact is solved as with `inlet.position`, and the flow that this finds says where to go:
+!> Position of the meniscus of a line with a given layer of oil. A line has no side flow, so the flow is that of the layer. Just
+!> below the flooded flow it hardly depends on the meniscus, and a free meniscus moves from cycle to cycle. Here the meniscus is
+!> fixed while the contact is solved as with `inlet.position`; the resulting flow gives the next position:
 !>
-!>    node k with P(k) = 0, and what is missing behind it, 0 <= s <= (G(k) - layer)/hx, so that the flow is that of the layer
+!>    node k with P(k) = 0, and the mass defect s downstream of it, 0 <= s <= (G(k) - layer)/hx, such that the flow is the layer's
 !>
-!> The flow falls with k and with s: first the node is found, by steps that double and then by halves, then s by the Illinois rule.
+!> The flow decreases with k and s: k is bracketed by doubling steps and bisected, then s is found by the Illinois method.
 module ehl_meniscus
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
@@ -19,7 +19,7 @@ module ehl_meniscus
    integer, parameter :: fewest_cycles = 3
    !> Largest s over (G(k) - layer)/hx: the film at the meniscus changes with s
    real(dp), parameter :: largest = 1.2_dp
-   !> Shares s nearer to each other than that are the same; with none left the film has changed, and the search begins again
+   !> Brackets of s narrower than this are closed: the film has changed since, and the search is restarted
    real(dp), parameter :: same = 1.0e-12_dp
 
    type :: meniscus_t
@@ -131,7 +131,7 @@ contains
       if (self%low > 0 .and. self%high == self%low + 1) call self%pin(level)
    end subroutine search_node
 
-   !> The node is known: s between none and that with which the node behind it has no pressure
+   !> The node is known: s lies between 0 and the value at which the next node downstream has zero pressure
    subroutine pin(self, level)
       class(meniscus_t), intent(inout) :: self
       type(level_t), intent(in) :: level
@@ -143,7 +143,7 @@ contains
       self%share = self%over(1)/(self%over(1) - self%over(2))/largest
    end subroutine pin
 
-   !> The next share, by the Illinois rule; with none left the search begins anew
+   !> The next share, by the Illinois method; a closed bracket restarts the search
    subroutine search_share(self, off)
       class(meniscus_t), intent(inout) :: self
       real(dp), intent(in) :: off

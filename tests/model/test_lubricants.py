@@ -126,14 +126,14 @@ def test_band_of_a_coefficient_that_was_not_given(root: Path):
     )
     text = (root / "docs/howto/lubricants.md").read_text(encoding="utf-8")
     assert (
-        f"z is {cold['fva3']:.2f} (mineral), {cold['n100']:.2f} (naphthenic) and "
+        f"Z is {cold['fva3']:.2f} (mineral), {cold['n100']:.2f} (naphthenic) and "
         f"{cold['pao100']:.2f} (polyalphaolefin) at 40 °C"
     ) in text
     assert all(hot[name] == pytest.approx(cold[name], rel=0.04) for name in cold)
     data = pyehl.solve(Case.from_text(SHEET.format("")), LIGHT)
     note = str(data.attrs["pressure_viscosity_note"])
     least, most = (100.0 * ((pick(cold.values()) / MINERAL_Z) ** 0.53 - 1.0) for pick in (min, max))
-    band = f"z = {min(cold.values()):.2f} to {max(cold.values()):.2f}"
+    band = f"Z = {min(cold.values()):.2f} to {max(cold.values()):.2f}"
     assert f"for {band} the film is {-least:.0f} % thinner to {most:.0f} % thicker" in note
     assert (
         f"alpha is an estimate ({least:.0f} to {most:+.0f} % of the film)"
