@@ -33,6 +33,8 @@ ENOUGH, LOAD_ENOUGH = 1e-8, 1e-9
 FLOODED_ENOUGH = 1e-6
 # More products with the matrix than this, and its factors are made anew
 PATIENCE = 30
+# Columns of the full matrix that are made at once
+BLOCK = 500
 
 
 def cell(dx: Array, dy: Array, h: float) -> Array:
@@ -62,9 +64,9 @@ class Wave:
 class SecondSolver:
     """A contact on the half Y >= 0 of the grid, all nodes in one vector, X first.
 
-    The domain is as wide as it is long; `borders` are inlet and outlet [a]. At the border P = 0
-    or, `flooded`, the pressure of a fully flooded contact. `kappa` is the semi-axis across the
-    motion over that along it; only a round contact is flooded.
+    `borders` are inlet and outlet [a], `side` the largest Y, by default half the length. At the
+    border P = 0 or, `flooded`, the pressure of a fully flooded contact. `kappa` is the semi-axis
+    across the motion over that along it; only a round contact is flooded.
     """
 
     def __init__(
@@ -77,11 +79,15 @@ class SecondSolver:
         borders: tuple[float, float] = (X_INLET, X_OUTLET),
         flooded: bool = False,
         kappa: float = 1.0,
+        side: float | None = None,
     ) -> None:
         assert kappa == 1.0 or not flooded
         self.flooded, self.start, self.kappa = flooded, borders[0], kappa
-        self.h = (borders[1] - borders[0]) / (points - 1)
-        self.points, self.rows = points, (points + 1) // 2
+        length = borders[1] - borders[0]
+        self.h = length / (points - 1)
+        self.points = points
+        self.rows = round((length / 2 if side is None else side) / self.h) + 1
+        self.across = 2 * self.rows - 1
         self.narrow = narrow
         x = self.start + self.h * np.arange(points)
         y = self.h * np.arange(self.rows)
@@ -96,12 +102,12 @@ class SecondSolver:
         self.speed *= kappa * (kappa * stiff) ** (1.0 / 3.0)
         self.weight = np.where(self.y == 0.0, 1.0, 2.0) * self.h**2
         # deflection by the pressure of one cell, at (i, j) nodes from it
-        far: Array = self.h * np.arange(points, dtype=np.float64)
-        self.cells = stiff * cell(far[:, None], far[None, :], self.h)
-        wrapped = np.zeros((2 * points, 2 * points))
-        wrapped[:points, :points] = self.cells
-        wrapped[1 - points :, :points] = self.cells[:0:-1]
-        wrapped[:, 1 - points :] = wrapped[:, points - 1 : 0 : -1]
+        far, wide = (self.h * np.arange(count, dtype=np.float64) for count in (points, self.across))
+        self.cells = stiff * cell(far[:, None], wide[None, :], self.h)
+        wrapped = np.zeros((2 * points, 2 * self.across))
+        wrapped[:points, : self.across] = self.cells
+        wrapped[1 - points :, : self.across] = self.cells[:0:-1]
+        wrapped[:, 1 - self.across :] = wrapped[:, self.across - 1 : 0 : -1]
         self.transform = scipy.fft.rfft2(wrapped)
         self.border, self.load = np.zeros(self.x.size), 2.0 * np.pi / 3.0 * kappa
         self.inside = (self.x > x[0]) & (self.x < x[-1]) & (self.y < y[-1])
@@ -138,9 +144,9 @@ class SecondSolver:
         """Deflection of all nodes."""
         half = p.reshape(self.rows, self.points)
         whole = np.concatenate([half[:0:-1], half]).T
-        size = (2 * self.points, 2 * self.points)
+        size = (2 * self.points, 2 * self.across)
         w = scipy.fft.irfft2(scipy.fft.rfft2(whole, s=size) * self.transform, s=size)
-        return np.asarray(w[: self.points, self.rows - 1 : self.points].T.ravel())
+        return np.asarray(w[: self.points, self.rows - 1 : self.across].T.ravel())
 
     def rough(self, waves: Iterable[Wave], step: int) -> Array:
         """Heights of eq. 15, summed over waves."""
@@ -245,8 +251,9 @@ class SecondSolver:
         rows = by_film[nodes]
         touched = np.unique(rows.indices)
         m = nodes.size
-        matrix = np.empty((m + 1, m + 1))
-        matrix[:m, :m] = rows[:, touched] @ self.kernel(touched[:, None], nodes[None, :])
+        matrix = np.empty((m + 1, m + 1), order="F")
+        for part in np.array_split(np.arange(m), m // BLOCK + 1):
+            matrix[:m, part] = rows[:, touched] @ self.kernel(touched[:, None], nodes[None, part])
         matrix[:m, :m] += by_p[nodes][:, nodes].toarray()
         matrix[:m, m] = rows.sum(axis=1)
         matrix[m, :m] = self.weight[nodes]

@@ -394,3 +394,32 @@ def test_citation_names_the_version_and_the_paper(root: Path):
     assert f"version: {version[1]}" in text
     assert "10.1016/j.triboint.2019.01.028" in text
     assert f"## [{version[1]}]" in (root / "CHANGELOG.md").read_text()
+
+
+def test_the_book_is_not_longer_than_it_says(script):
+    count = script("docs/count_words.py")
+    texts = [path.read_text(encoding="utf-8") for path in count.pages()]
+    assert len(texts) > 100
+    assert 30_000 < sum(count.words(text, code_apart=False) for text in texts) < count.LIMIT
+    page = "# A *title*\n\nTwo `names`, [a link](x/y.md) and $a+b$: 3 %.\n\n| no | row |\n"
+    assert count.words(page + "```sh\nno code\n```\n<!--n=a-->one<!--/-->") == 7
+
+
+@pytest.mark.long
+def test_a_page_that_a_phone_cuts_is_found(script, tmp_path):
+    phone = script("docs/check_phone.py")
+    head = '<!doctype html><meta name="viewport" content="width=device-width">'
+    (tmp_path / "good.html").write_text(f"{head}<article><p>words</p></article>")
+    wide = '<table style="width: 900px"><tr><td>cut</td></tr></table>'
+    (tmp_path / "wide.html").write_text(f"{head}<article>{wide}</article>")
+    hidden = f'<div style="overflow: hidden">{wide}</div>'
+    (tmp_path / "hidden.html").write_text(f"{head}<article>{hidden}</article>")
+    own = f'<div style="overflow: auto">{wide}</div>'
+    (tmp_path / "scrolls.html").write_text(f"{head}<article>{own}</article>")
+    (tmp_path / "search.html").write_text(head)
+    found = " ".join(phone.faults(tmp_path, None))
+    assert "wide.html: 9" in found
+    assert "hidden.html: cut" in found
+    assert "good.html" not in found
+    assert "scrolls.html" not in found
+    assert "search: nothing" in found
