@@ -216,7 +216,8 @@ module ehl_case
       integer :: periods = 3
       !> Time step over that by the mesh; error of the films by time steps that is asked for
       real(dp) :: time_step = 1.0_dp, target_error = 0.0_dp
-      real(dp), allocatable, dimension(:) :: time, load, u1, u2, mean_velocity, slide_to_roll, radius_x, radius_y, viscosity
+      real(dp), allocatable, dimension(:) :: time, load, u1, u2, mean_velocity, slide_to_roll, radius_x, radius_y, viscosity, &
+                                             inlet_film
    contains
       procedure :: active => has_duty
       procedure :: list
@@ -341,6 +342,8 @@ contains
          if (allocated(self%radius_y)) numbers = self%radius_y
       case ("viscosity")
          if (allocated(self%viscosity)) numbers = self%viscosity
+      case ("inlet_film")
+         if (allocated(self%inlet_film)) numbers = self%inlet_film
       case default
          continue
       end select

@@ -14,8 +14,8 @@ module ehl_case_check_duty
    real(dp), parameter :: min_load = 1.0e-3_dp
    !> Difference of the first and the last row of a period that is none
    real(dp), parameter :: same = 1.0e-9_dp
-   character(len=*), parameter :: keys(8) = [character(len=13) :: "load", "u1", "u2", "mean_velocity", "slide_to_roll", &
-                                             "radius_x", "radius_y", "viscosity"]
+   character(len=*), parameter :: keys(9) = [character(len=13) :: "load", "u1", "u2", "mean_velocity", "slide_to_roll", &
+                                             "radius_x", "radius_y", "viscosity", "inlet_film"]
 
 contains
 
@@ -52,7 +52,8 @@ contains
             end if
          end do
          if (all([(size(d%list(trim(keys(k)))) == 0, k=1, size(keys))])) then
-            call refuse("time", "times alone", "one of load, u1, u2, mean_velocity, slide_to_roll, radius_x, radius_y, viscosity")
+            call refuse("time", "times alone", "one of load, u1, u2, mean_velocity, slide_to_roll, radius_x, "// &
+                        "radius_y, viscosity, inlet_film")
          end if
          if ((size(d%list("u1")) > 0) .neqv. (size(d%list("u2")) > 0)) then
             call refuse(merge("u1", "u2", size(d%list("u1")) > 0), "one of duty.u1 and duty.u2", &
@@ -70,6 +71,8 @@ contains
          call positive("radius_x")
          call positive("radius_y")
          call positive("viscosity")
+         call positive("inlet_film")
+         call check_layer()
          if (input%contact%is_cylinder() .and. size(d%list("radius_y")) > 0) then
             call refuse("radius_y", "duty.radius_y of a "//trim(input%contact%shape), "duty.radius_x alone")
          end if
@@ -106,6 +109,17 @@ contains
          if (size(numbers) == 0) return
          if (minval(numbers) <= 0.0_dp) call refuse(key, "duty."//key//" of "//to_text(minval(numbers)), "positive numbers")
       end subroutine positive
+
+      !> A layer that changes is that of the case at times, and never below the boundary film
+      subroutine check_layer()
+         numbers = input%duty%list("inlet_film")
+         if (size(numbers) == 0) return
+         if (.not. input%inlet%film_hertz > 0.0_dp) call refuse("inlet_film", "duty.inlet_film without inlet.film", &
+                                                                "inlet.film, the layer of the case")
+         if (minval(numbers) < input%lubricant%boundary_film) call refuse("inlet_film", "duty.inlet_film of "// &
+            to_text(minval(numbers))//" m below the boundary film of "//short(input%lubricant%boundary_film)//" m", &
+            "layers above lubricant.boundary_film")
+      end subroutine check_layer
 
       !> A period ends where it begins
       subroutine check_period()

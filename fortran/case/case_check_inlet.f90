@@ -60,8 +60,8 @@ contains
          if (inlet%film_hertz*scales%film < least*(1.0_dp - rounding)) call source%refuse(key, key//" = "// &
             short(inlet%film_hertz*scales%film)//" m is below the boundary film of "//short(least)//" m", &
             "a layer above lubricant.boundary_film", status)
-         if (input%duty%active()) call source%refuse(key, key//" with a duty: a layer arrives at a contact in steady motion", &
-                                                     "inlet.position, or none of &duty", status)
+         if (input%duty%active() .and. inlet%passages > 1) call source%refuse("inlet.passages", "inlet.passages with a duty", &
+            "one of the two: the layer of a duty is duty.inlet_film", status)
          call need_smooth("surface", input%surface)
          call need_smooth("second_surface", input%second_surface)
       end associate

@@ -254,16 +254,17 @@ contains
       logical, pointer :: periodic
       character(len=word_length), pointer :: interpolation
       character(len=path_length), pointer :: file
-      real(dp), allocatable, dimension(:) :: time, load, u1, u2, mean_velocity, slide_to_roll, radius_x, radius_y, viscosity
+      real(dp), allocatable, dimension(:) :: time, load, u1, u2, mean_velocity, slide_to_roll, radius_x, radius_y, viscosity, &
+                                             inlet_film
       namelist /duty/ file, interpolation, periodic, periods, time_step, target_error, time, load, u1, u2, mean_velocity, &
-         slide_to_roll, radius_x, radius_y, viscosity
+         slide_to_roll, radius_x, radius_y, viscosity, inlet_film
 
       file => v%file; interpolation => v%interpolation; periodic => v%periodic; periods => v%periods
       time_step => v%time_step; target_error => v%target_error
       ! as many numbers as a text of this length can hold
       associate (most => len(text)/2)
          allocate (time(most), load(most), u1(most), u2(most), mean_velocity(most), slide_to_roll(most), radius_x(most), &
-                   radius_y(most), viscosity(most), source=huge(1.0_dp))
+                   radius_y(most), viscosity(most), inlet_film(most), source=huge(1.0_dp))
       end associate
       if (len(text) == 0) then
          write (lines, nml=duty, iostat=stat, delim="apostrophe")
@@ -278,6 +279,7 @@ contains
          v%radius_x = pack(radius_x, radius_x < huge(1.0_dp))
          v%radius_y = pack(radius_y, radius_y < huge(1.0_dp))
          v%viscosity = pack(viscosity, viscosity < huge(1.0_dp))
+         v%inlet_film = pack(inlet_film, inlet_film < huge(1.0_dp))
       end if
       good = stat == 0
    end subroutine duty_group

@@ -139,8 +139,8 @@ contains
          g(l, f_residual, 2:last) = level%rhs(2:last, rows(l)) - row(2:last)
          do i = 1, last - 1
             if (.not. passing(i)) cycle
-            g(l, f_east, i) = 0.0_dp
-            g(l, f_east_rate, i) = 0.0_dp
+            g(l, f_east, i) = (1.0_dp - level%supply%share)*g(l, f_east, i)
+            g(l, f_east_rate, i) = (1.0_dp - level%supply%share)*g(l, f_east_rate, i)
          end do
       end do
    end subroutine carry

@@ -83,6 +83,8 @@ contains
       !> Per node: d ln eps/d ln H, and the film that the conductance is of
       real(dp), dimension(level%grid%nx) :: exponent, thickness
       type(line_terms_t) :: terms
+      !> What of the flow to the node before does not come back from there
+      real(dp) :: share
       integer :: first, i, k, l, m
 
       kernel = 0.0_dp
@@ -107,13 +109,14 @@ contains
                film(0) = -level%boundary%rate*level%rho(i, 1)
                local(0) = -level%boundary%rate*level%h_drho_dp(i, 1)
             else
-               c = level%wedge%weights(i, passing(i - 1))
+               c = level%wedge%weights(i, passing(i - 1), level%supply%share)
                do l = 0, min(wedge_reach, i - 1)
                   film(-l) = -c(l)*level%rho(i - l, 1)
                   local(-l) = -c(l)*level%h_drho_dp(i - l, 1)
                end do
                call add_neighbour(i, 1, terms%east(k), terms%east_rate(k))
-               if (.not. passing(i - 1)) call add_neighbour(i, -1, terms%east(k - 1), terms%east_rate(k - 1))
+               share = merge(1.0_dp - level%supply%share, 1.0_dp, passing(i - 1))
+               if (share > 0.0_dp) call add_neighbour(i, -1, share*terms%east(k - 1), share*terms%east_rate(k - 1))
             end if
             ! each number once: see solve
             do l = -row_below, row_above

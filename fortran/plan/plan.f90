@@ -269,7 +269,7 @@ contains
       if (row) plan%cycle%pre = 1
       plan%cycle%spare_spikes = has_sharp_spike(plan)
       plan%second_cycle = plan%cycle
-      if (plan%cycle%full .and. input%solver%cycle == "auto" .and. .not. (plan%goes_on() .or. plan%touches)) then
+      if (plan%cycle%full .and. input%solver%cycle == "auto" .and. .not. (plan%surfaces%rough() .or. plan%touches)) then
          ! The first leaves so little that is smooth that one visit to the coarser levels will do. Not before rough runs:
          ! the error of the smooth friction is one of the ratio.
          plan%second_cycle = cycle_of("V")

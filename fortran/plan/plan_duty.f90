@@ -2,7 +2,8 @@
 !> The duty of a case in Hertz units
 module ehl_plan_duty
    use ehl_case, only: case_t
-   use ehl_duty, only: duty_load, duty_radius_x, duty_radius_y, duty_t, duty_u1, duty_u2, duty_viscosity, quantities
+   use ehl_duty, only: duty_load, duty_radius_x, duty_radius_y, duty_t, duty_u1, duty_u2, duty_viscosity, &
+                       duty_layer, quantities
    use ehl_kinds, only: dp
    use ehl_scales, only: scales_t
    implicit none (type, external)
@@ -26,6 +27,7 @@ contains
          n = size(d%time)
          duty%time_scale = scales%length/c%mean_velocity
          duty%stress = inlet_viscosity*c%mean_velocity/scales%film
+         duty%layer = input%inlet%film_hertz
          duty%time = (d%time - d%time(1))/duty%time_scale
          duty%cubic = d%interpolation == "cubic"
          duty%periodic = d%periodic
@@ -38,6 +40,7 @@ contains
          call fill(duty_radius_x, d%list("radius_x")/c%radius_x)
          call fill(duty_radius_y, d%list("radius_y")/max(c%radius_y, tiny(1.0_dp)))
          call fill(duty_viscosity, d%list("viscosity")/input%lubricant%viscosity)
+         call fill(duty_layer, d%list("inlet_film")/max(input%inlet%film_hertz*scales%film, tiny(1.0_dp)))
          if (size(d%list("u1")) > 0) then
             call fill(duty_u1, d%u1/c%mean_velocity)
             call fill(duty_u2, d%u2/c%mean_velocity)

@@ -6,16 +6,22 @@ module ehl_oil_flow
    use ehl_reynolds, only: flow_operator
    implicit none (type, external)
    private
-   public :: oil_flow_t, measure_flow, flow_tolerance, leaving
+   public :: oil_flow_t, content_row, measure_flow, flow_tolerance, leaving, oil_names
 
    !> Largest imbalance of a solution
    real(dp), parameter :: flow_tolerance = 1.0e-6_dp
+   !> Columns of a history
+   character(len=*), parameter :: oil_names(7) = [character(len=13) :: "oil_layer", "oil_in", "oil_out", "oil_at_sides", &
+                                                  "oil_content", "oil_gain", "oil_imbalance"]
 
    !> Flows per time, int rho H dY at the mean velocity [a^3/R]; of a line per length
    type :: oil_flow_t
       real(dp) :: enters = 0.0_dp, leaves = 0.0_dp, sides = 0.0_dp
-      !> What is gained or lost on the way, over what enters; 0 where the inlet is flooded
+      !> What is gained or lost on the way, over what enters; 0 where the inlet is flooded. In a time step over what enters at the
+      !> mean velocity of the case, if that is more.
       real(dp) :: imbalance = 0.0_dp
+      !> Oil between the faces where it enters and leaves, int rho H dX dY [a^4/R], and the change of it with time
+      real(dp) :: content = 0.0_dp, gain = 0.0_dp
       !> Whether the layer fills the gap at the border of the domain
       logical :: fills_border = .false.
       !> Of a line: how much thinner than at its nodes the film may be between two of them [a^2/R]
@@ -28,18 +34,29 @@ contains
    function measure_flow(level) result(flow)
       type(level_t), intent(in) :: level
       type(oil_flow_t) :: flow
-      real(dp), dimension(level%grid%ny) :: first, last, side
-      integer :: j
+      real(dp), dimension(level%grid%ny) :: first, last, side, held, gain, least
+      real(dp) :: content(level%grid%nx)
+      integer :: j, n
 
       if (.not. level%supply%active) return
       first = 0.0_dp
       last = 0.0_dp
       side = 0.0_dp
+      held = 0.0_dp
+      gain = 0.0_dp
+      least = 0.0_dp
       associate (grid => level%grid)
+         n = grid%nx - 1
          do j = grid%first_inner(), grid%last_inner()
             call ends_of_row(level, j, first(j), last(j))
             first(j) = first(j)*grid%weight(j)/grid%hx
             last(j) = last(j)*grid%weight(j)/grid%hx
+            call content_row(level, j, content)
+            held(j) = grid%weight(j)*sum(content(3:n))
+            if (level%wedge%squeeze > 0.0_dp) then
+               gain(j) = grid%weight(j)*sum(level%wedge%squeeze*content(3:n) + level%rhs(3:n, j))
+               least(j) = grid%weight(j)/grid%hx*min(level%supply%layer(j), minval(level%mass_content(:, j)))
+            end if
             if (grid%is_row()) cycle
             if (grid%is_border(grid%south(j))) side(j) = side(j) &
                + level%poiseuille%across(level%p, level%flow, j, grid%south(j))*grid%images(j)
@@ -58,8 +75,24 @@ contains
       ! a line that is not flooded has to let all through
       if (level%supply%held > 0) flow%enters = level%supply%layer(1)
       if (flow%fills_border .and. level%supply%held > 0) flow%enters = min(flow%enters, flow%leaves)
-      flow%imbalance = (flow%enters - flow%leaves - flow%sides)/max(flow%enters, tiny(1.0_dp))
+      flow%content = sum(held)
+      flow%gain = sum(gain)
+      flow%imbalance = (flow%enters - flow%leaves - flow%sides - flow%gain)/max(flow%enters, sum(least), tiny(1.0_dp))
    end function measure_flow
+
+   !> Oil at the nodes of row j: rho H, less what is missing where it does not fill the gap
+   subroutine content_row(level, j, content)
+      type(level_t), intent(in) :: level
+      integer, intent(in) :: j
+      !> Shape (nx)
+      real(dp), intent(out) :: content(:)
+      real(dp), dimension(level%grid%nx) :: values, short
+
+      content = level%mass_content(:, j)
+      if (.not. level%supply%active) return
+      call flow_operator(level, j, values, short=short)
+      content = content - short
+   end subroutine content_row
 
    !> The same of the nodes of a row, each with the curvature there
    pure real(dp) function between(h)
@@ -88,10 +121,9 @@ contains
       type(level_t), intent(in) :: level
       integer, intent(in) :: j
       real(dp), intent(out) :: first, last
-      real(dp) :: values(level%grid%nx)
-      logical :: passing(level%grid%nx)
+      real(dp), dimension(level%grid%nx) :: values, missing
 
-      call flow_operator(level, j, values, passing)
+      call flow_operator(level, j, values, missing=missing)
       first = through(2)
       if (level%supply%held > 0) then
          ! where the film ruptures
@@ -107,9 +139,8 @@ contains
          integer, intent(in) :: i
 
          associate (hx => level%grid%hx, m => level%mass_content(:, j))
-            through = hx*dot_product(level%wedge%weights(i, .true.), [m(i), m(i - 1), 0.0_dp]) &
-                      + level%poiseuille%through_east(level%p, level%flow, i, j)
-            if (passing(i)) through = through + hx*values(i)
+            through = hx*level%wedge%east_flow(m(i), m(i - 1)) + level%poiseuille%through_east(level%p, level%flow, i, j) &
+                      - hx*missing(i)
          end associate
       end function through
    end subroutine ends_of_row

@@ -68,13 +68,15 @@ contains
    end subroutine reynolds_operator
 
    !> The same as if no node touched
-   pure subroutine flow_operator(level, j, values, passing)
+   pure subroutine flow_operator(level, j, values, passing, missing, short)
       type(level_t), intent(in) :: level
       integer, intent(in) :: j
       !> Shape (nx)
       real(dp), contiguous, intent(out) :: values(:)
       !> Which nodes pass on all oil that they receive (supply.f90)
       logical, contiguous, intent(out), optional :: passing(:)
+      !> What is missing in the flow, over hx, and at nodes (supply.f90)
+      real(dp), contiguous, intent(out), optional :: missing(:), short(:)
       integer :: nx
 
       nx = level%grid%nx
@@ -82,14 +84,18 @@ contains
       values(nx) = 0.0_dp
       if (level%grid%is_border(j)) then
          if (present(passing)) passing = .false.
+         if (present(missing)) missing = 0.0_dp
+         if (present(short)) short = 0.0_dp
          values(2:nx - 1) = 0.0_dp
          return
       end if
       call level%poiseuille%apply_row(level%p, level%flow, j, values)
       call level%wedge%subtract_row(level%mass_content(:, j), values)
       if (present(passing)) passing = .false.
-      if (level%supply%active) call level%supply%transport_row(level%p(:, j) <= cavity_pressure, level%mass_content(:, j), j, &
-                                                               values, passing)
+      if (present(missing)) missing = 0.0_dp
+      if (present(short)) short = 0.0_dp
+      if (level%supply%active) call level%supply%transport_row(level%p(:, j) <= cavity_pressure, level%mass_content(:, j), &
+                                                               level%rhs(:, j), j, values, passing, missing, short)
    end subroutine flow_operator
 
    !> Which nodes touch, for the present pressure, film and coefficients

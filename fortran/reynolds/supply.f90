@@ -10,6 +10,15 @@
 !>
 !>    N(i) <- N(i) - missing(i-1),     missing(i) = -N(i) where P(i) = 0 and N(i) < 0, else 0
 !>
+!> In a time step the oil that is there changes, too. With the mean velocity U, the factor s of the squeeze term and d(i) what rho H
+!> a node lacks, its equation lacks
+!>
+!>    rhs(i) - N(i) = s d(i) + missing(i),     rhs: of earlier times,     missing(i) = (U/hx) f(i)
+!>
+!> where U (G - f) flows through the east face: the content rho H - d, of second order upstream as G is, f = (3 d(i) - d(i-1))/2. So
+!> a node takes d >= 0 in place of C <= G, and the film begins at a face between two nodes, not at a node. What that changes goes
+!> with the square of the mesh size; steps begin with the steady contact in their own discretisation (solve/transient_duty.f90).
+!>
 !> No oil is gained or lost. Every level has one; without setup it is inactive and changes nothing.
 module ehl_supply
    use, intrinsic :: iso_fortran_env, only: int64
@@ -22,8 +31,12 @@ module ehl_supply
       logical :: active = .false.
       !> Whether the states of the nodes stay, on a coarse level
       logical :: frozen = .false.
-      !> Mesh size along X
-      real(dp), private :: hx = 0.0_dp
+      !> Mesh size along X, mean velocity over that of the case
+      real(dp), private :: hx = 0.0_dp, speed = 1.0_dp
+      !> Factor of the squeeze term; 0: steady
+      real(dp), private :: squeeze = 0.0_dp
+      !> About what share of what its equation lacks flows on from a node; 1: all, in steady motion
+      real(dp) :: share = 1.0_dp
       !> rho H that arrives, by row
       real(dp), allocatable :: layer(:)
       !> Of a line: last node upstream of the film where it is fixed (solve/meniscus.f90), and the mass defect downstream of it;
@@ -32,6 +45,7 @@ module ehl_supply
       real(dp) :: short = 0.0_dp
    contains
       procedure :: setup
+      procedure :: set_step
       procedure :: transport_row
       procedure :: bytes
    end type supply_t
@@ -47,40 +61,81 @@ contains
       self%active = layer > 0.0_dp
       if (.not. self%active) return
       self%hx = hx
+      self%speed = 1.0_dp
+      self%share = 1.0_dp
+      self%squeeze = 0.0_dp
       self%held = 0
       self%frozen = .false.
       self%layer = spread(layer, 1, rows)
    end subroutine setup
 
+   !> A time step
+   pure subroutine set_step(self, layer, speed, squeeze)
+      class(supply_t), intent(inout) :: self
+      !> Layer; mean velocity over that of the case, at least 0; factor of the squeeze term
+      real(dp), intent(in) :: layer, speed, squeeze
+
+      if (.not. self%active) return
+      self%held = 0
+      self%layer = layer
+      self%speed = speed
+      self%squeeze = squeeze
+      self%share = speed/self%hx/(squeeze/1.5_dp + speed/self%hx)
+   end subroutine set_step
+
    !> Take from row j of the operator of filled nodes what is missing upstream
-   pure subroutine transport_row(self, cavitated, mass_content, j, values, passing)
+   pure subroutine transport_row(self, cavitated, mass_content, rhs, j, values, passing, missing, short)
       class(supply_t), intent(in) :: self
-      !> Which nodes have P = 0, and rho H; shape (nx)
+      !> Which nodes have P = 0, rho H, and the right-hand side; shape (nx)
       logical, contiguous, intent(in) :: cavitated(:)
-      real(dp), contiguous, intent(in) :: mass_content(:)
+      real(dp), contiguous, intent(in) :: mass_content(:), rhs(:)
       integer, intent(in) :: j
       !> Shape (nx), in columns 2 to nx-1
       real(dp), contiguous, intent(inout) :: values(:)
       !> Whether a node passes on all that it receives, so that nothing flows back from the next one; shape (nx)
       logical, contiguous, intent(out), optional :: passing(:)
-      real(dp) :: missing
-      logical :: short
+      !> What is missing in the flow through the east face of a node, over hx; how much oil the node is short of; shape (nx)
+      real(dp), contiguous, intent(out), optional :: missing(:), short(:)
+      real(dp) :: lack, flow, deficit, before, u
+      logical :: lacks, steps
       integer :: i
 
       if (present(passing)) passing = .false.
+      if (present(missing)) missing = 0.0_dp
+      if (present(short)) short = 0.0_dp
       if (self%held > 0) then
          values(2:self%held) = 0.0_dp
          values(self%held + 1) = values(self%held + 1) - self%short
          return
       end if
       ! with it the equation of the first interior column, of first order, has the flow of the others; not where the border is full
-      missing = max(0.0_dp, 0.5_dp*(mass_content(1) + mass_content(2)) - self%layer(j))/self%hx
-      if (present(passing)) passing(1) = missing > 0.0_dp
+      flow = self%speed*max(0.0_dp, 0.5_dp*(mass_content(1) + mass_content(2)) - self%layer(j))/self%hx
+      if (present(passing)) passing(1) = flow > 0.0_dp
+      steps = self%squeeze > 0.0_dp .and. .not. self%frozen
+      u = self%speed/self%hx
+      deficit = merge(max(0.0_dp, mass_content(1) - self%layer(j)), 0.0_dp, flow > 0.0_dp)
       do i = 2, size(values) - 1
-         values(i) = values(i) - missing
-         short = cavitated(i) .and. (self%frozen .or. values(i) < 0.0_dp)
-         missing = merge(-values(i), 0.0_dp, short)
-         if (present(passing)) passing(i) = short
+         values(i) = values(i) - flow
+         if (steps) values(i) = values(i) - 0.5_dp*u*deficit
+         ! on a coarse level what counts is the change
+         lack = merge(-values(i), rhs(i) - values(i), self%frozen)
+         lacks = cavitated(i) .and. (self%frozen .or. lack > 0.0_dp)
+         lack = merge(lack, 0.0_dp, lacks)
+         if (self%frozen) then
+            flow = self%share*lack
+         else if (steps) then
+            before = deficit
+            deficit = lack/(self%squeeze + 1.5_dp*u)
+            flow = u*(1.5_dp*deficit - 0.5_dp*before)
+         else
+            ! the film begins at a node, half a cell further downstream than its content is counted
+            if (present(short) .and. .not. lacks .and. i > 2) short(i - 1) = 1.5_dp*short(i - 1)
+            deficit = merge((lack/u + 0.5_dp*deficit)/1.5_dp, 0.0_dp, lacks)
+            flow = lack
+         end if
+         if (present(short)) short(i) = deficit
+         if (present(passing)) passing(i) = lacks
+         if (present(missing)) missing(i) = flow
       end do
    end subroutine transport_row
 

@@ -36,6 +36,7 @@ module ehl_wedge
       procedure :: line_row
       procedure :: last_active
       procedure :: weights
+      procedure :: east_flow
       procedure :: rate
       procedure :: line_weights
       procedure :: history_row
@@ -136,18 +137,33 @@ contains
    end function last_active
 
    !> Factors of m at column i, at the column before it and so on
-   pure function weights(self, i, passing) result(c)
+   pure function weights(self, i, passing, share) result(c)
       class(wedge_t), intent(in) :: self
       integer, intent(in) :: i
       !> Whether the node before it passes on what it receives (supply.f90): what comes from there is no flow of a filled gap
       logical, intent(in), optional :: passing
+      !> Share of what that node lacks that flows on
+      real(dp), intent(in), optional :: share
       real(dp) :: c(0:wedge_reach)
 
       c = merge(self%c_first, self%c, i == 2)
       if (.not. present(passing)) return
-      ! what is left is the flow through the east face
-      if (passing) c = [self%c(0), -self%c(2), 0.0_dp]
+      if (.not. passing) return
+      if (self%squeeze > 0.0_dp .and. i > 2) then
+         ! with the equations of the nodes before it, the share of each in that of the next
+         c = c + share*([0.0_dp, self%c(0), self%c(1)] + share*[0.0_dp, 0.0_dp, self%c(0)])
+      else
+         ! what is left is the flow through the east face
+         c = [self%c(0), -self%c(2), 0.0_dp]
+      end if
    end function weights
+
+   !> Flow through the east face of a node of a filled gap, with m there and before it, over the mesh size
+   pure real(dp) function east_flow(self, m, m_before) result(flow)
+      class(wedge_t), intent(in) :: self
+      real(dp), intent(in) :: m, m_before
+      flow = dot_product([self%c(0) - self%squeeze, -self%c(2), 0.0_dp], [m, m_before, 0.0_dp])
+   end function east_flow
 
    !> Factor of m at the node itself
    pure real(dp) function rate(self)

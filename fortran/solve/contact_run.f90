@@ -8,6 +8,7 @@ module ehl_contact_run
    use ehl_heated_friction, only: heated_t
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
+   use ehl_oil_flow, only: oil_names
    use ehl_outcome, only: outcome_converged, outcome_running, outcome_target_missed
    use ehl_level, only: gap, level_t
    use ehl_plan, only: plan_t
@@ -159,6 +160,7 @@ contains
 
       if (self%plan%duty%active) then
          call duty_names(columns)
+         if (self%plan%layer > 0.0_dp) columns = [character(len=16) :: columns, oil_names]
          if (self%plan%lubricant%boundary_film > 0.0_dp) then
             columns = [character(len=16) :: columns, touching_names(:known_names(self%plan%lubricant))]
          end if
@@ -235,6 +237,8 @@ contains
       associate (transient => self%transient, m => self%transient%m, level => self%hierarchy%levels(self%smooth%n))
          if (self%plan%duty%active) then
             call duty_row(self, level, row)
+            if (self%plan%layer > 0.0_dp) row = [row, transient%duty%layer*transient%now%layer, m%oil%enters, m%oil%leaves, &
+                                                 m%oil%sides, m%oil%content, m%oil%gain, m%oil%imbalance]
          else
             row = [real(dp) :: transient%step, transient%time, m%friction/transient%friction_smooth, m%film_central, &
                    m%film_minimum, m%pressure_maximum, m%load_error, transient%cycles, transient%residual]

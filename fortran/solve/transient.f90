@@ -73,6 +73,10 @@ contains
             call solve_step(transient, hierarchy, surfaces, first, residual_first, outcome, status)
             if (status%failed()) return
             good = outcome == outcome_converged
+            if (good .and. transient%settling) then
+               call transient%settle(level, status)
+               cycle
+            end if
             if (good .and. duty%active) call transient%judge_duty(level, good)
             if (good) call transient%accept(level, first, residual_first, status)
             call transient%end_duty(level)

@@ -6,10 +6,13 @@ submodule (ehl_transient_state) ehl_transient_duty
    use ehl_wedge, only: wedge_separate
    implicit none (type, external)
 
+   !> Length of a step in which nothing moves, whose end is steady [a/u]
+   real(dp), parameter :: steady_time = 16.0_dp
+
 contains
 
    module procedure begin_duty
-      real(dp) :: stress
+      real(dp) :: stress, ratio
       integer :: k
 
       associate (level => hierarchy%levels(self%n))
@@ -19,6 +22,14 @@ contains
             if (self%duty%rests(row(1))) self%time_step = row(1) - self%time
          end associate
          self%now = self%duty%at(self%time + self%time_step)
+         ratio = self%duty_steps%ratio(self%time_step)
+         self%settling = .not. (self%settled .or. self%duty_steps%steps(1) > 0.0_dp .or. &
+                                self%duty%rests(self%time + self%time_step))
+         if (self%settling) then
+            self%time_step = steady_time*0.5_dp**self%duty_steps%cuts
+            self%now = self%duty%at(self%time)
+            ratio = 1.0_dp
+         end if
          level%load = self%contact%load*self%now%load
          self%predictor%shifts = surfaces%velocities()*abs(self%now%mean_velocity())*self%time_step/level%grid%hx
       end associate
@@ -27,7 +38,8 @@ contains
          associate (level => hierarchy%levels(k))
             if (.not. allocated(level%p)) cycle
             call level%wedge%set_step(wedge_separate, level%grid%hx, self%time_step, abs(self%now%mean_velocity()), &
-                                      self%duty_steps%ratio(self%time_step))
+                                      ratio)
+            call level%supply%set_step(self%duty%layer*self%now%layer, abs(self%now%mean_velocity()), level%wedge%squeeze)
             level%lubricant%shear%scale = stress
             call level%flow%rescale(self%inverse_speed/self%now%viscosity, stress/max(level%lubricant%shear%stress, tiny(1.0_dp)))
          end associate
@@ -36,8 +48,21 @@ contains
       call turn(self)
    end procedure begin_duty
 
+   module procedure settle
+      self%settling = .false.
+      self%settled = .true.
+      self%duty_steps%cuts = 0
+      self%total_cycles = self%total_cycles + self%cycles
+      call keep(level, self%mass_content, self%p_before)
+      self%mass_content(:, :, 2) = self%mass_content(:, :, 1)
+      self%p_before(:, :, 2) = level%p
+      self%p_before(:, :, 3) = level%p
+      self%h00_before = level%h00
+      call self%duty_error%start(level%h, .true., status)
+   end procedure settle
+
    module procedure rests
-      rests = self%duty%active
+      rests = self%duty%active .and. .not. self%settling
       if (rests) rests = self%duty%rests(self%time + self%time_step)
    end procedure rests
 

@@ -14,6 +14,7 @@ module ehl_transient_state
    use ehl_kinds, only: dp
    use ehl_level, only: cavitate, level_t
    use ehl_contact_results, only: central_value, load_tolerance, measure, contact_results_t
+   use ehl_oil_flow, only: content_row, flow_tolerance
    use ehl_moving_surfaces, only: moving_surfaces_t
    use ehl_predicted_start, only: first_mean, predicted_start_t, start_lag, transit
    use ehl_predictor, only: predictor_t
@@ -62,6 +63,9 @@ module ehl_transient_state
       real(dp), private :: inverse_speed = 0.0_dp
       !> Whether the lubricant flows the other way in the present step, which is solved as its mirror image
       logical, private :: reversed = .false.
+      !> Whether the step is that before the first one, in which nothing moves; whether it has been made
+      logical :: settling = .false.
+      logical, private :: settled = .false.
    contains
       procedure :: begin_duty
       procedure :: end_duty
@@ -69,6 +73,7 @@ module ehl_transient_state
       procedure :: judge_duty
       procedure :: growth
       procedure, private :: accept_duty
+      procedure :: settle
       procedure :: start
       procedure :: fill
       procedure :: begin_step
@@ -116,6 +121,13 @@ module ehl_transient_state
          logical, intent(out) :: good
       end subroutine judge_duty
 
+      !> The steady contact in the discretisation of the steps is solved: it is what they begin with
+      module subroutine settle(self, level, status)
+         class(transient_t), intent(inout) :: self
+         type(level_t), intent(in) :: level
+         type(status_t), intent(inout) :: status
+      end subroutine settle
+
       !> The error that a step leaves
       module subroutine accept_duty(self, level)
          class(transient_t), intent(inout) :: self
@@ -151,6 +163,8 @@ contains
       self%time = self%skipped*self%time_step
       self%duty = duty
       self%duty_steps = duty_steps_t()
+      self%settled = .not. level%supply%active
+      self%settling = .false.
       if (duty%active) then
          self%time = duty%begin()
          self%now = duty%at(self%time)
@@ -177,6 +191,14 @@ contains
          end if
          self%mass_content(:, :, k) = level%rho*(level%h - self%rr)
       end do
+      if (level%supply%active) then
+         ! of a line the film may have been found otherwise
+         call level%supply%setup(level%grid%hx, level%grid%ny, duty%layer)
+         do k = 1, level%grid%ny
+            call content_row(level, k, self%mass_content(:, k, 1))
+         end do
+         self%mass_content(:, :, 2) = self%mass_content(:, :, 1)
+      end if
       do k = 1, size(self%p_before, 3)
          self%p_before(:, :, k) = level%p
       end do
@@ -327,7 +349,8 @@ contains
    !> Whether the step meets its tolerance
    pure logical function converged(self)
       class(transient_t), intent(in) :: self
-      converged = self%residual <= self%policy%tolerance .and. abs(self%m%load_error) <= load_tolerance .and. self%m%holds
+      converged = self%residual <= self%policy%tolerance .and. abs(self%m%load_error) <= load_tolerance .and. self%m%holds &
+                  .and. abs(self%m%oil%imbalance) <= flow_tolerance
    end function converged
 
    !> The step is solved: it becomes the last one

@@ -1,15 +1,17 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The duty of a contact: load, speeds, radii and viscosity over time, each over its value in the case, which fixes the scales
-!> (docs/theory/duty.md)
+!> The duty of a contact: load, speeds, radii, viscosity and layer of oil over time, each over its value in the case, which fixes
+!> the scales (docs/theory/duty.md)
 module ehl_duty
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
-   public :: duty_t, duty_state_t, duty_load, duty_u1, duty_u2, duty_radius_x, duty_radius_y, duty_viscosity, quantities
+   public :: duty_t, duty_state_t, duty_load, duty_u1, duty_u2, duty_radius_x, duty_radius_y, duty_viscosity, &
+             duty_layer, quantities
 
    !> Places of the quantities
-   integer, parameter :: duty_load = 1, duty_u1 = 2, duty_u2 = 3, duty_radius_x = 4, duty_radius_y = 5, duty_viscosity = 6
-   integer, parameter :: quantities = 6
+   integer, parameter :: duty_load = 1, duty_u1 = 2, duty_u2 = 3, duty_radius_x = 4, duty_radius_y = 5, duty_viscosity = 6, &
+                         duty_layer = 7
+   integer, parameter :: quantities = 7
    !> Before the table begins: time in which all goes over from the case to its first row, and in which the film does
    !> [a/u of the first row]
    real(dp), parameter :: ramp = 2.0_dp, settling = 4.0_dp
@@ -20,7 +22,7 @@ module ehl_duty
 
    !> What holds at a time, over the values of the case; speeds over the mean velocity of the case
    type :: duty_state_t
-      real(dp) :: load = 1.0_dp, speeds(2) = 1.0_dp, viscosity = 1.0_dp
+      real(dp) :: load = 1.0_dp, speeds(2) = 1.0_dp, viscosity = 1.0_dp, layer = 1.0_dp
       !> Curvatures along the motion and across it
       real(dp) :: curvatures(2) = 1.0_dp
       !> Ways of the surfaces since the beginning of the table [a]
@@ -42,6 +44,8 @@ module ehl_duty
       real(dp) :: step_share = 1.0_dp, target_error = 0.0_dp
       !> [Pa] Newtonian stress of eta0 and H = 1 that slides with the mean velocity of the case
       real(dp) :: stress = 0.0_dp
+      !> Layer of rho H that arrives in the case; 0: the inlet is full
+      real(dp) :: layer = 0.0_dp
       !> [s] a/u
       real(dp) :: time_scale = 0.0_dp
       !> The case itself
@@ -205,6 +209,7 @@ contains
       state%speeds = values(duty_u1:duty_u2)
       state%curvatures = 1.0_dp/values(duty_radius_x:duty_radius_y)
       state%viscosity = values(duty_viscosity)
+      state%layer = values(duty_layer)
    end function at
 
    !> Time of the ramp before the table

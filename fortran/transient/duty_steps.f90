@@ -9,7 +9,7 @@ module ehl_duty_steps
 
    !> A step is no longer than that by the mesh and the largest speed over this share
    real(dp), parameter :: slowest = 0.1_dp
-   !> Largest change of load, curvature, viscosity (of the larger value) and of mean velocity (of the largest) in a step
+   !> Largest change of load, curvature, viscosity, layer (of the larger value) and of mean velocity (of the largest) in a step
    real(dp), parameter :: max_change = 0.1_dp
    !> A step is at most so many times the one before: with more than 2.4 backward differences are not stable
    real(dp), parameter :: growth = 1.5_dp
@@ -99,9 +99,12 @@ contains
       !> Whether too much changes in a step
       pure logical function changes(a, b)
          type(duty_state_t), intent(in) :: a, b
+         real(dp) :: before(5), after(5)
+
+         before = [a%load, a%viscosity, a%layer, a%curvatures]
+         after = [b%load, b%viscosity, b%layer, b%curvatures]
          changes = abs(b%mean_velocity() - a%mean_velocity()) > max_change*duty%fastest() &
-                   .or. any(abs([b%load, b%viscosity, b%curvatures] - [a%load, a%viscosity, a%curvatures]) &
-                            > max_change*max([b%load, b%viscosity, b%curvatures], [a%load, a%viscosity, a%curvatures]))
+                   .or. any(abs(after - before) > max_change*max(after, before))
       end function changes
    end function next
 

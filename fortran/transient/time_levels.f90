@@ -6,6 +6,7 @@ module ehl_time_levels
    use ehl_kernel, only: coefficient
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
+   use ehl_oil_flow, only: content_row
    implicit none (type, external)
    private
    public :: set_geometry, set_history, keep, mirror
@@ -69,24 +70,26 @@ contains
    !> The present fields become the last ones. The mass content kept is not rho H but the one that what flowed in and out
    !> leaves: the two differ by the residual of the step, which the next step makes up for, so that what steps leave
    !> unsolved does not add up as it is carried through the contact. In the inlet nothing adds up: flow evens it out within
-   !> the step, and what sweeps leave there from line to line would only be noise in the next steps.
+   !> the step, and what sweeps leave there from line to line would only be noise in the next steps. Where oil does not fill the
+   !> gap it is what there is.
    subroutine keep(level, mass_content, p_before)
       type(level_t), intent(in) :: level
       !> Mass content of the last two steps and pressure of the last three, the latest first
       real(dp), intent(inout) :: mass_content(:, :, :), p_before(:, :, :)
-      real(dp) :: time, stored, flow
+      real(dp) :: time, stored, flow, content(level%grid%nx)
       integer :: i, j
 
       time = 1.0_dp/level%wedge%squeeze
       ! by a change of pressure at one node, with rho = 1; of it flows away, with eps = 1
       stored = level%wedge%squeeze*coefficient(level%grid, level%kernel_factor, 0, 0)
       flow = level%poiseuille%flow_rate()
-      !$omp parallel do default(none) shared(level, mass_content, p_before, time, stored, flow) private(i) &
+      !$omp parallel do default(none) shared(level, mass_content, p_before, time, stored, flow) private(i, content) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = 1, level%grid%ny
+         call content_row(level, j, content)
          do i = 1, level%grid%nx
             mass_content(i, j, 2) = mass_content(i, j, 1)
-            mass_content(i, j, 1) = level%mass_content(i, j) &
+            mass_content(i, j, 1) = content(i) &
                                     - time*level%residual(i, j)*stored &
                                     /(stored + level%flow%eps(i, j, dir_x)*flow/flows_away)
             p_before(i, j, 3) = p_before(i, j, 2)

@@ -40,6 +40,7 @@ UNITS = {
     "radius_x": METRES,
     "radius_y": METRES,
     "viscosity": {"Pa s": 1.0, "mPa s": 1e-3},
+    "inlet_film": METRES | {"nm": 1e-9},
     "temperature": {"degC": 1.0},
 }
 """Units of each column, by what makes them SI units."""
@@ -144,9 +145,20 @@ def _values(draft: Draft, lists: Table) -> Iterator[tuple[str, str, str]]:
     if duty.load and min(duty.load) < least:
         expected = f"at least {to_text(least)}, {MIN_LOAD} of that of the case"
         yield "load", f"a load of {to_text(min(duty.load))}", expected
-    for key in ("radius_x", "radius_y", "viscosity"):
+    for key in ("radius_x", "radius_y", "viscosity", "inlet_film"):
         if min(lists.get(key, (1.0,))) <= 0.0:
             yield key, f"duty.{key} of {to_text(min(lists[key]))}", "positive numbers"
+    if duty.inlet_film:
+        if not max(draft.settings.inlet.film, draft.settings.inlet.film_hertz) > 0.0:
+            what = "duty.inlet_film without inlet.film"
+            yield "inlet_film", what, "inlet.film, the layer of the case"
+        boundary = draft.settings.lubricant.boundary_film
+        if min(duty.inlet_film) < boundary:
+            what = (
+                f"duty.inlet_film of {to_text(min(duty.inlet_film))} m below the boundary film of "
+                f"{to_text(boundary)} m"
+            )
+            yield "inlet_film", what, "layers above lubricant.boundary_film"
     if contact.is_cylinder and duty.radius_y:
         yield "radius_y", f"duty.radius_y of a {contact.shape}", "duty.radius_x alone"
     if contact.angle != 0.0 and (duty.radius_x or duty.radius_y):

@@ -283,11 +283,12 @@ class Duty:
     radius_x: tuple[float, ...] = numbers("m", "reduced radius in the plane of the motion")
     radius_y: tuple[float, ...] = numbers("m", "reduced radius across the motion")
     viscosity: tuple[float, ...] = numbers("Pa s", "viscosity at the inlet")
+    inlet_film: tuple[float, ...] = numbers("m", "layer of oil that arrives, with inlet.film")
 
 
 DUTY_LISTS = (
     *("time", "load", "u1", "u2", "mean_velocity", "slide_to_roll"),
-    *("radius_x", "radius_y", "viscosity"),
+    *("radius_x", "radius_y", "viscosity", "inlet_film"),
 )
 """Keys of ``&duty`` that take as many numbers as there are times."""
 

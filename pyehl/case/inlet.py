@@ -65,9 +65,9 @@ def check(draft: Draft) -> None:
     if s.contact.si and film * scale < boundary * (1.0 - ROUNDING):
         what = f"{key} = {short(film * scale)} m is below the boundary film of {short(boundary)} m"
         draft.refuse(key, what, "a layer above lubricant.boundary_film")
-    if s.duty.time:
-        what = f"{key} with a duty: a layer arrives at a contact in steady motion"
-        draft.refuse(key, what, "inlet.position, or none of &duty")
+    if s.duty.time and inlet.passages > 1:
+        expected = "one of the two: the layer of a duty is duty.inlet_film"
+        draft.refuse("inlet.passages", "inlet.passages with a duty", expected)
     for group in ("surface", "second_surface"):
         kind = getattr(s, group).kind
         if kind != "smooth":

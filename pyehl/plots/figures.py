@@ -221,9 +221,11 @@ def _duty(data: xr.Dataset, title: str) -> Figure:
         {str(n).removeprefix(table): data[n].values for n in data if str(n).startswith(table)}
         for table in ("history_", "steady_")
     )
+    settings = namelist.values(data.attrs["case"])
+    if "oil_layer" in history:
+        history["layer"] = history["oil_layer"] / settings["inlet"]["film_hertz"]
     formula = None
     if not solved:
-        settings = namelist.values(data.attrs["case"])
         formula = transient.quasi_static(history, settings, float(data.h_c_m))
     transient.duty_history(history, formula, solved or None, ax=upper)
     transient.duty_itself(history, ax=lower)

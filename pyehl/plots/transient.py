@@ -156,9 +156,9 @@ def quasi_static(history: Mapping[str, Array], settings: Settings, film: float) 
 
     By the film formula, times what makes it the solved `film` [m] of the case; NaN where the
     lubricant is at rest; None where the radius across the motion changes, which is not in the
-    history.
+    history, or a layer of oil arrives.
     """
-    if "radius_y" in settings["duty"]:
+    if "radius_y" in settings["duty"] or "layer" in history:
         return None
     point, lubricant = scaling_contact(settings), Lubricant.from_settings(settings)
 
@@ -225,12 +225,13 @@ def duty_history(
 
 
 def duty_itself(history: Mapping[str, Array], *, ax: Axes | None = None) -> Axes:
-    """Load, mean velocity, radius and viscosity over time, over those of the case; what changes."""
+    """Load, mean velocity, radius, viscosity, layer of oil over the case's; what changes."""
     ax = style.axes_or_new(ax, 5.4, 1.6)
     time = history["t_s"] * 1e3
     labels = {"load": "load", "speed": "velocity", "radius_x": "radius", "viscosity": "viscosity"}
-    for (name, label), line in zip(labels.items(), ("-", "--", "-.", ":"), strict=True):
-        if np.ptp(history[name]) > 0.0:
+    labels["layer"] = "layer of oil"
+    for (name, label), line in zip(labels.items(), ("-", "--", "-.", ":", "-"), strict=True):
+        if name in history and np.ptp(history[name]) > 0.0:
             ax.plot(time, history[name], line, color=style.GREEN, lw=1.2, label=label)
     ax.set(xlim=(0.0, float(time[-1])), xlabel="t [ms]", ylabel="over the case")
     ax.legend(loc="best")

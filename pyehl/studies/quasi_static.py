@@ -32,8 +32,8 @@ def quasi_static(
 ) -> xr.Dataset:
     """Solve the steady, smooth contact at instants of a duty.
 
-    Each has the load, speeds, radii and viscosity of an instant, on the grid of the duty: the same
-    nodes in metres, P = 0 at the border. A motion the other way is its mirror image.
+    Each has the load, speeds, radii, viscosity and layer of oil of an instant, on the grid of the
+    duty: the same nodes in metres, P = 0 at the border. A motion the other way is its mirror image.
 
     Parameters
     ----------
@@ -116,6 +116,8 @@ def _steady(data: xr.Dataset, settings: Settings, row: int) -> dict[str, float]:
         name: float(data[f"history_{name}"][row])
         for name in ("load", "speed", "slide", "radius_x", "radius_y", "viscosity")
     }
+    if "history_oil_layer" in data:
+        now["layer"] = float(data.history_oil_layer[row])
     if abs(now["speed"]) < SLOWEST:
         return dict.fromkeys(VALUES, float("nan"))
     found = solve(_case(settings, now), check=False)
@@ -134,6 +136,8 @@ def _case(settings: Settings, now: Mapping[str, float]) -> Case:
     contact["slide_to_roll"] = now["slide"] / now["speed"]
     contact |= _radii(settings["contact"], now)
     keys = {"contact": contact, "lubricant": settings["lubricant"], "solver": settings["solver"]}
+    if "layer" in now:
+        keys["inlet"] = {"film": now["layer"] * scaling_contact(settings).film_scale}
     # the same nodes in metres, P = 0 at the border as under the duty
     scale = scaling_contact(settings).hertz_radius
     scale /= scaling_contact(Case.from_text(namelist.text_of(keys)).resolve()).hertz_radius

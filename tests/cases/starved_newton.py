@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""An independent solver of the line contact that a layer of oil arrives at, in time.
+
+Newton's method, dense, with the oil S at a node (density times film, or less where P = 0) and the
+pressure as unknowns: P >= 0, S <= m, P (m - S) = 0, and S of second order upstream. Shares no code
+with the library. Scales and the rest of the equations: `line_newton`.
+"""
+
+from collections.abc import Mapping, Sequence
+
+import line_newton
+import numpy as np
+
+
+class StarvedLine(line_newton.Line):
+    """The equations of a line with a layer [b^2/R], for a mean velocity along x."""
+
+    def transport(self, speed, now):
+        """Matrix of d(US)/dX and `now` S; the first face has the flow of the layer."""
+        n, h = self.n, self.h
+        matrix = np.zeros((n + 1, n + 1))
+        for i in range(1, n):
+            matrix[i, i] = 1.5 * speed / h + now
+            matrix[i, i - 1] = -0.5 * speed / h
+            if i > 1:
+                matrix[i, i - 1] -= 1.5 * speed / h
+                matrix[i, i - 2] = 0.5 * speed / h
+        return matrix
+
+    def full_nodes(self, p, gap, viscosity, own):
+        """Poiseuille term, and the Jacobian with the oil of nodes that are full."""
+        h, n, p_h = self.h, self.n, self.p_h
+        inner = np.arange(1, n)
+        c, ratio = line_newton.ALPHA * line_newton.P0 / self.z, 1.0 + p_h * p / line_newton.P0
+        rho = (5.9e8 + 1.34 * p_h * p) / (5.9e8 + p_h * p)
+        drho = p_h * 0.34 * 5.9e8 / (5.9e8 + p_h * p) ** 2
+        eps = self.slowness / viscosity * rho * gap**3 * np.exp(-c * (ratio**self.z - 1.0))
+        by_p = eps * (drho / rho - c * self.z * p_h / line_newton.P0 * ratio ** (self.z - 1.0))
+        east = 0.5 * (eps[1:-1] + eps[2:]) / h**2
+        west = 0.5 * (eps[1:-1] + eps[:-2]) / h**2
+        up, down = (p[2:] - p[1:-1]) / (2.0 * h**2), (p[:-2] - p[1:-1]) / (2.0 * h**2)
+        residual = np.zeros(n + 2)
+        residual[inner] = east * (p[2:] - p[1:-1]) + west * (p[:-2] - p[1:-1])
+        by_film, direct = -own * rho, -own * (drho * gap)
+        for coupling, part, side in ((east, up, 1), (west, down, -1)):
+            for offset in (0, side):
+                at = inner, inner + offset
+                by_film[at] += part * (3.0 * eps / gap)[inner + offset]
+                direct[at] += part * by_p[inner + offset]
+            direct[inner, inner + side] += coupling
+            direct[inner, inner] -= coupling
+        jacobian = np.zeros((n + 2, n + 2))
+        jacobian[:-1, :-1] = by_film @ self.k + direct
+        jacobian[:-1, -1] = by_film.sum(axis=1)
+        jacobian[-1, :-1] = h
+        return residual, jacobian
+
+    def starved(
+        self, p, short, h00, layer, *, speed=1.0, load=1.0, curvature=1.0, viscosity=1.0, now=0.0,
+        past=0.0,
+    ):  # fmt: skip
+        """Pressure, what nodes are short of, separation; `now` S + `past` is the squeeze term."""
+        h, n = self.h, self.n
+        inner = np.arange(1, n)
+        matrix = self.transport(speed, now)
+        inflow = np.zeros(n + 1)
+        inflow[1] = -speed * layer / h
+        own = matrix.copy()
+        own[:, 0] = 0.0
+        full = (p > 0.0) & (short <= 0.0)
+        for _ in range(100):
+            gap = self.gap(p, h00, curvature)
+            residual, jacobian = self.full_nodes(p, gap, viscosity, own)
+            oil = self.mass(p, h00, curvature) - short
+            oil[0] = layer
+            residual[inner] -= (matrix @ oil + inflow + past)[inner]
+            residual[-1] = h * p.sum() - load * np.pi / 2.0
+            # at a node that is not full the unknown is what it is short of
+            thin = inner[~full[inner]]
+            jacobian[:-1, thin] = own[:, thin]
+            jacobian[-1, thin] = 0.0
+            for end in (0, n):
+                jacobian[end], jacobian[:, end], jacobian[end, end] = 0.0, 0.0, 1.0
+            step = np.linalg.solve(jacobian, -residual)
+            share = 1.0
+            while share > 1e-3:
+                tried = np.where(full, np.maximum(0.0, p + share * step[:-1]), p)
+                if self.gap(tried, h00 + share * step[-1], curvature).min() > 0.3 * gap.min():
+                    break
+                share *= 0.5
+            new = np.where(full, p, short) + share * step[:-1]
+            new, changes = np.maximum(new, 0.0), new < 0.0
+            p, short = np.where(full, new, 0.0), np.where(full, 0.0, new)
+            p[[0, n]] = 0.0
+            changes[[0, n]] = False
+            full ^= changes
+            h00 += share * step[-1]
+            if np.abs(step).max() < 1e-9 and not changes.any():
+                return p, short, h00
+        raise AssertionError("no solution")
+
+
+def march(
+    line: StarvedLine,
+    film: float,
+    times: np.ndarray,
+    duty: Sequence[Mapping[str, float]],
+    layers: Sequence[float],
+) -> np.ndarray:
+    """Central film and the least at a node over time, (n, 2), by BDF2 in steps of any length.
+
+    From the steady contact of the first state and layer on.
+    """
+    p = np.sqrt(np.maximum(0.0, 1.0 - line.x**2))
+    p, h00 = line.newton(p, film - 0.25 - 0.5 * np.log(2.0), **duty[0])
+    short = np.where(p > 0.0, 0.0, np.maximum(0.0, line.mass(p, h00) - layers[0]))
+    p, short, h00 = line.starved(p, short, h00, layers[0], **duty[0])
+    before = last = line.mass(p, h00, duty[0].get("curvature", 1.0)) - short
+    films = [(line.films(p, h00)[0], line.gap(p, h00).min())]
+    steps = np.diff(times)
+    for k, (step, state) in enumerate(zip(steps, duty[1:], strict=True)):
+        r = step / steps[k - 1] if k else 1.0
+        now, one, two = (1.0 + 2.0 * r) / (1.0 + r), -1.0 - r, r**2 / (1.0 + r)
+        past = (one * last + two * before) / step
+        p, short, h00 = line.starved(
+            p, short, h00, layers[k + 1], now=now / step, past=past, **state
+        )
+        curvature = state.get("curvature", 1.0)
+        before, last = last, line.mass(p, h00, curvature) - short
+        films.append((line.films(p, h00, curvature)[0], line.gap(p, h00, curvature).min()))
+    return np.array(films)
