@@ -60,19 +60,21 @@ contains
       integer(int32), intent(in), contiguous :: low(:, :), columns(:)
       integer(int32), intent(in) :: shift
       real(real32), intent(inout), contiguous :: total(:, :, :)
-      integer :: i, j, k, at, row, next, start
+      integer :: i, j, k, at, row, next, start, first, last
       real(real32) :: here(2), there(2)
 
       start = modulo(shift, size(tile, 3))
       do i = 1, size(low, 2)
+         ! a place has weights of the stations before and after it alone
+         first = findloc(abs(weight(:, i)) > 0.0, .true., 1)
+         last = findloc(abs(weight(:, i)) > 0.0, .true., 1, back=.true.)
          do j = 1, size(columns)
             at = merge(j, 1, size(low, 1) > 1)
             row = wrapped(low(at, i) - start, size(tile, 3))
             next = merge(0, row + 1, row + 1 == size(tile, 3))
             here = beside(1:2, j, row)
             there = beside(1:2, j, next)
-            do k = 1, size(weight, 1)
-               if (.not. abs(weight(k, i)) > 0.0) cycle
+            do k = max(1, first), last
                here = here + weight(k, i)*tile(1:2, columns(j), row, k)
                there = there + weight(k, i)*tile(1:2, columns(j), next, k)
             end do

@@ -77,9 +77,12 @@ COARSER = 2
 
 def film_left(loss: Array) -> Array:
     """Film over the smooth one that a loss of first order, over the smooth film, leaves [-]."""
-    beyond = np.maximum(loss - QUADRATIC, 0.0)
     near = np.minimum(loss, QUADRATIC)
-    return np.asarray((1.0 - near + INLET_FILM * np.square(near)) * np.exp(-_RATE * beyond))
+    left = np.asarray(1.0 - near + INLET_FILM * np.square(near))
+    # few points lose so much
+    beyond = loss > QUADRATIC
+    left[beyond] *= np.exp(-_RATE * (loss[beyond] - QUADRATIC))
+    return left
 
 
 def loss_at(film: Array) -> Array:

@@ -39,7 +39,7 @@ from pyehl.theory.line_contact import AnyContact
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.shear import shear_stress
 from pyehl.theory.strip_edge import StripEdge
-from pyehl.types import Array, Indices, Mask, Single
+from pyehl.types import Array, Indices, Single
 
 INNER = 0.8
 """Pressures are reported within this distance from the centre: further out the roughness moves the
@@ -91,14 +91,14 @@ class ShearedContact:
         self.levels, self.below = levels, np.zeros(len(levels), dtype=np.int64)
 
     def meet(
-        self, increase: Array | Single, pressure: Array, film: Array, inner: Mask, near: Mask
+        self, increase: Array | Single, pressure: Array, film: Array, inner: Indices, near: Indices
     ) -> None:
-        """Note what a position has: increase of pressure, pressure and film at points within."""
-        squares = np.square(increase, dtype=np.float64)
-        self.squared_increase += float(squares.mean(where=near)) if near.any() else math.nan
-        maximum = float(increase.max(where=inner, initial=-math.inf))
+        """Note what a position has: increase of pressure, pressure and film at points, and which are within."""
+        squares = np.square(increase.take(near), dtype=np.float64)
+        self.squared_increase += float(squares.mean()) if near.size else math.nan
+        maximum = float(increase.take(inner).max(initial=-math.inf))
         self.max_increase = max(self.max_increase, maximum)
-        maximum = float(pressure.max(where=inner, initial=-math.inf))
+        maximum = float(pressure.take(inner).max(initial=-math.inf))
         self.max_pressure = max(self.max_pressure, maximum)
         for i, level in enumerate(self.levels):
             self.below[i] += np.count_nonzero(film < level)
@@ -172,7 +172,7 @@ class HertzContact(ShearedContact):
         # every height within |y| < a passes through the contact
         self.minimum_film = film - float(deformed[:, np.unique(j % ny)].max())
         self.semi_ellipse = np.sqrt(1.0 - self.radius_squared)
-        self.inner, self.near = (self.radius_squared < r**2 for r in (INNER, NEAR))
+        self.inner, self.near = (np.flatnonzero(self.radius_squared < r**2) for r in (INNER, NEAR))
         self.smooth = float(self.stress(self.semi_ellipse, np.array(film)).sum())
 
     def friction(self, position: tuple[float, float]) -> float:
@@ -254,7 +254,7 @@ class RoughContact(ShearedContact):
         self.points = int(np.count_nonzero(self.inside))
         # of the points of the contact alone, in the order of `places`
         radius = self.radius[self.inside]
-        self.inner, self.near = (radius < r for r in (INNER, NEAR))
+        self.inner, self.near = (np.flatnonzero(radius < r) for r in (INNER, NEAR))
         self.rings = np.searchsorted(RINGS, radius, side="right") - 1
         edge = max((wave.edge for wave in waves), key=lambda edge: edge.coefficients.shape)
         self.contact, self.moved = smooth, np.zeros(edge.displacement.shape[0])

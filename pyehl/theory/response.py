@@ -39,7 +39,7 @@ from numpy.typing import ArrayLike
 
 from pyehl.theory.inlet import passed
 from pyehl.theory.transport import Zone, upstream
-from pyehl.types import Array, Complex
+from pyehl.types import Array, Complex, Indices
 
 GAIN = (0.0674, 0.3085, 2.414, 28.44)
 """Constants of `edge_gain`, fitted by docs/evidence/response/gain.py."""
@@ -81,7 +81,11 @@ def edge_gain(
 def _fit() -> dict[str, Any]:
     """Coefficients of the inlet transfer, as fitted."""
     text = resources.files("pyehl.theory").joinpath("response.json").read_text(encoding="utf-8")
-    return cast("dict[str, Any]", json.loads(text))
+    found = cast("dict[str, Any]", json.loads(text))
+    for name in ("modulus", "angle", "origin", "growth"):
+        terms = np.array(found[name])
+        found[name] = terms[:, 0], terms[:, 1:].astype(int)
+    return found
 
 
 def fitted_range() -> dict[str, list[float]]:
@@ -172,10 +176,13 @@ def inlet_fit(
     slip = velocity_ratio - 1.0
     # beyond the range, which is reported, the leak is held as s is
     leak = min(1.0, fit["leak"] / (moes_m * moes_l))
-    variables = (s, c, np.log(moes_l / 10.0), 0.5 * np.log(moes_m / 1000.0), slip, leak)
-    log_z = _polynomial(fit["modulus"], variables) + 2.0 * fit["slope"] * (parameter - s)
-    angle = c * _polynomial(fit["angle"], variables)
-    origin, growth = (_polynomial(fit[name], variables) for name in ("origin", "growth"))
+    numbers = math.log(moes_l / 10.0), 0.5 * math.log(moes_m / 1000.0), slip, leak
+    arrays = _powers(s), _powers(c)
+    modulus, turning, origin, growth = (
+        _polynomial(fit[name], arrays, numbers) for name in ("modulus", "angle", "origin", "growth")
+    )
+    log_z = modulus + 2.0 * fit["slope"] * (parameter - s)
+    angle = c * turning
     # a wave that goes against the normal is the conjugate of one that goes along it
     turn = np.where(along < 0.0, -1.0, 1.0)
     # the roughness gains on the lubricant by more per length along the normal
@@ -198,25 +205,27 @@ def _nabla_2(q: Array, moes: tuple[float, float]) -> Array:
     return 2.0 * np.pi / np.maximum(q, 1e-12) * math.sqrt(moes[0] / moes[1])
 
 
-def _polynomial(terms: list[list[float]], variables: tuple[Array | float, ...]) -> Array:
-    """Sum of coefficient times powers of the variables; a term is [coefficient, power, ...]."""
-    first, second = (_powers(np.asarray(v, dtype=float)) for v in variables[:2])
-    # s and c alone are arrays
-    factors: dict[tuple[int, int], float] = {}
-    for coefficient, i, j, *others in terms:
-        factor = coefficient
-        for value, power in zip(variables[2:], others, strict=True):
-            factor *= float(value) ** power
-        factors[int(i), int(j)] = factors.get((int(i), int(j)), 0.0) + factor
-    total = np.zeros_like(first[0])
-    for (i, j), factor in factors.items():
-        total += factor * first[i] * second[j]
-    return total
+def _polynomial(
+    terms: tuple[Array, Indices], arrays: tuple[Array, Array], numbers: tuple[float, ...]
+) -> Array:
+    """Sum of coefficients times powers of the variables, a row of powers for each.
+
+    `arrays`: the :func:`_powers` of the first two variables; the others are `numbers`.
+    """
+    coefficients, powers = terms
+    first, second = arrays
+    factors = np.zeros((len(second), len(first)))
+    products = coefficients * np.prod(np.asarray(numbers) ** powers[:, 2:], axis=1)
+    np.add.at(factors, (powers[:, 1], powers[:, 0]), products)
+    used = np.flatnonzero(factors.any(axis=1))
+    parts = np.tensordot(factors[used], first, axes=1)
+    return np.asarray((parts * second[used]).sum(axis=0))
 
 
-def _powers(variable: Array) -> list[Array]:
-    """Powers 0 to 5."""
-    powers = [np.ones_like(variable)]
-    for _ in range(5):
-        powers.append(powers[-1] * variable)
+def _powers(variable: Array) -> Array:
+    """Powers 0 to 5, the first dimension of the result."""
+    powers = np.empty((6, *variable.shape))
+    powers[0] = 1.0
+    for k in range(5):
+        powers[k + 1] = powers[k] * variable
     return powers
