@@ -93,7 +93,7 @@ class ShearedContact:
     def meet(
         self, increase: Array | Single, pressure: Array, film: Array, inner: Indices, near: Indices
     ) -> None:
-        """Note what a position has at its points, and the indices of those within INNER and NEAR."""
+        """Note what a position has at its points; which of them are within INNER and NEAR."""
         squares = np.square(increase.take(near), dtype=np.float64)
         self.squared_increase += float(squares.mean()) if near.size else math.nan
         maximum = float(increase.take(inner).max(initial=-math.inf))
