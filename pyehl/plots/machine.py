@@ -50,6 +50,7 @@ def _gear(table: pd.DataFrame, summary: Mapping[str, Any]) -> Figure:
     made = new_figure(PAGE, 4.6)
     (film, pressure), (slide, friction) = made.subplots(2, 2, sharex=True)
     x = table["s_m"].to_numpy(float) * 1e3
+    friction.margins(y=0.15)
     for ax, name, factor, label, colour in (
         (film, "h_c_m", 1e9, LABELS["h_c_m"], BLUE),
         (film, "h_min_m", 1e9, LABELS["h_min_m"], VERMILLION),
@@ -63,8 +64,8 @@ def _gear(table: pd.DataFrame, summary: Mapping[str, Any]) -> Figure:
     film.set(ylabel="film [nm]", ylim=(0.0, None))
     film.legend()
     pressure.set(ylabel=r"$p_\mathrm{h}$ [GPa]", ylim=(0.0, None))
-    slide.set(ylabel="slide-to-roll ratio [-]")
-    friction.set(ylabel="coefficient of friction [-]", ylim=(0.0, None))
+    slide.set(ylabel="slide-to-roll ratio")
+    friction.set(ylabel="coefficient of friction", ylim=(0.0, None))
     for ax in (slide, friction):
         ax.set(xlabel="path of contact from the pitch point [mm]")
     for ax in (film, pressure, slide, friction):

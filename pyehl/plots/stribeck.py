@@ -83,7 +83,7 @@ def draw_stribeck(
     style.letter(list(axes))
     if len(curves) == 1:
         _lambda_above(axes[0], curves[0])
-    style.legend_below(figure, axes[0])
+    style.legend_below(figure, *axes)
     words = (f"{c.label + ': ' if c.label else ''}{c.ends}" for c in curves if c.ends)
     figure.set_label("; ".join(filter(None, (conditions, *words, law))))
     return figure
@@ -217,7 +217,7 @@ def _band(ax: Axes, x: Array, curve: Curve, name: str, colour: str, factor: floa
     """Draw a column with its error."""
     y, error = factor * curve.column(name), factor * curve.column(_error(name))
     ax.plot(x, y, "o-", ms=3, lw=1.2, color=colour)
-    style.band(ax, x, y, error, color=colour, alpha=0.35)
+    style.band(ax, x, y, error, color=colour, alpha=0.35, label="error of the model")
 
 
 def _points(

@@ -168,10 +168,10 @@ def colour_bar(
         bar.set_label(label)
 
 
-def legend_below(figure: Figure, ax: Axes) -> None:
-    """Say below the panels what is drawn in one of them, each thing once."""
-    handles, labels = ax.get_legend_handles_labels()
-    unique = dict(zip(labels, handles, strict=True))
+def legend_below(figure: Figure, *axes: Axes) -> None:
+    """Say below the panels what is drawn in some of them, each thing once."""
+    named = [ax.get_legend_handles_labels() for ax in axes]
+    unique = {label: handle for found in named for handle, label in zip(*found, strict=True)}
     if unique:
         letters = figure.get_figwidth() * LETTERS_PER_INCH
         columns = max(1, int(letters // (HANDLE + max(map(len, unique)))))

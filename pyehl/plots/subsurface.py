@@ -22,11 +22,11 @@ LEVELS, DEEP, WIDE = 12, 1.5, 1.5
 def _units(data: xr.Dataset) -> tuple[float, str, float, str]:
     """Factor and label of lengths in a, and of stresses over p_h."""
     if "z_m" not in data.coords:
-        return 1.0, "a", 1.0, r"$\tau_{max}/p_h$"
+        return 1.0, "a", 1.0, r"$\tau_\mathrm{max}/p_h$"
     length, unit = style.length_unit(float(data.principal_shear_max_depth_m))
     a = float(data.z_m[-1] / data.Z[-1])
     p_h = float(data.principal_shear_max_Pa / data.principal_shear_max)
-    return a * length, unit, p_h * 1e-6, r"$\tau_{max}$ [MPa]"
+    return a * length, unit, p_h * 1e-6, r"$\tau_\mathrm{max}$ [MPa]"
 
 
 def section(data: xr.Dataset, ax: Axes | None = None) -> Axes:

@@ -154,6 +154,7 @@ def test_pictures_of_the_primer_and_the_front_page(seen, script, monkeypatch, ro
         ("films", "make", ""),
         ("workprec", "make", "workprec.csv"),
         ("stress", "make", "table.csv"),
+        ("mixed_curve", "make", "curve.csv"),
     ],
 )
 def test_pictures_of_the_evidence(seen, evidence, root, folder, name, table):
@@ -171,6 +172,8 @@ def test_pictures_of_the_evidence(seen, evidence, root, folder, name, table):
         module.draw(module.stored(), path)
     elif folder == "workprec":
         module.main([])
+    elif folder == "mixed_curve":
+        seen["curve"] = module.draw()
     elif folder == "stress":
         rows = rows_of(home / table)
         module.draw_outcomes(

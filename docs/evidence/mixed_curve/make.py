@@ -2,6 +2,7 @@
 """Make curve.csv of a curve through mixed film, or print the table of its page.
 
 python docs/evidence/mixed_curve/make.py FOLDER     of `pyehl stribeck`, as the page has it
+python docs/evidence/mixed_curve/make.py picture    draws curve.png
 python docs/evidence/mixed_curve/make.py
 """
 
@@ -10,6 +11,13 @@ from __future__ import annotations
 import csv
 import sys
 from pathlib import Path
+
+import pandas as pd
+from matplotlib.figure import Figure
+
+from pyehl.plots import style
+from pyehl.plots.stribeck import draw_stribeck
+from pyehl.theory.transition import Curve
 
 HERE = Path(__file__).resolve().parent
 SHARE, AREA, FILM = "contact_load_share", "contact_area_share", "h_min_rough_m"
@@ -50,8 +58,24 @@ def lines() -> list[str]:
     return found
 
 
+def draw() -> Figure:
+    """Draw the curve of the table."""
+    table = pd.read_csv(HERE / "curve.csv")
+    # what the table leaves out: of the friction, errors; errors of the minimum film
+    table["mu_smooth"] = table["mu"] / table["mu_ratio"]
+    for name in ("mu_ratio_spread", "mu_ratio_model_error", "mu_ratio_ehl_error", "theta_2"):
+        table[name] = float("nan")
+    for name in ("h_min_rough_error_m", "h_min_rough_ehl_error_m", "contact_area_share_error"):
+        table[name] = float("nan")
+    curve = Curve("", "contact.mean_velocity", table, absolute=True)
+    return draw_stribeck([curve], "surface of Table 1 without waves below 30 um, 20 N")
+
+
 def main() -> None:
     """Do what the arguments say."""
+    if sys.argv[1:] == ["picture"]:
+        style.save(draw(), HERE / "curve.png", style.DPI)
+        return
     if len(sys.argv) == 2:
         with (Path(sys.argv[1]) / "stribeck.csv").open(encoding="utf-8", newline="") as stream:
             made = list(csv.DictReader(stream))
