@@ -118,7 +118,7 @@ def test_ellipses_whose_film_was_not_compared(states, cases: Path, name: str, ca
     assert FILM_ELLIPTICITY < kappa < ELLIPTICITY[1]
     states(
         f"docs/howto/{name}.md",
-        f"up to an ellipticity of {FILM_ELLIPTICITY:g}, and this one is {kappa:.1f}.",
+        f"up to an ellipticity of {FILM_ELLIPTICITY:g} only, and this contact has {kappa:.1f}.",
     )
 
 
@@ -140,11 +140,11 @@ def test_limits(states, cases: Path):
 def test_constants_of_the_prediction(states):
     """Where a film ends, what the inlet makes, what oblique waves take."""
     ends, film, least = response.FILM_ENDS, response.INLET_FILM, response.QUADRATIC
-    states("docs/conventions.md", f"the waves take more than {ends:g} times the smooth film")
+    states("docs/conventions.md", f"to first order, exceeds {ends:g} times the smooth film")
     states("docs/theory/prediction.md", f"first order exceeds {ends:g} times the smooth film")
     states(
         "docs/theory/prediction-response.md",
-        f"regains ${film:g}\\,t_1^2/H$",
+        f"regains ${film:g}\\,H_1^2/H$",
         f"Beyond a loss of ${least:g}\\,H$",
         f"at ${ends:g}\\,H$ it ends",
         f"The pressure gains ${response.INLET_PRESSURE:g}\\,P_0^2$",
@@ -162,9 +162,9 @@ def test_pressure_far_from_the_contact(states):
     load = quad(lambda x: 0.8 * np.cos(x) + second * np.cosh(3.0 * x), 0.0, angle)[0] / 0.8
     states(
         "docs/theory/border.md",
-        rf"so that $\vartheta = {np.degrees(angle):.1f}°$ and $C = {second:.5f}$",
+        rf"so that $\vartheta = {np.degrees(angle):.1f}°$ and $C_\Phi = {second:.5f}$",
         f"The rupture adds {100.0 * (load - 1.0):.0f} % to the load far away",
-        f"to the power −{3.0 + np.sqrt(10.0):.1f}",
+        rf"to the power $-3-\sqrt{{10}} \approx -{3.0 + np.sqrt(10.0):.1f}$",
     )
 
 
