@@ -21,7 +21,8 @@ def machines() -> Values:
 def rollers() -> Values:
     """Profiles of a roller, and random rollers."""
     make = script("rollers/make.py")
-    return {name: "\n".join(getattr(make, name)()) for name in ("table", "random", "by_seed")}
+    found = {name: "\n".join(getattr(make, name)()) for name in ("table", "random", "by_seed")}
+    return found | {"dry": "\n".join(script("rollers/dry.py").table())}
 
 
 def deflection() -> Values:

@@ -28,6 +28,8 @@ module ehl_smooth_contact
    real(dp), parameter :: max_share_reduction = 0.99_dp
    !> Most cycles of a contact that touches, over those of others: the edge of a touching zone moves by a node in several cycles
    integer, parameter :: touching_cycles = 3
+   !> The same of a roller: what coarse grids change at its ends the sweeps take back slowly (47 to 89 cycles)
+   integer, parameter :: roller_cycles = 4
    !> Relative change of the central film from passage to passage that is none
    real(dp), parameter :: steady_film = 1.0e-4_dp
    !> The same of one that is short of oil: what flows back from the contact and around it takes some to balance
@@ -229,6 +231,7 @@ contains
       if (self%residual > near_solution .or. self%n < self%options%spares_from) self%next_cycle%spare_spikes = .false.
       if (self%spares .and. self%residual > 0.0_dp) self%next_cycle%spare_spikes = self%residual < near_spared
       self%max_cycles = self%options%max_cycles
+      if (self%contact%is_roller()) self%max_cycles = roller_cycles*self%max_cycles
       if (is_end(self%options, self%n) .and. counts_share(self%options, self%m)) then
          self%max_cycles = touching_cycles*self%max_cycles
       end if

@@ -318,8 +318,8 @@ class Solver:
     max_cycles: int = whole(
         30,
         "[1, 10000]",
-        "most cycles per level; three times as many at a boundary film, ten in a time step with "
-        "damped changes",
+        "most cycles per level; three times as many at a boundary film, four times on rollers, "
+        "ten in a time step with damped changes",
     )
     threads: int = whole(1, "[1, 256]", "OpenMP threads; the result does not depend on it")
 

@@ -39,6 +39,28 @@ def test_stribeck_without_clearance(power, stribeck, count):
     assert limit.loads.max() * 2000 / 1000.0 == pytest.approx(2.0 / integral, rel=1e-5)
 
 
+@pytest.mark.parametrize(
+    ("power", "axial", "largest"), [(BALL, 1.216, 4.37), (ROLLER, 1.260, 4.08)]
+)
+def test_half_load_zone_of_an_oblique_contact(power, axial, largest):
+    """NSK Technical Report, CAT. No. E728g, 5.1, eqs. (4) and (5), as it prints them.
+
+    With F_a = 1.216 F_r tan(alpha) in point contact, 1.260 in line contact, half of the elements
+    carry load, and the largest is 4.37 F_r/(Z cos(alpha)), or 4.08.
+    """
+    count, angle, centres = 2000, math.radians(15.0), 5e-4
+    load = 1000.0, 1000.0 * axial * math.tan(angle)
+    if power == BALL:
+        # stiff, so that the contact angle stays
+        play = 2.0 * centres * (1.0 - math.cos(angle))
+        ring = equilibrium(1e14, power, count, play, load, centres)
+    else:
+        ring = equilibrium(1e10, power, count, 0.0, load, math.inf, angle)
+    found = ring.loads.max() * count * math.cos(angle) / 1000.0
+    assert found == pytest.approx(largest, abs=0.006)
+    assert np.count_nonzero(ring.loads) == pytest.approx(count / 2, rel=0.01)
+
+
 @pytest.mark.parametrize("power", [BALL, ROLLER])
 def test_load_zone_by_clearance(power):
     """Q(psi) = Q_max (1 - (1 - cos psi)/(2 eps))^n, eps = (1 - P_d/(2 delta))/2 (Harris)."""
