@@ -55,24 +55,42 @@ def test_same_friction(
     assert done.history["mu_ratio"] == pytest.approx(ratios, rel=1e-4)
 
 
-@pytest.mark.parametrize("points", [65, pytest.param(129, marks=pytest.mark.slow)])
-def test_same_films_of_an_ellipse(solve, table, points: int):
-    """Of the narrow ellipse of smooth_ellipses.csv; on 129 x 129 nodes its row, too."""
+@pytest.mark.parametrize(
+    ("point", "kappa", "points"),
+    [
+        ((200.0, 10.0), 0.6, 65),
+        ((200.0, 10.0), 1.5, 65),
+        pytest.param((200.0, 10.0), 2.0, 65, marks=pytest.mark.long),
+        pytest.param((1000.0, 10.0), 2.0, 65, marks=pytest.mark.long),
+        pytest.param((50.0, 5.0), 3.0, 65, marks=pytest.mark.long),
+        pytest.param((200.0, 10.0), 0.6, 129, marks=pytest.mark.slow),
+        pytest.param((200.0, 10.0), 1.5, 129, marks=pytest.mark.slow),
+    ],
+)
+def test_same_films_of_an_ellipse(solve, table, point: tuple[float, float], kappa: float, points):
+    """Of the ellipses of smooth_ellipses.csv; on cells of 1/32 their rows, too."""
     (row,) = (
-        row for row in table("smooth_ellipses.csv") if (row["kappa"], row["cells"]) == ("0.6", "32")
+        row
+        for row in table("smooth_ellipses.csv")
+        if (float(row["moes_m"]), float(row["kappa"]), row["cells"]) == (point[0], kappa, "32")
     )
+    side = float(row["y_extent"])
     place = options(1.0) | {"surface.kind": "smooth", "grid.border": "zero"}
-    shape = {"contact.radius_ratio": row["radius_ratio"], "grid.points_y": points}
+    place |= {"grid.y_extent": side, "grid.points_y": round(side * (points - 1) / 2) + 1}
+    shape = {"contact.radius_ratio": row["radius_ratio"]}
     strict = {"solver.deflection": "fft", "solver.accuracy": 1e-4}
-    done = solve((float(row["moes_m"]), float(row["moes_l"])), points, place | shape | strict)
+    done = solve(point, points, place | shape | strict)
     assert done.converged
-    second = SecondSolver(float(row["moes_m"]), float(row["moes_l"]), points, kappa=0.6)
-    assert second.radius_ratio == pytest.approx(float(row["radius_ratio"]), rel=1e-5)
+    second = SecondSolver(*point, points, kappa=kappa, side=side)
+    assert second.radius_ratio == pytest.approx(float(row["radius_ratio"]), abs=5e-6)
     p, _, film = second.smooth()
     films = film[np.argmin(second.x**2 + second.y**2)], film[p > 0.0].min()
     assert (done["H_c"], done["H_min"]) == pytest.approx(films, rel=1e-4)
     if points == 129:
-        assert films == pytest.approx((float(row["H_c"]), float(row["H_min"])), rel=5e-5)
+        # rows of the minimum differ where the other program had another domain
+        h_c, h_min = (5e-5, 5e-5) if kappa < 1.0 else (3e-4, 3e-3)
+        assert films[0] == pytest.approx(float(row["H_c"]), rel=h_c)
+        assert films[1] == pytest.approx(float(row["H_min"]), rel=h_min)
 
 
 @pytest.mark.long
