@@ -26,6 +26,19 @@ def others() -> Values:
     return locals()
 
 
+def second_solver() -> Values:
+    """Films of ellipses by the second solver: ours on the same cells, and those of C."""
+    rows = read("validation/second.csv")
+    ours = max(abs(100.0 * (float(r["ours"]) / float(r["second"]) - 1.0)) for r in rows)
+    against = {
+        r["quantity"]: 100.0 * (float(r["second"]) / float(r["c"]) - 1.0)
+        for r in rows
+        if r["c"] and r["kappa"] == "1.5"
+    }
+    assert ours < 0.01
+    return locals()
+
+
 def film_formulas() -> Values:
     """Ratios of films by formula to ours: spans, and the largest deviations."""
     every = read("validation/formulas.csv")
