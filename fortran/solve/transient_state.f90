@@ -28,8 +28,9 @@ module ehl_transient_state
    private
    public :: transient_t
 
-   !> Relative errors of the force balance that a step may have taken away by scaling its pressure
-   real(dp), parameter :: small_load_error = 1.0e-4_dp
+   !> Relative errors of the force balance that a step may have taken away by scaling its pressure. Under a duty what this leaves in
+   !> the film is no noise about a mean.
+   real(dp), parameter :: small_load_error = 1.0e-4_dp, small_under_duty = 1.0e-5_dp
 
    !> The state of the iteration is that of a step
    type, extends(iteration_t) :: transient_t
@@ -343,7 +344,8 @@ contains
    !> Whether a small error of the load is all that is left
    pure logical function may_scale_load(self)
       class(transient_t), intent(in) :: self
-      may_scale_load = self%residual <= self%policy%tolerance .and. abs(self%m%load_error) <= small_load_error
+      may_scale_load = self%residual <= self%policy%tolerance .and. abs(self%m%load_error) <= &
+                       merge(small_under_duty, small_load_error, self%duty%active)
    end function may_scale_load
 
    !> Whether the step meets its tolerance

@@ -68,10 +68,13 @@ def test_a_constant_duty_of_points_is_the_steady_contact_in_bits(radius_y, inlet
 
 
 def test_roughness_moves_under_a_constant_duty():
-    """As without a duty, up to the steps of the front and those of the scheme."""
+    """As without a duty, up to the steps of the front and those of the scheme.
+
+    Without one errors of the load may leave noise about the mean friction: both are solved well.
+    """
     wave = {
         "surface.kind": "harmonic", "surface.amplitude": 0.02,
-        "grid.border": "zero", "surface.wavelength": 1.0,
+        "grid.border": "zero", "surface.wavelength": 1.0, "solver.accuracy": 0.01,
     }  # fmt: skip
     step = 5.5 / 176
     data = pyehl.solve(
