@@ -238,7 +238,11 @@ def _why_no_result(results: Results, settings: Settings, words: Mapping[int, str
         rows = 2 * int(d["finest_rows"]) - 1
         help_ += f", shorter cells along it (grid.points_y = {rows}) or a profile that drops more"
     if status == "negative film":
-        text = _of_negative_film(v, d, place, help_, si=bool(v.get("film_scale_m")))
+        rough = any(
+            settings.get(group, {}).get("kind", "smooth") != "smooth"
+            for group in ("surface", "second_surface")
+        )
+        text = _of_negative_film(v, d, place, help_, si=bool(v.get("film_scale_m")), rough=rough)
     elif status == "cycle limit":
         text = (
             f"the residual of {place} is {power(d['end_residual'], 1)} after cycle "
@@ -272,7 +276,9 @@ def _of_mean(d: Values, time: Values) -> str:
     )
 
 
-def _of_negative_film(v: Values, d: Values, place: str, help_: str, *, si: bool) -> str:
+def _of_negative_film(
+    v: Values, d: Values, place: str, help_: str, *, si: bool, rough: bool
+) -> str:
     """Say that there is no positive film: by the grid, or by the roughness."""
     if d["end_phase"] == SMOOTH:
         return f"{place} has no positive film: {help_}"
@@ -282,8 +288,11 @@ def _of_negative_film(v: Values, d: Values, place: str, help_: str, *, si: bool)
         shown = f"{fixed(film * v['film_scale_m'] * 1e9, 1)} nm" if si else ""
         text += f", minimum film before {shown or 'H_min = ' + power(film, 3)}"
     nodes, enough = d["end_wave_nodes"], d["enough_wave_nodes"]
-    text += f"; the shortest waves have {nodes:.0f} nodes"
-    if nodes < enough:
+    if rough:
+        text += f"; the shortest waves have {nodes:.0f} nodes"
+    if not rough:
+        text += f": {help_}"
+    elif nodes < enough:
         text += f", and as high as the film they need {enough:.0f}: {help_}, a smoother surface"
     else:
         text += " or more: give a smoother surface"
