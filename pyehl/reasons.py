@@ -234,6 +234,8 @@ def _why_no_result(results: Results, settings: Settings, words: Mapping[int, str
     place, phase = _place(d, "end_"), d["end_phase"]
     help_ = words.get(results.codes["end_help"], "") if phase == SMOOTH else ""
     help_ = help_ or f"give a finer grid (grid.points = {2 * int(d['finest_points']) - 1})"
+    if phase == SMOOTH and settings.get("inlet", {}).get("film_hertz", 0.0) > 0.0:
+        help_ += ", or inlet.position in place of inlet.film"
     if settings["contact"].get("shape") == "roller":
         rows = 2 * int(d["finest_rows"]) - 1
         help_ += f", shorter cells along it (grid.points_y = {rows}) or a profile that drops more"

@@ -507,3 +507,15 @@ def test_a_roller_takes_an_error_of_its_steps():
         assert np.abs(fine / asked[f"history_{name}"].values - 1.0).max() < 5e-3, name
         stated = (float(d[f"history_{column}_step_error"].max()) for d in (asked, usual))
         assert next(stated) < 0.6 * next(stated), name
+
+
+def test_a_step_without_a_film_is_told_a_finer_grid():
+    """Not a smoother surface, where both are smooth."""
+    contact = ROLLER["contact"] | {"load": 600.0, "mean_velocity": 0.5, "crown_radius": 0.3}
+    unit = 1e-4
+    table = {"time": [0.0, unit, 4.0 * unit], "mean_velocity": [0.5, 0.01, 0.01]}
+    case = pyehl.Case(contact=contact, lubricant={"viscosity": 0.04}, grid={"points": 65})
+    failed = pyehl.solve(case, {"duty": table}, check=False)
+    assert failed.attrs["status"] == "negative film"
+    assert "grid.points = 129" in failed.attrs["message"]
+    assert "smoother" not in failed.attrs["message"]

@@ -229,3 +229,16 @@ def test_thick_films_that_begin_near_the_contact():
     assert films[0] < 3.0 * 1.1**2 / 2.0
     newtonian = pyehl.solve(case, {"inlet.position_hertz": 1.1})
     assert films[0] < float(newtonian.H_c) == pytest.approx(films[0], rel=0.05)
+
+
+def test_a_layer_without_a_solution_is_told_what_has_one():
+    """A wide contact at M = 17 000, where finer grids do not help."""
+    case = pyehl.Case(
+        contact={"load": 2444.0, "mean_velocity": 0.7, "radius_x": 0.01196, "radius_y": 0.1784},
+        lubricant={"viscosity": 0.01409, "shear_law": "eyring", "eyring_stress": 8.323e6},
+        grid={"points": 65},
+    )
+    failed = pyehl.solve(case, {"inlet.film": 1.152e-7}, check=False)
+    assert failed.attrs["status"] != "converged"
+    assert "or inlet.position in place of inlet.film" in failed.attrs["message"]
+    assert float(pyehl.solve(case, {"inlet.position_hertz": 1.1}).H_c) > 0.0
