@@ -258,15 +258,16 @@ contains
       coarse%load = missing_load(fine) + pressure_sum(coarse)
    end subroutine pass_load_on
 
-   !> Take a small relative error of the force balance away by scaling the pressure above that of the border, but where nodes
-   !> yield; H00 keeps the mean film under it. Film and coefficients are up to date before and after.
+   !> Take a small relative error of the force balance away by scaling the pressure within the border, of lines that above the
+   !> pressure of the border, but where nodes yield; H00 keeps the mean film under it. Film and coefficients are up to date before and after.
    subroutine balance_load(level)
       type(level_t), intent(inout) :: level
       real(dp) :: factor, border, deflection(level%grid%ny), after(level%grid%nx)
       integer :: j, nx
 
       nx = level%grid%nx
-      border = border_pressure(level)
+      border = 0.0_dp
+      if (level%grid%periodic) border = max(maxval(level%p(1, :)), maxval(level%p(nx, :)))
       factor = 1.0_dp/(1.0_dp + load_excess(level)/(1.0_dp - fixed_load(level, border)/level%load))
       !$omp parallel do default(none) shared(level, factor, border, deflection, nx) private(after) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
@@ -283,21 +284,10 @@ contains
       call refresh(level)
    end subroutine balance_load
 
-   !> Largest pressure at the border: 0 but in flooded contacts
-   pure real(dp) function border_pressure(level)
-      type(level_t), intent(in) :: level
-      integer :: j
-
-      border_pressure = max(maxval(level%p(1, :)), maxval(level%p(level%grid%nx, :)))
-      do j = 1, level%grid%ny, max(1, level%grid%ny - 1)
-         if (level%grid%is_border(j)) border_pressure = max(border_pressure, maxval(level%p(:, j)))
-      end do
-   end function border_pressure
-
-   !> What of the load the pressure at the border, up to that of the border and where nodes yield sustains
+   !> What of the load is not scaled: the pressure at the border, of lines up to that of the border, and where nodes yield
    pure real(dp) function fixed_load(level, border)
       type(level_t), intent(in) :: level
-      !> Largest pressure at the border
+      !> Pressure that is not scaled
       real(dp), intent(in) :: border
       integer :: j
 
@@ -306,7 +296,11 @@ contains
          if (level%grid%is_border(j)) then
             fixed_load = fixed_load + sum(level%p(:, j))*level%grid%weight(j)
          else
-            fixed_load = fixed_load + sum(min(level%p(:, j), border))*level%grid%weight(j)
+            if (level%grid%periodic) then
+               fixed_load = fixed_load + sum(min(level%p(:, j), border))*level%grid%weight(j)
+            else
+               fixed_load = fixed_load + (level%p(1, j) + level%p(level%grid%nx, j))*level%grid%weight(j)
+            end if
             fixed_load = fixed_load + sum(level%p(:, j) - min(level%p(:, j), border), &
                                           mask=level%boundary%yielding(level%grid%nx, j))*level%grid%weight(j)
          end if

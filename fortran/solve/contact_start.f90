@@ -14,8 +14,9 @@ contains
    module procedure begin_steps
       real(dp) :: errors(2)
 
-      ! the friction goes with the inverse of the film
-      errors = relative_errors(self%plan%contact, self%plan%point, self%grid%hx)
+      ! the friction goes with the inverse of the film: 20 % where it is 19 % (line, M = 100, L = 10, 257 nodes)
+      errors = 0.0_dp
+      if (self%plan%line) errors = relative_errors(self%plan%contact, self%plan%point, self%grid%hx)
       associate (plan => self%plan, transient => self%transient, n => self%smooth%n, m => self%smooth%results(self%smooth%n)%m)
          ! where a feature passes once, the maximum pressure and the minimum film are asked for, not the mean friction alone
          call transient%accuracy%set(self%grid%hx, plan%accuracy, m%friction_newtonian, &
