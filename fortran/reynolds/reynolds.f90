@@ -259,7 +259,8 @@ contains
    end subroutine pass_load_on
 
    !> Take a small relative error of the force balance away by scaling the pressure within the border, of lines that above the
-   !> pressure of the border, but where nodes yield; H00 keeps the mean film under it. Film and coefficients are up to date before and after.
+   !> pressure of the border, but where nodes yield; H00 keeps the mean film under it. Film and coefficients are up to date before
+   !> and after.
    subroutine balance_load(level)
       type(level_t), intent(inout) :: level
       real(dp) :: factor, border, deflection(level%grid%ny), after(level%grid%nx)
