@@ -3,7 +3,7 @@
 
 ``python docs/evidence/rollers/make.py`` writes profiles.csv; seed_1.json is of
 ``python benchmarks/rollers.py --count 40 --seed 1 -o docs/evidence/rollers/seed_1.json``; others
-are of seeds 2, 31, 32, 33 and 34.
+are of seeds 2, 31, 32, 33 and 34, and of seed 35 with --count 20.
 """
 
 import csv
@@ -32,7 +32,7 @@ PROFILES: dict[str, dict[str, float]] = {
     "chamfer": {"chamfer_length": 1e-3, "chamfer_drop": 1.25e-5},
 }
 POINTS = 513
-SEEDS = (1, 2, 31, 32, 33, 34)
+SEEDS = (1, 2, 31, 32, 33, 34, 35)
 
 
 def runs() -> Iterator[dict[str, str | float]]:
