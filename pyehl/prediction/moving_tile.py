@@ -19,7 +19,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import fft
 
 from pyehl import extension
 from pyehl.prediction.response import AXIS, LINES, STATIONS, Transfer
@@ -249,7 +248,7 @@ class WaveTiles:
         weights = part[..., np.newaxis, np.newaxis]
         waves = weights[0] * self.off_centre[line, :, columns]
         waves += weights[1] * self.off_centre[line + 1, :, columns]
-        found = fft.irfft(waves, n=self.free.shape[1])
+        found = np.fft.irfft(waves, n=self.free.shape[1])
         return np.ascontiguousarray(found.T.swapaxes(1, 2))
 
 

@@ -13,7 +13,6 @@ from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import fft
 
 from pyehl.errors import InputError
 from pyehl.surfaces import MAX_PIXELS, Topography, resampled
@@ -43,7 +42,7 @@ class Spectrum:
     def of(cls, heights: Array, length_x: float, length_y: float) -> Spectrum:
         """Of heights (nx, ny) [a^2/R] on a tile of a size [a]."""
         nx, ny = heights.shape
-        values = fft.fft(fft.rfft(heights, axis=0), axis=1)
+        values = np.fft.fft(np.fft.rfft(heights, axis=0), axis=1)
         values[0, 0] = 0.0
         qx = 2.0 * np.pi * np.fft.rfftfreq(nx, length_x / nx)
         qy = 2.0 * np.pi * np.fft.fftfreq(ny, length_y / ny)
@@ -87,7 +86,7 @@ class Spectrum:
         these, (refinement nx, n).
         """
         found = self.along(factor, refinement, stride, lines)
-        return np.asarray(fft.irfft(found, n=self.shape[0] * refinement).T)
+        return np.asarray(np.fft.irfft(found, n=self.shape[0] * refinement).T)
 
     def along(
         self,
@@ -111,7 +110,7 @@ class Spectrum:
         if stride > 1:
             # on every so many-th column waves that differ by its wavenumber are one
             part = part.reshape(part.shape[0], stride, -1).sum(axis=1)
-        across = np.ascontiguousarray(fft.ifft(part, axis=1).T)
+        across = np.ascontiguousarray(np.fft.ifft(part, axis=1).T)
         across *= refinement / stride
         return across
 
