@@ -19,7 +19,6 @@ from collections import Counter, deque
 from collections.abc import Generator, Iterable, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Future, wait
 from contextlib import suppress
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from pyehl.errors import EhlError, InputError, InternalError
@@ -172,15 +171,8 @@ def _executor() -> ProcessPoolExecutor:
     return ProcessPoolExecutor(1, initializer=_begin, initargs=(os.getpid(),), env=ENVIRONMENT)
 
 
-@dataclass(eq=False)
-class _Spare:
-    """An executor without a task, and the folder in which it began."""
-
-    executor: ProcessPoolExecutor
-    folder: str
-
-
-_spares: deque[_Spare] = deque()
+# executors without a task
+_spares: deque[ProcessPoolExecutor] = deque()
 # a process that is forked has workers of its own
 os.register_at_fork(after_in_child=_spares.clear)
 
@@ -195,11 +187,10 @@ def _keep(executor: ProcessPoolExecutor) -> None:
     def end() -> None:
         # another study may have taken it
         with suppress(ValueError):
-            _spares.remove(spare)
+            _spares.remove(executor)
             executor.shutdown(kill_workers=True)
 
-    spare = _Spare(executor, os.path.realpath(os.curdir))
-    _spares.append(spare)
+    _spares.append(executor)
     timer = threading.Timer(KEPT, end)
     timer.daemon = True
     timer.start()
@@ -208,23 +199,20 @@ def _keep(executor: ProcessPoolExecutor) -> None:
 @atexit.register
 def _end_spares() -> None:
     while _spares:
-        _spares.popleft().executor.shutdown(kill_workers=True)
+        _spares.popleft().shutdown(kill_workers=True)
 
 
 def _spare() -> ProcessPoolExecutor:
-    while True:
-        try:
-            spare = _spares.pop()
-        except IndexError:
-            return _executor()
-        if spare.folder == os.path.realpath(os.curdir):
-            return spare.executor
-        spare.executor.shutdown(kill_workers=True)
+    try:
+        return _spares.pop()
+    except IndexError:
+        return _executor()
 
 
 def _submit(executor: ProcessPoolExecutor, tasks: list[Task]) -> Future[list[Row]]:
     try:
-        future: Future[list[Row]] = executor.submit(execute_all, tasks)
+        # a spare one began in the folder of an earlier study
+        future: Future[list[Row]] = executor.submit(execute_all, tasks, os.getcwd())
     except BrokenExecutor as error:
         # it died without a task
         future = Future()

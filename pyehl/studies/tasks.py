@@ -6,6 +6,7 @@ Nothing that a case does ends a worker: whatever goes wrong is the status and th
 
 import json
 import math
+import os
 import time
 import traceback
 from collections.abc import Callable, Mapping, Sequence
@@ -128,8 +129,9 @@ def execute(task: Task) -> Row:
     return row
 
 
-def execute_all(tasks: Sequence[Task]) -> list[Row]:
-    """Do several tasks, one after the other."""
+def execute_all(tasks: Sequence[Task], folder: str) -> list[Row]:
+    """Do several tasks in a folder, one after the other."""
+    os.chdir(folder)
     return [execute(task) for task in tasks]
 
 

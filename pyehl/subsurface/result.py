@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
+from pyehl import blas
 from pyehl.destination import Destination, write_json
 from pyehl.errors import InputError
 from pyehl.given import path_of
@@ -110,6 +111,7 @@ STEEP = "not at depth 0: the traction ends in a step, where the stress at the su
 FILES = ("case.nml", "summary.json", "stress.nc", "section.png", "depth.png")
 
 
+@blas.one_thread()
 def stress(
     results: xr.Dataset | Prediction | str | os.PathLike[str],
     *,

@@ -466,7 +466,7 @@ def test_contact_without_friction_of_the_layer():
     """Of an opened case that has a boundary film; the page has no control for it."""
     text = """&contact load = 20.0 mean_velocity = 0.3 radius = 0.0127 slide_to_roll = 0.1 /
     &lubricant shear_law = 'eyring' boundary_film = 1.2e-7 {} /
-    &surface kind = 'fractal' rms_height = 3e-8 length_x = 1.2e-4 length_y = 1.2e-4 pixels = 64 /"""
+    &surface kind = 'fractal' rms_height = 3e-8 length_x = 1.2e-4 length_y = 1.2e-4 pixels = 32 /"""
     for friction, known in (("", False), ("boundary_friction = 0.1", True)):
         position, _ = from_case(Case.from_text(text.format(friction)))
         rows = dict(words.rough_rows(answers.rough(position)))

@@ -20,8 +20,17 @@ def test_residual_reduction_per_cycle(solve, moes_m: float):
     assert reduction.max() <= 0.3
 
 
-@pytest.mark.parametrize("finest", [513, pytest.param(1025, marks=pytest.mark.long)])
-@pytest.mark.parametrize("point", [(20.0, 10.0), (200.0, 10.0), (1000.0, 10.0), (2000.0, 15.0)])
+POINTS = [(20.0, 10.0), (200.0, 10.0), (1000.0, 10.0), (2000.0, 15.0)]
+
+
+@pytest.mark.parametrize(
+    ("point", "finest"),
+    [
+        *((point, 513) for point in POINTS),
+        *(pytest.param(point, 1025, marks=pytest.mark.slow) for point in POINTS[:-1]),
+        pytest.param(POINTS[-1], 1025, marks=pytest.mark.long),
+    ],
+)
 def test_convergence_does_not_depend_on_the_grid(solve, point: tuple[float, float], finest: int):
     """Reduction of the residual by a full cycle; the cycles of a solution on the finest grid."""
     grids = [points for points in (129, 257, 513, 1025) if points <= finest]

@@ -433,8 +433,13 @@ def test_what_is_for_circles_says_so():
         pyehl.predict(case)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(("kappa", "round_m"), [(0.1, 400.0), (1.0 / 30.0, 50.0)])
+@pytest.mark.parametrize(
+    ("kappa", "round_m"),
+    [
+        pytest.param(0.1, 400.0, marks=pytest.mark.long),
+        pytest.param(1.0 / 30.0, 50.0, marks=pytest.mark.slow),
+    ],
+)
 def test_cells_that_a_narrow_contact_needs(kappa: float, round_m: float):
     """They are those by default; where longer ones end without a film the message names shorter."""
     square = kappa**2

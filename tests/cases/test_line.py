@@ -306,6 +306,7 @@ def test_half_of_a_strip_is_enough(coarsening):
     assert not pyehl.solve(aside, check=False).attrs["half_domain"]
 
 
+@pytest.mark.long
 def test_strip_is_the_middle_of_a_wide_ellipse():
     """Isotropic waves in an ellipse of kappa = 8, with the same a, p_h and speed parameter."""
     ratio = brentq(lambda d: ellipse(d).ellipticity - 8.0, 1e-3, 0.5)

@@ -25,7 +25,7 @@ TEXT = """
 &contact load = 20.0 mean_velocity = {} radius = 0.0127 slide_to_roll = 0.1 /
 &lubricant shear_law = 'eyring' boundary_film = {} boundary_friction = {} /
 &surface kind = 'fractal' rms_height = 3e-8 seed = 11 length_x = 1.2e-4 length_y = 1.2e-4
- pixels = 64 shortest_wavelength = 3e-5 /
+ pixels = 32 shortest_wavelength = 3e-5 /
 """
 
 

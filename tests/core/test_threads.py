@@ -230,7 +230,7 @@ FAILING = """&contact moes_m = 20, moes_l = 2 /
 @pytest.mark.parametrize(
     "cases",
     [
-        200,
+        50,
         pytest.param(1_000, marks=pytest.mark.long),
         pytest.param(10_000, marks=pytest.mark.slow),
     ],

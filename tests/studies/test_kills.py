@@ -59,10 +59,10 @@ def test_a_task_that_ends_its_worker_is_a_row(monkeypatch: pytest.MonkeyPatch):
     """The worker dies on it, on another one again, and all other tasks are done."""
     real = pool.execute_all
 
-    def deadly(tasks: list[Task]) -> list[dict[str, object]]:
+    def deadly(tasks: list[Task], folder: str) -> list[dict[str, object]]:
         if any(task.number == 1 for task in tasks):
             os.abort()
-        return real(tasks)
+        return real(tasks, folder)
 
     monkeypatch.setattr(pool, "execute_all", deadly)
     text = pyehl.Case.from_text("").text
@@ -81,22 +81,31 @@ def runs(process: int) -> bool:
     return False
 
 
-def test_a_worker_waits_for_the_next_study_and_ends(monkeypatch: pytest.MonkeyPatch):
-    """It is taken again within its time; after that a new one is, whose death is noticed."""
+def test_a_worker_waits_for_the_next_study_and_ends(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+):
+    """It is taken again within its time; after that a new one is, whose death is noticed.
 
-    def deadly(tasks: list[Task]) -> list[dict[str, object]]:
+    It works in the folder of the study that it is taken for.
+    """
+    real = pool.execute_all
+
+    def deadly(tasks: list[Task], folder: str) -> list[dict[str, object]]:
+        real([], folder)
         if tasks[0].number == 1:
             os.abort()
-        return [{"process": os.getpid()} for _ in tasks]
+        return [{"process": os.getpid(), "folder": os.getcwd()} for _ in tasks]
 
     def process(number: int) -> object:
         ((_, row),) = (row for some in pool.rows([Task(number, "", "film")], 1) for row in some)
+        assert row.get("folder", os.getcwd()) == os.getcwd()
         return row.get("process", row.get("status"))
 
     monkeypatch.setattr(pool, "execute_all", deadly)
     monkeypatch.setattr(pool, "KEPT", 1.0)
     first = process(0)
     assert isinstance(first, int)
+    monkeypatch.chdir(tmp_path)
     assert process(2) == first
     end = time.monotonic() + 30.0
     while runs(first):

@@ -121,6 +121,7 @@ def test_eyring_stress_is_in_its_interval(tmp_path: Path) -> None:
     assert inside >= 17
 
 
+@pytest.mark.long
 def test_record_of_measured_films(root: Path) -> None:
     """The coefficient and the residual are those of the page; fringe orders are as it states."""
     folder = root / "docs" / "evidence" / "rig"
