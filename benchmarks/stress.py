@@ -34,7 +34,7 @@ KEPT = (
     *("status", "points", "restarts", "steps", "cycles_per_step", "cycles", "rough_cycles"),
     *("amplitude", "H_c", "H_c_error_grid", "H_min", "mu_ratio", "mu_ratio_error", "last_mu_ratio"),
     *("mu_ratio_min", "mu_ratio_max", "T_mean", "coarsening_changed_at", "seconds", "message"),
-    *("points_suggested", "contact_load_share", "contact_load_share_error", "layer_supply"),
+    *("points_suggested", "contact_load_share", "contact_load_share_error", "mass_defect"),
 )
 
 COLUMNS = columns(

@@ -82,7 +82,7 @@ def broken(folder: Path) -> str:
     last = "history_" if "history_load_share" in data else "contact_"
     share = pressure[touching].sum() / pressure.sum()
     reported = float(data[f"{last}load_share"].to_numpy().flat[-1])
-    given = data[f"{last.removeprefix('contact_')}layer_supply"].to_numpy().flat[-1]
+    given = data[f"{last.removeprefix('contact_')}mass_defect"].to_numpy().flat[-1]
     carried = pressure.sum() * cell / (2.0 * np.pi / 3.0) + float(data["load_beyond"])
     conditions = {
         "P >= 0": pressure.min() >= 0.0,

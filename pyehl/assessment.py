@@ -123,7 +123,7 @@ def _contact(s: Summary) -> list[str]:
     if not _finite_above(share, 0.0):
         note = s.text("H_c_error_note")
         return [f"unresolved inlet: {note}"] if note.startswith(NO_INLET) else _film(s)
-    error, supply = s.number("contact_load_share_error"), s.number("layer_supply")
+    error, supply = s.number("contact_load_share_error"), s.number("mass_defect")
     known = f"an error of {percent(error)} of the load" if math.isfinite(error) else ""
     found = [
         f"mixed film: {percent(share)} of the load is sustained by the boundary film, with "

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     import xarray
 
-VERSION = 2
+VERSION = 3
 """Of names, units and meanings, as `schema_version` in a summary: another one where one changes."""
 KINDS = {"s": "solution", "p": "prediction", "f": "film", "r": "response", "t": "fit"}
 
@@ -200,7 +200,7 @@ s | load_share_at_hardness | - | share of the load where the solids yield: a mea
 s | area_share_at_hardness | - | area where they yield over that of the dry contact
 s | plastic_depth_max_m | m | maximum depth of plastic deformation
 s | flowing_load_share_at_hardness | - | share of the load where they yield under a flowing film
-s | layer_supply | - | mass defect of the boundary film there, over the flow along with the surfaces
+s | mass_defect | - | mass defect of the boundary film there, over the flow along with the surfaces
 sp | mu_note | | what mu holds and leaves out
 sp | flash_temperature_K | K | maximum temperature rise of the surfaces (Tian & Kennedy), at mu
 sp | shear_rate_mean_per_s | 1/s | mean shear rate

@@ -59,7 +59,7 @@ def dry_contact() -> Values:
         known.append(len(off))
         missing.append(-100.0 * min(off.values()))
     tiles = sum(abs(o) < 0.03 for surface, o in off.items() if surface.startswith("tile"))
-    slow = [row["layer_supply"] for row in same if row["points"] == 129]
+    slow = [row["mass_defect"] for row in same if row["points"] == 129]
     return locals()
 
 

@@ -4,7 +4,7 @@ module ehl_reason
    implicit none (type, external)
    private
    public :: reason_none, reason_no_solution, reason_two_grids, reason_no_limit, reason_small_domain, reason_inlet, &
-             reason_coarse_grid, reason_narrow, reason_coarser_none, reason_coarser_inlet, reason_much_supplied, &
+             reason_coarse_grid, reason_narrow, reason_coarser_none, reason_coarser_inlet, reason_much_mass_defect, &
              reason_boundary_friction, reason_not_wanted, reason_steps, reason_not_yet, reason_nothing_carried, &
              reason_small_grid, reason_coarser_status, reason_pressures, reason_no_ratio, reason_few_positions, &
              reason_not_predicted, reason_moving_alone, reason_prediction, reason_end
@@ -21,7 +21,7 @@ module ehl_reason
    integer, parameter :: reason_end = 24
    !> Of a load share: no solution on the next coarser grid, or none that resolves the inlet; a boundary film that gives much of
    !> the flow
-   integer, parameter :: reason_coarser_none = 8, reason_coarser_inlet = 9, reason_much_supplied = 10
+   integer, parameter :: reason_coarser_none = 8, reason_coarser_inlet = 9, reason_much_mass_defect = 10
    !> Of friction: where bodies touch it is not known
    integer, parameter :: reason_boundary_friction = 11
    !> Of the grid error of the friction ratio, there is no run on the next coarser grid: time.estimate_error; time.steps; not

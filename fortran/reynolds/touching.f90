@@ -9,19 +9,20 @@ module ehl_touching
    use ehl_reynolds, only: flow_operator
    implicit none (type, external)
    private
-   public :: touching_t, measure_touching, same_film, mostly_touching, much_supplied, touches, touching_names, known_names, at_depth
+   public :: touching_t, measure_touching, same_film, mostly_touching, much_mass_defect, touches, touching_names, known_names, &
+             at_depth
 
    !> Solid contact where the film is the boundary film to this share of it
    real(dp), parameter :: same_film = 1.0e-2_dp
 
    !> Share of the flow that a boundary film would have to give from which on a contact is not the one of the model: a choice
-   real(dp), parameter :: much_supplied = 0.1_dp
+   real(dp), parameter :: much_mass_defect = 0.1_dp
 
    !> Share of the load on a boundary film from which on the films are its: those of the coarser grid say nothing of an error
    real(dp), parameter :: mostly_touching = 0.5_dp
 
    !> What `numbers` gives
-   character(len=*), parameter :: touching_names(7) = [character(len=16) :: "load_share", "contact_area", "layer_supply", &
+   character(len=*), parameter :: touching_names(7) = [character(len=16) :: "load_share", "contact_area", "mass_defect", &
                                                        "hard_load_share", "hard_area", "plastic_depth", "hard_flowing"]
    !> Which of them is the depth
    integer, parameter :: at_depth = 6

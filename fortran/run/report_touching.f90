@@ -9,10 +9,10 @@ module ehl_report_touching
    use ehl_plan, only: plan_t
    use ehl_record, only: record_t
    use ehl_reason, only: reason_boundary_friction, reason_coarser_inlet, reason_coarser_none, reason_inlet, &
-                         reason_much_supplied, reason_no_solution, reason_none
+                         reason_much_mass_defect, reason_no_solution, reason_none
    use ehl_report_smooth, only: touches_for_grid
    use ehl_resolution, only: has_solution
-   use ehl_touching, only: at_depth, known_names, mostly_touching, much_supplied, touching_names
+   use ehl_touching, only: at_depth, known_names, mostly_touching, much_mass_defect, touching_names
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    implicit none (type, external)
    private
@@ -75,8 +75,8 @@ contains
          else if (plan%surfaces%rough() .and. .not. (dry .or. has_solution(plan%contact, plan%point, run%grid%coarser()))) then
             note = reason_coarser_inlet
             error = not_known
-         else if (.not. dry .and. numbers(1) > mostly_touching .and. numbers(3) > much_supplied) then
-            note = reason_much_supplied
+         else if (.not. dry .and. numbers(1) > mostly_touching .and. numbers(3) > much_mass_defect) then
+            note = reason_much_mass_defect
             error = not_known
          end if
          numbers([2, 5]) = numbers([2, 5])/plan%contact%area()
@@ -84,7 +84,7 @@ contains
                          "contact_load_share_error_stop", &
                          [plan%lubricant%boundary_film, numbers(1), error + stop_error, error, stop_error])
          call record%set_code("contact_load_share_error_note", note)
-         call record%set("contact_area_share layer_supply", numbers(2:3))
+         call record%set("contact_area_share mass_defect", numbers(2:3))
          if (.not. plan%lubricant%boundary_limit > 0.0_dp) return
          call record%set("load_share_at_hardness area_share_at_hardness plastic_depth_max_m flowing_load_share_at_hardness", &
                          [numbers(4:5), numbers(6)*plan%scales%film, numbers(7)])

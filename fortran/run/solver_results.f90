@@ -25,7 +25,7 @@ submodule (ehl_solver) ehl_solver_results
    real(dp), parameter :: max_change = 0.5_dp, max_rise = 0.05_dp
 
    !> Of the names, units and meanings of results, with `VERSION` of pyehl/schema.py: another one where one of them changes
-   integer, parameter :: schema_version = 2
+   integer, parameter :: schema_version = 3
 
 contains
 

@@ -6,7 +6,7 @@ module ehl_level_tolerance
    use ehl_kinds, only: dp
    use ehl_level_result, only: film_errors, level_result_t, stated_errors
    use ehl_steady_options, only: max_error, steady_options_t
-   use ehl_touching, only: mostly_touching, much_supplied
+   use ehl_touching, only: mostly_touching, much_mass_defect
    implicit none (type, external)
    private
    public :: accurate, counts_share, has_coarser, has_target, is_end, residual_tolerance, wanted
@@ -75,13 +75,13 @@ contains
       type(steady_options_t), intent(in) :: options
       type(contact_results_t), intent(in) :: m
       counts_share = rests_on_boundary_film(m) .or. (options%inlet%film > 0.0_dp .and. m%touching%load_share > 0.0_dp .and. &
-                                                m%touching%supply <= much_supplied)
+                                                m%touching%supply <= much_mass_defect)
    end function counts_share
 
    !> Whether a boundary film supports most of the load; where it would have to give much contact is not well posed
    pure logical function rests_on_boundary_film(m)
       type(contact_results_t), intent(in) :: m
-      rests_on_boundary_film = m%touching%load_share > mostly_touching .and. m%touching%supply <= much_supplied
+      rests_on_boundary_film = m%touching%load_share > mostly_touching .and. m%touching%supply <= much_mass_defect
    end function rests_on_boundary_film
 
    !> Algebraic errors of H_c and H_min that the present level deserves

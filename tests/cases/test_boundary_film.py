@@ -59,7 +59,7 @@ def test_full_film_changes_no_bit(solve, case):
     timed = {"bytes", "wall_seconds", "seconds_per_step", "files", "version", "case"}
     stated = {"contact_load_share", "contact_load_share_error", "contact_load_share_error_note"}
     stated |= {f"contact_load_share_error_{part}" for part in ("grid", "stop")}
-    stated |= {"contact_area_share", "layer_supply", "mu_note", "boundary_film"}
+    stated |= {"contact_area_share", "mass_defect", "mu_note", "boundary_film"}
     left = {k: v for k, v in without.summary.items() if k not in timed | stated}
     assert left == {k: v for k, v in with_film.summary.items() if k not in timed | stated}
 
@@ -452,7 +452,7 @@ def test_a_layer_that_would_have_to_give_much(solve):
     """A thick one on a coarse grid: the assessment states that the model ends there."""
     done = solve(None, 65, STEEL | MIXED | {"lubricant.boundary_film": 8e-8}, words=True)
     assert done.converged
-    assert done["layer_supply"] > 0.1
+    assert done["mass_defect"] > 0.1
     assert "the boundary film would have to give" in done["assessment"]
     assert "where the model ends" in done["assessment"]
 
@@ -478,7 +478,7 @@ def test_no_error_where_a_layer_that_gives_much_carries_most(solve):
     for done in runs:
         assert done.converged
         assert done["contact_load_share"] > 0.5
-        assert done["layer_supply"] > 0.1
+        assert done["mass_defect"] > 0.1
         assert done["contact_load_share_error"] is None
     assert "would have to give much of the flow" in runs[1]["contact_load_share_error_note"]
 

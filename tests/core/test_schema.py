@@ -104,17 +104,21 @@ def test_solutions(tmp_path: Path):
     assert written == names("solution")
 
 
-def test_predictions(tmp_path: Path):
+def brief(text: str) -> dict[str, object]:
+    return pyehl.predict(pyehl.Case.from_text(text), tracks=2).summary
+
+
+def test_predictions():
     rough = "&surface kind = 'fractal' pixels = 32 length_x = 1e-4 length_y = 1e-4 /\n"
     ellipse = "&contact load = 20.0 radius_x = 0.01 radius_y = 0.02 /\n"
     alone, oval, both = (
-        {*pyehl.predict(pyehl.Case.from_text(text), tracks=2).summary, "files"}  # the folder lists them
+        {*brief(text), "files"}  # the folder lists them
         for text in (rough, ellipse + rough, rough + rough.replace("surface", "second_surface"))
     )
     layer = "&contact load = 20.0 /\n&lubricant boundary_film = 1e-9 /\n"
-    held = {*pyehl.predict(pyehl.Case.from_text(layer + rough), tracks=2).summary}
+    held = {*brief(layer + rough)}
     line = "&contact shape = 'line' load_per_length = 1e5 radius = 0.01 mean_velocity = 0.5 /\n"
-    strip = {*pyehl.predict(pyehl.Case.from_text(line + rough), tracks=2).summary}
+    strip = {*brief(line + rough)}
     assert alone | oval | both | held | strip == names("prediction")
     of_two = {n for n in names("prediction") if n.startswith("second_")}
     assert both - alone == of_two | {"surface_rms_m", "surface_slope", "surface_correlation"}

@@ -231,7 +231,7 @@ FAILING = """&contact moes_m = 20, moes_l = 2 /
     "cases",
     [
         50,
-        pytest.param(1_000, marks=pytest.mark.long),
+        pytest.param(500, marks=pytest.mark.long),
         pytest.param(10_000, marks=pytest.mark.slow),
     ],
 )

@@ -26,7 +26,7 @@ def test_this_build_makes_the_stored_shares(evidence):
     row = evidence.read()[0]
     run = {"contact": row["contact"], "boundary_film": float(row["boundary_film"]), "points": 65}
     found = evidence.simulated(run)
-    for name in ("contact_load_share", "contact_area_share", "layer_supply"):
+    for name in ("contact_load_share", "contact_area_share", "mass_defect"):
         assert found[name] == pytest.approx(float(row[name]), rel=1e-6), name
     # friction over that of a smooth contact that touches because of the grid
     assert found["mu"] is None

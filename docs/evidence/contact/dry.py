@@ -65,7 +65,7 @@ SURFACES |= {
 GRIDS = (129, 257)
 KEYS = ("surface", "points")
 NAMES = (
-    "status contact_area_share contact_load_share layer_supply dry_area_share rms P_max_off".split()
+    "status contact_area_share contact_load_share mass_defect dry_area_share rms P_max_off".split()
 )
 
 

@@ -83,7 +83,7 @@ CONTACTS: dict[str, tuple[Row, tuple[float, ...], tuple[int, ...]]] = {
 }
 KEYS = ("contact", "boundary_film", "points")
 NAMES = (
-    "status contact_load_share contact_load_share_error_grid contact_area_share layer_supply mu"
+    "status contact_load_share contact_load_share_error_grid contact_area_share mass_defect mu"
 ).split()
 
 

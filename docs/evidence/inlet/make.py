@@ -37,7 +37,7 @@ QUANTITIES = {"h_c_m": "h_c_error_m", "h_min_m": "h_min_error_m"} | {
     "contact_load_share": "contact_load_share_error"
 }
 COLUMNS = ("contact", "moes_m", "moes_l", "ellipticity", "layer_over_film", "missed", "points")
-RESULTS = ("status", *(name for pair in QUANTITIES.items() for name in pair), "mu", "layer_supply")
+RESULTS = ("status", *(name for pair in QUANTITIES.items() for name in pair), "mu", "mass_defect")
 Row = dict[str, Any]
 
 

@@ -30,7 +30,7 @@ RESULTS = {
     "share": "contact_load_share",
     "error": "contact_load_share_error",
     "error_stop": "contact_load_share_error_stop",
-    "supply": "layer_supply",
+    "supply": "mass_defect",
 }
 Row = dict[str, Any]
 

@@ -16,7 +16,7 @@ COLUMNS = (
     "contact_load_share",
     "contact_load_share_error_grid",
     "contact_area_share",
-    "layer_supply",
+    "mass_defect",
     "mu",
     "mu_smooth",
     "mu_ratio_error",
