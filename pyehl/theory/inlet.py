@@ -67,7 +67,7 @@ def at_inlet(zone: Zone, qx: Array, qy: Array, velocity_ratio: float) -> Complex
     spread[:, inner + 1, inner] = -1.0 / h + 0.5 * turned[:, 0]
     spread[:, inner + 1, inner + 1] = 1.0 / h + 0.5 * turned[:, 0]
     spread[:, -1] = spread[:, -2]
-    convected = _convected(n, h, slip) * nodes.density
+    convected = convected_by(n, h, slip) * nodes.density
     leak = (nodes.across * np.square(qy)[:, np.newaxis])[:, :, np.newaxis] * one
     system = spread @ flow - leak - convected @ held
     right = spread @ bending - convected.sum(-1)
@@ -106,7 +106,7 @@ def wave_flattening(zone: Zone, qx: Array, qy: Array, slip: Array, x: Array) -> 
     return found
 
 
-def _convected(n: int, h: float, slip: Array) -> Complex:
+def convected_by(n: int, h: float, slip: Array) -> Complex:
     """d/dX - i slip at n nodes (m, n, n), exact for a wave exp(i slip X)."""
     i = np.arange(2, n - 1)
     difference = np.zeros((n, n))

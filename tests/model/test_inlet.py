@@ -5,10 +5,20 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.integrate import quad
+from scipy.special import k0
 
 from pyehl.case import Case
 from pyehl.contact.smooth import solve_contact, zone_of
-from pyehl.theory.inlet import END, SPACING, START, at_inlet, passed, wave_flattening
+from pyehl.theory.inlet import (
+    END,
+    SPACING,
+    START,
+    at_inlet,
+    convected_by,
+    passed,
+    wave_flattening,
+)
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import inlet_transfer
@@ -41,6 +51,43 @@ def test_a_narrow_ellipse_deflects_as_a_strip_of_its_width(zone: Zone):
     middle = wave_flattening(narrow, qx, qy, 0.0 * qx, x)[:, np.argmin(np.abs(x + 1.1))].sum(-1)
     across = np.hypot(qy, np.exp(-np.euler_gamma) / 0.05)
     np.testing.assert_allclose(middle, 1.0 / (1.3 * stiffness(np.hypot(qx, across))), rtol=0.05)
+
+
+@pytest.mark.parametrize("width", [0.3, 1.0, np.inf])
+def test_flattening_by_one_cell(zone: Zone, width: float):
+    """The integral of K_0 over a cell near and far, of waves along and across; any width of a line.
+
+    What goes on behind the last node is left out.
+    """
+    x = np.arange(START, END + 0.5 * SPACING, SPACING)
+    qx, qy = np.array([0.0, 20.0, 90.0]), np.array([3.0, 0.0, 40.0])
+    found = wave_flattening(replace(zone, ellipticity=width), qx, qy, 0.0 * qx, x)
+    strip = np.exp(-np.euler_gamma) / (width if np.isfinite(width) else 1.0)
+    for m, i, j in ((0, 9, 9), (0, 9, 10), (1, 9, 9), (1, 9, 8), (1, 9, 30), (2, 9, 10), (2, 9, 9)):
+        kappa, away = np.hypot(qy[m], strip), x[j] - x[i]
+        parts = [
+            quad(
+                lambda d, m=m, kappa=kappa, part=part: k0(kappa * abs(d)) * part(qx[m] * d),
+                *(away - 0.5 * SPACING, away + 0.5 * SPACING),
+                points=[0.0] if i == j else None,
+            )[0]
+            for part in (np.cos, np.sin)
+        ]
+        expected = 4.0 / np.pi**2 / zone.stiffness * complex(*parts)
+        # K_0 beside 0 is taken without its square
+        assert found[m, i, j] == pytest.approx(expected, rel=2e-2 if i == j else 1e-4)
+
+
+def test_what_is_convected_is_exact_for_polynomials_on_a_wave():
+    """Of third degree inside, of second at the last node, of first behind the start."""
+    n, h, slip = 12, 0.1, np.array([0.0, 3.0])
+    x = h * np.arange(n)
+    operator = convected_by(n, h, slip)
+    for rows, degree in ((slice(2, -1), 3), (slice(-1, None), 2), (slice(1, 2), 1)):
+        wave = np.exp(1j * np.outer(slip, x))
+        found = np.einsum("mij,mj->mi", operator, wave * x**degree)
+        expected = wave * degree * x ** (degree - 1)
+        np.testing.assert_allclose(found[:, rows], expected[:, rows], atol=1e-12)
 
 
 @pytest.mark.parametrize("ratio", [0.5, 1.0, 1.5])
