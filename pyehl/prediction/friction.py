@@ -14,13 +14,8 @@ import numpy as np
 from pyehl.prediction.model import PIXEL_POINTS, Components, Model
 from pyehl.prediction.moving_tile import Component
 from pyehl.prediction.relative_positions import Passage, RelativePositions, TilePositions
-from pyehl.prediction.rough_contact import (
-    HertzContact,
-    Response,
-    RoughContact,
-    ShearedContact,
-    thins,
-)
+from pyehl.prediction.rough_contact import RoughContact
+from pyehl.prediction.sheared_contact import HertzContact, Response, ShearedContact, thins
 from pyehl.prediction.spectrum import Band, joining, longer_waves
 from pyehl.surfaces import interpolated, track_offsets
 from pyehl.theory.line_contact import AnyContact

@@ -20,9 +20,9 @@ sum over all waves, eq. 12              :class:`moving_tile.WaveTiles`, of one s
 edge of the contact                     :meth:`moving_tile.Edge.of`
 second order: gamma (P^2 - s^2), f(t/H) :meth:`response.SecondOrder.of`,
                                         :func:`response.film_left`
-tau(p_s + delta p, h_s - rr_d), eq. 13  :meth:`rough_contact.ShearedContact.stress`
+tau(p_s + delta p, h_s - rr_d), eq. 13  :meth:`sheared_contact.ShearedContact.stress`
 friction: integral of tau, eq. 14       :meth:`rough_contact.RoughContact.friction`; model of the
-                                        paper: :meth:`rough_contact.HertzContact.friction`
+                                        paper: :meth:`sheared_contact.HertzContact.friction`
 mean over the passage                   :mod:`relative_positions`
 mu_r/mu_s, tracks, bands                :func:`friction.run`
 p_s, h_s: the smooth contact            :func:`pyehl.contact.smooth.solve_contact`
@@ -52,7 +52,8 @@ from pyehl.errors import InputError
 from pyehl.prediction.moving_tile import Component, Edge, PixelTile, long_waves
 from pyehl.prediction.relative_positions import RelativePositions, TilePositions
 from pyehl.prediction.response import Transfer
-from pyehl.prediction.rough_contact import HertzContact, Response, RoughContact
+from pyehl.prediction.rough_contact import RoughContact
+from pyehl.prediction.sheared_contact import HertzContact, Response
 from pyehl.prediction.spectrum import Spectrum, working_grid
 from pyehl.surfaces import FEATURES, Topography, filtered, rough_groups
 from pyehl.surfaces.pair import merged

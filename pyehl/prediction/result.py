@@ -34,7 +34,7 @@ from pyehl.prediction.model import (
     model_error,
     why_no_error,
 )
-from pyehl.prediction.rough_contact import thins
+from pyehl.prediction.sheared_contact import thins
 from pyehl.prediction.spectrum import BAND_COLUMNS, Band
 from pyehl.prediction.summary import (
     SECOND,

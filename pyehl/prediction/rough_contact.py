@@ -16,7 +16,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -34,188 +33,12 @@ from pyehl.prediction.moving_tile import (
     station_weights,
 )
 from pyehl.prediction.response import FILM_ENDS, STATIONS, film_left
+from pyehl.prediction.sheared_contact import INNER, NEAR, ShearedContact
 from pyehl.theory.disc import EDGE_ANGLES
 from pyehl.theory.line_contact import AnyContact
 from pyehl.theory.lubricant import Lubricant
-from pyehl.theory.shear import shear_stress
 from pyehl.theory.strip_edge import StripEdge
 from pyehl.types import Array, Indices, Single
-
-INNER = 0.8
-"""Pressures are reported within this distance from the centre: further out the roughness moves the
-edge of the contact to and fro [a]. The errors of docs/evidence/thinning are of this and NEAR."""
-NEAR = 0.5
-"""Their rms is reported within this distance [a]."""
-MIN_SAMPLES = 128
-"""Fewest points per Hertz radius when not all pixels are visited, in the model of the paper."""
-
-
-@dataclass(frozen=True, slots=True)
-class Response:
-    """What a loaded contact makes of a rough tile, before it is anywhere in the contact."""
-
-    pressure: Array  # delta p (nx, ny) [Pa], mean zero
-    deformed: Array  # deformed roughness rr_d (nx, ny) [m], mean zero, peaks thin the film
-
-
-def thins(lubricant: Lubricant, operating: AnyContact) -> bool:
-    """Whether the shear stress is not the Newtonian one, as it is without sliding."""
-    return lubricant.shear.law != "newtonian" and operating.sliding_speed > 0.0
-
-
-class ShearedContact:
-    """Points of a contact, the shear stress integrals over them, and what was met so far."""
-
-    minimum_film: float  # minimum film, by which its end is known
-    smooth: float  # sum of the stress of the smooth contact over the points, as `stress`
-    points: int  # within the contact
-    area: float  # that one of them stands for [m^2]
-
-    def __init__(self, operating: AnyContact, lubricant: Lubricant) -> None:
-        self.operating, self.lubricant = operating, lubricant
-        self.thins = thins(lubricant, operating)
-        self.cavitated = 0  # points where the pressure is not positive
-        self.count = 0  # positions
-        self.ended = 0  # points where the film has ended
-        self.imbalance = 0.0  # largest share of the load that delta p carries or takes off [-]
-        self.lost = False  # whether the roughness takes more pressure than there is
-        self.max_increase = -math.inf  # of the pressure over the smooth contact within INNER
-        self.max_pressure = -math.inf  # within INNER
-        self.squared_increase = 0.0  # sum over the positions of its mean square within NEAR
-        # Films of which the share of points below is counted, and the points that were below
-        self.levels: tuple[float, ...] = ()
-        self.below = np.zeros(0, dtype=np.int64)
-
-    def watch(self, levels: tuple[float, ...]) -> None:
-        """Count from now on how many points have less film than each of some levels."""
-        self.levels, self.below = levels, np.zeros(len(levels), dtype=np.int64)
-
-    def meet(
-        self, increase: Array | Single, pressure: Array, film: Array, inner: Indices, near: Indices
-    ) -> None:
-        """Note what a position has at its points; which of them are within INNER and NEAR."""
-        squares = np.square(increase.take(near), dtype=np.float64)
-        self.squared_increase += float(squares.mean()) if near.size else math.nan
-        maximum = float(increase.take(inner).max(initial=-math.inf))
-        self.max_increase = max(self.max_increase, maximum)
-        maximum = float(pressure.take(inner).max(initial=-math.inf))
-        self.max_pressure = max(self.max_pressure, maximum)
-        for i, level in enumerate(self.levels):
-            self.below[i] += np.count_nonzero(film < level)
-
-    def min_film(self) -> float:
-        """Minimum film that was met, as reported."""
-        return self.minimum_film
-
-    def increase_rms(self) -> float:
-        """Rms of the increase of the pressure over the positions within NEAR [p_h]."""
-        return math.sqrt(self.squared_increase / max(1, self.count))
-
-    def shares(self) -> Array:
-        """Mean share of the contact below each level [-]."""
-        return np.asarray(self.below / max(1, self.count * self.points))
-
-    def stress(self, pressure: Array, film: Array) -> Array:
-        """Shear stress [Pa]; of a Newtonian oil divided by eta0 and the sliding speed."""
-        pressure = pressure * self.operating.hertz_pressure
-        ratio = self.lubricant.viscosity_ratio(pressure) / (film * self.operating.film_scale)
-        if not self.thins:
-            return ratio
-        newtonian = ratio * (self.lubricant.viscosity * self.operating.sliding_speed)
-        return shear_stress(newtonian, pressure, self.lubricant.shear)
-
-    def mu_smooth(self) -> float:
-        """Coefficient of friction of the smooth contact [-]; NaN where it overflows."""
-        return self.coefficient(self.smooth) if math.isfinite(self.smooth) else math.nan
-
-    def coefficient(self, stress: float) -> float:
-        """Coefficient of friction of a sum of shear stress, as `stress` has it [-]."""
-        found = stress * self.area / self.operating.load
-        newtonian = self.lubricant.viscosity * self.operating.sliding_speed
-        return found if self.thins else found * newtonian
-
-    def cavitated_bound(self, minimum: float) -> float:
-        """Bound of the share of friction where the pressure is zero, by the minimum ratio."""
-        if self.cavitated == 0:
-            return 0.0
-        stress = float(self.stress(np.array(0.0), np.array(self.minimum_film)))
-        return self.cavitated * stress / (self.count * minimum * self.smooth)
-
-
-class HertzContact(ShearedContact):
-    """All pixels of the Hertz circle, in a semi-ellipse of pressure and a uniform film."""
-
-    def __init__(
-        self,
-        pressure: Array,
-        deformed: Array,
-        film: float,
-        *,
-        pixel: tuple[float, float],
-        operating: AnyContact,
-        lubricant: Lubricant,
-        load_balance: bool,
-    ) -> None:
-        super().__init__(operating, lubricant)
-        self.pressure, self.deformed, self.film = pressure, deformed, film
-        self.load_balance = load_balance
-        nx, ny = pressure.shape
-        i, stride_x = _lattice(1.0 / pixel[0], nx)
-        j, stride_y = _lattice(1.0 / pixel[1], ny)
-        self.area = pixel[0] * pixel[1] * stride_x * stride_y * operating.hertz_radius**2
-        square = (i * pixel[0])[:, np.newaxis] ** 2 + (j * pixel[1])[np.newaxis, :] ** 2
-        inside = square < 1.0
-        self.radius_squared = square[inside]
-        # places in the flattened tile
-        self.index = ((i % nx)[:, np.newaxis] * ny + j % ny)[inside]
-        self.points = self.index.size
-        # every height within |y| < a passes through the contact
-        self.minimum_film = film - float(deformed[:, np.unique(j % ny)].max())
-        self.semi_ellipse = np.sqrt(1.0 - self.radius_squared)
-        self.inner, self.near = (np.flatnonzero(self.radius_squared < r**2) for r in (INNER, NEAR))
-        self.smooth = float(self.stress(self.semi_ellipse, np.array(film)).sum())
-
-    def friction(self, position: tuple[float, float]) -> float:
-        """Integral of the shear stress over that of the smooth contact, in a position."""
-        pixels = [int(number) for number in position]
-        moved = [np.roll(v, pixels, (0, 1)) for v in (self.pressure, self.deformed)]
-        delta, deformed = (values.ravel().take(self.index) for values in moved)
-        film = self.film - deformed
-        if min(self.minimum_film, float(film.min())) <= 0.0:
-            return math.nan
-        # times the area of the circle, not of its pixels: the load is 2 pi/3
-        carried = 1.5 * float(delta.mean())
-        self.imbalance = max(self.imbalance, abs(carried))
-        pressure = self.semi_ellipse
-        if self.load_balance:
-            if carried >= 1.0:
-                return math.nan
-            scale = (1.0 - carried) ** (1.0 / 3.0)
-            pressure = scale * np.sqrt(np.maximum(0.0, 1.0 - self.radius_squared / scale**2))
-        pressure = pressure + delta
-        self.meet(delta, pressure, film, self.inner, self.near)
-        tension = pressure <= 0.0
-        self.cavitated += int(np.count_nonzero(tension))
-        pressure[tension] = 0.0
-        self.count += 1
-        with np.errstate(over="ignore"):
-            return float(self.stress(pressure, film).sum()) / self.smooth
-
-
-def _lattice(radius: float, pixels: int) -> tuple[Indices, int]:
-    """Pixels of a diameter at which the stress is taken, and their stride.
-
-    All of them unless the tile is much shorter than the contact and finely sampled. Then a stride
-    without common divisor with the tile meets each of its pixels in turn, and the contact is still
-    met at MIN_SAMPLES points and each pixel of the tile at eight places of it.
-    """
-    half = int(radius)
-    stride = max(1, half // max(MIN_SAMPLES, 4 * pixels))
-    while math.gcd(stride, pixels) > 1:
-        stride -= 1
-    reach = half // stride
-    return np.arange(-reach, reach + 1) * stride, stride
-
 
 OUTER = 0.7
 """Distance from the centre beyond which the smooth film moves with the edge [semi-axes]; further

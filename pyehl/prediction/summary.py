@@ -17,7 +17,7 @@ from pyehl.prediction.friction import (
     deformed_surface,
 )
 from pyehl.prediction.mixed_lubrication import NO_FRICTION, contact_numbers
-from pyehl.prediction.rough_contact import Response
+from pyehl.prediction.sheared_contact import Response
 from pyehl.prediction.spectrum import Spectrum, cutoff_error, records
 from pyehl.reasons import alpha_note
 from pyehl.surfaces import Topography
