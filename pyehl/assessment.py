@@ -29,7 +29,7 @@ HOT = 10.0
 # and mean strain over the former (Tabor 1951)
 SLENDER_CONTACT, SLENDER_FILM, MEAN_STRAIN = 0.1, 0.01, 0.2
 # Share of the flow that the boundary film may give (as fortran/reynolds/touching.f90)
-MUCH_SUPPLIED = 0.1
+MUCH_MASS_DEFECT = 0.1
 # How the reason begins for which a grid makes bodies touch
 NO_INLET = "the grid does not resolve the inlet"
 
@@ -129,7 +129,7 @@ def _contact(s: Summary) -> list[str]:
         f"mixed film: {percent(share)} of the load is sustained by the boundary film, with "
         f"{known or 'an error that is not known'}"
     ]
-    if _finite_above(supply, MUCH_SUPPLIED):
+    if _finite_above(supply, MUCH_MASS_DEFECT):
         found.append(
             f"the boundary film would have to give {percent(supply)} of the flow, where the model "
             "ends"

@@ -272,7 +272,7 @@ def test_default_border_of_a_wide_contact(kappa, border):
     assert pyehl.Case.from_text("", keys | {"grid.border": "zero"})["grid"]["border"] == "zero"
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_cycles_whose_residual_grows_are_taken_back():
     """A crowned roller with L = 32, kappa = 15: left alone these cycles end at the cycle limit.
 

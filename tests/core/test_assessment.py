@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from pyehl.assessment import HOLDS, MUCH_SUPPLIED, NO_RESULT, WITH_CARE, assess
+from pyehl.assessment import HOLDS, MUCH_MASS_DEFECT, NO_RESULT, WITH_CARE, assess
 from pyehl.conclusion import conclude
 from pyehl.reasons import REASONS
 
@@ -21,7 +21,7 @@ def test_codes_are_those_of_the_library(root: Path):
     assert len(codes) > 30
     assert {int(code) for name, code in codes.items() if name != "reason_none"} == set(REASONS)
     touching = (root / "fortran/reynolds/touching.f90").read_text()
-    assert f"much_supplied = {MUCH_SUPPLIED}_dp" in touching
+    assert f"much_mass_defect = {MUCH_MASS_DEFECT}_dp" in touching
 
 
 def test_no_solution():
