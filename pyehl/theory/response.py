@@ -39,7 +39,7 @@ from numpy.typing import ArrayLike
 
 from pyehl.theory.inlet import passed
 from pyehl.theory.transport import Zone, upstream
-from pyehl.types import Array, Complex, Indices
+from pyehl.types import Array, Complex
 
 GAIN = (0.0674, 0.3085, 2.414, 28.44)
 """Constants of `edge_gain`, fitted by docs/evidence/response/gain.py."""
@@ -81,11 +81,7 @@ def edge_gain(
 def _fit() -> dict[str, Any]:
     """Coefficients of the inlet transfer, as fitted."""
     text = resources.files("pyehl.theory").joinpath("response.json").read_text(encoding="utf-8")
-    found = cast("dict[str, Any]", json.loads(text))
-    for name in ("modulus", "angle", "origin", "growth"):
-        terms = np.array(found[name])
-        found[name] = terms[:, 0], terms[:, 1:].astype(int)
-    return found
+    return cast("dict[str, Any]", json.loads(text))
 
 
 def fitted_range() -> dict[str, list[float]]:
@@ -206,13 +202,14 @@ def _nabla_2(q: Array, moes: tuple[float, float]) -> Array:
 
 
 def _polynomial(
-    terms: tuple[Array, Indices], arrays: tuple[Array, Array], numbers: tuple[float, ...]
+    terms: list[list[float]], arrays: tuple[Array, Array], numbers: tuple[float, ...]
 ) -> Array:
-    """Sum of coefficients times powers of the variables, a row of powers for each.
+    """Sum of coefficient times powers of the variables; a term is [coefficient, power, ...].
 
     `arrays`: the :func:`_powers` of the first two variables; the others are `numbers`.
     """
-    coefficients, powers = terms
+    table = np.array(terms)
+    coefficients, powers = table[:, 0], table[:, 1:].astype(int)
     first, second = arrays
     factors = np.zeros((len(second), len(first)))
     products = coefficients * np.prod(np.asarray(numbers) ** powers[:, 2:], axis=1)

@@ -459,7 +459,8 @@ def test_many_turns_leave_nothing(start):
         film_and_back()
     # kilobytes: less than 20 for a turn
     assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 8_000
-    assert threading.active_count() == threads
+    # those of earlier tests may end
+    assert threading.active_count() <= threads
 
 
 def test_contact_without_friction_of_the_layer():
