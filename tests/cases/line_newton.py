@@ -74,40 +74,47 @@ class Line:
             wedge[at, at - side * shift] = factor / h
         return abs(speed) * wedge
 
+    def linearised(self, p, gap, viscosity, transport):
+        """Poiseuille term, and the Jacobian of that less `transport` @ m."""
+        h, n, p_h = self.h, self.n, self.p_h
+        inner = np.arange(1, n)
+        c, ratio = ALPHA * P0 / self.z, 1.0 + p_h * p / P0
+        rho = (5.9e8 + 1.34 * p_h * p) / (5.9e8 + p_h * p)
+        drho = p_h * 0.34 * 5.9e8 / (5.9e8 + p_h * p) ** 2
+        eps = self.slowness / viscosity * rho * gap**3 * np.exp(-c * (ratio**self.z - 1.0))
+        by_p = eps * (drho / rho - c * self.z * p_h / P0 * ratio ** (self.z - 1.0))
+        east = 0.5 * (eps[1:-1] + eps[2:]) / h**2
+        west = 0.5 * (eps[1:-1] + eps[:-2]) / h**2
+        up, down = (p[2:] - p[1:-1]) / (2.0 * h**2), (p[:-2] - p[1:-1]) / (2.0 * h**2)
+        residual = np.zeros(n + 2)
+        residual[inner] = east * (p[2:] - p[1:-1]) + west * (p[:-2] - p[1:-1])
+        by_film, direct = -transport * rho, -transport * (drho * gap)
+        for coupling, part, side in ((east, up, 1), (west, down, -1)):
+            for offset in (0, side):
+                at = inner, inner + offset
+                by_film[at] += part * (3.0 * eps / gap)[inner + offset]
+                direct[at] += part * by_p[inner + offset]
+            direct[inner, inner + side] += coupling
+            direct[inner, inner] -= coupling
+        jacobian = np.zeros((n + 2, n + 2))
+        jacobian[:-1, :-1] = by_film @ self.k + direct
+        jacobian[:-1, -1] = by_film.sum(axis=1)
+        jacobian[-1, :-1] = h
+        return residual, jacobian
+
     def newton(
         self, p, h00, *, speed=1.0, load=1.0, curvature=1.0, viscosity=1.0, now=0.0, past=0.0
     ):
         """Pressure and separation by Newton's method; `now` m + `past` is the squeeze term."""
-        x, h, n, k, p_h = self.x, self.h, self.n, self.k, self.p_h
+        x, h, n, k = self.x, self.h, self.n, self.k
         inner = np.arange(1, n)
         wedge = self.wedge(speed)
         wedge[inner, inner] += now
         for _ in range(60):
             gap = self.gap(p, h00, curvature)
-            c, ratio = ALPHA * P0 / self.z, 1.0 + p_h * p / P0
-            rho = (5.9e8 + 1.34 * p_h * p) / (5.9e8 + p_h * p)
-            drho = p_h * 0.34 * 5.9e8 / (5.9e8 + p_h * p) ** 2
-            eps = self.slowness / viscosity * rho * gap**3 * np.exp(-c * (ratio**self.z - 1.0))
-            by_p = eps * (drho / rho - c * self.z * p_h / P0 * ratio ** (self.z - 1.0))
-            east = 0.5 * (eps[1:-1] + eps[2:]) / h**2
-            west = 0.5 * (eps[1:-1] + eps[:-2]) / h**2
-            up, down = (p[2:] - p[1:-1]) / (2.0 * h**2), (p[:-2] - p[1:-1]) / (2.0 * h**2)
-            residual = np.zeros(n + 2)
-            residual[inner] = east * (p[2:] - p[1:-1]) + west * (p[:-2] - p[1:-1])
-            residual[:-1] -= wedge @ (rho * gap) + past
+            residual, jacobian = self.linearised(p, gap, viscosity, wedge)
+            residual[:-1] -= wedge @ self.mass(p, h00, curvature) + past
             residual[-1] = h * p.sum() - load * np.pi / 2.0
-            by_film, direct = -wedge * rho, -wedge * (drho * gap)
-            for coupling, part, side in ((east, up, 1), (west, down, -1)):
-                for offset in (0, side):
-                    at = inner, inner + offset
-                    by_film[at] += part * (3.0 * eps / gap)[inner + offset]
-                    direct[at] += part * by_p[inner + offset]
-                direct[inner, inner + side] += coupling
-                direct[inner, inner] -= coupling
-            jacobian = np.zeros((n + 2, n + 2))
-            jacobian[:-1, :-1] = by_film @ k + direct
-            jacobian[:-1, -1] = by_film.sum(axis=1)
-            jacobian[-1, :-1] = h
             # without pressure where the pressure that a node alone would need is negative
             alone = p[inner] - residual[inner] / jacobian[inner, inner]
             held = np.r_[0, inner[alone <= 0.0], n]

@@ -27,34 +27,6 @@ class StarvedLine(line_newton.Line):
                 matrix[i, i - 2] = 0.5 * speed / h
         return matrix
 
-    def full_nodes(self, p, gap, viscosity, own):
-        """Poiseuille term, and the Jacobian with the oil of nodes that are full."""
-        h, n, p_h = self.h, self.n, self.p_h
-        inner = np.arange(1, n)
-        c, ratio = line_newton.ALPHA * line_newton.P0 / self.z, 1.0 + p_h * p / line_newton.P0
-        rho = (5.9e8 + 1.34 * p_h * p) / (5.9e8 + p_h * p)
-        drho = p_h * 0.34 * 5.9e8 / (5.9e8 + p_h * p) ** 2
-        eps = self.slowness / viscosity * rho * gap**3 * np.exp(-c * (ratio**self.z - 1.0))
-        by_p = eps * (drho / rho - c * self.z * p_h / line_newton.P0 * ratio ** (self.z - 1.0))
-        east = 0.5 * (eps[1:-1] + eps[2:]) / h**2
-        west = 0.5 * (eps[1:-1] + eps[:-2]) / h**2
-        up, down = (p[2:] - p[1:-1]) / (2.0 * h**2), (p[:-2] - p[1:-1]) / (2.0 * h**2)
-        residual = np.zeros(n + 2)
-        residual[inner] = east * (p[2:] - p[1:-1]) + west * (p[:-2] - p[1:-1])
-        by_film, direct = -own * rho, -own * (drho * gap)
-        for coupling, part, side in ((east, up, 1), (west, down, -1)):
-            for offset in (0, side):
-                at = inner, inner + offset
-                by_film[at] += part * (3.0 * eps / gap)[inner + offset]
-                direct[at] += part * by_p[inner + offset]
-            direct[inner, inner + side] += coupling
-            direct[inner, inner] -= coupling
-        jacobian = np.zeros((n + 2, n + 2))
-        jacobian[:-1, :-1] = by_film @ self.k + direct
-        jacobian[:-1, -1] = by_film.sum(axis=1)
-        jacobian[-1, :-1] = h
-        return residual, jacobian
-
     def starved(
         self, p, short, h00, layer, *, speed=1.0, load=1.0, curvature=1.0, viscosity=1.0, now=0.0,
         past=0.0,
@@ -70,7 +42,7 @@ class StarvedLine(line_newton.Line):
         full = (p > 0.0) & (short <= 0.0)
         for _ in range(100):
             gap = self.gap(p, h00, curvature)
-            residual, jacobian = self.full_nodes(p, gap, viscosity, own)
+            residual, jacobian = self.linearised(p, gap, viscosity, own)
             oil = self.mass(p, h00, curvature) - short
             oil[0] = layer
             residual[inner] -= (matrix @ oil + inflow + past)[inner]
