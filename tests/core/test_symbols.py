@@ -42,7 +42,7 @@ def formulas(text: str) -> list[str]:
 
 
 def argument(tokens: list[str], at: int) -> tuple[list[str], int]:
-    """Argument that begins at a token, and the place behind it."""
+    """The argument at a token, and the index after it."""
     if tokens[at] != "{":
         if tokens[at] in MARKS:
             inside, end = argument(tokens, at + 1)
@@ -73,7 +73,7 @@ def endings(subscript: list[str]) -> list[str]:
 
 
 def scripts(tokens: list[str], at: int, name: str) -> tuple[set[str], set[str], int]:
-    """A name with its primes and subscripts, the symbols of its exponent, and the place behind."""
+    """A name with its primes and subscripts, the symbols of its exponent, the index after both."""
     prime, star, subscripts, inner = False, "", [""], set()
     while at < len(tokens) and tokens[at] in ("_", "'", "^"):
         if tokens[at] == "'":
