@@ -162,7 +162,7 @@ contains
    pure real(dp) function east_flow(self, m, m_before) result(flow)
       class(wedge_t), intent(in) :: self
       real(dp), intent(in) :: m, m_before
-      flow = dot_product([self%c(0) - self%squeeze, -self%c(2), 0.0_dp], [m, m_before, 0.0_dp])
+      flow = (self%c(0) - self%squeeze)*m - self%c(2)*m_before
    end function east_flow
 
    !> Factor of m at the node itself

@@ -1,10 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> What time steps begin with: the smooth contact before a front, a prediction, or a state that was kept
 submodule (ehl_contact_run) ehl_contact_start
-   use ehl_reynolds, only: refresh
    use ehl_grid_error, only: relative_errors
    use ehl_level_result, only: friction_error
    use ehl_outcome, only: outcome_names
+   use ehl_reynolds, only: refresh
    use ehl_status, only: ehl_bad_input
    use ehl_time_levels, only: set_geometry
    implicit none (type, external)
