@@ -103,16 +103,16 @@ def test_the_balance_over_a_duty_is_of_second_order():
 
 
 @pytest.mark.parametrize(
-    ("duty", "most"),
+    "duty",
     [
-        ({"load": [1.0, 1.0, 1.5, 1.5]}, 5e-3),
-        ({"inlet_film": [1.0, 1.0, 0.5, 0.5]}, 5e-3),
-        ({"mean_velocity": [1.0, 1.0, 1.4, 1.4]}, 5e-3),
+        {"load": [1.0, 1.0, 1.5, 1.5]},
+        {"inlet_film": [1.0, 1.0, 0.5, 0.5]},
+        {"mean_velocity": [1.0, 1.0, 1.4, 1.4]},
     ],
     ids=["load", "layer", "speed"],
 )
-def test_against_newton(duty, most):
-    """Films within 0.5 % of an independent solver in the same steps."""
+def test_against_newton(duty):
+    """Films within 0.4 % of an independent solver in the same steps: at most 0.31 % apart."""
     data = pyehl.solve(line([0.0, 0.5, 1.0, 6.5], **duty))
     time, h_c, h_min, speed, load, layer = history(
         data, "T", "H_c", "H_min", "speed", "load", "oil_layer"
@@ -122,8 +122,8 @@ def test_against_newton(duty, most):
     films = starved_newton.march(other, 0.0856, np.array([0.0, *time]), states, [layer[0], *layer])[
         1:
     ]
-    assert np.abs(h_c / films[:, 0] - 1.0).max() < most
-    assert np.abs(h_min / films[:, 1] - 1.0).max() < most
+    assert np.abs(h_c / films[:, 0] - 1.0).max() < 4e-3
+    assert np.abs(h_min / films[:, 1] - 1.0).max() < 4e-3
 
 
 def test_a_constant_duty_is_the_steady_contact_in_bits():
