@@ -290,11 +290,10 @@ def _of_negative_film(
         shown = f"{fixed(film * v['film_scale_m'] * 1e9, 1)} nm" if si else ""
         text += f", minimum film before {shown or 'H_min = ' + power(film, 3)}"
     nodes, enough = d["end_wave_nodes"], d["enough_wave_nodes"]
-    if rough:
-        text += f"; the shortest waves have {nodes:.0f} nodes"
     if not rough:
-        text += f": {help_}"
-    elif nodes < enough:
+        return f"{text}: {help_}"
+    text += f"; the shortest waves have {nodes:.0f} nodes"
+    if nodes < enough:
         text += f", and as high as the film they need {enough:.0f}: {help_}, a smoother surface"
     else:
         text += " or more: give a smoother surface"
