@@ -171,7 +171,10 @@ def solve(values: Mapping[str, Any], **more: Any) -> tuple[xr.Dataset, float]:  
 
 
 def solve_on_enough(values: dict[str, Any]) -> tuple[xr.Dataset, float]:
-    """Solve, on twice the nodes where there is no positive film, as the message of that says."""
+    """Solve, on twice the nodes where there is no positive film, as the message of that says.
+
+    `values` have those nodes afterwards, for the runs that are compared.
+    """
     found, seconds = solve(values)
     for _ in range(MOST_REFINED):
         if found.attrs["status"] != "negative film":
