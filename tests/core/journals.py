@@ -5,7 +5,7 @@ import json
 import shutil
 import sqlite3
 import tempfile
-from contextlib import closing
+from contextlib import closing, suppress
 from pathlib import Path
 
 from pyehl.studies.journal import FILES, NAME
@@ -16,8 +16,9 @@ def rows_in(folder: Path) -> dict[int, dict[str, object]]:
     with tempfile.TemporaryDirectory() as place:
         # as a kill at this instant would leave it
         for name in FILES:
-            if (folder / name).is_file():
-                shutil.copy(folder / name, place)
+            # one that the writer ends at this instant is not there
+            with suppress(FileNotFoundError):
+                shutil.copyfile(folder / name, Path(place) / name)
         if not (Path(place) / NAME).is_file():
             return {}
         try:
