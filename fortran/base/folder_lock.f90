@@ -141,16 +141,16 @@ contains
    !> Remove a lock with this content, and no other one that may have come in its place
    subroutine take_away(path, text)
       character(len=*), intent(in) :: path, text
-      character(len=:), allocatable :: aside, found
+      character(len=:), allocatable :: backup, found
       type(status_t) :: reading
       logical :: done
 
-      aside = spare_path(path//".old")
-      if (.not. rename_path(path, aside)) return
-      call read_text(aside, longest, found, reading)
+      backup = spare_path(path//".old")
+      if (.not. rename_path(path, backup)) return
+      call read_text(backup, longest, found, reading)
       done = .false.
-      if (found /= text) done = move_new(aside, path)
-      if (.not. done) done = remove_file(aside)
+      if (found /= text) done = move_new(backup, path)
+      if (.not. done) done = remove_file(backup)
    end subroutine take_away
 
    !> Name of this machine, one word

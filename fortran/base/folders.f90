@@ -167,17 +167,17 @@ contains
    !> has changed.
    logical function change_places(one, other)
       character(len=*), intent(in) :: one, other
-      character(len=:), allocatable :: aside
+      character(len=:), allocatable :: backup
 
       change_places = renamed(one, other, exchange)
       if (change_places) return
-      aside = spare_path(one//".old")
-      if (.not. rename_path(other, aside)) return
+      backup = spare_path(one//".old")
+      if (.not. rename_path(other, backup)) return
       change_places = rename_path(one, other)
       if (change_places) then
-         change_places = rename_path(aside, one)
+         change_places = rename_path(backup, one)
       else
-         change_places = rename_path(aside, other)
+         change_places = rename_path(backup, other)
          change_places = .false.
       end if
    end function change_places

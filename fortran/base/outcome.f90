@@ -6,7 +6,7 @@ module ehl_outcome
    public :: outcome_running, outcome_converged, outcome_cycle_limit, outcome_diverged, outcome_negative_film, &
              outcome_target_missed, outcome_interrupted, outcome_unsettled, outcome_failed, outcome_names
 
-   !> Not at its end; at a good end; out of cycles; not a number; a film that is not positive; the
+   !> Not at its end; converged; out of cycles; not a number; a film that is not positive; the
    !> largest grid misses target_error; stopped from outside; the mean friction has not settled; ended by an error
    integer, parameter :: outcome_running = 0, outcome_converged = 1, outcome_cycle_limit = 2, &
                          outcome_diverged = 3, outcome_negative_film = 4, outcome_target_missed = 5, &

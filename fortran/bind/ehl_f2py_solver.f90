@@ -145,7 +145,7 @@ contains
       call reply(status, stat, message)
    end subroutine save_state
 
-   !> Remove the states of a run that has come to a good end
+   !> Remove the states of a run that has converged
    subroutine clear_states(handle, stat, message)
       integer(c_int), intent(in) :: handle
       integer(c_int), intent(out) :: stat

@@ -21,7 +21,7 @@ module ehl_case_grid
    real(dp), parameter :: min_ratio = 0.25_dp, largest_ratio = 1.41_dp, min_smooth = 0.125_dp
    !> Largest ratio in a smooth contact, as it is and over kappa: the film of a wide one varies across the motion over the length
    !> of the contact there. Up to `blunt_spike` of alpha p_h, and an L of `high_spike` where the flow does not thin: beyond, the
-   !> pressure spike on the oblique edge is a few nodes wide, and cycles on such cells throw it about (docs/theory/relaxation.md).
+   !> pressure spike on the oblique edge is a few nodes wide, and cycles on such cells let it oscillate (docs/theory/relaxation.md).
    real(dp), parameter :: largest_smooth = 2.8_dp, smooth_by_kappa = 0.5_dp
    !> L above which the pressure spike is high. Coarse grids that leave it to the sweeps then pay: at L = 21 to 28 contacts take a
    !> quarter to two thirds of the cycles, at 6 and 7 up to three times as many. Below it a roller, whose film varies along it by

@@ -123,7 +123,7 @@ contains
       flash_temperature = 2.32_dp*flux*half/sum(conductivity*sqrt(pi*raised_speed(peclet, 1.234_dp/potential**2, potential)))
    end function flash_temperature
 
-   !> Speed at which heat that flows straight down makes the maximum rise of a surface, from which it flows aside as well:
+   !> Speed at which heat that flows straight down makes the maximum rise of a surface, from which it flows sideways as well:
    !> that of the surface and that which one at rest has, together. On a circle and a wide contact they add up; under a
    !> narrow one heat flows across the motion long before it is too slow to flow ahead.
    elemental real(dp) function raised_speed(speed, rest, potential)

@@ -28,7 +28,7 @@ module ehl_checkpoint_folder
    character(len=*), parameter :: states(*) = [character(len=32) :: state_files, coarser//state_files], &
       files(*) = [character(len=32) :: states, surface_file, second_file, case_file]
 
-   !> Writes the state now and then
+   !> Writes the state at intervals
    type :: checkpoint_folder_t
       private
       !> Ends in '/'; not allocated: nothing is kept
@@ -108,7 +108,7 @@ contains
       same = .false.
       if (resumed /= "") same = place == checkpoint_path(resumed)
       if (.not. same) then
-         if (holds_state(place)) call set_aside(place, note, status)
+         if (holds_state(place)) call back_up(place, note, status)
       end if
       if (status%failed()) return
       self%folder = place
@@ -165,7 +165,7 @@ contains
       if (allocated(self%folder)) has_state = holds_state(self%folder)
    end function has_state
 
-   !> The run has come to a good end: nothing is left to go on with
+   !> The run has converged: its states are removed
    subroutine close_folder(self)
       class(checkpoint_folder_t), intent(inout) :: self
 
@@ -174,7 +174,7 @@ contains
       deallocate (self%folder)
    end subroutine close_folder
 
-   !> Give the folder of the results back
+   !> Unlock the folder of the results
    subroutine release(self)
       class(checkpoint_folder_t), intent(inout) :: self
       call self%lock%release()
@@ -234,22 +234,22 @@ contains
    end function is_left_over
 
    !> Keep the folder of an earlier run under another name
-   subroutine set_aside(folder, note, status)
+   subroutine back_up(folder, note, status)
       character(len=*), intent(in) :: folder
       character(len=:), allocatable, intent(inout) :: note
       type(status_t), intent(inout) :: status
-      character(len=:), allocatable :: aside
+      character(len=:), allocatable :: backup
 
-      aside = folder(:len(folder) - 1)//".previous"
-      call check_ours(aside//"/", status)
+      backup = folder(:len(folder) - 1)//".previous"
+      call check_ours(backup//"/", status)
       if (status%failed()) return
-      call remove_files(aside//"/")
-      if (rename_path(folder(:len(folder) - 1), aside)) then
-         note = "the state of an earlier run is now in "//aside
+      call remove_files(backup//"/")
+      if (rename_path(folder(:len(folder) - 1), backup)) then
+         note = "the state of an earlier run is now in "//backup
       else
-         call status%fail(ehl_file, aside//": error: cannot keep the state of an earlier run here")
+         call status%fail(ehl_file, backup//": error: cannot keep the state of an earlier run here")
       end if
-   end subroutine set_aside
+   end subroutine back_up
 
    !> Write the heights of a surface; of size 0: none
    subroutine put_heights(path, heights, status)

@@ -48,7 +48,7 @@ contains
       end associate
    end subroutine report_scene
 
-   !> The transient run: results null unless it came to a good end
+   !> The transient run: results null unless it converged
    subroutine report_transient(record, run, good, known, mean, change)
       type(record_t), intent(inout) :: record
       type(contact_run_t), intent(in) :: run
@@ -100,7 +100,7 @@ contains
       end associate
    end subroutine report_transient
 
-   !> Extremes of pressure and film over the passage, with where and when: null unless it came to a good end
+   !> Extremes of pressure and film over the passage, with where and when: null unless it converged
    subroutine report_passage(record, scales, extremes, good)
       type(record_t), intent(inout) :: record
       type(scales_t), intent(in) :: scales

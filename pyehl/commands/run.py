@@ -47,7 +47,7 @@ class _Voice:
 
 
 def _display(say: Callable[[str], None]) -> Callable[[Solver], None]:
-    """Give what shows the state: a bar on a terminal, else lines now and then, and the end."""
+    """Give what shows the state: a bar on a terminal, else lines at intervals, and the end."""
     bar = ProgressBar() if sys.stderr.isatty() else None
     interval = PROGRESS_INTERVAL if bar is None else 0.1
     last = time.monotonic()

@@ -23,7 +23,7 @@ LINE_INTERVAL = 5.0
 
 
 class Bar:
-    """A bar that counts estimated seconds; lines now and then where there is no terminal."""
+    """A bar that counts estimated seconds; lines at intervals where there is no terminal."""
 
     def __init__(self, total: float) -> None:
         self._start = self._last = time.monotonic()

@@ -160,7 +160,7 @@ def roller_bearing(machine: Machine) -> Bearing:
 
 
 def _check_rollers(machine: Machine) -> None:
-    """Refuse loads that such rollers cannot carry, and angles that fit not."""
+    """Refuse loads that such rollers cannot carry, and angles that do not fit."""
     v = machine.values
     if v.contact_angle == 0.0:
         machine.wants("radial_load")

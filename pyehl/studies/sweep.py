@@ -76,7 +76,7 @@ def gather(
     `identity` is what makes them another study than others; `place` is the folder with the names
     of its files, None: nothing is kept on disk. `jobs` worker processes do the tasks (0: as many
     as processors), or those of a dask scheduler; `retry`: those that failed are done again. `write`
-    writes tables of the rows, now and then and at the end. InputError if the folder holds another
+    writes tables of the rows, at intervals and at the end. InputError if the folder holds another
     study or something else, or is in use; FileError if it cannot be written.
     """
     watcher = watcher or Watcher()

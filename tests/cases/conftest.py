@@ -39,7 +39,7 @@ class Run:
 
     @property
     def converged(self) -> bool:
-        """Whether the run came to a good end, by its word and by its exit status."""
+        """Whether the run converged, by its status and by its exit status."""
         return self.summary["status"] == "converged" and self.code == 0
 
     @property

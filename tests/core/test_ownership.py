@@ -320,7 +320,7 @@ FILES = {
 
 
 # of whose kind another one is always there
-LONG = ("plot as pdf", "plot as svg", "surface as .txt", "surface as .nc")
+LONG = ("plot of the folder", "plot as pdf", "plot as svg", "surface as .txt", "surface as .nc")
 
 
 @pytest.fixture(scope="module")

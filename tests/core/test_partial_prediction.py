@@ -237,7 +237,7 @@ def test_smooth_contact_of_a_curve_resolves_its_inlet():
 def test_contact_where_a_full_film_breaks_down(tmp_path, capsys):
     """Numbers of a full film are none then, and neither table nor pictures need them."""
     case = tmp_path / "case.nml"
-    case.write_text(TEXT.format(0.02, 2e-8, 0.1).replace("rms_height = 3e-8", "rms_height = 1e-7"))
+    case.write_text(TEXT.format(0.3, 1.2e-7, 0.1).replace("rms_height = 3e-8", "rms_height = 2e-7"))
     assert cli.main(["predict", str(case), "-o", str(tmp_path / "out"), "--tracks", "1"]) == 0
     summary = scalars_of(pyehl.load(tmp_path / "out"))
     assert summary["message"].startswith("partial film")
