@@ -12,7 +12,6 @@
 !> Grids may be coarser along X, along Y or along both. Without a boundary film what concerns touching nodes changes nothing.
 module ehl_coarse_problem
    use ehl_alcouffe, only: transfer_t
-   use ehl_boundary_film, only: boundary_film_t
    use ehl_flow, only: dir_x
    use ehl_galerkin, only: build_galerkin, coarsening_t
    use ehl_grid, only: grid_t
@@ -22,7 +21,7 @@ module ehl_coarse_problem
    use ehl_workspace, only: workspace_t
    implicit none (type, external)
    private
-   public :: restrict_problem, correct, coarsening_classical, coarsening_alcouffe
+   public :: restrict_problem, correct, coarsening_classical, coarsening_alcouffe, weight_row
 
    !> Bilinear transfers and rediscretised coarse operators, or operator-dependent transfers and
    !> Galerkin operators for the Poiseuille term
@@ -80,7 +79,7 @@ contains
       !$omp end parallel do
       coarse%h00 = fine%h00
       coarse%supply%frozen = coarse%supply%active
-      call begin_coarse(coarse%boundary, fine%boundary, coarse%grid, step, coarse%p)
+      call coarse%boundary%begin_coarse(fine%boundary, coarse%grid, step, coarse%p)
    end subroutine restrict_state
 
    !> Right-hand side of the film equation of the coarse level: the restricted film solves it
@@ -106,7 +105,7 @@ contains
       real(dp) :: operator_row(coarse%grid%nx), residual(coarse%grid%nx)
       integer :: i, j
 
-      call separate_touching(fine%boundary, fine%residual)
+      call fine%boundary%separate_residual(fine%residual)
       !$omp parallel do default(none) shared(fine, coarse, step, transfer) private(i, operator_row, residual) &
       !$omp num_threads(coarse%threads) if(coarse%parallel) schedule(static)
       do j = coarse%grid%first_inner(), coarse%grid%last_inner()
@@ -118,7 +117,7 @@ contains
          else
             call weight_row(coarse%grid, step, fine%residual, j, residual)
          end if
-         call restrict_touching(coarse%boundary, fine%boundary, coarse%grid, step, j, residual)
+         call coarse%boundary%restrict_residual(fine%boundary, coarse%grid, step, j, residual)
          do i = 2, coarse%grid%nx - 1
             coarse%rhs(i, j) = operator_row(i) + residual(i)
             if (coarse%p(i, j) > cavity_pressure) cycle
@@ -176,7 +175,7 @@ contains
       end if
       coarse%poiseuille%frozen = .false.
       coarse%flow%cached%correcting = .false.
-      coarse%boundary%frozen = .false.
+      call coarse%boundary%end_coarse()
       coarse%supply%frozen = .false.
       nx = fine%grid%nx
       !$omp parallel do default(none) shared(fine, coarse, space, transfer, dependent, step, nx, spare_spikes) &
@@ -184,7 +183,8 @@ contains
       !$omp num_threads(fine%threads) if(fine%parallel) schedule(static)
       do j = 1, fine%grid%ny
          call interpolate_row(coarse%grid, step, space%h_change, j, row)
-         call keep_film(fine%boundary, j, row)
+         ! a film that comes of pressures which nodes do not take on does not determine whether they yield
+         call fine%boundary%yielding%set(j, 0.0_dp, row)
          fine%h(:, j) = fine%h(:, j) + row
          if (fine%grid%is_border(j)) cycle
          if (dependent) then
@@ -195,7 +195,7 @@ contains
          if (spare_spikes) call weaken_at_spikes(fine%p(:, j), fine%flow%eps(:, j, dir_x), row)
          if (fine%grid%ends) call weaken_at_ends(fine, j, row)
          row = fine%p(:, j) + row
-         call fine%boundary%limit_pressure(fine%p(:, j), 1, j, row)
+         call fine%boundary%yielding%limit_pressure(fine%p(:, j), 1, j, row)
          call change_flowing(row(2:nx - 1), fine%p(2:nx - 1, j))
       end do
       !$omp end parallel do
@@ -308,67 +308,4 @@ contains
          row(2*i) = 0.5_dp*(middle(i) + middle(i + 1))
       end do
    end subroutine interpolate_row
-
-   !> States of the coarse nodes while their level is solved: those touch that have pressure and around which more than half
-   !> touches. None yields: where half of a coarse grid did, nothing would be left to carry a missing load.
-   subroutine begin_coarse(boundary, fine, coarse, step, p)
-      type(boundary_film_t), intent(inout) :: boundary
-      !> Boundary film of the fine level; coarse grid, and its mesh sizes over those of the fine one
-      type(boundary_film_t), intent(in) :: fine
-      type(grid_t), intent(in) :: coarse
-      integer, intent(in) :: step(2)
-      !> Restricted pressure, shape (nx, ny)
-      real(dp), contiguous, intent(in) :: p(:, :)
-      integer :: j
-
-      if (.not. boundary%active) return
-      boundary%frozen = .true.
-      boundary%yield_mass = 0.0_dp
-      boundary%rate = fine%rate
-      do j = 1, coarse%ny
-         call weight_row(coarse, step, fine%touching, j, boundary%touching(:, j))
-         boundary%touching(:, j) = merge(1.0_dp, 0.0_dp, boundary%touching(:, j) > 0.5_dp .and. p(:, j) > cavity_pressure)
-      end do
-   end subroutine begin_coarse
-
-   !> Keep the residuals of touching nodes apart, and leave those of flowing nodes: touching nodes pass theirs to touching nodes of
-   !> the coarse level alone. In the equation of a flowing node they would be a source that the motion convects through the contact.
-   subroutine separate_touching(boundary, residual)
-      type(boundary_film_t), intent(inout) :: boundary
-      !> Shape (nx, ny)
-      real(dp), contiguous, intent(inout) :: residual(:, :)
-      integer :: j
-
-      if (.not. boundary%active) return
-      do j = 1, size(residual, 2)
-         boundary%touching_residual(:, j) = residual(:, j)*boundary%touching(:, j)
-         residual(:, j) = residual(:, j) - boundary%touching_residual(:, j)
-      end do
-   end subroutine separate_touching
-
-   !> Put the restricted residuals of touching nodes into row j of a coarse grid
-   pure subroutine restrict_touching(boundary, fine, coarse, step, j, residual)
-      type(boundary_film_t), intent(in) :: boundary
-      !> As for begin_coarse
-      type(boundary_film_t), intent(in) :: fine
-      type(grid_t), intent(in) :: coarse
-      integer, intent(in) :: step(2), j
-      !> Shape (nx)
-      real(dp), contiguous, intent(inout) :: residual(:)
-      real(dp) :: restricted(size(residual))
-
-      if (.not. boundary%active) return
-      call weight_row(coarse, step, fine%touching_residual, j, restricted)
-      residual = merge(restricted, residual, boundary%touching(:, j) > 0.0_dp)
-   end subroutine restrict_touching
-
-   !> Take out of row j of a change of the film the nodes that do not yield: a film that comes of pressures which nodes do not take
-   !> on does not determine whether they yield
-   pure subroutine keep_film(boundary, j, change)
-      type(boundary_film_t), intent(in) :: boundary
-      integer, intent(in) :: j
-      !> Shape (nx)
-      real(dp), contiguous, intent(inout) :: change(:)
-      if (boundary%yields) change = merge(0.0_dp, change, boundary%yield_mass(:, j) > 0.0_dp)
-   end subroutine keep_film
 end module ehl_coarse_problem

@@ -174,7 +174,7 @@ contains
    !> Whether the lubricant has a film to flow through; above a boundary film it always has
    pure logical function is_positive(level)
       type(level_t), intent(in) :: level
-      is_positive = level%boundary%active .or. minval(level%h) > 0.0_dp
+      is_positive = level%boundary%has_film(minval(level%h) > 0.0_dp)
    end function is_positive
 
    !> Right-hand side of the Newton step, and its norm; cavitated nodes count only when they

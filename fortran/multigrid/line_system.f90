@@ -26,7 +26,6 @@
 !>
 !> The systems are assembled and eliminated in one pass along X for `line_width` lines side by side.
 module ehl_line_system
-   use ehl_boundary_film, only: boundary_film_t
    use ehl_kinds, only: dp
    use ehl_flow, only: dir_x
    use ehl_level, only: cavity_pressure, last_flowing, level_t
@@ -62,12 +61,14 @@ contains
       !> Last node that may change, see last_active; changes of the nodes behind it are not set
       integer, intent(in) :: last
       type(line_work_t), intent(inout) :: work
+      logical :: any_touches
 
       call gather(level, dipole, rows, min(last + near_reach, level%grid%nx), work%fields)
       if (level%supply%active) call carry(level, rows, last, work%fields)
-      call touching_lines(level%boundary, rows, last, level%rhs, level%mass_content, work%fields(:, f_residual, 1:last), &
-                          work%touching)
-      call eliminate(level, shares, near, near_dipole - near, last, work%fields, work%touching, work%upper, work%change)
+      call level%boundary%line_residuals(rows, last, level%rhs, level%mass_content, work%fields(:, f_residual, 1:last), &
+                                         work%touching, any_touches)
+      call eliminate(level, shares, near, near_dipole - near, last, work%fields, work%touching, any_touches, work%upper, &
+                     work%change)
       call substitute(last, work%upper, work%change)
    end subroutine solve_lines
 
@@ -83,7 +84,7 @@ contains
       ! 2 where there is no such node
       i = min(i + 1, level%grid%nx - 1)
       i = level%wedge%last_active(level%mass_content(:, j), level%rhs(:, j), i)
-      i = max(i, last_touching(level%boundary, level%mass_content(:, j), j))
+      i = max(i, level%boundary%last_touching(level%mass_content(:, j), j))
    end function last_active
 
    !> Bring the lines side by side, a block at a time so that it stays in the cache
@@ -147,15 +148,16 @@ contains
 
    !> Row i of a line couples the changes at nodes i-4 ... i+2; it is eliminated with the rows before
    !> it as soon as it is made, so that only the upper two diagonals are kept. The coefficients: see above.
-   pure subroutine eliminate(level, shares, near, delta, furthest, g, touching, upper, change)
+   pure subroutine eliminate(level, shares, near, delta, furthest, g, touching, any_touches, upper, change)
       type(level_t), intent(in) :: level
       !> Shares of a distributive change; kernel near the source, and what a distributive change adds to it
       real(dp), intent(in) :: shares(2), near(-nr:nr), delta(-nr:nr)
       !> Last node
       integer, intent(in) :: furthest
       real(dp), intent(in) :: g(line_width, line_fields, -1:level%grid%nx + 2)
-      !> 1 where a node touches (line, node), if the boundary film is active
+      !> 1 where a node touches (line, node), if any does
       real(dp), intent(in) :: touching(line_width, level%grid%nx)
+      logical, intent(in) :: any_touches
       !> upper(line, diagonal, node), change(line, node), nodes from -3
       real(dp), intent(inout) :: upper(line_width, 2, -3:level%grid%nx), change(line_width, -3:level%grid%nx + 1)
       !> Response of rho H at nodes i, i-1, i-2 to unit changes at their columns -2..2
@@ -201,7 +203,7 @@ contains
             changes = merge(0.0_dp, 1.0_dp, g(:, f_p, i) <= cavity_pressure)
             changes = merge(changes, 1.0_dp, g(:, f_residual, i) >= 0.0_dp)
             asked = changes*g(:, f_residual, i)
-            if (level%boundary%active) then
+            if (any_touches) then
                where (touching(:, i) > 0.0_dp .and. changes > 0.0_dp)
                   asked = -g(:, f_residual, i)/(level%boundary%rate*s(:, 0, now))
                   changes = 0.0_dp
@@ -268,39 +270,4 @@ contains
          change(:, i) = change(:, i) - upper(:, 1, i)*change(:, i + 1) - upper(:, 2, i)*change(:, i + 2)
       end do
    end subroutine substitute
-
-   !> Last touching node of row j whose film is below the boundary film; 2 if there is none
-   pure integer function last_touching(boundary, mass_content, j) result(i)
-      type(boundary_film_t), intent(in) :: boundary
-      !> Shape (nx)
-      real(dp), contiguous, intent(in) :: mass_content(:)
-      integer, intent(in) :: j
-
-      i = 2
-      if (.not. boundary%active) return
-      do i = size(mass_content) - 1, 3, -1
-         if (boundary%touching(i, j) > 0.0_dp .and. mass_content(i) < boundary%thickness) return
-      end do
-      i = 2
-   end function last_touching
-
-   !> For line systems of the rows side by side: which nodes touch, and their residuals, from node 2 to `last`
-   pure subroutine touching_lines(boundary, rows, last, rhs, mass_content, residual, touching)
-      type(boundary_film_t), intent(in) :: boundary
-      integer, intent(in) :: rows(:), last
-      !> Shape (nx, ny)
-      real(dp), contiguous, intent(in) :: rhs(:, :), mass_content(:, :)
-      !> Shape (lines, last) and (lines, nx)
-      real(dp), intent(inout) :: residual(:, :), touching(:, :)
-      real(dp) :: row(size(rhs, 1))
-      integer :: l
-
-      if (.not. boundary%active) return
-      do l = 1, size(rows)
-         row(2:last) = residual(l, 2:last)
-         call boundary%residual_row(rhs(:, rows(l)), mass_content(:, rows(l)), rows(l), row)
-         residual(l, 2:last) = row(2:last)
-         touching(l, :last) = boundary%touching(:last, rows(l))
-      end do
-   end subroutine touching_lines
 end module ehl_line_system

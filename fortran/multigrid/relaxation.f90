@@ -6,10 +6,9 @@
 !>
 !> Where the values of the constants come from: docs/design.md.
 module ehl_relaxation
-   use ehl_boundary_film, only: boundary_film_t
    use ehl_kinds, only: dp
    use ehl_flow, only: dir_x
-   use ehl_level, only: cavitate, cavity_pressure, change_flowing, flowing_around, level_t
+   use ehl_level, only: cavitate, change_flowing, flowing_around, level_t
    use ehl_line_system, only: last_active, solve_lines
    use ehl_smooth_change, only: filter_smooth_change, find_smoothing_weights
    use ehl_workspace, only: line_width, workspace_t
@@ -84,10 +83,9 @@ contains
          below = level%grid%south(j)
          above = level%grid%north(j)
          call level%flow%max_neighbour_conductance(j, below, above, largest)
-         call max_flowing_conductance(level%boundary, level%p, level%flow%eps(:, :, level%flow%dir_y), j, below, above, &
-                                      largest)
+         call level%boundary%max_flowing_conductance(level%p, level%flow%eps(:, :, level%flow%dir_y), j, below, above, largest)
          call flowing_around(level%p(:, below), level%p(:, j), level%p(:, above), space%dipole(:, j))
-         call mark_touching_dipoles(level%boundary, level%p(:, j), j, space%dipole(:, j))
+         call level%boundary%mark_dipoles(level%p(:, j), j, space%dipole(:, j))
          do i = 2, level%grid%nx - 1
             space%dipole(i, j) = merge(space%dipole(i, j), 0.0_dp, largest(i) < limit)
          end do
@@ -140,7 +138,7 @@ contains
                after(i) = level%p(i, j) + (1.0_dp - space%dipole(i, j))*(omega + t(i))/(1.0_dp + t(i))*change(i)
             end do
             call cavitate(after(2:furthest))
-            call level%boundary%limit_pressure(level%p(2:furthest, j), 2, j, after(2:furthest))
+            call level%boundary%yielding%limit_pressure(level%p(2:furthest, j), 2, j, after(2:furthest))
             if (time_step) then
                do i = 2, furthest
                   space%raw_change(i, j) = (after(i) - level%p(i, j))*space%smoothing_weight(i, j)
@@ -178,7 +176,7 @@ contains
       do j = first, last
          call apply_row(space%shares, space%change(:, level%grid%south(j)), space%change(:, j), &
                         space%change(:, level%grid%north(j)), level%p(:, j), after)
-         call level%boundary%limit_pressure(level%p(2:nx - 1, j), 2, j, after(2:nx - 1))
+         call level%boundary%yielding%limit_pressure(level%p(2:nx - 1, j), 2, j, after(2:nx - 1))
          call change_flowing(after(2:nx - 1), level%p(2:nx - 1, j))
       end do
       !$omp end parallel do
@@ -195,41 +193,4 @@ contains
          after(i) = p(i) + change(i) - (shares(1)*(change(i - 1) + change(i + 1)) + shares(2)*south(i) + shares(2)*north(i))
       end do
    end subroutine apply_row
-
-   !> Of each node of row j and its four neighbours, in columns 2 to nx-1: the largest conductance of those that flow
-   pure subroutine max_flowing_conductance(boundary, p, eps, j, south, north, values)
-      type(boundary_film_t), intent(in) :: boundary
-      !> Pressure and conductance along Y, shape (nx, ny)
-      real(dp), contiguous, intent(in) :: p(:, :), eps(:, :)
-      integer, intent(in) :: j, south, north
-      !> Shape (nx)
-      real(dp), contiguous, intent(inout) :: values(:)
-      integer :: i
-
-      if (.not. boundary%active) return
-      do i = 2, size(values) - 1
-         values(i) = max(of(i, j), of(i - 1, j), of(i + 1, j), of(i, north), of(i, south))
-      end do
-
-   contains
-
-      !> Conductance of a node if it flows, else 0
-      pure real(dp) function of(k, l)
-         integer, intent(in) :: k, l
-         of = merge(eps(k, l)*(1.0_dp - boundary%touching(k, l)), 0.0_dp, p(k, l) > cavity_pressure)
-      end function of
-   end subroutine max_flowing_conductance
-
-   !> Nodes of row j that touch change distributively, beside a cavity, too
-   pure subroutine mark_touching_dipoles(boundary, p, j, dipole)
-      type(boundary_film_t), intent(in) :: boundary
-      !> Shape (nx)
-      real(dp), contiguous, intent(in) :: p(:)
-      integer, intent(in) :: j
-      !> 1 where a node does, else 0; shape (nx)
-      real(dp), contiguous, intent(inout) :: dipole(:)
-
-      if (.not. boundary%active) return
-      where (p > cavity_pressure) dipole = max(dipole, boundary%touching(:, j))
-   end subroutine mark_touching_dipoles
 end module ehl_relaxation

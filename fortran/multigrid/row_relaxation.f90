@@ -49,7 +49,7 @@ contains
          after(i) = level%p(i, 1) + omega*relaxation_factor*change(i)
       end do
       call cavitate(after(2:last))
-      call level%boundary%limit_pressure(level%p(2:last, 1), 2, 1, after(2:last))
+      call level%boundary%yielding%limit_pressure(level%p(2:last, 1), 2, 1, after(2:last))
       level%p(2:last, 1) = after(2:last)
    end subroutine relax_row
 

@@ -2,7 +2,6 @@
 !> Relaxation in time steps: the smooth part of changes at nodes with a small conductance is taken back at the end of a sweep, for
 !> the lines do not see its deflection. Where the values of the constants come from: docs/design.md.
 module ehl_smooth_change
-   use ehl_boundary_film, only: boundary_film_t
    use ehl_kinds, only: dp
    use ehl_level, only: change_flowing, level_t
    use ehl_workspace, only: workspace_t
@@ -47,7 +46,7 @@ contains
          below = level%grid%south(j)
          above = level%grid%north(j)
          largest = max(level%flow%eps(:, below, across), level%flow%eps(:, j, across), level%flow%eps(:, above, across))
-         call max_flowing_conductance_row(level%boundary, level%flow%eps(:, :, across), j, below, above, largest)
+         call level%boundary%max_conductance_of_rows(level%flow%eps(:, :, across), j, below, above, largest)
          do i = 1 + around, nx - around
             share = largest(i)
             do k = 1, around
@@ -99,23 +98,9 @@ contains
          do i = from(j), to(j)
             smooth(i) = level%p(i, j) - space%smoothing_weight(i, j)*smooth(i)
          end do
-         call level%boundary%limit_pressure(level%p(from(j):to(j), j), from(j), j, smooth(from(j):to(j)))
+         call level%boundary%yielding%limit_pressure(level%p(from(j):to(j), j), from(j), j, smooth(from(j):to(j)))
          call change_flowing(smooth(from(j):to(j)), level%p(from(j):to(j), j))
       end do
       !$omp end parallel do
    end subroutine filter_smooth_change
-
-   !> Of three rows, south, j and north: the largest conductance of each column, as if nothing could flow at a touching node
-   pure subroutine max_flowing_conductance_row(boundary, eps, j, south, north, values)
-      type(boundary_film_t), intent(in) :: boundary
-      !> Shape (nx, ny)
-      real(dp), contiguous, intent(in) :: eps(:, :)
-      integer, intent(in) :: j, south, north
-      !> Shape (nx)
-      real(dp), contiguous, intent(inout) :: values(:)
-
-      if (.not. boundary%active) return
-      values = max(eps(:, south)*(1.0_dp - boundary%touching(:, south)), eps(:, j)*(1.0_dp - boundary%touching(:, j)), &
-                   eps(:, north)*(1.0_dp - boundary%touching(:, north)))
-   end subroutine max_flowing_conductance_row
 end module ehl_smooth_change

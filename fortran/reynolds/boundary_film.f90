@@ -17,19 +17,17 @@
 !> two residuals, rhs - N and rate (rho H - H_b), that one holds which requires more pressure, each with what answers it: the
 !> deflection alone, or the deflection and the Poiseuille term.
 !>
-!> Solids with a hardness sustain no more than the maximum pressure P_Y. A node yields where P = P_Y and it requires more: the
-!> elastic film H is below the boundary film or what the lubricant needs. The solids yield by what is missing, D >= 0, so that
-!> rho (H + D) is that of the boundary film, or more where N = 0 then. Such a node keeps its pressure until D would be negative.
-!>
-!> Every level has one. Without setup, or with H_b = 0, it is inactive: no node touches, and its procedures change nothing.
+!> Every level has one, with the solids that may yield (yielding.f90). Without setup, or with H_b = 0, it is inactive: no node
+!> touches, and its procedures change nothing. What sweeps and coarse problems need of it: multigrid/touching_nodes.f90.
 module ehl_boundary_film
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
    use ehl_status, only: ehl_no_memory, status_t
+   use ehl_yielding, only: yielding_t
    implicit none (type, external)
    private
-   public :: boundary_film_t
+   public :: boundary_film_t, same_film
 
    !> A touching node lifts off by more than a share of the boundary film: behind a zone of touching nodes the lubricant
    !> has the boundary film, too, and rounding would decide on their states. What flows on to such a node and not on from it
@@ -38,29 +36,29 @@ module ehl_boundary_film
    !> The same over the residual (rms) of a steady problem
    real(dp), parameter :: lift_of_residual = 3.0_dp
 
+   !> Solid contact where the film is the boundary film to this share of it: behind a touching node the lubricant may flow with the
+   !> boundary film that it leaves, which is contact as well
+   real(dp), parameter :: same_film = 1.0e-2_dp
+
    !> Arrays of shape (nx, ny)
    type :: boundary_film_t
-      !> Whether bodies may touch; whether nodes may yield
+      !> Whether bodies may touch
       logical :: active = .false.
-      logical :: yields = .false.
       !> H_b [a^2/R]
-      real(dp) :: thickness = 0.0_dp
-      !> Maximum pressure [p_h] of nodes, if they may yield
-      real(dp) :: max_pressure = 0.0_dp
+      real(dp), private :: thickness = 0.0_dp
+      type(yielding_t) :: yielding
       !> Factor of the equation of touching nodes
       real(dp) :: rate = 0.0_dp
       !> Share of the boundary film that a touching node may be lifted by, by the present residual
       real(dp), private :: lift = min_lift
       !> Whether the states of the nodes stay, on a coarse level
-      logical :: frozen = .false.
+      logical, private :: frozen = .false.
       !> 1 where a node is touching, else 0
-      real(dp), allocatable :: touching(:, :)
-      !> rho (H + D) where a node yields, else 0; of size 0 where none may
-      real(dp), allocatable :: yield_mass(:, :)
+      real(dp), allocatable, private :: touching(:, :)
       !> Film that the lubricant flows through: that of an iterate may be below the boundary film
-      real(dp), allocatable :: film(:, :)
+      real(dp), allocatable, private :: film(:, :)
       !> Residuals of touching nodes, else 0, from which those of the coarse level are made
-      real(dp), allocatable :: touching_residual(:, :)
+      real(dp), allocatable, private :: touching_residual(:, :)
    contains
       procedure :: setup
       procedure :: find_film
@@ -68,19 +66,117 @@ module ehl_boundary_film
       procedure :: film_at
       procedure :: follows_state
       procedure :: find_row
-      procedure :: find_yielding
-      procedure :: limit_pressure
-      procedure :: add_depth
-      procedure :: yielding
       procedure :: forget
       procedure :: touches
+      procedure :: states
+      procedure :: supports
+      procedure :: stress_row
+      procedure :: has_film
       procedure :: operator_row
       procedure :: residual_row
       procedure :: without_touching
       procedure :: set_lift
       procedure :: holds
       procedure :: bytes
+      procedure :: max_flowing_conductance
+      procedure :: max_conductance_of_rows
+      procedure :: mark_dipoles
+      procedure :: last_touching
+      procedure :: line_residuals
+      procedure :: begin_coarse
+      procedure :: end_coarse
+      procedure :: separate_residual
+      procedure :: restrict_residual
    end type boundary_film_t
+
+   ! in multigrid/touching_nodes.f90
+   interface
+      !> Of each node of row j and its four neighbours, in columns 2 to nx-1: the largest conductance of those that flow
+      pure module subroutine max_flowing_conductance(self, p, eps, j, south, north, values)
+         class(boundary_film_t), intent(in) :: self
+         !> Pressure and conductance along Y, shape (nx, ny)
+         real(dp), contiguous, intent(in) :: p(:, :), eps(:, :)
+         integer, intent(in) :: j, south, north
+         !> Shape (nx)
+         real(dp), contiguous, intent(inout) :: values(:)
+      end subroutine max_flowing_conductance
+
+      !> Of three rows, south, j and north: the largest conductance of each column, as if nothing could flow at a touching node
+      pure module subroutine max_conductance_of_rows(self, eps, j, south, north, values)
+         class(boundary_film_t), intent(in) :: self
+         !> Shape (nx, ny)
+         real(dp), contiguous, intent(in) :: eps(:, :)
+         integer, intent(in) :: j, south, north
+         !> Shape (nx)
+         real(dp), contiguous, intent(inout) :: values(:)
+      end subroutine max_conductance_of_rows
+
+      !> Nodes of row j that touch change distributively, beside a cavity, too
+      pure module subroutine mark_dipoles(self, p, j, dipole)
+         class(boundary_film_t), intent(in) :: self
+         !> Pressure; 1 where a node changes distributively, else 0; shape (nx)
+         real(dp), contiguous, intent(in) :: p(:)
+         integer, intent(in) :: j
+         real(dp), contiguous, intent(inout) :: dipole(:)
+      end subroutine mark_dipoles
+
+      !> Last touching node of row j whose film is below the boundary film; 2 if there is none
+      pure module function last_touching(self, mass_content, j) result(i)
+         class(boundary_film_t), intent(in) :: self
+         !> Shape (nx)
+         real(dp), contiguous, intent(in) :: mass_content(:)
+         integer, intent(in) :: j
+         integer :: i
+      end function last_touching
+
+      !> For line systems of the rows side by side: which nodes touch, and their residuals, from node 2 to `last`
+      pure module subroutine line_residuals(self, rows, last, rhs, mass_content, residual, touching, any_touches)
+         class(boundary_film_t), intent(in) :: self
+         integer, intent(in) :: rows(:), last
+         !> Shape (nx, ny)
+         real(dp), contiguous, intent(in) :: rhs(:, :), mass_content(:, :)
+         !> Shape (lines, last) and (lines, nx); the latter is not set where none touches
+         real(dp), intent(inout) :: residual(:, :), touching(:, :)
+         logical, intent(out) :: any_touches
+      end subroutine line_residuals
+
+      !> States of the nodes of a coarse level while it is solved: those touch that have pressure and around which more than half
+      !> touches. None yields: where half of a coarse grid did, nothing would be left to carry a missing load.
+      module subroutine begin_coarse(self, fine, coarse, step, p)
+         class(boundary_film_t), intent(inout) :: self
+         !> Boundary film of the fine level; coarse grid, and its mesh sizes over those of the fine one
+         type(boundary_film_t), intent(in) :: fine
+         type(grid_t), intent(in) :: coarse
+         integer, intent(in) :: step(2)
+         !> Restricted pressure, shape (nx, ny)
+         real(dp), contiguous, intent(in) :: p(:, :)
+      end subroutine begin_coarse
+
+      !> The coarse level may be a finest one next
+      pure module subroutine end_coarse(self)
+         class(boundary_film_t), intent(inout) :: self
+      end subroutine end_coarse
+
+      !> Keep the residuals of touching nodes apart, and leave those of flowing nodes: touching nodes pass theirs to touching nodes
+      !> of the coarse level alone. In the equation of a flowing node they would be a source that the motion convects through the
+      !> contact.
+      pure module subroutine separate_residual(self, residual)
+         class(boundary_film_t), intent(inout) :: self
+         !> Shape (nx, ny)
+         real(dp), contiguous, intent(inout) :: residual(:, :)
+      end subroutine separate_residual
+
+      !> Put the restricted residuals of touching nodes into row j of a coarse grid
+      pure module subroutine restrict_residual(self, fine, coarse, step, j, residual)
+         class(boundary_film_t), intent(in) :: self
+         !> As for begin_coarse
+         type(boundary_film_t), intent(in) :: fine
+         type(grid_t), intent(in) :: coarse
+         integer, intent(in) :: step(2), j
+         !> Shape (nx)
+         real(dp), contiguous, intent(inout) :: residual(:)
+      end subroutine restrict_residual
+   end interface
 
 contains
 
@@ -90,17 +186,15 @@ contains
       type(grid_t), intent(in) :: grid
       real(dp), intent(in) :: thickness, max_pressure
       type(status_t), intent(inout) :: status
-      integer :: stat, yielding
+      integer :: stat
 
       self%active = thickness > 0.0_dp
       if (status%failed() .or. .not. self%active) return
       self%thickness = thickness
-      self%max_pressure = max_pressure
-      self%yields = max_pressure > 0.0_dp
-      yielding = merge(1, 0, self%yields)
       allocate (self%touching(grid%nx, grid%ny), self%film(grid%nx, grid%ny), self%touching_residual(grid%nx, grid%ny), &
-                self%yield_mass(yielding*grid%nx, yielding*grid%ny), source=0.0_dp, stat=stat)
+                source=0.0_dp, stat=stat)
       if (stat /= 0) call status%fail(ehl_no_memory, "no memory for the boundary film of a grid level")
+      call self%yielding%setup(grid, max_pressure, status)
    end subroutine setup
 
    !> Row j of the film that the lubricant flows through, by film and density
@@ -117,7 +211,7 @@ contains
          self%film(i, j) = merge(self%thickness/rho(i), h(i), h(i)*rho(i) < self%thickness)
       end do
       ! by the last update
-      if (self%yields) self%film(:, j) = merge(self%yield_mass(:, j)/rho, self%film(:, j), self%yield_mass(:, j) > 0.0_dp)
+      call self%yielding%add_depth(rho, j, self%film(:, j))
    end subroutine find_film
 
    !> Row j of the film that the lubricant flows through
@@ -150,89 +244,29 @@ contains
    end function follows_state
 
    !> States of the nodes of row j, by the residual of the Reynolds equation; the border does not touch
-   pure subroutine find_row(self, mass_content, residual, share, j)
+   pure subroutine find_row(self, p, weights, elastic, share, j, residual, mass_content)
       class(boundary_film_t), intent(inout) :: self
-      !> rho H, rhs - N, and the share that the deflection has in what answers the latter; shape (nx)
-      real(dp), contiguous, intent(in) :: mass_content(:), residual(:), share(:)
+      !> Pressure, and the wedge term's factors of rho H at a node and at those upstream of it, shape (nx), (0:..., nx)
+      real(dp), contiguous, intent(in) :: p(:), weights(0:, :)
+      !> rho H of the elastic bodies, and the share that the deflection has in what answers the residual; shape (nx)
+      real(dp), contiguous, intent(in) :: elastic(:), share(:)
       integer, intent(in) :: j
+      !> rhs - N, and rho H, of the elastic bodies; then with the depth by which nodes yield; shape (nx)
+      real(dp), contiguous, intent(inout) :: residual(:), mass_content(:)
       real(dp) :: held
       integer :: i
 
+      call self%yielding%find_row(self%thickness, p, weights, j, residual, mass_content)
       held = self%lift*self%rate*self%thickness
       self%touching(1, j) = 0.0_dp
       self%touching(size(residual), j) = 0.0_dp
       do i = 2, size(residual) - 1
-         self%touching(i, j) = merge(1.0_dp, 0.0_dp, self%rate*(mass_content(i) - self%thickness) &
+         self%touching(i, j) = merge(1.0_dp, 0.0_dp, self%rate*(elastic(i) - self%thickness) &
                                                      < share(i)*residual(i) + held*self%touching(i, j))
       end do
       ! not coupled to its line
-      if (self%yields) self%touching(:, j) = merge(1.0_dp, self%touching(:, j), self%yield_mass(:, j) > 0.0_dp)
+      call self%yielding%set(j, 1.0_dp, self%touching(:, j))
    end subroutine find_row
-
-   !> Nodes of row j that yield, with their mass content: that at which N = 0, but no less than that of the boundary film
-   pure subroutine find_yielding(self, p, weights, j, residual, mass_content)
-      class(boundary_film_t), intent(inout) :: self
-      !> Pressure, and the wedge term's factors of rho H at a node and at those upstream of it, shape (nx), (0:..., nx)
-      real(dp), contiguous, intent(in) :: p(:), weights(0:, :)
-      integer, intent(in) :: j
-      !> rhs - N, and rho H, of the elastic bodies; shape (nx)
-      real(dp), contiguous, intent(inout) :: residual(:), mass_content(:)
-      real(dp) :: added(size(p))
-      integer :: i, k
-
-      if (.not. self%yields) return
-      added = 0.0_dp
-      do i = 2, size(p) - 1
-         do k = 1, min(ubound(weights, 1), i - 1)
-            residual(i) = residual(i) + weights(k, i)*added(i - k)
-         end do
-         self%yield_mass(i, j) = max(self%thickness, mass_content(i) - residual(i)/weights(0, i))
-         if (p(i) >= self%max_pressure .and. self%yield_mass(i, j) > mass_content(i)) then
-            added(i) = self%yield_mass(i, j) - mass_content(i)
-            residual(i) = residual(i) + weights(0, i)*added(i)
-            mass_content(i) = self%yield_mass(i, j)
-         else
-            self%yield_mass(i, j) = 0.0_dp
-         end if
-      end do
-   end subroutine find_yielding
-
-   !> Pressures to come of row j from column `first` on: not above the maximum, and nodes that yield keep
-   !> theirs. The pressure of a coarse node is a mean, which the maximum is not for.
-   pure subroutine limit_pressure(self, before, first, j, after)
-      class(boundary_film_t), intent(in) :: self
-      real(dp), intent(in) :: before(:)
-      integer, intent(in) :: first, j
-      real(dp), contiguous, intent(inout) :: after(:)
-      integer :: i
-
-      if (self%frozen .or. .not. self%yields) return
-      do i = 1, size(after)
-         after(i) = merge(before(i), after(i), self%yield_mass(first + i - 1, j) > 0.0_dp)
-         ! a NaN stays one
-         after(i) = merge(self%max_pressure, after(i), after(i) > self%max_pressure)
-      end do
-   end subroutine limit_pressure
-
-   !> Add to row j of the film the depth by which the solids yield
-   pure subroutine add_depth(self, rho, j, film)
-      class(boundary_film_t), intent(in) :: self
-      !> Shape (nx)
-      real(dp), contiguous, intent(in) :: rho(:)
-      integer, intent(in) :: j
-      real(dp), contiguous, intent(inout) :: film(:)
-      if (self%yields) film = merge(self%yield_mass(:, j)/rho, film, self%yield_mass(:, j) > 0.0_dp)
-   end subroutine add_depth
-
-   !> Which of the n nodes of row j yield
-   pure function yielding(self, n, j)
-      class(boundary_film_t), intent(in) :: self
-      integer, intent(in) :: n, j
-      logical :: yielding(n)
-
-      yielding = .false.
-      if (self%yields) yielding = self%yield_mass(:, j) > 0.0_dp
-   end function yielding
 
    !> No node touches
    pure subroutine forget(self)
@@ -240,7 +274,7 @@ contains
 
       if (.not. self%active) return
       self%touching = 0.0_dp
-      self%yield_mass = 0.0_dp
+      call self%yielding%forget()
    end subroutine forget
 
    !> Whether node (i, j) touches; without a node: whether any does
@@ -256,6 +290,52 @@ contains
          touches = any(self%touching > 0.0_dp)
       end if
    end function touches
+
+   !> Which of the n nodes of row j touch by their equation
+   pure function states(self, n, j)
+      class(boundary_film_t), intent(in) :: self
+      integer, intent(in) :: n, j
+      logical :: states(n)
+
+      states = .false.
+      if (self%active) states = self%touching(:, j) > 0.0_dp
+   end function states
+
+   !> Where the bodies touch in a solution
+   pure function supports(self, p, mass_content)
+      class(boundary_film_t), intent(in) :: self
+      !> Of a row, shape (nx)
+      real(dp), contiguous, intent(in) :: p(:), mass_content(:)
+      logical :: supports(size(p))
+
+      supports = .false.
+      if (self%active) supports = p > 0.0_dp .and. mass_content <= (1.0_dp + same_film)*self%thickness
+   end function supports
+
+   !> Put the shear stress of the boundary film into a row where the bodies touch; the lubricant has none there
+   pure subroutine stress_row(self, p, mass_content, friction, newtonian, stress)
+      class(boundary_film_t), intent(in) :: self
+      !> Of the row, shape (nx)
+      real(dp), contiguous, intent(in) :: p(:), mass_content(:)
+      !> Stress over pressure
+      real(dp), intent(in) :: friction
+      !> As stress_row of ehl_flow has them
+      real(dp), contiguous, intent(inout) :: newtonian(:), stress(:)
+
+      if (.not. self%active) return
+      where (self%supports(p, mass_content))
+         newtonian = 0.0_dp
+         stress = friction*p
+      end where
+   end subroutine stress_row
+
+   !> Whether the lubricant has a film to flow through; above a boundary film it always has
+   pure logical function has_film(self, positive)
+      class(boundary_film_t), intent(in) :: self
+      !> Whether the film of the elastic bodies is positive
+      logical, intent(in) :: positive
+      has_film = self%active .or. positive
+   end function has_film
 
    !> Put the term of touching nodes into row j of the operator
    pure subroutine operator_row(self, mass_content, j, values)
@@ -287,7 +367,7 @@ contains
          right = merge(rhs(i), -self%rate*self%thickness, self%frozen)
          values(i) = merge(right + self%rate*mass_content(i), values(i), self%touching(i, j) > 0.0_dp)
       end do
-      if (self%yields) values = merge(0.0_dp, values, self%yield_mass(:, j) > 0.0_dp)
+      call self%yielding%set(j, 0.0_dp, values)
    end subroutine residual_row
 
    !> Set values of row j, from column `first` on, to 0 where a node touches: its equation has no conductance
@@ -322,6 +402,6 @@ contains
    pure integer(int64) function bytes(self)
       class(boundary_film_t), intent(in) :: self
       bytes = 0
-      if (self%active) bytes = 8*(3*size(self%film, kind=int64) + size(self%yield_mass, kind=int64))
+      if (self%active) bytes = 8*3*size(self%film, kind=int64) + self%yielding%bytes()
    end function bytes
 end module ehl_boundary_film

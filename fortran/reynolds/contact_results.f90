@@ -6,7 +6,7 @@ module ehl_contact_results
    use ehl_kinds, only: dp
    use ehl_level, only: gap_row, level_t
    use ehl_oil_flow, only: measure_flow, oil_flow_t
-   use ehl_touching, only: measure_touching, touches, touching_t
+   use ehl_touching, only: measure_touching, touching_t
    implicit none (type, external)
    private
    public :: contact_results_t, measure, central_row, central_value, load_tolerance
@@ -50,21 +50,18 @@ contains
       type(contact_results_t) :: m
       real(dp), dimension(level%grid%ny) :: smallest, largest, friction, newtonian
       real(dp), dimension(level%grid%nx) :: viscous, stress
-      logical :: thins
       integer :: j
 
-      thins = level%flow%depends_on_gradient .or. level%lubricant%shear%thins() .or. level%boundary%active
-      !$omp parallel do default(none) shared(level, smallest, largest, friction, newtonian, thins) private(viscous, stress) &
+      !$omp parallel do default(none) shared(level, smallest, largest, friction, newtonian) private(viscous, stress) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = 1, level%grid%ny
          smallest(j) = minval(gap_row(level, j))
          largest(j) = maxval(level%p(:, j))
          call level%flow%stress_row(level%lubricant, level%p, level%boundary%film_row(level%h(:, j), j), level%rho(:, j), j, &
                                     viscous, stress)
-         call take_boundary(level, j, viscous, stress)
+         call level%boundary%stress_row(level%p(:, j), level%mass_content(:, j), level%lubricant%boundary_stress, viscous, stress)
          newtonian(j) = sum(viscous)*level%grid%weight(j)
-         friction(j) = newtonian(j)
-         if (thins) friction(j) = sum(stress)*level%grid%weight(j)
+         friction(j) = sum(stress)*level%grid%weight(j)
       end do
       !$omp end parallel do
       m%film_minimum = minval(smallest)
@@ -77,25 +74,11 @@ contains
       ! a NaN fails every comparison
       m%finite = abs(m%load_error) < huge(1.0_dp) .and. abs(m%film_central) < huge(1.0_dp) &
                  .and. m%friction < huge(1.0_dp) .and. abs(m%film_minimum) < huge(1.0_dp)
-      m%positive = level%boundary%active .or. all(smallest > 0.0_dp)
+      m%positive = level%boundary%has_film(all(smallest > 0.0_dp))
       m%holds = level%boundary%holds(level%mass_content, film_tolerance)
       m%touching = measure_touching(level)
       m%oil = measure_flow(level)
    end function measure
-
-   !> Shear stress of row j where the bodies touch: that of the boundary film, of the lubricant none
-   pure subroutine take_boundary(level, j, newtonian, stress)
-      type(level_t), intent(in) :: level
-      integer, intent(in) :: j
-      !> As stress_row of ehl_flow has them
-      real(dp), contiguous, intent(inout) :: newtonian(:), stress(:)
-
-      if (.not. level%boundary%active) return
-      where (touches(level, j))
-         newtonian = 0.0_dp
-         stress = level%lubricant%boundary_stress*level%p(:, j)
-      end where
-   end subroutine take_boundary
 
    !> Central film and smallest film
    pure function films(self)

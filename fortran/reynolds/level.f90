@@ -114,7 +114,7 @@ contains
       real(dp) :: gap_row(level%grid%nx)
 
       gap_row = level%h(:, j)
-      call level%boundary%add_depth(level%rho(:, j), j, gap_row)
+      call level%boundary%yielding%add_depth(level%rho(:, j), j, gap_row)
    end function gap_row
 
    !> Allocated bytes, the engine's apart

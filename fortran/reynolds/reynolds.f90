@@ -121,8 +121,7 @@ contains
             share(i) = stored/(stored + flow*level%flow%eps(i, j, dir_x))
          end do
          elastic = level%rho(:, j)*level%h(:, j)
-         call level%boundary%find_yielding(level%p(:, j), weights, j, row, level%mass_content(:, j))
-         call level%boundary%find_row(elastic, row, share, j)
+         call level%boundary%find_row(level%p(:, j), weights, elastic, share, j, row, level%mass_content(:, j))
       end do
       !$omp end parallel do
    end subroutine find_touching
@@ -277,7 +276,7 @@ contains
          if (level%grid%is_border(j)) cycle
          ! a step of pressure beside the border, where the conductance is largest, would be a large residual
          after(2:nx - 1) = factor*level%p(2:nx - 1, j) - (factor - 1.0_dp)*min(level%p(2:nx - 1, j), border)
-         call level%boundary%limit_pressure(level%p(2:nx - 1, j), 2, j, after(2:nx - 1))
+         call level%boundary%yielding%limit_pressure(level%p(2:nx - 1, j), 2, j, after(2:nx - 1))
          level%p(2:nx - 1, j) = after(2:nx - 1)
       end do
       !$omp end parallel do
@@ -303,7 +302,7 @@ contains
                fixed_load = fixed_load + (level%p(1, j) + level%p(level%grid%nx, j))*level%grid%weight(j)
             end if
             fixed_load = fixed_load + sum(level%p(:, j) - min(level%p(:, j), border), &
-                                          mask=level%boundary%yielding(level%grid%nx, j))*level%grid%weight(j)
+                                          mask=level%boundary%yielding%nodes(level%grid%nx, j))*level%grid%weight(j)
          end if
       end do
    end function fixed_load

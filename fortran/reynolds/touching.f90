@@ -1,7 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What is read off a solution with contact at a boundary film (boundary_film.f90). Bodies touch where there is pressure and the
-!> film is the boundary film, to 1 % of it: behind a touching node the lubricant may flow with the boundary film that it
-!> leaves, which is contact as well.
+!> What is read off a solution with contact at a boundary film (boundary_film.f90)
 module ehl_touching
    use ehl_kinds, only: dp
    use ehl_level, only: cavity_pressure, gap_row, level_t
@@ -9,11 +7,7 @@ module ehl_touching
    use ehl_reynolds, only: flow_operator
    implicit none (type, external)
    private
-   public :: touching_t, measure_touching, same_film, mostly_touching, much_mass_defect, touches, touching_names, known_names, &
-             at_depth
-
-   !> Solid contact where the film is the boundary film to this share of it
-   real(dp), parameter :: same_film = 1.0e-2_dp
+   public :: touching_t, measure_touching, mostly_touching, much_mass_defect, touching_names, known_names, at_depth
 
    !> Share of the flow that a boundary film would have to give from which on a contact is not the one of the model: a choice
    real(dp), parameter :: much_mass_defect = 0.1_dp
@@ -54,12 +48,12 @@ contains
       if (.not. level%boundary%active) return
       given = 0.0_dp
       do j = 1, level%grid%ny
-         associate (touching => touches(level, j), weight => level%grid%weight(j))
+         associate (touching => level%boundary%supports(level%p(:, j), level%mass_content(:, j)), weight => level%grid%weight(j))
             whole(j) = weight*sum(level%p(:, j))
             load(j) = weight*sum(level%p(:, j), mask=touching)
             area(j) = weight*count(touching)
             flow(j) = merge(weight*level%mass_content(middle, j)/level%grid%hx, 0.0_dp, level%p(middle, j) > cavity_pressure)
-            yield = level%boundary%yielding(level%grid%nx, j)
+            yield = level%boundary%yielding%nodes(level%grid%nx, j)
             flowing(j) = weight*sum(level%p(:, j), mask=yield .and. .not. touching)
             hard(j) = weight*sum(level%p(:, j), mask=yield)
             m%hard_area = m%hard_area + weight*count(yield)
@@ -67,7 +61,7 @@ contains
             if (level%grid%is_border(j)) cycle
             call flow_operator(level, j, row)
             row = level%rhs(:, j) - row
-            given(j) = weight*sum(row, mask=touching .and. level%boundary%touching(:, j) > 0.0_dp)
+            given(j) = weight*sum(row, mask=touching .and. level%boundary%states(level%grid%nx, j))
          end associate
       end do
       m%load_share = sum(load)/sum(whole)
@@ -78,19 +72,11 @@ contains
       m%depth = maxval(depth)
    end function measure_touching
 
-   !> Where in row j the bodies touch
-   pure function touches(level, j)
-      type(level_t), intent(in) :: level
-      integer, intent(in) :: j
-      logical :: touches(level%grid%nx)
-
-      touches = level%p(:, j) > cavity_pressure .and. level%mass_content(:, j) <= (1.0_dp + same_film)*level%boundary%thickness
-   end function touches
-
-   !> How many of the names there are: the last four are about a hardness
+   !> How many of the names there are: the last four are about a hardness, and all about a boundary film
    pure integer function known_names(lubricant)
       type(lubricant_t), intent(in) :: lubricant
       known_names = merge(size(touching_names), 3, lubricant%boundary_limit > 0.0_dp)
+      if (.not. lubricant%boundary_film > 0.0_dp) known_names = 0
    end function known_names
 
    !> As touching_names has them

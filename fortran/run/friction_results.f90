@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Absolute friction of a run, where it means something, and the heat of it
 module ehl_friction_results
+   use ehl_boundary_film, only: same_film
    use ehl_contact, only: contact_t
    use ehl_contact_run, only: contact_run_t
    use ehl_grid, only: grid_t
@@ -10,7 +11,6 @@ module ehl_friction_results
    use ehl_plan, only: plan_t
    use ehl_reason, only: friction_above_limit, friction_no_size, friction_no_smooth, friction_not_converged, friction_of_rough, &
                          friction_rolling, friction_rolling_line, friction_with_heat, reason_none
-   use ehl_touching, only: same_film
    use ehl_wall_heat, only: heat_source
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    implicit none (type, external)
@@ -165,10 +165,8 @@ contains
          call plan%lubricant%log_viscosity(p(:, j), log_eta, slope)
          stress = exp(log_eta)/h(:, j)
          if (plan%lubricant%shear%thins()) call plan%lubricant%shear%reduce(p(:, j), stress)
-         if (plan%lubricant%boundary_film > 0.0_dp) then
-            call plan%lubricant%density(p(:, j), rho, slope)
-            where (rho*h(:, j) <= (1.0_dp + same_film)*plan%lubricant%boundary_film) stress = 0.0_dp
-         end if
+         call plan%lubricant%density(p(:, j), rho, slope)
+         where (rho*h(:, j) <= (1.0_dp + same_film)*plan%lubricant%boundary_film) stress = 0.0_dp
          max_stress = max(max_stress, plan%lubricant%shear%scale*maxval(stress))
       end do
    end function max_stress

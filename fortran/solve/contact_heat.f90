@@ -4,7 +4,6 @@ submodule (ehl_contact_run) ehl_contact_heat
    use ehl_heated_friction, only: heat_film
    use ehl_kinds, only: not_known
    use ehl_status, only: ehl_no_memory
-   use ehl_touching, only: touches
    implicit none (type, external)
 
    !> Steps in a period after which it is computed: what the heat takes from the friction changes slowly
@@ -13,25 +12,22 @@ submodule (ehl_contact_run) ehl_contact_heat
 contains
 
    module procedure add_heat
+      real(dp), allocatable :: film(:, :)
       logical, allocatable :: touching(:, :)
       integer :: j, stat
 
       associate (level => self%hierarchy%levels(n))
-         if (level%boundary%active) then
-            allocate (touching(level%grid%nx, level%grid%ny), stat=stat)
-            if (stat /= 0) then
-               call status%fail(ehl_no_memory, "no memory for the temperatures of film and walls")
-               return
-            end if
-            do j = 1, level%grid%ny
-               touching(:, j) = touches(level, j)
-            end do
-            call heat_film(self%plan%heat%film, level%grid, level%lubricant, level%p, level%boundary%film, keep, level%threads, &
-                           found, level%flow, level%rho, touching)
-         else
-            call heat_film(self%plan%heat%film, level%grid, level%lubricant, level%p, level%h, keep, level%threads, found, &
-                           level%flow, level%rho)
+         allocate (touching(level%grid%nx, level%grid%ny), film(level%grid%nx, level%grid%ny), stat=stat)
+         if (stat /= 0) then
+            call status%fail(ehl_no_memory, "no memory for the temperatures of film and walls")
+            return
          end if
+         do j = 1, level%grid%ny
+            film(:, j) = level%boundary%film_row(level%h(:, j), j)
+            touching(:, j) = level%boundary%supports(level%p(:, j), level%mass_content(:, j))
+         end do
+         call heat_film(self%plan%heat%film, level%grid, level%lubricant, level%p, film, keep, level%threads, found, level%flow, &
+                        level%rho, touching)
       end associate
       if (.not. found%fits) call status%fail(ehl_no_memory, "no memory for the temperatures of film and walls")
    end procedure add_heat

@@ -161,17 +161,13 @@ contains
       if (self%plan%duty%active) then
          call duty_names(columns)
          if (self%plan%layer > 0.0_dp) columns = [character(len=16) :: columns, oil_names]
-         if (self%plan%lubricant%boundary_film > 0.0_dp) then
-            columns = [character(len=16) :: columns, touching_names(:known_names(self%plan%lubricant))]
-         end if
+         columns = [character(len=16) :: columns, touching_names(:known_names(self%plan%lubricant))]
       else if (self%plan%surfaces%rest()) then
          columns = [character(len=16) :: "cycle", "share", "mu_ratio", "H_c", "H_min", "P_max", "load_error", "residual"]
       else if (self%plan%surfaces%move()) then
          columns = [character(len=16) :: "step", "T", "mu_ratio", "H_c", "H_min", "P_max", "load_error", "cycles", "residual"]
          if (self%plan%heat%counts) columns = [character(len=16) :: columns, "heat_ratio"]
-         if (self%plan%lubricant%boundary_film > 0.0_dp) then
-            columns = [character(len=16) :: columns, touching_names(:known_names(self%plan%lubricant))]
-         end if
+         columns = [character(len=16) :: columns, touching_names(:known_names(self%plan%lubricant))]
       else
          columns = [character(len=16) :: "level", "points", "cycle", "H_c", "H_min", "P_max", "F", "load_error", "residual", &
                     "H_c_algebraic"]
@@ -244,10 +240,8 @@ contains
                    m%film_minimum, m%pressure_maximum, m%load_error, transient%cycles, transient%residual]
             if (self%plan%heat%counts) row = [row, step_heat(self)]
          end if
-         if (self%plan%lubricant%boundary_film > 0.0_dp) then
-            numbers = m%touching%numbers()
-            row = [row, numbers(:known_names(self%plan%lubricant))]
-         end if
+         numbers = m%touching%numbers()
+         row = [row, numbers(:known_names(self%plan%lubricant))]
          call self%history%append(row, status)
          if (self%plan%surfaces%pass_once() .and. .not. self%plan%duty%active) then
             call transient%extremes%see(level, self%p_smooth, self%h_smooth, transient%time)

@@ -193,8 +193,7 @@ contains
          level%h00 = self%h00_done
          call set_geometry(level, self%contact, self%share*self%rr)
          call refresh(level)
-         if (level%boundary%active) exit
-         if (minval(level%h) > 0.0_dp) exit
+         if (level%boundary%has_film(minval(level%h) > 0.0_dp)) exit
          self%share_step = 0.5_dp*self%share_step
          if (self%share_step < min_step) then
             self%m = measure(level)
