@@ -30,12 +30,15 @@ def second_solver() -> Values:
     """Films of ellipses by the second solver: ours on the same cells, and those of C."""
     rows = read("validation/second.csv")
     ours = max(abs(100.0 * (float(r["ours"]) / float(r["second"]) - 1.0)) for r in rows)
-    against = {
-        r["quantity"]: 100.0 * (float(r["second"]) / float(r["c"]) - 1.0)
+    off = {
+        (r["moes_m"], r["kappa"], r["quantity"]): 100.0 * (float(r["second"]) / float(r["c"]) - 1.0)
         for r in rows
-        if r["c"] and r["kappa"] == "1.5"
+        if r["c"]
     }
+    against = {q: share for (_, kappa, q), share in off.items() if kappa == "1.5"}
+    others = max(abs(share) for (_, kappa, _), share in off.items() if kappa != "1.5")
     assert ours < 0.01
+    assert len(off) == 10
     return locals()
 
 
