@@ -4,8 +4,8 @@ Film and pressure of a smooth contact
 =====================================
 
 A ball rolls on a flat at M = 200, L = 10. Film and pressure on the line through the centre, and the
-film as an interferometer would show it: the oil enters from the left, the horseshoe with the
-smallest film is on the right.
+film as in an interferogram: the oil enters from the left, and the horseshoe-shaped constriction with
+the minimum film is on the right.
 """
 
 import matplotlib.pyplot as plt
@@ -20,12 +20,12 @@ ds.attrs["status"], float(ds.H_c), float(ds.H_min)
 # The result is an :class:`xarray.Dataset`: its variables have coordinates, units and names.
 
 figure, ax = plt.subplots(figsize=(3.35, 2.4), layout="constrained")
-ds.P.plot(ax=ax, x="X")
-ax.set_aspect("equal")
+ds.P.plot(ax=ax, x="X", cbar_kwargs={"label": "$P = p/p_h$"})
+ax.set(aspect="equal", xlabel="$X = x/a$, motion →", ylabel="$Y = y/a$")
 plt.show()
 
 # %%
-# The functions of ``pyehl.plots`` draw on axes that you give, and return them.
+# The functions of ``pyehl.plots`` draw on given axes, and return them.
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(6.9, 2.9), layout="constrained")
 x, y = ds.X.values, ds.Y.values

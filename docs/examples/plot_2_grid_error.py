@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """
-How good is a film thickness?
-=============================
+How accurate is a film thickness?
+=================================
 
-Every result carries an estimate of its grid error, from the next coarser grid, and an extrapolated
-value. Here both are compared with a finer grid.
+Every result has an estimate of its grid error and an extrapolated value, both from coarser grids.
+Here they are compared with a finer grid.
 """
 
 import matplotlib.pyplot as plt
@@ -18,7 +18,7 @@ error = [float(ds.H_c_error_grid) for ds in runs]
 better = [float(ds.H_c_extrapolated) for ds in runs]
 
 # %%
-# The error falls by four when the mesh size is halved: the discretisation is of second order.
+# Half the mesh size reduces the error by a factor of four: the discretisation is of second order.
 
 figure, ax = plt.subplots(figsize=(3.35, 2.4), layout="constrained")
 ax.errorbar(grids, film, yerr=error, fmt="o", capsize=4, label="$H_c$ with its estimated error")
@@ -26,13 +26,14 @@ ax.plot(grids, better, "s", mfc="none", label="extrapolated")
 ax.set_xscale("log", base=2)
 ax.set_xticks(grids, [f"{n} × {n}" for n in grids])
 ax.minorticks_off()
+ax.margins(x=0.15)
 ax.set_xlabel("nodes")
 ax.set_ylabel("$H_c = h_c R/a^2$")
 ax.legend()
 plt.show()
 
 # %%
-# The estimate covers what the finer grid shows, and the extrapolated value is nearer to it.
+# The estimate covers the difference from the finer grid, to which the extrapolated value is closer.
 
 assert abs(film[0] - film[1]) < error[0]
 assert abs(better[1] - better[2]) < abs(film[1] - better[2])

@@ -3,8 +3,8 @@
 Film thickness over speed: formulas and solver
 ==============================================
 
-A sweep runs one case with many values and returns one table. Here the central film thickness of
-Table 1 of Zhang et al. 2019 by published formulas, and by the solver at three speeds.
+A sweep runs one case with many values and returns one table. This one gives the central film
+thickness of Table 1 of Zhang et al. 2019 by published formulas, and by the solver at three speeds.
 """
 
 import matplotlib.pyplot as plt

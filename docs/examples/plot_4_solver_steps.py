@@ -4,7 +4,7 @@ Watching the solver
 ===================
 
 A solver is an iterator: it yields after each multigrid cycle of a steady contact, or after each
-time step of a transient run. The loop may look at fields and results, and may end early.
+time step of a transient run. The loop may read fields and results, and may end early.
 """
 
 import matplotlib.pyplot as plt
@@ -18,8 +18,8 @@ with pyehl.Solver("../../cases/quick.nml", "solver.accuracy=1e-3") as solver:
     print(step)
 
 # %%
-# The grids are solved from coarse to fine (full multigrid); each cycle reduces the residual by
-# about ten.
+# The grids are solved from coarse to fine (full multigrid); each cycle reduces the residual by a
+# factor of about ten.
 
 figure, ax = plt.subplots(figsize=(3.35, 2.4), layout="constrained")
 first = 1

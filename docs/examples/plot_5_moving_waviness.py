@@ -3,8 +3,8 @@
 A wave passes through the contact
 =================================
 
-A rough surface that moves through the contact is a transient run. Frames of pressure and film are
-kept at intervals (``output.frame_interval``); ``pyehl plot DIR --movie`` makes an animation of them.
+A contact with a moving rough surface is computed in a transient run. Frames of pressure and film are
+stored at intervals (``output.frame_interval``); ``pyehl plot DIR --movie`` animates them.
 """
 
 import matplotlib.pyplot as plt
@@ -27,7 +27,7 @@ ds = pyehl.solve(
 )
 
 # %%
-# The film at four instants while a wave goes from the inlet to the outlet, all in the same light.
+# Interferograms at four instants while a wave moves from the inlet to the outlet.
 
 x, y = ds.X.values, ds.Y.values
 light = contact.fringe_spacings(float(ds.H_smooth.sel(X=0.0, Y=0.0, method="nearest")), None)
@@ -39,7 +39,7 @@ for ax, k in zip(panels.ravel(), np.arange(-4, 0), strict=True):
 plt.show()
 
 # %%
-# Friction over time. The mean is taken over the last period, which is shaded.
+# Friction over time. The mean is taken over the last, shaded period.
 
 figure, ax = plt.subplots(figsize=(3.35, 2.4), layout="constrained")
 transient.friction_history(
@@ -52,7 +52,7 @@ transient.friction_history(
 plt.show()
 
 # %%
-# ``pyehl plot DIR`` draws these and other figures. Here that of rough and smooth profiles.
+# ``pyehl plot DIR`` draws these and other figures, such as that of the rough and smooth profiles.
 
 figures = solution_figures(ds)
 figures["rough_and_smooth"]

@@ -3,9 +3,9 @@
 Fractal surfaces and their spectrum
 ===================================
 
-A self-affine surface has a spectrum that falls as a power of the wavenumber. A seed gives the same
-surface everywhere. ``surface.shortest_wavelength`` cuts its spectrum, for solver and prediction
-alike.
+The spectrum of a self-affine surface decreases with a power of the wavenumber. A given seed always
+generates the same surface. ``surface.shortest_wavelength`` cuts its spectrum, for both the solver
+and the prediction.
 """
 
 import matplotlib.pyplot as plt
@@ -27,7 +27,7 @@ for tile, name in ((rough, "as generated"), (cut, "cut at 25 µm")):
     shown = c > 1e-12 * c.max()
     panels[2].loglog(q[shown] * 1e-6, c[shown], label=name)
 panels[2].set_xlabel(r"$q$ [rad/$\mu$m]")
-panels[2].set_ylabel(r"$C^{iso}$ [m$^4$]")
+panels[2].set_ylabel(r"$C_\mathrm{iso}$ [m$^4$]")
 figure.legend(*panels[2].get_legend_handles_labels(), loc="outside lower right", ncols=2)
 panels[2].set_box_aspect(1.0)
 plt.show()

@@ -3,9 +3,9 @@
 Friction depends on the slip
 ============================
 
-In pure rolling (velocity ratio 1) the surface and the film wave that it made in the inlet travel
-together. With slip they part, and short waves, which the contact does not flatten, cost more
-friction. So the friction that roughness adds depends on the velocity ratio of the rough surface.
+In pure rolling (velocity ratio 1) the surface and the film wave generated in the inlet move
+together. With slip they separate, and short waves, which the contact does not flatten, increase the
+friction. The friction due to roughness therefore depends on the velocity ratio of the rough surface.
 """
 
 import matplotlib.pyplot as plt

@@ -3,9 +3,9 @@
 Friction over film thickness
 ============================
 
-The lower the speed, the thinner the film against the roughness, and the more friction the roughness
-adds: the full-film part of a Stribeck curve. The command ``pyehl stribeck`` draws such curves with
-error bands, full simulations and measured data, see :doc:`/howto/stribeck`.
+At lower speeds the film is thinner and the roughness adds more friction: this is the full-film part
+of a Stribeck curve. The command ``pyehl stribeck`` draws such curves with error bands, full
+simulations and measured data, see :doc:`/howto/stribeck`.
 """
 
 import matplotlib.pyplot as plt
@@ -24,8 +24,8 @@ tables = {
 print(tables["newtonian"].status.values)
 
 # %%
-# Where the deformed roughness reached through the film the status would say so, and there would be
-# no ratio. An Eyring shear stress levels the peaks of the viscosity, so that the ratio stays close to 1.
+# If the film broke down the status would report it, and there would be no ratio. Eyring's law limits
+# the effect of viscosity peaks on the shear stress, so that the ratio stays close to 1.
 
 figure, ax = plt.subplots(figsize=(3.35, 2.4), layout="constrained")
 for law, table in tables.items():

@@ -3,8 +3,9 @@
 A measured surface, prepared step by step
 =========================================
 
-A scan as an instrument delivers it has holes, spikes, tilt and curvature, and its edges do not match.
-:doc:`/howto/measured-surface` explains the keys of each step. This needs the extra ``surfaces``.
+A raw scan has holes, spikes, tilt and curvature, and its opposite edges do not match.
+:doc:`/howto/measured-surface` explains the keys of each step. This example needs the extra
+``surfaces``.
 """
 
 import pyehl
@@ -15,13 +16,13 @@ scan = surfaces.read_scan("../../cases/scan.x3p")
 scan
 
 # %%
-# The steps, and what each changes. Without `outliers` the three spikes of this scan would stay.
+# The steps and their effects. Without ``outliers`` the three spikes of this scan would remain.
 
 made = surfaces.prepare(scan, surfaces.Options(outliers=100.0))
 print("\n".join(made.record.report()))
 
 # %%
-# In a case file the keys of ``&surface`` say the same; solver and prediction prepare the scan alike.
+# In a case file the keys of ``&surface`` specify the same steps, for both solver and prediction.
 
 p = pyehl.predict("../../cases/scan.nml", "surface.outliers=100")
 print(p)

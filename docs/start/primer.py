@@ -62,7 +62,7 @@ AREAS = {
     "elastic-isoviscous": ("elastic, isoviscous:\nrubber, water", (500.0, 0.85)),
     "rigid-piezoviscous": ("rigid,\npiezo-\nviscous", (11.0, 14.0)),
     "rigid to elastic-piezoviscous": ("between:\nsteel and oil", (500.0, 13.0)),
-    "elastic-piezoviscous": ("elastic,\npiezo-\nviscous", (7e3, 4.0)),
+    "elastic-piezoviscous": ("elastic,\npiezo-\nviscous", (9e3, 2.4)),
 }
 """Regimes, their names in the picture and where these stand (M, L)."""
 SHADES = ("#DCE9F5", "#FBE3D3", "#D9F0E7", "#FFFFFF", "#F6E9F1")
@@ -71,7 +71,7 @@ SHADES = ("#DCE9F5", "#FBE3D3", "#D9F0E7", "#FFFFFF", "#F6E9F1")
 @style.styled()
 def regimes() -> None:
     """Regimes over M and L, and where the contact of the case is."""
-    m, ell = np.geomspace(0.1, 3e4, 201), np.geomspace(0.5, 25.0, 141)
+    m, ell = np.geomspace(0.1, 3e4, 401), np.geomspace(0.5, 25.0, 281)
     names = np.array([[regime(x, y) for x in m] for y in ell])
     figure = style.new_figure(style.COLUMN, HEIGHT)
     ax = figure.subplots()
