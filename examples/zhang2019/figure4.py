@@ -173,9 +173,9 @@ def _below(c: Collapsed) -> Finding:
     text = (
         f"Under the scheme of the paper the {above.sum()} waves with theta_2 above {ONE_CURVE:g} "
         f"scatter by {rms(above, c.fit_one):.1f} % about their fit, {c.fit_one}. The "
-        f"{below.sum()} below scatter by {rms(below, c.fit_2):.0f} % about the fit to all, "
-        f"{c.fit_2}: there mu_r/mu_s is no function of theta_2 alone, and which waves are in a fit "
-        "decides its coefficients. The paper does not list its waves."
+        f"{below.sum()} waves below scatter by {rms(below, c.fit_2):.0f} % about the fit to all, "
+        f"{c.fit_2}: there mu_r/mu_s is not a function of theta_2 alone, and the coefficients of a "
+        "fit depend on the selection of waves, which the paper does not list."
     )
     return Finding(BELOW, text)
 
@@ -200,9 +200,9 @@ def _damping(data: list[Collapsed], eq_16: tuple[float, float], level: Level) ->
         f"{level.collapse_grid} x {level.collapse_grid} nodes mu_r/mu_s is {damped:.3f} under the "
         f"scheme of the paper and {narrow:.3f} under the narrow scheme; eq. 16 gives "
         f"{float(evaluate(np.array(theta), *eq_16)):.3f}. The paper discretises wedge and squeeze "
-        "separately, which damps a wave on its way: of its amplitude "
-        f"exp(-h^3 k^4 (X + 1)/2) = {left:.2f} is left at the centre. A damped wave is fully "
-        "flattened roughness: too much pressure, too much friction. The narrow scheme convects a "
-        "wave at the mean velocity without damping."
+        "separately, which damps a wave on its way: a fraction "
+        f"exp(-h_x^3 k^4 (X + 1)/2) = {left:.2f} of its amplitude is left at the centre. The "
+        "damping acts like complete flattening of the roughness, with too much pressure and "
+        "friction. The narrow scheme transports a wave at the mean velocity without damping."
     )
     return [Finding("Damping of the paper's scheme on its grid", text)]

@@ -213,9 +213,10 @@ def _told(
         Finding(
             "Free waves and slip in the deformed roughness",
             "The amplitude ratio of the paper moves with the roughness: its deformed surface "
-            f"correlates with the simulation by {theirs[0]:.3f}, ours, whose free waves are made "
-            f"in the inlet and convected at the mean velocity, by {ours[0]:.3f}. The paper "
-            "compares height distributions only, which do not see a shift.",
+            f"correlates with the simulation by {theirs[0]:.3f}, ours, whose free waves are "
+            "generated in the inlet and transported at the mean velocity, by "
+            f"{ours[0]:.3f}. The paper compares only height distributions, which a shift does not "
+            "change.",
         )
     ] if theirs[0] < ours[0] else []  # fmt: skip
     return notes, findings

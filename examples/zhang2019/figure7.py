@@ -138,14 +138,15 @@ def _findings(
             f"mu_r/mu_s = {rolling:.3f} in pure rolling (U_rat = 1) and {slipping:.3f} at "
             f"U_rat = 1.01 by simulation, {predicted[0]:.3f} and {predicted[1]:.3f} by our "
             "prediction. The paper's model has one amplitude ratio for "
-            f"both and gives {data.predicted['paper'][0]:.3f}. Over all surfaces it is "
-            f"{100 * means['paper'][1]:+.1f} % off, ours {100 * means['response'][1]:+.1f} %.",
+            f"both and gives {data.predicted['paper'][0]:.3f}. Over all surfaces its mean "
+            f"deviation is {100 * means['paper'][1]:+.1f} %, that of our prediction "
+            f"{100 * means['response'][1]:+.1f} %.",
         ),
         Finding(
             "The paper's surface is not published",
             f"mu_r/mu_s = {printed:g} (Table 2) belongs to one surface. Surfaces of the same "
             f"inputs and other seeds have {spread[0]:.3f} to {spread[1]:.3f} here: the inputs do "
-            "not fix the number.",
+            "not determine the number.",
         ),
         Finding(
             "Misprints and readings",

@@ -118,7 +118,7 @@ def _findings(data: Meshes, level: Level) -> list[Finding]:
             f"From {coarse} x {coarse} to {fine} x {fine} nodes mu_r/mu_s changes by "
             f"{100 * change['paper']:.1f} % under the scheme of the paper and by "
             f"{100 * change['narrow']:.1f} % under the narrow one; on the finer mesh the two "
-            f"schemes are {100 * apart:.1f} % apart. Short waves, of which the rise comes at 1 % "
-            "of slip, are what the meshes do not resolve and what the paper's scheme damps.",
+            f"schemes are {100 * apart:.1f} % apart. The short waves, which cause the increase at "
+            "1 % of slip, are not resolved by the meshes and damped by the scheme of the paper.",
         )
     ]
