@@ -70,4 +70,5 @@ def test_page_says_what_is_left(root: Path):
     """Over the length of a contact of 128 nodes, by the nodes of a wave."""
     left = [100.0 * kept(2.0 * np.pi / nodes) ** 128 for nodes in (32, 16, 12)]
     text = (root / "docs/theory/time-steps.md").read_text(encoding="utf-8")
-    assert "with 32, 16 and 12 nodes keep {:.0f}, {:.0f} and {:.0f} %".format(*left) in text
+    say = "with 32, 16 and 12 nodes per wavelength retain {:.0f}, {:.0f} and {:.0f} %"
+    assert say.format(*left) in text

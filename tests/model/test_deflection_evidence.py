@@ -29,8 +29,8 @@ def test_share_in_the_friction_of_a_short_wave(root: Path):
     found = share_of_deflection()
     share = f"{100.0 * found['share']:.1f} % of the grid error there"
     for page, stated in (
-        ("theory/deflection.md", "it is {:.2f} %, " + share),
-        ("evidence/workprec/README.md", "makes {:.2f} % of μ_r/μ_s"),
+        ("theory/deflection.md", "it is {:.2f} %, which is " + share),
+        ("evidence/workprec/README.md", "an error of {:.2f} % in μ_r/μ_s"),
         ("evidence/workprec/README.md", share),
     ):
         text = plain(root / "docs" / page)

@@ -106,7 +106,7 @@ def test_films_by_two_laws_with_one_alpha(root: Path):
     keys = {"surface.kind": "smooth", "grid.points": 257}
     films = [float(pyehl.solve(case, keys).H_c) for case in (own, Case.from_text("", {**same}))]
     text = (root / "docs/theory/lubricants.md").read_text(encoding="utf-8")
-    assert f"{100.0 * (films[0] / films[1] - 1.0):.1f} % thicker by its own law" in text
+    assert f"{100.0 * (films[0] / films[1] - 1.0):.1f} % thicker with its own law" in text
 
 
 SHEET = "&lubricant kinematic_viscosity_40 = 46 kinematic_viscosity_100 = 6.8 {} /"

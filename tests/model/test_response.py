@@ -273,7 +273,7 @@ def test_gain_of_oblique_waves_is_that_of_the_measured_pressures(
     each = [left[(waves[:, 0] == m) & (waves[:, 1] == ell)] for m, ell in points]
     rms = [float(np.sqrt(np.mean(np.square(here)))) for here in each]
     text = plain(root / "docs/evidence/response/README.md")
-    assert f"the rms it leaves is {min(rms):.3f} to {max(rms):.3f} at an operating point" in text
+    assert f"rms residuals of {min(rms):.3f} to {max(rms):.3f} at the operating points" in text
     assert max(rms) <= 0.011
     assert max(np.abs(here).max() for here in each) <= 0.051
 

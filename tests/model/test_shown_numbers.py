@@ -56,7 +56,7 @@ def test_tutorial(states, cases: Path):
     smooth = {"surface.kind": "smooth", "grid.target_error": 0.02}
     found = summary_of(pyehl.solve(cases / "finish.nml", smooth))
     values = [found[f"H_c{end}"] for end in ("", "_extrapolated", "_error", "_error_grid")]
-    say = "`H_c` {:.4f}, `H_c_extrapolated` {:.4f}, `H_c_error` {:.4f}. Of that {:.4f} is"
+    say = "`H_c` {:.4f}, `H_c_extrapolated` {:.4f} and `H_c_error` {:.4f}. Of this error {:.4f} is"
     ground, honed = (
         pyehl.predict(cases / "finish.nml", {"surface.rms_height": height}).summary
         for height in (1e-7, 4e-8)
@@ -66,9 +66,9 @@ def test_tutorial(states, cases: Path):
         "docs/tutorial.md",
         say.format(*values),
         f"The roughness adds {percent(100.0 * (ground['mu_ratio'] - 1.0))} to the friction",
-        f"a film of {1e9 * ground['h_min_rough_m']:.0f} nm is left",
+        f"leaves a film of {1e9 * ground['h_min_rough_m']:.0f} nm over it",
         f"at Λ = {ground['lambda_ratio']:.2f} a real surface",
-        f"which leaves Λ = {low * honed['lambda_ratio']:.1f}.",
+        f"which still leaves Λ = {low * honed['lambda_ratio']:.1f}.",
     )
 
 
@@ -81,8 +81,8 @@ def test_measured_surface(states, cases: Path):
     low, high = 1e6 * strongest.shortest, 1e6 * strongest.longest
     states(
         "docs/howto/measured-surface.md",
-        "the rms height falls from {:.1f} nm to {:.1f} nm".format(*rms),
-        f"aves of {low:.0f} to {high:.0f} μm add the largest part",
+        "rms height over the tile decreases from {:.1f} nm to {:.1f} nm".format(*rms),
+        f"aves of {low:.0f} to {high:.0f} μm contribute most",
     )
     assert steps[0]["points_changed"] == 3
 
@@ -97,7 +97,7 @@ def test_traction_near_the_origin(states, cases: Path):
     ]
     assert slopes[1] / slopes[0] > 0.85
     assert slopes[2] / slopes[0] < 0.5
-    states("docs/howto/traction.md", "in proportion to the ratio only below 10⁻⁶")
+    states("docs/howto/traction.md", "proportional to the ratio only below 10⁻⁶")
     assert np.exp(-1.8 * 2.0**1.2) < 0.02
     states("docs/howto/traction.md", "above h_c/σ = 2 nearly all of the load is on the film")
 
@@ -141,18 +141,18 @@ def test_constants_of_the_prediction(states):
     """Where a film ends, what the inlet makes, what oblique waves take."""
     ends, film, least = response.FILM_ENDS, response.INLET_FILM, response.QUADRATIC
     states("docs/conventions.md", f"to first order, exceeds {ends:g} times the smooth film")
-    states("docs/theory/prediction.md", f"first order exceeds {ends:g} times the smooth film")
+    states("docs/theory/prediction.md", f"loss of film exceeds {ends:g} times the smooth film")
     states(
         "docs/theory/prediction-response.md",
         f"regains ${film:g}\\,H_1^2/H$",
         f"Beyond a loss of ${least:g}\\,H$",
-        f"at ${ends:g}\\,H$ it ends",
-        f"The pressure gains ${response.INLET_PRESSURE:g}\\,P_0^2$",
+        f"at a loss of ${ends:g}\\,H$ the film breaks down",
+        f"The pressure increases by ${response.INLET_PRESSURE:g}\\,P_0^2$",
     )
     q = np.geomspace(0.1, 200.0, 20)
     gains = [edge_gain(kx, q, film) for kx in (0.0, 5.0, 20.0) for film in (0.01, 0.03, 0.1)]
     assert 0.03 < np.max(gains) - 1.0 < 0.04
-    states("docs/theory/prediction.md", "take up to 4 % more than that")
+    states("docs/theory/prediction.md", "require up to 4 % more pressure")
 
 
 def test_pressure_far_from_the_contact(states):
@@ -164,14 +164,15 @@ def test_pressure_far_from_the_contact(states):
         "docs/theory/border.md",
         rf"so that $\vartheta = {np.degrees(angle):.1f}°$ and $C_\Phi = {second:.5f}$",
         f"The rupture adds {100.0 * (load - 1.0):.0f} % to the load far away",
-        rf"to the power $-3-\sqrt{{10}} \approx -{3.0 + np.sqrt(10.0):.1f}$",
+        rf"with the power $-3-\sqrt{{10}} \approx -{3.0 + np.sqrt(10.0):.1f}$",
     )
 
 
 def test_what_a_study_may_be(states):
     states(
         "docs/howto/sweep.md",
-        f"With more than {plan.MAX_CHECKED} cases `--plan` checks a part, for at most five seconds",
+        f"With more than {plan.MAX_CHECKED} cases `--plan` checks some of them",
+        "for at most five seconds",
         f"{study.MAX_CASES:,} cases".replace(",", " "),
         f"({plan.CASE_BYTES / 1000:g} kB each)",
     )
@@ -184,10 +185,10 @@ def test_what_the_page_may_take(root: Path, states):
     coarse, fine = (f"{1e3 * float(time):.0f} ms on {n} × {n}" for n, time in allowed)
     states(
         "docs/howto/app.md",
-        f"medians of {coarse} nodes and of {fine}, which includes the {answers.DELAY:g} s",
-        f"When it has rested for {answers.DELAY:g} s",
+        f"allowed medians are {coarse} nodes and {fine}, including the {answers.DELAY:g} s",
+        f"When the control has been at rest for {answers.DELAY:g} s",
     )
-    states("docs/design.md", f"may go on for {worker.GRACE:g} s")
+    states("docs/design.md", f"may continue for {worker.GRACE:g} s")
 
 
 def test_constants_of_the_solver(root: Path):

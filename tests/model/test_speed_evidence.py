@@ -24,4 +24,4 @@ def test_the_library_page_says_what_the_grid_takes_of_the_film(root: Path, evide
         if (row["points"], row["engine"], row["threads"]) == ("257", "mlmi", "1")
     )
     text = plain(root / "fortran" / "README.md")
-    assert f"H_c is {100.0 * error:.0f} % low at 257 × 257" in text
+    assert f"H_c is {100.0 * error:.0f} % too small on 257 × 257 nodes" in text

@@ -45,9 +45,9 @@ def test_film_that_a_loss_leaves(evidence, page):
     assert max(near) <= 0.07
     assert 0.0 < min(beyond)
     assert max(beyond) <= 0.45
-    assert "within 0.07 of the mean film for losses from −0.4 to 1" in page
+    assert "agrees with the mean film within 0.07 for losses from −0.4 to 1" in page
     (last,) = (row for row in rows if evidence.number(row, "from") == 1.0)
-    assert f"Between 1 and 1.2 there are {last['points']} points." in page
+    assert f"Between 1 and 1.2 there are only {last['points']} points." in page
 
 
 @pytest.mark.long

@@ -43,7 +43,7 @@ def test_rows_of_the_other_programs(root: Path, made: dict[str, Any]):
         for more in ({}, {"lubricant.flow": "newtonian"})
     ]
     assert films[0] / films[1] == pytest.approx(0.8, abs=0.01)
-    assert "the film is a fifth thinner than that of the Newtonian oil" in text
+    assert "film is a fifth thinner than that of the Newtonian oil" in text
 
 
 def test_this_build_makes_the_stored_numbers(root: Path, made: dict[str, Any]):

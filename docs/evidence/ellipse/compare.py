@@ -124,9 +124,10 @@ def report(table: list[dict[str, Any]]) -> None:
 
 
 def fine_lines() -> list[str]:
-    """Give the table of the cases that were simulated on 1025 nodes along X, too."""
+    """Give the table of the cases that were also simulated on 1025 nodes along X."""
     found = [
-        "| case | κ | 513 nodes | prediction less that | 1025 nodes | prediction less that |",
+        "| case | κ | 513 nodes | deviation of the prediction "
+        "| 1025 nodes | deviation of the prediction |",
         "|---|---|---|---|---|---|",
     ]
     fine = {row["name"]: row for row in read("fine.csv")}

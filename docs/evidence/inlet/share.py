@@ -108,17 +108,17 @@ def lines() -> list[str]:
     """Give the table of README.md."""
     heads = (
         "seed",
-        "cycles end",
+        "criterion",
         "results",
         "covered",
         "largest difference",
-        "off by more than half the error of the grid",
+        "differences above half the grid error",
         "cycles",
     )
     found = ["| " + " | ".join(heads) + " |", "|---" * len(heads) + "|"]
     for seed in sorted({int(row["seed"]) for row in read()}):
         solved = [row for row in read() if int(row["seed"]) == seed and row["status"]]
-        for which, name in (("before_", "by the changes of a cycle"), ("", "by the residual, too")):
+        for which, name in (("before_", "changes of a cycle"), ("", "changes and residual")):
             rows = [row for row in solved if is_compared(row, which)]
             names = f"{which}share", f"{which}error", "strict_share", "error", "error_stop"
             values = np.array([[float(row[n] or "nan") for n in names] for row in rows])
