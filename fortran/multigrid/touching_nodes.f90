@@ -55,7 +55,7 @@ contains
          call self%residual_row(rhs(:, rows(l)), mass_content(:, rows(l)), rows(l), row)
          residual(l, 2:last) = row(2:last)
          touching(l, :last) = self%touching(:last, rows(l))
-         any_touches = any_touches .or. any(touching(l, :last) > 0.0_dp)
+         any_touches = any_touches .or. any(self%touching(:last, rows(l)) > 0.0_dp)
       end do
    end procedure line_residuals
 

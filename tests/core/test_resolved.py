@@ -8,7 +8,8 @@ import pytest
 
 from pyehl import Case, cli
 
-SMALL = "&grid points = 65 / &time steps = 2 /\n"
+SMALL = "&grid points = 65 /\n"
+STEPS = "&time steps = 2 /\n"
 CASES = {
     "scan": "&surface kind = 'map' file = 'scan.x3p' /\n",
     "track": "&surface finish = 'ground' track = 1e-4 pixels = 64 /\n",
@@ -18,12 +19,25 @@ CASES = {
     "table": "&lubricant table = 'oil.csv' /\n&surface kind = 'dent' amplitude_over_film = 0.2 /\n",
     "sheet": "&lubricant kinematic_viscosity_40 = 68.0 kinematic_viscosity_100 = 8.7 /\n"
     "&surface kind = 'harmonic' wavelength = 1.0 /\n",
+    "starved ellipse": "&contact load = 200.0 radius_x = 0.01 radius_y = 0.03 /\n"
+    "&inlet film = 3e-7 /\n",
+    "line": "&contact shape = 'line' load_per_length = 1e5 mean_velocity = 0.01 hardness = 2e9 /\n"
+    "&lubricant boundary_film = 3e-8 boundary_friction = 0.1 /\n",
+    "roller": "&contact shape = 'roller' length = 0.01 load = 2000.0 radius = 0.005 /\n",
+    "duty": "&contact load = 20.0 /\n&duty file = 'duty.csv' /\n",
+    "rest": "&contact load = 20.0 slide_to_roll = 2.0 rough_surface = 2 /\n"
+    "&lubricant shear_law = 'carreau' carreau_stress = 5e6 carreau_exponent = 0.5 /\n"
+    "&surface kind = 'dent' amplitude_over_film = 0.3 /\n",
+    "pair": "&contact load = 20.0 slide_to_roll = 0.3 /\n"
+    "&surface kind = 'bump' amplitude = 0.02 /\n"
+    "&second_surface kind = 'harmonic' wavelength = 0.5 /\n",
 }
 TABLE = """pressure_Pa, temperature_degC, viscosity_Pa_s
 0, 40, 0.05
 1e9, 40, 5e4
 4e9, 40, 1e12
 """
+DUTY = "time_s, load_N\n0, 20\n1e-3, 40\n"
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -32,7 +46,9 @@ def test_ehl_reads_what_is_written(
 ):
     (tmp_path / "scan.x3p").write_bytes((cases / "scan.x3p").read_bytes())
     (tmp_path / "oil.csv").write_text(TABLE)
-    (tmp_path / "case.nml").write_text(CASES[name] + SMALL)
+    (tmp_path / "duty.csv").write_text(DUTY)
+    moves = "&surface" in CASES[name]
+    (tmp_path / "case.nml").write_text(CASES[name] + SMALL + STEPS * moves)
     monkeypatch.chdir(tmp_path)
     assert cli.main(["check", "case.nml", "--resolved", "out.nml"]) == 0
     tiles = ["out_surface.npy"] if name in ("scan", "track") else []
