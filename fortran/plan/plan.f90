@@ -3,16 +3,13 @@
 module ehl_plan
    use ehl_case, only: case_t
    use ehl_case_defaults, only: is_short_of_oil
-   use ehl_case_grid, only: blunt_spike, high_spike
-   use ehl_case_point, only: find_contact, operating_point
    use ehl_contact, only: contact_t
-   use ehl_cycle, only: coarsening_alcouffe, coarsening_classical, cycle_options_t
-   use ehl_domain, only: domain_cost, domain_t, layer_that_floods
+   use ehl_cycle, only: cycle_options_t
+   use ehl_domain, only: domain_cost
    use ehl_duty, only: duty_t
    use ehl_friction_mean, only: automatic_periods
    use ehl_film_formula, only: starved_film
-   use ehl_grid_error, only: relative_errors
-   use ehl_grid, only: coarsest_most, find_levels, grid_t, new_grid
+   use ehl_grid, only: grid_t
    use ehl_inlet, only: inlet_t
    use ehl_kinds, only: dp
    use ehl_lubricant, only: lubricant_t
@@ -22,28 +19,17 @@ module ehl_plan
    use ehl_plan_friction, only: sliding_t
    use ehl_plan_heat, only: heat_plan_t, may_touch, plan_contact, plan_heat
    use ehl_plan_surface, only: check_carried, make_surfaces
-   use ehl_resolution, only: has_solution
    use ehl_scales, only: scales_t
    use ehl_status, only: ehl_bad_input, status_t
    use ehl_steady_options, only: steady_options_t
    use ehl_surface, only: aliased_below, resolved_from
    use ehl_predicted_start, only: steps_needed
-   use ehl_step_policy, only: damped_sweep, whole_correction
-   use ehl_strip_grid, only: make_strip
    use ehl_text, only: fixed, to_text
    use ehl_wedge, only: wedge_narrow, wedge_separate
    implicit none (type, external)
    private
    public :: plan_t, make_plan
 
-   !> Nested iteration starts on a grid of at least that many nodes a side that has a solution
-   integer, parameter :: start_fewest = 33
-   !> Intervals of the coarsest grid of a line
-   integer, parameter :: coarsest_of_line = 64
-   !> Lengths of thick films, (2 H_c)^(1/2) [a], and largest mesh of the coarsest grid in terms of them
-   real(dp), parameter :: thick_film = 0.8_dp, coarsest_mesh = 0.9_dp
-   !> A-priori error of H_c of grids that resolve the inlet: a smooth contact that fails there is restarted with damped cycles
-   real(dp), parameter :: resolved_error = 0.1_dp
    !> Most time steps until the friction of a rough surface can be known, and where their number is asked for
    integer, parameter :: max_steps = 100000, max_steps_asked_for = 1000000000
 
@@ -53,8 +39,6 @@ module ehl_plan
    !> What makes coarse grids leave a spike to the sweeps: an extent across the motion over that along it from which on the
    !> trailing edge moves from column to column in a few rows
    real(dp), parameter :: oblique = 4.0_dp
-   !> Extent from which on all steps under a duty take their changes in parts: 7 cycles a step in place of 80
-   real(dp), parameter :: long = 4.0_dp
 
    !> What the smooth contact needs, and all else
    type, extends(steady_options_t) :: plan_t
@@ -114,6 +98,25 @@ module ehl_plan
 
    !> Share of the variance that the coarser of two grids may leave unresolved where friction is extrapolated
    real(dp), parameter :: unresolved_most = 1.0e-6_dp
+
+   ! in plan_cycles.f90
+   interface
+      !> Kind of cycle, for the smooth contact and for time steps
+      module subroutine pick_cycle(input, plan)
+         type(case_t), intent(in) :: input
+         type(plan_t), intent(inout) :: plan
+      end subroutine pick_cycle
+   end interface
+
+   ! in plan_grids.f90
+   interface
+      !> Half or whole domain, levels, start of the nested iteration
+      module subroutine pick_grids(input, plan, status)
+         type(case_t), intent(in) :: input
+         type(plan_t), intent(inout) :: plan
+         type(status_t), intent(inout) :: status
+      end subroutine pick_grids
+   end interface
 
 contains
 
@@ -251,126 +254,4 @@ contains
                           " on this grid, or 0: a rough surface at rest is a steady contact")
       end associate
    end subroutine check_steps
-
-   !> Kind of cycle, for the smooth contact and for time steps
-   subroutine pick_cycle(input, plan)
-      type(case_t), intent(in) :: input
-      type(plan_t), intent(inout) :: plan
-      logical :: row
-
-      if (input%solver%cycle /= "auto") then
-         plan%cycle_letter = input%solver%cycle(1:1)
-         plan%step_cycle_letter = plan%cycle_letter
-      end if
-      ! sweeps of one row are all but Newton steps
-      row = plan%contact%is_line() .and. .not. plan%surfaces%width() > 0.0_dp
-      if (row .and. input%solver%cycle == "auto") plan%cycle_letter = "V"
-      plan%cycle = cycle_of(plan%cycle_letter)
-      if (row) plan%cycle%pre = 1
-      plan%cycle%spare_spikes = has_sharp_spike(plan)
-      plan%second_cycle = plan%cycle
-      if (plan%cycle%full .and. input%solver%cycle == "auto" .and. .not. (plan%surfaces%rough() .or. plan%touches)) then
-         ! The first leaves so little that is smooth that one visit to the coarser levels will do. Not before rough runs:
-         ! the error of the smooth friction is one of the ratio.
-         plan%second_cycle = cycle_of("V")
-         plan%second_cycle%spare_spikes = plan%cycle%spare_spikes
-      end if
-      ! A time step begins close to its solution, so that the cheapest cycle wins; with two sweeps after the coarse
-      ! grids rather than before, more steps take a single one
-      plan%step_cycle = cycle_of(plan%step_cycle_letter)
-      plan%step_cycle%pre = 1
-      plan%step_cycle%post = 2
-      plan%step_cycle%finest_only = plan%duty%active .and. plan%contact%reach(2) > wide*plan%contact%reach(1)
-      if (plan%duty%active .and. plan%contact%reach(2) > long*plan%contact%reach(1)) then
-         plan%step_cycle%relaxation_factor = damped_sweep
-         plan%step_cycle%correction_factor = whole_correction
-      end if
-      plan%coarsening_may_change = input%solver%coarsening == "auto" .and. .not. (row .or. input%contact%is_roller())
-      plan%step_cycle%coarsening = merge(coarsening_alcouffe, coarsening_classical, &
-                                         input%solver%coarsening == "alcouffe")
-   end subroutine pick_cycle
-
-   !> Whether the pressure spike of a smooth contact is a few nodes wide along an edge that is oblique to the rows
-   pure logical function has_sharp_spike(plan)
-      type(plan_t), intent(in) :: plan
-
-      has_sharp_spike = plan%contact%reach(2) > oblique*plan%contact%reach(1) .and. plan%point%moes_l > high_spike .and. &
-                        plan%point%alpha_bar > blunt_spike(plan%point%moes_l) .and. &
-                        .not. (plan%surfaces%rough() .or. plan%touches)
-   end function has_sharp_spike
-
-   !> Options of a kind of cycle
-   pure function cycle_of(letter) result(options)
-      character(len=1), intent(in) :: letter
-      type(cycle_options_t) :: options
-
-      options%gamma = merge(2, 1, letter == "W")
-      options%full = letter == "F"
-   end function cycle_of
-
-   !> Half or whole domain, levels, start of the nested iteration
-   subroutine pick_grids(input, plan, status)
-      type(case_t), intent(in) :: input
-      type(plan_t), intent(inout) :: plan
-      type(status_t), intent(inout) :: status
-      type(grid_t) :: grid
-      logical :: mirror
-      integer :: intervals(2), level
-      real(dp) :: film, width
-
-      if (status%failed()) return
-      mirror = input%solver%symmetry == "auto" .and. plan%contact%is_even() .and. plan%surfaces%even_in_y()
-      call find_levels(input%grid%points, merge(input%grid%points, input%grid%points_y, plan%contact%is_line()), plan%levels, &
-                       intervals)
-      if (plan%contact%is_line()) then
-         ! one row of nodes is solved directly on a finer grid for next to nothing
-         do while (intervals(1) < merge(coarsest_most, coarsest_of_line, plan%surfaces%width() > 0.0_dp) .and. plan%levels > 1)
-            intervals = 2*intervals
-            plan%levels = plan%levels - 1
-         end do
-      end if
-      ! a coarsest grid that does not resolve a thick film corrects it at random
-      film = sqrt(2.0_dp*plan%film_expected)
-      if (plan%levels > 1 .and. 2*minval(intervals) <= coarsest_most .and. film > thick_film .and. &
-          input%grid%x_outlet - input%grid%x_inlet > coarsest_mesh*film*intervals(1)) then
-         intervals = 2*intervals
-         plan%levels = plan%levels - 1
-      end if
-      if (plan%levels == 0) then
-         call status%fail(ehl_bad_input, "grid of "//to_text(input%grid%points)//" points cannot be coarsened far enough")
-         return
-      end if
-      if (plan%target_error > 0.0_dp) then
-         plan%levels = 1
-         do while (intervals(1)*2**plan%levels + 1 <= input%grid%max_points)
-            plan%levels = plan%levels + 1
-         end do
-      end if
-      associate (g => input%grid)
-         if (plan%contact%is_line()) then
-            width = plan%surfaces%width()
-            call make_strip(width, intervals(1), plan%levels, g%x_inlet, g%x_outlet, mirror, plan%surfaces%rough() .and. &
-                            input%solver%coarsening == "alcouffe", plan%coarsest, status)
-            if (status%failed()) return
-         else
-            plan%coarsest = new_grid(intervals(1) + 1, intervals(2) + 1, g%x_inlet, g%x_outlet, g%y_extent, mirror)
-            plan%coarsest%ends = plan%contact%is_roller()
-         end if
-         plan%domain_cost = domain_cost(plan%contact, plan%point, domain_t(g%x_inlet, g%x_outlet, g%y_extent), plan%flooded, &
-                                        plan%starved .and. plan%layer <= layer_that_floods(plan%contact, plan%point, g%x_inlet))
-      end associate
-      grid = plan%coarsest
-      plan%start = 0
-      do level = 1, plan%levels
-         if (level > 1) grid = grid%finer()
-         if (plan%start == 0 .and. grid%nx >= start_fewest .and. &
-             (plan%touches .or. has_solution(plan%contact, plan%point, grid))) plan%start = level
-      end do
-      if (plan%start == 0) plan%start = plan%levels
-      plan%finest = grid
-      associate (errors => relative_errors(plan%contact, plan%point, grid%hx))
-         plan%may_restart = errors(1) <= resolved_error .or. plan%touches .or. &
-                            plan%contact%reach(2) > wide*plan%contact%reach(1)
-      end associate
-   end subroutine pick_grids
 end module ehl_plan

@@ -1,6 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Cycles that are taken back, damped and accelerated (docs/theory/coarse-grids.md)
 submodule (ehl_smooth_contact) ehl_cycle_guard
+   use ehl_cycle, only: max_damping
+   use ehl_outcome, only: outcome_diverged, outcome_negative_film
+   use ehl_reynolds, only: update_coefficients
+   use ehl_status, only: ehl_no_memory
    implicit none (type, external)
 
    !> Cycles after which the changes of a cycle are made larger again, and those in which the residual must halve

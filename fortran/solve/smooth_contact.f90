@@ -3,21 +3,20 @@
 module ehl_smooth_contact
    use ehl_contact, only: contact_t
    use ehl_contact_results, only: contact_results_t, load_tolerance, measure
-   use ehl_cycle, only: cycle_options_t, damped_cycle, max_damping, prolong_solution
+   use ehl_cycle, only: prolong_solution
    use ehl_dry_start, only: dry_start_t
    use ehl_far_field, only: far_field_t
-   use ehl_reynolds, only: refresh, update_coefficients
+   use ehl_reynolds, only: refresh
    use ehl_hierarchy, only: hierarchy_t
    use ehl_iteration, only: iteration_t, reduction
    use ehl_kinds, only: dp
    use ehl_level_result, only: level_result_t
-   use ehl_level_tolerance, only: accurate, counts_share, has_coarser, has_target, is_end, residual_tolerance, wanted
-   use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_diverged, outcome_negative_film, outcome_running, &
-                          outcome_target_missed
+   use ehl_level_tolerance, only: accurate, has_coarser, has_target, is_end, residual_tolerance, wanted
+   use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_running, outcome_target_missed
    use ehl_level, only: level_t
    use ehl_meniscus, only: meniscus_t
-   use ehl_oil_flow, only: flow_tolerance, leaving
-   use ehl_status, only: ehl_no_memory, status_t
+   use ehl_oil_flow, only: flow_tolerance
+   use ehl_status, only: status_t
    use ehl_steady_options, only: end_rule_t, rule_of_circles, rule_of_ellipses, rule_of_others, rule_of_rollers, steady_options_t
    implicit none (type, external)
    private
@@ -26,33 +25,17 @@ module ehl_smooth_contact
    !> Largest reduction per cycle that is believed of it: where the film is close to the boundary film the edge of a touching
    !> zone moves by a node in several cycles
    real(dp), parameter :: max_share_reduction = 0.99_dp
-   !> Most cycles of a contact that touches, over those of others: the edge of a touching zone moves by a node in several cycles
-   integer, parameter :: touching_cycles = 3
-   !> The same of a roller: what coarse grids change at its ends the sweeps take back slowly (47 to 89 cycles)
-   integer, parameter :: roller_cycles = 4
-   !> Relative change of the central film from passage to passage that is none
-   real(dp), parameter :: steady_film = 1.0e-4_dp
-   !> The same of one that is short of oil: what flows back from the contact and around it takes some to balance
-   integer, parameter :: starved_cycles = 3
-   !> And of a line whose meniscus is held while the flow becomes known: a few for each of its places
-   integer, parameter :: held_cycles = 10
-   !> Most cycles of a level in which a softened flow is to become that of the law
-   integer, parameter :: softened_cycles = 20
    !> What an error of the load changes the film, per relative error: the deflection by the Hertz pressure differs from its
    !> mean under it by 1/5 at the centre and by 3/10 at the edge [a^2/R]
    real(dp), parameter :: film_per_load = 0.3_dp
-   !> Relative algebraic error that a light cycle can be trusted with: where less is wanted it costs a cycle
-   real(dp), parameter :: light_error = 3.0e-4_dp
    !> A residual that no state on the way to a solution has, unless the one before it was nearly as large
    real(dp), parameter :: max_residual = 2.0_dp
    !> Residual from which on coarse grids change sharp pressure spikes too: sweeps alone do not find one that is far off
    !> (kappa = 11, L = 26)
-   real(dp), parameter :: near_solution = 0.05_dp, near_spared = 0.5_dp
+   real(dp), parameter :: near_solution = 0.05_dp
    !> Cycles after which the load of a roller may drift, and a relative error of it that is a drift
    integer, parameter :: drifts_after = 6
    real(dp), parameter :: small_drift = 1.0e-3_dp
-   !> Cycles that are few: on a level that began from a coarser one, and from the Hertz pressure
-   integer, parameter :: min_cycles = 2, cycles_from_guess = 3
 
    !> What is known of the cycles of a level, to take back what leaves no state of the contact
    type :: guard_t
@@ -145,6 +128,35 @@ module ehl_smooth_contact
       end subroutine guard_cycle
    end interface
 
+   ! in next_cycle.f90
+   interface
+      !> Before a cycle on level n: the pressure at a flooded border, the kind of cycle, the state to come back to
+      module subroutine begin_cycle(self, level, status)
+         class(smooth_contact_t), intent(inout) :: self
+         type(level_t), intent(inout) :: level
+         type(status_t), intent(inout) :: status
+      end subroutine begin_cycle
+   end interface
+
+   ! in smooth_restart.f90
+   interface
+      !> What leaves the contact is the inlet of the next one, unless it changes nothing any more. Errors are those of the first
+      !> passage over its values: what coarser grids have found is scaled.
+      module subroutine next_passage(self, level, outcome)
+         class(smooth_contact_t), intent(inout) :: self
+         type(level_t), intent(inout) :: level
+         integer, intent(inout) :: outcome
+      end subroutine next_passage
+
+      !> A level has no solution: begin anew on the next finer one, where the discrete problem is better posed; from the first level
+      !> on after a failure on the finest one, once with damped cycles and once with guarded ones, or with ones that spare spikes
+      module subroutine restart(self, finest, outcome)
+         class(smooth_contact_t), intent(inout) :: self
+         logical, intent(in) :: finest
+         integer, intent(inout) :: outcome
+      end subroutine restart
+   end interface
+
 contains
 
    !> Ready for the first level
@@ -216,45 +228,6 @@ contains
       self%begun = .true.
       call begin_guard(self)
    end subroutine begin_level
-
-   !> Before a cycle on level n: the pressure at a flooded border, the kind of cycle, the state to come back to
-   subroutine begin_cycle(self, level, status)
-      class(smooth_contact_t), intent(inout) :: self
-      type(level_t), intent(inout) :: level
-      type(status_t), intent(inout) :: status
-
-      if (self%options%flooded) call self%far_field%set_border(level, self%contact%load)
-      if (self%meniscus%active) call follow_meniscus(self, level)
-      self%cycle_passage = self%passage
-      if (level%supply%active) self%layer_central = level%supply%layer(1 + nint(-level%grid%y0/level%grid%hy))
-      self%next_cycle = cycle_to_make(self)
-      if (self%residual > near_solution .or. self%n < self%options%spares_from) self%next_cycle%spare_spikes = .false.
-      if (self%spares .and. self%residual > 0.0_dp) self%next_cycle%spare_spikes = self%residual < near_spared
-      self%max_cycles = self%options%max_cycles
-      if (self%contact%is_roller()) self%max_cycles = roller_cycles*self%max_cycles
-      if (is_end(self%options, self%n) .and. counts_share(self%options, self%m)) then
-         self%max_cycles = touching_cycles*self%max_cycles
-      end if
-      if (self%guard%share < 1.0_dp) self%max_cycles = min(self%max_cycles, softened_cycles)
-      if (self%options%layer > 0.0_dp) self%max_cycles = starved_cycles*self%options%max_cycles
-      if (self%meniscus%active) self%max_cycles = held_cycles*self%options%max_cycles
-      if (self%guarded) call keep_state(self, level, status)
-   end subroutine begin_cycle
-
-   !> Where the flow of a line is known but is not that of its layer its film begins elsewhere
-   subroutine follow_meniscus(self, level)
-      class(smooth_contact_t), intent(inout) :: self
-      type(level_t), intent(inout) :: level
-      logical :: moved
-
-      if (self%cycles == 0) return
-      call self%meniscus%follow(level, self%m%oil%leaves, moved)
-      if (.not. moved) return
-      call refresh(level)
-      self%m = measure(level)
-      self%guard%residual_kept = 0.0_dp
-      call self%mixing%finish()
-   end subroutine follow_meniscus
 
    !> Algebraic errors by the changes in a cycle
    subroutine estimate_errors(self, before)
@@ -338,26 +311,6 @@ contains
       end associate
    end subroutine record
 
-   !> The cycle to make: on a level that began from a coarser one a light one is the second, if what it leaves is good
-   !> enough; with one sweep less at first where the coarser level was solved in few cycles
-   pure function cycle_to_make(self) result(options)
-      class(smooth_contact_t), intent(in) :: self
-      type(cycle_options_t) :: options
-      logical :: first
-
-      options = self%options%cycle
-      if (self%damped) options = damped_cycle(options)
-      if (self%guard%damping > 0) options = damped_cycle(self%options%cycle, self%guard%damping)
-      if (self%damped .or. self%guard%damping > 0) return
-      if (self%options%second_cycle%full .eqv. self%options%cycle%full) return
-      if (.not. has_coarser(self%results, self%n) .or. self%cycles /= 1) return
-      if (any(wanted(self%options, self%results, self%n, self%m) < light_error*self%m%films())) return
-      options = self%options%second_cycle
-      first = self%n == 2
-      if (.not. first) first = .not. self%results(self%n - 2)%solved
-      if (self%results(self%n - 1)%cycles <= merge(cycles_from_guess, min_cycles, first)) options%pre = options%pre - 1
-   end function cycle_to_make
-
    !> After the last cycle of a level: on to the next one, back to the first one, or to the end. A coarse level that runs out
    !> of cycles is a beginning for the next one still.
    subroutine end_level(self, hierarchy, outcome)
@@ -397,53 +350,5 @@ contains
          self%begun = .false.
       end if
    end subroutine end_level
-
-   !> What leaves the contact is the inlet of the next one, unless it changes nothing any more. Errors are those of the first
-   !> passage over its values: what coarser grids have found is scaled.
-   subroutine next_passage(self, level, outcome)
-      class(smooth_contact_t), intent(inout) :: self
-      type(level_t), intent(inout) :: level
-      integer, intent(inout) :: outcome
-
-      if (self%passage > 1) then
-         if (abs(self%m%film_central - self%film_before) <= steady_film*self%m%film_central) return
-      end if
-      self%film_before = self%m%film_central
-      self%passage = self%passage + 1
-      self%solved = .false.
-      outcome = outcome_running
-      self%cycles = 0
-      level%supply%layer = self%options%replenishment*self%options%layer + (1.0_dp - self%options%replenishment)*leaving(level)
-      call begin_guard(self)
-   end subroutine next_passage
-
-   !> A level has no solution: begin anew on the next finer one, where the discrete problem is better posed; from the first level
-   !> on after a failure on the finest one, once with damped cycles and once with guarded ones, or with ones that spare spikes
-   subroutine restart(self, finest, outcome)
-      class(smooth_contact_t), intent(inout) :: self
-      logical, intent(in) :: finest
-      integer, intent(inout) :: outcome
-
-      if (finest) then
-         if (.not. self%damped .and. self%options%may_restart) then
-            self%damped = .true.
-         else if (.not. self%guarded) then
-            self%guarded = .true.
-            self%damped = .false.
-         else if (self%options%guarded .and. .not. self%spares .and. self%options%spares_from < huge(1)) then
-            self%spares = .true.
-         else if (self%options%line .and. self%options%layer > 0.0_dp .and. .not. self%meniscus%active) then
-            self%meniscus%active = .true.
-            self%floods = .false.
-         else
-            return
-         end if
-      end if
-      outcome = outcome_running
-      self%results%solved = .false.
-      self%restarts = self%restarts + 1
-      self%begun = .false.
-      self%n = merge(self%options%start, self%n + 1, finest)
-   end subroutine restart
 
 end module ehl_smooth_contact

@@ -1,0 +1,83 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Grids of a plan
+submodule (ehl_plan) ehl_plan_grids
+   use ehl_domain, only: domain_t, layer_that_floods
+   use ehl_grid, only: coarsest_most, find_levels, new_grid
+   use ehl_grid_error, only: relative_errors
+   use ehl_resolution, only: has_solution
+   use ehl_strip_grid, only: make_strip
+   implicit none (type, external)
+
+   !> Nested iteration starts on a grid of at least that many nodes a side that has a solution
+   integer, parameter :: start_fewest = 33
+   !> Intervals of the coarsest grid of a line
+   integer, parameter :: coarsest_of_line = 64
+   !> Lengths of thick films, (2 H_c)^(1/2) [a], and largest mesh of the coarsest grid in terms of them
+   real(dp), parameter :: thick_film = 0.8_dp, coarsest_mesh = 0.9_dp
+   !> A-priori error of H_c of grids that resolve the inlet: a smooth contact that fails there is restarted with damped cycles
+   real(dp), parameter :: resolved_error = 0.1_dp
+
+contains
+
+   module procedure pick_grids
+      type(grid_t) :: grid
+      logical :: mirror
+      integer :: intervals(2), level
+      real(dp) :: film, width
+
+      if (status%failed()) return
+      mirror = input%solver%symmetry == "auto" .and. plan%contact%is_even() .and. plan%surfaces%even_in_y()
+      call find_levels(input%grid%points, merge(input%grid%points, input%grid%points_y, plan%contact%is_line()), plan%levels, &
+                       intervals)
+      if (plan%contact%is_line()) then
+         ! one row of nodes is solved directly on a finer grid for next to nothing
+         do while (intervals(1) < merge(coarsest_most, coarsest_of_line, plan%surfaces%width() > 0.0_dp) .and. plan%levels > 1)
+            intervals = 2*intervals
+            plan%levels = plan%levels - 1
+         end do
+      end if
+      ! a coarsest grid that does not resolve a thick film corrects it at random
+      film = sqrt(2.0_dp*plan%film_expected)
+      if (plan%levels > 1 .and. 2*minval(intervals) <= coarsest_most .and. film > thick_film .and. &
+          input%grid%x_outlet - input%grid%x_inlet > coarsest_mesh*film*intervals(1)) then
+         intervals = 2*intervals
+         plan%levels = plan%levels - 1
+      end if
+      if (plan%levels == 0) then
+         call status%fail(ehl_bad_input, "grid of "//to_text(input%grid%points)//" points cannot be coarsened far enough")
+         return
+      end if
+      if (plan%target_error > 0.0_dp) then
+         plan%levels = 1
+         do while (intervals(1)*2**plan%levels + 1 <= input%grid%max_points)
+            plan%levels = plan%levels + 1
+         end do
+      end if
+      associate (g => input%grid)
+         if (plan%contact%is_line()) then
+            width = plan%surfaces%width()
+            call make_strip(width, intervals(1), plan%levels, g%x_inlet, g%x_outlet, mirror, plan%surfaces%rough() .and. &
+                            input%solver%coarsening == "alcouffe", plan%coarsest, status)
+            if (status%failed()) return
+         else
+            plan%coarsest = new_grid(intervals(1) + 1, intervals(2) + 1, g%x_inlet, g%x_outlet, g%y_extent, mirror)
+            plan%coarsest%ends = plan%contact%is_roller()
+         end if
+         plan%domain_cost = domain_cost(plan%contact, plan%point, domain_t(g%x_inlet, g%x_outlet, g%y_extent), plan%flooded, &
+                                        plan%starved .and. plan%layer <= layer_that_floods(plan%contact, plan%point, g%x_inlet))
+      end associate
+      grid = plan%coarsest
+      plan%start = 0
+      do level = 1, plan%levels
+         if (level > 1) grid = grid%finer()
+         if (plan%start == 0 .and. grid%nx >= start_fewest .and. &
+             (plan%touches .or. has_solution(plan%contact, plan%point, grid))) plan%start = level
+      end do
+      if (plan%start == 0) plan%start = plan%levels
+      plan%finest = grid
+      associate (errors => relative_errors(plan%contact, plan%point, grid%hx))
+         plan%may_restart = errors(1) <= resolved_error .or. plan%touches .or. &
+                            plan%contact%reach(2) > wide*plan%contact%reach(1)
+      end associate
+   end procedure pick_grids
+end submodule ehl_plan_grids

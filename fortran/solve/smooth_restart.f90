@@ -1,0 +1,47 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The smooth contact once more: the next passage of a starved one, and levels that had no solution
+submodule (ehl_smooth_contact) ehl_smooth_restart
+   use ehl_oil_flow, only: leaving
+   implicit none (type, external)
+
+   !> Relative change of the central film from passage to passage that is none
+   real(dp), parameter :: steady_film = 1.0e-4_dp
+
+contains
+
+   module procedure next_passage
+      if (self%passage > 1) then
+         if (abs(self%m%film_central - self%film_before) <= steady_film*self%m%film_central) return
+      end if
+      self%film_before = self%m%film_central
+      self%passage = self%passage + 1
+      self%solved = .false.
+      outcome = outcome_running
+      self%cycles = 0
+      level%supply%layer = self%options%replenishment*self%options%layer + (1.0_dp - self%options%replenishment)*leaving(level)
+      call begin_guard(self)
+   end procedure next_passage
+
+   module procedure restart
+      if (finest) then
+         if (.not. self%damped .and. self%options%may_restart) then
+            self%damped = .true.
+         else if (.not. self%guarded) then
+            self%guarded = .true.
+            self%damped = .false.
+         else if (self%options%guarded .and. .not. self%spares .and. self%options%spares_from < huge(1)) then
+            self%spares = .true.
+         else if (self%options%line .and. self%options%layer > 0.0_dp .and. .not. self%meniscus%active) then
+            self%meniscus%active = .true.
+            self%floods = .false.
+         else
+            return
+         end if
+      end if
+      outcome = outcome_running
+      self%results%solved = .false.
+      self%restarts = self%restarts + 1
+      self%begun = .false.
+      self%n = merge(self%options%start, self%n + 1, finest)
+   end procedure restart
+end submodule ehl_smooth_restart
