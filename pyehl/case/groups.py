@@ -69,7 +69,7 @@ class Contact:
         0.0,
         "deg",
         "[-90, 90]",
-        "an elliptical contact is turned counter-clockwise against the motion",
+        "angle by which an elliptical contact is turned counter-clockwise against the motion",
     )
     slide_to_roll: float = real(
         0.02,
@@ -91,10 +91,10 @@ class Contact:
         "thermal diffusivity of the solids, for the heat of friction",
     )
     thermal_conductivity_2: float = real(
-        0.0, "W/(m K)", "0 or [0.1, 500]", "that of body 2; 0: thermal_conductivity"
+        0.0, "W/(m K)", "0 or [0.1, 500]", "that conductivity of body 2; 0: the same"
     )
     thermal_diffusivity_2: float = real(
-        0.0, "m^2/s", "0 or [1e-8, 1e-3]", "that of body 2; 0: thermal_diffusivity"
+        0.0, "m^2/s", "0 or [1e-8, 1e-3]", "that diffusivity of body 2; 0: the same"
     )
     length: float = real(0.0, "m", "0 or [1e-5, 10]", "length of a roller")
     profile: str = word(
@@ -176,15 +176,17 @@ class Inlet:
     """``&inlet``: an inlet that is short of oil."""
 
     position: float = real(
-        0.0, "m", "[0, 10]", "where the oil begins, ahead of the centre: P = 0 there; 0: flooded"
+        0.0, "m", "[0, 10]", "position of the meniscus ahead of the centre, with P = 0; 0: flooded"
     )
     position_hertz: float = real(0.0, "a", "0 or [1.05, 1e4]", "the same in Hertz radii")
     film: float = real(
-        0.0, "m", "[0, 0.01]", "layer of oil that arrives, of both surfaces together; 0: flooded"
+        0.0, "m", "[0, 0.01]", "oil layer that arrives on both surfaces together; 0: flooded"
     )
     film_hertz: float = real(0.0, "a^2/R", "[0, 1e4]", "the same in Hertz units")
     passages: int = whole(
-        1, "[1, 1000]", "contacts one after another: what one leaves is the inlet of the next"
+        1,
+        "[1, 1000]",
+        "successive contacts: the oil that one leaves is the inlet layer of the next",
     )
     replenishment: float = real(
         0.0, "-", "[0, 1]", "share of the oil missing from inlet.film that returns between them"
@@ -227,9 +229,11 @@ class Grid:
         "kappa = 4 and on a line",
     )
     target_error: float = real(
-        0.0, "-", "0 or [1e-5, 0.1]", "relative error of H_c wanted; 0: solve on points as given"
+        0.0, "-", "0 or [1e-5, 0.1]", "required relative error of H_c; 0: solve on the given points"
     )
-    max_points: int = whole(2049, "[17, 8193]", "most nodes per side that target_error may choose")
+    max_points: int = whole(
+        2049, "[17, 8193]", "maximum number of nodes per side that target_error may choose"
+    )
 
 
 @dataclass(slots=True)
@@ -237,24 +241,29 @@ class Time:
     """``&time``: the transient run of a moving surface."""
 
     scheme: str = word(
-        "narrow", "narrow|paper", "wedge and squeeze: along the characteristic, or each by itself"
+        "narrow",
+        "narrow|paper",
+        "wedge and squeeze terms: together along the characteristic, or separately",
     )
     tolerance: float = real(
-        0.001, "-", "[1e-8, 0.5]", "stop when the period mean of mu_r/mu_s changes less, relatively"
+        0.001,
+        "-",
+        "[1e-8, 0.5]",
+        "relative change of the period mean of mu_r/mu_s below which a run stops",
     )
     max_periods: int = whole(
-        0, "[0, 100000]", "most periods, of two surfaces those of the slower one; 0: 36"
+        0, "[0, 100000]", "maximum number of periods, with two surfaces of the slower one; 0: 36"
     )
     start: str = word(
         "front",
         "front|prediction",
         "roughness enters behind a front, or fills the contact as pyehl predicts",
     )
-    skip_start: bool = truth(True, "solve nothing before the roughness comes near the contact")
+    skip_start: bool = truth(True, "skip the steps before the roughness is near the contact")
     estimate_error: bool = truth(
-        True, "run on the next coarser grid too, for the grid error of mu_ratio"
+        True, "also run on the next coarser grid, for the grid error of mu_ratio"
     )
-    steps: int = whole(0, "[0, 10000000]", "exactly so many steps; 0: until the friction is known")
+    steps: int = whole(0, "[0, 10000000]", "number of steps; 0: until the mean has settled")
 
 
 @dataclass(slots=True)
@@ -262,7 +271,7 @@ class Duty:
     """``&duty``: what changes with time; what has no values stays that of the case."""
 
     file: str = path("table over time: names with units, then a line for each time")
-    interpolation: str = word("linear", "linear|cubic", "between two times")
+    interpolation: str = word("linear", "linear|cubic", "interpolation between two times")
     periodic: bool = truth(False, "the last time is the first one of the next period")
     periods: int = whole(3, "[1, 1000]", "periods to run; results are of the last one")
     time_step: float = real(
@@ -272,18 +281,18 @@ class Duty:
         0.0,
         "-",
         "0 or [1e-5, 0.1]",
-        "error of h_c and h_min by the time steps, over a transit of the contact; 0: not asked for",
+        "required error of h_c and h_min due to the time steps, over a transit; 0: none",
     )
     time: tuple[float, ...] = numbers("s", "times")
     load: tuple[float, ...] = numbers("N", "load, of a line per length [N/m]")
     u1: tuple[float, ...] = numbers("m/s", "velocity of body 1, with u2")
     u2: tuple[float, ...] = numbers("m/s", "velocity of body 2")
-    mean_velocity: tuple[float, ...] = numbers("m/s", "mean velocity, below 0 the other way")
+    mean_velocity: tuple[float, ...] = numbers("m/s", "mean velocity; negative: reversed")
     slide_to_roll: tuple[float, ...] = numbers("-", "slide-to-roll ratio")
     radius_x: tuple[float, ...] = numbers("m", "reduced radius in the plane of the motion")
     radius_y: tuple[float, ...] = numbers("m", "reduced radius across the motion")
     viscosity: tuple[float, ...] = numbers("Pa s", "viscosity at the inlet")
-    inlet_film: tuple[float, ...] = numbers("m", "layer of oil that arrives, with inlet.film")
+    inlet_film: tuple[float, ...] = numbers("m", "oil layer that arrives, with inlet.film")
 
 
 DUTY_LISTS = (
@@ -309,17 +318,16 @@ class Solver:
     cycle: str = word(
         "auto",
         "auto|W|V|F",
-        "multigrid cycle, all of a kind; auto: F and a light second one for a smooth contact, V "
-        "for time steps",
+        "multigrid cycle; auto: F and a lighter second one for a smooth contact, V for time steps",
     )
     accuracy: float = real(
-        0.1, "-", "[1e-6, 1]", "algebraic error wanted as a share of the discretisation error"
+        0.1, "-", "[1e-6, 1]", "required algebraic error as a share of the discretisation error"
     )
     max_cycles: int = whole(
         30,
         "[1, 10000]",
-        "most cycles per level; three times as many at a boundary film, four times on rollers, "
-        "ten in a time step with damped changes",
+        "maximum number of cycles per level; three times as many at a boundary film, four times "
+        "on rollers, ten in a time step with damped changes",
     )
     threads: int = whole(1, "[1, 256]", "OpenMP threads; the result does not depend on it")
 
@@ -331,7 +339,7 @@ class Psd:
     reduction: str = word(
         "response",
         "response|amplitude",
-        "what is left of a wave: complex response, or the real ratio of the paper",
+        "amplitude ratio of a wave: complex response, or real as in the paper",
     )
     smooth: str = word(
         "solved",
@@ -346,12 +354,12 @@ class Psd:
         "formula",
     )
     film_limit: float = real(
-        0.0, "m", "[0, 1e-3]", "film; the share of the contact with less is reported; 0: none"
+        0.0, "m", "[0, 1e-3]", "film below which the share of the contact is reported; 0: none"
     )
     wavelength_convention: str = word(
         "components",
         "components|wavevector|pattern",
-        "what the wavelength of a component is, for reduction = 'amplitude'",
+        "definition of the wavelength of a component, for reduction = 'amplitude'",
     )
     stiffness: str = word("exact", "exact|paper", "stiffness of the half-space")
     viscosity_law: str = word(

@@ -14,7 +14,7 @@ class Lubricant:
     name: str = word(
         "",
         "fva3|n100|pao100|",
-        "an oil whose constants are known ('pyehl lubricants'); keys given beside it rule",
+        "an oil with known constants ('pyehl lubricants'); keys given in addition take precedence",
     )
     table: str = path("measured viscosities over pressure and temperature: CSV")
     viscosity: float = real(0.04, "Pa s", "[1e-4, 10]", "viscosity at ambient pressure")
@@ -39,29 +39,29 @@ class Lubricant:
     vogel_viscosity: float = real(
         0.0, "Pa s", "0 or [1e-9, 1]", "K of eta = K exp(B/(theta + C)), for dicke"
     )
-    vogel_b: float = real(0.0, "K", "[0, 1e4]", "B of it")
-    vogel_c: float = real(0.0, "degC", "[-100, 300]", "C of it")
+    vogel_b: float = real(0.0, "K", "[0, 1e4]", "B of Vogel's law")
+    vogel_c: float = real(0.0, "degC", "[-100, 300]", "C of Vogel's law")
     dicke_a1: float = real(
         0.0,
         "Pa",
         "[-1e10, 1e10]",
         "a1 of ln(eta/eta0) = p/(a1 + a2 theta + (b1 + b2 theta) p), theta in degC",
     )
-    dicke_a2: float = real(0.0, "Pa/K", "[-1e8, 1e8]", "a2 of it")
-    dicke_b1: float = real(0.0, "-", "[-1, 1]", "b1 of it")
-    dicke_b2: float = real(0.0, "1/K", "[-0.01, 0.01]", "b2 of it")
+    dicke_a2: float = real(0.0, "Pa/K", "[-1e8, 1e8]", "a2 of Dicke's law")
+    dicke_b1: float = real(0.0, "-", "[-1, 1]", "b1 of Dicke's law")
+    dicke_b2: float = real(0.0, "1/K", "[-0.01, 0.01]", "b2 of Dicke's law")
     yasutomi_tg0: float = real(
         0.0,
         "degC",
         "[-200, 100]",
         "glass temperature at ambient pressure, of the improved Yasutomi correlation",
     )
-    yasutomi_a1: float = real(0.0, "K", "[0, 1e4]", "A1 of it")
-    yasutomi_a2: float = real(0.0, "1/Pa", "[0, 1e-7]", "A2 of it")
-    yasutomi_b1: float = real(0.0, "1/Pa", "[0, 1e-6]", "b1 of it")
-    yasutomi_b2: float = real(0.0, "-", "[-2, 0]", "b2 of it")
-    yasutomi_c1: float = real(0.0, "-", "0 or [1, 100]", "C1 of it")
-    yasutomi_c2: float = real(0.0, "K", "0 or [1, 500]", "C2 of it")
+    yasutomi_a1: float = real(0.0, "K", "[0, 1e4]", "A1 of Yasutomi's law")
+    yasutomi_a2: float = real(0.0, "1/Pa", "[0, 1e-7]", "A2 of Yasutomi's law")
+    yasutomi_b1: float = real(0.0, "1/Pa", "[0, 1e-6]", "b1 of Yasutomi's law")
+    yasutomi_b2: float = real(0.0, "-", "[-2, 0]", "b2 of Yasutomi's law")
+    yasutomi_c1: float = real(0.0, "-", "0 or [1, 100]", "C1 of Yasutomi's law")
+    yasutomi_c2: float = real(0.0, "K", "0 or [1, 500]", "C2 of Yasutomi's law")
     yasutomi_viscosity: float = real(1e12, "Pa s", "[1e3, 1e15]", "viscosity of the glass")
     doolittle_viscosity: float = real(
         0.0,
@@ -69,10 +69,10 @@ class Lubricant:
         "0 or [1e-6, 1e3]",
         "viscosity eta_R at doolittle_temperature and p = 0, of Doolittle's law; it needs tait_...",
     )
-    doolittle_temperature: float = real(0.0, "degC", "[-100, 300]", "T_R of it")
-    doolittle_b: float = real(0.0, "-", "0 or [0.1, 50]", "B of it")
+    doolittle_temperature: float = real(0.0, "degC", "[-100, 300]", "T_R of Doolittle's law")
+    doolittle_b: float = real(0.0, "-", "0 or [0.1, 50]", "B of Doolittle's law")
     doolittle_r0: float = real(
-        0.0, "-", "0 or [0.1, 0.99]", "R0 of it: occupied volume at T_R over the whole one"
+        0.0, "-", "0 or [0.1, 0.99]", "R0 of that law: occupied over total volume at T_R"
     )
     doolittle_expansion: float = real(
         0.0, "1/K", "[-0.01, 0.01]", "thermal expansion epsilon of the occupied volume"
@@ -85,32 +85,38 @@ class Lubricant:
     murnaghan_modulus: float = real(
         0.0, "Pa", "0 or [1e8, 1e12]", "K00 of the bulk modulus K0 = K00 exp(-beta_K T), T in K"
     )
-    murnaghan_rate: float = real(0.0, "-", "0 or [1, 50]", "K0', its rate with pressure")
-    murnaghan_softening: float = real(0.0, "1/K", "[0, 0.1]", "beta_K of it")
+    murnaghan_rate: float = real(
+        0.0, "-", "0 or [1, 50]", "K0', derivative of K0 with respect to pressure"
+    )
+    murnaghan_softening: float = real(0.0, "1/K", "[0, 0.1]", "beta_K of Murnaghan's law")
     tait_modulus: float = real(
         0.0,
         "Pa",
         "0 or [1e8, 1e12]",
         "K00 of the bulk modulus K0 = K00 exp(-beta_K T), T in K, of Tait's law",
     )
-    tait_rate: float = real(0.0, "-", "0 or [1, 50]", "K0', its rate with pressure")
-    tait_softening: float = real(0.0, "1/K", "[0, 0.1]", "fall beta_K of K0 with temperature")
+    tait_rate: float = real(
+        0.0, "-", "0 or [1, 50]", "K0', derivative of K0 with respect to pressure"
+    )
+    tait_softening: float = real(0.0, "1/K", "[0, 0.1]", "decrease beta_K of K0 with temperature")
     tait_expansion: float = real(
         0.0,
         "1/K",
         "[0, 5e-3]",
         "expansion a_V of the volume at tait_temperature; thermal_expansion is not used",
     )
-    tait_temperature: float = real(0.0, "degC", "[-100, 300]", "T_R of it")
+    tait_temperature: float = real(0.0, "degC", "[-100, 300]", "T_R of Tait's law")
     range_temperature_min: float = real(
         0.0,
         "degC",
         "[-100, 500]",
-        "the constants of the law were measured from there on; both 0: not known",
+        "lowest temperature at which the constants were measured; both 0: not known",
     )
-    range_temperature_max: float = real(0.0, "degC", "[-100, 500]", "and up to there")
+    range_temperature_max: float = real(
+        0.0, "degC", "[-100, 500]", "highest temperature of these measurements"
+    )
     range_pressure_max: float = real(
-        0.0, "Pa", "0 or [1e5, 1e11]", "and up to this pressure; 0: not known"
+        0.0, "Pa", "0 or [1e5, 1e11]", "highest pressure of these measurements; 0: not known"
     )
     shear_law: str = word(
         "newtonian", "newtonian|eyring|limiting|carreau", "shear stress in the contact"
@@ -118,7 +124,7 @@ class Lubricant:
     flow: str = word(
         "consistent",
         "consistent|newtonian",
-        "whether eyring and carreau thin the flow that makes the film, too, or the friction alone",
+        "whether eyring and carreau apply to flow and friction, or to the friction only",
     )
     eyring_stress: float = real(5000000.0, "Pa", "[1e4, 1e9]", "Eyring stress")
     limiting_stress: float = real(
@@ -131,7 +137,10 @@ class Lubricant:
         0.06, "-", "[1e-4, 1]", "limiting shear stress over pressure"
     )
     carreau_stress: float = real(
-        0.0, "Pa", "0 or [1e2, 1e10]", "stress G of Carreau at which thinning begins; no default"
+        0.0,
+        "Pa",
+        "0 or [1e2, 1e10]",
+        "stress of Carreau's law at which thinning begins; no default",
     )
     carreau_exponent: float = real(
         0.0, "-", "0 or [0.05, 1]", "power-law exponent n of Carreau; no default"
@@ -140,7 +149,7 @@ class Lubricant:
         0.0,
         "m",
         "0 or [1e-11, 1e-5]",
-        "film at ambient pressure that contact does not squeeze out; 0: none, and no contact",
+        "boundary film at ambient pressure; 0: none, and no solid contact",
     )
     boundary_friction: float = real(
         0.0,
@@ -165,10 +174,10 @@ class Lubricant:
     )
     density_15: float = real(870.0, "kg/m^3", "[500, 2000]", "density at 15 degC")
     thermal_expansion: float = real(
-        0.00065, "1/K", "[0, 2e-3]", "relative fall of the density with temperature"
+        0.00065, "1/K", "[0, 2e-3]", "relative decrease of the density with temperature"
     )
     thermal_reduction: bool = truth(
-        False, "shear heating of the inlet thins the film (Gupta et al. 1992)"
+        False, "shear heating of the inlet reduces the film (Gupta et al. 1992)"
     )
     temperature_viscosity: float = real(
         0.0,
@@ -182,22 +191,22 @@ class Lubricant:
     thermal_friction: str = word(
         "auto",
         "auto|always|never",
-        "friction with the temperature of the film; auto: where it counts and "
+        "friction with the temperature of the film; auto: where it matters and "
         "temperature_viscosity is known",
     )
     alpha_origin: str = word(
         "given",
         "given|estimated|default",
-        "where pressure_viscosity is from; default: from no key; not for input",
+        "source of pressure_viscosity; not for input",
     )
     inlet_law: str = word(
         "",
         "dicke|yasutomi|doolittle|table|",
         "law of viscosity and pressure_viscosity where it is not viscosity_law; not for input",
     )
-    table_temperature: tuple[float, ...] = numbers("degC", "what table holds; not for input")
-    table_pressure: tuple[float, ...] = numbers("Pa", "what table holds; not for input")
-    table_viscosity: tuple[float, ...] = numbers("Pa s", "what table holds; not for input")
+    table_temperature: tuple[float, ...] = numbers("degC", "content of table; not for input")
+    table_pressure: tuple[float, ...] = numbers("Pa", "content of table; not for input")
+    table_viscosity: tuple[float, ...] = numbers("Pa s", "content of table; not for input")
 
     @property
     def own_law(self) -> str:

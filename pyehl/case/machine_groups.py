@@ -40,7 +40,10 @@ class BallBearing:
     bore: float = diameter("bore")
     outer_diameter: float = diameter("outside diameter")
     pitch_diameter: float = real(
-        0.0, "m", LENGTH, "of the circle of ball centres; 0: mean of bore and outside diameter"
+        0.0,
+        "m",
+        LENGTH,
+        "diameter of the circle of ball centres; 0: mean of bore and outside diameter",
     )
     ball_diameter: float = real(0.0, "m", LENGTH, "diameter of a ball")
     balls: int = whole(0, "0 or [3, 200]", "number of balls")
@@ -51,7 +54,7 @@ class BallBearing:
         0.53, "-", "[0.501, 0.7]", "radius of the outer groove over the ball diameter"
     )
     contact_angle: float = real(
-        0.0, "deg", "0 or [1, 60]", "without load; 0: it follows from the clearance"
+        0.0, "deg", "0 or [1, 60]", "contact angle without load; 0: it follows from the clearance"
     )
     clearance: float = clearance()
     radial_load: float = load("radial load of the bearing")
@@ -67,7 +70,10 @@ class RollerBearing:
     bore: float = diameter("bore")
     outer_diameter: float = diameter("outside diameter")
     pitch_diameter: float = real(
-        0.0, "m", LENGTH, "of the circle of roller axes; 0: mean of bore and outside diameter"
+        0.0,
+        "m",
+        LENGTH,
+        "diameter of the circle of roller axes; 0: mean of bore and outside diameter",
     )
     roller_diameter: float = real(0.0, "m", LENGTH, "diameter of a roller at half its length")
     roller_length: float = real(0.0, "m", LENGTH, "effective length of a roller")
@@ -103,7 +109,9 @@ class SpurGear:
     tip_diameter_1: float = real(
         0.0, "m", LENGTH, "tip diameter of the pinion; 0: addendum of one module, tips shortened"
     )
-    tip_diameter_2: float = real(0.0, "m", LENGTH, "tip diameter of the wheel; 0: as of the pinion")
+    tip_diameter_2: float = real(
+        0.0, "m", LENGTH, "tip diameter of the wheel; 0: default as for the pinion"
+    )
     face_width: float = real(0.0, "m", "0 or [1e-4, 2]", "common face width")
     crowning_1: float = real(
         0.0, "m", "[0, 1e-3]", "crowning height of the pinion at the ends of the face width"

@@ -43,7 +43,7 @@ class Surface:
         -2.5,
         "a",
         "[-1e5, 1e4]",
-        "where the roughness begins at time 0, at rest its origin; default x_inlet",
+        "front of the roughness at time 0, or its origin at rest; default x_inlet",
     )
     height_m: float = real(
         0.0,
@@ -56,7 +56,7 @@ class Surface:
         0.0,
         "a",
         "0 or [0.01, 100]",
-        "its length; 0: that of a dent or bump its width, of a ridge or groove endless",
+        "length of a single feature; 0: the width of a dent or bump, no end of a ridge or groove",
     )
     width_m: float = real(
         0.0, "m", "0 or [1e-9, 0.1]", "width of a single feature in metres; 0: width"
@@ -75,7 +75,7 @@ class Surface:
         0.0,
         "a",
         "0 or [0.01, 1000]",
-        "on a line a feature repeats after it along the line; 0: 4, or 4 times its size there",
+        "distance after which a feature repeats along a line; 0: 4, or 4 times its size",
     )
     file: str = path("height map of kind 'map': .npy, text, instrument file")
     channel: str = text("channel of an instrument file: name, or number from 1")
@@ -96,29 +96,29 @@ class Surface:
     profile: str = word(
         "none",
         "none|isotropic|ridges",
-        "the file is a profile: an isotropic surface of its spectrum, or it extended across",
+        "the file is a profile: make an isotropic surface of its spectrum, or extend it as ridges",
     )
-    crop_x_min: float = real(0.0, "m", "[0, 1]", "the map begins there along X")
-    crop_x_max: float = real(0.0, "m", "[0, 1]", "the map ends there; 0: at its end")
-    crop_y_min: float = real(0.0, "m", "[0, 1]", "the map begins there along Y")
-    crop_y_max: float = real(0.0, "m", "[0, 1]", "the map ends there; 0: at its end")
+    crop_x_min: float = real(0.0, "m", "[0, 1]", "start of the map along X")
+    crop_x_max: float = real(0.0, "m", "[0, 1]", "end of the map along this axis; 0: not cropped")
+    crop_y_min: float = real(0.0, "m", "[0, 1]", "start of the map along Y")
+    crop_y_max: float = real(0.0, "m", "[0, 1]", "end of the map along this axis; 0: not cropped")
     sign: int = whole(1, "[-1, 1]", "-1: valleys of the map are positive")
     outliers: float = real(
         0.0,
         "-",
         "0 or [3, 1e6]",
-        "points so many standard deviations off are spikes and removed; 0: none",
+        "points that deviate by so many standard deviations are removed as spikes; 0: none",
     )
     align_lines: str = word(
         "none",
         "none|x|y",
-        "lines of a scan along X or Y are put level with each other, by their medians",
+        "level the lines of a scan along X or Y by their medians",
     )
     fill: str = word("harmonic", "harmonic|none", "missing points: interpolated, or refused")
     detrend: str = word(
         "auto",
         "auto|none|centre|tilt|curvature",
-        "form taken off; auto: tilt for instrument files, none for arrays",
+        "form removed; auto: tilt for instrument files, none for arrays",
     )
     rotate: float = real(0.0, "deg", "[-360, 360]", "turn the map counter-clockwise")
     edges: str = word(
@@ -130,21 +130,21 @@ class Surface:
         0.0,
         "m",
         "[-1, 1]",
-        "line of a map or fractal surface that passes the centre, across the motion",
+        "position across the motion of the line that passes the centre",
     )
     tile_x: float = real(
         0.0,
         "m",
         "0 or [1e-9, 10]",
-        "size of the tile that pyehl has made of the map; not for input",
+        "size of the tile made from the map; not for input",
     )
     tile_y: float = real(
         0.0,
         "m",
         "0 or [1e-9, 10]",
-        "size of the tile that pyehl has made of the map; not for input",
+        "size of the tile made from the map; not for input",
     )
-    tile_mirrored: bool = truth(False, "that tile has mirror images; not for input")
+    tile_mirrored: bool = truth(False, "the tile contains mirror images; not for input")
     shortest_wavelength: float = real(
         0.0, "m", "[0, 1]", "waves of a map or fractal surface shorter than this are cut; 0: none"
     )
@@ -168,7 +168,7 @@ class Surface:
         1.0,
         "-",
         "[0.01, 100]",
-        "length of correlation along X over that along Y; below 1: lay across the motion",
+        "correlation length along X over that along Y; below 1: lay across the motion",
     )
     hurst: float = real(0.8, "-", "[0, 1]", "Hurst exponent")
     rolloff_wavenumber: float = real(

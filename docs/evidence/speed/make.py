@@ -219,7 +219,7 @@ def sweep() -> list[str]:
     rate = {(row["problem"], row["processes"]): float(row["cases_per_core_hour"]) for row in rows}
     names = {
         "film": "film formulas (`pyehl film`)",
-        "predict": "prediction, each with a smooth contact of its own",
+        "predict": "prediction, each with its own smooth contact",
         "predict shared": "prediction, one smooth contact for all",
         "smooth 257": "smooth contact, 257 × 257",
         "transient 257": "transient run of a wave, 257 × 257",
