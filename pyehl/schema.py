@@ -35,17 +35,17 @@ class Quantity:
 
 # Letters of the kinds | name | unit | meaning
 _TABLE = """
-spfrt | kind | | what the summary is of: 'solution', 'prediction', 'film', 'response' or 'fit'
+spfrt | kind | | kind of the summary: 'solution', 'prediction', 'film', 'response' or 'fit'
 spfrt | schema_version | | version of the names, units and meanings in the summary
 sprt | files | | names of the files of the result in its folder
 sp | status | | 'converged', 'predicted', or why there is no result
 s | converged | | whether the results are a solution
 sp | message | | the status in a sentence; of a run that has no result
-sp | assessment | | assessment: a word, the reason, and what else to know
+sp | assessment | | assessment: a term, its reason, and other causes of uncertainty
 s | version | | version of the library
 sp | wall_seconds | s | time of the run
 s | bytes | byte | memory of the solver
-spf | shape | | 'line' of an infinite line contact, whose integrals are per length of it; 'roller'
+spf | shape | | 'line' for an infinite line contact, with integrals per length; 'roller'
 spfr | moes_m | - | Moes load M
 spfr | moes_l | - | Moes material number L
 spf | moes_m_line | - | Moes load M of a line
@@ -72,7 +72,7 @@ f | U | - | eta0 u/(E' R)
 f | G | - | alpha E'
 f | g_v | - | viscosity parameter G W^3/U^2 of a regime
 f | g_e | - | elasticity parameter W^(8/3)/U^2 of a regime
-f | left_out |  | keys that the formulas do not know
+f | left_out |  | keys that the formulas ignore
 f | regime |  | nearest asymptote: rigid or elastic, isoviscous or piezoviscous
 f | W | - | w/(E' R^2)
 st | points | - | nodes along X, and per side in a round contact
@@ -85,31 +85,31 @@ s | threads | - | OpenMP threads
 s | H_c | a^2/R | central film
 s | H_c_extrapolated | a^2/R | central film extrapolated to fine grids
 s | H_c_error | a^2/R | estimate of the error of H_c: grid and domain
-s | H_c_error_note | | why it is not known
-s | H_c_error_grid | a^2/R | part of it from the grid and from cycles not made
-s | H_c_error_domain | a^2/R | part of it from the borders of the domain, also in H_c_extrapolated
+s | H_c_error_note | | reason if it is not known
+s | H_c_error_grid | a^2/R | part of it due to the grid and the algebraic error
+s | H_c_error_domain | a^2/R | part of it due to the finite domain, also in H_c_extrapolated
 s | H_c_algebraic_error | a^2/R | part of the error that more cycles would take away
 s | H_min | a^2/R | minimum film
 s | H_min_extrapolated | a^2/R | minimum film extrapolated to fine grids
 s | H_min_error | a^2/R | estimate of the error of H_min
-s | H_min_error_note | | why it is not known
-s | H_min_error_grid | a^2/R | part of it from the grid
-s | H_min_error_domain | a^2/R | part of it from the borders of the domain
+s | H_min_error_note | | reason if it is not known
+s | H_min_error_grid | a^2/R | part of it due to the grid
+s | H_min_error_domain | a^2/R | part of it due to the finite domain
 s | H_min_algebraic_error | a^2/R | part of the error that more cycles would take away
 s | error_estimate | | where the estimates are from: 'coarser grids' or 'a priori'
 s | P_max | p_h | maximum pressure
 s | P_max_error | p_h | estimate of its error, by three grids
-s | P_max_error_note | | why there is none
+s | P_max_error_note | | reason if there is none
 s | P_max_X | a | place of the maximum pressure of a roller
-s | P_max_Y | a | where
+s | P_max_Y | a | its position
 s | H_min_X | a | place of the minimum film thickness of a roller
-s | H_min_Y | a | where
+s | H_min_Y | a | its position
 s | P_end | p_h | maximum pressure in the last cells of a roller; above 0.1 H_min has no error
 s | cell_at_end | a | length of the last cell of a roller
 s | length | a | length of a roller
 s | F | - | friction integral
 s | F_error | - | estimate of its error, by three grids
-s | F_error_note | | why there is none
+s | F_error_note | | reason if there is none
 s | last_H_c | a^2/R | central film at the end of a run without a solution
 s | last_H_min | a^2/R | minimum film at the end of a run without a solution
 s | last_P_max | p_h | maximum pressure at the end of a run without a solution
@@ -118,45 +118,45 @@ s | last_mu_ratio | - | mu_r/mu_s at the end of a run without a solution
 s | last_mu_ratio_mean | - | its mean over a period at the end of a run without a solution
 sp | h_c_m | m | central film of the smooth contact
 sp | h_c_error_m | m | estimate of its error
-p | h_c_source | | where it is from
+p | h_c_source | | its source
 sp | h_min_m | m | minimum film of the smooth contact
 sp | h_min_error_m | m | estimate of its error
 sp | p_max_Pa | Pa | maximum pressure of the smooth contact
-s | H_c_flooded | a^2/R | central film of a flooded inlet, by formula; where it is short of oil
+s | H_c_flooded | a^2/R | central film of a flooded inlet by formula, if the inlet is starved
 s | starvation | - | H_c over it
 s | starvation_by_formula | - | the same by formula (docs/theory/starvation.md)
-s | inlet_position | a | where the oil begins, ahead of the centre
-s | oil_layer | a^2/R | layer of oil that arrives
+s | inlet_position | a | position of the meniscus ahead of the centre
+s | oil_layer | a^2/R | oil layer that arrives
 s | oil_in | a^3/R | flow of oil that arrives over the mean velocity; of a line per length, a^2/R
-s | oil_out | a^3/R | the same that leaves behind the contact
-s | oil_at_sides | a^3/R | the same that leaves at the sides of the domain
-s | passages | - | contacts one after another that were solved
-s | oil_imbalance | - | what is gained or lost on the way, over oil_in
-s | load_beyond | - | share of the load that the pressure beyond the border carries
+s | oil_out | a^3/R | flow of oil that leaves behind the contact, likewise
+s | oil_at_sides | a^3/R | flow of oil that leaves at the sides of the domain, likewise
+s | passages | - | number of successive contacts solved
+s | oil_imbalance | - | error of the oil balance over oil_in
+s | load_beyond | - | share of the load beyond the border
 sp | load_error | - | relative error of the force balance
 s | cycles | - | cycles on the finest grid
 s | total_cycles | - | cycles on all grids
-s | residual | - | residual (rms) at the end, as far as it concerns the film
+s | residual | - | residual (rms) at the end, weighted by its effect on the film
 s | restarts | - | restarts of the solution
 s | H_c_rough | a^2/R | central film of a rough surface at rest
 s | H_min_rough | a^2/R | minimum film of the rough contact: at rest, in T_mean, or in a passage
-s | H_min_rough_T | a/u | when
-s | H_min_rough_X | a | where
-s | H_min_rough_Y | a | where
+s | H_min_rough_T | a/u | its time
+s | H_min_rough_X | a | its position
+s | H_min_rough_Y | a | its position
 sp | h_min_rough_m | m | minimum film of the rough contact, as H_min_rough
 s | P_max_rough | p_h | maximum pressure of the rough contact: at rest, in T_mean, or in a passage
-s | P_max_rough_T | a/u | when
-s | P_max_rough_X | a | where
-s | P_max_rough_Y | a | where
+s | P_max_rough_T | a/u | its time
+s | P_max_rough_X | a | its position
+s | P_max_rough_Y | a | its position
 sp | p_max_rough_Pa | Pa | maximum pressure of the rough contact; predicted: within 0.8 a
 s | P_rise_max | p_h | maximum pressure increase over the smooth contact at the same place
-s | P_rise_max_T | a/u | when
-s | P_rise_max_X | a | where
-s | P_rise_max_Y | a | where
+s | P_rise_max_T | a/u | its time
+s | P_rise_max_X | a | its position
+s | P_rise_max_Y | a | its position
 s | H_ratio_min | - | minimum film over that of the smooth contact there
-s | H_ratio_min_T | a/u | when
-s | H_ratio_min_X | a | where
-s | H_ratio_min_Y | a | where
+s | H_ratio_min_T | a/u | its time
+s | H_ratio_min_X | a | its position
+s | H_ratio_min_Y | a | its position
 s | rough_cycles | - | cycles of a rough surface at rest
 s | rough_parts | - | parts in which its roughness was raised
 s | rough_residual | - | its residual at the end
@@ -167,11 +167,11 @@ sp | mu_ratio_min | - | its minimum over the passage
 sp | mu_ratio_max | - | its maximum
 s | mu_ratio_extrapolated | - | mu_ratio extrapolated to fine grids, where both resolve the surface
 s | mu_ratio_error | - | error of mu_ratio: the sum of its parts; null if one is not known
-sp | mu_ratio_error_note | | why the error is not known; else empty
+sp | mu_ratio_error_note | | reason if the error is not known
 s | mu_ratio_error_grid | - | part of the error from the grid, by two grids
 s | mu_ratio_error_stop | - | part of the error from the end of the run
-s | mu_ratio_error_window | - | part of it where two surfaces have no common period
-s | mu_ratio_error_domain | - | part of it from the borders of the domain
+s | mu_ratio_error_window | - | part of it if two surfaces have no common period
+s | mu_ratio_error_domain | - | part of it due to the finite domain
 s | mu_ratio_error_left_out | - | part of the error from waves that are left out, predicted
 s | mu_ratio_unresolved | - | predicted part of mu_ratio in waves that the grid does not resolve
 p | mu_ratio_model_error | - | error of the model
@@ -180,7 +180,7 @@ p | mu_ratio_tracks | - | mean over all tracks of the tile
 p | mu_ratio_tracks_spread | - | standard deviation between the tracks
 f | mu_ratio_eq_16 | - | mu_ratio by eq. 16 of Zhang et al. 2019
 f | theta_2 | - | theta_2 of that equation
-f | theta_2_outside | | what lies outside of its range
+f | theta_2_outside | | quantities outside its range
 sp | mu | - | coefficient of friction of the rough contact, with heat where it counts
 sp | mu_smooth | - | coefficient of friction of the smooth contact, with heat where it counts
 sp | mu_isothermal | - | mu without heat
@@ -188,20 +188,20 @@ sp | mu_smooth_isothermal | - | mu_smooth without heat
 sp | temperature_rise_max_K | K | maximum temperature rise, mean across the film; rough: at the end
 sp | temperature_rise_wall_1_max_K | K | the same of the surface of body 1
 sp | temperature_rise_wall_2_max_K | K | the same of the surface of body 2
-sp | boundary_film | a^2/R | film at ambient pressure at which bodies touch
-sp | contact_load_share | - | share of the load where they touch: a mean, as mu_ratio
+sp | boundary_film | a^2/R | boundary film at ambient pressure
+sp | contact_load_share | - | share of the load on solid contact: a mean, as mu_ratio
 sp | contact_load_share_error | - | its error: the sum of its parts; of a prediction by the film
-s | contact_load_share_error_grid | - | part of it from the grid, by two grids
-s | contact_load_share_error_stop | - | part of it from the end of a mean over time, or of cycles
-sp | contact_load_share_error_note | | why it is not known; else empty
-sp | contact_area_share | - | area where they touch over that of the dry contact
+s | contact_load_share_error_grid | - | part of it due to the grid, from two grids
+s | contact_load_share_error_stop | - | part of it due to the end of a mean over time, or of cycles
+sp | contact_load_share_error_note | | reason if it is not known
+sp | contact_area_share | - | area of solid contact over that of the dry contact
 p | contact_area_share_error | - | estimate of its error
 s | load_share_at_hardness | - | share of the load where the solids yield: a mean, as mu_ratio
 s | area_share_at_hardness | - | area where they yield over that of the dry contact
 s | plastic_depth_max_m | m | maximum depth of plastic deformation
 s | flowing_load_share_at_hardness | - | share of the load where they yield under a flowing film
 s | mass_defect | - | mass defect of the boundary film there, over the flow along with the surfaces
-sp | mu_note | | what mu holds and leaves out
+sp | mu_note | | effects that mu includes and neglects
 sp | flash_temperature_K | K | maximum temperature rise of the surfaces (Tian & Kennedy), at mu
 sp | shear_rate_mean_per_s | 1/s | mean shear rate
 sp | shear_stress_max_Pa | Pa | maximum shear stress
@@ -222,65 +222,65 @@ s | amplitude_ratio | - | A_d/A_i at the centre
 sp | surface_rms_m | m | rms height sigma that is solved, undeformed; composite of two surfaces
 sp | surface_slope | - | rms slope of it
 p | spectrum_beside | | h_min and mu_r/mu_s with other roll-offs, where Ra or a finish is given
-p | surface_findings | | what of the maps is no roughness: form, line offsets, stitching step, dust
+p | surface_findings | | features other than roughness: form, line offsets, stitching step, dust
 sp | surface_correlation | - | correlation of the heights of two surfaces that move together
-s | variance_cut | - | share of the height's variance that was cut on purpose
-s | variance_left_out | - | share of it in waves that are not on the grid
+s | variance_cut | - | share of the variance of the heights removed by the cut-off
+s | variance_left_out | - | share of it in waves that the grid omits
 s | variance_unresolved | - | share of it in waves that the grid does not resolve
 s | scheme | | time scheme
 s | duty_h_c_min_m | m | minimum central film over the duty, of a periodic one over its last period
-s | duty_h_c_min_t_s | s | when
+s | duty_h_c_min_t_s | s | its time
 s | duty_h_c_min_error_m | m | estimate of its error: grid and domain as of the case, and time steps
 s | duty_h_c_max_m | m | maximum central film
-s | duty_h_c_max_t_s | s | when
+s | duty_h_c_max_t_s | s | its time
 s | duty_h_c_max_error_m | m | estimate of its error
 s | duty_h_min_min_m | m | minimum of the minimum film
-s | duty_h_min_min_t_s | s | when
+s | duty_h_min_min_t_s | s | its time
 s | duty_h_min_min_error_m | m | estimate of its error
 s | duty_h_min_max_m | m | maximum of the minimum film
-s | duty_h_min_max_t_s | s | when
+s | duty_h_min_max_t_s | s | its time
 s | duty_h_min_max_error_m | m | estimate of its error
 s | duty_p_max_Pa | Pa | maximum pressure over the duty
-s | duty_p_max_t_s | s | when
+s | duty_p_max_t_s | s | its time
 s | duty_p_max_error_Pa | Pa | estimate of its error
 s | duty_mu_max | - | maximum coefficient of friction; null where it is not known at all times
-s | duty_mu_max_t_s | s | when
+s | duty_mu_max_t_s | s | its time
 s | duty_mu_max_error | - | estimate of its error
 s | duty_power_max_W | W | maximum power of friction, of a line per length
-s | duty_power_max_t_s | s | when
+s | duty_power_max_t_s | s | its time
 s | duty_power_max_error_W | W | estimate of its error
 s | duty_flash_max_K | K | maximum flash temperature, of walls in a steady state
-s | duty_flash_max_t_s | s | when
+s | duty_flash_max_t_s | s | its time
 s | duty_flash_max_error_K | K | estimate of its error
 s | duty_period_change | - | relative change of the mean central film from the last period but one
 s | duty_begin_s | s | time at which the run begins
 s | duty_end_s | s | time at which it ends
 s | T | a/u | time at the end
 s | T_period | a/u | period of the roughness; common one of two; time of the passage of a feature
-s | T_mismatch | - | by what part of a period one of two surfaces misses its start after T_period
+s | T_mismatch | - | fraction of a period by which two surfaces differ after T_period
 s | T_mean | a/u | time that mu_ratio is the mean over
 s | steps | - | time steps
 s | start | | start of the time steps: 'front', or 'prediction': the contact is full
-s | start_note | | why they did not begin with the prediction that was asked for
-s | steps_skipped | - | steps that were not needed at the start
+s | start_note | | reason why they did not begin with the requested prediction
+s | steps_skipped | - | steps skipped at the start
 s | cycles_per_step | - | cycles of a step
 s | seconds_per_step | s | time of a step
 s | step_residual_allowed | - | maximum residual at which a step was allowed to end
 s | coarsening_changed_at | - | step in which the coarsening changed; 0: none
-p | outside_range | | what lies outside of the range of the model
-p | note | | what mu_ratio is
+p | outside_range | | quantities outside the range of the model
+p | note | | meaning of mu_ratio
 p | tracks | - | tracks of the tile that mu_ratio_tracks is over
 p | film_below_zero_share | - | share of the contact with higher roughness than the film sustains
-p | film_breakdown | | where the film ends, and a suggested cut-off wavelength
-sp | surface_preparation | | what was done to a measured map
+p | film_breakdown | | place of the film breakdown, and a suggested cut-off wavelength
+sp | surface_preparation | | preparation of a measured map
 sp | second_surface_preparation | | the same of the second surface
 p | positions | - | positions of the tile over a passage
-p | position_error | - | relative error that they leave
-p | reduction | | how waves are flattened
+p | position_error | - | relative error due to their number
+p | reduction | | model of the flattening of waves
 p | smooth | | the smooth contact of the model
 pr | velocity_ratio | - | velocity of the rough surface over the mean one
 p | second_velocity_ratio | - | that of the second surface
-p | wavelength_convention | | what the wavelength of a component is
+p | wavelength_convention | | definition of the wavelength of a component
 p | stiffness | | stiffness of the half-space
 p | viscosity_law | | viscosity under pressure
 p | roelands_z | - | Roelands exponent
@@ -291,7 +291,7 @@ p | pixels | - | pixels of the tile along x and y
 p | length_x_m | m | size of the tile along x
 p | length_y_m | m | size of the tile along y
 pf | rms_height_m | m | rms height sigma of the undeformed roughness
-p | film_limit_m | m | film of which the share below is reported
+p | film_limit_m | m | film below which the share is reported
 p | film_below_limit_share | - | mean share of the contact with a film below it
 p | film_below_limit_error | - | estimate of its error
 p | h_min_rough_error_m | m | error of h_min_rough_m by the response, beside that of the smooth film
@@ -315,11 +315,11 @@ p | second_rms_pressure_Pa | Pa | rms of the pressure change by it
 sp | lambda_ratio | - | h_min/sigma: smooth contact, undeformed surface
 spf | lambda_ratio_central | - | h_c/sigma: smooth contact, undeformed surface
 p | cavitated_share | - | share of the contact where the pressure would be negative
-p | cavitated_friction | - | bound of the share of the friction from there
-p | bands | | what each octave of wavelengths adds
-f | formulas | | what each film formula gives
+p | cavitated_friction | - | bound of the share of the friction in that region
+p | bands | | contribution of each octave of wavelengths
+f | formulas | | result of each film formula
 r | waves | - | number of waves that were measured
-r | tiers | | runs that they are from: grid, tile, waves, film, residual of the fit
+r | tiers | | their runs: grid, tile, waves, film, residual of the fit
 r | shipped_difference_rms | - | rms difference to the response that the prediction uses, at X = 0
 r | shipped_difference_max | - | maximum difference from it
 r | within_fitted_range | | whether it was fitted at such a point
