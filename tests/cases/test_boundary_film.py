@@ -309,9 +309,9 @@ BOTH_ROUGH = {
 @pytest.mark.parametrize(
     ("name", "points", "velocity", "layer", "hardness", "case"),
     [
-        ("pressed flat", 129, 0.02, 2e-8, 1.15 * HERTZ, {}),
+        ("flattened", 129, 0.02, 2e-8, 1.15 * HERTZ, {}),
         ("with valleys", 129, 0.005, 1e-8, 1.35 * HERTZ, VALLEYS),
-        pytest.param("pressed flat", 257, 0.005, 2e-8, 1.15 * HERTZ, {}, marks=pytest.mark.long),
+        pytest.param("flattened", 257, 0.005, 2e-8, 1.15 * HERTZ, {}, marks=pytest.mark.long),
         pytest.param(
             "with valleys", 257, 0.005, 1e-8, 1.35 * HERTZ, VALLEYS, marks=pytest.mark.long
         ),

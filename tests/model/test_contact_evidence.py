@@ -8,7 +8,7 @@ from document_text import plain
 
 from pyehl.studies.plan import formula_film
 
-LONG = ("ridges across it", "tile 1", "tile 8")
+LONG = ("ridges across the motion", "tile 1", "tile 8")
 
 
 @pytest.fixture(scope="module")

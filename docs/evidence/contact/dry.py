@@ -52,15 +52,15 @@ TILE = {
     "surface.shortest_wavelength": 1.143e-4,
 }
 SURFACES: dict[str, Row] = {
-    "waves pressed flat": WAVE | {"contact.load": 600.0, "contact.mean_velocity": 0.005},
+    "flattened waves": WAVE | {"contact.load": 600.0, "contact.mean_velocity": 0.005},
     "ridges along the motion": RIDGES | {"surface.wavelength_x": 100.0},
-    "ridges across it": RIDGES | {"surface.wavelength_y": 1e6},
+    "ridges across the motion": RIDGES | {"surface.wavelength_y": 1e6},
     "islands": RIDGES,
 } | {f"tile {seed}": TILE | {"surface.seed": seed} for seed in range(1, 13)}
 SURFACES |= {
     "tile 8, 8 mm/s": SURFACES["tile 8"] | {"contact.mean_velocity": 0.008},
     "tile 8, 0.5 mm/s": SURFACES["tile 8"] | {"contact.mean_velocity": 0.0005},
-    "tile 8, layer of 5 nm": SURFACES["tile 8"] | {"lubricant.boundary_film": 5e-9},
+    "tile 8, boundary film of 5 nm": SURFACES["tile 8"] | {"lubricant.boundary_film": 5e-9},
 }
 GRIDS = (129, 257)
 KEYS = ("surface", "points")

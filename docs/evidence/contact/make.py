@@ -154,7 +154,8 @@ def lines(name: str) -> list[str]:
     """Make the table of one contact."""
     rows = {key_of(row): row for row in read()}
     _, layers, grids = CONTACTS[name]
-    text = ["| layer | " + " | ".join(map(str, grids)) + " |", "|---" * (len(grids) + 1) + "|"]
+    heads = "| boundary film | " + " | ".join(map(str, grids)) + " |"
+    text = [heads, "|---" * (len(grids) + 1) + "|"]
     for layer in layers:
         cells = [cell(rows.get((name, layer, points))) for points in grids]
         text.append(f"| {1e9 * layer:.0f} nm | " + " | ".join(cells) + " |")

@@ -213,7 +213,7 @@ def film_lines() -> list[str]:
     """Give the table of the film that a loss leaves, beside `film_left`."""
     rows = read("film.csv")
     found = [
-        f"| loss of first order | {' | '.join(f'{place} a' for place in RINGS)} | `film_left` |",
+        "| first-order loss | below 0.7 a | 0.7 to 0.9 a | `film_left` |",
         "|---|---|---|---|",
     ]
     for low in dict.fromkeys(row["from"] for row in rows):
