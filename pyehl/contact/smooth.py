@@ -202,11 +202,11 @@ def solve_contact(settings: Settings) -> SmoothContact:
     The last few are kept, see `smooth_case`. EhlError if it does not converge on any grid up to
     FINEST.
     """
-    found = _solved(smooth_case(settings))
+    found = solved_text(smooth_case(settings))
     if not ShearLaw.from_settings(settings).in_flow:
         return found
     newtonian = {**settings, "lubricant": {**settings["lubricant"], "flow": "newtonian"}}
-    return replace(found, newtonian=_solved(smooth_case(newtonian)))
+    return replace(found, newtonian=solved_text(smooth_case(newtonian)))
 
 
 def with_boundary_film(
@@ -242,12 +242,13 @@ def circle_of(
 
 def forget() -> None:
     """Solve anew what was kept, as `pyehl bench skips` does to see what keeping saves."""
-    _solved.cache_clear()
+    solved_text.cache_clear()
     _solved_with_boundary_film.cache_clear()
 
 
 @lru_cache(maxsize=8)
-def _solved(text: str) -> SmoothContact:
+def solved_text(text: str) -> SmoothContact:
+    """Solve a smooth contact by its text, once, on grids until its films can be extrapolated."""
     best = None
     points, finest = _grids(text)
     while points <= finest:

@@ -78,7 +78,7 @@ def edge_gain(
 
 
 @lru_cache(maxsize=1)
-def _fit() -> dict[str, Any]:
+def stored_fit() -> dict[str, Any]:
     """Coefficients of the inlet transfer, as fitted."""
     text = resources.files("pyehl.theory").joinpath("response.json").read_text(encoding="utf-8")
     return cast("dict[str, Any]", json.loads(text))
@@ -86,7 +86,7 @@ def _fit() -> dict[str, Any]:
 
 def fitted_range() -> dict[str, list[float]]:
     """Least and largest moes_m, moes_l and velocity_ratio at which the response was measured."""
-    return cast("dict[str, list[float]]", _fit()["range"])
+    return cast("dict[str, list[float]]", stored_fit()["range"])
 
 
 def inlet_transfer(
@@ -161,7 +161,7 @@ def inlet_fit(
     speed = cosine * math.sqrt(sharpness)
     moes_m, moes_l = moes[0] * sharpness**1.5 * speed**-0.75, moes[1] * speed**0.25
     moes = moes_m, moes_l
-    fit = _fit()
+    fit = stored_fit()
     kx, ky = np.asarray(qx, dtype=float), np.asarray(qy, dtype=float)
     q = np.maximum(np.hypot(kx, ky), 1e-12)
     along = kx * cosine - ky * sine

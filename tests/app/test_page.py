@@ -130,14 +130,14 @@ def test_map_is_taken_or_refused_in_the_words_of_its_reader(tab, page, tmp_path)
 def test_a_surface_that_is_turned_to_smooth_leaves_nothing(tab, page):
     """An answer of the rough contact that comes afterwards is not shown."""
     late = []
-    answered = page._answered
+    answered = page.answered
 
     def watch(generation, answer):
         if isinstance(answer, Rough):
             late.append((generation, answer))
         answered(generation, answer)
 
-    page.worker.deliver = partial(page._later, watch)
+    page.worker.deliver = partial(page.later, watch)
     tab.choose("surface", "fractal")
     tab.until(lambda: "μ_r/μ_s" in tab.get("rough", "text"))
     tab.choose("surface", "smooth")
@@ -145,7 +145,7 @@ def test_a_surface_that_is_turned_to_smooth_leaves_nothing(tab, page):
 
     # as of a prediction that ended when the control was turned already, before any newer answer
     def comes_late():
-        page._shown = 0
+        page.shown = 0
         answered(*late[-1])
         page.layout.note.text = "it came"
 
@@ -222,7 +222,7 @@ def test_two_tabs_do_not_disturb_each_other_and_end(tab, served, monkeypatch):
     tab.driver.close()
     tab.driver.switch_to.window(first)
     tab.until(lambda: not any(worker.alive for worker in closed.workers))
-    tab.until(lambda: not Path(closed.uploads._folder.name).exists())
+    tab.until(lambda: not Path(closed.uploads.folder.name).exists())
     assert left.worker.alive
     tab.type("load", "99")
     tab.settle(129)
@@ -232,14 +232,14 @@ def test_two_tabs_do_not_disturb_each_other_and_end(tab, served, monkeypatch):
 def test_an_older_answer_never_comes_last(tab, page):
     """The slider is moved many times without a pause; what is seen belongs to its last place."""
     shown = []
-    answered = page._answered
+    answered = page.answered
 
     def watch(generation, answer):
-        before = page._shown
+        before = page.shown
         answered(generation, answer)
-        shown.append((before, page._shown))
+        shown.append((before, page.shown))
 
-    page.worker.deliver = partial(page._later, watch)
+    page.worker.deliver = partial(page.later, watch)
     tab.run(
         "const s = Bokeh.documents[0].get_model_by_name('slider_load');"
         "for (let k = 0; k < 60; k++) setTimeout(() => { s.value = 150 + k }, 20 * k)"

@@ -5,6 +5,7 @@ import re
 import subprocess
 import sys
 import threading
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -13,11 +14,22 @@ import pytest
 from pyehl import Case, Solver, errors, handle, library
 from pyehl.case import resolve
 from pyehl.extension import solvers as ehl
+from pyehl.handle import NO_HEIGHTS
 
 SMALL = (
     "&contact moes_m = 100.0 moes_l = 5.0 /\n"
     "&grid points = 33 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
 )
+
+
+@pytest.fixture
+def number() -> Iterator[int]:
+    """A solver as the library knows it."""
+    text = Case.from_text(SMALL).text.encode()
+    opened, status, message = ehl.open_case(text, b"case", 0, NO_HEIGHTS, 0, NO_HEIGHTS)
+    errors.check(status, message)
+    yield opened
+    errors.check(*ehl.close_case(opened))
 
 
 @pytest.fixture
@@ -88,25 +100,24 @@ def test_interrupted_solver(solver: Solver):
     np.empty((33, 33), dtype=np.int64, order="F"),
     np.empty((66, 33), order="F")[::2],
 ], ids=["C order", "float32", "int64", "strided"])  # fmt: skip
-def test_arrays_are_refused_rather_than_copied(solver: Solver, array):
+def test_arrays_are_refused_rather_than_copied(number: int, array):
     with pytest.raises(ValueError, match="array"):
-        ehl.field(solver._handle, b"P", array)
+        ehl.field(number, b"P", array)
 
 
-def test_arrays_of_another_shape_are_refused(solver: Solver):
+def test_arrays_of_another_shape_are_refused(number: int):
     with pytest.raises(errors.InputError, match="shape"):
-        errors.check(*ehl.field(solver._handle, b"P", np.empty((33, 31), order="F")))
+        errors.check(*ehl.field(number, b"P", np.empty((33, 31), order="F")))
 
 
-def test_values_arrive_in_the_callers_memory(solver: Solver):
-    values = np.full(solver.shape, np.nan, order="F")
-    errors.check(*ehl.field(solver._handle, b"H", values))
+def test_values_arrive_in_the_callers_memory(number: int):
+    values = np.full((33, 33), np.nan, order="F")
+    errors.check(*ehl.field(number, b"H", values))
     assert np.isfinite(values).all()
 
 
 def test_closed_solver_raises():
     solver = Solver(Case.from_text(SMALL))
-    handle = solver._handle
     solver.close()
     solver.close()
     for call in (solver.advance, solver.describe, solver.interrupt, solver.axes):
@@ -114,14 +125,21 @@ def test_closed_solver_raises():
             call()
     with pytest.raises(errors.ClosedError):
         solver.summary  # noqa: B018
-    # A handle is never used again, also when its place is
-    with Solver(Case.from_text(SMALL)) as other:
-        assert other._handle != handle
-        with pytest.raises(errors.ClosedError):
-            errors.check(*ehl.interrupt(handle))
     for wrong in (-1, 0, 5, 2**31 - 1):
         with pytest.raises(errors.ClosedError):
             errors.check(*ehl.interrupt(wrong))
+
+
+def test_a_number_is_never_used_again(number: int):
+    """Also when its place is."""
+    errors.check(*ehl.close_case(number))
+    text = Case.from_text(SMALL).text.encode()
+    other, status, message = ehl.open_case(text, b"case", 0, NO_HEIGHTS, 0, NO_HEIGHTS)
+    errors.check(status, message)
+    assert other != number
+    with pytest.raises(errors.ClosedError):
+        errors.check(*ehl.interrupt(number))
+    errors.check(*ehl.close_case(other))
 
 
 PLACES = """

@@ -79,8 +79,8 @@ def killed_and_resumed(case: pyehl.Case, folder: Path, advances: int) -> dict[st
 def test_whole_summary(kind: str, tmp_path: Path):
     case = pyehl.Case.from_text(CASES[kind])
     with pyehl.Solver(case) as solver:
+        advances = sum(1 for _ in solver)
         whole = ended(solver)
-        advances = solver._calls
     resumed = 0
     for share in (0.3, 0.5, 0.75, 0.95):
         found = killed_and_resumed(case, tmp_path / f"{share}", int(share * advances))
@@ -110,13 +110,11 @@ def test_steps_from_a_prediction_that_fail_after_a_resumption(tmp_path: Path):
     )
     before = again = 0
     with pyehl.Solver(case) as solver:
-        while not solver.done:
-            solver.advance()
-            summary = solver.summary
-            if summary.get("start") == "prediction":
-                before = solver._calls
+        for step in solver:
+            if step.summary.get("start") == "prediction":
+                before = step.number
             elif before and not again:
-                again = solver._calls
+                again = step.number
         whole = ended(solver)
     assert "negative film" in whole["start_note"]
     assert before > 0

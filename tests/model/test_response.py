@@ -229,7 +229,7 @@ def test_coefficients_are_the_fit_to_the_measured_waves(
     q = 2.0 * np.pi / np.geomspace(0.03, 3.0, 15)
     values = []
     for fitted in (shipped, anew):
-        monkeypatch.setattr("pyehl.theory.response._fit", lambda fitted=fitted: fitted)
+        monkeypatch.setattr("pyehl.theory.response.stored_fit", lambda fitted=fitted: fitted)
         values.append(
             [
                 inlet_fit(q * np.cos(a), q * np.sin(a), (m, ell), u)

@@ -162,8 +162,8 @@ def test_first_starts_at_once_lose_nothing(tmp_path: Path):
 
 def test_without_room_no_row_is_taken_for_kept(tmp_path: Path):
     with Journal(tmp_path, STUDY) as journal:
-        pages = journal._base.execute("PRAGMA page_count").fetchone()[0]
-        journal._base.execute(f"PRAGMA max_page_count = {pages}")
+        pages = journal.base.execute("PRAGMA page_count").fetchone()[0]
+        journal.base.execute(f"PRAGMA max_page_count = {pages}")
         with pytest.raises(FileError, match="cannot write: database or disk is full"):
             journal.append([(0, {"x": "long" * 5000})])
         assert journal.rows == {}

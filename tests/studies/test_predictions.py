@@ -80,9 +80,9 @@ def test_shared_parts_are_made_once(cases: Path):
 
     def shared(option: str) -> bool:
         """Whether the smooth contact was there already."""
-        before = smooth._solved.cache_info().misses
+        before = smooth.solved_text.cache_info().misses
         execute(Task(0, base.with_options(option).text, "predict"))
-        return smooth._solved.cache_info().misses == before
+        return smooth.solved_text.cache_info().misses == before
 
     for option in (
         "surface.seed=7",
