@@ -30,7 +30,7 @@ module ehl_oil_flow
 
 contains
 
-   !> Balance of the present state, from behind the second column on
+   !> Balance of the present state, from behind the second column to behind last_counted
    function measure_flow(level) result(flow)
       type(level_t), intent(in) :: level
       type(oil_flow_t) :: flow
@@ -46,13 +46,13 @@ contains
       gain = 0.0_dp
       least = 0.0_dp
       associate (grid => level%grid)
-         n = grid%nx - 1
+         n = last_counted(level)
          do j = grid%first_inner(), grid%last_inner()
             call ends_of_row(level, j, first(j), last(j))
             first(j) = first(j)*grid%weight(j)/grid%hx
             last(j) = last(j)*grid%weight(j)/grid%hx
             call content_row(level, j, content)
-            held(j) = grid%weight(j)*sum(content(3:n))
+            held(j) = grid%weight(j)*sum(content(3:grid%nx - 2))
             if (level%wedge%squeeze > 0.0_dp) then
                gain(j) = grid%weight(j)*sum(level%wedge%squeeze*content(3:n) + level%rhs(3:n, j))
                least(j) = grid%weight(j)/grid%hx*min(level%supply%layer(j), minval(level%mass_content(:, j)))
@@ -79,6 +79,13 @@ contains
       flow%gain = sum(gain)
       flow%imbalance = (flow%enters - flow%leaves - flow%sides - flow%gain)/max(flow%enters, sum(least), tiny(1.0_dp))
    end function measure_flow
+
+   !> Column behind which oil has left. In time steps as far from its border as that behind which it enters: where the motion turns
+   !> the oil between the two is the same.
+   pure integer function last_counted(level)
+      type(level_t), intent(in) :: level
+      last_counted = level%grid%nx - merge(2, 1, level%wedge%squeeze > 0.0_dp)
+   end function last_counted
 
    !> Oil at the nodes of row j: rho H, less what is missing where it does not fill the gap
    subroutine content_row(level, j, content)
@@ -129,7 +136,7 @@ contains
          ! where the film ruptures
          last = through(last_flowing(level%p(:, j)))
       else
-         last = through(level%grid%nx - 1)
+         last = through(last_counted(level))
       end if
 
    contains
