@@ -74,7 +74,7 @@ contains
             if (status%failed()) return
             good = outcome == outcome_converged
             if (good .and. transient%settling) then
-               call transient%settle(level, status)
+               call transient%settle(level)
                cycle
             end if
             if (good .and. duty%active) call transient%judge_duty(level, good)

@@ -160,10 +160,9 @@ module ehl_transient_state
       end subroutine judge_duty
 
       !> The steady contact in the discretisation of the steps is solved: it is what they begin with
-      module subroutine settle(self, level, status)
+      module subroutine settle(self, level)
          class(transient_t), intent(inout) :: self
          type(level_t), intent(in) :: level
-         type(status_t), intent(inout) :: status
       end subroutine settle
 
       !> The error that a step leaves
