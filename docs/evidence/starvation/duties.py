@@ -51,10 +51,14 @@ def balances() -> Iterator[Row]:
         for quarter in (1, 2, 3, 4):
             row = len(table) * quarter // 4 - 1
             time, *oil = table[row]
-            yield {"contact": contact, "duty": name, "T": f"{time:.4f}"} | {
-                key: f"{value:.8f}"
-                for key, value in zip(("in", "out", "at_sides", "gained"), oil, strict=True)
-            } | {"lost": f"{away[row]:.1e}"}
+            yield (
+                {"contact": contact, "duty": name, "T": f"{time:.4f}"}
+                | {
+                    key: f"{value:.8f}"
+                    for key, value in zip(("in", "out", "at_sides", "gained"), oil, strict=True)
+                }
+                | {"lost": f"{away[row]:.1e}"}
+            )
 
 
 def starts() -> Iterator[Row]:
@@ -64,9 +68,7 @@ def starts() -> Iterator[Row]:
             "load": load, "mean_velocity": 1.0, "radius_x": 0.01, "radius_y": radius,
             "reduced_modulus": 2.2e11,
         }  # fmt: skip
-        film = float(
-            pyehl.film(pyehl.Case(contact=contact, lubricant=OIL)).formulas[0]["h_c_m"]
-        )
+        film = float(pyehl.film(pyehl.Case(contact=contact, lubricant=OIL)).formulas[0]["h_c_m"])
         for share in (0.6, 1.2):
             for points in (65, 129, 257):
                 data = pyehl.solve(
