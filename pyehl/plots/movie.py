@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The frames of a transient run as a moving picture: film, pressure and roughness of a passage."""
+"""The frames of a transient run as a moving picture: film, pressure, roughness of a passage."""
 
 import math
 from pathlib import Path
@@ -48,7 +48,8 @@ def movie(
 
     `data` is of a run with ``output.frame_interval`` above 0; each frame is shown for so many
     `seconds`, which the picture states with the time between frames in the contact. The panels are
-    the film as fringes, pressure and film on the centre line, and the deformed roughness.
+    the film as fringes, pressure and film on the centre line, and the deformed roughness if there
+    is one.
     InputError if there are no frames, or no program ffmpeg for 'mp4', or another file has the name.
     """
     if "frame_H" not in data or data.sizes["T"] == 0:
@@ -74,18 +75,22 @@ def movie(
     x, y, times = (data[name].values for name in "XYT")
     row = nearest(y, 0.0)
     most = 1.05 * max(1.0, float(data.frame_P.max()))
-    smooth = data["H_smooth"].values
+    # without a rough surface a duty moves the film alone
+    rough = "H_smooth" in data
+    smooth = data["H_smooth" if rough else "H"].values
     central = float(smooth[nearest(x, 0.0), row]) * film_unit(scales)[0]
     fringes = contact.fringe_spacings(central, scales)
     deformed = smooth[:, :, np.newaxis] - data["frame_H"].values
-    top = transient.roughness_top(x, y, *np.moveaxis(deformed, 2, 0), outline=outline)
+    top = 0.0
+    if rough:
+        top = transient.roughness_top(x, y, *np.moveaxis(deformed, 2, 0), outline=outline)
     figure = new_figure(PAGE, 2.6)
     title = f"{headline(summary_of(data), scales)}\n{_pace(data, seconds, si=scales is not None)}"
 
     @styled()
     def draw(frame: int) -> list[Artist]:
         figure.clear()
-        left, middle, right = figure.subplots(1, 3)
+        left, middle, *others = figure.subplots(1, 3 if rough else 2)
         pressure, film = (data[name].values[:, :, frame] for name in ("frame_P", "frame_H"))
         contact.interferogram(x, y, film, scales, fringes=fringes, outline=outline, ax=left)
         contact.pressure_and_film(
@@ -93,10 +98,11 @@ def movie(
         )
         middle.set_ylim(0.0, most * (1.0 if scales is None else scales.pressure * 1e-9))
         middle.set_xlim(left.get_xlim())
-        transient.roughness(
-            x, y, deformed[:, :, frame], scales,
-            top=top, name="deformed,", bar=True, outline=outline, ax=right,
-        )  # fmt: skip
+        for right in others:
+            transient.roughness(
+                x, y, deformed[:, :, frame], scales,
+                top=top, name="deformed,", bar=True, outline=outline, ax=right,
+            )  # fmt: skip
         figure.suptitle(f"{title};  T = {times[frame]:.2f}")
         return []
 

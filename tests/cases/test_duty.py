@@ -7,6 +7,7 @@ from pathlib import Path
 import line_newton
 import numpy as np
 import pytest
+from PIL import Image
 
 import pyehl
 from pyehl import cli
@@ -519,3 +520,18 @@ def test_a_step_without_a_film_is_told_a_finer_grid():
     assert failed.attrs["status"] == "negative film"
     assert "grid.points = 129" in failed.attrs["message"]
     assert "smoother" not in failed.attrs["message"]
+
+
+def test_a_movie_of_smooth_surfaces(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """Film and pressure: there is no roughness to show."""
+    monkeypatch.setattr("pyehl.plots.movie.DPI", 30)
+    case = pyehl.Case(
+        contact={"load": 60.0, "mean_velocity": 1.0, "radius": 0.01},
+        grid={"points": 33},
+        output={"frame_interval": 0.5},
+        duty={"time": [0.0, 1e-4, 3e-4], "load": [60.0, 60.0, 40.0]},
+    )
+    pyehl.solve(case, output=tmp_path / "out")
+    assert cli.main(["plot", str(tmp_path / "out"), "--movie"]) == 0
+    with Image.open(tmp_path / "out/movie.gif") as picture:
+        assert picture.n_frames > 1
