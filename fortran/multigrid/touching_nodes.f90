@@ -51,11 +51,13 @@ contains
       any_touches = .false.
       if (.not. self%active) return
       do l = 1, size(rows)
+         touching(l, :last) = self%touching(:last, rows(l))
+         ! what yields touches as well
+         if (.not. any(self%touching(:last, rows(l)) > 0.0_dp)) cycle
+         any_touches = .true.
          row(2:last) = residual(l, 2:last)
          call self%residual_row(rhs(:, rows(l)), mass_content(:, rows(l)), rows(l), row)
          residual(l, 2:last) = row(2:last)
-         touching(l, :last) = self%touching(:last, rows(l))
-         any_touches = any_touches .or. any(self%touching(:last, rows(l)) > 0.0_dp)
       end do
    end procedure line_residuals
 
