@@ -178,9 +178,9 @@ def answer(keys: Keys, run: str, **options: Any) -> MachineResult:  # noqa: ANN4
     return command(..., keys, options, run=run, jobs=1)
 
 
-def faults(keys: Keys, found: MachineResult) -> list[str]:
+def faults(keys: Keys, result: MachineResult) -> list[str]:
     """Name what of an answer cannot be."""
-    table, s = found.table, found.summary
+    table, s = result.table, result.summary
     wrong = [
         f"{name} not between {low:g} and {high:g}"
         for name, low, high in (
@@ -198,7 +198,7 @@ def faults(keys: Keys, found: MachineResult) -> list[str]:
     crossed = table["h_min_m"] > table["h_c_m"]
     if (crossed & ~table["note"].str.contains("minimum film above")).any():
         wrong.append("minimum film above the central one without a note")
-    if found.kind == "bearing":
+    if result.kind == "bearing":
         wrong += _bearing_faults(keys, table, s)
     elif not (0.8 < s.get("efficiency", 0.99) < 1.0 or math.isnan(s["efficiency"])):
         wrong.append(f"efficiency {s['efficiency']:.4f}")
@@ -268,13 +268,13 @@ def one(seed: int, number: int, solve: bool) -> Row:
     kind, keys = draw(seed, number)
     row: Row = {"number": number, "machine": kind, "values": keys, "status": RIGHT, "faults": []}
     try:
-        found = answer(keys, "film")
-        row["faults"] = faults(keys, found)
-        row |= {k: v for k, v in found.summary.items() if isinstance(v, float | int)}
+        result = answer(keys, "film")
+        row["faults"] = faults(keys, result)
+        row |= {k: v for k, v in result.summary.items() if isinstance(v, float | int)}
         if row["faults"]:
             row["status"] = WRONG
         if solve and not row["faults"]:
-            row |= _solved(keys, found)
+            row |= _solved(keys, result)
     except InputError as error:
         row |= {"status": REFUSED, "faults": [str(error)]}
     except Exception as error:
@@ -308,11 +308,11 @@ def campaign(count: int, seed: int, solve: int) -> list[Row]:
 
 def summary(rows: Sequence[Row]) -> list[Row]:
     """Count by kind, and of all."""
-    found = []
+    result = []
     for name in (*MACHINES, "all"):
         mine = [row for row in rows if name in (row["machine"], "all")]
         states = Counter(row["status"] for row in mine)
-        found.append(
+        result.append(
             {"machine": name, "drawn": len(mine)}
             | {state: states[state] for state in (RIGHT, REFUSED, WRONG, CRASHED)}
             | {
@@ -320,16 +320,16 @@ def summary(rows: Sequence[Row]) -> list[Row]:
                 "contacts": sum(row["contacts"] for row in mine if "converged" in row),
             }
         )
-    return found
+    return result
 
 
 def work(args: argparse.Namespace) -> Row:
     """Draw, check and print."""
     rows = campaign(args.count, args.seed, args.solve)
-    found = summary(rows)
-    show(found, COLUMNS, "solved: contacts that converge on 257 nodes, of those solved")
+    result = summary(rows)
+    show(result, COLUMNS, "solved: contacts that converge on 257 nodes, of those solved")
     asked = {name: getattr(args, name) for name in ("seed", "count", "solve")}
-    return asked | {"summary": found, "rows": rows}
+    return asked | {"summary": result, "rows": rows}
 
 
 def main(words: Sequence[str] | None = None) -> int:

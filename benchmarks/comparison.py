@@ -56,7 +56,7 @@ def compare(
     `allowed` may hang on what the usual one gave; `besides`: the other is work on top of it.
     """
     (seconds, values), (without, others) = timed(usual), timed(other)
-    one, two = (asarray(found[quantity], dtype=float) for found in (values, others))
+    one, two = (asarray(result[quantity], dtype=float) for result in (values, others))
     difference = float(absolute(one - two).max() / absolute(one).max())
     limit = allowed(values) if callable(allowed) else allowed
     without += seconds if besides else 0.0

@@ -166,8 +166,8 @@ def inlet(rng: np.random.Generator, shape: str) -> tuple[str, dict[str, Any]]:
 def solve(values: Mapping[str, Any], **more: Any) -> tuple[xr.Dataset, float]:  # noqa: ANN401
     """Solve, also to no solution; with the seconds of the processor."""
     began = resource.getrusage(resource.RUSAGE_SELF).ru_utime
-    found = pyehl.solve(Case.from_text("", dict(values) | more), check=False)
-    return found, resource.getrusage(resource.RUSAGE_SELF).ru_utime - began
+    result = pyehl.solve(Case.from_text("", dict(values) | more), check=False)
+    return result, resource.getrusage(resource.RUSAGE_SELF).ru_utime - began
 
 
 def solve_on_enough(values: dict[str, Any]) -> tuple[xr.Dataset, float]:
@@ -175,47 +175,47 @@ def solve_on_enough(values: dict[str, Any]) -> tuple[xr.Dataset, float]:
 
     `values` have those nodes afterwards, for the runs that are compared.
     """
-    found, seconds = solve(values)
+    result, seconds = solve(values)
     for _ in range(MOST_REFINED):
-        if found.attrs["status"] != "negative film":
+        if result.attrs["status"] != "negative film":
             break
         values["grid.points"] = 2 * values["grid.points"] - 1
-        found, more = solve(values)
+        result, more = solve(values)
         seconds += more
-    return found, seconds
+    return result, seconds
 
 
-def finer(values: Mapping[str, Any], found: xr.Dataset) -> dict[str, int]:
+def finer(values: Mapping[str, Any], result: xr.Dataset) -> dict[str, int]:
     """Twice the nodes."""
     keys = {"grid.points": 2 * values["grid.points"] - 1}
-    if found.sizes["Y"] > 1 and values.get("contact.shape") != "line":
-        keys["grid.points_y"] = 2 * found.sizes["Y"] - 1
+    if result.sizes["Y"] > 1 and values.get("contact.shape") != "line":
+        keys["grid.points_y"] = 2 * result.sizes["Y"] - 1
     return keys
 
 
-def step_errors(found: xr.Dataset, half: xr.Dataset) -> tuple[float, float]:
+def step_errors(result: xr.Dataset, half: xr.Dataset) -> tuple[float, float]:
     """Share of instants that stated errors cover, and largest difference over largest error."""
-    errors = [found[f"history_{name}_step_error"].values for name in ("c", "min", "p")]
+    errors = [result[f"history_{name}_step_error"].values for name in ("c", "min", "p")]
     holds: list[Array] = []
     worst = 0.0
     for name, error in zip(FILMS, errors, strict=True):
-        values = found[f"history_{name}"].values
+        values = result[f"history_{name}"].values
         # half the step leaves a quarter of the error
-        other = np.interp(found.history_t_s, half.history_t_s, half[f"history_{name}"])
+        other = np.interp(result.history_t_s, half.history_t_s, half[f"history_{name}"])
         difference = np.abs(other / values - 1.0) * 4.0 / 3.0
         holds.append(difference <= error + TOLERANCE)
         worst = max(worst, float(difference.max() / (error.max() + TOLERANCE)))
     return float(np.mean(holds)), worst
 
 
-def extremes(found: xr.Dataset, fine: xr.Dataset) -> dict[str, float]:
+def extremes(result: xr.Dataset, fine: xr.Dataset) -> dict[str, float]:
     """Differences of extremes to those on twice the nodes, over their stated errors."""
     ratios = {}
     for name in EXTREMES:
         stem, _, unit = name.rpartition("_")
         error = f"duty_{name}_error" if name == "mu_max" else f"duty_{stem}_error_{unit}"
         value, other, stated = (float(d[n]) for d, n in (
-            (found, f"duty_{name}"), (fine, f"duty_{name}"), (found, error)))  # fmt: skip
+            (result, f"duty_{name}"), (fine, f"duty_{name}"), (result, error)))  # fmt: skip
         if np.isfinite(value) and np.isfinite(other) and stated > 0.0:
             ratios[name] = abs(value - other) / stated
     return ratios
@@ -223,36 +223,36 @@ def extremes(found: xr.Dataset, fine: xr.Dataset) -> dict[str, float]:
 
 def one_duty(values: dict[str, Any]) -> Row:
     """Solve a duty, with half the step, and on twice the nodes."""
-    found, seconds = solve_on_enough(values)
-    row: Row = {"status": found.attrs["status"], "seconds": seconds}
-    row["message"] = found.attrs.get("message")
-    row["steps"] = found.sizes.get("history")
+    result, seconds = solve_on_enough(values)
+    row: Row = {"status": result.attrs["status"], "seconds": seconds}
+    row["message"] = result.attrs.get("message")
+    row["steps"] = result.sizes.get("history")
     if row["status"] != "converged":
         return row
     half, _ = solve(values, **{"duty.time_step": 0.5})
     row["half_status"] = half.attrs["status"]
     if row["half_status"] == "converged":
-        row["steps_covered"], row["worst_steps"] = step_errors(found, half)
+        row["steps_covered"], row["worst_steps"] = step_errors(result, half)
     if values.get("contact.shape") == "roller":
         # on twice the nodes it takes ten times as long as all others
         return row
-    fine, _ = solve(values, **finer(values, found))
+    fine, _ = solve(values, **finer(values, result))
     row["fine_status"] = fine.attrs["status"]
     if row["fine_status"] == "converged":
-        row["extremes"] = extremes(found, fine)
+        row["extremes"] = extremes(result, fine)
     return row
 
 
 def one_inlet(values: dict[str, Any]) -> Row:
     """Solve a starved contact, and on twice the nodes."""
-    found, seconds = solve_on_enough(values)
-    row: Row = {"status": found.attrs["status"], "seconds": seconds}
-    row["message"] = found.attrs.get("message")
+    result, seconds = solve_on_enough(values)
+    row: Row = {"status": result.attrs["status"], "seconds": seconds}
+    row["message"] = result.attrs.get("message")
     if row["status"] != "converged":
         return row
-    row |= {name: float(found[name]) for name in ("H_c", "H_c_error", "H_min", "H_min_error")}
-    row["oil_imbalance"] = float(found.get("oil_imbalance", np.nan))
-    fine, _ = solve(values, **finer(values, found))
+    row |= {name: float(result[name]) for name in ("H_c", "H_c_error", "H_min", "H_min_error")}
+    row["oil_imbalance"] = float(result.get("oil_imbalance", np.nan))
+    fine, _ = solve(values, **finer(values, result))
     row["fine_status"] = fine.attrs["status"]
     row |= {f"{name}_fine": float(fine[name]) for name in ("H_c", "H_min")}
     return row
@@ -331,9 +331,9 @@ def work(args: argparse.Namespace) -> Row:
     groups = {shape: [row for row in rows if row["shape"] == shape] for shape in SHAPES}
     groups["all"] = list(rows)
     count = inlets_of if args.inlets else duties_of
-    found = [count(name, mine) for name, mine in groups.items() if mine]
-    show(found, INLET_COLUMNS if args.inlets else COLUMNS, "" if args.inlets else MEANING)
-    return {"seed": args.seed, "count": args.count, "summary": found, "rows": rows}
+    result = [count(name, mine) for name, mine in groups.items() if mine]
+    show(result, INLET_COLUMNS if args.inlets else COLUMNS, "" if args.inlets else MEANING)
+    return {"seed": args.seed, "count": args.count, "summary": result, "rows": rows}
 
 
 def main(words: Sequence[str] | None = None) -> int:

@@ -102,8 +102,8 @@ def mutate(data: bytes, generator: np.random.Generator) -> bytes:
             # a value in place of a value
             values = list(re.finditer(rb"[-+.\w]+", bytes(text)))
             if values:
-                found = values[int(generator.integers(0, len(values)))]
-                text[found.start() : found.end()] = WORDS[int(generator.integers(0, len(WORDS)))]
+                result = values[int(generator.integers(0, len(values)))]
+                text[result.start() : result.end()] = WORDS[int(generator.integers(0, len(WORDS)))]
         else:
             del text[at:]
     return bytes(text)
@@ -225,8 +225,8 @@ def mutated(folder: Path, seed: int, inputs: int) -> Found:
         if done.returncode:
             bad.append(f"seed {number}: exit status {done.returncode}: {done.stderr[-2000:]}")
             continue
-        found = json.loads(done.stdout)
-        bad += found["bad"]
-        counts.update(found["counts"])
+        result = json.loads(done.stdout)
+        bad += result["bad"]
+        counts.update(result["counts"])
         shutil.rmtree(place)
     return inputs, counts, bad

@@ -109,15 +109,15 @@ def draw_work(rows: Sequence[Values], path: Path) -> None:
             if setting == "fft" and problem != "smooth":
                 continue
             for more, line, face in (("", "-", colour), (EXTRAPOLATED, "--", "none")):
-                found = [
+                result = [
                     (row["seconds"], row["error"])
                     for row in mine
                     # the reference itself has no error
                     if row["setting"] == setting + more and row["error"] and row["threads"] == 1
                 ]
-                if found:
+                if result:
                     how = {"ls": line, "mfc": face, "color": colour, "marker": marker, "lw": 0.8}
-                    ax.loglog(*zip(*found, strict=True), label=name + more, **how)
+                    ax.loglog(*zip(*result, strict=True), label=name + more, **how)
         bars = [row["bar"] for row in mine if row["bar"]]
         if bars:
             lowest = 0.5 * min(bars[0], *(row["error"] for row in mine if row["error"]))

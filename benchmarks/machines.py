@@ -298,12 +298,12 @@ def _finer(row: Row) -> dict[str, int]:
 
 def _solved(contact: Contact, more: Mapping[str, Any]) -> Row:
     try:
-        found = timed(dict(contact.values) | SETTINGS | dict(more))
+        result = timed(dict(contact.values) | SETTINGS | dict(more))
     except InputError as error:
         # M beyond what a case may have
-        found = {"status": REFUSED, "message": str(error), "seconds": None}
+        result = {"status": REFUSED, "message": str(error), "seconds": None}
     names = ("seconds", *KEPT, *(f"{name}_extrapolated" for name in QUANTITIES))
-    return {name: found.get(name) for name in names}
+    return {name: result.get(name) for name in names}
 
 
 def timed(keys: Mapping[str, Any]) -> Row:
@@ -358,10 +358,10 @@ def _counted(name: str, rows: Sequence[Row], unit: float | None) -> Row:
 def work(args: argparse.Namespace) -> Row:
     """Measure and print."""
     rows = campaign(args.count, args.seed, fine=args.fine, shape=args.shape)
-    found = summary(rows)
-    show(found, COLUMNS, MEANING)
+    result = summary(rows)
+    show(result, COLUMNS, MEANING)
     asked = {name: getattr(args, name) for name in ("seed", "count", "fine", "shape")}
-    return asked | {"summary": found, "rows": rows}
+    return asked | {"summary": result, "rows": rows}
 
 
 def main(words: Sequence[str] | None = None) -> int:

@@ -133,37 +133,37 @@ def _one(number: int, rng: np.random.Generator, grids: Sequence[int]) -> Contact
 
 def _known(values: Iterable[Any]) -> list[float]:
     """Give numbers, none where one of them is missing."""
-    found = list(values)
-    return [] if None in found else found
+    result = list(values)
+    return [] if None in result else result
 
 
-def contradictions(found: Mapping[str, Any]) -> list[str]:
+def contradictions(result: Mapping[str, Any]) -> list[str]:
     """Say which numbers of a summary do not belong together."""
     wrong = []
 
     def product(mu: str, smooth: str) -> None:
-        values = _known(found.get(name) for name in (mu, smooth, "mu_ratio"))
+        values = _known(result.get(name) for name in (mu, smooth, "mu_ratio"))
         if values and not math.isclose(values[0], values[1] * values[2], rel_tol=SAME):
             wrong.append(f"{mu} = {smooth} mu_ratio")
 
     product("mu", "mu_smooth")
     product("mu_isothermal", "mu_smooth_isothermal")
-    share, error = found.get(SHARE), found.get(f"{SHARE}_error")
-    note = found.get(f"{SHARE}_error_note") or ""
-    numbers = [found.get(n) for n in ("mu", "mu_ratio", *FILMS, "h_min_rough_m")]
-    if any(isinstance(v, float) and not math.isfinite(v) for v in found.values()):
+    share, error = result.get(SHARE), result.get(f"{SHARE}_error")
+    note = result.get(f"{SHARE}_error_note") or ""
+    numbers = [result.get(n) for n in ("mu", "mu_ratio", *FILMS, "h_min_rough_m")]
+    if any(isinstance(v, float) and not math.isfinite(v) for v in result.values()):
         wrong.append("not a number")
     if any(v is not None and v < 0.0 for v in [*numbers, error]):
         wrong.append("less than 0")
-    if share is None and (found.get("mu") is not None or error is not None):
+    if share is None and (result.get("mu") is not None or error is not None):
         wrong.append("friction without a load share")
     if share is None and not note:
         wrong.append("no load share and no reason")
     if share is not None and not 0.0 <= share <= 1.0:
         wrong.append("load share")
-    if found.get("mu") is None and not found.get("mu_note"):
+    if result.get("mu") is None and not result.get("mu_note"):
         wrong.append("no friction and no reason")
-    assessment = str(found.get("assessment") or "")
+    assessment = str(result.get("assessment") or "")
     if share and ("full film" in assessment) and share > 0.01:
         wrong.append("assessment")
     return wrong
@@ -230,26 +230,26 @@ def _both(one: Mapping[str, Any], other: Mapping[str, Any]) -> Row:
     return row | {"broken": broken, "difference": None, "allowed": None, "wrong": bool(broken)}
 
 
-def of_smooth(found: Mapping[str, Any], smooth: Mapping[str, Any]) -> Row:
+def of_smooth(result: Mapping[str, Any], smooth: Mapping[str, Any]) -> Row:
     """Films and pressure of the smooth contact under a prediction: those of the solution."""
-    row = _both(found, smooth)
-    if found["status"] == "failed" or smooth["status"] != "converged":
+    row = _both(result, smooth)
+    if result["status"] == "failed" or smooth["status"] != "converged":
         return row
     for name in FILMS:
-        value, other = found.get(name), _film(smooth, name)
+        value, other = result.get(name), _film(smooth, name)
         if value is None:
-            if smooth.get(SHARE) is not None and found.get("h_c_source", "").startswith("solved"):
+            if smooth.get(SHARE) is not None and result.get("h_c_source", "").startswith("solved"):
                 row["broken"].append(f"{name}: none")
-        elif abs(value / other - 1.0) > max(ENDED, _stated(found, smooth, name)):
+        elif abs(value / other - 1.0) > max(ENDED, _stated(result, smooth, name)):
             row["broken"].append(f"{name}: {value / other:.6f} of the solution")
     row["wrong"] = bool(row["broken"])
     return row
 
 
-def _stated(found: Mapping[str, Any], smooth: Mapping[str, Any], name: str) -> float:
+def _stated(result: Mapping[str, Any], smooth: Mapping[str, Any], name: str) -> float:
     """Largest relative error that either states of a film; 0 for none."""
     error = name.removesuffix("_m") + "_error_m"
-    return max((one.get(error) or 0.0) / one[name] for one in (found, smooth))
+    return max((one.get(error) or 0.0) / one[name] for one in (result, smooth))
 
 
 def _film(smooth: Mapping[str, Any], name: str) -> float:
@@ -261,20 +261,20 @@ def _film(smooth: Mapping[str, Any], name: str) -> float:
     return float(smooth[name] if limit is None else limit * smooth["film_scale_m"])
 
 
-def of_pair(found: Mapping[str, Any], other: Mapping[str, Any]) -> Row:
+def of_pair(result: Mapping[str, Any], other: Mapping[str, Any]) -> Row:
     """Load share and friction of a prediction beside those of a solution."""
-    row = _both(found, other)
-    if found["status"] == "failed" or other["status"] != "converged":
+    row = _both(result, other)
+    if result["status"] == "failed" or other["status"] != "converged":
         return row
-    if shares := _known(one.get(SHARE) for one in (found, other)):
+    if shares := _known(one.get(SHARE) for one in (result, other)):
         row["difference"] = abs(shares[0] - shares[1])
-        if stated := _known(one.get(f"{SHARE}_error") for one in (found, other)):
+        if stated := _known(one.get(f"{SHARE}_error") for one in (result, other)):
             row["allowed"] = sum(stated) + POINTS_ERROR * max(shares)
             if row["difference"] > row["allowed"] + 1e-3:
                 row["broken"].append("load share")
-    if (both := _known(one.get("mu") for one in (found, other))) and row["allowed"] is not None:
+    if (both := _known(one.get("mu") for one in (result, other))) and row["allowed"] is not None:
         mu, friction = both
-        error = (found.get("mu_ratio_model_error") or math.inf) * (mu / found["mu_ratio"])
+        error = (result.get("mu_ratio_model_error") or math.inf) * (mu / result["mu_ratio"])
         row["mu_difference"] = abs(mu - friction)
         row["mu_allowed"] = error + POINTS_ERROR * max(mu, friction)
         row["mu_allowed"] += (other.get("mu_ratio_error") or 0.0) * friction

@@ -70,10 +70,10 @@ def campaign(count: int, seed: int, points: int) -> list[Row]:
     rows: list[Row] = []
     for number, keys in enumerate(rollers(seed, count)):
         try:
-            found = timed(keys | {"grid.points": points, "solver.threads": 1})
+            result = timed(keys | {"grid.points": points, "solver.threads": 1})
         except InputError as error:
-            found = {"status": REFUSED, "message": str(error)}
-        row = {"number": number, "values": keys} | {name: found.get(name) for name in KEPT}
+            result = {"status": REFUSED, "message": str(error)}
+        row = {"number": number, "values": keys} | {name: result.get(name) for name in KEPT}
         rows.append(row)
         seconds = f", {row['seconds']:.1f} s" if row["seconds"] else ""
         say(f"{number + 1} of {count}: {keys['contact.profile']}, {row['status']}{seconds}")
@@ -85,10 +85,10 @@ def summary(rows: Sequence[Row]) -> list[Row]:
     groups = {
         name: [row for row in rows if row["values"]["contact.profile"] == name] for name in PROFILES
     } | {"all": list(rows)}
-    found = []
+    result = []
     for name, mine in groups.items():
         seconds = [row["seconds"] for row in mine if row["seconds"]]
-        found.append(
+        result.append(
             {
                 "profile": name,
                 "drawn": len(mine),
@@ -97,16 +97,16 @@ def summary(rows: Sequence[Row]) -> list[Row]:
                 "largest_seconds": max(seconds, default=None),
             }
         )
-    return found
+    return result
 
 
 def work(args: argparse.Namespace) -> Row:
     """Measure and print."""
     rows = campaign(args.count, args.seed, args.points)
-    found = summary(rows)
-    show(found, COLUMNS, "seconds: of the processor, one thread, all grids of a solution")
+    result = summary(rows)
+    show(result, COLUMNS, "seconds: of the processor, one thread, all grids of a solution")
     asked = {name: getattr(args, name) for name in ("seed", "count", "points")}
-    return asked | {"summary": found, "rows": rows}
+    return asked | {"summary": result, "rows": rows}
 
 
 def main(words: Sequence[str] | None = None) -> int:

@@ -207,12 +207,12 @@ def prediction_scene(points: int) -> list[Row]:
 
     def ratios(*, keep: bool) -> Values:
         smooth_contact.forget()
-        found = []
+        result = []
         for settings in cases:
             if not keep:
                 smooth_contact.forget()
-            found.append(predict(settings).mu_ratio)
-        return {"mu_ratio": found}
+            result.append(predict(settings).mu_ratio)
+        return {"mu_ratio": result}
 
     return [
         compare(

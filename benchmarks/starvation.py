@@ -33,8 +33,8 @@ COLUMNS = (
 def solve(contact: dict[str, Any], points: int, **inlet: float) -> dict[str, Any]:
     """Give the numbers of a summary."""
     case = pyehl.Case(contact=contact, inlet=inlet, grid={"points": points})
-    found = pyehl.solve(case, check=False)
-    return {k: v.item() for k, v in found.data_vars.items() if v.ndim == 0} | found.attrs
+    result = pyehl.solve(case, check=False)
+    return {k: v.item() for k, v in result.data_vars.items() if v.ndim == 0} | result.attrs
 
 
 def row(
@@ -49,12 +49,12 @@ def row(
     film = float(pyehl.film(pyehl.Case(contact=contact)).formulas[0]["H_c"])
     layer = ratio * density * film
     ratio = layer / (density * float(flooded["H_c"]))
-    found = solve(contact, points, film_hertz=layer)
-    share = float(found["H_c"]) / float(flooded["H_c"])
+    result = solve(contact, points, film_hertz=layer)
+    share = float(result["H_c"]) / float(flooded["H_c"])
     gamma = math.nan
     if layer_reduction(ratio, 1.0) < share < min(1.0, ratio):
         gamma = brentq(lambda g: layer_reduction(ratio, g) - share, 1.0, 60.0)
-    values = {name: found.get(name) for name in COLUMNS}
+    values = {name: result.get(name) for name in COLUMNS}
     return values | {"points": points, "r": ratio, "share": share, "gamma": gamma} | contact
 
 

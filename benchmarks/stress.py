@@ -72,8 +72,8 @@ def campaign(
         if not mine:
             continue
         say(f"{family}: {len(mine)} cases")
-        found = _run(family, mine, folder / family, jobs, fields=layer)
-        chosen = [row for row in found if row["outcome"] in ("converged", ENDED)]
+        result = _run(family, mine, folder / family, jobs, fields=layer)
+        chosen = [row for row in result if row["outcome"] in ("converged", ENDED)]
         known = [row for row in chosen if row["contact_load_share_error"] is not None]
         for name, how, some in (
             ("strict", "to a stricter end", chosen),
@@ -86,7 +86,7 @@ def campaign(
                 if part:
                     place = folder / f"{family}-{name}{end}"
                     _check(family, part, place, jobs, finer=name == "finer")
-        rows += found
+        rows += result
     return rows
 
 

@@ -138,12 +138,12 @@ def _predicted(problem: Problem, unit: float) -> list[Row]:
         return []
     case = Case.from_text("", problem.options)
     began = processor_seconds()
-    found = predict(case.resolve()).summary
+    result = predict(case.resolve()).summary
     seconds = processor_seconds() - began
-    value, model = found["mu_ratio"], found.get("mu_ratio_model_error")
+    value, model = result["mu_ratio"], result.get("mu_ratio_model_error")
     row: Row = {"problem": problem.name, "setting": "prediction", "points": 257, "threads": 1}
     row |= {"seconds": seconds, "units": seconds / unit, "unit_seconds": unit}
-    row |= {"status": found["status"], "quantity": "mu_ratio", "value": value}
+    row |= {"status": result["status"], "quantity": "mu_ratio", "value": value}
     return [row | {"estimate": model / value if model else None}]
 
 
@@ -181,10 +181,10 @@ def share_of_deflection(points: int = 129) -> Row:
 
 def extrapolated(rows: Sequence[Row]) -> list[Row]:
     """Richardson: the value of a grid and of the next coarser one, at the cost of both."""
-    found = {(r["quantity"], r["setting"], r["threads"], r["points"]): r for r in rows}
+    result = {(r["quantity"], r["setting"], r["threads"], r["points"]): r for r in rows}
     more = []
-    for (quantity, setting, threads, points), fine in found.items():
-        coarse = found.get((quantity, setting, threads, (points + 1) // 2))
+    for (quantity, setting, threads, points), fine in result.items():
+        coarse = result.get((quantity, setting, threads, (points + 1) // 2))
         if coarse is None or fine["value"] is None or coarse["value"] is None:
             continue
         # nested iteration has solved the coarser grid of a smooth contact anyway
@@ -238,7 +238,7 @@ def cheapest(rows: Sequence[Row]) -> list[Row]:
 
     An error below the bar of the reference counts as the bar.
     """
-    found = []
+    result = []
     for problem, quantity in dict.fromkeys((row["problem"], row["quantity"]) for row in rows):
         mine = [
             row
@@ -248,8 +248,8 @@ def cheapest(rows: Sequence[Row]) -> list[Row]:
         for level in LEVELS:
             good = [row for row in mine if max(row["error"], row["bar"]) <= level]
             best = min(good, key=lambda row: row["seconds"], default=None)
-            found.append({"problem": problem, "quantity": quantity, "level": level, "best": best})
-    return found
+            result.append({"problem": problem, "quantity": quantity, "level": level, "best": best})
+    return result
 
 
 def best_of(row: Row) -> str:

@@ -69,15 +69,15 @@ def faults(site: Path, pictures: Path | None) -> list[str]:
     home = f"http://127.0.0.1:{server.server_port}"
     names = [path.relative_to(site).as_posix() for path in sorted(site.rglob("*.html"))]
     names = [name for name in names if not name.startswith((*FOREIGN, "_static/"))]
-    found = []
+    result = []
     driver = browser()
     try:
         for name in names:
             driver.get(f"{home}/{name}")
             wide, cut = driver.execute_script(CUT)
             if wide > WIDTH:
-                found.append(f"{name}: {wide} px wide on a phone")
-            found += [f"{name}: cut: {part}" for part in cut]
+                result.append(f"{name}: {wide} px wide on a phone")
+            result += [f"{name}: cut: {part}" for part in cut]
         driver.get(f"{home}/search.html?q={QUESTION.replace(' ', '+')}")
         until = time.monotonic() + 30.0
         results = ""
@@ -87,7 +87,7 @@ def faults(site: Path, pictures: Path | None) -> list[str]:
                 "return [...document.querySelectorAll('ul.search li a')].map(a => a.href).join(' ')"
             )
         if "htm" not in results:
-            found.append(f"search: nothing for {QUESTION}")
+            result.append(f"search: nothing for {QUESTION}")
         print(f"search for {QUESTION}: {len(results.split())} pages")
         if pictures is not None:
             pictures.mkdir(parents=True, exist_ok=True)
@@ -101,8 +101,8 @@ def faults(site: Path, pictures: Path | None) -> list[str]:
         driver.quit()
         server.shutdown()
         server.server_close()
-    print(f"{len(names)} pages {WIDTH} px wide, {len(found)} faults")
-    return found
+    print(f"{len(names)} pages {WIDTH} px wide, {len(result)} faults")
+    return result
 
 
 if __name__ == "__main__":

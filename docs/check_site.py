@@ -55,7 +55,7 @@ def faults(site: Path) -> list[str]:
         for path in sorted(site.rglob("*.html"))
         if not path.relative_to(site).as_posix().startswith((*FOREIGN, "_modules/"))
     }
-    found = []
+    result = []
     for path, page in pages.items():
         name = path.relative_to(site).as_posix()
         for link in page.links:
@@ -66,40 +66,40 @@ def faults(site: Path) -> list[str]:
             if file.relative_to(site).as_posix().startswith(FOREIGN):
                 continue
             if not file.exists():
-                found.append(f"{name}: broken link {link}")
+                result.append(f"{name}: broken link {link}")
             elif anchor and file in pages and unquote(anchor) not in pages[file].anchors:
-                found.append(f"{name}: no such place {link}")
+                result.append(f"{name}: no such place {link}")
         for source in page.files:
             if re.match(r"https?:|//", source):
-                found.append(f"{name}: a file from a network: {source}")
+                result.append(f"{name}: a file from a network: {source}")
             elif not source.startswith("data:"):
                 file = path.parent / unquote(source.partition("?")[0])
                 if not file.exists():
-                    found.append(f"{name}: missing file {source}")
-        found += [f"{name}: picture without words: {source}" for source in page.without_words]
+                    result.append(f"{name}: missing file {source}")
+        result += [f"{name}: picture without words: {source}" for source in page.without_words]
         if not page.described and path.stem not in ("search", "genindex", "py-modindex"):
-            found.append(f"{name}: no description")
-    found += of_site(site, pages)
-    print(f"{len(pages)} pages, {len(found)} faults")
-    return found
+            result.append(f"{name}: no description")
+    result += of_site(site, pages)
+    print(f"{len(pages)} pages, {len(result)} faults")
+    return result
 
 
 def of_site(site: Path, pages: dict[Path, Page]) -> list[str]:
     """List what is wrong with the first page and the search."""
-    found = []
+    result = []
     first = site / "index.html"
     files = {site / f.partition("?")[0] for f in pages[first].files if not f.startswith("data:")}
     size = sum(file.stat().st_size for file in (first, *files) if file.exists())
     if size > FIRST_PAGE:
-        found.append(f"index.html: {size} bytes with its files, more than {FIRST_PAGE}")
+        result.append(f"index.html: {size} bytes with its files, more than {FIRST_PAGE}")
     text = (site / "searchindex.js").read_text(encoding="utf-8")
     index = json.loads(text[text.index("{") : text.rindex("}") + 1])
     pages_of = [index["terms"].get(word, []) for word in WORDS]
     common = set.intersection(*({at} if isinstance(at, int) else set(at) for at in pages_of))
     if not common:
-        found.append(f"search: no page has {' '.join(WORDS)}")
+        result.append(f"search: no page has {' '.join(WORDS)}")
     print(f"first page {size / 1000:.0f} kB")
-    return found
+    return result
 
 
 if __name__ == "__main__":

@@ -104,9 +104,9 @@ def lead_to_sources(app: Sphinx, name: str, source: list[str]) -> None:
     if not name.startswith("theory/"):
         return
 
-    def link(found: re.Match[str]) -> str:
-        path = SOURCES.get(found[1])
-        return found[0] if path is None else f"[{found[0]}](../../{path})"
+    def link(result: re.Match[str]) -> str:
+        path = SOURCES.get(result[1])
+        return result[0] if path is None else f"[{result[0]}](../../{path})"
 
     source[0] = "\n".join(
         re.sub(r"(?<!\[)`([\w/]+\.(?:f90|py))`", link, line) if line.startswith("|") else line

@@ -18,9 +18,9 @@ LIMIT = 41_000
 
 def pages() -> list[Path]:
     """Pages of the book."""
-    found = [ROOT / "README.md", ROOT / "cases" / "README.md", ROOT / "fortran" / "README.md"]
-    found += sorted((ROOT / "docs").rglob("*.md"))
-    return [path for path in found if not path.relative_to(ROOT).as_posix().startswith(WITHOUT)]
+    result = [ROOT / "README.md", ROOT / "cases" / "README.md", ROOT / "fortran" / "README.md"]
+    result += sorted((ROOT / "docs").rglob("*.md"))
+    return [path for path in result if not path.relative_to(ROOT).as_posix().startswith(WITHOUT)]
 
 
 def prose(text: str, *, code_apart: bool = True) -> str:

@@ -189,7 +189,7 @@ def predict(
         place.check()
     settings = case.resolve()
     with named(name):
-        found = predict_resolved(
+        results = predict_resolved(
             settings,
             case.text,
             tracks=tracks,
@@ -198,10 +198,10 @@ def predict(
             second_surface=tiles["second_surface"],
         )
     if place is not None:
-        result.write(found, place)
+        result.write(results, place)
         if plots:
-            result.draw(found, place.folder)
-    return found
+            result.draw(results, place.folder)
+    return results
 
 
 def film(case: Case | str | os.PathLike[str], *options: Option) -> FilmThickness:
@@ -228,8 +228,8 @@ def film(case: Case | str | os.PathLike[str], *options: Option) -> FilmThickness
     Examples
     --------
     >>> import pyehl
-    >>> found = pyehl.film("cases/table1.nml", {"contact.mean_velocity": 0.5})
-    >>> for formula in (f for f in found.formulas if f["applies"]):
+    >>> result = pyehl.film("cases/table1.nml", {"contact.mean_velocity": 0.5})
+    >>> for formula in (f for f in result.formulas if f["applies"]):
     ...     print(f"{formula['name']}: {formula['h_c_m'] * 1e9:.0f} nm")
     Nijenbanning-Venner-Moes: 164 nm
     Hamrock-Dowson: 181 nm

@@ -125,16 +125,16 @@ def _contact(s: Summary) -> list[str]:
         return [f"unresolved inlet: {note}"] if note.startswith(NO_INLET) else _film(s)
     error, supply = s.number("contact_load_share_error"), s.number("mass_defect")
     known = f"an error of {percent(error)} of the load" if math.isfinite(error) else ""
-    found = [
+    result = [
         f"mixed film: {percent(share)} of the load is sustained by the boundary film, with "
         f"{known or 'an error that is not known'}"
     ]
     if _finite_above(supply, MUCH_MASS_DEFECT):
-        found.append(
+        result.append(
             f"the boundary film would have to give {percent(supply)} of the flow, where the model "
             "ends"
         )
-    return found
+    return result
 
 
 def _yielding(s: Summary) -> list[str]:
@@ -194,7 +194,7 @@ def _starvation(s: Summary) -> str:
 
 def _errors(s: Summary) -> list[str]:
     """Errors that are large or not known, and a point outside of what a model was measured on."""
-    found = []
+    result = []
     for name in ("H_c", "H_min", "mu_ratio"):
         value = s.number(name)
         if not math.isfinite(value):
@@ -203,17 +203,17 @@ def _errors(s: Summary) -> list[str]:
         share = s.number(model if s.has(model) else f"{name}_error") / abs(value or math.nan)
         word = "mu_r/mu_s" if name == "mu_ratio" else name
         if not math.isfinite(share):
-            found.append(f"the error of {word} is not known")
+            result.append(f"the error of {word} is not known")
         elif share > WELL_KNOWN:
-            found.append(f"{word} is known to {percent(share)} only")
+            result.append(f"{word} is known to {percent(share)} only")
     note = s.text("pressure_viscosity_note")
     if "estimate" in note:
-        found.append("alpha is an estimate (-17 to +12 % of the film)")
+        result.append("alpha is an estimate (-17 to +12 % of the film)")
     elif note:
-        found.append("alpha is that of another oil")
+        result.append("alpha is that of another oil")
     if s.text("outside_range"):
-        found.append(f"{s.text('outside_range')} outside of the range of the response")
-    return found
+        result.append(f"{s.text('outside_range')} outside of the range of the response")
+    return result
 
 
 def _heat(s: Summary) -> list[str]:
@@ -248,20 +248,20 @@ def _slenderness(s: Summary) -> list[str]:
     if ellipse:
         across = wide * s.number("ellipticity") * s.number("radius_ratio")
         wide = across if across > wide or not math.isfinite(wide) else wide
-    found = []
+    result = []
     if _finite_above(wide, SLENDER_CONTACT):
         strain = "" if ellipse else f" (p_h/E' = {rounded(wide / math.pi, 2)})"
-        found.append(
+        result.append(
             f"the contact radius is {rounded(wide, 2)} of the radius of curvature{strain}, a "
             f"strain of about {percent(MEAN_STRAIN * wide)}, and the half-space is for small "
             "strains"
         )
     if _finite_above(thick, SLENDER_FILM):
-        found.append(
+        result.append(
             f"the film is {rounded(thick, 2)} of the radius, and the Reynolds equation is for "
             "slender gaps"
         )
-    return found
+    return result
 
 
 def _minimum_film(s: Summary) -> str:

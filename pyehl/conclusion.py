@@ -42,13 +42,13 @@ def conclude(values: Mapping[str, Any]) -> Conclusion:
     and how far all that can be relied on.
     """
     s = Summary(values)
-    found = assess(values)
+    result = assess(values)
     parts = (
         _film(s, "c", ""), _film(s, "min", _rough_film(s)), _pressure(s), _film_ratio(s),
         _friction_ratio(s), _friction(s), _heat(s),
     )  # fmt: skip
     lines = {name: text for part in parts for name, text in part.items()}
-    return Conclusion(lines | {"assessment": found.text}, found.text, found.confidence)
+    return Conclusion(lines | {"assessment": result.text}, result.text, result.confidence)
 
 
 RESUMPTION = {

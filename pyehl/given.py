@@ -196,9 +196,9 @@ def real_numbers(values: Any, what: str) -> Any:  # noqa: ANN401
     except (TypeError, ValueError) as error:
         raise InputError(f"{what}: heights: expected a matrix of numbers [m]: {error}") from None
     if array.dtype.kind not in REAL:
-        found = OTHER_KINDS.get(array.dtype.kind, str(array.dtype))
+        result = OTHER_KINDS.get(array.dtype.kind, str(array.dtype))
         raise InputError(
-            f"{what}: heights must be real numbers, not {found} ({array.dtype})\n"
+            f"{what}: heights must be real numbers, not {result} ({array.dtype})\n"
             "expected: a matrix of numbers [m]: expected floats, missing points as nan or masked"
         )
     if np.ma.isMA(array):

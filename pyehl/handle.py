@@ -106,9 +106,9 @@ class SolverHandle:
     ) -> tuple[Any, ...]:
         """Call a function of the library on this solver; what it returns besides its status."""
         with self._lock:
-            *found, status, message = function(self._handle, *arguments)
+            *result, status, message = function(self._handle, *arguments)
         check(status, message)
-        return tuple(found)
+        return tuple(result)
 
     def close(self) -> None:
         """Free the memory; the solver cannot be used afterwards."""
@@ -262,34 +262,34 @@ def _listed(solver: SolverHandle, *, of_plan: bool) -> Results:
     while True:
         names, kinds = np.empty(room, np.int32), np.empty(most, np.int32)
         values = np.empty(most)
-        length, found = solver._call(ehl.results, int(of_plan), names, kinds, values)
-        if length <= room and found <= most:
+        length, result = solver._call(ehl.results, int(of_plan), names, kinds, values)
+        if length <= room and result <= most:
             text = names[:length].astype(np.uint8).tobytes().decode(errors="replace")
-            return _sorted(text.splitlines(), kinds[:found].tolist(), values[:found].tolist())
-        room, most = length, found
+            return _sorted(text.splitlines(), kinds[:result].tolist(), values[:result].tolist())
+        room, most = length, result
 
 
 def _sorted(lines: list[str], kinds: list[int], values: list[float]) -> Results:
     """Sort what the library lists: a name, behind a tab a text; its kind; its value."""
-    found = Results({}, {}, {})
+    result = Results({}, {}, {})
     for line, kind, value in zip(lines, kinds, values, strict=True):
         name, _, text = line.partition("\t")
         match kind:
             case 1:
-                found.values[name] = value if math.isfinite(value) else None
+                result.values[name] = value if math.isfinite(value) else None
             case 2:
-                found.values[name] = int(value)
+                result.values[name] = int(value)
             case 3:
-                found.values[name] = bool(value)
+                result.values[name] = bool(value)
             case 4:
-                found.codes[name] = int(value)
+                result.codes[name] = int(value)
             case 5:
-                found.details[name] = value
+                result.details[name] = value
             case 6:
-                found.values[name] = text
+                result.values[name] = text
             case _:
-                found.details[name] = text
-    return found
+                result.details[name] = text
+    return result
 
 
 def take_prediction(solver: SolverHandle, left_out: float, unresolved: float) -> None:

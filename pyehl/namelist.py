@@ -40,8 +40,8 @@ def given(resolved: str, *, comments: bool = True) -> str:
         name, *lines = block.strip().splitlines() or [""]
         kept = [line for line in lines if not line.endswith(("! default", "! derived"))]
         if not comments:
-            found = (match for line in kept if (match := LINE.fullmatch(line)))
-            kept = [f"   {match[1]} = {match[2]}" for match in found]
+            result = (match for line in kept if (match := LINE.fullmatch(line)))
+            kept = [f"   {match[1]} = {match[2]}" for match in result]
         if kept:
             blocks.append("\n".join([name, *kept]) + END)
     return "".join(blocks)

@@ -67,22 +67,22 @@ class Predictions:
 
     def lines(self) -> list[str]:
         """Lines of the plan: what the grid does not resolve."""
-        found = self._resolution_once()
-        if isinstance(found, str):
-            return [f"predicted   no mu_r/mu_s: {found}"]
-        return found.report() if found else []
+        result = self._resolution_once()
+        if isinstance(result, str):
+            return [f"predicted   no mu_r/mu_s: {result}"]
+        return result.report() if result else []
 
     def transfer(self, solver: SolverHandle) -> None:
         """Pass to a solver what is predicted, if the error of its mu_ratio depends on it."""
         found_so_far = {} if self._passed else results_of(solver).values
         if found_so_far.get("mu_ratio") is None or not found_so_far["variance_unresolved"]:
             return
-        found = self._resolution_once()
-        if isinstance(found, str):
+        result = self._resolution_once()
+        if isinstance(result, str):
             # a status without its message, which the plan has
-            why = found.partition(": ")[0]
+            why = result.partition(": ")[0]
             self.why_none = f"the contribution of the omitted waves is not predicted ({why})"
             take_prediction(solver, math.nan, math.nan)
-        elif found is not None:
-            take_prediction(solver, found.left_out, found.unresolved)
+        elif result is not None:
+            take_prediction(solver, result.left_out, result.unresolved)
         self._passed = True

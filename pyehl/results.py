@@ -124,21 +124,21 @@ def _variable(dims: tuple[str, ...], values: Array, unit: str, meaning: str) -> 
 
 def scalars(summary: Mapping[str, Any]) -> dict[str, xr.Variable]:
     """Numbers of a summary as variables without a dimension; NaN for one that does not exist."""
-    found = {}
+    result = {}
     for name, value in summary.items():
         if name in SCALARS and (value is None or isinstance(value, int | float)):
             number = np.array(np.nan if value is None else value, dtype=np.float64)
             unit = SCALARS[name].unit
             scaled = "" if unit == "-" or unit in SI else f", in {unit}"
             meaning = f"{SCALARS[name].meaning}{scaled}"
-            found[name] = _variable((), number, unit_of(name), meaning)
-    return found
+            result[name] = _variable((), number, unit_of(name), meaning)
+    return result
 
 
 def attributes(summary: Mapping[str, Any]) -> dict[str, Any]:
     """Give what of a summary is no variable: words, truth values, and the time at the end."""
-    found = {k: v for k, v in summary.items() if isinstance(v, str | int | float)}
-    return {k: v for k, v in found.items() if k not in SCALARS}
+    result = {k: v for k, v in summary.items() if isinstance(v, str | int | float)}
+    return {k: v for k, v in result.items() if k not in SCALARS}
 
 
 def _tables(tables: Mapping[str, Mapping[str, Array]]) -> dict[str, xr.Variable]:
@@ -158,19 +158,19 @@ def _solution_dataset(
     """Dataset of a folder of ``ehl`` and ``pyehl run``; `arrays` by the names of their files."""
     settings = namelist.values(case)
     point = scaling_contact(settings) if "mean_velocity" in settings["contact"] else None
-    found: dict[str, xr.Variable] = {}
+    result: dict[str, xr.Variable] = {}
     for field in SOLUTION:
         if field.file not in arrays:
             continue
         values = arrays[field.file]
         if field.si_unit == "K":
-            found[field.name] = _variable(field.dims, values, "K", field.meaning)
+            result[field.name] = _variable(field.dims, values, "K", field.meaning)
             continue
-        found[field.name] = _variable(field.dims, values, "1", f"{field.meaning}, {field.scaled}")
+        result[field.name] = _variable(field.dims, values, "1", f"{field.meaning}, {field.scaled}")
         if point is not None:
             scaled = values * field.scale(point)
-            found[field.si_name] = _variable(field.dims, scaled, field.si_unit, field.meaning)
-    return _dataset(summary, case, found, tables)
+            result[field.si_name] = _variable(field.dims, scaled, field.si_unit, field.meaning)
+    return _dataset(summary, case, result, tables)
 
 
 def prediction_dataset(
@@ -186,12 +186,12 @@ def prediction_dataset(
     second_ before their names, and the columns by name of the tables ``passage``, ``spectrum`` and
     ``bands``.
     """
-    found = {
+    result = {
         name: _variable(_dims(name), arrays[file], unit, meaning)
         for file, (name, unit, meaning) in PREDICTION.items()
         if file in arrays
     }
-    return _dataset(summary, case, found, tables)
+    return _dataset(summary, case, result, tables)
 
 
 def _dims(name: str) -> tuple[str, ...]:
@@ -204,12 +204,12 @@ def _dims(name: str) -> tuple[str, ...]:
 def _dataset(
     summary: Mapping[str, Any],
     case: str,
-    found: Mapping[str, xr.Variable],
+    result: Mapping[str, xr.Variable],
     tables: Mapping[str, Mapping[str, Array]],
 ) -> xr.Dataset:
     """Dataset of arrays, tables and numbers; arrays of one dimension are its coordinates."""
-    coords = {name: values for name, values in found.items() if values.ndim == 1}
-    rest = {name: values for name, values in found.items() if values.ndim > 1}
+    coords = {name: values for name, values in result.items() if values.ndim == 1}
+    rest = {name: values for name, values in result.items() if values.ndim > 1}
     variables = rest | _tables(tables) | scalars(summary)
     return xr.Dataset(variables, coords, attributes(summary) | {"case": case})
 

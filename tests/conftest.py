@@ -88,9 +88,9 @@ def ehl() -> str:
     for place in places:
         if place.is_file():
             return str(place)
-    found = shutil.which("ehl")
-    assert found, f"the program ehl is in none of {places} and not on the PATH: pip install ."
-    return found
+    result = shutil.which("ehl")
+    assert result, f"the program ehl is in none of {places} and not on the PATH: pip install ."
+    return result
 
 
 Driver = Callable[..., subprocess.CompletedProcess[str]]

@@ -52,8 +52,8 @@ def plain(text: str) -> str:
 
 def pages() -> list[Path]:
     """Give all pages with markers."""
-    found = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
-    return [page for page in found if MARKER.search(page.read_text(encoding="utf-8"))]
+    result = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+    return [page for page in result if MARKER.search(page.read_text(encoding="utf-8"))]
 
 
 def main(words: list[str]) -> int:

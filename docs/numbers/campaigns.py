@@ -24,9 +24,9 @@ def machine_ends() -> Values:
         f"{one['number']}, `{one['status']}`)"
         for one in failed
     )
-    found = {"H_c": "h_c", "H_min": "h_min"}
+    result = {"H_c": "h_c", "H_min": "h_min"}
     known = [
-        (row, name) for row in rows for name in found if covered(row, name, "error") is not None
+        (row, name) for row in rows for name in result if covered(row, name, "error") is not None
     ]
     missed = [(row, name) for row, name in known if not covered(row, name, "error")]
     lines: dict[int, str] = {}
@@ -34,7 +34,7 @@ def machine_ends() -> Values:
         wrong = 100.0 * abs(row[f"{name}_fine"] / row[name] - 1.0)
         stated = 100.0 * row[f"{name}_error"] / row[name]
         head = f"{row['kind']} | {row['moes_m']:.0f}, {row['moes_l']:.1f} | {row['points']} "
-        lines[len(lines)] = f"{head}| {found[name]} | {wrong:.1f} % | {stated:.1f} %"
+        lines[len(lines)] = f"{head}| {result[name]} | {wrong:.1f} % | {stated:.1f} %"
     (disc,) = (row for row in make.summary(rows) if row["contacts"] == "ball on disc")
     long = [row for row in rows if (row["seconds"] or 0.0) > 10.0]
     wide = [row for row in rows if row["ellipticity"] > 4.0]

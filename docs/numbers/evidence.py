@@ -174,11 +174,11 @@ def curve() -> Values:
     speeds = of(rows, "contact.mean_velocity")
     moes_m = [OperatingPoint(load=20.0, mean_velocity=u).moes_m for u in speeds]
     names = ("contact_load_share", "contact_load_share_error", "lambda_ratio")
-    found = lift_off(
+    result = lift_off(
         np.array(speeds),
         pd.DataFrame([{n: float(row[n]) for n in names} | {"theta_2": 1.0} for row in rows]),
     )
-    assert found is not None
+    assert result is not None
     assert abs(OperatingPoint(load=20.0, mean_velocity=0.195).moes_m - 100.0) < 1.0
     return locals()
 
@@ -186,7 +186,7 @@ def curve() -> Values:
 def partial() -> Values:
     """The earlier version, and how wide errors are."""
     rows = read("partial/table.csv")
-    share, found = of(rows, "contact_load_share_now"), of(rows, "contact_load_share")
+    share, result = of(rows, "contact_load_share_now"), of(rows, "contact_load_share")
     seen = [row for row in rows if row["name"][0] == "c" and float(row["contact_load_share"])]
     over = of(seen, "contact_load_share_predicted") / of(seen, "contact_load_share")
     high = over[over > 1.2]

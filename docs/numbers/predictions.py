@@ -26,9 +26,9 @@ def measured() -> Values:
 def share_of_contact() -> Values:
     """Load shares of predictions beside those of the solver."""
     rows = read("partial/table.csv")
-    share, found = of(rows, "contact_load_share_now"), of(rows, "contact_load_share")
-    assert np.mean(np.abs(share - found) <= 0.0305) > 0.7
-    assert abs(np.max(share[found > 0.1] / found[found > 0.1]) - 2.0) < 0.05
+    share, result = of(rows, "contact_load_share_now"), of(rows, "contact_load_share")
+    assert np.mean(np.abs(share - result) <= 0.0305) > 0.7
+    assert abs(np.max(share[result > 0.1] / result[result > 0.1]) - 2.0) < 0.05
     return locals()
 
 
@@ -104,9 +104,9 @@ def wide_predictions() -> Values:
     predictions = {row["name"]: row for row in read("ellipse/wide_predicted.csv")}
     runs = [r for r in read("ellipse/wide_simulated.csv") if r["status"] == "converged"]
     rows = [run | predictions[run["name"]] for run in runs]
-    found = of(rows, "mu_ratio")
-    off = 100.0 * (of(rows, "prediction") / found - 1.0)
-    covered = int(sum(abs(of(rows, "prediction") - found) <= of(rows, "model_error")))
+    result = of(rows, "mu_ratio")
+    off = 100.0 * (of(rows, "prediction") / result - 1.0)
+    covered = int(sum(abs(of(rows, "prediction") - result) <= of(rows, "model_error")))
     thins = np.array([row["law"] != "newtonian" for row in rows])
     along = np.array([row["lay"] == "along" for row in rows])
     grid = [100.0 * float(r["mu_ratio_error_grid"] or 0.0) / float(r["mu_ratio"]) for r in rows]
@@ -133,8 +133,8 @@ def compared() -> Values:
     rows = read("prediction/table.csv")
     chose, drawn = ([r for r in rows if r["drawn"] == n] for n in "01")
     committed = {row["name"]: float(row["prediction"]) for row in read("prediction/committed.csv")}
-    found = of(drawn, "mu_ratio")
-    before = 100.0 * (np.array([committed[row["name"]] for row in drawn]) / found - 1.0)
+    result = of(drawn, "mu_ratio")
+    before = 100.0 * (np.array([committed[row["name"]] for row in drawn]) / result - 1.0)
     now = of(drawn, "deviation_percent")
     rms, rms_now = (f"{np.sqrt(np.mean(part**2)):.1f}" for part in (before, now))
     low = [row for row in rows if float(row["mu_ratio"]) <= 1.5]

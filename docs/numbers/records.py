@@ -43,8 +43,8 @@ def largest(values: Iterable[float], digits: int) -> str:
 
 def span(values: Iterable[float], form: str) -> str:
     """Give the least and the largest value."""
-    found = np.array(list(values))
-    return f"{np.nanmin(found):{form}} to {np.nanmax(found):{form}}"
+    result = np.array(list(values))
+    return f"{np.nanmin(result):{form}} to {np.nanmax(result):{form}}"
 
 
 def script(path: str) -> ModuleType:

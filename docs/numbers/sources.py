@@ -14,20 +14,20 @@ ORDINALS = "zeroth first second third fourth fifth sixth seventh eighth ninth te
 def constants(file: str, names: str) -> Values:
     """Numbers of a source by name: one, or a list of those in [...] or merge(...)."""
     text = (ROOT / "fortran" / file).read_text(encoding="utf-8")
-    found = {}
+    result = {}
     for name in names.split():
         value = re.search(rf"\b{name}(?:\(\w+\))? = (\S*\[.*?\]|merge\(.*|[\d.]+)", text)
         assert value, f"{file}: no constant {name}"
         numbers = [float(n) for n in re.findall(r"(?<![\w.])\d+(?:\.\d+)?", value[1])]
-        found[name] = numbers if value[1].endswith(("]", ")")) else numbers[0]
-    return found
+        result[name] = numbers if value[1].endswith(("]", ")")) else numbers[0]
+    return result
 
 
 def coarsening() -> Values:
     """Where grids are coarsened along one side, and until when."""
-    found = constants("multigrid/hierarchy.f90", "long_y max_unknowns")
-    found |= constants("grid/grid.f90", "long_x")
-    return found | constants("case/case_grid.f90", "few_rows")
+    result = constants("multigrid/hierarchy.f90", "long_y max_unknowns")
+    result |= constants("grid/grid.f90", "long_x")
+    return result | constants("case/case_grid.f90", "few_rows")
 
 
 def cells() -> Values:
@@ -38,18 +38,18 @@ def cells() -> Values:
 
 def guard() -> Values:
     """Cycles that fail: when they are rejected, damped, accelerated."""
-    found = constants("multigrid/cycle.f90", "damped_log_change damped_sweep damped_correction")
+    result = constants("multigrid/cycle.f90", "damped_log_change damped_sweep damped_correction")
     lines = [
         "| degree | change of ln ε in a sweep, of full | share of a sweep | share of a coarse "
         "grid's change |",
         "|---|---|---|---|",
     ]
-    for degree, (limit, sweep, correction) in enumerate(zip(*found.values(), strict=True), 1):
+    for degree, (limit, sweep, correction) in enumerate(zip(*result.values(), strict=True), 1):
         change = "1" if limit == 1.0 else f"1/{limit:g}"
         lines.append(f"| {degree} | {change} | {sweep:g} | {correction:g} |")
-    found |= constants("solve/smooth_contact.f90", "max_residual")
+    result |= constants("solve/smooth_contact.f90", "max_residual")
     names = "undamped_after patience stalled stalls_after max_growth"
-    found |= constants("solve/cycle_guard.f90", names)
-    found |= constants("multigrid/anderson.f90", "depth")
-    found |= {name: WORDS[int(found[name])] for name in ("undamped_after", "patience", "depth")}
-    return found | {"lines": "\n".join(lines), "stalls": ORDINALS[int(found["stalls_after"])]}
+    result |= constants("solve/cycle_guard.f90", names)
+    result |= constants("multigrid/anderson.f90", "depth")
+    result |= {name: WORDS[int(result[name])] for name in ("undamped_after", "patience", "depth")}
+    return result | {"lines": "\n".join(lines), "stalls": ORDINALS[int(result["stalls_after"])]}

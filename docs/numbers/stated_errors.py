@@ -90,8 +90,8 @@ def ratio_errors() -> Values:
 
     def good(points: int = 0) -> str:
         part = [row for row in rows if not points or row["points"] == points]
-        found = TABLES.shares(part, "mu_ratio", "mu_ratio_limit", "mu_ratio_error", 2.0)
-        return "{} of {}".format(*found)
+        result = TABLES.shares(part, "mu_ratio", "mu_ratio_limit", "mu_ratio_error", 2.0)
+        return "{} of {}".format(*result)
 
     within, known = TABLES.shares(rows, "mu_ratio", "mu_ratio_limit", "mu_ratio_error", 2.0)
     assert within >= 0.9 * known
@@ -114,16 +114,16 @@ def ellipse_errors() -> Values:
 
     def good(limit: str, stated: str, factor: float, border: str = "") -> str:
         part = [row for row in rows if not border or row["border"] == border]
-        found = [
+        result = [
             TABLES.shares(part, n, f"{n}_{limit}", f"{n}_{stated}", factor)
             for n in ("H_c", "H_min")
         ]
-        assert all(hold >= (0.95 if factor > 1.0 else 0.88) * known for hold, known in found)
-        return " | ".join("{} of {}".format(*pair) for pair in found)
+        assert all(hold >= (0.95 if factor > 1.0 else 0.88) * known for hold, known in result)
+        return " | ".join("{} of {}".format(*pair) for pair in result)
 
     cells = TABLES.numbers_of(show.HERE / "cells.csv")
     quarter, half = (show.over_estimate(cells, ratio) for ratio in (0.25, 0.5))
-    spans = [f"{min(found):.1f} to {max(found):.1f}" for found in half]
+    spans = [f"{min(result):.1f} to {max(result):.1f}" for result in half]
     return locals()
 
 

@@ -53,15 +53,15 @@ def deviations(table: str, names: str, prediction: str) -> Values:
     """Relative deviations of surfaces whose names begin so, and how many errors cover."""
     said = {row["name"]: row for row in read(f"thinning/{prediction}.csv")}
     runs = [row for row in read(f"thinning/{table}.csv") if row["name"][0] in names]
-    found = {}
+    result = {}
     for name, error in ERRORS.items():
         values = of(runs, name)
         if name == "h_min_rough_m":
             values += of(runs, "h_min_extrapolated_m") - of(runs, "h_min_m")
         rows = [said[row["name"]] for row in runs]
         off = of(rows, name) - values
-        found[name] = off / values, np.abs(off) <= of(rows, error)
-    return found
+        result[name] = off / values, np.abs(off) <= of(rows, error)
+    return result
 
 
 def summaries(table: str, names: str, prediction: str) -> Values:

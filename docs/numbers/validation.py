@@ -54,8 +54,8 @@ def film_formulas() -> Values:
         return list(of(filter(here, every), "ratio"))
 
     def span(name: str, quantity: str, bounds: tuple[float, float]) -> str:
-        found = ratios(name, quantity, bounds)
-        return f"{min(found):.3f} | {max(found):.3f}"
+        result = ratios(name, quantity, bounds)
+        return f"{min(result):.3f} | {max(result):.3f}"
 
     heavy, light = (500.0, 1e9), (0.0, 499.0)
     moes = max(abs(100.0 * (r - 1.0)) for r in ratios("Nijenbanning", "H_c", heavy))

@@ -21,8 +21,8 @@ def machines() -> Values:
 def rollers() -> Values:
     """Profiles of a roller, and random rollers."""
     make = script("rollers/make.py")
-    found = {name: "\n".join(getattr(make, name)()) for name in ("table", "random", "by_seed")}
-    return found | {"dry": "\n".join(script("rollers/dry.py").table())}
+    result = {name: "\n".join(getattr(make, name)()) for name in ("table", "random", "by_seed")}
+    return result | {"dry": "\n".join(script("rollers/dry.py").table())}
 
 
 def deflection() -> Values:
@@ -46,8 +46,8 @@ def times() -> Values:
 def shares() -> Values:
     """Load shares on ever finer grids, and rough balls beside dry contact."""
     make = script("contact/make.py")
-    found = {name: "\n".join(make.lines(name)) for name in make.CONTACTS}
-    return found | {"dry": "\n".join(script("contact/dry.py").lines())}
+    result = {name: "\n".join(make.lines(name)) for name in make.CONTACTS}
+    return result | {"dry": "\n".join(script("contact/dry.py").lines())}
 
 
 def inlet() -> Values:

@@ -65,13 +65,13 @@ def fit(theta: Array, friction: Array, curve: Indices) -> Fit:
     columns = np.stack([theta**-2, theta**-4], axis=1)
     best = _solve(columns, friction)
     random = np.random.default_rng(SEED)
-    found = np.empty((SAMPLES, 2))
+    result = np.empty((SAMPLES, 2))
     for k in range(SAMPLES):
         drawn = random.integers(len(members), size=len(members))
         chosen = np.concatenate([members[m] for m in drawn])
-        found[k] = _solve(columns[chosen], friction[chosen])
+        result[k] = _solve(columns[chosen], friction[chosen])
     tail = 0.5 * (1.0 - CONFIDENCE)
-    low, high = np.quantile(found, [tail, 1.0 - tail], axis=0)
+    low, high = np.quantile(result, [tail, 1.0 - tail], axis=0)
     return Fit(
         float(best[0]),
         float(best[1]),

@@ -46,15 +46,15 @@ def run(runs: Runs, level: Level) -> list[Wave]:
         {"grid.points": [c[0] for c in cases], "time.scheme": [c[1] for c in cases]},
         keep=True,
     )
-    found = []
+    result = []
     for k, ((points, scheme), folder) in enumerate(zip(cases, made.kept, strict=True)):
         row = made.solved(k)
         with (folder / "history.csv").open(newline="", encoding="utf-8") as stream:
             history = list(csv.DictReader(stream))
         time, ratio = (np.array([float(r[n]) for r in history]) for n in ("T", "mu_ratio"))
         mean, film = float(row["mu_ratio"]), float(row["H_c"])
-        found.append(Wave(points, scheme, time, ratio, mean, film, row["seconds"], made))
-    return found
+        result.append(Wave(points, scheme, time, ratio, mean, film, row["seconds"], made))
+    return result
 
 
 def _independent(wave: Wave) -> list[Check]:
@@ -68,11 +68,11 @@ def _independent(wave: Wave) -> list[Check]:
         "surface.amplitude": AMPLITUDE,
         "lubricant.roelands_z": 0.6684,
     }
-    found = []
+    result = []
     for row in read_reference("waviness").rows:
         if wanted.items() <= row.keys.items():
             expected = row.expected["mu_ratio"]
-            found.append(
+            result.append(
                 Check(
                     f"mean, {wave.points} x {wave.points} nodes, scheme '{wave.scheme}'",
                     wave.mean,
@@ -82,7 +82,7 @@ def _independent(wave: Wave) -> list[Check]:
                     "an independent program (waviness.csv)",
                 )
             )
-    return found
+    return result
 
 
 def show(data: list[Wave], references: References, level: Level) -> Result:

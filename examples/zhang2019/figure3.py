@@ -22,33 +22,34 @@ def run(runs: Runs, level: Level) -> list[WaveSet]:
     return [waves(runs, level, scheme) for scheme in SCHEMES]
 
 
-def series(found: WaveSet, place: pictures.Array) -> list[pictures.Series]:
+def series(result: WaveSet, place: pictures.Array) -> list[pictures.Series]:
     """Curves of a set over a parameter (n,)."""
-    curves = sorted(set(zip(found.moes_m, found.moes_l, found.wavelength, strict=True)))
+    curves = sorted(set(zip(result.moes_m, result.moes_l, result.wavelength, strict=True)))
     out = []
     for m, ell, lam in curves:
-        here = (found.moes_m == m) & (found.moes_l == ell) & (found.wavelength == lam)
-        here &= found.known
+        here = (result.moes_m == m) & (result.moes_l == ell) & (result.wavelength == lam)
+        here &= result.known
         if not here.any():
             continue
         out.append(
-            pictures.Series(float(m), float(ell), float(lam), place[here], found.friction[here])
+            pictures.Series(float(m), float(ell), float(lam), place[here], result.friction[here])
         )
     return out
 
 
-def without_result(found: WaveSet) -> str:
+def without_result(result: WaveSet) -> str:
     """Tell which waves have no result, and why."""
     lost = [
-        f"({found.moes_m[k]:g}, {found.moes_l[k]:g}, {found.wavelength[k]:g}, "
-        f"{found.ratio[k]:g}) {found.status[k]}"
-        for k in np.flatnonzero(~found.known)
+        f"({result.moes_m[k]:g}, {result.moes_l[k]:g}, {result.wavelength[k]:g}, "
+        f"{result.ratio[k]:g}) {result.status[k]}"
+        for k in np.flatnonzero(~result.known)
     ]
     if not lost:
-        return f"Scheme '{found.scheme}': all {found.friction.size} waves have a result."
+        return f"Scheme '{result.scheme}': all {result.friction.size} waves have a result."
     return (
-        f"Scheme '{found.scheme}': {np.count_nonzero(found.known)} of {found.friction.size} waves "
-        f"have a result; without one, as (M, L, wavelength, H_c/A_i) status: {'; '.join(lost)}."
+        f"Scheme '{result.scheme}': {np.count_nonzero(result.known)} of {result.friction.size} "
+        "waves have a result; without one, as (M, L, wavelength, H_c/A_i) status: "
+        f"{'; '.join(lost)}."
     )
 
 
@@ -56,7 +57,10 @@ def show(data: list[WaveSet], references: References, level: Level) -> Result:
     """Draw the curves; the paper's own are not published as numbers."""
     grid = f"{level.collapse_grid} x {level.collapse_grid} nodes"
     figure = pictures.friction_over_film(
-        [(f"{SCHEME_NAMES[found.scheme]}, {grid}", series(found, found.ratio)) for found in data]
+        [
+            (f"{SCHEME_NAMES[result.scheme]}, {grid}", series(result, result.ratio))
+            for result in data
+        ]
     )
     rows = [
         (f.scheme, f.moes_m[k], f.moes_l[k], f.wavelength[k], f.ratio[k], f.amplitude[k],
@@ -66,17 +70,17 @@ def show(data: list[WaveSet], references: References, level: Level) -> Result:
     ]  # fmt: skip
     falling = [
         bool(np.all(np.diff(s.friction[np.argsort(s.place)]) < 0.0))
-        for found in data
-        for s in series(found, found.ratio)
+        for result in data
+        for s in series(result, result.ratio)
     ]
-    ends = [s.friction[np.argmax(s.place)] for found in data for s in series(found, found.ratio)]
+    ends = [s.friction[np.argmax(s.place)] for result in data for s in series(result, result.ratio)]
     notes = [
         f"The friction falls with H_c/A_i on {sum(falling)} of {len(falling)} curves, as in the "
         f"paper; at the largest H_c/A_i it is {min(ends):.3f} to {max(ends):.3f}. No parameter of "
         "film over roughness alone brings the curves together.",
         "The conditions of the paper's curves are not in its text: these are the middle and "
         "corners of the ranges that it states for Fig. 4.",
-        *(without_result(found) for found in data),
+        *(without_result(result) for result in data),
     ]
     return Result(
         (),
@@ -84,6 +88,6 @@ def show(data: list[WaveSet], references: References, level: Level) -> Result:
         figure,
         "Both schemes; the curves of the paper are not published as numbers.",
         notes,
-        studies=[found.made for found in data],
+        studies=[result.made for result in data],
         unjudged="the paper gives neither the numbers nor the conditions of these curves",
     )

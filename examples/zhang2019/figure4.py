@@ -36,7 +36,7 @@ class Collapsed:
     `fit_one` is that over theta_2 above `ONE_CURVE` alone.
     """
 
-    found: WaveSet
+    waves: WaveSet
     theta_2: Array
     theta_r: Array
     fit_2: Fit
@@ -45,27 +45,27 @@ class Collapsed:
 
     def scatter(self, theta: Array, second: float, fourth: float) -> float:
         """Rms of ln(mu_r/mu_s over a curve) [-]."""
-        known = self.found.known
-        return scatter(self.found.friction[known], evaluate(theta[known], second, fourth))
+        known = self.waves.known
+        return scatter(self.waves.friction[known], evaluate(theta[known], second, fourth))
 
 
 def run(runs: Runs, level: Level) -> list[Collapsed]:
     """Run the waves under both schemes, and fit."""
     out = []
     for scheme in SCHEMES:
-        found = waves(runs, level, scheme)
-        point = found.moes_m, found.moes_l, found.wavelength
-        by_paper = theta_2(*point, found.ratio)
-        by_response = response_parameter(*point, found.amplitude, VELOCITY_RATIO)
+        result = waves(runs, level, scheme)
+        point = result.moes_m, result.moes_l, result.wavelength
+        by_paper = theta_2(*point, result.ratio)
+        by_response = response_parameter(*point, result.amplitude, VELOCITY_RATIO)
         _, curve = np.unique(np.stack(point), axis=1, return_inverse=True)
-        known, curve = found.known, np.asarray(curve).ravel()
+        known, curve = result.known, np.asarray(curve).ravel()
         fits = [
-            fit(theta[known], found.friction[known], curve[known])
+            fit(theta[known], result.friction[known], curve[known])
             for theta in (by_paper, by_response)
         ]
         known = known & (by_paper > ONE_CURVE)
-        fits.append(fit(by_paper[known], found.friction[known], curve[known]))
-        out.append(Collapsed(found, by_paper, by_response, *fits))
+        fits.append(fit(by_paper[known], result.friction[known], curve[known]))
+        out.append(Collapsed(result, by_paper, by_response, *fits))
     return out
 
 
@@ -75,7 +75,7 @@ def show(data: list[Collapsed], references: References, level: Level) -> Result:
     eq_16 = second.value, fourth.value
     panels, checks, notes, rows = [], [], [], []
     for c in data:
-        scheme = c.found.scheme
+        scheme = c.waves.scheme
         s_16 = c.scatter(c.theta_2, *eq_16)
         s_2 = c.scatter(c.theta_2, c.fit_2.second, c.fit_2.fourth)
         s_r = c.scatter(c.theta_r, c.fit_r.second, c.fit_r.fourth)
@@ -99,12 +99,12 @@ def show(data: list[Collapsed], references: References, level: Level) -> Result:
             f"Scheme '{scheme}', theta_r: our fit is {c.fit_r}; the theory for small waves is "
             f"{SMALL_WAVES:g} theta^-2. Rms scatter {100 * s_r:.1f} %, that is "
             f"{s_2 / s_r:.1f} times less than over theta_2.",
-            without_result(c.found),
+            without_result(c.waves),
         ]
         rows += [
-            (scheme, c.found.moes_m[k], c.found.moes_l[k], c.found.wavelength[k],
-             c.found.ratio[k], c.theta_2[k], c.theta_r[k], c.found.friction[k],
-             float(evaluate(c.theta_2[k], *eq_16)), c.found.status[k])
+            (scheme, c.waves.moes_m[k], c.waves.moes_l[k], c.waves.wavelength[k],
+             c.waves.ratio[k], c.theta_2[k], c.theta_r[k], c.waves.friction[k],
+             float(evaluate(c.theta_2[k], *eq_16)), c.waves.status[k])
             for k in range(c.theta_2.size)
         ]  # fmt: skip
     caption = (
@@ -118,7 +118,7 @@ def show(data: list[Collapsed], references: References, level: Level) -> Result:
         caption,
         notes,
         findings=[_below(data[0]), *_damping(data, eq_16, level)],
-        studies=[c.found.made for c in data],
+        studies=[c.waves.made for c in data],
     )
 
 
@@ -129,16 +129,16 @@ def _panel(
     theta: Array,
     curves: list[tuple[str, str, tuple[float, float]]],
 ) -> pictures.Collapse:
-    known = data.found.known
+    known = data.waves.known
     line = np.geomspace(theta[known].min() * 0.9, theta[known].max() * 1.1, 200)
     drawn = [(label, style, line, evaluate(line, *ab)) for label, style, ab in curves]
-    return pictures.Collapse(title, abscissa, series(data.found, theta), drawn)
+    return pictures.Collapse(title, abscissa, series(data.waves, theta), drawn)
 
 
 def _checks(c: Collapsed, eq_16: tuple[float, float]) -> list[Check]:
     """Compare the coefficients of eq. 16 with the confidence intervals of our fits."""
-    found = []
-    judged = c.found.scheme == "paper"
+    result = []
+    judged = c.waves.scheme == "paper"
     for waves_of, ours, finding in (
         (f"theta_2 > {ONE_CURVE:g}", c.fit_one, ""),
         ("all theta_2", c.fit_2, BELOW),
@@ -148,9 +148,9 @@ def _checks(c: Collapsed, eq_16: tuple[float, float]) -> list[Check]:
             ("theta_2^-4", ours.fourth, ours.fourth_interval, eq_16[1]),
         ):
             room = high - value if theirs > value else value - low
-            found.append(
+            result.append(
                 Check(
-                    f"coefficient of {name}, {waves_of}, scheme '{c.found.scheme}'",
+                    f"coefficient of {name}, {waves_of}, scheme '{c.waves.scheme}'",
                     value,
                     theirs,
                     room if judged else None,
@@ -159,16 +159,16 @@ def _checks(c: Collapsed, eq_16: tuple[float, float]) -> list[Check]:
                     finding,
                 )
             )
-    return found
+    return result
 
 
 def _below(c: Collapsed) -> Finding:
     """Show where one curve is enough, under the scheme of the paper."""
-    known = c.found.known
+    known = c.waves.known
     above, below = (known & (c.theta_2 > ONE_CURVE)), (known & (c.theta_2 <= ONE_CURVE))
 
     def rms(chosen: Mask, ours: Fit) -> float:
-        return 100.0 * scatter(c.found.friction[chosen], ours.at(c.theta_2[chosen]))
+        return 100.0 * scatter(c.waves.friction[chosen], ours.at(c.theta_2[chosen]))
 
     text = (
         f"Under the scheme of the paper the {above.sum()} waves with theta_2 above {ONE_CURVE:g} "
@@ -185,7 +185,7 @@ def _damping(data: list[Collapsed], eq_16: tuple[float, float], level: Level) ->
     m, ell, lam, ratio = DAMPED
     ratios = []
     for c in data:
-        f = c.found
+        f = c.waves
         point = (f.moes_m == m) & (f.moes_l == ell) & (f.wavelength == lam) & (f.ratio == ratio)
         ratios += [(float(f.friction[k]), float(c.theta_2[k])) for k in np.flatnonzero(point)]
     if len(ratios) != len(data):

@@ -37,11 +37,11 @@ def response_parameter(
     M, L, wavelength [a] and A_i [a^2/R], (n,) each. EhlError if a smooth contact does not
     converge.
     """
-    found = np.empty(amplitude.shape)
+    result = np.empty(amplitude.shape)
     for m, ell in sorted(set(zip(moes_m.tolist(), moes_l.tolist(), strict=True))):
         here = (moes_m == m) & (moes_l == ell)
-        found[here] = _of_contact(m, ell, wavelength[here], velocity_ratio) / amplitude[here]
-    return found
+        result[here] = _of_contact(m, ell, wavelength[here], velocity_ratio) / amplitude[here]
+    return result
 
 
 def _of_contact(moes_m: float, moes_l: float, wavelength: Array, velocity_ratio: float) -> Array:

@@ -83,16 +83,16 @@ References = Mapping[str, Reference]
 def read_references() -> dict[str, Reference]:
     """Read the numbers of the paper."""
     text = FILE.read_text(encoding="utf-8")
-    found = {}
+    result = {}
     for row in csv.DictReader(x for x in text.splitlines() if not x.startswith("#")):
         try:
             values: dict[str, Any] = dict(row)
             for key in ("value", "reading", "tolerance"):
                 values[key] = float(row[key]) if row[key] or key != "tolerance" else None
-            found[row["name"]] = Reference(**values)
+            result[row["name"]] = Reference(**values)
         except (KeyError, TypeError, ValueError) as error:
             raise InternalError(f"{FILE.name}: a row is not complete: {row} ({error})") from error
-    return found
+    return result
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,7 +100,7 @@ class Check:
     """A number of ours beside one of the paper, or of another program."""
 
     name: str  # what it is, in words
-    found: float  # ours; NaN where there is none
+    value: float  # ours; NaN where there is none
     expected: float  # theirs
     tolerance: float | None  # allowed deviation; None: reported, not judged
     why: str  # what the tolerance is, or why there is none
@@ -109,17 +109,17 @@ class Check:
     finding: str = ""
 
     @classmethod
-    def of(cls, name: str, found: float, reference: Reference, *, finding: str = "") -> Self:
+    def of(cls, name: str, result: float, reference: Reference, *, finding: str = "") -> Self:
         """Compare with a number of the paper."""
         r = reference
         unit = "" if r.unit == "-" else f" [{r.unit}]"
         source = f"p. {r.page}, {r.where} ({r.how})"
-        return cls(f"{name}{unit}", found, r.value, r.tolerance, r.why, source, finding)
+        return cls(f"{name}{unit}", result, r.value, r.tolerance, r.why, source, finding)
 
     @property
     def deviation(self) -> float:
         """Ours less theirs."""
-        return self.found - self.expected
+        return self.value - self.expected
 
     @property
     def judged(self) -> bool:
@@ -149,11 +149,11 @@ class Check:
     def row(self) -> dict[str, str]:
         """Give what a table says of it."""
         share = f" ({100.0 * self.deviation / self.expected:+.2f} %)" if self.expected else ""
-        known = math.isfinite(self.found)
+        known = math.isfinite(self.value)
         allowed = "-" if self.tolerance is None else f"{self.tolerance:.2g}"
         return {
             "number": self.name,
-            "ours": f"{self.found:.6g}" if known else "no result",
+            "ours": f"{self.value:.6g}" if known else "no result",
             "theirs": f"{self.expected:.6g}",
             "where theirs is from": self.source,
             "deviation": f"{self.deviation:+.3g}{share}" if known else "-",

@@ -48,7 +48,7 @@ def show(data: dict[str, float], references: References, level: Level) -> Result
     """Compare with what is printed, and with what follows from it by hand."""
     checks = [Check.of(name, value, references[f"table1.{name}"]) for name, value in data.items()]
     rows = [
-        (name, c.found, c.expected, references[f"table1.{name}"].unit, c.deviation)
+        (name, c.value, c.expected, references[f"table1.{name}"].unit, c.deviation)
         for c, name in zip(checks, data, strict=True)
     ]
     notes = [

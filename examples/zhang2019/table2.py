@@ -103,15 +103,15 @@ def show(data: Meshes, references: References, level: Level) -> Result:
 
 def _findings(data: Meshes, level: Level) -> list[Finding]:
     coarse, fine = level.meshes[-2:]
-    found = {
+    result = {
         (mesh, scheme): data.value(mesh, f"simulation, {scheme}")
         for mesh in (coarse, fine)
         for scheme in SCHEMES
     }
-    if not all(math.isfinite(v) for v in found.values()):
+    if not all(math.isfinite(v) for v in result.values()):
         return []
-    change = {s: abs(found[fine, s] / found[coarse, s] - 1.0) for s in SCHEMES}
-    apart = abs(found[fine, "paper"] / found[fine, "narrow"] - 1.0)
+    change = {s: abs(result[fine, s] / result[coarse, s] - 1.0) for s in SCHEMES}
+    apart = abs(result[fine, "paper"] / result[fine, "narrow"] - 1.0)
     return [
         Finding(
             "The meshes of Table 2 do not show the error of the scheme",

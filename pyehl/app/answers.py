@@ -79,11 +79,11 @@ def film(
     """
     case = position.case(points, smooth=True)
     contact = position.contact
-    of_it = {n: found for n, found in (known or {}).items() if found.contact == contact}
+    of_it = {n: result for n, result in (known or {}).items() if result.contact == contact}
     if points in of_it:
         return of_it[points]
     settings = case.resolve()
-    sheet = next((found.sheet for found in of_it.values()), None) or api.film(case).summary
+    sheet = next((result.sheet for result in of_it.values()), None) or api.film(case).summary
     with Solver(case) as solver:
         while not solver.done:
             if not wanted():
@@ -113,21 +113,21 @@ def follow(position: Position, known: dict[int, Film]) -> Callable[[JobContext],
     """
 
     def job(context: JobContext) -> None:
-        found = film(position, COARSE, context.wanted, known)
-        if found is None:
+        result = film(position, COARSE, context.wanted, known)
+        if result is None:
             return
-        known[COARSE] = found
-        context.answer_with(found)
+        known[COARSE] = result
+        context.answer_with(result)
         if position.rough and context.newest():
             context.answer_with(rough(position))
         if not context.wait(DELAY):
             return
         for points in FINE:
-            found = film(position, points, context.newest, known)
-            if found is None:
+            result = film(position, points, context.newest, known)
+            if result is None:
                 return
-            known[points] = found
-            context.answer_with(found)
+            known[points] = result
+            context.answer_with(result)
 
     return job
 
@@ -149,13 +149,13 @@ def curve(
     points: int = COARSE,
 ) -> Iterator[list[CurvePoint]]:
     """Compute a curve over a control; yields all points so far, until it is not wanted any more."""
-    found: list[CurvePoint] = []
+    result: list[CurvePoint] = []
     for value in values:
         made = _curve_point(position.turned(over, value), value, wanted, points)
         if made is None:
             return
-        found.append(made)
-        yield list(found)
+        result.append(made)
+        yield list(result)
 
 
 def _curve_point(

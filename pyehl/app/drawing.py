@@ -39,22 +39,22 @@ class Map(NamedTuple):
     caption: str
 
 
-def _edge(found: Film) -> Outline:
+def _edge(result: Film) -> Outline:
     """Edge of the dry contact in Hertz radii."""
-    angle = float(found.summary.get("angle_deg") or 0.0)
-    return Outline(found.point.ellipse.ellipticity, angle)
+    angle = float(result.summary.get("angle_deg") or 0.0)
+    return Outline(result.point.ellipse.ellipticity, angle)
 
 
-def film_map(found: Film) -> Map:
+def film_map(result: Film) -> Map:
     """Film of a solution as two-colour fringes and as numbers; rows across the motion."""
-    along, across = _edge(found).reach
-    inside_x, inside_y = np.abs(found.x) <= VIEW * along, np.abs(found.y) <= VIEW * across
-    film = found.film[np.ix_(inside_x, inside_y)] * found.point.film_scale * 1e9
-    x = found.x[inside_x] * found.point.hertz_radius * 1e3
-    y = found.y[inside_y] * found.point.hertz_radius * 1e3
+    along, across = _edge(result).reach
+    inside_x, inside_y = np.abs(result.x) <= VIEW * along, np.abs(result.y) <= VIEW * across
+    film = result.film[np.ix_(inside_x, inside_y)] * result.point.film_scale * 1e9
+    x = result.x[inside_x] * result.point.hertz_radius * 1e3
+    y = result.y[inside_y] * result.point.hertz_radius * 1e3
     middle = int(np.argmin(np.abs(x))), int(np.argmin(np.abs(y)))
     central = float(film[middle])
-    point = found.point
+    point = result.point
     scales = Scales(point.hertz_radius, point.hertz_pressure, point.film_scale, thin=True)
     red, green = fringe_spacings(central, scales)
     factor = math.ceil(PIXELS / max(film.shape))
@@ -86,8 +86,8 @@ def contour_lines(made: Map) -> tuple[Array, Array]:
     generator = contourpy.contour_generator(
         made.x, made.y, made.film, name="serial", line_type="ChunkCombinedNan"
     )
-    found = [generator.lines(float(level))[0][0] for level in levels]
-    lines = [line for line in found if line is not None]
+    result = [generator.lines(float(level))[0][0] for level in levels]
+    lines = [line for line in result if line is not None]
     gap = np.full((1, 2), np.nan)
     whole = np.concatenate([part for line in lines for part in (line, gap)] or [gap])
     return np.ascontiguousarray(whole[:, 0]), np.ascontiguousarray(whole[:, 1])
@@ -99,15 +99,15 @@ def _round(value: float) -> float:
     return next(s * power for s in (1.0, 2.0, 5.0, 10.0) if s * power >= value * (1 - 1e-12))
 
 
-def centre_lines(found: Film) -> dict[str, dict[str, Array]]:
+def centre_lines(result: Film) -> dict[str, dict[str, Array]]:
     """Pressure [GPa], film [nm] and Hertz pressure on the lines through the centre, over mm."""
-    i, j = int(np.argmin(np.abs(found.x))), int(np.argmin(np.abs(found.y)))
-    point = found.point
-    half_x, half_y = _edge(found).chords
+    i, j = int(np.argmin(np.abs(result.x))), int(np.argmin(np.abs(result.y)))
+    point = result.point
+    half_x, half_y = _edge(result).chords
     lines = {}
     for name, axis, half, pressure, film in (
-        ("x", found.x, half_x, found.pressure[:, j], found.film[:, j]),
-        ("y", found.y, half_y, found.pressure[i, :], found.film[i, :]),
+        ("x", result.x, half_x, result.pressure[:, j], result.film[:, j]),
+        ("y", result.y, half_y, result.pressure[i, :], result.film[i, :]),
     ):
         dry = np.sqrt(np.maximum(0.0, 1.0 - (axis / half) ** 2))
         lines[name] = {
@@ -119,11 +119,11 @@ def centre_lines(found: Film) -> dict[str, dict[str, Array]]:
     return lines
 
 
-def outline(found: Film) -> tuple[Array, Array]:
+def outline(result: Film) -> tuple[Array, Array]:
     """Edge of the dry contact [mm]."""
     angle = np.linspace(0.0, 2.0 * np.pi, 181)
-    a, b = found.point.hertz_radius * 1e3, found.point.semi_axis_y * 1e3
-    turn = math.radians(_edge(found).angle)
+    a, b = result.point.hertz_radius * 1e3, result.point.semi_axis_y * 1e3
+    turn = math.radians(_edge(result).angle)
     along, across = a * np.cos(angle), b * np.sin(angle)
     c, s = math.cos(turn), math.sin(turn)
     return c * along - s * across, s * along + c * across

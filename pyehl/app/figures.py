@@ -92,8 +92,8 @@ class Pictures:
         """All figures by name."""
         names = ("fringes", "contour", "along", "across", "before", "after", "bands", "over")
         film, ratio = self.curves
-        found = {n: getattr(self, n) for n in names} | self.hints
-        return {**found, "curve_film": film, "curve_ratio": ratio}
+        result = {n: getattr(self, n) for n in names} | self.hints
+        return {**result, "curve_film": film, "curve_ratio": ratio}
 
     def _rough(self) -> tuple[Any, ...]:
         """Give the pictures of a prediction."""
@@ -144,14 +144,14 @@ class Pictures:
 
     def _tile_maps(self) -> tuple[Any, Any]:
         """Roughness before and in the contact, on one scale."""
-        found: list[Any] = []
+        result: list[Any] = []
         for name, title in (("before", "surface [nm]"), ("after", "in the contact [nm]")):
-            made = _map(title, width=SIDE + (60 if found else 0))
+            made = _map(title, width=SIDE + (60 if result else 0))
             place = {"x": "x", "y": "y", "dw": "dw", "dh": "dh"}
             made.image(name, source=self.tiles, color_mapper=self.heights, **place)
-            found.append(made)
-        found[1].add_layout(ColorBar(color_mapper=self.heights, width=10), "right")
-        return found[0], found[1]
+            result.append(made)
+        result[1].add_layout(ColorBar(color_mapper=self.heights, width=10), "right")
+        return result[0], result[1]
 
     def _friction(self) -> tuple[Any, Any]:
         """Draw what octaves add, and the ratio over the passage."""
@@ -180,14 +180,14 @@ class Pictures:
         made.add_tools(HoverTool(tooltips=[("value", "@value"), ("status", "@status")]))
         return made
 
-    def show_film(self, found: Film) -> None:
+    def show_film(self, result: Film) -> None:
         """Show a solution; nothing where there is none."""
-        if not found.converged:
+        if not result.converged:
             self._empty(self.film, self.contours, self.edge, *self.lines.values())
             self.changes.send()
             return
         change = self.changes.of
-        made = drawing.film_map(found)
+        made = drawing.film_map(result)
         lowest = float(made.film.min())
         change(self.levels, low=lowest, high=drawing.HIGHEST * made.central)
         film = {"colours": [made.colours], "film": [made.film.astype(np.float32)]}
@@ -195,13 +195,13 @@ class Pictures:
         change(self.film, data={**film, **box})
         for source, (x, y) in (
             (self.contours, drawing.contour_lines(made)),
-            (self.edge, drawing.outline(found)),
+            (self.edge, drawing.outline(result)),
         ):
             change(source, data={"x": x, "y": y})
-        highest = found.point.hertz_pressure * 1e-9
+        highest = result.point.hertz_pressure * 1e-9
         change(self.fringes.title, text=made.caption)
         self._fit(self.fringes, made)
-        for name, line in drawing.centre_lines(found).items():
+        for name, line in drawing.centre_lines(result).items():
             change(self.lines[name], data=line)
             picture = self.along if name == "x" else self.across
             change(picture.extra_y_ranges["film"], end=5.0 * made.central)
@@ -210,9 +210,9 @@ class Pictures:
             change(picture.y_range, end=1.08 * max(float(line["pressure"].max()), highest))
         self.changes.send()
 
-    def show_rough(self, found: Rough) -> None:
+    def show_rough(self, result: Rough) -> None:
         """Show a prediction; nothing where there is none."""
-        made = found.prediction
+        made = result.prediction
         self._reveal("rough_hint", self._rough(), known=made is not None)
         if made is None:
             self._empty(self.tiles, self.octaves, self.passage)
@@ -249,10 +249,10 @@ class Pictures:
         for picture, name in zip(self.curves, ("film", "ratio"), strict=True):
             change(picture.xaxis[0], axis_label=over)
             change(picture.title, text=about)
-            found = _columns(points, name)
-            change(self.curve[name], data=found)
+            result = _columns(points, name)
+            change(self.curve[name], data=result)
             change(picture.x_range, start=0.0, end=1.05 * float(max(places)))
-            known = np.nan_to_num(np.concatenate([found["low"], found["high"], found["value"]]))
+            known = np.nan_to_num(np.concatenate([result["low"], result["high"], result["value"]]))
             self._around(picture, [0.0, *known])
         self.changes.send()
 

@@ -108,7 +108,7 @@ class Position:
     def options(self, points: int) -> dict[str, Value]:
         """Give the keys of the case that the controls stand for."""
         v = self.values
-        found: dict[str, Value] = {
+        result: dict[str, Value] = {
             "contact.load": self._si("load"),
             "contact.mean_velocity": self._si("velocity"),
             "contact.slide_to_roll": float(v["slide_to_roll"]),
@@ -117,20 +117,20 @@ class Position:
             **self._oil(),
         }
         if v["radius_x"] == v["radius_y"]:
-            found["contact.radius"] = self._si("radius_x")
+            result["contact.radius"] = self._si("radius_x")
         else:
-            found["contact.radius_x"] = self._si("radius_x")
-            found["contact.radius_y"] = self._si("radius_y")
+            result["contact.radius_x"] = self._si("radius_x")
+            result["contact.radius_y"] = self._si("radius_y")
         if v["shear_law"] != "newtonian":
-            found["lubricant.shear_law"] = v["shear_law"]
+            result["lubricant.shear_law"] = v["shear_law"]
         if v["shear_law"] == "eyring":
-            found["lubricant.eyring_stress"] = self._si("eyring_stress")
+            result["lubricant.eyring_stress"] = self._si("eyring_stress")
         if v["shear_law"] == "carreau":
-            found["lubricant.carreau_stress"] = self._si("carreau_stress")
-            found["lubricant.carreau_exponent"] = float(v["carreau_exponent"])
+            result["lubricant.carreau_stress"] = self._si("carreau_stress")
+            result["lubricant.carreau_exponent"] = float(v["carreau_exponent"])
         if v["surface"] != "smooth":
-            found |= self._surface()
-        return found
+            result |= self._surface()
+        return result
 
     def _oil(self) -> dict[str, Value]:
         v = self.values
@@ -158,11 +158,11 @@ class Position:
             }
         if not self.file:
             raise InputError("there is no height map yet: expected an upload")
-        found: dict[str, Value] = {"surface.kind": "map", "surface.file": self.file}
+        result: dict[str, Value] = {"surface.kind": "map", "surface.file": self.file}
         for control, key in (("map_x", "length_x"), ("map_y", "length_y")):
             if float(v[control]) != 0.0:
-                found[f"surface.{key}"] = self._si(control)
-        return found
+                result[f"surface.{key}"] = self._si(control)
+        return result
 
     def case(self, points: int, *, smooth: bool = False) -> Case:
         """Give the case on a grid, or that of its smooth contact; InputError if it is none."""
@@ -188,8 +188,8 @@ class Position:
         """Give the keys of the case for its height map, as `Uploads.check` takes it."""
         kept = namelist.values(self.base).get("surface", {})
         keys = ("channel", "height_unit", "lateral_unit")
-        found = {key: kept[key] for key in keys if key in kept}
-        return found | {f"length_{x}": self._si(f"map_{x}") for x in "xy"}
+        result = {key: kept[key] for key in keys if key in kept}
+        return result | {f"length_{x}": self._si(f"map_{x}") for x in "xy"}
 
     @property
     def rough(self) -> bool:
@@ -271,20 +271,20 @@ def from_case(case: Case, files: Mapping[str, str] | None = None) -> tuple[Posit
 
 def _oil(lubricant: Mapping[str, Any]) -> dict[str, Value]:
     """Give the controls of the oil that are not always there."""
-    found: dict[str, Value] = {"eyring_stress": _tidy(float(lubricant["eyring_stress"]) * 1e-6)}
+    result: dict[str, Value] = {"eyring_stress": _tidy(float(lubricant["eyring_stress"]) * 1e-6)}
     if lubricant["shear_law"] == "carreau":
-        found["carreau_stress"] = _tidy(float(lubricant["carreau_stress"]) * 1e-6)
-        found["carreau_exponent"] = float(lubricant["carreau_exponent"])
+        result["carreau_stress"] = _tidy(float(lubricant["carreau_stress"]) * 1e-6)
+        result["carreau_exponent"] = float(lubricant["carreau_exponent"])
     if lubricant.get("name"):
-        found["oil"] = "of an oil by name"
-        found["oil_name"] = str(lubricant["name"])
-        found["temperature"] = float(lubricant["temperature"])
+        result["oil"] = "of an oil by name"
+        result["oil_name"] = str(lubricant["name"])
+        result["temperature"] = float(lubricant["temperature"])
     elif lubricant.get("kinematic_viscosity_40"):
-        found["oil"] = "of the data sheet"
-        found["kinematic_40"] = float(lubricant["kinematic_viscosity_40"])
-        found["kinematic_100"] = float(lubricant["kinematic_viscosity_100"])
-        found["temperature"] = float(lubricant["temperature"])
-    return found
+        result["oil"] = "of the data sheet"
+        result["kinematic_40"] = float(lubricant["kinematic_viscosity_40"])
+        result["kinematic_100"] = float(lubricant["kinematic_viscosity_100"])
+        result["temperature"] = float(lubricant["temperature"])
+    return result
 
 
 def _tidy(value: float) -> float:

@@ -58,15 +58,15 @@ def make_server(
     logging.getLogger("tornado").setLevel(logging.ERROR)
     try:
         # pages of its own origin alone: the port has to be known before it is asked for
-        sockets, found = bind_sockets(ADDRESS, port)
+        sockets, result = bind_sockets(ADDRESS, port)
         for socket in sockets:
             socket.close()
         server = Server(
             {"/": Application(FunctionHandler(page))},
             address=ADDRESS,
-            port=found,
+            port=result,
             # Bokeh also takes the origin that the request names as its Host: that is checked first
-            allow_websocket_origin=[f"{host}:{found}" for host in HOSTS],
+            allow_websocket_origin=[f"{host}:{result}" for host in HOSTS],
             check_unused_sessions_milliseconds=LOOK,
             unused_session_lifetime_milliseconds=UNUSED,
             websocket_max_message_size=2 * MAX_BYTES,

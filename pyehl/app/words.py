@@ -17,22 +17,22 @@ NM = 1e9
 TOUCHING, THICK = 1.0, 3.0
 
 
-def status_line(found: Film) -> str:
+def status_line(result: Film) -> str:
     """Say what the numbers are of."""
-    grid = _grid(found)
-    if not found.converged:
-        return f"No solution on {grid} nodes: the status is '{found.summary['status']}'."
+    grid = _grid(result)
+    if not result.converged:
+        return f"No solution on {grid} nodes: the status is '{result.summary['status']}'."
     return f"Converged on {grid} nodes."
 
 
-def _grid(found: Film) -> str:
-    s = found.summary
+def _grid(result: Film) -> str:
+    s = result.summary
     return f"{s['points']} × {s.get('points_y', s['points'])}"
 
 
-def film_rows(found: Film) -> list[tuple[str, str]]:
+def film_rows(result: Film) -> list[tuple[str, str]]:
     """Give names and values of the smooth contact."""
-    point, s = found.point, found.summary
+    point, s = result.point, result.summary
     rows = [
         ("Moes load M", f"{point.moes_m:.4g}"),
         ("Moes material L", f"{point.moes_l:.4g}"),
@@ -49,8 +49,8 @@ def film_rows(found: Film) -> list[tuple[str, str]]:
             rows.append(("semi-axes, along × across", both))
     rows.append(("regime", regime(point.moes_m, point.moes_l, point.ellipse)))
     for small, big in (("h_c", "H_c"), ("h_min", "H_min")):
-        rows.append((small, _film(s, small, big, point.film_scale, converged=found.converged)))
-    for formula in found.sheet["formulas"]:
+        rows.append((small, _film(s, small, big, point.film_scale, converged=result.converged)))
+    for formula in result.sheet["formulas"]:
         if not formula["applies"]:
             continue
         h_min = formula["h_min_m"]
@@ -59,10 +59,10 @@ def film_rows(found: Film) -> list[tuple[str, str]]:
         rows.append(
             (formula["name"], text + (" (outside its range)" if formula["outside"] else ""))
         )
-    if found.converged:
+    if result.converged:
         rows.append(("maximum pressure", f"{s['p_max_Pa'] * 1e-9:.4g} GPa"))
         if s.get("mu_smooth") is not None:
-            mu = f"{s['mu_smooth']:.4f} on {_grid(found)} nodes"
+            mu = f"{s['mu_smooth']:.4f} on {_grid(result)} nodes"
             rows.append(("friction μ_s, smooth", mu))
     return rows
 
@@ -76,11 +76,11 @@ def _film(s: Mapping[str, float], small: str, big: str, scale: float, *, converg
     return f"{with_error(s[f'{small}_m'] * NM, error * scale * NM, 'nm')} (grid)"
 
 
-def rough_rows(found: Rough, film: Film | None = None) -> list[tuple[str, str]]:
+def rough_rows(result: Rough, film: Film | None = None) -> list[tuple[str, str]]:
     """Give names and values of the rough contact; `film` is the smooth contact that is shown."""
-    p = found.prediction
+    p = result.prediction
     if p is None:
-        return [("no prediction", found.why)]
+        return [("no prediction", result.why)]
     s = p.summary
     rows = []
     if p.friction.status == "predicted" and not math.isfinite(p.mu_ratio):

@@ -112,7 +112,7 @@ def check_operating_point(draft: Draft) -> None:
 
 def _most_unusual(draft: Draft) -> str:
     """Of the given keys that make the operating point give the one with the least usual value."""
-    found, most = "lubricant.viscosity", -1.0
+    result, most = "lubricant.viscosity", -1.0
     for name, common in COMMON.items():
         key = KEYS[name]
         value: Any = draft.settings.value(key)
@@ -122,8 +122,8 @@ def _most_unusual(draft: Draft) -> str:
         usual: Any = Contact().radius if key.key.startswith("radius") else key.default_value
         unusual = abs(math.log10(abs(value) / usual)) / common if value else math.inf
         if unusual > most:
-            found, most = name, unusual
-    return found
+            result, most = name, unusual
+    return result
 
 
 def complete_kinematics(draft: Draft) -> None:

@@ -80,7 +80,7 @@ def _viscosities(draft: Draft, table: Table) -> tuple[float, ...]:
     if not (oil.own_law or all(sheet)):
         expected = "an oil by name, table or data sheet, or a column 'viscosity [Pa s]'"
         draft.refuse("duty.file", "a column 'temperature' of an oil at one viscosity", expected)
-    found = []
+    result = []
     for at in table["temperature"]:
         if oil.own_law:
             text = group_text(
@@ -92,8 +92,8 @@ def _viscosities(draft: Draft, table: Table) -> tuple[float, ...]:
         if not math.isfinite(viscosity):
             expected = "temperatures at which the oil is liquid"
             draft.refuse("duty.file", f"no viscosity of the oil at {to_text(at)} degC", expected)
-        found.append(viscosity)
-    return tuple(found)
+        result.append(viscosity)
+    return tuple(result)
 
 
 def check(draft: Draft) -> None:

@@ -24,7 +24,7 @@ def complete(draft: Draft) -> None:
     # with a duty a border that changes with time is not known
     if draft.settings.duty.time or max(inlet.position_hertz, inlet.film_hertz) > 0.0:
         border = border or "zero"
-    found = physics.grid_defaults(
+    result = physics.grid_defaults(
         draft.settings,
         border,
         ends,
@@ -33,7 +33,7 @@ def complete(draft: Draft) -> None:
         duty.widening(draft.settings),
         duty.reverses(draft.settings),
     )
-    g.border, g.x_inlet, g.x_outlet, g.y_extent, g.points, g.points_y = found
+    g.border, g.x_inlet, g.x_outlet, g.y_extent, g.points, g.points_y = result
 
 
 def check_extent(draft: Draft) -> None:

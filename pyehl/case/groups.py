@@ -141,8 +141,8 @@ class Contact:
         """Profile of a body, 1 or 2: kind, its numbers, places and drops of its table [m]."""
         end = "_2" if body == 2 else ""
         names = ("profile", "crown_radius", "log_amplitude", "chamfer_length", "chamfer_drop")
-        found = (getattr(self, f"{name}{end}") for name in (*names, "profile_y", "profile_drop"))
-        return Profile(*found)
+        result = (getattr(self, f"{name}{end}") for name in (*names, "profile_y", "profile_drop"))
+        return Profile(*result)
 
     @property
     def is_cylinder(self) -> bool:

@@ -152,18 +152,18 @@ def read_machine(
     else:
         name = path_of(path, "case")
         draft = read(read_text(name, "the name of a case file"), name, texts)
-    found = [k for k in MACHINES if any(n.partition(".")[0] == k for n in draft.given)]
+    result = [k for k in MACHINES if any(n.partition(".")[0] == k for n in draft.given)]
     wanted = " or ".join(f"&{kind}" for kind in kinds)
-    if not found:
+    if not result:
         raise InputError(
             f"{draft.sources[0].name}: error: there is no {wanted}\nexpected: {wanted}"
         )
-    first = [draft.first_given(key.name for key in GROUPS[kind]) for kind in found]
-    if len(found) > 1:
+    first = [draft.first_given(key.name for key in GROUPS[kind]) for kind in result]
+    if len(result) > 1:
         draft.contradict(first[1], first[0], "one machine in a file")
-    if found[0] not in kinds:
-        command = "gear" if found[0] == "spur_gear" else "bearing"
-        draft.refuse(first[0], f"&{found[0]} is no {wanted}", f"'pyehl {command}' takes it")
+    if result[0] not in kinds:
+        command = "gear" if result[0] == "spur_gear" else "bearing"
+        draft.refuse(first[0], f"&{result[0]} is no {wanted}", f"'pyehl {command}' takes it")
     if rival := draft.first_given(FOLLOWS):
-        draft.contradict(rival, first[0], f"one of them: {rival} follows from &{found[0]}")
-    return Machine(found[0], getattr(draft.settings, found[0]), draft)
+        draft.contradict(rival, first[0], f"one of them: {rival} follows from &{result[0]}")
+    return Machine(result[0], getattr(draft.settings, result[0]), draft)

@@ -108,11 +108,11 @@ def _grid(
 ) -> Domain:
     given = [math.nan if end is None else end for end in ends]
     number = BORDERS.index(border)
-    found, domain, nx, ny = cases.grid_defaults(
+    result, domain, nx, ny = cases.grid_defaults(
         *values, number, *kind, given, points, points_y, *moving
     )
     x_inlet, x_outlet, y_extent = domain.tolist()
-    return Domain(BORDERS[found], x_inlet, x_outlet, y_extent, nx, ny)
+    return Domain(BORDERS[result], x_inlet, x_outlet, y_extent, nx, ny)
 
 
 def sheet(

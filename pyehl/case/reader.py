@@ -84,8 +84,8 @@ class _Groups:
             self.group, self.opening = self._opened(opening, seen), opening
             key: Key | None = None
             while True:
-                while (found := self._written_line()) is not None:
-                    key = found
+                while (result := self._written_line()) is not None:
+                    key = result
                 name = self._next()
                 if name.kind == COMMA and key:
                     name = self._next()
@@ -123,10 +123,10 @@ class _Groups:
         if text[start : start + 1] == "\n":
             start += 1
         end = text.find("\n", start)
-        found = _written(self.group, text[start:end])
-        if found is None or found[0].name in self.draft.given:
+        result = _written(self.group, text[start:end])
+        if result is None or result[0].name in self.draft.given:
             return None
-        key, value, (first, name_end, value_first, value_end), is_marked = found
+        key, value, (first, name_end, value_first, value_end), is_marked = result
         place = Place(0, start + first, start + name_end, start + value_first, start + value_end)
         self.draft.given[key.name] = place
         self.draft.settings.set(key, value)

@@ -37,8 +37,8 @@ class Settings:
 
     def value(self, key: Key) -> Value:
         """Give the value of a key."""
-        found: Value = getattr(getattr(self, key.group), key.key)
-        return found
+        result: Value = getattr(getattr(self, key.group), key.key)
+        return result
 
     def set(self, key: Key, value: Value) -> None:
         """Give a key a value."""

@@ -25,10 +25,10 @@ def set_value(draft: Draft, key: Key, number: int, name: tuple[int, int], value:
         source.refuse(value.first, value.end, what, key.expected)
     draft.given[key.name] = Place(number, *name, value.first, value.end)
     try:
-        found = value_of(key, value, is_option=number > 0)
+        result = value_of(key, value, is_option=number > 0)
     except BadValue as bad:
         _refuse_value(source, key, value, bad)
-    setattr(getattr(draft.settings, key.group), key.key, found)
+    setattr(getattr(draft.settings, key.group), key.key, result)
 
 
 def _refuse_value(source: Source, key: Key, value: Piece, bad: BadValue) -> NoReturn:

@@ -40,9 +40,9 @@ def execute(args: argparse.Namespace) -> int:
         print("\n".join(lines(compared(read_results(args.results), read_rig(args.measured)))))
         return EXIT_OK
     table, results = read_reference(args.reference), read_results(args.results)
-    found = compare(results, table)
+    result = compare(results, table)
     line = 0
-    for deviation in found.deviations:
+    for deviation in result.deviations:
         if args.quiet and deviation.passed:
             continue
         if deviation.line != line:
@@ -50,18 +50,18 @@ def execute(args: argparse.Namespace) -> int:
             print(f"{table.name}:{line}: {deviation.case or 'all results'}")
         print(f"   {deviation}")
     if not args.quiet:
-        passed = sum(deviation.passed for deviation in found.deviations)
-        rows = len(table.rows) - len(found.missing)
+        passed = sum(deviation.passed for deviation in result.deviations)
+        rows = len(table.rows) - len(result.missing)
         print(
-            f"{passed} of {len(found.deviations)} values pass; {rows} of {len(table.rows)} rows "
+            f"{passed} of {len(result.deviations)} values pass; {rows} of {len(table.rows)} rows "
             "of the table have results"
         )
-    incomplete = results.many and found.missing and not args.partial
+    incomplete = results.many and result.missing and not args.partial
     if incomplete:
-        first = found.missing[0]
+        first = result.missing[0]
         keys = ", ".join(f"{key}={value}" for key, value in first.keys.items())
         print(
-            f"FAIL: {len(found.missing)} rows of the table have no result, the first in line "
+            f"FAIL: {len(result.missing)} rows of the table have no result, the first in line "
             f"{first.line} ({keys}); --partial allows that"
         )
-    return EXIT_OK if found.passed and not incomplete else EXIT_FAILED
+    return EXIT_OK if result.passed and not incomplete else EXIT_FAILED

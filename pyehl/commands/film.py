@@ -14,6 +14,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def execute(args: argparse.Namespace) -> int:
-    found = film(args.case, args.overrides)
-    print(json.dumps(found.summary, indent=2) if args.json else found)
+    result = film(args.case, args.overrides)
+    print(json.dumps(result.summary, indent=2) if args.json else result)
     return 0

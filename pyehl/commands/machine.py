@@ -46,7 +46,7 @@ def execute_machine(args: argparse.Namespace, command: str, kinds: tuple[str, ..
 
     quiet = args.quiet or args.json
     with closing(Terminal(plan, quiet=quiet)) as watcher:
-        found, outcome = perform(
+        result, outcome = perform(
             todo,
             args.output,
             command,
@@ -61,9 +61,9 @@ def execute_machine(args: argparse.Namespace, command: str, kinds: tuple[str, ..
     if outcome.interrupted:
         return EXIT_INTERRUPTED
     if args.json:
-        print(json.dumps({name: finite(value) for name, value in found.summary.items()}, indent=2))
+        print(json.dumps({name: finite(value) for name, value in result.summary.items()}, indent=2))
     elif not args.quiet:
-        print(found)
+        print(result)
         if args.output is not None:
             print(f"results    {Path(args.output) / CSV}")
-    return EXIT_OK if found.complete else EXIT_FAILED
+    return EXIT_OK if result.complete else EXIT_FAILED

@@ -168,7 +168,7 @@ def draw(
 def _conditions(plan: CurvePlan) -> str:
     """Give what is not varied of load, speed, slip and viscosity."""
     settings = plan.points[0].settings
-    found = [
+    result = [
         f"{sign} = {settings[group][key]:.4g}{unit}"
         for sign, group, key, unit in (
             ("w", "contact", "load", " N"),
@@ -178,7 +178,7 @@ def _conditions(plan: CurvePlan) -> str:
         )
         if f"{group}.{key}" not in plan.study.keys
     ]
-    return ", ".join(found)
+    return ", ".join(result)
 
 
 def execute(args: argparse.Namespace) -> int:
@@ -220,8 +220,8 @@ def _curve(args: argparse.Namespace, plan: CurvePlan, jobs: int, measured: Measu
     if not args.quiet:
         print(report(plan, table))
         if args.measured is not None and is_rig(args.measured):
-            found = compared(read_results(str(folder)), read_rig(args.measured))
-            print("\n".join(lines(found)))
+            result = compared(read_results(str(folder)), read_rig(args.measured))
+            print("\n".join(lines(result)))
         elif measured is not None:
             print("\n".join(deviation(curves_of(plan, table)[0], measured)))
         print(last_lines(plan, table))

@@ -117,8 +117,8 @@ def execute(args: argparse.Namespace) -> int:
 def print_spectrum(surface: Mapping[str, Any]) -> None:
     """Print the parameters that the profile of the group ``surface`` gives."""
     ridges = surface["profile"] == "ridges"
-    found = fit(profile_of(surface), str(surface["detrend"]), ridges=ridges)
-    print("\n".join(found.report()))
+    result = fit(profile_of(surface), str(surface["detrend"]), ridges=ridges)
+    print("\n".join(result.report()))
 
 
 def _lines(surface: Topography) -> list[str]:

@@ -35,8 +35,8 @@ class FilmThickness:
     @property
     def formulas(self) -> list[dict[str, Any]]:
         """One dict for each formula, with h_c_m and h_min_m [m]."""
-        found: list[dict[str, Any]] = self.summary["formulas"]
-        return found
+        result: list[dict[str, Any]] = self.summary["formulas"]
+        return result
 
     def __repr__(self) -> str:
         """Give all of it as a page of text."""
@@ -55,27 +55,27 @@ class FilmThickness:
 
 def left_out(settings: Settings, lubricant: Lubricant) -> list[str]:
     """Say which keys of a resolved case the formulas do not know though the film hangs on them."""
-    found = []
+    result = []
     grid, boundary = (
         settings.get("grid", {}),
         float(settings["lubricant"].get("boundary_film", 0.0)),
     )
     position, layer = _inlet(settings)
     if position > 0.0 and settings["contact"].get("shape") == "line":
-        found.append("inlet.position: there is no formula of a starved line")
+        result.append("inlet.position: there is no formula of a starved line")
     meant = max(position, layer) > 0.0
     if grid.get("border") == "zero" and float(grid["x_inlet"]) > FLOODED and not meant:
-        found.append(
+        result.append(
             f"grid.x_inlet = {float(grid['x_inlet']):g}: the formulas are of flooded inlets"
         )
     if lubricant.shear.in_flow:
         law = lubricant.shear.law
-        found.append(f"lubricant.shear_law = '{law}': the formulas are of a Newtonian flow")
+        result.append(f"lubricant.shear_law = '{law}': the formulas are of a Newtonian flow")
     if settings.get("duty"):
-        found.append("&duty: the formulas are of the case, which is steady")
+        result.append("&duty: the formulas are of the case, which is steady")
     if boundary > 0.0:
-        found.append(f"lubricant.boundary_film = {boundary:g}: the formulas are of a full film")
-    return found
+        result.append(f"lubricant.boundary_film = {boundary:g}: the formulas are of a full film")
+    return result
 
 
 def _inlet(settings: Settings) -> tuple[float, float]:
@@ -93,7 +93,7 @@ def sheet(settings: Settings) -> dict[str, Any]:
     """
     operating, lubricant = contact_of(settings), Lubricant.from_settings(settings)
     line = "_line" if isinstance(operating, LineContact) else ""
-    films, found = _films(settings, operating, lubricant), _rough_groups(settings)
+    films, results = _films(settings, operating, lubricant), _rough_groups(settings)
     size: dict[str, Any] = {"load_N": operating.load}
     groups = {}
     if isinstance(operating, LineContact):
@@ -134,7 +134,7 @@ def sheet(settings: Settings) -> dict[str, Any]:
         result["ellipticity"] = operating.ellipse.ellipticity
         result["semi_axis_y_m"] = operating.semi_axis_y
         result["angle_deg"] = float(settings["contact"]["angle"])
-    kinds = [str(surface["kind"]) for surface in found]
+    kinds = [str(surface["kind"]) for surface in results]
     result["surface"] = " and ".join(kinds) or "smooth"
     return result | _of_surfaces(settings, operating, lubricant, films) if films else result
 
@@ -178,7 +178,7 @@ def _of_surfaces(
     films: Sequence[film.FilmEstimate],
 ) -> dict[str, Any]:
     """Rms height and film ratio of rough surfaces, and theta_2 of a waviness under a point."""
-    found: dict[str, Any] = {}
+    result: dict[str, Any] = {}
     both = _rough_groups(settings)
     kinds = {str(surface["kind"]) for surface in both}
     h_c = formula_film(operating, lubricant)
@@ -190,9 +190,9 @@ def _of_surfaces(
             for surface in both
         ]
         together = sum_of(both, tiles, operating.hertz_radius) if len(tiles) == 2 else None
-        found["rms_height_m"] = sigma = composite_rms(tiles, together)
+        result["rms_height_m"] = sigma = composite_rms(tiles, together)
         central = h_c if operating.ellipse.is_line else films[0].h_c
-        found["lambda_ratio_central"] = central / sigma if sigma > 0.0 else None
+        result["lambda_ratio_central"] = central / sigma if sigma > 0.0 else None
     waves = len(both) == 1 and kinds == {"harmonic"} and operating.moes_l > 0.0
     if waves and isinstance(operating, OperatingPoint) and operating.radius_ratio == 1.0:
         (surface,) = both
@@ -202,10 +202,10 @@ def _of_surfaces(
         theta, outside = float(stribeck.theta_2(*of)), stribeck.in_range(*of)
         if surface["wavelength_x"] != surface["wavelength_y"]:
             outside.append("eq. 16 is for equal wavelengths along X and Y")
-        found["theta_2"] = theta
-        found["mu_ratio_eq_16"] = float(stribeck.relative_friction(theta))
-        found["theta_2_outside"] = outside
-    return found
+        result["theta_2"] = theta
+        result["mu_ratio_eq_16"] = float(stribeck.relative_friction(theta))
+        result["theta_2_outside"] = outside
+    return result
 
 
 def _record(formula: film.FilmEstimate, scale: float) -> dict[str, Any]:

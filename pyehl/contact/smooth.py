@@ -179,14 +179,14 @@ class SmoothContact:
             on_lines = np.ones((1, y.size))
             return row[:, np.newaxis] * on_lines, film[:, np.newaxis] * on_lines
         rows, columns = _linear(x, self.x), _linear(y, self.y)
-        found = []
+        result = []
         for values in (self.pressure, self.film):
             (i, u), (j, v) = rows, columns
             along = values[i] * (1.0 - u)[:, np.newaxis] + values[i + 1] * u[:, np.newaxis]
-            found.append(along[:, j] * (1.0 - v) + along[:, j + 1] * v)
+            result.append(along[:, j] * (1.0 - v) + along[:, j + 1] * v)
         inside = [(x >= axis[0]) & (x <= axis[-1]) for x, axis in ((x, self.x), (y, self.y))]
-        found[0][~np.logical_and.outer(*inside)] = 0.0
-        return found[0], found[1]
+        result[0][~np.logical_and.outer(*inside)] = 0.0
+        return result[0], result[1]
 
 
 def _linear(places: Array, axis: Array) -> tuple[NDArray[np.intp], Array]:
@@ -202,11 +202,11 @@ def solve_contact(settings: Settings) -> SmoothContact:
     The last few are kept, see `smooth_case`. EhlError if it does not converge on any grid up to
     FINEST.
     """
-    found = solved_text(smooth_case(settings))
+    result = solved_text(smooth_case(settings))
     if not ShearLaw.from_settings(settings).in_flow:
-        return found
+        return result
     newtonian = {**settings, "lubricant": {**settings["lubricant"], "flow": "newtonian"}}
-    return replace(found, newtonian=solved_text(smooth_case(newtonian)))
+    return replace(result, newtonian=solved_text(smooth_case(newtonian)))
 
 
 def with_boundary_film(
@@ -224,9 +224,9 @@ def with_boundary_film(
     if float(held.min()) > TOUCHES * boundary:
         return replace(contact, load_share=0.0)
     cycles = max(CYCLES, int(settings["solver"]["max_cycles"]))
-    found, why = _solved_with_boundary_film(smooth_case(settings, boundary=True), cycles)
-    if found is not None:
-        return found
+    result, why = _solved_with_boundary_film(smooth_case(settings, boundary=True), cycles)
+    if result is not None:
+        return result
     n = math.nan
     lost = f"not known: with the boundary film {why}"
     return SmoothContact(contact.x, contact.y, n * pressure, n * pressure, n, n, lost)
@@ -252,10 +252,10 @@ def solved_text(text: str) -> SmoothContact:
     best = None
     points, finest = _grids(text)
     while points <= finest:
-        found, status = _on_grid(text, points)
-        best = found or best
-        if found is not None and found.extrapolated:
-            return found
+        result, status = _on_grid(text, points)
+        best = result or best
+        if result is not None and result.extrapolated:
+            return result
         points = 2 * points - 1
     if best is None:
         raise EhlError(
@@ -276,13 +276,13 @@ def _solved_with_boundary_film(text: str, cycles: int) -> tuple[SmoothContact | 
     options = [f"solver.max_cycles={cycles}"]
     why, (points, finest) = "it does not converge", _grids(text)
     while points <= finest:
-        found, status = _on_grid(text, points, options)
-        if found is not None and not status:
-            return found, ""
-        why = status if found is not None else why
+        result, status = _on_grid(text, points, options)
+        if result is not None and not status:
+            return result, ""
+        why = status if result is not None else why
         points = 2 * points - 1
-    found, status = _on_grid(text, _grids(text)[0] // 2 + 1, options)
-    return (None, why) if status else (found, "")
+    result, status = _on_grid(text, _grids(text)[0] // 2 + 1, options)
+    return (None, why) if status else (result, "")
 
 
 def _grids(text: str) -> tuple[int, int]:
@@ -301,15 +301,15 @@ def _on_grid(
     case = Case.from_text(text, [f"grid.points={points}", *options], origin="smooth contact")
     with SolverHandle(case.text) as solver:
         solver.run()
-        found = results_of(solver)
-        summary = found.values
+        result = results_of(solver)
+        summary = result.values
         if summary["status"] != "converged":
             return None, str(summary["status"])
         (x, y), pressure, film = solver.axes(), solver.field("P"), solver.field("H")
     where = f"solved on {x.size} x {y.size} nodes"
     # bodies that touch on a grid that does not resolve the inlet have no load share
     touches = summary.get("contact_load_share", 0.0) is None
-    why = words_of(found, case.resolve())[found.codes[SHARE_NOTE]] if touches else ""
+    why = words_of(result, case.resolve())[result.codes[SHARE_NOTE]] if touches else ""
     return contact_of(summary, (x, y), pressure, film, where), why
 
 

@@ -97,7 +97,7 @@ def ball_bearing(machine: Machine) -> Bearing:
         # p_h goes with Q^(1/3), Q with delta^(3/2)
         _check_preload(machine, pressure, STATIC[BALL], 2.0)
     ring = equilibrium(stiffness, BALL, v.balls, clearance, (v.radial_load, v.axial_load), centres)
-    found, light = Bearing(speed, ring), LIGHT * float(ring.loads.max())
+    result, light = Bearing(speed, ring), LIGHT * float(ring.loads.max())
     for number, azimuth in enumerate(azimuths(v.balls)):
         load, angle = float(ring.loads[number]), float(ring.angles[number])
         if load == 0.0:
@@ -109,10 +109,10 @@ def ball_bearing(machine: Machine) -> Bearing:
             spin = speed * math.sin(angle) if name == "inner" else 0.0
             place = f"ball {number + 1}, {name} ring"
             contact = Contact(place, load, u, 0.0, radii, spin=spin, may_be_light=load < light)
-            found.add(number + 1, float(azimuth), angle, name, contact)
-    _facts(machine, found, pitch, d, math.pi / 6.0 * d**3, free)
-    found.facts.update(clearance_m=clearance, contact_angle_free_deg=math.degrees(free))
-    return found
+            result.add(number + 1, float(azimuth), angle, name, contact)
+    _facts(machine, result, pitch, d, math.pi / 6.0 * d**3, free)
+    result.facts.update(clearance_m=clearance, contact_angle_free_deg=math.degrees(free))
+    return result
 
 
 def roller_bearing(machine: Machine) -> Bearing:
@@ -146,17 +146,17 @@ def roller_bearing(machine: Machine) -> Bearing:
         # p_h goes with Q^(1/2), Q with delta^(10/9)
         _check_preload(machine, pressure, STATIC[ROLLER], 2.0 / ROLLER)
     ring = equilibrium(stiffness, ROLLER, v.rollers, v.clearance, loads, angle=outer)
-    found = Bearing(speed, ring)
+    result = Bearing(speed, ring)
     for number, azimuth in enumerate(azimuths(v.rollers)):
         load = float(ring.loads[number])
         for name, angle in angles.items() if load > 0.0 else ():
             one = contact(f"roller {number + 1}, {name} ring", load, name, ring.loads.max())
-            found.add(number + 1, float(azimuth), angle, name, one)
-    _facts(machine, found, pitch, d, 0.25 * math.pi * d**2 * v.roller_length, axis)
-    found.facts["clearance_m"] = v.clearance
+            result.add(number + 1, float(azimuth), angle, name, one)
+    _facts(machine, result, pitch, d, 0.25 * math.pi * d**2 * v.roller_length, axis)
+    result.facts["clearance_m"] = v.clearance
     if half > 0.0:
-        found.facts["flange_load_max_N"] = 2.0 * math.sin(half) * found.facts["load_max_N"]
-    return found
+        result.facts["flange_load_max_N"] = 2.0 * math.sin(half) * result.facts["load_max_N"]
+    return result
 
 
 def _check_rollers(machine: Machine) -> None:
@@ -254,14 +254,14 @@ def _check_preload(machine: Machine, pressure: float, limit: float, power: float
 
 
 def _facts(
-    machine: Machine, found: Bearing, pitch: float, d: float, volume: float, angle: float
+    machine: Machine, result: Bearing, pitch: float, d: float, volume: float, angle: float
 ) -> None:
     """Numbers of the whole bearing; `volume` is that of an element [m^3], `angle` [rad]."""
-    v, ring = machine.values, found.ring
+    v, ring = machine.values, result.ring
     share = d * math.cos(angle) / pitch
     cage = 0.5 * (v.inner_speed * (1.0 - share) + v.outer_speed * (1.0 + share))
     most = float(ring.loads.max())
-    found.facts.update(
+    result.facts.update(
         pitch_diameter_m=pitch,
         cage_speed_per_min=cage,
         displacement_radial_m=ring.radial,
@@ -271,4 +271,4 @@ def _facts(
         centrifugal_force_N=DENSITY * volume * 0.5 * pitch * (TURN * cage) ** 2,
     )
     if v.radial_load > 0.0:
-        found.facts["load_max_Z_over_F"] = most * len(ring.loads) / v.radial_load
+        result.facts["load_max_Z_over_F"] = most * len(ring.loads) / v.radial_load

@@ -176,8 +176,8 @@ class Film:
     @property
     def moes(self) -> tuple[float, float]:
         """M and L [-]; those of a line are not those of a point."""
-        found = self.line or self.point
-        return found.moes_m, found.moes_l
+        result = self.line or self.point
+        return result.moes_m, result.moes_l
 
     @property
     def is_solvable(self) -> bool:
@@ -205,12 +205,12 @@ def film_of(contact: Contact, machine: Machine) -> Film:
     oil = Lubricant.from_settings(settings)
     if not contact.length:
         point = OperatingPoint.from_settings(settings)
-        found = {f.name: f for f in film.estimates(point, oil)}
-        central = found["Nijenbanning-Venner-Moes"]
+        result = {f.name: f for f in film.estimates(point, oil)}
+        central = result["Nijenbanning-Venner-Moes"]
         name = regime(point.moes_m, point.moes_l, point.ellipse)
-        minimum = found.get("Hamrock-Dowson") or found["Hamrock-Dowson soft"]
+        minimum = result.get("Hamrock-Dowson") or result["Hamrock-Dowson soft"]
         if name == RIGID:
-            minimum = found["Brewe-Hamrock-Taylor"]
+            minimum = result["Brewe-Hamrock-Taylor"]
         beyond = _beyond(central, minimum)
         h_c, h_min = central.h_c, minimum.h_min
         if h_min > h_c:
@@ -232,5 +232,7 @@ def film_of(contact: Contact, machine: Machine) -> Film:
 
 def _beyond(*formulas: FilmEstimate) -> str:
     """Name the numbers with which formulas are outside of their ranges."""
-    found = {f.name: [text.partition(" =")[0] for text in f.outside] for f in formulas if f.outside}
-    return "; ".join(f"{name}{OUTSIDE}{', '.join(of)}" for name, of in found.items())
+    result = {
+        f.name: [text.partition(" =")[0] for text in f.outside] for f in formulas if f.outside
+    }
+    return "; ".join(f"{name}{OUTSIDE}{', '.join(of)}" for name, of in result.items())

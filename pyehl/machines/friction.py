@@ -35,8 +35,8 @@ def traction(film: Film) -> tuple[float, float]:
     area = np.cos(angle) if film.line else np.sin(2.0 * angle)
     mean = 0.25 * math.pi * float(np.sum(weights * stress * area))
     mu = mean / (p_h * (math.pi / 4.0 if film.line else 2.0 / 3.0))
-    found = absolute_friction(point, oil, h_c, mu, 1.0, _heat(film, h_c))
-    return found["mu"], found["flash_temperature_K"]
+    result = absolute_friction(point, oil, h_c, mu, 1.0, _heat(film, h_c))
+    return result["mu"], result["flash_temperature_K"]
 
 
 def _heat(film: Film, h_c: float) -> Heat:

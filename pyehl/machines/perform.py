@@ -142,10 +142,10 @@ def perform(
         place = Destination(Path(folder), command, names, inputs, force=force)
     if todo.tasks.tasks:
         outcome = gather(todo.tasks.tasks, todo.identity(), place, watcher=watcher, **how)
-        found = todo.result(outcome.rows)
+        result = todo.result(outcome.rows)
         if place is not None:
-            _write(Path(place.folder), todo, found, names)
-        return found, outcome
+            _write(Path(place.folder), todo, result, names)
+        return result, outcome
     if place is not None:
         if (Path(place.folder) / NAME).exists():
             raise InputError(
@@ -153,21 +153,21 @@ def perform(
                 f"formulas would replace\nexpected: another folder"
             )
         place.check()
-    found = todo.result({})
+    result = todo.result({})
     if place is not None:
         with place.fresh() as fresh:
-            _write(fresh, todo, found, names)
-    return found, outcome
+            _write(fresh, todo, result, names)
+    return result, outcome
 
 
-def _write(folder: Path, todo: Prepared, found: MachineResult, names: tuple[str, ...]) -> None:
+def _write(folder: Path, todo: Prepared, result: MachineResult, names: tuple[str, ...]) -> None:
     """Write the files of a result."""
-    write_csv(folder / CSV, list(found.table), found.table.itertuples(index=False, name=None))
-    save(pictures.figure(found.kind, found.table, found.summary), folder / PICTURE)
+    write_csv(folder / CSV, list(result.table), result.table.itertuples(index=False, name=None))
+    save(pictures.figure(result.kind, result.table, result.summary), folder / PICTURE)
     (folder / CASE).write_text(todo.machine.text(), encoding="utf-8")
     if isinstance(todo.made, GearPair) and has_duty(todo.made):
         write_duty(folder, todo.made, todo.films)
-    values = {name: finite(value) for name, value in found.summary.items()}
+    values = {name: finite(value) for name, value in result.summary.items()}
     write_json(folder / SUMMARY, {**values, "files": list(names)})
 
 
@@ -185,10 +185,10 @@ def _call(
     todo = Prepared(case, [*options, groups], kinds, run)
     folder = None if output is None else path_of(output, "output")
     inputs = () if case is ... else (path_of(case, "case"),)
-    found, outcome = perform(todo, folder, command, inputs=inputs, **how)
+    result, outcome = perform(todo, folder, command, inputs=inputs, **how)
     if outcome.interrupted:
         raise KeyboardInterrupt
-    return found
+    return result
 
 
 def bearing(
@@ -239,8 +239,8 @@ def bearing(
     Examples
     --------
     >>> import pyehl
-    >>> found = pyehl.bearing("cases/bearing_6206.nml", {"ball_bearing.radial_load": 2000.0})
-    >>> found.table.ring.unique().tolist(), found.summary["left_out"][:4]
+    >>> result = pyehl.bearing("cases/bearing_6206.nml", {"ball_bearing.radial_load": 2000.0})
+    >>> result.table.ring.unique().tolist(), result.summary["left_out"][:4]
     (['inner', 'outer'], 'cage')
     """
     kinds = ("ball_bearing", "roller_bearing")
@@ -285,8 +285,8 @@ def gear(
     Examples
     --------
     >>> import pyehl
-    >>> found = pyehl.gear("cases/fzg_c.nml")
-    >>> round(found.summary["contact_ratio"], 2)
+    >>> result = pyehl.gear("cases/fzg_c.nml")
+    >>> round(result.summary["contact_ratio"], 2)
     1.44
     """
     how = {"force": force, "jobs": jobs, "scheduler": scheduler}

@@ -102,11 +102,11 @@ class MachineResult:
     @property
     def data(self) -> xr.Dataset:
         """The table as a Dataset over `contact`, with units and the summary as attributes."""
-        found = xr.Dataset.from_dataframe(self.table.rename_axis("contact"))
-        for name in found.data_vars:
+        result = xr.Dataset.from_dataframe(self.table.rename_axis("contact"))
+        for name in result.data_vars:
             unit, meaning = COLUMNS[str(name)]
-            found[name].attrs = {"long_name": meaning, **({"units": unit} if unit else {})}
-        return found.assign_attrs(self.summary)
+            result[name].attrs = {"long_name": meaning, **({"units": unit} if unit else {})}
+        return result.assign_attrs(self.summary)
 
     def plot(self) -> Any:  # noqa: ANN401 (a figure of matplotlib)
         """Draw film and pressure around the bearing, or along the path of contact."""
@@ -198,31 +198,31 @@ def summary_of(
 ) -> dict[str, Any]:
     """Give the sums of a machine element."""
     kind = "gear" if isinstance(made, GearPair) else "bearing"
-    found: dict[str, Any] = {"kind": kind, "machine": machine.kind, "contacts": len(table)}
-    found |= made.facts | {"rms_height_m": sigma}
+    result: dict[str, Any] = {"kind": kind, "machine": machine.kind, "contacts": len(table)}
+    result |= made.facts | {"rms_height_m": sigma}
     most, minimum = table["hertz_pressure_Pa"], table["h_min_m"]
-    found |= {
+    result |= {
         "hertz_pressure_max_Pa": float(most.max()),
         "h_min_m": float(minimum.min(skipna=False)),
     }
-    found["h_c_min_m"] = float(table["h_c_m"].min(skipna=False))
-    found["h_c_max_m"] = float(table["h_c_m"].max(skipna=False))
+    result["h_c_min_m"] = float(table["h_c_m"].min(skipna=False))
+    result["h_c_max_m"] = float(table["h_c_m"].max(skipna=False))
     if sigma > 0.0:
-        found["lambda_ratio_min"] = found["h_min_m"] / sigma
+        result["lambda_ratio_min"] = result["h_min_m"] / sigma
     sliding, rolling = table["sliding_power_W"], table["rolling_power_W"]
     if isinstance(made, GearPair):
-        found |= _of_pair(made, table)
+        result |= _of_pair(made, table)
     else:
         powers = {
             "sliding": float(sliding.sum(skipna=False)),
             "rolling": float(rolling.sum(skipna=False)),
         }
         for name, power in powers.items():
-            found[f"{name}_power_W"] = power
-            found[f"{name}_torque_N_m"] = power / made.speed
-        found["torque_N_m"] = sum(powers.values()) / made.speed
-    found["left_out"] = LEFT_OUT[kind]
-    return found
+            result[f"{name}_power_W"] = power
+            result[f"{name}_torque_N_m"] = power / made.speed
+        result["torque_N_m"] = sum(powers.values()) / made.speed
+    result["left_out"] = LEFT_OUT[kind]
+    return result
 
 
 def _of_pair(pair: GearPair, table: pd.DataFrame) -> dict[str, float]:

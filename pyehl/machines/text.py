@@ -80,41 +80,41 @@ def cells(kind: str, table: pd.DataFrame) -> dict[str, list[str]]:
 def notes_of(table: pd.DataFrame, summary: Mapping[str, Any]) -> list[str]:
     """Say what else to know, what is left out last."""
     notes = _together(str(note) for note in table["note"] if isinstance(note, str) and note)
-    found = [*notes[:NOTES], *([f"and {len(notes) - NOTES} more"] if len(notes) > NOTES else [])]
-    found = [f"note       {note}" for note in found]
+    result = [*notes[:NOTES], *([f"and {len(notes) - NOTES} more"] if len(notes) > NOTES else [])]
+    result = [f"note       {note}" for note in result]
     if summary["hertz_pressure_max_Pa"] > YIELDING:
-        found.append("steel      yields: the static limit of bearings is 4.2 GPa (ISO 76)")
+        result.append("steel      yields: the static limit of bearings is 4.2 GPa (ISO 76)")
     if summary.get("lambda_ratio_min", math.inf) < 1.0 and "h_min_rough_m" not in table:
-        found.append(
+        result.append(
             "solids     minimum Lambda below 1: the surfaces touch, which no friction here has"
         )
-    return [*found, f"left out   {summary['left_out']}"]
+    return [*result, f"left out   {summary['left_out']}"]
 
 
 def sums(table: pd.DataFrame, summary: Mapping[str, Any]) -> dict[str, str]:
     """Give the sums of a machine element as text, by what they are."""
-    found = {}
+    result = {}
     for name, (label, factor, form, unit) in SUMS.items():
         value = summary.get(name)
         if value is None or (name == "rms_height_m" and value == 0.0):
             continue
-        found[label] = f"{value * factor:{form}} {unit}".rstrip()
+        result[label] = f"{value * factor:{form}} {unit}".rstrip()
         if math.isnan(value):
             missing = "a contact has no result"
             if name in FRICTION and table["h_c_m"].notna().all():
                 missing = "give a lubricant.shear_law"
-            found[label] = f"not reported: {missing}"
-    return found
+            result[label] = f"not reported: {missing}"
+    return result
 
 
 def _together(notes: Iterable[str]) -> list[str]:
     """Say once of each formula outside of which ranges it is."""
-    found: dict[str, dict[str, None]] = {}
+    result: dict[str, dict[str, None]] = {}
     for note in notes:
         for part in note.split("; "):
             name, outside, numbers = part.partition(OUTSIDE)
-            found.setdefault(name + outside, {}).update(dict.fromkeys(numbers.split(", ")))
-    return [start + ", ".join(numbers) for start, numbers in found.items()]
+            result.setdefault(name + outside, {}).update(dict.fromkeys(numbers.split(", ")))
+    return [start + ", ".join(numbers) for start, numbers in result.items()]
 
 
 def _cell(value: Any, factor: float, digits: int) -> str:  # noqa: ANN401 (a number or a word)

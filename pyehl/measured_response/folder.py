@@ -129,10 +129,10 @@ def response(
         return _write(case, measure(case, place, tiers=tiers, **more), place)
 
 
-def _write(case: Case, found: Mapping[str, Mapping[str, Any]], place: Destination) -> xr.Dataset:
+def _write(case: Case, result: Mapping[str, Mapping[str, Any]], place: Destination) -> xr.Dataset:
     """Write table, Dataset, picture, summary and case of a measured response, whole or not at all.
 
-    `found` is what :func:`pyehl.measured_response.measurement.measure` returns.
+    `result` is what :func:`pyehl.measured_response.measurement.measure` returns.
     """
     # matplotlib takes long to import
     from pyehl.plots.response import response_figure  # noqa: PLC0415
@@ -144,7 +144,7 @@ def _write(case: Case, found: Mapping[str, Mapping[str, Any]], place: Destinatio
     smooth, lubricant = solve_contact(settings), Lubricant.from_settings(settings)
     zone = zone_of(smooth, operating, lubricant)
     moes = circle_of(smooth, operating, lubricant)
-    data = dataset(found, zone, operating, moes, ratio)
+    data = dataset(result, zone, operating, moes, ratio)
     at_centre = data.sel(X=0.0)
     longest, shortest = (float(data["wavelength"][i]) for i in (0, -1))
     q = np.geomspace(2.0 * np.pi / shortest, 2.0 * np.pi / longest, 400)
@@ -155,7 +155,7 @@ def _write(case: Case, found: Mapping[str, Mapping[str, Any]], place: Destinatio
         lines[direction] = (nabla, shipped_response(kx, ky, zone, moes, ratio)[:, 1])
     waves = {name: at_centre[name].values for name in ("nabla_2", "direction", "amplitude", "lag")}
     label = f"M = {operating.moes_m:.4g}, L = {operating.moes_l:.4g}, velocity ratio {ratio:g}"
-    summary = _summary(found, at_centre["shipped_difference"].values, data)
+    summary = _summary(result, at_centre["shipped_difference"].values, data)
     summary["within_fitted_range"] = not outside_range(
         operating, ratio, ModelOptions(), smooth.thinning
     )
@@ -171,7 +171,7 @@ def _write(case: Case, found: Mapping[str, Mapping[str, Any]], place: Destinatio
 
 
 def _summary(
-    found: Mapping[str, Mapping[str, Any]], difference: Array, values: xr.Dataset
+    result: Mapping[str, Mapping[str, Any]], difference: Array, values: xr.Dataset
 ) -> dict[str, Any]:
     """Give what ``summary.json`` holds; `values` has the conditions."""
     tiers = [
@@ -184,7 +184,7 @@ def _summary(
             "fit_residual": float(tier["residual"][:, int(np.argmin(np.abs(tier["x"])))].max()),
             "seconds": float(tier["seconds"]),
         }
-        for name, tier in found.items()
+        for name, tier in result.items()
     ]
     conditions = "moes_m", "moes_l", "ellipticity", "velocity_ratio"
     return {
@@ -209,8 +209,8 @@ def shipped_response(
     inlet = inlet_transfer(zone, kx, ky, moes, velocity_ratio)
     slip = np.exp(1j * np.outer(kx * (velocity_ratio - 1.0), STATIONS + 1.0))
     parts = transport(zone, kx, ky, velocity_ratio, STATIONS)
-    found = [driven + free * inlet * slip[:, i] for i, (driven, free) in enumerate(parts)]
-    return np.stack(found, axis=-1)
+    result = [driven + free * inlet * slip[:, i] for i, (driven, free) in enumerate(parts)]
+    return np.stack(result, axis=-1)
 
 
 def nabla_2(q: Array, moes: tuple[float, float]) -> Array:

@@ -112,10 +112,10 @@ def _check_folder(place: Destination, settings: Settings, velocity_ratio: float)
             continue
         try:
             with np.load(path, allow_pickle=False) as stored:
-                found = json.loads(str(stored["identity"]))
+                result = json.loads(str(stored["identity"]))
         except (OSError, ValueError, KeyError, EOFError) as error:
             raise InputError(f"{path}: cannot be read ({error}); remove it") from error
-        wrong = difference(found, json.loads(_identity(settings, velocity_ratio, tier)))
+        wrong = difference(result, json.loads(_identity(settings, velocity_ratio, tier)))
         if wrong:
             message = f"{path}: is of another response; use another folder. It differs in"
             raise InputError("\n  ".join([message, *wrong]))
@@ -156,21 +156,21 @@ def measure(
     new = not folder.exists()
     with file_errors(folder, "cannot be made"):
         folder.mkdir(parents=True, exist_ok=True)
-    found = {}
+    result = {}
     try:
         for tier in tiers:
             path = _file(folder, tier)
             if tier not in done:
                 _run_tier(settings, ratio, tier, path, partial(progress, tier.name))
             with np.load(path, allow_pickle=False) as stored:
-                found[tier.name] = {name: stored[name] for name in stored.files}
+                result[tier.name] = {name: stored[name] for name in stored.files}
     except KeyboardInterrupt as stop:
-        kept = f"kept in {folder}: {', '.join(found)}; the same command goes on from there"
-        raise KeyboardInterrupt(kept if found else "no run has ended: nothing is kept") from stop
+        kept = f"kept in {folder}: {', '.join(result)}; the same command goes on from there"
+        raise KeyboardInterrupt(kept if result else "no run has ended: nothing is kept") from stop
     finally:
         if new and not any(folder.iterdir()):
             folder.rmdir()
-    return found
+    return result
 
 
 def _run_tier(
@@ -184,7 +184,7 @@ def _run_tier(
     began = time.perf_counter()
     waves = tier_waves(tier)
     try:
-        found = superpose(
+        result = superpose(
             settings,
             waves,
             points=tier.points,
@@ -200,5 +200,5 @@ def _run_tier(
             identity=_identity(settings, velocity_ratio, tier),
             seconds=time.perf_counter() - began,
             **asdict(waves),
-            **asdict(found),
+            **asdict(result),
         )

@@ -248,14 +248,14 @@ def prediction_pictures(
 ) -> dict[str, Callable[[], Figure]]:
     """Give what draws each figure of a prediction, by the names of their files."""
     title = headline(about)
-    found: dict[str, Callable[[], Figure]] = {}
+    result: dict[str, Callable[[], Figure]] = {}
     for prefix in ("", "second_") if "second_surface" in about else ("",):
         of = about, arrays, prefix, title
-        found[f"{prefix}surface_spectrum"] = partial(_spectra, *of)
-        found[f"{prefix}roughness"] = partial(_roughness, *of)
+        result[f"{prefix}surface_spectrum"] = partial(_spectra, *of)
+        result[f"{prefix}roughness"] = partial(_roughness, *of)
     if about["status"] == "predicted":
-        found["passage"] = partial(_passage, tables, about["length_x_m"], title)
-    return found
+        result["passage"] = partial(_passage, tables, about["length_x_m"], title)
+    return result
 
 
 @styled()

@@ -134,14 +134,14 @@ def plot(
     from pyehl.results import load  # noqa: PLC0415
 
     kinds = xr.Dataset, str, bytes, os.PathLike
-    found = results if isinstance(results, kinds) else getattr(results, "data", None)
-    if not isinstance(found, kinds):
+    result = results if isinstance(results, kinds) else getattr(results, "data", None)
+    if not isinstance(result, kinds):
         raise InputError(f"results of type {type(results).__name__}: {EXPECTED}")
-    folder = "the Dataset" if isinstance(found, xr.Dataset) else path_of(found, "results")
+    folder = "the Dataset" if isinstance(result, xr.Dataset) else path_of(result, "results")
     with page_width(width):
-        figures = {} if isinstance(found, xr.Dataset) else _of_machine(Path(folder))
+        figures = {} if isinstance(result, xr.Dataset) else _of_machine(Path(folder))
         if not figures:
-            data = found if isinstance(found, xr.Dataset) else load(folder)
+            data = result if isinstance(result, xr.Dataset) else load(folder)
             if "case" not in data.attrs:
                 raise InputError(f"{folder}: {EXPECTED}")
             if data.attrs.get("kind") == "prediction":

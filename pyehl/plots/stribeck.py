@@ -110,17 +110,17 @@ def _scale(ax: Axes, places: Array) -> None:
 
 def _lambda_above(ax: Axes, curve: Curve) -> None:
     """Put Lambda above the axes where it rises or falls all along the curve."""
-    x, found = curve.places, curve.column("lambda_ratio")
-    known = np.isfinite(found) & (found > 0.0)
-    x, found = x[known], found[known]
-    if found.size < 2 or np.unique(np.sign(np.diff(found))).size > 1:
+    x, result = curve.places, curve.column("lambda_ratio")
+    known = np.isfinite(result) & (result > 0.0)
+    x, result = x[known], result[known]
+    if result.size < 2 or np.unique(np.sign(np.diff(result))).size > 1:
         return
     log = ax.get_xscale() == "log"
-    order = np.argsort(found)
-    decades = 10.0 ** np.arange(np.floor(np.log10(found.min())), np.log10(found.max()) + 1)
+    order = np.argsort(result)
+    decades = 10.0 ** np.arange(np.floor(np.log10(result.min())), np.log10(result.max()) + 1)
     values = np.outer(decades, (1.0, 2.0, 5.0)).ravel()
-    values = values[(found.min() <= values) & (values <= found.max())]
-    at = np.interp(np.log(values), np.log(found[order]), np.log(x[order]) if log else x[order])
+    values = values[(result.min() <= values) & (values <= result.max())]
+    at = np.interp(np.log(values), np.log(result[order]), np.log(x[order]) if log else x[order])
     above = ax.secondary_xaxis("top")
     above.set_xticks(np.exp(at) if log else at, [f"{value:g}" for value in values])
     above.set_xticks([], minor=True)

@@ -171,7 +171,7 @@ def colour_bar(
 def legend_below(figure: Figure, *axes: Axes) -> None:
     """Say below the panels what is drawn in some of them, each thing once."""
     named = [ax.get_legend_handles_labels() for ax in axes]
-    unique = {label: handle for found in named for handle, label in zip(*found, strict=True)}
+    unique = {label: handle for result in named for handle, label in zip(*result, strict=True)}
     if unique:
         letters = figure.get_figwidth() * LETTERS_PER_INCH
         columns = max(1, int(letters // (HANDLE + max(map(len, unique)))))

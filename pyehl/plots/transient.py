@@ -180,8 +180,8 @@ def quasi_static(history: Mapping[str, Array], settings: Settings, film: float) 
 
     columns = (history[name] for name in ("load", "speed", "radius_x", "viscosity"))
     share = film / formula(1.0, 1.0, 1.0, 1.0)
-    found = [share * formula(w, abs(u), r, v) for w, u, r, v in zip(*columns, strict=True)]
-    return np.array(found)
+    result = [share * formula(w, abs(u), r, v) for w, u, r, v in zip(*columns, strict=True)]
+    return np.array(result)
 
 
 def duty_history(

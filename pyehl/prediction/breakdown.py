@@ -79,11 +79,11 @@ def below_zero(
         (int(np.argmax(values[:, column[worst]])), int(column[worst]))
         for values, column in zip(deformed, columns, strict=True)
     )
-    found = BelowZero(math.nan, float(minimum[worst]), pixels)
+    result = BelowZero(math.nan, float(minimum[worst]), pixels)
     if len(tiles) > 1:
-        return found
+        return result
     share, count = _beyond(deformed[0], columns[0], smooth, minimum < 0.0)
-    return replace(found, share=share, count=count)
+    return replace(result, share=share, count=count)
 
 
 def _strip(
@@ -122,12 +122,12 @@ def _beyond(deformed: Array, column: Indices, smooth: Array, ended: Array) -> tu
 def of_model(model: Model, deformed: Sequence[Array], sustained: Sustained) -> BelowZero:
     """Find where the film of a model ends; of two surfaces over all their relative positions."""
     tiles, semi_axes = [one.topography for one in model.surfaces], model.operating.semi_axes
-    found = below_zero(tiles, deformed, semi_axes, sustained)
-    if len(tiles) == 1 or found.deepest > 0.0:
-        return found
+    result = below_zero(tiles, deformed, semi_axes, sustained)
+    if len(tiles) == 1 or result.deepest > 0.0:
+        return result
     positions = model.relative_positions
     if positions.passages is None:
-        return found
+        return result
     return _in_common_period(model, positions, deformed, sustained)
 
 
@@ -148,7 +148,7 @@ def _in_common_period(
         if u > 0.0
     )
     steps = math.ceil(period * max(positions.velocity_ratios) / min(pixels))
-    found = BelowZero(math.nan, math.inf, ((0, 0), (0, 0)))
+    result = BelowZero(math.nan, math.inf, ((0, 0), (0, 0)))
     for k in range(steps):
         shifts = positions.shifts(k, steps)
         rows = [
@@ -158,13 +158,13 @@ def _in_common_period(
         ]
         film = smooth - heights[0][rows[0]] - heights[1][rows[1]]
         place = int(film.argmin())
-        if film.flat[place] < found.deepest:
+        if film.flat[place] < result.deepest:
             i, j = divmod(place, film.shape[1])
             at = tuple(
                 (int(row[i]), int(column[j])) for row, column in zip(rows, columns, strict=True)
             )
-            found = BelowZero(math.nan, float(film[i, j]), at)
-    return found
+            result = BelowZero(math.nan, float(film[i, j]), at)
+    return result
 
 
 Full = Callable[[Topography], bool]
@@ -204,19 +204,19 @@ class Advice:
     def summary(self) -> dict[str, float | int | None]:
         """Return what ``summary.json`` holds of it."""
         two = len(self.places) > 1
-        found: dict[str, float | int | None] = {}
+        result: dict[str, float | int | None] = {}
         for prefix, (x, y) in zip(("", "second_"), self.places, strict=False):
-            found |= {f"{prefix}x_m": x, f"{prefix}y_m": y}
-        found |= {"film_m": self.below.deepest, "share_of_contact": self.below.share}
+            result |= {f"{prefix}x_m": x, f"{prefix}y_m": y}
+        result |= {"film_m": self.below.deepest, "share_of_contact": self.below.share}
         names = ("", "second_", "both_")[: 3 if two else 1]
         lengths_of = self.wavelengths or (None,) * len(names)
         for name, length in zip(names, lengths_of, strict=True):
-            found[f"suggested_{name}shortest_wavelength_m"] = length
+            result[f"suggested_{name}shortest_wavelength_m"] = length
         if not two:
-            found["pixels"] = self.below.count
-            found["suggested_outliers"] = self.outliers
-            found["suggested_outliers_points"] = self.outlier_points
-        return found
+            result["pixels"] = self.below.count
+            result["suggested_outliers"] = self.outliers
+            result["suggested_outliers_points"] = self.outlier_points
+        return result
 
     def report(self) -> list[str]:
         """Return the lines that ``pyehl predict`` prints."""
@@ -315,8 +315,8 @@ def ways_into_range(model: Model) -> str:
             return below(model, waves, [limit if k in numbers else math.inf for k in model.order])
 
         def good(length: float, numbers: tuple[int, ...] = numbers) -> bool:
-            found = run(model.without_shorter(numbers, length), 0, brief=True).friction
-            return found.status == "predicted" and found.mu_ratio <= KNOWN_RATIO
+            result = run(model.without_shorter(numbers, length), 0, brief=True).friction
+            return result.status == "predicted" and result.mu_ratio <= KNOWN_RATIO
 
         with np.errstate(over="ignore", invalid="ignore"):
             high = within_range(ratio, shortest, longest)

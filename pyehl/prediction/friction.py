@@ -202,11 +202,11 @@ def deformed_surface(
         "p_rise_max_Pa": (increase, INCREASE_ERROR * increase),
         "film_below_limit_share": (share, share_error),
     }
-    found: dict[str, Any] = {"film_limit_m": film_limit or None}
+    result: dict[str, Any] = {"film_limit_m": film_limit or None}
     for name, (value, error) in values.items():
         reported = known and math.isfinite(value)
-        found |= {name: value, error_name(name): error if reported else math.nan}
-    return found
+        result |= {name: value, error_name(name): error if reported else math.nan}
+    return result
 
 
 def error_name(name: str) -> str:
@@ -232,12 +232,12 @@ def deformed_surfaces(rows: Sequence[Mapping[str, Any]]) -> dict[str, float | No
         "film_below_limit_share",
     )
     over = {"p_rise_max_Pa": max, "h_min_rough_m": min}
-    found: dict[str, float | None] = {}
+    result: dict[str, float | None] = {}
     for name in names:
         for key, of_all in ((name, over.get(name, fmean)), (error_name(name), max)):
             numbers = [row.get(key) for row in rows]
-            found[key] = None if None in numbers else of_all(float(str(v)) for v in numbers)
-    return found
+            result[key] = None if None in numbers else of_all(float(str(v)) for v in numbers)
+    return result
 
 
 class Outcome(NamedTuple):
@@ -270,13 +270,13 @@ def run(
         left = [(w.spectrum.power, np.abs(w.at_centre())) for w in waves]
         contact.watch(film_levels(limit, left, [w.velocity_ratio for w in waves]))
         passage = positions.passage(contact.friction, model.options.positions, MAX_RATIO)
-        found = _result(model, contact, waves, passage)
-        if found.status != "predicted":
-            return Outcome(found)
-        ratios = _over_tracks(model, contact, waves, positions, tracks, found.mu_ratio)
-        bands = _bands(model, waves, found.mu_ratio, brief=brief)
+        result = _result(model, contact, waves, passage)
+        if result.status != "predicted":
+            return Outcome(result)
+        ratios = _over_tracks(model, contact, waves, positions, tracks, result.mu_ratio)
+        bands = _bands(model, waves, result.mu_ratio, brief=brief)
     over = (float(np.mean(ratios)), float(np.std(ratios))) if tracks else (math.nan, math.nan)
-    return Outcome(found, over, bands)
+    return Outcome(result, over, bands)
 
 
 def _over_tracks(
@@ -326,12 +326,12 @@ def run_and_below(model: Model, *shortest: float) -> tuple[RoughFriction, list[f
     if model.merged is not None:
         return run_and_below(model.merged, *shortest)
     waves = model.components()
-    found = run(model, 0, brief=True, waves=waves).friction
-    if found.status != "predicted":
-        return found, []
+    result = run(model, 0, brief=True, waves=waves).friction
+    if result.status != "predicted":
+        return result, []
     limits = [2.0 * math.pi / length for length in shortest]
     with np.errstate(over="ignore", invalid="ignore"):
-        return found, [below(model, waves, [limit] * len(waves)) for limit in limits]
+        return result, [below(model, waves, [limit] * len(waves)) for limit in limits]
 
 
 def below(model: Model, waves: Components, limits: Sequence[float]) -> float:

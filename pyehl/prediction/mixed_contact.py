@@ -107,7 +107,7 @@ class MixedContact:
         self.whole_load = o.load / (o.hertz_pressure * self.rough.area)
         self._bend(self._around(grid))
         # pressure, film and where bodies touch at each position, of the film itself
-        self.found: dict[int, tuple[Array, Array, Mask]] = {}
+        self.solutions: dict[int, tuple[Array, Array, Mask]] = {}
 
     def _way(self) -> Indices:
         """Points by which peaks have slipped past a column since the inlet (m, n)."""
@@ -174,7 +174,7 @@ class MixedContact:
             held, (pressure, film, touching) = self._state(change, level.thicker, held)
             if held is None:
                 return False
-            self.found.setdefault(shift, (pressure, film, touching))
+            self.solutions.setdefault(shift, (pressure, film, touching))
             level.load.append(self._share(pressure, touching))
             level.area.append(np.count_nonzero(touching) / rough.points)
             level.stress.append(self._stress(pressure, film, touching))
@@ -215,8 +215,8 @@ class MixedContact:
         """
         farthest = FARTHEST * self.rough.lowest
         low, high, off = -farthest, farthest, 0.0
-        while math.isfinite(share) and (found := self._of_smooth(off)) is not None:
-            left = self._share(found[0], found[2]) - share
+        while math.isfinite(share) and (result := self._of_smooth(off)) is not None:
+            left = self._share(result[0], result[2]) - share
             if abs(left) <= SHARE:
                 return off
             if high - low < GIVEN_TO * self.boundary:
@@ -246,16 +246,16 @@ class MixedContact:
 
         None where bodies do not touch, or the friction of the boundary film is not known.
         """
-        touches = any(touching.any() for _, _, touching in self.found.values())
+        touches = any(touching.any() for _, _, touching in self.solutions.values())
         if not (touches and math.isfinite(self.rubbing)):
             return None
         heat_of = HeatOf(settings, self.model.lubricant, self.rough.x, self.rough.y)
-        found = [self.found[int(step)] for step in steps]
+        result = [self.solutions[int(step)] for step in steps]
         inside = self.rough.inside
         # what is outside of the points of friction makes no heat
         return mean_heat(
-            [heat_of(np.where(inside, p, 0.0), np.where(inside, h, OPEN), t) for p, h, t in found],
-            [self._stress(*state) for state in found],
+            [heat_of(np.where(inside, p, 0.0), np.where(inside, h, OPEN), t) for p, h, t in result],
+            [self._stress(*state) for state in result],
         )
 
     def smooth_friction(self, off: float) -> float:

@@ -106,12 +106,12 @@ def mixed_film(
         return MixedFilm(OF_TWO)
     if not model.options.measured:
         return MixedFilm(OTHER_MODEL)
-    found = partial_film(model, waves, boundary, settings, smooth)
+    result = partial_film(model, waves, boundary, settings, smooth)
     if beyond := model.outside_range(FILM_ELLIPTICITY):
-        found = found.unknown(f"outside the range of the response by {', '.join(beyond)}")
+        result = result.unknown(f"outside the range of the response by {', '.join(beyond)}")
     if settings["contact"].get("hardness", 0.0) > 0.0:
-        found = found.without_errors(ELASTIC)
-    return found
+        result = result.without_errors(ELASTIC)
+    return result
 
 
 def partial_film(
@@ -152,7 +152,7 @@ def partial_film(
     area, area_error = _mean([level.area for level in levels])
     ratio, ratio_error = _mean([[value / smooth for value in level.stress] for level in levels])
     minimum = [level.minimum * o.film_scale for level in levels]
-    found = MixedFilm(
+    result = MixedFilm(
         load_share=load,
         load_share_error=load_error,
         area_share=area,
@@ -168,8 +168,8 @@ def partial_film(
         heat=heat,
     )
     if points > 2.0 * CONTACT_POINTS[1]:
-        return found.unknown(UNRESOLVED)
-    return found if math.isfinite(off) else found.without_errors(NO_SMOOTH)
+        return result.unknown(UNRESOLVED)
+    return result if math.isfinite(off) else result.without_errors(NO_SMOOTH)
 
 
 def _mean(values: list[list[float]]) -> tuple[float, float]:
@@ -186,20 +186,20 @@ def _shortest(spectrum: Spectrum, power: Array) -> float:
     return 2.0 * math.pi / float(spectrum.q.ravel()[order[int(np.argmax(beyond))]])
 
 
-def with_contact(found: Outcome, mixed: MixedFilm) -> tuple[Outcome, MixedFilm]:
+def with_contact(result: Outcome, mixed: MixedFilm) -> tuple[Outcome, MixedFilm]:
     """Friction where bodies touch, by that of a full film, and the partial film as it is known.
 
     A prediction without contact, or whose contact is not known, stays as it is.
     """
-    friction = found.friction
+    friction = result.friction
     if friction.status == "film breakdown" and not mixed.touches:
         # contact is not known where the film ends, and none was found there
         mixed = replace(mixed if mixed.note else MixedFilm(BETWEEN), mu_smooth=mixed.mu_smooth)
         mixed = replace(mixed, lost=True)
     if mixed.lost:
-        return Outcome(_lost(friction, mixed), bands=found.bands), mixed
+        return Outcome(_lost(friction, mixed), bands=result.bands), mixed
     if not mixed.touches:
-        return found, mixed
+        return result, mixed
     fine = interpolated(mixed.passage, 8)
     known = math.isfinite(mixed.friction)
     if friction.status != "predicted":
@@ -220,7 +220,7 @@ def with_contact(found: Outcome, mixed: MixedFilm) -> tuple[Outcome, MixedFilm]:
         film_min=mixed.film_min,
         cavitated_friction=math.nan,
     )
-    return Outcome(friction, bands=found.bands), mixed
+    return Outcome(friction, bands=result.bands), mixed
 
 
 def _lost(friction: RoughFriction, mixed: MixedFilm) -> RoughFriction:

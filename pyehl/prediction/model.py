@@ -227,8 +227,8 @@ Components = list[Component]
 
 def _distinct(wavenumbers: Array, least: float) -> Array:
     """Return wavenumbers once each, those that differ by less than a least one as one."""
-    found = np.unique(wavenumbers)
-    return found[np.diff(found, prepend=-math.inf) > least]
+    result = np.unique(wavenumbers)
+    return result[np.diff(result, prepend=-math.inf) > least]
 
 
 PIXEL_POINTS = 60
@@ -441,8 +441,8 @@ class Model:
     def outside_range(self, widest: float = ELLIPTICITY[1]) -> list[str]:
         """Name what lies outside the range of the response for one of the surfaces, each once."""
         rest = self.options, self.contact.thinning, widest
-        found = [outside_range(self.operating, s.velocity_ratio, *rest) for s in self.surfaces]
-        return list(dict.fromkeys(name for names in found for name in names))
+        result = [outside_range(self.operating, s.velocity_ratio, *rest) for s in self.surfaces]
+        return list(dict.fromkeys(name for names in result for name in names))
 
     def without_shorter(self, numbers: Sequence[int], shortest: float) -> Model:
         """Return the model without waves shorter than a length [m] of the surfaces so numbered."""
@@ -477,9 +477,9 @@ class Model:
         """Components of the tiles as they are, and velocity ratios, by number."""
         tiles = [one.topography for one in self.in_order]
         if waves and [w.spectrum.shape for w in waves] == [tile.shape for tile in tiles]:
-            found = [(w.spectrum, w.transfer) for w in waves]
+            result = [(w.spectrum, w.transfer) for w in waves]
         else:
             spectra = [self.spectrum(tile) for tile in tiles]
-            found = list(zip(spectra, self.transfers(spectra), strict=True))
+            result = list(zip(spectra, self.transfers(spectra), strict=True))
         ratios = [one.velocity_ratio for one in self.surfaces]
-        return [(*found[self.order.index(k)], u) for k, u in enumerate(ratios)]
+        return [(*result[self.order.index(k)], u) for k, u in enumerate(ratios)]

@@ -90,11 +90,11 @@ class Edge:
             i, j = long_waves(spectrum, shape.largest)
             amplitude = spectrum.amplitudes(i, j, flattened[i, j])
             qx, qy = spectrum.qx[i], spectrum.qy[j]
-            found, displacement = (
+            result, displacement = (
                 shape.correction(qx, qy) * amplitude,
                 shape.displacement(qx, qy) * amplitude,
             )
-            return cls(qx, qy, found, displacement, shape)
+            return cls(qx, qy, result, displacement, shape)
         ellipse = None if shape.radius_ratio == 1.0 else ellipse_edge(shape)
         i, j = long_waves(spectrum, ellipse.largest if ellipse else MAX_WAVENUMBER)
         qx, qy = spectrum.qx[i], spectrum.qy[j]
@@ -102,9 +102,9 @@ class Edge:
         if not i.size:
             nothing = np.zeros((0, 0), complex), np.zeros((EDGE_ANGLES.size, 0), complex)
             return cls(qx, qy, *nothing, shape)
-        found = ellipse.correction(qx, qy) if ellipse else disc_correction(qx, qy)
+        result = ellipse.correction(qx, qy) if ellipse else disc_correction(qx, qy)
         displacement = ellipse.displacement(qx, qy) if ellipse else edge_of_disc(qx, qy)
-        found, displacement = found * amplitude, displacement * amplitude
+        result, displacement = result * amplitude, displacement * amplitude
         if ellipse and beside is not None:
             # a wave whose amplitude changes across the motion is a sum of waves
             parts = -spectrum.amplitudes(i, j) * beside[:, i, j]
@@ -114,9 +114,9 @@ class Edge:
                 feels = (q > 1e-9) & (q < ellipse.largest)
                 if feels.any():
                     wave = qx[feels], there[feels]
-                    found[:, feels] += ellipse.correction(*wave) * part[feels]
+                    result[:, feels] += ellipse.correction(*wave) * part[feels]
                     displacement[:, feels] += ellipse.displacement(*wave) * part[feels]
-        return cls(qx, qy, found, displacement, shape)
+        return cls(qx, qy, result, displacement, shape)
 
     def below(self, limit: float) -> Edge:
         """Return the part of the waves with |q| below a limit [1/a]."""
@@ -195,11 +195,11 @@ class WaveTiles:
         def tiles(waves: list[tuple[Narrow, Narrow]], refinement: int) -> Single:
             columns = spectrum.shape[1] // stride if lines is None else lines.size
             shape = spectrum.shape[0] * refinement, columns, 2
-            found = np.empty((len(waves), *shape), dtype=np.float32)
-            for place, pair in zip(found, waves, strict=True):
+            result = np.empty((len(waves), *shape), dtype=np.float32)
+            for place, pair in zip(result, waves, strict=True):
                 for i, factor in enumerate(pair):
                     place[..., i] = narrow.tile(factor, refinement, stride, across)
-            return found
+            return result
 
         def lit(waves: list[Complex]) -> list[Narrow]:
             return [t.astype(np.complex64) * bright for t in waves]
@@ -248,8 +248,8 @@ class WaveTiles:
         weights = part[..., np.newaxis, np.newaxis]
         waves = weights[0] * self.off_centre[line, :, columns]
         waves += weights[1] * self.off_centre[line + 1, :, columns]
-        found = np.fft.irfft(waves, n=self.free.shape[1])
-        return np.ascontiguousarray(found.T.swapaxes(1, 2))
+        result = np.fft.irfft(waves, n=self.free.shape[1])
+        return np.ascontiguousarray(result.T.swapaxes(1, 2))
 
 
 Position = tuple[float, float]

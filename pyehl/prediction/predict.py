@@ -72,7 +72,7 @@ def other_spectra(
     changed = [name for name in groups if spectrum_assumed(settings[name])]
     if not changed:
         return []
-    found = []
+    results = []
     for length in LENGTHS:
         roll = 2.0 * math.pi / length if length else 0.0
         other = {
@@ -81,7 +81,7 @@ def other_spectra(
         }
         result = predict(other)
         known = result.friction.status == "predicted"
-        found.append(
+        results.append(
             {
                 "rolloff_wavelength_m": length or None,
                 "status": result.friction.status,
@@ -90,7 +90,7 @@ def other_spectra(
                 "film_m": result.below.deepest if result.below else None,
             }
         )
-    return found
+    return results
 
 
 def other_spectra_report(rows: Sequence[Mapping[str, Any]]) -> list[str]:

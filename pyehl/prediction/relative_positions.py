@@ -121,10 +121,10 @@ def common_passages(
     if one == 0.0 or other == 0.0:
         return int(one > 0.0), int(other > 0.0)
     ratio = one / other
-    found = Fraction(ratio).limit_denominator(MOST_PASSAGES)
-    if found.numerator > MOST_PASSAGES or not math.isclose(found, ratio, rel_tol=SAME):
+    result = Fraction(ratio).limit_denominator(MOST_PASSAGES)
+    if result.numerator > MOST_PASSAGES or not math.isclose(result, ratio, rel_tol=SAME):
         return None
-    return found.numerator, found.denominator
+    return result.numerator, result.denominator
 
 
 @dataclass(frozen=True)

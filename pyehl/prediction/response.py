@@ -258,7 +258,7 @@ class _Entering:
         if zone.ellipticity != 1.0 and np.isfinite(zone.ellipticity):
             bend = _bend(kx, self._slip) if self.bent else 1.0
             pressed_by = list(pressed(beside * bend, kx, ky, self.ratio, zone.ellipticity) / bend)
-        found = self.table.spread(
+        result = self.table.spread(
             driven=[driven for driven, _ in stations],
             free=[free * inlet for _, free in stations],
             off_centre=list(np.delete(beside, self._axis, 0)),
@@ -267,13 +267,13 @@ class _Entering:
         # the table has k_Y > 0; a wave with -k_Y is on a line what one with k_Y is on its mirror
         # image
         for name in ("off_centre", "pressed"):
-            lines = found[name]
-            found[name] = [
+            lines = result[name]
+            result[name] = [
                 np.where(self._negative, other, one)
                 for one, other in zip(lines, lines[::-1], strict=True)
             ]
         ratios = np.array([d + f for d, f in parts])
-        return _AtStations(found, ratios, np.array(pressures), np.array(convected))
+        return _AtStations(result, ratios, np.array(pressures), np.array(convected))
 
 
 class _AtStations(NamedTuple):
@@ -333,20 +333,20 @@ class Transfer:
                 leaking = leaking_at_amplitude(zone, variance)
         loaded = [waves.at_stations(leaking, mesh) for waves in entering]
         tables = [waves.table for waves in entering]
-        of_tables = zip(*(found[1:] for found in loaded), strict=True)
+        of_tables = zip(*(result[1:] for result in loaded), strict=True)
         second = SecondOrder(zone, STATIONS, tables, *of_tables)
         return [
             cls(
-                driven=found.parts["driven"],
-                free=found.parts["free"],
-                off_centre=found.parts["off_centre"],
-                pressed=found.parts["pressed"],
+                driven=result.parts["driven"],
+                free=result.parts["free"],
+                off_centre=result.parts["off_centre"],
+                pressed=result.parts["pressed"],
                 bent=waves.bent,
                 second=second,
                 stiffening=zone.stiffness,
                 ellipticity=zone.ellipticity,
             )
-            for waves, found in zip(entering, loaded, strict=True)
+            for waves, result in zip(entering, loaded, strict=True)
         ]
 
     @classmethod
@@ -409,8 +409,8 @@ class Transfer:
         """Pressure over roughness at X = Y = 0 [p_h R/a^2]."""
         free = self._free_at_centre(spectrum, velocity_ratio)
         qx, qy = spectrum.qx[:, np.newaxis], spectrum.qy[np.newaxis, :]
-        found = wave_pressure(qx, qy, velocity_ratio, self.driven[MIDDLE], free)
-        return self.stiffening * found
+        result = wave_pressure(qx, qy, velocity_ratio, self.driven[MIDDLE], free)
+        return self.stiffening * result
 
     def _free_at_centre(self, spectrum: Spectrum, velocity_ratio: float) -> Complex:
         if not self.free:

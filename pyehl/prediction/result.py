@@ -302,12 +302,12 @@ class Prediction:
     @property
     def arrays(self) -> dict[str, Array]:
         """Arrays x (nx,), y (ny,), surface, deformed [m] and delta_p [Pa] (nx, ny)."""
-        found: dict[str, Array] = {}
+        result: dict[str, Array] = {}
         for prefix, one, response in zip(
             ("", SECOND), self.surfaces, self.friction.responses, strict=False
         ):
-            found |= arrays(one.topography, response, prefix)
-        return found
+            result |= arrays(one.topography, response, prefix)
+        return result
 
     @property
     def tables(self) -> dict[str, dict[str, Array]]:

@@ -212,12 +212,12 @@ class RoughContact(ShearedContact):
     def add_edge(self, total: Single, *edges: tuple[Array, Array]) -> None:
         """Add what the edge does to the pressure (:meth:`Edge.at`), keep how far it is moved."""
         # a surface without long waves has none
-        coefficients = np.zeros(max(found.size for found, _ in edges))
+        coefficients = np.zeros(max(result.size for result, _ in edges))
         self.moved[:] = 0.0
-        for found, moved in edges:
+        for result, moved in edges:
             self.moved += moved
-            if found.size:
-                coefficients += found
+            if result.size:
+                coefficients += result
         if not coefficients.any():
             return
         if self.strip:

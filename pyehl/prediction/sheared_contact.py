@@ -106,9 +106,9 @@ class ShearedContact:
 
     def coefficient(self, stress: float) -> float:
         """Coefficient of friction of a sum of shear stress, as `stress` has it [-]."""
-        found = stress * self.area / self.operating.load
+        result = stress * self.area / self.operating.load
         newtonian = self.lubricant.viscosity * self.operating.sliding_speed
-        return found if self.thins else found * newtonian
+        return result if self.thins else result * newtonian
 
     def cavitated_bound(self, minimum: float) -> float:
         """Bound of the share of friction where the pressure is zero, by the minimum ratio."""

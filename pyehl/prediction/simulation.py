@@ -124,22 +124,22 @@ def resolution(case: Case, tiles: Mapping[str, Topography] | None = None) -> Res
         mesh = max(mesh, 2.0 * float(grid["y_extent"]) / (int(grid["points_y"]) - 1))
     # of two surfaces one may be a share of the film; else that is not asked for
     film = formula_film(operating, lubricant) if len(groups) > 1 else 0.0
-    found = [_tile(settings, group, (tiles or {}).get(group), operating, film) for group in groups]
+    result = [_tile(settings, group, (tiles or {}).get(group), operating, film) for group in groups]
     shortest = NODES * mesh * operating.hertz_radius
-    spectra = [Spectrum.of(tile.heights, tile.length_x, tile.length_y) for tile, _ in found]
+    spectra = [Spectrum.of(tile.heights, tile.length_x, tile.length_y) for tile, _ in result]
     if not any(spectrum.share_below(shortest) > 0.0 for spectrum in spectra):
         return None
     contact = solve_contact(settings)
     rough_tiles = tuple(
         RoughSurface(tile, float(keys["velocity_ratio"]), float(keys["x_start"]))
-        for (tile, _), keys in zip(found, rough, strict=True)
+        for (tile, _), keys in zip(result, rough, strict=True)
     )
     model = Model(rough_tiles, contact, operating, lubricant, ModelOptions())
     friction, below = run_and_below(model, NODES * mesh, ON_GRID * mesh)
     if not math.isfinite(friction.mu_ratio):
         raise EhlError(f"{friction.status}: {friction.message}")
     resolved, on_grid = below
-    parts = " and ".join(part for _, part in found if part)
+    parts = " and ".join(part for _, part in result if part)
     return Resolution(friction.mu_ratio, resolved, on_grid, shortest, parts)
 
 
@@ -234,7 +234,7 @@ def transfer(
         if not whole:
             raise InputError("the map is too large to be predicted as a whole")
         x, y = solver.axes()
-        found = starting_pressure(settings, tiles, x, y, start_fronts(solver))
+        result = starting_pressure(settings, tiles, x, y, start_fronts(solver))
     except InternalError:
         raise
     except (EhlError, OSError, MemoryError) as error:
@@ -242,7 +242,7 @@ def transfer(
         LOG.warning("time.start = 'prediction': the roughness enters behind a front: %s", why)
         take_start(solver, None, why)
     else:
-        take_start(solver, found)
+        take_start(solver, result)
 
 
 def _model(
@@ -256,18 +256,18 @@ def _model(
     operating = OperatingPoint.from_settings(settings)
     contact = solve_contact(settings)
     film = contact.central_film * operating.film_scale
-    found = []
+    result = []
     for group, front in zip(surfaces.rough_groups(settings), fronts, strict=True):
         keys = settings[group]
         if group in tiles:
             tile = surfaces.finished(tiles[group], {**keys, "track": 0.0})
         else:
             tile = surfaces.from_settings({**settings, "surface": keys}, operating, film)
-        found.append(
+        result.append(
             RoughSurface(tile, float(keys["velocity_ratio"]), float(front), groups=(group,))
         )
     lubricant = Lubricant.from_settings(settings)
-    return Model(tuple(found), contact, operating, lubricant, ModelOptions(), mesh)
+    return Model(tuple(result), contact, operating, lubricant, ModelOptions(), mesh)
 
 
 class _GridWaves:
@@ -327,10 +327,10 @@ class _GridWaves:
     def _at(self, spline: Array, x: Array) -> Array:
         """Values of a tile at places X on it and at the Y of the nodes."""
         places = np.broadcast_arrays(x * (REFINEMENT / self.pixel[0]), self.y / self.pixel[1])
-        found = scipy.ndimage.map_coordinates(
+        result = scipy.ndimage.map_coordinates(
             spline, places, order=3, mode="grid-wrap", prefilter=False
         )
-        return np.asarray(found)
+        return np.asarray(result)
 
     def add(self, added: Array, front: float) -> None:
         """Add the pressure of first order at `place` where the tile begins at X = front."""

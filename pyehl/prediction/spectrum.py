@@ -85,8 +85,8 @@ class Spectrum:
         In the precision of both. With `lines`, (ny, n), what :meth:`on_lines` gives, on
         these, (refinement nx, n).
         """
-        found = self.along(factor, refinement, stride, lines)
-        return np.asarray(np.fft.irfft(found, n=self.shape[0] * refinement).T)
+        result = self.along(factor, refinement, stride, lines)
+        return np.asarray(np.fft.irfft(result, n=self.shape[0] * refinement).T)
 
     def along(
         self,
@@ -243,14 +243,14 @@ class WaveTable:
         folded = power[:, :half].copy()
         folded[:, 1 : power.shape[1] - half + 1] += power[:, half:][:, ::-1]
         sums = np.bincount(self._nearest, folded.ravel(), self.kx.size)
-        found: Array = np.asarray(sums, dtype=np.float64).reshape(TABLE)
+        result: Array = np.asarray(sums, dtype=np.float64).reshape(TABLE)
         for _ in range(2 * times):
-            between = 0.5 * found[1::2]
-            found = found[::2].copy()
-            found[:-1] += between
-            found[1:] += between
-            found = found.T
-        return found.ravel()
+            between = 0.5 * result[1::2]
+            result = result[::2].copy()
+            result[:-1] += between
+            result[1:] += between
+            result = result.T
+        return result.ravel()
 
     def coarse(self, times: int = 1) -> tuple[Array, Array]:
         """Wavenumbers of a coarse table, (l,) each."""
@@ -261,15 +261,15 @@ class WaveTable:
         """Interpolate tables (m,), by names, to all components, linear in log |q| and direction."""
         in_all = [table for part in tables.values() for table in part]
         values = np.stack(in_all, axis=-1).view(np.float64)
-        found = [np.empty((self._shape[0], self._mirror.size), dtype=complex) for _ in in_all]
+        result = [np.empty((self._shape[0], self._mirror.size), dtype=complex) for _ in in_all]
         width = self._shape[1]
         step = max(1, BLOCK // width)
         for first in range(0, self._shape[0], step):
             part = slice(first * width, (first + step) * width)
             spread = _between(values, self._rows[part], self._columns[part]).view(np.complex128)
-            for k, out in enumerate(found):
+            for k, out in enumerate(result):
                 out[first : first + step] = spread[:, k].reshape(-1, width)[:, self._mirror]
-        each = iter(found)
+        each = iter(result)
         return {name: [next(each) for _ in part] for name, part in tables.items()}
 
 
@@ -282,10 +282,10 @@ def _between(values: Array, row: Array, column: Array) -> Array:
     # what rounding puts beyond the last column is on it
     u, v = row - i, np.minimum(column - j, 1.0)
     at = i * np.int32(TABLE[1]) + j
-    found = values[at] * ((1.0 - u) * (1.0 - v))[:, np.newaxis]
+    result = values[at] * ((1.0 - u) * (1.0 - v))[:, np.newaxis]
     for step, weight in ((1, (1.0 - u) * v), (TABLE[1], u * (1.0 - v)), (TABLE[1] + 1, u * v)):
-        found += values[at + step] * weight[:, np.newaxis]
-    return found
+        result += values[at + step] * weight[:, np.newaxis]
+    return result
 
 
 # A wave at the end of an octave begins the next one, whatever its last digits
@@ -352,7 +352,7 @@ def joining(
     """
     q, power, deformed, pressure = waves
     a, film, p_h = operating.hertz_radius, operating.film_scale, operating.hertz_pressure
-    found: list[Band] = []
+    result: list[Band] = []
     before = 1.0
     for longest, inside, last in octaves(q, power, only=2 if brief else 0):
         ratio = total if last else below(4.0 * np.pi / longest)
@@ -363,7 +363,7 @@ def joining(
             math.sqrt(float((power * np.square(factor))[inside].sum()))
             for factor in (np.ones_like(pressure), deformed, pressure)
         ]
-        found.append(
+        result.append(
             Band(
                 longest=longest * a,
                 shortest=0.5 * longest * a,
@@ -374,7 +374,7 @@ def joining(
             )
         )
         before = ratio
-    return found
+    return result
 
 
 def cutoff_error(bands: Sequence[Band]) -> float:

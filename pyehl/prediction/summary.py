@@ -44,20 +44,20 @@ class Together:
 def arrays(tile: Topography, response: Response, prefix: str = "") -> dict[str, Array]:
     """Coordinates (nx,), (ny,) [m], heights [m] and response (nx, ny) of a surface."""
     nx, ny = tile.shape
-    found = {
+    result = {
         "x": np.arange(nx, dtype=float) * tile.pixel[0],
         "y": np.arange(ny, dtype=float) * tile.pixel[1],
         "surface": np.asfortranarray(tile.heights),
         "deformed": np.asfortranarray(response.deformed),
         "delta_p": np.asfortranarray(response.pressure),
     }
-    return {prefix + name: values for name, values in found.items()}
+    return {prefix + name: values for name, values in result.items()}
 
 
 def statistics(tile: Topography, response: Response, prefix: str = "") -> dict[str, Any]:
     """Numbers of a surface that a summary holds."""
     made = tile.preparation
-    found = {
+    result = {
         "surface": tile.origin,
         "surface_preparation": made.record.summary if made else None,
         "seed": tile.seed,
@@ -68,7 +68,7 @@ def statistics(tile: Topography, response: Response, prefix: str = "") -> dict[s
         "rms_deformed_m": float(np.std(response.deformed)),
         "rms_pressure_Pa": float(np.std(response.pressure)),
     }
-    return {prefix + name: value for name, value in found.items()}
+    return {prefix + name: value for name, value in result.items()}
 
 
 def second_summary(
@@ -196,5 +196,5 @@ def summary_of(prediction: Prediction) -> dict[str, Any]:
     elif o.radius_ratio != 1.0:
         values |= {"radius_ratio": o.radius_ratio, "semi_axis_y_m": o.semi_axes[1]}
         values["ellipticity"] = o.ellipse.ellipticity
-    found = {key: finite(value) for key, value in values.items()}
-    return found | {"assessment": assess(found).text}
+    result = {key: finite(value) for key, value in values.items()}
+    return result | {"assessment": assess(result).text}

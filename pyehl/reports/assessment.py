@@ -39,15 +39,15 @@ def numbers_of(summary: Values) -> dict[str, str]:
     conclusion = conclude(summary)
     if conclusion.confidence == "no result":
         return {}
-    found = {
+    result = {
         WORDS[name]: f"{name} = {_signs(text)}" if name in ("H_c", "H_min") else _signs(text)
         for name, text in conclusion.lines.items()
         if name in WORDS
     }
     if summary.get("mu_ratio_min") is not None:
         low, high = summary["mu_ratio_min"], summary["mu_ratio_max"]
-        found["μ_r/μ_s"] += f"; between {low:.4g} and {high:.4g} over the passage"
-    return found | (_predicted(summary) if summary["kind"] == "prediction" else _solved(summary))
+        result["μ_r/μ_s"] += f"; between {low:.4g} and {high:.4g} over the passage"
+    return result | (_predicted(summary) if summary["kind"] == "prediction" else _solved(summary))
 
 
 def _signs(text: str) -> str:
@@ -62,9 +62,9 @@ def _solved(s: Values) -> dict[str, str]:
         for name in ("H_c", "H_min")
         if s.get(f"{name}_extrapolated") is not None
     ]
-    found = {"extrapolated to fine grids": ", ".join(limits)} if limits else {}
+    result = {"extrapolated to fine grids": ", ".join(limits)} if limits else {}
     grid = f"{s['points']} nodes along X; errors from {s.get('error_estimate', 'none')}"
-    return found | {"grid": grid}
+    return result | {"grid": grid}
 
 
 def _predicted(s: Values) -> dict[str, str]:

@@ -20,11 +20,11 @@ PATIENCE = 120.0
 
 def browser() -> str:
     """Give the path of a browser that prints; InputError if none is installed."""
-    found = next(filter(None, map(shutil.which, BROWSERS)), None)
-    if found is None:
+    result = next(filter(None, map(shutil.which, BROWSERS)), None)
+    if result is None:
         expected = f"expected: one of {', '.join(BROWSERS)}"
         raise InputError(f"--pdf: no browser is installed that prints pages\n{expected}")
-    return found
+    return result
 
 
 def write_pdf(page: Path, path: Path) -> Path:

@@ -14,45 +14,45 @@ def conditions(settings: Settings) -> dict[str, str]:
     """Give names and values in SI units of a resolved case."""
     point = scaling_contact(settings)
     contact, lubricant = settings["contact"], settings["lubricant"]
-    found = {}
+    result = {}
     if not point.si:
-        found["given as"] = "M and L; below with the radius and modulus of a steel ball"
+        result["given as"] = "M and L; below with the radius and modulus of a steel ball"
     if isinstance(point, LineContact):
-        found["line contact, load per length w"] = f"{point.load_per_length:.6g} N/m"
+        result["line contact, load per length w"] = f"{point.load_per_length:.6g} N/m"
     else:
-        found["load w"] = f"{point.load:.6g} N"
-    found["mean velocity u"] = f"{point.mean_velocity:.6g} m/s"
-    found["slide-to-roll ratio"] = f"{point.slide_to_roll:.4g}"
+        result["load w"] = f"{point.load:.6g} N"
+    result["mean velocity u"] = f"{point.mean_velocity:.6g} m/s"
+    result["slide-to-roll ratio"] = f"{point.slide_to_roll:.4g}"
     if isinstance(point, LineContact) or point.radius_ratio == 1.0:
-        found["reduced radius R"] = f"{point.radius * 1e3:.6g} mm"
+        result["reduced radius R"] = f"{point.radius * 1e3:.6g} mm"
     else:
         across = point.radius / point.radius_ratio
-        found["reduced radii R_x, R_y"] = f"{point.radius * 1e3:.6g}, {across * 1e3:.6g} mm"
+        result["reduced radii R_x, R_y"] = f"{point.radius * 1e3:.6g}, {across * 1e3:.6g} mm"
         if contact.get("angle"):
-            found["turned by"] = f"{contact['angle']:g} deg against the motion"
-    found["reduced modulus E'"] = f"{point.reduced_modulus * 1e-9:.6g} GPa, 2/E' = Σ(1−ν²)/E"
-    found["viscosity η₀"] = f"{float(lubricant['viscosity']):.5g} Pa s at ambient pressure"
+            result["turned by"] = f"{contact['angle']:g} deg against the motion"
+    result["reduced modulus E'"] = f"{point.reduced_modulus * 1e-9:.6g} GPa, 2/E' = Σ(1−ν²)/E"
+    result["viscosity η₀"] = f"{float(lubricant['viscosity']):.5g} Pa s at ambient pressure"
     if lubricant.get("name"):
-        found["oil"] = f"{lubricant['name']}: {oil(str(lubricant['name'])).title}"
-        found["inlet temperature"] = f"{lubricant['temperature']:g} °C"
+        result["oil"] = f"{lubricant['name']}: {oil(str(lubricant['name'])).title}"
+        result["inlet temperature"] = f"{lubricant['temperature']:g} °C"
     if lubricant.get("kinematic_viscosity_40"):
-        found["viscosity η₀"] += (
+        result["viscosity η₀"] += (
             f", from {lubricant['kinematic_viscosity_40']:g} and "
             f"{lubricant['kinematic_viscosity_100']:g} mm²/s at 40 and 100 °C"
         )
-        found["inlet temperature"] = f"{lubricant['temperature']:g} °C"
-    found["pressure-viscosity α"] = f"{point.pressure_viscosity * 1e9:.5g} 1/GPa"
+        result["inlet temperature"] = f"{lubricant['temperature']:g} °C"
+    result["pressure-viscosity α"] = f"{point.pressure_viscosity * 1e9:.5g} 1/GPa"
     if point.thermal_reduction != 1.0:
-        found["shear heating of the inlet"] = (
+        result["shear heating of the inlet"] = (
             f"film {point.thermal_reduction:.4f} of the isothermal one"
         )
     law, density = lubricant["viscosity_law"], lubricant["density_law"]
-    found["laws"] = f"viscosity {law}, density {density}, shear stress {lubricant['shear_law']}"
+    result["laws"] = f"viscosity {law}, density {density}, shear stress {lubricant['shear_law']}"
     if lubricant["shear_law"] in ("eyring", "carreau"):
-        found["laws"] += f", flow {lubricant.get('flow', 'newtonian')}"
+        result["laws"] += f", flow {lubricant.get('flow', 'newtonian')}"
     for group in rough_groups(settings):
-        found[group.replace("_", " ")] = surface_words(settings[group])
-    return found
+        result[group.replace("_", " ")] = surface_words(settings[group])
+    return result
 
 
 def surface_words(group: Mapping[str, Any]) -> str:
@@ -82,7 +82,7 @@ def numbers(settings: Settings) -> dict[str, str]:
     """Give names and values of the numbers without units, and of the dry contact."""
     point = scaling_contact(settings)
     line = isinstance(point, LineContact)
-    found = {
+    result = {
         "Moes load M of a line" if line else "Moes load M": f"{point.moes_m:.5g}",
         "Moes material L of a line" if line else "Moes material L": f"{point.moes_l:.5g}",
         "U, G, W": f"{point.speed:.4g}, {point.material:.4g}, {point.load_number:.4g}",
@@ -90,17 +90,17 @@ def numbers(settings: Settings) -> dict[str, str]:
         "α p_h": f"{point.alpha_bar:.4g}",
     }
     if isinstance(point, LineContact):
-        found["half width b of the contact"] = f"{point.half_width * 1e3:.5g} mm"
+        result["half width b of the contact"] = f"{point.half_width * 1e3:.5g} mm"
     elif point.radius_ratio == 1.0:
-        found["contact radius a"] = f"{point.hertz_radius * 1e3:.5g} mm"
+        result["contact radius a"] = f"{point.hertz_radius * 1e3:.5g} mm"
     else:
         a, b = point.hertz_radius * 1e3, point.semi_axis_y * 1e3
-        found["semi-axes of the contact"] = (
+        result["semi-axes of the contact"] = (
             f"{a:.5g} mm and {b:.5g} mm"
             if settings["contact"].get("angle")
             else f"{a:.5g} mm along, {b:.5g} mm across the motion"
         )
-    found["unit of films b²/R" if line else "unit of films a²/R"] = (
+    result["unit of films b²/R" if line else "unit of films a²/R"] = (
         f"{point.film_scale * 1e6:.5g} µm"
     )
-    return found
+    return result

@@ -172,8 +172,8 @@ def _single(
     parts = [page.heading("Conditions")]
     parts += [page.facts(conditions(settings)), page.facts(numbers(settings))]
     parts.append(page.heading("Results"))
-    found = numbers_of(summary)
-    parts.append(page.facts(found) if found else page.paragraph(assessment.why, "fail"))
+    result = numbers_of(summary)
+    parts.append(page.facts(result) if result else page.paragraph(assessment.why, "fail"))
     if summary.get("film_breakdown"):
         parts.append(page.facts({k: str(v) for k, v in summary["film_breakdown"].items()}))
     parts += _pictures(data, summary, dpi)
@@ -200,13 +200,13 @@ def _files(folder: Path) -> set[str]:
     """Give the files that a result names: height maps and tables of oils."""
     header = read_header(folder) or {}
     vary = header.get("vary", {})
-    found = {str(v) for key in vary if key.rpartition(".")[2] in FILES for v in vary[key]}
+    result = {str(v) for key in vary if key.rpartition(".")[2] in FILES for v in vary[key]}
     cases = [str(header.get("case", ""))]
     cases += [_text(folder / n) for n in ("case.nml", CASE) if (folder / n).is_file()]
     for case in cases:
         for group in namelist.values(case).values():
-            found |= {str(group[key]) for key in FILES if group.get(key)}
-    return found
+            result |= {str(group[key]) for key in FILES if group.get(key)}
+    return result
 
 
 def _nameless(value: object, files: set[str]) -> object:

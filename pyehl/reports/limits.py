@@ -28,7 +28,7 @@ def limits(settings: Settings, summary: Values) -> list[str]:
     law, flow = settings["lubricant"]["shear_law"], settings["lubricant"]["flow"]
     rough = rough_groups(settings)
     predicted = summary.get("kind") == "prediction"
-    found = [
+    result = [
         f"The inlet is fully flooded: there is no starvation. {_contact(settings, summary)}",
         "Film and pressure are isothermal."
         if point.thermal_reduction == 1.0
@@ -36,49 +36,49 @@ def limits(settings: Settings, summary: Values) -> list[str]:
         "pressure in the contact are isothermal.",
     ]
     if summary.get("temperature_rise_max_K") is not None:
-        found.append("The friction has the temperature of film and walls.")
+        result.append("The friction has the temperature of film and walls.")
     elif summary.get("flash_temperature_K") is not None:
-        found.append("The flash temperature is estimated, and not fed back into the friction.")
+        result.append("The flash temperature is estimated, and not fed back into the friction.")
     if summary.get("kind") == "response":
-        return found
+        return result
     if law == "newtonian" and point.sliding_speed > 0.0:
-        found.append(
+        result.append(
             "The oil is Newtonian: a coefficient of friction would have no meaning at these "
             "pressures. Shear thinning brings μ_r/μ_s close to 1."
         )
     elif law in ("eyring", "carreau") and flow == "newtonian":
-        found.append("The shear law thins the friction alone: film and waves are Newtonian.")
+        result.append("The shear law thins the friction alone: film and waves are Newtonian.")
     elif law == "limiting":
-        found.append("The limiting stress bounds the friction alone, not the flow.")
+        result.append("The limiting stress bounds the friction alone, not the flow.")
     if (isinstance(point, LineContact) or point.moes_m >= 500.0) and settings["grid"][
         "border"
     ] != "flooded":
-        found.append(
+        result.append(
             "At the border of the domain P = 0, which takes a little of the film; what it takes is "
             "part of the stated error."
         )
     if point.hertz_pressure > HIGH_PRESSURE:
-        found.append(
+        result.append(
             "Above a Hertz pressure of 4 GPa few grids were tried; the status has the outcome."
         )
     if isinstance(point, LineContact):
-        found.append(
+        result.append(
             "The line is infinitely long: nothing is known of the ends of a roller, of its "
             "profile or of misalignment."
         )
     if rough:
-        found.append(
+        result.append(
             "μ_r/μ_s on the track of the case is that of one track of this surface at this slip. "
             "Between tracks of one surface it scatters by about 10 %."
         )
     if len(rough) == 1 and str(settings[rough[0]]["kind"]) in FEATURES:
-        found[-1] = "μ_r/μ_s is the mean over one passage of the feature."
+        result[-1] = "μ_r/μ_s is the mean over one passage of the feature."
     if predicted:
-        found.append(
+        result.append(
             "It is a prediction from the spectrum: of second order in the height of the waves, for "
             "waves that the film sustains."
         )
-    return found
+    return result
 
 
 def _contact(settings: Settings, summary: Values) -> str:
@@ -112,29 +112,29 @@ def unheated(summary: Values) -> float | None:
 
 def warnings(summary: Values) -> list[str]:
     """Give what a summary states of what is not known or to be taken with care."""
-    found = [
+    result = [
         f"{words}: {summary[name]}."
         for name, words in NOTES.items()
         if summary.get(name) and not (name == "message" and summary["status"] == "predicted")
     ]
     outside = summary.get("outside_range")
     if outside:
-        found.append(
+        result.append(
             f"Outside of the range in which the response was measured: {', '.join(outside)}."
         )
     heat = unheated(summary)
     if heat is not None:
-        found.append(
+        result.append(
             f"The flash temperature is {heat:.3g} K: the oil in the contact is thinner than "
             "computed, and the friction less."
         )
     left_out = summary.get("variance_left_out") or 0.0
     if left_out > 0.0:
-        found.append(f"The grid leaves out {100.0 * left_out:.2g} % of the height's variance.")
+        result.append(f"The grid leaves out {100.0 * left_out:.2g} % of the height's variance.")
     share = summary.get("film_below_zero_share") or 0.0
     if share > 0.0:
-        found.append(f"The film would have ended on {100.0 * share:.2g} % of the contact.")
+        result.append(f"The film would have ended on {100.0 * share:.2g} % of the contact.")
     lost = summary.get("cavitated_share") or 0.0
     if lost > 0.0:
-        found.append(f"The pressure would be negative on {100.0 * lost:.2g} % of the contact.")
-    return found
+        result.append(f"The pressure would be negative on {100.0 * lost:.2g} % of the contact.")
+    return result

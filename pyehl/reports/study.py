@@ -140,13 +140,13 @@ def _assess(rows: pd.DataFrame, size: int) -> Assessment:
 
 def _errors(rows: pd.DataFrame) -> dict[str, float]:
     """Give the largest relative error of each result whose errors are in the table."""
-    found = {}
+    result = {}
     for name in DRAWN:
         for column in COLUMNS[name]:
             if name in rows and column in rows and rows[column].notna().any():
-                found[name] = float((rows[column] / rows[name].abs()).max())
+                result[name] = float((rows[column] / rows[name].abs()).max())
                 break
-    return found
+    return result
 
 
 def _cell(value: Any) -> str:  # noqa: ANN401 (of a table)

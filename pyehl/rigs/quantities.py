@@ -70,8 +70,8 @@ FACTORS = {
 
 def label_of(cell: str) -> tuple[str, str]:
     """Split the name of a column into words and unit, which is in brackets: 'srr', '%'."""
-    found = re.fullmatch(r"\s*(.*?)\s*[(\[]\s*([^()\[\]]*?)\s*[)\]]\s*", cell)
-    words, unit = (found[1], found[2]) if found else (cell, "")
+    match = re.fullmatch(r"\s*(.*?)\s*[(\[]\s*([^()\[\]]*?)\s*[)\]]\s*", cell)
+    words, unit = (match[1], match[2]) if match else (cell, "")
     words = re.sub(r"[\s_\-–]+", " ", words).strip().casefold()
     return words, unit.replace("µ", "u").replace("μ", "u").replace("°", "deg").strip()
 

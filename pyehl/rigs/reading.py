@@ -80,11 +80,11 @@ def read_rig(path: str | os.PathLike[str]) -> RigFile:
     steps = tuple(read(name, lines))
     measured = tuple(s for s in steps if any(q.name in s.columns for q in MEASURED))
     if not measured:
-        found = [cell for step in steps for cell in (*step.columns, *step.left_out)]
+        result = [cell for step in steps for cell in (*step.columns, *step.left_out)]
         known = ", ".join(q.known_as[0] for q in QUANTITIES)
         raise InputError(
             f"{name}: error: no column of film thickness or friction; columns: "
-            f"{', '.join(dict.fromkeys(found)) or 'none'}\nexpected: names such as {known}, with "
+            f"{', '.join(dict.fromkeys(result)) or 'none'}\nexpected: names such as {known}, with "
             "units in brackets"
         )
     return RigFile(name, kind, measured)

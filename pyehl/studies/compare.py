@@ -127,18 +127,18 @@ def _key(where: str, key: str, cell: str) -> Key:
         return cell.strip("'\"")
 
 
-def _expected(where: str, name: str, found: dict[str, str]) -> Expected:
-    value = _number(where, name, found[name])
-    given = [f"{name}{end}" for end in TOLERANCES if found.get(f"{name}{end}")]
+def _expected(where: str, name: str, result: dict[str, str]) -> Expected:
+    value = _number(where, name, result[name])
+    given = [f"{name}{end}" for end in TOLERANCES if result.get(f"{name}{end}")]
     if not given:
         raise InputError(
             f"{where} {name} has no tolerance\nexpected: a column {name}_rtol or {name}_atol"
         )
     tolerance = 0.0
     for column in given:
-        share = _number(where, column, found[column])
+        share = _number(where, column, result[column])
         if share < 0.0:
-            raise InputError(f"{where} {column} = {found[column]}\nexpected: not negative")
+            raise InputError(f"{where} {column} = {result[column]}\nexpected: not negative")
         tolerance += share * abs(value) if column.endswith("_rtol") else share
     return Expected(value, tolerance)
 
@@ -163,28 +163,28 @@ class Deviation:
     case: str  # keys of the row, in words
     name: str  # of the result
     expected: Expected  # reference value and tolerance
-    found: float | None  # the result; None where there is none
+    value: float | None  # the result; None where there is none
     why: str = ""  # why there is none; '' where there is one
 
     @property
     def difference(self) -> float:
         """Result less reference [as the result]; NaN without a result."""
-        return math.nan if self.found is None else self.found - self.expected.value
+        return math.nan if self.value is None else self.value - self.expected.value
 
     @property
     def passed(self) -> bool:
         """Whether it is within the tolerance."""
-        return self.found is not None and abs(self.difference) <= self.expected.tolerance
+        return self.value is not None and abs(self.difference) <= self.expected.tolerance
 
     def __str__(self) -> str:
         """Give name, both values, deviation and verdict in one line."""
         value, tolerance = self.expected.value, self.expected.tolerance
-        if self.found is None:
+        if self.value is None:
             return f"{self.name} no result ({self.why}), reference {value:.6g}: FAIL"
         relative = f" ({100.0 * self.difference / value:+.2g} %)" if value else ""
         verdict = "pass" if self.passed else "FAIL"
         return (
-            f"{self.name} {self.found:.6g}, reference {value:.6g}: deviation "
+            f"{self.name} {self.value:.6g}, reference {value:.6g}: deviation "
             f"{self.difference:+.2g}{relative}, tolerance {tolerance:.2g}: {verdict}"
         )
 
@@ -268,12 +268,12 @@ def _rows(path: Path) -> tuple[Values, ...]:
     return tuple(table.to_dict("records"))
 
 
-def _same(wanted: Key, found: object) -> bool:
-    if isinstance(wanted, bool) or isinstance(found, bool):
-        return wanted is found
+def _same(wanted: Key, result: object) -> bool:
+    if isinstance(wanted, bool) or isinstance(result, bool):
+        return wanted is result
     if isinstance(wanted, float):
-        return isinstance(found, int | float) and math.isclose(wanted, found, rel_tol=SAME)
-    return isinstance(found, str) and found.strip("'\"").lower() == wanted.lower()
+        return isinstance(result, int | float) and math.isclose(wanted, result, rel_tol=SAME)
+    return isinstance(result, str) and result.strip("'\"").lower() == wanted.lower()
 
 
 def compare(results: Results, table: ReferenceTable) -> Comparison:
@@ -294,7 +294,7 @@ def compare(results: Results, table: ReferenceTable) -> Comparison:
             for row in results.rows
             if all(_same(value, results.key(row, key)) for key, value in reference.keys.items())
         ]
-        deviations += [found for row in matched for found in _deviations(reference, row)]
+        deviations += [result for row in matched for result in _deviations(reference, row)]
         if not matched:
             missing.append(reference)
     if not deviations:
@@ -309,7 +309,7 @@ def _deviations(reference: ReferenceRow, row: Values) -> list[Deviation]:
     words = (
         f"{k}={v:g}" if isinstance(v, float) else f"{k}={v}" for k, v in reference.keys.items()
     )
-    case, found = ", ".join(words), []
+    case, result = ", ".join(words), []
     for name, expected in reference.expected.items():
         value, why = row.get(name), ""
         if (
@@ -318,5 +318,5 @@ def _deviations(reference: ReferenceRow, row: Values) -> list[Deviation]:
             or not math.isfinite(value)
         ):
             value, why = None, f"status '{row.get('status', 'unknown')}'"
-        found.append(Deviation(reference.line, case, name, expected, value, why))
-    return found
+        result.append(Deviation(reference.line, case, name, expected, value, why))
+    return result

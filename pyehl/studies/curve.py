@@ -74,20 +74,20 @@ def kept_pattern(
 
     A surface that knows nothing of the contact is made once.
     """
-    found = []
+    result = []
     for group in surfaces.rough_groups(settings):
         alone = {**settings, "surface": settings[group]}
         name = str(sorted(settings[group].items(), key=str))
         if settings[group]["kind"] == "harmonic" or name not in kept:
             kept[name] = pattern(alone, operating, film)
-        found.append(kept[name])
-    if len(found) == 1:
-        return found[0]
-    variance = sum(part.rms_height**2 for part in found)
+        result.append(kept[name])
+    if len(result) == 1:
+        return result[0]
+    variance = sum(part.rms_height**2 for part in result)
     if not variance > 0.0:
         return SMOOTH
     # the mean wavenumber is that of the power of both
-    number = sum(part.rms_height**2 / part.wavelength for part in found) / variance
+    number = sum(part.rms_height**2 / part.wavelength for part in result) / variance
     return Pattern(math.sqrt(variance), 1.0 / number)
 
 
@@ -138,9 +138,9 @@ def curve_table(plan: CurvePlan, rows: Mapping[int, Values]) -> pd.DataFrame:
     that does not exist.
     """
     patterns: dict[str, Pattern] = {}
-    found = [p.point.values | _row(plan, p, rows, patterns) for p in plan.points]
+    result = [p.point.values | _row(plan, p, rows, patterns) for p in plan.points]
     columns = [*plan.study.keys, *units_of(plan), *WORDS, CONCLUSION]
-    return pd.DataFrame(found, columns=columns, dtype=object)
+    return pd.DataFrame(result, columns=columns, dtype=object)
 
 
 def curves_of(plan: CurvePlan, table: pd.DataFrame, *, absolute: bool = False) -> list[Curve]:
@@ -164,7 +164,7 @@ def _row(
     """Give the columns of a point."""
     operating = contact_of(point.settings)
     smooth = rows.get(point.smooth, NOT_DONE)
-    found = [rows.get(number, NOT_DONE) for number in point.predictions]
+    result = [rows.get(number, NOT_DONE) for number in point.predictions]
     full = None if point.full is None else rows.get(point.full, NOT_DONE)
     viscosity = float(point.settings["lubricant"]["viscosity"])
     # a load per length has the unit of viscosity times velocity
@@ -175,11 +175,11 @@ def _row(
         "hersey": viscosity * operating.mean_velocity * length / operating.load,
         "moes_m": operating.moes_m,
         "moes_l": operating.moes_l,
-        "surfaces": len(found),
+        "surfaces": len(result),
     }
-    if found:
+    if result:
         values |= _film_ratios(point.settings, operating, values, patterns)
-    values |= _rough_friction(found, smooth) if found else _smooth_friction(smooth)
+    values |= _rough_friction(result, smooth) if result else _smooth_friction(smooth)
     if (law := plan.load_share) is not None and values["lambda_ratio_central"] is not None:
         # where the film ends it has the friction of the smooth contact
         ratio = values["lambda_ratio_central"]
@@ -188,7 +188,7 @@ def _row(
         values |= dict(zip(EMPIRICAL, (law.share(ratio), mu), strict=True))
     if point.settings["lubricant"]["boundary_film"]:
         for name, over_all in CONTACT.items():
-            values[name] = _over(found or [smooth], name, over_all)
+            values[name] = _over(result or [smooth], name, over_all)
         if full is not None and full["status"] == "converged":
             values |= {name: full.get(source) for name, source in CONTACT_EHL.items()}
     notes = [values["message"]]
@@ -265,9 +265,9 @@ def _film_ratios(
     }
 
 
-def _in_contact(found: Sequence[Values]) -> bool:
+def _in_contact(result: Sequence[Values]) -> bool:
     """Whether the bodies are in contact, by the summaries of a point."""
-    return any((row.get("contact_load_share") or 0.0) > 0.0 for row in found)
+    return any((row.get("contact_load_share") or 0.0) > 0.0 for row in result)
 
 
 def _smooth_friction(smooth: Values) -> dict[str, Any]:
@@ -283,21 +283,21 @@ def _smooth_friction(smooth: Values) -> dict[str, Any]:
     return values | {"status": UNSOLVED if unresolved else status}
 
 
-def _rough_friction(found: Sequence[Values], smooth: Values) -> dict[str, Any]:
+def _rough_friction(result: Sequence[Values], smooth: Values) -> dict[str, Any]:
     """Mean and spread over the surfaces; no mean where one of them has no ratio.
 
     The coefficient of the smooth contact is that of its solution, which has the inlet too. In
     contact both coefficients are as predicted, so that they belong together.
     """
     values: dict[str, Any] = {n: smooth.get(n) for n in ("mu_smooth", "mu_smooth_isothermal")}
-    if lost := [row for row in found if row["status"] != "predicted"]:
-        return values | _lost(lost, len(found))
-    outside = sorted({row["outside_range"] for row in found if row.get("outside_range")})
-    if any((row["mu_ratio"] or 0.0) > KNOWN_RATIO for row in found):
+    if lost := [row for row in result if row["status"] != "predicted"]:
+        return values | _lost(lost, len(result))
+    outside = sorted({row["outside_range"] for row in result if row.get("outside_range")})
+    if any((row["mu_ratio"] or 0.0) > KNOWN_RATIO for row in result):
         outside.append(f"mu_ratio above {KNOWN_RATIO:g}")
     notes = [f"outside the range of the prediction: {'; '.join(outside)}"] if outside else []
-    contact = _in_contact(found)
-    if contact and any(row["mu_ratio"] is None for row in found):
+    contact = _in_contact(result)
+    if contact and any(row["mu_ratio"] is None for row in result):
         notes.append(NO_FRICTION)
         values["mu_note"] = NO_FRICTION
     coefficients = [
@@ -307,13 +307,13 @@ def _rough_friction(found: Sequence[Values], smooth: Values) -> dict[str, Any]:
             else row["mu_ratio"] * values[of_smooth]
             for name, of_smooth in (("mu", "mu_smooth"), ("mu_isothermal", "mu_smooth_isothermal"))
         }
-        for row in found
+        for row in result
     ]
-    for name, rows in (("mu_ratio", found), ("mu", coefficients)):
+    for name, rows in (("mu_ratio", result), ("mu", coefficients)):
         values |= {name: _over(rows, name, np.mean), f"{name}_spread": _over(rows, name, _spread)}
     values["mu_isothermal"] = _over(coefficients, "mu_isothermal", np.mean)
     if contact:
-        own = all(row.get("mu_smooth") is not None for row in found)
+        own = all(row.get("mu_smooth") is not None for row in result)
         for name, mean in (("mu_smooth", "mu"), ("mu_smooth_isothermal", "mu_isothermal")):
             numbers = values[mean], values["mu_ratio"]
             known = None not in numbers and (own or name != "mu_smooth")
@@ -321,11 +321,11 @@ def _rough_friction(found: Sequence[Values], smooth: Values) -> dict[str, Any]:
         if values["mu"] is not None and not own:
             notes.append(OF_ROUGH)
         for name in ("temperature_rise_max_K", "flash_temperature_K"):
-            values[name] = _over(found, name, max)
+            values[name] = _over(result, name, max)
     for name in ("p_max_rough_Pa", "mu_ratio_model_error"):
-        values[name] = _over(found, name, max)
+        values[name] = _over(result, name, max)
     status = MIXED if contact else OUTSIDE if outside else FULL_FILM
-    return values | deformed_surfaces(found) | {"status": status, "message": "; ".join(notes)}
+    return values | deformed_surfaces(result) | {"status": status, "message": "; ".join(notes)}
 
 
 def _lost(lost: Sequence[Values], count: int) -> dict[str, Any]:
@@ -347,9 +347,9 @@ def _spread(numbers: Iterable[float]) -> float | None:
     return float(values.std(ddof=1)) if values.size > 1 else None
 
 
-def _over(found: Sequence[Values], name: str, over_all: Callable[..., Any]) -> Any:  # noqa: ANN401
+def _over(result: Sequence[Values], name: str, over_all: Callable[..., Any]) -> Any:  # noqa: ANN401
     """Give a function of the values of several surfaces; None where one of them has none."""
-    numbers = [row.get(name) for row in found]
+    numbers = [row.get(name) for row in result]
     return None if None in numbers else over_all(numbers)
 
 
@@ -357,5 +357,5 @@ def no_coefficient(settings: Settings) -> str:
     """Say why a friction coefficient of a resolved case would have no meaning; '' if it has one."""
     operating, lubricant = contact_of(settings), Lubricant.from_settings(settings)
     film = formula_film(operating, lubricant)
-    found = absolute_friction(operating, lubricant, film=film, mu_smooth=1.0, mu_ratio=1.0)
-    return "" if math.isfinite(found["mu"]) else str(found["mu_note"])
+    result = absolute_friction(operating, lubricant, film=film, mu_smooth=1.0, mu_ratio=1.0)
+    return "" if math.isfinite(result["mu"]) else str(result["mu_note"])

@@ -63,8 +63,8 @@ class CurvePlan:
         full = [p.point.number for p in self.points if p.full is not None]
         files = {name: None for p in self.points for name in files_of(p.settings)}
         first = (*self.points[0].predictions, self.points[0].smooth)[0]
-        found = self.study.identity(self.tasks[first].text, files)
-        return found | {"run": "stribeck", "surfaces": self.surfaces, "ehl": full}
+        result = self.study.identity(self.tasks[first].text, files)
+        return result | {"run": "stribeck", "surfaces": self.surfaces, "ehl": full}
 
     def text(self, jobs: int, done: Sequence[int] = ()) -> str:
         """Report the plan in a few lines, for `jobs` worker processes and the tasks left."""

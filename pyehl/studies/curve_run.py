@@ -53,9 +53,9 @@ def absolute_friction(plan: CurvePlan, table: pd.DataFrame) -> bool:
     A point whose smooth contact has no solution has a ratio, and is left out.
     """
     sliding = np.array([bool(p.settings["contact"]["slide_to_roll"]) for p in plan.points])
-    found = table[sliding & table["status"].isin((FULL_FILM, MIXED, OUTSIDE))]
-    found = found[(found["status"] != OUTSIDE) | found["mu_ratio"].notna()]
-    return bool(len(found) and found["mu"].notna().all())
+    result = table[sliding & table["status"].isin((FULL_FILM, MIXED, OUTSIDE))]
+    result = result[(result["status"] != OUTSIDE) | result["mu_ratio"].notna()]
+    return bool(len(result) and result["mu"].notna().all())
 
 
 def report(plan: CurvePlan, table: pd.DataFrame) -> str:
@@ -99,15 +99,15 @@ def deviation(curve: Curve, measured: Measured) -> list[str]:
     for name in (measured.ordinate, "mu_empirical"):
         if name not in curve.table:
             continue
-        found = measured.deviation(name, curve)
-        known = np.isfinite(found)
+        result = measured.deviation(name, curve)
+        known = np.isfinite(result)
         if not known.any():
             lines.append(f"measured   no point where there is {name}")
             continue
-        worst = int(np.nanargmax(np.abs(found)))
+        worst = int(np.nanargmax(np.abs(result)))
         lines.append(
-            f"measured   {name} is off by {np.mean(found[known]):+.1%} in the mean, "
-            f"{np.sqrt(np.mean(found[known] ** 2)):.1%} rms, {found[worst]:+.1%} at the most "
+            f"measured   {name} is off by {np.mean(result[known]):+.1%} in the mean, "
+            f"{np.sqrt(np.mean(result[known] ** 2)):.1%} rms, {result[worst]:+.1%} at the most "
             f"({measured.abscissa} = {measured.places[worst]:.4g}); {known.sum()} of "
             f"{known.size} points"
         )
@@ -165,20 +165,20 @@ def perform(
 
     place = Destination(folder, "stribeck", (*JOURNAL, *FILES), inputs, force=force)
     outcome = gather(plan.tasks, plan.identity(), place, write=write, **how)
-    found = curve_table(plan, outcome.rows)
-    write_netcdf(folder / NETCDF, dataset(plan, found))
-    return outcome, found
+    result = curve_table(plan, outcome.rows)
+    write_netcdf(folder / NETCDF, dataset(plan, result))
+    return outcome, result
 
 
-def dataset(plan: CurvePlan, found: pd.DataFrame) -> xr.Dataset:
+def dataset(plan: CurvePlan, result: pd.DataFrame) -> xr.Dataset:
     """Give a curve as a Dataset whose dimensions are what was varied."""
     attributes, ended = {"title": "Stribeck curve of pyehl"}, {}
-    if len(plan.study.keys) == 1 and (ends := curves_of(plan, found)[0].lift_off):
+    if len(plan.study.keys) == 1 and (ends := curves_of(plan, result)[0].lift_off):
         speeds = {"transition_speed_m_s": ends.speed, "transition_speed_error_m_s": ends.error}
         ended = {name: ((), value, {"units": "m/s"}) for name, value in speeds.items()}
     if plan.load_share is not None:
         attributes["empirical"] = plan.load_share.words
-    columns = found.drop(columns=CONCLUSION)
+    columns = result.drop(columns=CONCLUSION)
     return over(plan.study, columns, units_of(plan), attributes, float).assign(ended)
 
 
@@ -264,7 +264,7 @@ def stribeck(
         seeds=surfaces,
         load_share=law,
     )
-    outcome, found = perform(
+    outcome, result = perform(
         plan,
         None if output is None else path_of(output, "output"),
         inputs=() if isinstance(case, Case) else (path_of(case, "case"),),
@@ -274,4 +274,4 @@ def stribeck(
     )
     if outcome.interrupted:
         raise KeyboardInterrupt
-    return dataset(plan, found)
+    return dataset(plan, result)

@@ -126,11 +126,11 @@ def fit_coefficient(settings: Settings, measured: Measured, points: int) -> Fit:
     guess = float(settings["lubricant"][KEY])
     for _ in range(TABLES):
         table = FilmTable(base, ends, guess)
-        found = least_squares(off, [table.middle], xtol=1e-12, ftol=1e-12)
-        guess = math.exp(float(found.x[0]))
+        result = least_squares(off, [table.middle], xtol=1e-12, ftol=1e-12)
+        guess = math.exp(float(result.x[0]))
         if not low < guess < high:
             break
-        if abs(found.x[0] - table.middle) <= math.log(SPAN):
+        if abs(result.x[0] - table.middle) <= math.log(SPAN):
             break
         # the table does not reach there: once more, from where the film alone leads
         share = float(np.exp(np.mean(np.log(films / table.films(speeds, math.exp(table.middle))))))
@@ -142,7 +142,7 @@ def fit_coefficient(settings: Settings, measured: Measured, points: int) -> Fit:
             f"the fit of {KEY} ends at {guess:.3g} 1/Pa, where the range of the key ends: the data "
             "do not determine it"
         )
-    ((bottom, top),) = intervals((KEY,), found.jac, found.fun, found.x)
+    ((bottom, top),) = intervals((KEY,), result.jac, result.fun, result.x)
     of_speed, of_coefficient = table.powers(speeds, guess)
     notes = (
         f"film by powers: speed {of_speed:.2f}, {KEY} {of_coefficient:.2f}; a viscosity 10 % "
@@ -297,13 +297,13 @@ def fit_lubricant(
         place = Destination(path_of(output, "output"), "fit", FILES, tuple(inputs), force=force)
         place.check()
     if law == OF_FILM:
-        found = fit_coefficient(settings, measured, points)
+        result = fit_coefficient(settings, measured, points)
     else:
-        found = fit_law(settings, law, measured, points)
-    found = replace(found, notes=(*found.notes, *(f"left out: {why}" for why in left_out)))
+        result = fit_law(settings, law, measured, points)
+    result = replace(result, notes=(*result.notes, *(f"left out: {why}" for why in left_out)))
     if place is not None:
-        _write(found, place)
-    return found
+        _write(result, place)
+    return result
 
 
 def _measured(

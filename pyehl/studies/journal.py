@@ -30,8 +30,8 @@ MAX_LISTED = 12
 
 def read_header(folder: str | os.PathLike[str]) -> Row | None:
     """Give what the study in a folder is; None where there is no journal that can be read."""
-    found = _unlocked(Path(folder) / NAME, "study")
-    return None if found is None else dict(json.loads(found))
+    result = _unlocked(Path(folder) / NAME, "study")
+    return None if result is None else dict(json.loads(result))
 
 
 def _unlocked(path: Path, name: str) -> str | None:
@@ -39,10 +39,10 @@ def _unlocked(path: Path, name: str) -> str | None:
     try:
         source = f"{path.resolve().as_uri()}?mode=ro&immutable=1"
         with closing(sqlite3.connect(source, uri=True)) as base:
-            found = base.execute("SELECT value FROM study WHERE name = ?", (name,)).fetchone()
+            result = base.execute("SELECT value FROM study WHERE name = ?", (name,)).fetchone()
     except sqlite3.Error:
         return None
-    return None if found is None else str(found[0])
+    return None if result is None else str(result[0])
 
 
 def difference(old: Mapping[str, Any], new: Mapping[str, Any]) -> list[str]:
@@ -66,7 +66,7 @@ def _keys(text: str) -> dict[str, str]:
 
     The paths of its files are left out.
     """
-    found, group = {}, ""
+    result, group = {}, ""
     for line in text.splitlines():
         key, equals, value = line.partition(" = ")
         if line.startswith("&"):
@@ -74,8 +74,8 @@ def _keys(text: str) -> dict[str, str]:
         elif equals and key.strip() not in ("file", "table"):
             word, *_, last = value.split(" ! ")
             mark = f" ({last})" if last in ("default", "derived") else ""
-            found[f"{group}.{key.strip()}"] = word.strip() + mark
-    return found
+            result[f"{group}.{key.strip()}"] = word.strip() + mark
+    return result
 
 
 def _short(value: object) -> str:
@@ -159,9 +159,9 @@ class Journal:
                 f"{self.path}: no journal, or a damaged one: {error}\n{OTHER}"
             ) from error
 
-    def _compare(self, found: str, study: Mapping[str, Any]) -> None:
+    def _compare(self, result: str, study: Mapping[str, Any]) -> None:
         """Refuse the journal of another study."""
-        wrong = difference(json.loads(found), json.loads(_json(study)))
+        wrong = difference(json.loads(result), json.loads(_json(study)))
         if wrong:
             listed = wrong[:MAX_LISTED]
             if len(wrong) > MAX_LISTED:
@@ -191,8 +191,8 @@ class Journal:
 
     def read(self) -> dict[int, Row]:
         """Read all finished cases from the file."""
-        found = self.base.execute("SELECT number, row FROM rows")
-        return {number: json.loads(text) for number, text in found}
+        result = self.base.execute("SELECT number, row FROM rows")
+        return {number: json.loads(text) for number, text in result}
 
     def close(self) -> None:
         """Close the file, which releases the lock."""

@@ -71,8 +71,8 @@ class Queue:
         """Give a task, or some short ones, to a worker whose last one was of a group."""
         if self._again:
             return [self._again.popleft()]
-        found: list[Task] = []
-        while self._groups and len(found) < MAX_TASKS and sum(t.seconds for t in found) < SHORT:
+        result: list[Task] = []
+        while self._groups and len(result) < MAX_TASKS and sum(t.seconds for t in result) < SHORT:
             if last not in self._groups:
                 # a new group, or a part of the longest one
                 last = (
@@ -80,10 +80,10 @@ class Queue:
                     if self._free
                     else max(self._groups, key=lambda key: len(self._groups[key]))
                 )
-            found.append(self._groups[last].popleft())
+            result.append(self._groups[last].popleft())
             if not self._groups[last]:
                 del self._groups[last]
-        return found
+        return result
 
     def put_back(self, tasks: Iterable[Task]) -> None:
         """Return tasks that their worker has not done; from now on each is given alone."""
@@ -224,8 +224,8 @@ def _failed(error: BaseException) -> Row:
     """Give the row of a task that has none."""
     message = f"{type(error).__name__}: {error}"
     if isinstance(error, BrokenExecutor):
-        found = re.search(r"exit codes of the workers are \{(.*)\}", message)
-        cause = f", at last by {found[1]}" if found else f": {message}"
+        match = re.search(r"exit codes of the workers are \{(.*)\}", message)
+        cause = f", at last by {match[1]}" if match else f": {message}"
         message = f"its worker process died {TRIES} times{cause}"
     return {"status": FAILED, "message": message, "seconds": None}
 

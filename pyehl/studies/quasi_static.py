@@ -79,9 +79,9 @@ def quasi_static(
             "another heat in its inlet\nexpected: one of the two"
         )
     rows = _rows(data, instants)
-    found = [_steady(data, settings, row) for row in rows]
+    result = [_steady(data, settings, row) for row in rows]
     columns = {"t_s": data.history_t_s.values[rows]}
-    columns |= {name: np.array([one[name] for one in found]) for name in VALUES}
+    columns |= {name: np.array([one[name] for one in result]) for name in VALUES}
     units = {name: name.rpartition("_")[2] for name in columns}
     return data.assign(
         {
@@ -120,8 +120,8 @@ def _steady(data: xr.Dataset, settings: Settings, row: int) -> dict[str, float]:
         now["layer"] = float(data.history_oil_layer[row])
     if abs(now["speed"]) < SLOWEST:
         return dict.fromkeys(VALUES, float("nan"))
-    found = solve(_case(settings, now), check=False)
-    return {name: float(found[name]) for name in VALUES}
+    result = solve(_case(settings, now), check=False)
+    return {name: float(result[name]) for name in VALUES}
 
 
 def _case(settings: Settings, now: Mapping[str, float]) -> Case:

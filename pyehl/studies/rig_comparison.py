@@ -45,19 +45,19 @@ def compared(results: Results, rig: RigFile) -> list[Compared]:
         rig, results.vary, lambda name: results.key(results.rows[0], name)
     )
     places = _column(results, over.name)
-    found = []
+    result = []
     for quantity in MEASURED:
         values = _column(results, quantity.name)
         if _has(used, quantity) and np.isfinite(values).any():
             curve = averaged(used, quantity, over)
-            found.append(Compared(curve, deviations(curve, places, values), left_out))
-    if not found:
+            result.append(Compared(curve, deviations(curve, places, values), left_out))
+    if not result:
         measured = {q.name for q in MEASURED for step in used if q.name in step.columns}
         raise InputError(
             f"{rig.name}: error: it holds {', '.join(sorted(measured))}; the results have none of "
             "them\nexpected: a study with films, or with a coefficient of friction"
         )
-    return found
+    return result
 
 
 def _column(results: Results, name: str) -> Array:
@@ -198,10 +198,10 @@ def _difference(step: Step, here: Callable[[str], object], over: Quantity) -> st
     return ""
 
 
-def lines(found: list[Compared]) -> list[str]:
+def lines(result: list[Compared]) -> list[str]:
     """Give what ``pyehl compare --measured`` prints."""
     lines = []
-    for one in found:
+    for one in result:
         curve = one.curve
         repeats = int(curve.count.max())
         lines.append(
@@ -213,4 +213,4 @@ def lines(found: list[Compared]) -> list[str]:
             scatter = float(np.median(curve.scatter[known] / curve.values[known]))
             lines.append(f"   scatter of repeats {scatter:.1%} (median)")
         lines += [f"   {part}" for part in one.parts]
-    return lines + [f"left out  {words}" for words in found[0].left_out]
+    return lines + [f"left out  {words}" for words in result[0].left_out]

@@ -75,24 +75,24 @@ def axis(key: str, values: str | Iterable[Any] | Value) -> Axis:
     key = key.strip().lower()
     try:
         if isinstance(values, str) and ":" in values:
-            found = _spaced(values)
+            result = _spaced(values)
         elif isinstance(values, str):
-            found = [_word(word.strip()) for word in values.split(",")]
+            result = [_word(word.strip()) for word in values.split(",")]
         elif isinstance(values, Iterable):
-            found = [plain(value) for value in islice(values, MAX_VALUES + 1)]
+            result = [plain(value) for value in islice(values, MAX_VALUES + 1)]
         else:
-            found = [plain(values)]
+            result = [plain(values)]
     except ValueError as error:
         raise InputError(f"{key} = {values!r}: {error}; expected {FORMS}") from error
-    if not found:
+    if not result:
         raise InputError(f"{key}: there are no values; expected {FORMS}")
-    if len(found) > MAX_VALUES:
+    if len(result) > MAX_VALUES:
         raise InputError(f"{key}: more than {MAX_VALUES} values, the most that a study can have")
-    if len({type(value) for value in found}) > 1:
-        if not all(isinstance(v, int | float) and not isinstance(v, bool) for v in found):
-            raise InputError(f"{key}: numbers and words together: {found}")
-        found = [float(value) for value in found]
-    return Axis(key, tuple(found))
+    if len({type(value) for value in result}) > 1:
+        if not all(isinstance(v, int | float) and not isinstance(v, bool) for v in result):
+            raise InputError(f"{key}: numbers and words together: {result}")
+        result = [float(value) for value in result]
+    return Axis(key, tuple(result))
 
 
 def _spaced(text: str) -> list[Value]:
@@ -247,8 +247,8 @@ class Study:
         ends = itertools.islice(itertools.product(*({0, n - 1} for n in self.shape)), count)
         random = np.random.default_rng(0)
         inner = zip(*(random.permutation(count) * n // count for n in self.shape), strict=True)
-        found = (int(np.ravel_multi_index(k, self.shape)) for k in itertools.chain(ends, inner))
-        return list(dict.fromkeys(found))
+        result = (int(np.ravel_multi_index(k, self.shape)) for k in itertools.chain(ends, inner))
+        return list(dict.fromkeys(result))
 
     def resolved(self, point: Point, *more: str) -> Case:
         """Give the case of a point, checked and complete, with `more` options.
@@ -275,7 +275,7 @@ class Study:
         `first` is the first case, resolved; `files` are the height maps and tables of all cases,
         InputError if one cannot be read.
         """
-        found: dict[str, Any] = {
+        result: dict[str, Any] = {
             "pyehl version": metadata.version("pyehl"),
             "run": self.run,
             "case": first,
@@ -284,21 +284,21 @@ class Study:
             "vary": {a.key: list(a.values) for axes in self.dimensions for a in axes},
             "zip": [[a.key for a in axes] for axes in self.dimensions if len(axes) > 1],
         }
-        return found | ({"tracks": True} if self.tracks else {})
+        return result | ({"tracks": True} if self.tracks else {})
 
 
 def contents(files: Collection[str]) -> dict[str, str]:
     """Give the SHA-256 of files by their names, from the folder that they have in common."""
     common = os.path.commonpath([os.path.dirname(name) for name in files]) if files else ""
-    found = {}
+    result = {}
     for name in files:
         try:
             with open(name, "rb") as stream:
                 digest = hashlib.file_digest(stream, "sha256").hexdigest()
         except OSError as error:
             raise InputError(f"{name}: cannot read: {error.strerror}") from error
-        found[os.path.relpath(name, common)] = f"sha256 {digest}"
-    return found
+        result[os.path.relpath(name, common)] = f"sha256 {digest}"
+    return result
 
 
 def make(
@@ -401,7 +401,7 @@ def read_study(path: str | os.PathLike[str]) -> dict[str, Any]:
         raise InputError(f"{name}: error: there is no 'case'\nexpected: the path of a case file")
     try:
         axes = axes_of(values.get("vary", {}))
-        fixed = [axis(key, [found]) for key, found in by_key(values.get("set", {}))]
+        fixed = [axis(key, [result]) for key, result in by_key(values.get("set", {}))]
     except InputError as error:
         raise InputError(f"{name}: error: {error}") from error
     return {

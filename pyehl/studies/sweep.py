@@ -94,13 +94,13 @@ def gather(
         try:
             # a transaction of the journal that is interrupted is whole, or not there
             with signals_to(signal.default_int_handler), closing(workers) as source:
-                for found in source:
+                for result in source:
                     if journal is not None:
-                        journal.append(found)
-                    rows.update(found)
-                    outcome.ran += len(found)
-                    outcome.busy += sum(row.get("seconds") or 0.0 for _, row in found)
-                    watcher.finished(found)
+                        journal.append(result)
+                    rows.update(result)
+                    outcome.ran += len(result)
+                    outcome.busy += sum(row.get("seconds") or 0.0 for _, row in result)
+                    watcher.finished(result)
                     if write is not None and time.monotonic() - written > TABLE_INTERVAL:
                         write(rows)
                         written = time.monotonic()
@@ -123,27 +123,27 @@ WORDS = ("flags", "outside_range", "assessment")
 def columns(study: Study, rows: Mapping[int, Values]) -> list[str]:
     """Names of the results in the table, behind what was varied."""
     if study.outputs:
-        found: Iterable[str] = study.outputs
+        result: Iterable[str] = study.outputs
     else:
         names: dict[str, bool] = {}
         for number in sorted(rows):
             for name, value in rows[number].items():
                 text = isinstance(value, str) and name not in WORDS
                 names[name] = names.get(name, False) or text
-        found = [name for name, text in names.items() if not text]
+        result = [name for name, text in names.items() if not text]
     skipped = {*LAST, *study.keys}
-    return [*(name for name in found if name not in skipped), *LAST]
+    return [*(name for name in result if name not in skipped), *LAST]
 
 
 def results(study: Study, points: Iterable[Point], rows: Mapping[int, Values]) -> pd.DataFrame:
     """Give what was varied and the results of all finished cases."""
     names = columns(study, rows)
-    found = (
+    result = (
         [*point.values.values(), *map(rows[point.number].get, names)]
         for point in points
         if point.number in rows
     )
-    return pd.DataFrame(found, columns=[*study.keys, *names], dtype=object)
+    return pd.DataFrame(result, columns=[*study.keys, *names], dtype=object)
 
 
 def write_csv(path: Path, table: pd.DataFrame) -> None:

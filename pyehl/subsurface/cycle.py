@@ -41,9 +41,9 @@ def hydrostatic(stress: Array) -> Array:
 
 def deviator(stress: Array) -> Array:
     """Stress less its mean normal stress, (6, ...) [Pa]."""
-    found = stress.copy()
-    found[:3] -= hydrostatic(stress)
-    return found
+    result = stress.copy()
+    result[:3] -= hydrostatic(stress)
+    return result
 
 
 def second_invariant(s: Array) -> Array:
@@ -117,11 +117,11 @@ class Cycle:
         """
         s, pressure = deviator(history), hydrostatic(history)
         bound = _norm(0.5 * (s.max(axis=1) - s.min(axis=1))) + weight * pressure.max(axis=0)
-        found = np.argsort(bound)[-CANDIDATES:]
-        centre, radius = smallest_sphere(s[:, :, found])
-        top, bottom = pressure[:, found].max(axis=0), pressure[:, found].min(axis=0)
+        result = np.argsort(bound)[-CANDIDATES:]
+        centre, radius = smallest_sphere(s[:, :, result])
+        top, bottom = pressure[:, result].max(axis=0), pressure[:, result].min(axis=0)
         half = 0.5 * (top - bottom)
-        return cls(history[:, :, found], centre, radius, 0.5 * (top + bottom), half)
+        return cls(history[:, :, result], centre, radius, 0.5 * (top + bottom), half)
 
     @property
     def worst(self) -> int:
@@ -227,7 +227,7 @@ def over_depth(cycles: list[Cycle]) -> list[tuple[str, Array, str]]:
 
     histories = [cycle.history[:, :, cycle.worst] for cycle in cycles]
     at = "of the material point with the largest shear amplitude"
-    found = [
+    result = [
         ("shear_amplitude", of_worst(lambda c: c.amplitude), "largest amplitude of the deviator"),
         ("hydrostatic_mean", of_worst(lambda c: c.hydrostatic_mean), f"mean hydrostatic, {at}"),
         (
@@ -238,11 +238,11 @@ def over_depth(cycles: list[Cycle]) -> list[tuple[str, Array, str]]:
     ]
     for k, name in enumerate(COMPONENTS):
         top, bottom = (np.array([f(h[k]) for h in histories]) for f in (np.max, np.min))
-        found.append((f"sigma_{name}_mean", 0.5 * (top + bottom), f"mean of {name}, {at}"))
-        found.append(
+        result.append((f"sigma_{name}_mean", 0.5 * (top + bottom), f"mean of {name}, {at}"))
+        result.append(
             (f"sigma_{name}_amplitude", 0.5 * (top - bottom), f"amplitude of {name}, {at}")
         )
-    return found
+    return result
 
 
 CRITERIA = ("dang-van", "crossland")

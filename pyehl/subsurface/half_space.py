@@ -191,7 +191,7 @@ class Images:
 
     def transforms(self, near: _Kernels, far: _Kernels, name: str) -> list[Complex]:
         """Transform the responses of images to a load of one block."""
-        found = []
+        result = []
         for pair in zip(getattr(near, name), getattr(far, name), strict=True):
             one, other = (
                 scipy.fft.irfft2(kernel, kernels.cell)[
@@ -199,8 +199,8 @@ class Images:
                 ]
                 for kernel, kernels in zip(pair, (near, far), strict=True)
             )
-            found.append(scipy.fft.rfft2(one - other))
-        return found
+            result.append(scipy.fft.rfft2(one - other))
+        return result
 
 
 class ImagesAt:
@@ -225,9 +225,9 @@ class ImagesAt:
             parts = [kernel * wave for kernel in self._kernels[name]]
             total = [a + b for a, b in zip(total, parts, strict=True)] if total else parts
         nx, ny = coarse.shape
-        found = np.stack([scipy.fft.irfft2(wave, cell)[:nx, :ny] for wave in total])
+        result = np.stack([scipy.fft.irfft2(wave, cell)[:nx, :ny] for wave in total])
         to_x, to_y = images.to_fine
-        return np.asarray(to_x @ found @ to_y.T)
+        return np.asarray(to_x @ result @ to_y.T)
 
     def left(self, pressure: Array, traction: Array | None) -> float:
         """Bound of the stress of images that is not taken off.

@@ -191,12 +191,12 @@ class Traction:
         width: float,
         operating: AnyContact,
         lubricant: Lubricant | None,
-        found: tuple[float, float, str],
+        result: tuple[float, float, str],
         body: int,
         friction: str | float,
     ) -> None:
         self.operating, self.lubricant, self.coulomb = operating, lubricant, friction != "run"
-        self.mu, self.heat, _ = found
+        self.mu, self.heat, _ = result
         self.by_film = math.isfinite(self.mu) and not self.coulomb
         # the faster body is held back
         faster = operating.slide_to_roll >= 0.0
@@ -286,10 +286,10 @@ def made_of(
     operating = contact_of(settings)
     number, velocity, poisson = body_of(settings, body)
     lubricant = Lubricant.from_settings(settings) if operating.si else None
-    found = friction_of(data, operating, lubricant, friction)
+    result = friction_of(data, operating, lubricant, friction)
     x, y = axes
     area, width = math.prod(_steps(x, y)), _steps(x, y)[1] * y.size
-    traction = Traction(smooth, area, width, operating, lubricant, found, number, friction)
+    traction = Traction(smooth, area, width, operating, lubricant, result, number, friction)
     return Loads(
         x=x,
         y=y,
@@ -303,7 +303,7 @@ def made_of(
         poisson=poisson,
         semi_axis_y=operating.ellipse.ellipticity,
         operating=operating,
-        friction_note=found[2],
+        friction_note=result[2],
         pressure_error=_value(data, "P_max_error") / _value(data, "P_max"),
         period=period,
     )
@@ -374,18 +374,18 @@ def predicted_loads(data: xr.Dataset, *, body: int | None, friction: str | float
         return changes[k]
 
     def pressures(k: int) -> Array:
-        found = pressure.copy()
+        result = pressure.copy()
         gained = contact.pressure + np.where(contact.inside, change(k)[..., 1], 0.0)
         # cavitation: `cavitated_share` of the prediction states on how much of the contact
-        found[inner] = np.maximum(gained, 0.0)
-        return found
+        result[inner] = np.maximum(gained, 0.0)
+        return result
 
     def films(k: int) -> Array:
-        found = film.copy()
+        result = film.copy()
         smooth_film = contact.smooth_film()
         loss = np.where(contact.inside, change(k)[..., 0], 0.0)
-        found[inner] = smooth_film * film_left(loss / smooth_film)
-        return found * operating.film_scale
+        result[inner] = smooth_film * film_left(loss / smooth_film)
+        return result * operating.film_scale
 
     return made_of(
         data,

@@ -244,7 +244,7 @@ Scalar = tuple[str, float, str, str]
 
 
 def near_surface(
-    found: Profile, depth: float | None, above: float | None, *, predicted: bool
+    result: Profile, depth: float | None, above: float | None, *, predicted: bool
 ) -> list[Scalar]:
     """Largest shear in the layer, and the share of its volume above the one asked for.
 
@@ -264,12 +264,12 @@ def near_surface(
     list
         Name, value in Hertz units, unit in SI, meaning.
     """
-    depth = depth or NEAR * largest(found.smooth)[1]
+    depth = depth or NEAR * largest(result.smooth)[1]
     scalars: list[Scalar] = [
         ("near_surface_depth", depth, "m", "depth of the near-surface layer"),
     ]
-    pairs = [(found.rows, "", ""), (found.smooth, "_smooth", " of the smooth contact")]
-    for rows, end, of in pairs if found.rough else pairs[:1]:
+    pairs = [(result.rows, "", ""), (result.smooth, "_smooth", " of the smooth contact")]
+    for rows, end, of in pairs if result.rough else pairs[:1]:
         inner, outer = (in_layer(rows, name, depth) for name in ("inner", "outer"))
         meaning = f"largest principal shear in the near-surface layer{of}"
         scalars += [
@@ -285,23 +285,23 @@ def near_surface(
             meaning = f"share of the layer where the shear exceeds {above:g} Pa at some time{of}"
             share = share_above(rows, depth)
             scalars.append((f"near_surface_share{end}", share, "1", meaning))
-    if found.rough and predicted:
+    if result.rough and predicted:
         names = "near_surface_shear_error", "near_surface_shear_inner_error"
-        for name, error in zip(names, _errors(found, depth), strict=True):
+        for name, error in zip(names, _errors(result, depth), strict=True):
             scalars.append((name, error, "Pa", "estimate of its error"))
     return scalars
 
 
-def _errors(found: Profile, depth: float) -> tuple[float, float]:
+def _errors(result: Profile, depth: float) -> tuple[float, float]:
     """Errors of the predicted shear in the layer [p_h]: of the largest one, and within `INNER`."""
     reached = {}
     for name, share in (("inner", CHANGE_INNER), ("outer", CHANGE_OUTER)):
-        pairs = zip(found.rough, found.smooth, strict=True)
+        pairs = zip(result.rough, result.smooth, strict=True)
         peaks = [(r.depth, getattr(r, name).value, getattr(s, name).value) for r, s in pairs]
         rows = [Row(z) for z, *_ in peaks]
         for row, (_, rough, smooth) in zip(rows, peaks, strict=True):
             row.shear.value = rough + share * abs(rough - smooth)
         reached[name] = in_layer(rows, "shear", depth)
-    inner, outer = (in_layer(found.rough, name, depth) for name in ("inner", "outer"))
+    inner, outer = (in_layer(result.rough, name, depth) for name in ("inner", "outer"))
     error = reached["inner"] - inner
     return max(max(reached.values()) - max(inner, outer), error), error

@@ -58,7 +58,7 @@ def facts(data: xr.Dataset) -> list[tuple[str, str]]:
 
     body = f"Poisson ratio {data.attrs['poisson']:g}; {data.attrs['friction_note']}"
     error = percent("principal_shear_max_error", "principal_shear_max")
-    found = [
+    result = [
         (f"body {data.attrs['body']}", body),
         ("shear", f"{quantity('principal_shear_max')} (principal shear, +- {error})"),
         ("von Mises", quantity("von_mises_max")),
@@ -66,7 +66,7 @@ def facts(data: xr.Dataset) -> list[tuple[str, str]]:
     if "ratio_to_smooth" in data:
         words = f"{quantity('principal_shear_max', '_smooth')}; rough over smooth "
         words += f"{float(data.ratio_to_smooth):.3f}; {data.attrs['instants']} instants"
-        found.append(("smooth", words))
+        result.append(("smooth", words))
     layer = f"the layer down to {length_of('near_surface_depth'):.3g} {length}"
     words = f"{stress_of('near_surface_shear'):.4g} {unit} in {layer}"
     if "near_surface_shear_error" in data:
@@ -75,34 +75,34 @@ def facts(data: xr.Dataset) -> list[tuple[str, str]]:
             for name in ("near_surface_shear", "near_surface_shear_inner")
         )
         words += f", +- {at_edge} ({inner} within 0.6 semi-axes)"
-    found.append(("near", words))
+    result.append(("near", words))
     if "near_surface_share" in data:
         words = (
             f"{100.0 * float(data.near_surface_share):.3g} % of {layer} is above the given shear"
         )
         if "near_surface_share_smooth" in data:
             words += f" (smooth: {100.0 * float(data.near_surface_share_smooth):.3g} %)"
-        found.append(("above", words))
+        result.append(("above", words))
     if "shear_amplitude" in data:
         k = int(data.shear_amplitude.values.argmax())
         row = data.isel(Z=k)
         depth = float(row.z_m) * 1e6 if si else float(row.Z)
         amplitude = float(row.shear_amplitude_Pa) * 1e-6 if si else float(row.shear_amplitude)
         words = f"{amplitude:.4g} {unit} of the deviator over the passage, at {depth:.3g} {length}"
-        found.append(("amplitude", words))
-    found += [("note", data.attrs[name]) for name in NOTES if name in data.attrs]
+        result.append(("amplitude", words))
+    result += [("note", data.attrs[name]) for name in NOTES if name in data.attrs]
     if "fatigue_stress_Pa" in data:
         words = f"{float(data.fatigue_stress_Pa) * 1e-6:.4g} MPa, "
         words += f"{float(data.fatigue_ratio):.3f} of the fatigue limit in torsion"
-        found.append(("fatigue", words))
+        result.append(("fatigue", words))
     if "kappa" in data:
         words = f"{float(data.kappa):.3g} by Lambda^1.3 (ISO 281, for comparison)"
-        found.append(("kappa", words))
+        result.append(("kappa", words))
     if "a_iso" in data:
         factor = float(data.a_iso)
         known = f"{factor:.3g}" if math.isfinite(factor) else "not defined below kappa = 0.1"
-        found.append(("a_ISO", known))
-    return found
+        result.append(("a_ISO", known))
+    return result
 
 
 # Fewest depths of a profile
@@ -209,16 +209,16 @@ def stress(
     if criterion and partial:
         raise InputError(f"fatigue = {fatigue!r}: {partial}")
     p_h, a = loads.operating.hertz_pressure, loads.operating.hertz_radius
-    found = profile(
+    result = profile(
         loads,
         above=None if above is None else above / p_h,
         fatigue=criterion,
         at=None if depths is None else np.array(depths) / a,
         progress=progress,
     )
-    data = _dataset(loads, found)
+    data = _dataset(loads, result)
     predicted = summary.attrs.get("kind") == "prediction"
-    scalars = near_surface(found, near and near / a, above, predicted=predicted)
+    scalars = near_surface(result, near and near / a, above, predicted=predicted)
     for name, value, unit, meaning in scalars:
         _add(data, loads, name, value, unit, meaning)
     if "near_surface_shear_error" in data:
@@ -228,7 +228,7 @@ def stress(
         error = max(float(data[name]), highest - float(data.principal_shear_max))
         _add(data, loads, name, error, "Pa", f"{data[name].long_name}{words}")
     if criterion:
-        rows = found.rows
+        rows = result.rows
         equivalent = max(row.fatigue for row in rows) * p_h
         data["fatigue_stress_Pa"] = _scalar(equivalent, "Pa", f"{fatigue}, equivalent stress")
         ratio = equivalent / criterion.torsion_limit
@@ -246,7 +246,7 @@ def stress(
     }
     notes = {
         "cycle_note": partial,
-        "surface_note": STEEP if found.rows[0].depth > (depths[0] if depths else 0.0) / a else "",
+        "surface_note": STEEP if result.rows[0].depth > (depths[0] if depths else 0.0) / a else "",
     }
     data.attrs |= {name: words for name, words in notes.items() if words}
     if place is not None:
@@ -258,9 +258,9 @@ def _check_depths(given: Sequence[float] | None) -> None:
     """InputError if depths do not ascend from 0 on, or are too few."""
     if given is None:
         return
-    found = np.array(given, dtype=float)
-    right = found.ndim == 1 and found.size >= FEWEST and np.isfinite(found).all()
-    if not right or found[0] < 0.0 or (np.diff(found) <= 0.0).any():
+    result = np.array(given, dtype=float)
+    right = result.ndim == 1 and result.size >= FEWEST and np.isfinite(result).all()
+    if not right or result[0] < 0.0 or (np.diff(result) <= 0.0).any():
         raise InputError(f"depths = {given!r}: expected {FEWEST} or more ascending depths [m]")
 
 
@@ -312,11 +312,11 @@ def _add(data: xr.Dataset, loads: Loads, name: str, value: float, unit: str, mea
         data[f"{name}_{unit}"] = _scalar(value, unit, meaning)
 
 
-def _dataset(loads: Loads, found: Profile) -> xr.Dataset:
+def _dataset(loads: Loads, result: Profile) -> xr.Dataset:
     """Profiles, section and peaks, in Hertz units and in SI units."""
     point = loads.operating
     p_h, a = point.hertz_pressure, point.hertz_radius
-    z = np.array([row.depth for row in found.rows])
+    z = np.array([row.depth for row in result.rows])
     data = xr.Dataset(
         coords={
             "X": ("X", loads.x, {"units": "1", "long_name": "along the motion, x/a"}),
@@ -334,7 +334,7 @@ def _dataset(loads: Loads, found: Profile) -> xr.Dataset:
         if point.si:
             data[f"{name}_Pa"] = (dims, values * p_h, {"units": "Pa", "long_name": meaning})
 
-    for rows, end in ((found.rows, ""), (found.smooth if found.rough else [], "_smooth")):
+    for rows, end in ((result.rows, ""), (result.smooth if result.rough else [], "_smooth")):
         if not rows:
             continue
         of = " of the smooth contact" if end else ""
@@ -352,21 +352,21 @@ def _dataset(loads: Loads, found: Profile) -> xr.Dataset:
         if cycles:
             for name, values, meaning in over_depth(cycles):
                 add(f"{name}{end}", ("Z",), values, f"{meaning}{of}")
-    images = max(row.error for row in found.rows)
+    images = max(row.error for row in result.rows)
     pressure = loads.pressure_error
     error = images + (pressure * float(data.principal_shear_max) if pressure > 0.0 else 0.0)
     of = "zeros around the load" + (" and pressure" if pressure > 0.0 else "; pressure: not known")
     add("principal_shear_max_error", (), error, f"estimate of its error: {of}")
-    if found.rough:
+    if result.rough:
         ratio = float(data.principal_shear_max) / float(data.principal_shear_max_smooth)
         data["ratio_to_smooth"] = _scalar(
             ratio, "1", "largest shear over that of the smooth contact"
         )
-    section = np.stack([row.section for row in found.rows if row.section is not None], axis=1)
+    section = np.stack([row.section for row in result.rows if row.section is not None], axis=1)
     add("section_shear", ("X", "Z"), section, "principal shear on y = 0, largest over time")
     for k, name in enumerate(COMPONENTS):
         meaning = f"{name} on y = 0 when the shear is largest"
-        add(f"sigma_{name}", ("X", "Z"), found.components[k], meaning)
+        add(f"sigma_{name}", ("X", "Z"), result.components[k], meaning)
     return data
 
 

@@ -40,8 +40,8 @@ def unit_of(text: str) -> float | None:
     """Metres in a unit of length as headers spell it; None for another word."""
     word = text.strip().strip("()[]")
     # Mm and MM are no megametres in the header of an instrument
-    found = (metres for spelt, metres in _WHOLE.items() if spelt.fullmatch(word))
-    return next(found, None)
+    result = (metres for spelt, metres in _WHOLE.items() if spelt.fullmatch(word))
+    return next(result, None)
 
 
 @dataclass(slots=True)

@@ -281,19 +281,19 @@ def find(
     Pixel size along x and y [m]; `taken`: the form that was taken off; `periodic`: the map counts
     as a tile that can be repeated; `corner`: where it lies on the map as read [m].
     """
-    found = [
+    result = [
         _form(heights, pixel, taken, periodic=periodic),
         *(_lines(heights, axis) for axis in (0, 1)),
     ]
     # a form, or offsets of all lines, would hide what is small
     rest = heights
-    if found[0] is not None:
+    if result[0] is not None:
         rest = heights.copy()
         level(rest, "curvature")
-    if found[1] is None and found[2] is None:
-        found += [stitching(rest, pixel, axis, corner) for axis in (0, 1)]
-    found += dust(rest, pixel, corner)
-    return tuple(finding for finding in found if finding is not None)
+    if result[1] is None and result[2] is None:
+        result += [stitching(rest, pixel, axis, corner) for axis in (0, 1)]
+    result += dust(rest, pixel, corner)
+    return tuple(finding for finding in result if finding is not None)
 
 
 def _form(z: Array, pixel: tuple[float, float], taken: str, *, periodic: bool) -> Finding | None:

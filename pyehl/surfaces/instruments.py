@@ -158,7 +158,7 @@ def _read(path: Path, reader_class: Any, source: str | io.BytesIO, channel: str)
         if named:
             scan = scan.to_unit("m")
         masked: Any = np.ma.asarray(scan.heights(), dtype=float)
-        found = Found(
+        result = Found(
             np.ascontiguousarray(masked.filled(np.nan), dtype=np.float64),
             height_unit=1.0 if named else None,
             is_periodic=bool(scan.is_periodic),
@@ -166,11 +166,11 @@ def _read(path: Path, reader_class: Any, source: str | io.BytesIO, channel: str)
         )
         if sizes is not None:
             x, y = (float(size) for size in scan.physical_sizes)
-            found.size, found.size_in_metres, found.ask_lateral_unit = (x, y), named, not named
-            found.no_size = "" if named else "the file names no unit of its size and heights"
+            result.size, result.size_in_metres, result.ask_lateral_unit = (x, y), named, not named
+            result.no_size = "" if named else "the file names no unit of its size and heights"
     if reader_class.format() == "nms" and (missing := nms_missing(path)) is not None:
-        found.heights[missing] = np.nan
-    return found
+        result.heights[missing] = np.nan
+    return result
 
 
 def _bare(path: Path, wanted: str) -> Found:

@@ -359,7 +359,7 @@ def _where(missing: Mask, pixel: tuple[float, float], corner: tuple[float, float
 def _largest_part(count: Array, area: Array) -> tuple[int, int, int, int] | None:
     """Largest part of blocks with few missing points: first and last block along x and y."""
     sums, areas = (np.pad(values.cumsum(0).cumsum(1), ((1, 0), (1, 0))) for values in (count, area))
-    best, found = 0.0, None
+    best, result = 0.0, None
     for i in range(count.shape[0]):
         for j in range(i + 1, count.shape[0] + 1):
             lost, whole = sums[j] - sums[i], areas[j] - areas[i]
@@ -368,8 +368,8 @@ def _largest_part(count: Array, area: Array) -> tuple[int, int, int, int] | None
             size = np.where(few, size, 0.0)
             place = int(size.argmax())
             if size.flat[place] > best:
-                best, found = float(size.flat[place]), (i, j, *divmod(place, size.shape[1]))
-    return found if best >= MIN_PART * area.sum() else None
+                best, result = float(size.flat[place]), (i, j, *divmod(place, size.shape[1]))
+    return result if best >= MIN_PART * area.sum() else None
 
 
 def _solve(matrix: scipy.sparse.csr_matrix, right: Array, guess: Array) -> Array:

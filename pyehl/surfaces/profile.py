@@ -159,7 +159,7 @@ def _maximum(q: Array, power: Array, *, ridges: bool, rolls: bool) -> tuple[floa
                     bounds=bounds,
                 )
             )  # fmt: skip
-    best = min(guesses, key=lambda found: float(found.fun))
+    best = min(guesses, key=lambda result: float(result.fun))
     return float(best.fun), np.asarray(best.x), _errors(negative, np.asarray(best.x))
 
 
@@ -200,25 +200,25 @@ def scan_of_profile(
             heights, profile.length, profile.length, profile.origin, is_array=False,
             size_from="the profile", note=note,
         )  # fmt: skip
-    found = fit(profile, detrend)
+    result = fit(profile, detrend)
     q = np.geomspace(math.pi / profile.length, math.pi / profile.spacing, 4000)
-    shape = _shape(q, found.hurst, found.rolloff, ridges=False)
+    shape = _shape(q, result.hurst, result.rolloff, ridges=False)
     own, cut = q >= 2.0 * math.pi / profile.length, q <= math.pi * pixels / profile.length
     share = _integral(q, shape, own & cut) / _integral(q, shape, own)
     tile = fractal(
         pixels,
         profile.length,
         profile.length,
-        rms_height=found.rms * math.sqrt(min(1.0, share)),
-        hurst=found.hurst,
-        rolloff_wavenumber=found.rolloff,
+        rms_height=result.rms * math.sqrt(min(1.0, share)),
+        hurst=result.hurst,
+        rolloff_wavenumber=result.rolloff,
         seed=seed,
         modulus="gaussian",
     )
-    band = f"{found.hurst_band[0]:.2f} to {found.hurst_band[1]:.2f}"
+    band = f"{result.hurst_band[0]:.2f} to {result.hurst_band[1]:.2f}"
     note = (
-        f"an isotropic surface with the spectrum of a profile: Rq {lengths.length(found.rms)}, "
-        f"Hurst exponent {found.hurst:.2f} ({band}), seed {seed}{words}"
+        f"an isotropic surface with the spectrum of a profile: Rq {lengths.length(result.rms)}, "
+        f"Hurst exponent {result.hurst:.2f} ({band}), seed {seed}{words}"
     )
     return Scan(
         np.array(tile.heights), profile.length, profile.length, profile.origin, is_array=True,

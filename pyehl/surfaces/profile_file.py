@@ -124,10 +124,10 @@ def _units(head: Sequence[str], columns: int) -> list[float | None]:
     for line in reversed(head):
         for between in (r"[;\t]|,(?!\d)|\s{2,}", r"\s+"):
             parts = [p for p in re.split(between, line.strip()) if p.strip()]
-            found = [_unit(part) for part in parts]
-            if len(parts) == columns and any(found):
-                last = next(u for u in reversed(found) if u)
-                return [u or last for u in found]
+            result = [_unit(part) for part in parts]
+            if len(parts) == columns and any(result):
+                last = next(u for u in reversed(result) if u)
+                return [u or last for u in result]
         words = [u for u in (_unit(word) for word in line.split()) if u]
         if len(words) == columns:
             return list(words)
@@ -189,15 +189,15 @@ def read_profile(
             z = mapped(path)
             if z.ndim != 1:
                 raise InputError(f"{path}: no profile: an array of shape {z.shape}")
-            found: Read = np.asarray(z, dtype=float), None, (None, None)
+            result: Read = np.asarray(z, dtype=float), None, (None, None)
         else:
             lines = [line for _, line in lines_of(path, encoding_of(path) or "latin-1")]
-            found = (_iso if sum(map(_ends, lines)) >= 2 else read_columns)(path, lines)
+            result = (_iso if sum(map(_ends, lines)) >= 2 else read_columns)(path, lines)
     except EhlError:
         raise
     except OSError as error:
         raise FileError(f"{path}: cannot read: {error.strerror or error}") from error
-    return _finished(path, *found, length, height_unit)
+    return _finished(path, *result, length, height_unit)
 
 
 def is_profile(path: str | Path) -> bool:

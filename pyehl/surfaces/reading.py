@@ -185,13 +185,13 @@ def _zygo(path: Path, encoding: str, channel: str) -> Found:
         read = read_zygo(line for _, line in lines_of(path, encoding))
     except (ValueError, IndexError) as error:
         raise InputError(f"{path}: cannot be read as a Zygo text file: {error}") from None
-    found = Found(read.heights, height_unit=1.0)
+    result = Found(read.heights, height_unit=1.0)
     if read.pixel > 0.0:
         nx, ny = read.heights.shape
-        found.size = nx * read.pixel, ny * read.pixel
+        result.size = nx * read.pixel, ny * read.pixel
     else:
-        found.no_size = "line 8 of the file gives no size of a pixel"
-    return found
+        result.no_size = "line 8 of the file gives no size of a pixel"
+    return result
 
 
 def _flavoured(path: Path, encoding: str, channel: str) -> Found:
@@ -203,14 +203,14 @@ def _flavoured(path: Path, encoding: str, channel: str) -> Found:
             yield from table.header
             yield from ("\t".join(map(repr, row.tolist())) for row in table.rows)
 
-    found = read_instrument(path, channel, "\n".join(lines()).encode())
+    result = read_instrument(path, channel, "\n".join(lines()).encode())
     sizes = {table.rows.size for table in tables}
-    if found.heights.size not in sizes:
+    if result.heights.size not in sizes:
         raise InputError(
             f"{path}: the file has {' or '.join(map(str, sorted(sizes)))} heights, and "
-            f"{found.heights.size} were read"
+            f"{result.heights.size} were read"
         )
-    return found
+    return result
 
 
 PIXEL_BAND = (1e-10, 1e-3)
@@ -287,16 +287,16 @@ def _read(path: Path, given: Sizes, channel: str, height_unit: str, lateral_unit
     if path.suffix.lower() != ".npy":
         # a line of text may be as long as the file; the header of an array has more
         check_memory(f"{path}: a file of this length", length)
-    found = _found(path, channel)
-    notes = [*found.notes, *_measured(path, found, height_unit)]
-    _check_shape(path, found.heights.shape)
-    own, why = _own_size(path, found, lateral_unit, height_unit)
+    result = _found(path, channel)
+    notes = [*result.notes, *_measured(path, result, height_unit)]
+    _check_shape(path, result.heights.shape)
+    own, why = _own_size(path, result, lateral_unit, height_unit)
     x, y = given[0] or own[0], given[1] or own[1]
     if x is None or y is None:
         missing = (f"surface.length_{k}" for k, size in (("x", x), ("y", y)) if size is None)
-        unit = "" if not found.no_size or found.size_in_metres else ", or surface.lateral_unit"
+        unit = "" if not result.no_size or result.size_in_metres else ", or surface.lateral_unit"
         raise InputError(
-            f"{path}: the size of the map is not known: {found.no_size or 'the file has none'}; "
+            f"{path}: the size of the map is not known: {result.no_size or 'the file has none'}; "
             f"give {' and '.join(missing)} [m]{unit}"
         )
     given_names = [
@@ -311,13 +311,13 @@ def _read(path: Path, given: Sizes, channel: str, height_unit: str, lateral_unit
     if not all(given):
         notes += why
     scan = Scan(
-        found.heights,
+        result.heights,
         float(x),
         float(y),
         str(path),
-        found.is_array,
-        found.is_periodic,
-        found.channel,
+        result.is_array,
+        result.is_periodic,
+        result.channel,
         size_from,
         "; ".join(notes),
     )
@@ -347,47 +347,47 @@ def _found(path: Path, channel: str) -> Found:
         return read_text_map(path, encoding, channel)
 
 
-def _measured(path: Path, found: Found, height_unit: str) -> list[str]:
+def _measured(path: Path, result: Found, height_unit: str) -> list[str]:
     """Heights in metres, without marks of missing points; notes on both."""
-    if found.height_unit is not None and height_unit != "m":
+    if result.height_unit is not None and height_unit != "m":
         raise InputError(
             f"{path}: surface.height_unit = '{height_unit}', but the file names its unit itself"
         )
-    notes = unmarked(found.heights, found.height_unit) + doubts(found.heights)
-    if found.height_unit is None:
-        found.heights *= UNITS[height_unit]
+    notes = unmarked(result.heights, result.height_unit) + doubts(result.heights)
+    if result.height_unit is None:
+        result.heights *= UNITS[height_unit]
         if height_unit != "m":
             notes.append(f"heights in {height_unit} by surface.height_unit")
-        elif not found.is_array:
+        elif not result.is_array:
             notes.append("the file names no unit: its heights are taken in m")
-    elif found.height_unit != 1.0:
-        found.heights *= found.height_unit
+    elif result.height_unit != 1.0:
+        result.heights *= result.height_unit
     return notes
 
 
 def _own_size(
-    path: Path, found: Found, lateral_unit: str, height_unit: str
+    path: Path, result: Found, lateral_unit: str, height_unit: str
 ) -> tuple[Sizes, list[str]]:
     """Size that the file has [m], and notes on its unit."""
-    x, y = found.size
+    x, y = result.size
     for name, size in (("length_x", x), ("length_y", y)):
         if size is not None and not size > 0.0:
             raise InputError(f"{path}: its header gives {name} = {size:g}: it is damaged")
-    if found.size_in_metres or (x is None and y is None):
+    if result.size_in_metres or (x is None and y is None):
         if lateral_unit != SAME:
             raise InputError(
                 f"{path}: surface.lateral_unit = '{lateral_unit}', but the file "
                 f"{'has no size' if x is None else 'names its unit itself'}"
             )
         return (x, y), []
-    if lateral_unit == SAME and found.ask_lateral_unit:
+    if lateral_unit == SAME and result.ask_lateral_unit:
         return (None, None), []
     named = height_unit if lateral_unit == SAME else lateral_unit
     own = x and x * UNITS[named], y and y * UNITS[named]
-    pixel = min(s / n for s, n in zip(own, found.heights.shape, strict=True) if s)
-    clear = found.height_unit is None and CLEAR_BAND[0] <= pixel <= CLEAR_BAND[1]
+    pixel = min(s / n for s, n in zip(own, result.heights.shape, strict=True) if s)
+    clear = result.height_unit is None and CLEAR_BAND[0] <= pixel <= CLEAR_BAND[1]
     if lateral_unit == SAME and not clear:
-        found.no_size = (
+        result.no_size = (
             f"it has steps of {pixel / UNITS[named]:.6g}, and the file does not name their unit"
         )
         return (None, None), []

@@ -127,7 +127,7 @@ class _Entry:
 def header_of(lines: Sequence[str]) -> Header:
     """Read the lines above a table."""
     header = Header()
-    found: dict[tuple[str, int], set[float]] = {}
+    result: dict[tuple[str, int], set[float]] = {}
     if lines and (match := _POINTS_ALONE.fullmatch(lines[0])):
         header.points = [int(match[1]), int(match[2])]
     for line in lines:
@@ -139,7 +139,7 @@ def header_of(lines: Sequence[str]) -> Header:
             header.columns = tuple(unit for unit in units if unit is not None)
             continue
         if match := _HEADING.fullmatch(text):
-            found.setdefault(("height", 0), set()).add(unit_of(match[1]) or 1.0)
+            result.setdefault(("height", 0), set()).add(unit_of(match[1]) or 1.0)
             continue
         if match := _IN.search(text):
             header.height_unit = header.height_unit or unit_of(match[1])
@@ -147,8 +147,8 @@ def header_of(lines: Sequence[str]) -> Header:
             continue
         entry = _entry(text)
         if entry is not None:
-            _sort(entry, header, found)
-    _settle(header, found)
+            _sort(entry, header, result)
+    _settle(header, result)
     return header
 
 
@@ -172,7 +172,7 @@ def _entry(text: str) -> _Entry | None:
     return _Entry(words, float(value[1].replace(",", ".")), unit_of(unit) if unit else None, rest)
 
 
-def _sort(entry: _Entry, header: Header, found: dict[tuple[str, int], set[float]]) -> None:
+def _sort(entry: _Entry, header: Header, result: dict[tuple[str, int], set[float]]) -> None:
     """Put an entry where it belongs, by the words of its name."""
     words = entry.words
     if words & _CHANNEL and entry.number is None:
@@ -185,7 +185,7 @@ def _sort(entry: _Entry, header: Header, found: dict[tuple[str, int], set[float]
         return
     if entry.number is None:
         if words & _UNITS or (entry.unit and (words <= _HEIGHTS or words <= _LATERAL)):
-            _put_unit(entry, header, found)
+            _put_unit(entry, header, result)
         return
     if "z" in words or (words & _HEIGHTS and words & _FACTOR):
         factor = words & _FACTOR or (words & _PITCH and entry.unit is None)
@@ -201,7 +201,7 @@ def _sort(entry: _Entry, header: Header, found: dict[tuple[str, int], set[float]
     kind = _kind(entry)
     if kind and not (kind == "points" and len(sides) == 2):
         for side in sides:
-            found.setdefault((kind, side), set()).add(entry.number * (entry.unit or 1.0))
+            result.setdefault((kind, side), set()).add(entry.number * (entry.unit or 1.0))
 
 
 def _kind(entry: _Entry) -> str:
@@ -220,7 +220,7 @@ def _kind(entry: _Entry) -> str:
     return "points" if words & _POINTS and entry.number == int(entry.number or 0) else ""
 
 
-def _put_unit(entry: _Entry, header: Header, found: dict[tuple[str, int], set[float]]) -> None:
+def _put_unit(entry: _Entry, header: Header, result: dict[tuple[str, int], set[float]]) -> None:
     """Keep the unit of heights, of lengths, or of both."""
     words = entry.words
     lateral = bool(words & _LATERAL)
@@ -229,20 +229,20 @@ def _put_unit(entry: _Entry, header: Header, found: dict[tuple[str, int], set[fl
         header.is_other = header.is_other or is_height
         return
     if not lateral:
-        found.setdefault(("height", 0), set()).add(entry.unit)
+        result.setdefault(("height", 0), set()).add(entry.unit)
     if lateral or not words & _HEIGHTS:
-        found.setdefault(("lateral", 0), set()).add(entry.unit)
+        result.setdefault(("lateral", 0), set()).add(entry.unit)
 
 
-def _settle(header: Header, found: dict[tuple[str, int], set[float]]) -> None:
+def _settle(header: Header, result: dict[tuple[str, int], set[float]]) -> None:
     """Take what is given once."""
-    for (kind, side), values in list(found.items()):
+    for (kind, side), values in list(result.items()):
         if len(values) > 1:
             header.notes.append(f"the header states its {kind} in two ways: neither was taken")
-            del found[(kind, side)]
+            del result[(kind, side)]
 
     def once(kind: str, side: int = 0) -> float | None:
-        return next(iter(found.get((kind, side), ())), None)
+        return next(iter(result.get((kind, side), ())), None)
 
     if header.height_unit is None or once("height"):
         header.height_unit, header.by_comment = once("height"), False

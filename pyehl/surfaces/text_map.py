@@ -130,7 +130,7 @@ def _heading(line: str, cells: Cells, columns: int) -> Array | None:
 
 def _rising(rows: Array, along: Array | None, across: Array | None) -> tuple[Array, Axes]:
     """Heights in the order of rising places, with the steps."""
-    found = [axis for axis in (along, across) if axis is not None]
+    result = [axis for axis in (along, across) if axis is not None]
     steps: list[float | None] = []
     for number, axis in ((1, along), (0, across)):
         if axis is None:
@@ -144,7 +144,7 @@ def _rising(rows: Array, along: Array | None, across: Array | None) -> tuple[Arr
     names = " and ".join(
         name for name, axis in (("line", along), ("column", across)) if axis is not None
     )
-    if all(_is_numbering(axis) for axis in found):
+    if all(_is_numbering(axis) for axis in result):
         return rows, Axes(None, f"numbers of pixels and no heights: the first {names}")
     return rows, Axes((steps[0], steps[1]), f"places and no heights: the first {names}")
 
@@ -244,26 +244,26 @@ def read_text_map(path: Path, encoding: str, channel: str = "") -> Found:
     table, header = tables[0], headers[0]
     if channel or len(tables) > 1:
         table, header = _picked(path, tables, headers, channel)
-    found = _found(path, table, header)
+    result = _found(path, table, header)
     for mark in header.marks:
-        there = found.heights == mark
+        there = result.heights == mark
         if there.any():
-            found.notes.append(
+            result.notes.append(
                 f"{int(there.sum())} heights of {mark:.10g} are missing by the header"
             )
-            found.heights[there] = np.nan
-    found.channel = header.channel
-    found.notes += header.notes
-    if table.cells.words and np.isnan(found.heights).any():
+            result.heights[there] = np.nan
+    result.channel = header.channel
+    result.notes += header.notes
+    if table.cells.words and np.isnan(result.heights).any():
         words = ", ".join(f"{word!r} {times} x" if word else f"{times} empty cells"
                           for word, times in table.cells.words.most_common(3))  # fmt: skip
-        found.notes.append(f"missing points in the file: {words}")
+        result.notes.append(f"missing points in the file: {words}")
     if table.footer:
-        found.notes.append(
+        result.notes.append(
             f"{len(table.footer)} lines behind the heights are no numbers and were not read: "
             f"{table.footer[0].strip()[:40]!r}"
         )
-    return found
+    return result
 
 
 def _picked(
@@ -307,18 +307,18 @@ def _found(path: Path, table: Table, header: Header) -> Found:
         rows = rows[:, :3]
     image = words or header.is_informative or axes is not None
     if is_list(rows):
-        found = _points(path, rows, table, header)
-        found.notes += [note for note in (axes.note if axes else "", more) if note]
-        return found
+        result = _points(path, rows, table, header)
+        result.notes += [note for note in (axes.note if axes else "", more) if note]
+        return result
     if not image:
         return _array(rows, table, header)
     turned = _check_points(path, table, rows, header)
-    found = Found(np.ascontiguousarray(rows if turned else rows.T), header.height_unit)
+    result = Found(np.ascontiguousarray(rows if turned else rows.T), header.height_unit)
     if turned:
-        found.notes.append("by the points that its header states, the file has one x per line")
+        result.notes.append("by the points that its header states, the file has one x per line")
         axes = axes and axes.turned()
-    _size(found, header, axes)
-    return found
+    _size(result, header, axes)
+    return result
 
 
 def _without_axes(path: Path, table: Table) -> tuple[Array, Axes | None]:
@@ -334,22 +334,22 @@ def matrix_map(path: Path, rows: Array) -> Found:
     heights, axes = _without_axes(path, table)
     if is_list(heights) or is_longer_list(path, heights):
         return _points(path, heights[:, :3], table, Header())
-    found = Found(heights, is_array=True)
+    result = Found(heights, is_array=True)
     if axes is not None:
-        _size(found, Header(), axes.turned())
-    return found
+        _size(result, Header(), axes.turned())
+    return result
 
 
 def _array(rows: Array, table: Table, header: Header) -> Found:
     """Heights one x per line, as they are."""
     size: dict[str, float | None] = {"length_x": None, "length_y": None}
-    found = Found(rows, header.height_unit, is_array=True)
+    result = Found(rows, header.height_unit, is_array=True)
     for line in table.header:
         if match := OWN_SIZE.match(line):
             size[match[1]] = float(match[2])
-        found.is_periodic = found.is_periodic or bool(OWN_PERIODIC.match(line))
-    found.size = size["length_x"], size["length_y"]
-    return found
+        result.is_periodic = result.is_periodic or bool(OWN_PERIODIC.match(line))
+    result.size = size["length_x"], size["length_y"]
+    return result
 
 
 def _points(path: Path, rows: Array, table: Table, header: Header) -> Found:
@@ -358,21 +358,21 @@ def _points(path: Path, rows: Array, table: Table, header: Header) -> Found:
     x, y, z = columns or (header.lateral_unit, header.lateral_unit, header.height_unit)
     known = x is not None and y is not None
     heights, steps = grid_of(path, rows)
-    found = Found(heights, z, size_in_metres=known)
+    result = Found(heights, z, size_in_metres=known)
     whole = "" if len(rows) == heights.size else f" of the {heights.size} of its grid"
-    found.notes.append(f"a list of {len(rows)} points{whole}")
+    result.notes.append(f"a list of {len(rows)} points{whole}")
     if x is not None and y is not None:
-        found.size = heights.shape[0] * steps[0] * x, heights.shape[1] * steps[1] * y
+        result.size = heights.shape[0] * steps[0] * x, heights.shape[1] * steps[1] * y
     elif all(header.pitch):
-        found.size = _pitched(heights.shape, header)
-        found.size_in_metres = True
+        result.size = _pitched(heights.shape, header)
+        result.size_in_metres = True
     elif are_pixel_numbers(rows):
-        found.size_in_metres, found.ask_lateral_unit = False, True
-        found.size = heights.shape[0] * steps[0], heights.shape[1] * steps[1]
-        found.no_size = "x and y of its list are whole numbers, as those of pixels"
+        result.size_in_metres, result.ask_lateral_unit = False, True
+        result.size = heights.shape[0] * steps[0], heights.shape[1] * steps[1]
+        result.no_size = "x and y of its list are whole numbers, as those of pixels"
     else:
-        found.size = heights.shape[0] * steps[0], heights.shape[1] * steps[1]
-    return found
+        result.size = heights.shape[0] * steps[0], heights.shape[1] * steps[1]
+    return result
 
 
 def _units_of_columns(table: Table) -> tuple[float, ...]:
@@ -426,35 +426,35 @@ def _pitched(shape: tuple[int, ...], header: Header) -> tuple[float | None, floa
     return x, y
 
 
-def _size(found: Found, header: Header, axes: Axes | None) -> None:
+def _size(result: Found, header: Header, axes: Axes | None) -> None:
     """Size by the header: its lengths, its pixels, else the axes of the table."""
-    shape = found.heights.shape
+    shape = result.heights.shape
     pitched = _pitched(shape, header)
     x, y = (a or b for a, b in zip(header.size, pitched, strict=True))
     for side, (whole, part) in enumerate(zip(header.size, pitched, strict=True)):
         # a length may be from the first to the last point
         if whole and part and abs(whole - part) > 1.5 * part / shape[side]:
-            found.notes.append(
+            result.notes.append(
                 f"the header states a length of {whole:.6g} m along {'xy'[side]} and pixels of "
                 f"{part / shape[side]:.6g} m, {part:.6g} m in all: the length was taken"
             )
     if x is None and y is None and axes is not None:
-        found.notes.append(axes.note)
+        result.notes.append(axes.note)
         if axes.steps is None:
-            found.no_size = axes.note
+            result.no_size = axes.note
             return
         x, y = (n * s if s else None for n, s in zip(shape, axes.steps, strict=True))
         if header.lateral_unit is None:
-            found.size_in_metres = False
+            result.size_in_metres = False
         else:
             x, y = (v and v * header.lateral_unit for v in (x, y))
     elif axes is not None:
-        found.notes.append(axes.note)
-    found.size = x, y
+        result.notes.append(axes.note)
+    result.size = x, y
     if x and y and header.size[0] and not any(header.points) and not any(header.pitch):
         pixel = x / shape[0], y / shape[1]
         if abs(pixel[0] - pixel[1]) > SQUARE * min(pixel):
-            found.notes.append(
+            result.notes.append(
                 f"pixels of {pixel[0]:.6g} x {pixel[1]:.6g} m by the lengths of the header: if "
                 "they should be square, lines or columns are missing in the file"
             )

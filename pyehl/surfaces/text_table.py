@@ -132,8 +132,8 @@ class Cells:
 
 def uncommented(line: str) -> str:
     """Text of a line before its comment."""
-    found = _COMMENT.search(line) if "#" in line else None
-    return line[: found.start()] if found else line
+    match = _COMMENT.search(line) if "#" in line else None
+    return line[: match.start()] if match else line
 
 
 def is_missing(word: str) -> bool:
@@ -291,9 +291,9 @@ def _start(path: Path, first: list[str]) -> tuple[int, Cells]:
         counts = [count_numbers(candidate, line) for line in first]
         # two lines of as many numbers, three at the least: a header may have numbers, too
         both = enumerate(pairwise(counts))
-        found = next((n for n, (one, other) in both if one == other > 2), None)
-        if found is not None and (best is None or counts[found] > best[1]):
-            best = found, counts[found], candidate
+        result = next((n for n, (one, other) in both if one == other > 2), None)
+        if result is not None and (best is None or counts[result] > best[1]):
+            best = result, counts[result], candidate
     if best is None and begins_with_numbers(first):
         return begins, cells_of(first[begins : begins + SAMPLE_LINES])
     if best is None and not any(uncommented(line).strip() for line in first):

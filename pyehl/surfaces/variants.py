@@ -313,9 +313,9 @@ def data_fields(data: bytes) -> dict[str, dict[str, Any]]:
         raise ValueError(f"it ends within an item: {error}") from None
     fields = {}
     for key, value in container.items():
-        if (found := re.fullmatch(r"/(\d+)/data", key)) and value[0] == "GwyDataField":
-            title = container.get(f"/{found[1]}/data/title")
-            fields[str(title or found[1])] = value[1]
+        if (match := re.fullmatch(r"/(\d+)/data", key)) and value[0] == "GwyDataField":
+            title = container.get(f"/{match[1]}/data/title")
+            fields[str(title or match[1])] = value[1]
     return fields
 
 

@@ -40,9 +40,9 @@ EDGE_ANGLES = np.linspace(0.0, 2.0 * math.pi, 96, endpoint=False)
 def monomials(x: Array, y: Array, axis: int = -1) -> Array:
     """x^i y^j for all i + j <= DEGREE, 28 along an axis, for x, y of any shape."""
     powers = [[np.ones_like(values)] for values in (x, y)]
-    for values, found in zip((x, y), powers, strict=True):
+    for values, result in zip((x, y), powers, strict=True):
         for _ in range(DEGREE):
-            found.append(found[-1] * values)
+            result.append(result[-1] * values)
     pairs = [(i, j) for i in range(DEGREE + 1) for j in range(DEGREE + 1 - i)]
     terms = np.empty((len(pairs), *np.shape(x)))
     for out, (i, j) in zip(terms, pairs, strict=True):
@@ -54,13 +54,13 @@ def _radial(z: Array, last: int) -> list[tuple[range, Array]]:
     """For each m up to `last` the l that go with it, and P_lm(z)/z for them with all factors."""
     # the last place is the edge, where the weights take P_lm
     values = _legendre(last, np.append(z, 0.0))
-    found = []
+    result = []
     for m in range(last + 1):
         orders = range(m or 2, last + 1, 2)
         if orders:
             weighted = [_weight(n, m, values[n, m, -1]) * values[n, m, :-1] / z for n in orders]
-            found.append((orders, np.stack(weighted, axis=-1)))
-    return found
+            result.append((orders, np.stack(weighted, axis=-1)))
+    return result
 
 
 def _series(qx: Array, qy: Array, theta: Array, radial: list[tuple[range, Array]]) -> Complex:

@@ -64,12 +64,12 @@ def lifted(
     # as if each node was alone
     guess = np.where(allowed, np.maximum(-gap, 0.0), 0.0) / float(compliance.kernel.max())
     first = start.pressure if start is not None and start.pressure.any() else guess
-    found = _solved(gap, allowed, compliance, scale, first)
-    if found is None or found.pressure.sum() > most:
-        found = _solved(
+    result = _solved(gap, allowed, compliance, scale, first)
+    if result is None or result.pressure.sum() > most:
+        result = _solved(
             gap, allowed, compliance, scale, guess * (most / guess.sum()), fixed_load=True
         )
-    return found
+    return result
 
 
 def _solved(

@@ -48,8 +48,8 @@ class Ellipse:
             return 1.0 if self.radius_ratio else math.inf
         from scipy.special import elliprf  # noqa: PLC0415 (as below)
 
-        found = elliprf(0.0, 1.0, self.ellipticity**2)
-        return 2.0 / math.pi * self.ellipticity * float(found)
+        result = elliprf(0.0, 1.0, self.ellipticity**2)
+        return 2.0 / math.pi * self.ellipticity * float(result)
 
 
 LINE = Ellipse(0.0, math.inf, 0.25 * math.pi)

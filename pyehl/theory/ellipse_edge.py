@@ -154,5 +154,5 @@ def _legendre(last: int, z: Array) -> Array:
     from scipy.special import assoc_legendre_p_all  # noqa: PLC0415 (takes as long to load as pyehl)
 
     # at z = 1 itself they come without the norm (scipy 1.17)
-    found = assoc_legendre_p_all(last, last, np.minimum(z, np.nextafter(1.0, 0.0)), norm=True)
-    return np.asarray(found[0, :, : last + 1])
+    result = assoc_legendre_p_all(last, last, np.minimum(z, np.nextafter(1.0, 0.0)), norm=True)
+    return np.asarray(result[0, :, : last + 1])

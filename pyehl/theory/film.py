@@ -170,7 +170,7 @@ def estimates(operating: OperatingPoint, lubricant: Lubricant) -> list[FilmEstim
     values |= {"ellipticity": shape.ellipticity, "R_x/R_y": shape.radius_ratio}
     here = regime(operating.moes_m, operating.moes_l, shape)
     circle = shape.radius_ratio == 1.0
-    found: list[FilmEstimate] = []
+    result: list[FilmEstimate] = []
 
     def in_metres(films: tuple[float, float]) -> tuple[float, float]:
         return films[0] * operating.radius, films[1] * operating.radius
@@ -185,7 +185,7 @@ def estimates(operating: OperatingPoint, lubricant: Lubricant) -> list[FilmEstim
     ) -> None:
         h_c, h_min = films
         beyond = outside(values, bounds)
-        found.append(
+        result.append(
             FilmEstimate(
                 name=name,
                 source=source,
@@ -255,7 +255,7 @@ def estimates(operating: OperatingPoint, lubricant: Lubricant) -> list[FilmEstim
     )
     # the formula for all regimes is replaced by one of another regime within its range alone
     isoviscous = here.endswith("-isoviscous")
-    return sorted(found, key=lambda f: (not f.applies, isoviscous and _rank(f)))
+    return sorted(result, key=lambda f: (not f.applies, isoviscous and _rank(f)))
 
 
 def _rank(formula: FilmEstimate) -> int:

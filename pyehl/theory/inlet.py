@@ -100,10 +100,10 @@ def wave_flattening(zone: Zone, qx: Array, qy: Array, slip: Array, x: Array) -> 
     kernel = np.hstack([np.conj(beside[:, n - 2 :: -1]), near, beside])
     kernel *= 1.0 / (np.pi * float(stiffness(1.0)) * zone.stiffness)
     i, behind = np.arange(n)[:, np.newaxis], np.arange(1, more + 1)
-    found = kernel[:, np.arange(n) - i + n - 1]
+    result = kernel[:, np.arange(n) - i + n - 1]
     tail = np.exp(1j * np.outer(slip, h * behind)) * np.cos(0.5 * np.pi * behind / more)
-    found[:, :, -1] += np.einsum("mij,mj->mi", kernel[:, behind - i + 2 * n - 2], tail)
-    return found
+    result[:, :, -1] += np.einsum("mij,mj->mi", kernel[:, behind - i + 2 * n - 2], tail)
+    return result
 
 
 def convected_by(n: int, h: float, slip: Array) -> Complex:
@@ -130,8 +130,8 @@ def passed(zone: Zone, qx: ArrayLike, qy: ArrayLike, velocity_ratio: float) -> C
     q = np.clip(np.log(np.maximum(np.hypot(kx, ky), 1e-12)), low, high)
     column = (q - low) * ((WAVENUMBERS.size - 1) / (high - low))
     row = np.arctan2(ky, kx) * (2.0 / np.pi * (DIRECTIONS.size - 1))
-    found = scipy.ndimage.map_coordinates(table, [row, column], order=3, mode="mirror")
-    return np.asarray(_transported(zone, kx, ky, velocity_ratio) + found)
+    result = scipy.ndimage.map_coordinates(table, [row, column], order=3, mode="mirror")
+    return np.asarray(_transported(zone, kx, ky, velocity_ratio) + result)
 
 
 def _transported(zone: Zone, qx: Array, qy: Array, velocity_ratio: float) -> Complex:

@@ -394,7 +394,7 @@ def estimates(line: LineContact, lubricant: Lubricant) -> list[FilmEstimate]:
     """Give the formulas of a line; that with alpha as a factor is left out where alpha is 0."""
     beyond = outside({"M": line.moes_m, "L": line.moes_l}, COMPARED)
     here = regime(line.moes_m, line.moes_l)
-    found = [
+    result = [
         FilmEstimate(
             name="Moes, line",
             source="Wear 159 (1992) 57, divided by rho(p_h)/rho0",
@@ -410,7 +410,7 @@ def estimates(line: LineContact, lubricant: Lubricant) -> list[FilmEstimate]:
     if line.material > 0.0:
         h_min = dowson_higginson(line.speed, line.material, line.load_number) * line.radius
         of = "elastic-piezoviscous"
-        found.append(
+        result.append(
             FilmEstimate(
                 name="Dowson-Higginson",
                 source="Proc. Inst. Mech. Eng. 182 (1968) 151",
@@ -423,4 +423,4 @@ def estimates(line: LineContact, lubricant: Lubricant) -> list[FilmEstimate]:
                 note="0.5 to 2.8 % above converged solutions",
             )
         )
-    return found
+    return result

@@ -28,9 +28,9 @@ class Oil(OilConstants):
     def measured(self) -> tuple[float, float, float]:
         """Lowest and highest temperature [degC], maximum pressure [Pa]; infinite: not known."""
         keys = ("range_temperature_min", "range_temperature_max", "range_pressure_max")
-        found = [self.constant(key) for key in keys]
+        result = [self.constant(key) for key in keys]
         ends = (-math.inf, math.inf, math.inf)
-        low, high, pressure = (e if f is None else f for f, e in zip(found, ends, strict=True))
+        low, high, pressure = (e if f is None else f for f, e in zip(result, ends, strict=True))
         return low, high, pressure
 
     def at(self, temperature: float) -> Lubricant:

@@ -117,10 +117,10 @@ def inlet_transfer(
     base = inlet_base(known, qx, qy, moes, known_ratio, spacing)
     lines = np.asarray(y, dtype=float)
     fits = [inlet_fit(qx, qy, moes, known_ratio, line, zone.ellipticity) for line in lines.flat]
-    found = base * np.reshape(fits, lines.shape + base.shape)
+    result = base * np.reshape(fits, lines.shape + base.shape)
     if known is not zone or known_ratio != velocity_ratio:
-        found *= passed(zone, qx, qy, velocity_ratio) / passed(known, qx, qy, known_ratio)
-    return found
+        result *= passed(zone, qx, qy, velocity_ratio) / passed(known, qx, qy, known_ratio)
+    return result
 
 
 def inlet_base(
@@ -183,8 +183,8 @@ def inlet_fit(
     turn = np.where(along < 0.0, -1.0, 1.0)
     # the roughness gains on the lubricant by more per length along the normal
     shift = slip * (turn * kx * origin / cosine + 1j * c * growth)
-    found = np.exp(1j * shift) / (1.0 + np.exp(log_z + 1j * angle))
-    return np.asarray(np.where(turn < 0.0, np.conj(found), found))
+    result = np.exp(1j * shift) / (1.0 + np.exp(log_z + 1j * angle))
+    return np.asarray(np.where(turn < 0.0, np.conj(result), result))
 
 
 def _normal(y: float, ellipticity: float) -> tuple[float, float, float]:

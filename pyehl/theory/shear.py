@@ -57,11 +57,11 @@ def flow_factors(
     s = np.empty((2, b.size), order="F")
     for i, part in enumerate(gradient):
         s[i] = np.broadcast_to(part, b.shape).ravel()
-    found = np.empty((5, b.size), order="F")
-    extension.lubricants.flow_factors(CODES[law], exponent, b.ravel().copy(), s, found)
-    if not np.all(np.isfinite(found)):
+    result = np.empty((5, b.size), order="F")
+    extension.lubricants.flow_factors(CODES[law], exponent, b.ravel().copy(), s, result)
+    if not np.all(np.isfinite(result)):
         raise EhlError(f"no flow factors of a film that obeys {law} at a stress beyond all bounds")
-    return FlowFactors(*(row.reshape(b.shape) for row in found))
+    return FlowFactors(*(row.reshape(b.shape) for row in result))
 
 
 def sliding_stress(law: str, exponent: float, sliding: ArrayLike) -> Array:

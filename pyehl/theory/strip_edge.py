@@ -67,15 +67,15 @@ class StripEdge:
 
         Coefficients (n, m) of the products of `waves` and `polynomials` [p_h per b^2/R].
         """
-        found = np.zeros((self.across.size, 2, DEGREE + 1, qx.size), dtype=complex)
+        result = np.zeros((self.across.size, 2, DEGREE + 1, qx.size), dtype=complex)
         orders = chebyshev.chebvander(self._x, ORDERS) / np.sqrt(1.0 - self._x**2)[:, np.newaxis]
         for k, wave, there in self.waves_and_weights(qx, qy):
             local = np.hypot(qx[wave], qy[wave]) * np.exp(1j * np.outer(self._x, qx[wave]))
             part = self._inverse @ (orders @ there - local)
-            found[k, 0][:, wave] = part
+            result[k, 0][:, wave] = part
             # exp(i k_Y Y) by the cosine and the sine of |k_Y| Y
-            found[k, 1][:, wave] = 1j * np.sign(qy[wave]) * part
-        return found.reshape(2 * self.across.size * (DEGREE + 1), qx.size)
+            result[k, 1][:, wave] = 1j * np.sign(qy[wave]) * part
+        return result.reshape(2 * self.across.size * (DEGREE + 1), qx.size)
 
     def displacement(self, qx: Array, qy: Array) -> Complex:
         """How far waves (m,) move the edges outwards, :func:`pyehl.theory.disc.edge_of_disc`.
@@ -83,12 +83,12 @@ class StripEdge:
         At X = -1, then X = 1, at the ends (n,) of intervals of the width: (2 n, m).
         """
         y = np.linspace(0.0, self.width, self.places + 1)
-        found = np.zeros((2, y.size, qx.size), dtype=complex)
+        result = np.zeros((2, y.size, qx.size), dtype=complex)
         for _, wave, there in self.waves_and_weights(qx, qy):
             phase = np.exp(1j * np.outer(y, qy[wave]))
             for side, sign in enumerate(((-1.0) ** np.arange(ORDERS + 1), np.ones(ORDERS + 1))):
-                found[side][:, wave] = phase * (sign @ there)
-        return found.reshape(2 * y.size, qx.size)
+                result[side][:, wave] = phase * (sign @ there)
+        return result.reshape(2 * y.size, qx.size)
 
     def waves_and_weights(self, qx: Array, qy: Array) -> Iterator[tuple[int, Indices, Complex]]:
         """Waves (l,) of each |k_Y|, and weights (orders, l) of T_n/sqrt(1 - X^2) in pressure."""

@@ -123,14 +123,14 @@ def lift_off(speeds: Array, table: pd.DataFrame) -> LiftOff | None:
         return table[name].to_numpy(float)[order]
 
     share, error = column("contact_load_share"), column("contact_load_share_error")
-    found = _crossing(speeds, share)
-    if found is None:
+    result = _crossing(speeds, share)
+    if result is None:
         return None
     ends = [_crossing(speeds, share + sign * error) for sign in (1.0, -1.0)]
     if None in ends:
         return LiftOff()
-    beside = [float(np.interp(found, speeds, column(n))) for n in ("lambda_ratio", "theta_2")]
-    return LiftOff(found, max(abs(end - found) for end in ends if end is not None), *beside)
+    beside = [float(np.interp(result, speeds, column(n))) for n in ("lambda_ratio", "theta_2")]
+    return LiftOff(result, max(abs(end - result) for end in ends if end is not None), *beside)
 
 
 def _crossing(speeds: Array, share: Array) -> float | None:

@@ -269,7 +269,7 @@ def transport(
     free = np.full(qx.shape, np.interp(INLET, zone.x, zone.density), dtype=complex)
     driven = np.zeros(qx.shape, dtype=complex)
     ends = np.cumsum(steps)
-    found = []
+    result = []
     for i, h in enumerate(lengths):
         a, b, _, _ = waves.at(flow, i)
         # exact for coefficients that are constant over the step
@@ -279,8 +279,8 @@ def transport(
         for j in np.flatnonzero(ends == i + 1):
             _, _, t, s = waves.at(there, int(j))
             back = np.exp(-waves.slip * (stations[j] - INLET))
-            found.append((t * driven + s, t * free * back))
-    return found
+            result.append((t * driven + s, t * free * back))
+    return result
 
 
 LINES = np.array([-0.95, -0.8, -0.6, -0.3, 0.0, 0.3, 0.6, 0.8, 0.95])
@@ -318,8 +318,8 @@ def pressed(
     the edge takes it off (:class:`pyehl.prediction.moving_tile.Edge`). No constant in it is fitted.
     """
     here = free_stiffness(kx, ky, velocity_ratio)
-    found = here * amplitudes
+    result = here * amplitudes
     for k, part in zip(*harmonics(amplitudes), strict=True):
         there = free_stiffness(kx, ky + k / ellipticity, velocity_ratio)
-        found += np.multiply.outer(np.exp(1j * k * LINES), (there - here) * part)
-    return np.asarray(found)
+        result += np.multiply.outer(np.exp(1j * k * LINES), (there - here) * part)
+    return np.asarray(result)

@@ -96,10 +96,10 @@ class Tab:
 
     def until(self, holds: Callable[[], Any], patience: float = PATIENCE) -> Any:
         end = time.monotonic() + patience
-        while not (found := holds()):
+        while not (result := holds()):
             assert time.monotonic() < end, "the page does not come to it"
             time.sleep(0.02)
-        return found
+        return result
 
     def get(self, name: str, what: str) -> Any:
         """Give a property of a model, as it is in the browser."""

@@ -48,9 +48,9 @@ def measure(turns: int) -> dict[int, list[float]]:
             tab.settle()
             driver.set_script_timeout(60.0)
             for k in range(turns):
-                found = driver.execute_async_script(WAIT, 200 + (37 * k) % 150)
-                times[129].append(found["129"] * 1e-3)
-                times[257].append(found["257"] * 1e-3)
+                result = driver.execute_async_script(WAIT, 200 + (37 * k) % 150)
+                times[129].append(result["129"] * 1e-3)
+                times[257].append(result["257"] * 1e-3)
                 tab.settle()
     finally:
         served.close()

@@ -25,9 +25,9 @@ async def tab(address: str, began: float) -> tuple[float, float]:
     waits = {"request_timeout": PATIENCE, "connect_timeout": PATIENCE}
     answer = await AsyncHTTPClient().fetch(HTTPRequest(address, **waits))
     page = time.perf_counter() - began
-    found = re.search(r'"token":"([^"]+)"', answer.body.decode())
-    assert found is not None
-    protocols = ["bokeh", found[1]]
+    match = re.search(r'"token":"([^"]+)"', answer.body.decode())
+    assert match is not None
+    protocols = ["bokeh", match[1]]
     headers = {"Origin": address.rstrip("/")}
     request = HTTPRequest(f"ws{address.removeprefix('http')}ws", headers=headers, **waits)
     socket = await websocket_connect(request, subprotocols=protocols)
@@ -48,9 +48,9 @@ def main() -> int:
     command = [sys.executable, "-m", "pyehl", "app", "--no-browser"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as server:
         try:
-            found = re.match(r"http\S+", server.stdout.readline() if server.stdout else "")
-            assert found is not None
-            times = asyncio.run(opened(found[0], count))
+            match = re.match(r"http\S+", server.stdout.readline() if server.stdout else "")
+            assert match is not None
+            times = asyncio.run(opened(match[0], count))
         finally:
             server.terminate()
     pages, sockets = (max(column) for column in zip(*times, strict=True))

@@ -121,8 +121,10 @@ def test_moduli_of_the_bodies_of_a_case_are_kept():
     case = Case.from_text(f"&bodies {bodies} /")
     position, note = from_case(case)
     assert not note
-    found = [position.values[name] for name in ("modulus_1", "poisson_1", "modulus_2", "poisson_2")]
-    assert found == [208.0, 0.28, 207.0, 0.3]
+    result = [
+        position.values[name] for name in ("modulus_1", "poisson_1", "modulus_2", "poisson_2")
+    ]
+    assert result == [208.0, 0.28, 207.0, 0.3]
     # there and back: no jump
     back = position.turned("modulus_1", 150.0).turned("modulus_1", 208.0)
     expected = case.resolve()["contact"]["reduced_modulus"]
@@ -133,17 +135,17 @@ def test_moduli_of_the_bodies_of_a_case_are_kept():
 
 def test_a_turned_ellipse_is_drawn_as_it_lies():
     text = "&contact radius_x = 0.01 radius_y = 0.03 angle = 30.0 load = 100.0 /"
-    found = answers.film(from_case(Case.from_text(text))[0], 65, always)
-    assert found.converged
-    made, edge = drawing.film_map(found), Outline(found.point.ellipse.ellipticity, 30.0)
-    radius = found.point.hertz_radius * 1e3
+    result = answers.film(from_case(Case.from_text(text))[0], 65, always)
+    assert result.converged
+    made, edge = drawing.film_map(result), Outline(result.point.ellipse.ellipticity, 30.0)
+    radius = result.point.hertz_radius * 1e3
     for half, axis in zip(edge.reach, (made.x, made.y), strict=True):
         # the whole ellipse and some more, and no more than that
         assert half * radius < axis[-1] <= drawing.VIEW * half * radius
-    for half, line in zip(edge.chords, drawing.centre_lines(found).values(), strict=True):
+    for half, line in zip(edge.chords, drawing.centre_lines(result).values(), strict=True):
         inside = np.abs(line["place"]) < half * radius
         assert np.array_equal(line["hertz"] > 0.0, inside)
-    assert "turned by 30°" in dict(words.film_rows(found))["semi-axes"]
+    assert "turned by 30°" in dict(words.film_rows(result))["semi-axes"]
 
 
 def test_the_film_is_kept_while_the_surface_is_turned(start, monkeypatch):
@@ -177,9 +179,9 @@ def test_contours_are_lines_of_equal_film(start):
 def test_moes_numbers_become_si(root: Path):
     position, note = from_case(Case(root / "cases/quick.nml"))
     assert "M = 200" in note
-    found = pyehl.OperatingPoint.from_settings(position.case(65).resolve())
-    assert found.moes_m == pytest.approx(200.0, rel=1e-9)
-    assert found.moes_l == pytest.approx(10.0, rel=1e-9)
+    result = pyehl.OperatingPoint.from_settings(position.case(65).resolve())
+    assert result.moes_m == pytest.approx(200.0, rel=1e-9)
+    assert result.moes_l == pytest.approx(10.0, rel=1e-9)
 
 
 @pytest.mark.parametrize(
@@ -204,23 +206,23 @@ def test_moduli_of_the_bodies(start):
 
 def test_film_is_that_of_a_run(start):
     position = start.turned("load", 200.0)
-    found = answers.film(position, 65, always)
+    result = answers.film(position, 65, always)
     run = pyehl.solve(position.case(65))
-    assert found.summary["h_c_m"] == float(run.h_c_m)
-    assert np.array_equal(found.film, run.H.values)
-    rows = dict(words.film_rows(found))
-    error = float(run.H_c_error) * found.point.film_scale * 1e9
+    assert result.summary["h_c_m"] == float(run.h_c_m)
+    assert np.array_equal(result.film, run.H.values)
+    rows = dict(words.film_rows(result))
+    error = float(run.H_c_error) * result.point.film_scale * 1e9
     assert rows["h_c"] == f"{words.with_error(float(run.h_c_m) * 1e9, error, 'nm')} (grid)"
     assert rows["regime"] == "rigid to elastic-piezoviscous"
 
 
 def test_ellipse_has_a_film_and_says_why_there_is_no_prediction(start):
     position = start.turned("load", 100.0).turned("radius_y", 40.0).turned("surface", "fractal")
-    found = answers.film(position, 65, always)
-    assert found.converged
-    assert "semi-axes, along × across" in dict(words.film_rows(found))
-    x, y = drawing.outline(found)
-    assert y.max() / x.max() == pytest.approx(found.point.ellipse.ellipticity, rel=1e-3)
+    result = answers.film(position, 65, always)
+    assert result.converged
+    assert "semi-axes, along × across" in dict(words.film_rows(result))
+    x, y = drawing.outline(result)
+    assert y.max() / x.max() == pytest.approx(result.point.ellipse.ellipticity, rel=1e-3)
     rough = answers.rough(position)
     if rough.prediction is None:
         assert words.rough_rows(rough) == [("no prediction", rough.why)]
@@ -228,12 +230,12 @@ def test_ellipse_has_a_film_and_says_why_there_is_no_prediction(start):
 
 
 def test_no_solution_is_no_number(start):
-    found = answers.film(start.turned("load", 4000.0).turned("velocity", 0.1), 65, always)
-    assert not found.converged
-    rows = dict(words.film_rows(found))
+    result = answers.film(start.turned("load", 4000.0).turned("velocity", 0.1), 65, always)
+    assert not result.converged
+    rows = dict(words.film_rows(result))
     assert rows["h_c"] == rows["h_min"] == "no solution"
-    assert words.status_line(found).startswith("No solution on 65 × 65 nodes: the status is")
-    assert found.film.size == 0
+    assert words.status_line(result).startswith("No solution on 65 × 65 nodes: the status is")
+    assert result.film.size == 0
 
 
 def test_what_is_not_wanted_ends(start):
@@ -242,9 +244,9 @@ def test_what_is_not_wanted_ends(start):
 
 def test_rough_contact_is_that_of_a_prediction(start):
     position = start.turned("surface", "fractal")
-    found = answers.rough(position)
+    result = answers.rough(position)
     prediction = pyehl.predict(position.case(257))
-    rows = dict(words.rough_rows(found))
+    rows = dict(words.rough_rows(result))
     error = words.with_error(prediction.mu_ratio, prediction.model_error)
     assert rows["μ_r/μ_s of one track"] == f"{error} (model)"
     mean = rows["μ_r/μ_s, mean and scatter of 8 tracks"]
@@ -253,14 +255,14 @@ def test_rough_contact_is_that_of_a_prediction(start):
     # the film ratio is that of the numbers beside it, whatever grid they are of
     film = answers.film(position, 129, lambda: True)
     h_min, sigma = float(film.summary["h_min_m"]), prediction.summary["rms_height_m"]
-    shown = dict(words.rough_rows(found, film))["film ratio Λ = h_min/σ"]
+    shown = dict(words.rough_rows(result, film))["film ratio Λ = h_min/σ"]
     assert shown.startswith(f"{h_min / sigma:.4g}: ")
     assert h_min != pytest.approx(prediction.summary["h_min_m"], rel=1e-3)
-    before, after, width, _, most = drawing.tiles(found.prediction)
+    before, after, width, _, most = drawing.tiles(result.prediction)
     assert before.shape == after.shape == (256, 256)
     assert np.abs(before).max() == pytest.approx(most)
     assert width == pytest.approx(0.829)
-    assert sum(drawing.octaves(found.prediction)["increase"]) == pytest.approx(
+    assert sum(drawing.octaves(result.prediction)["increase"]) == pytest.approx(
         prediction.mu_ratio - 1.0, abs=1e-6
     )
 
@@ -278,8 +280,8 @@ def test_python_lines_give_the_numbers(start, capsys):
     position = start.turned("load", 200.0).turned("surface", "fractal")
     exec(words.python_lines(position, 65), {})
     lines = capsys.readouterr().out.split()
-    found = answers.film(position, 65, always)
-    assert float(lines[0]) == found.summary["h_c_m"]
+    result = answers.film(position, 65, always)
+    assert float(lines[0]) == result.summary["h_c_m"]
     prediction = pyehl.predict(position.case(65))
     assert float(lines[2]) == prediction.mu_ratio
 

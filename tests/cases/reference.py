@@ -104,14 +104,14 @@ def _smooth() -> tuple[SmoothRow, ...]:
     contacts: dict[tuple[str, ...], list[dict[str, str]]] = {}
     for row in _table("smooth.csv"):
         contacts.setdefault(tuple(row[key] for key in (*keys, "grid.y_extent")), []).append(row)
-    found = []
+    result = []
     for contact, rows in contacts.items():
         m, ell, z, inlet, side = (float(value) for value in contact)
         points = tuple(int(row["grid.points"]) for row in rows)
         h_c, h_min = (tuple(float(row[name]) for row in rows) for name in ("H_c", "H_min"))
         limits = (float(rows[-1][f"{name}_extrapolated"]) for name in ("H_c", "H_min"))
-        found.append(SmoothRow(m, ell, z, inlet, side, points, h_c, h_min, *limits))
-    return tuple(found)
+        result.append(SmoothRow(m, ell, z, inlet, side, points, h_c, h_min, *limits))
+    return tuple(result)
 
 
 SMOOTH = _smooth()

@@ -229,13 +229,13 @@ def test_friction_of_the_layer_is_heat(solve):
 def test_film_beside_contact_is_warmed_by_it(solve):
     """Friction of the film falls as the layer rubs more."""
     mixed = HOT | {"lubricant.boundary_film": 5e-7}
-    found = [
+    result = [
         solve(None, 129, mixed | {"lubricant.boundary_friction": mu}) for mu in (0.05, 0.1, 0.2)
     ]
-    share = found[0]["contact_load_share"]
+    share = result[0]["contact_load_share"]
     assert 0.02 < share < 0.95
-    assert {done["contact_load_share"] for done in found} == {share}
-    film = [done["mu"] - mu * share for done, mu in zip(found, (0.05, 0.1, 0.2), strict=True)]
+    assert {done["contact_load_share"] for done in result} == {share}
+    film = [done["mu"] - mu * share for done, mu in zip(result, (0.05, 0.1, 0.2), strict=True)]
     assert film[0] > film[1] > film[2] > 0.0
 
 

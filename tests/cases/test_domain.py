@@ -58,11 +58,11 @@ def test_from_500_on_it_is_that_of_the_paper():
     assert inlets[-1] == PAPER["x_inlet"]
     # X = 0 is a node of the coarse grids
     for moes_m in (0.2, 5.0, 20.0, 80.0, 200.0, 450.0):
-        found = domain_of(case_of(moes_m, 10.0, 65))
-        width = found["x_outlet"] - found["x_inlet"]
-        assert width == pytest.approx(2.0 * found["y_extent"])
-        assert 32.0 * found["x_inlet"] / width == pytest.approx(
-            round(32.0 * found["x_inlet"] / width)
+        result = domain_of(case_of(moes_m, 10.0, 65))
+        width = result["x_outlet"] - result["x_inlet"]
+        assert width == pytest.approx(2.0 * result["y_extent"])
+        assert 32.0 * result["x_inlet"] / width == pytest.approx(
+            round(32.0 * result["x_inlet"] / width)
         )
 
 
@@ -103,18 +103,18 @@ def test_flooded_border_is_that_of_a_large_domain(moes_m: float, moes_l: float):
 
 def test_pressure_spike_of_few_nodes_converges():
     """Where cycles of the usual kind throw the spike about, damped ones are the restart."""
-    found = solved(case_of(200.0, 25.0, 257, **PAPER, border="zero"))
-    assert found["restarts"] == 1
+    result = solved(case_of(200.0, 25.0, 257, **PAPER, border="zero"))
+    assert result["restarts"] == 1
     usual = solved(case_of(200.0, 24.0, 257, **PAPER, border="zero"))
     assert usual["restarts"] == 0
     # H_c goes with L to the power 0.6
-    assert found["H_c"] / usual["H_c"] == pytest.approx((25.0 / 24.0) ** 0.6, rel=2e-3)
+    assert result["H_c"] / usual["H_c"] == pytest.approx((25.0 / 24.0) ** 0.6, rel=2e-3)
 
 
 def test_a_second_try_is_the_last():
     """Here coarse levels fail with care, too; what is left is the finest one, with care."""
-    found = solved(case_of(600.0, 40.0, 129))
-    assert found["restarts"] == 2
+    result = solved(case_of(600.0, 40.0, 129))
+    assert result["restarts"] == 2
 
 
 def test_evidence_is_what_this_build_gives(root: Path):
@@ -123,12 +123,12 @@ def test_evidence_is_what_this_build_gives(root: Path):
     with path.open(encoding="utf-8", newline="") as stream:
         rows = [row for row in csv.DictReader(stream) if row["points"] in ("65", "129", "65.0")]
     for row in (rows[0], rows[len(rows) // 2], rows[-1]):
-        found = solved(
+        result = solved(
             case_of(float(row["moes_m"]), float(row["moes_l"]), int(float(row["points"])))
         )
         for name in ("H_c", "H_c_error", "H_min_error"):
             # instructions of other processors round differently
-            assert found[name] == pytest.approx(float(row[name]), rel=1e-6)
+            assert result[name] == pytest.approx(float(row[name]), rel=1e-6)
 
 
 @pytest.mark.parametrize("moes_m", [0.3, 20.0, 200.0])

@@ -467,14 +467,14 @@ def test_steady_contacts_beside_a_duty(shape):
     if shape == "roller":
         duty = {key: duty[key] for key in ("time", "mean_velocity")}
     data = pyehl.solve(case, {"duty": duty})
-    found = pyehl.quasi_static(data, [0.0, 20.0 * unit])
-    assert float(found.steady_h_c_m[0]) == pytest.approx(float(data.h_c_m), rel=2e-3)
-    film = float(np.interp(found.steady_t_s[1], data.history_t_s, data.history_h_c_m))
+    result = pyehl.quasi_static(data, [0.0, 20.0 * unit])
+    assert float(result.steady_h_c_m[0]) == pytest.approx(float(data.h_c_m), rel=2e-3)
+    film = float(np.interp(result.steady_t_s[1], data.history_t_s, data.history_h_c_m))
     assert abs(film / float(data.h_c_m) - 1.0) > 0.01
     # the lag of the film: a transit of 1.2 in time
-    assert float(found.steady_h_c_m[1]) == pytest.approx(film, rel=6e-3)
-    assert (found.steady_h_c_error_m > 0.0).all()
-    assert "duty" in pyehl.plot(found)
+    assert float(result.steady_h_c_m[1]) == pytest.approx(film, rel=6e-3)
+    assert (result.steady_h_c_error_m > 0.0).all()
+    assert "duty" in pyehl.plot(result)
 
 
 def test_steady_contacts_of_a_reversal(tmp_path: Path):

@@ -212,8 +212,8 @@ def test_film_of_a_flooded_ellipse(solve):
     flooded = solve((200.0, 10.0), 257, wide)
     place = {"grid.x_inlet": -2.5, "grid.x_outlet": 1.5, "grid.y_extent": 4.0}
     starved = solve((200.0, 10.0), 257, wide | place | {"grid.border": "'zero'"})
-    found = [f"{done['H_c_extrapolated']:.4f}" for done in (flooded, starved)]
-    assert found == ["0.1415", "0.1379"]
+    result = [f"{done['H_c_extrapolated']:.4f}" for done in (flooded, starved)]
+    assert result == ["0.1415", "0.1379"]
 
 
 def test_si_and_moes_numbers_are_one_contact(solve):
@@ -239,14 +239,14 @@ def test_formula(solve):
 def test_flooded_border_makes_the_domain_no_matter(solve, ratio):
     kappa = ellipse(ratio).ellipticity
     sides = max(kappa, math.sqrt(kappa))
-    found = {}
+    result = {}
     for border, width, points in (
         ("flooded", 4, 65),
         ("flooded", 8, 129),
         ("flooded", 16, 257),
         ("zero", 16, 257),
     ):
-        found[border, width] = solve(
+        result[border, width] = solve(
             (30.0 * kappa, 8.0),
             points,
             {
@@ -257,9 +257,9 @@ def test_flooded_border_makes_the_domain_no_matter(solve, ratio):
                 "grid.y_extent": 0.5 * width * sides,
             },
         )
-    exact = found["flooded", 16]["H_c"]
-    assert abs(found["flooded", 8]["H_c"] / exact - 1.0) < 1e-3
-    for case in found.values():
+    exact = result["flooded", 16]["H_c"]
+    assert abs(result["flooded", 8]["H_c"] / exact - 1.0) < 1e-3
+    for case in result.values():
         assert abs(case["H_c"] - exact) <= case["H_c_error_domain"] + 1e-5 * exact
 
 
@@ -460,16 +460,16 @@ def test_cells_that_a_narrow_contact_needs(kappa: float, round_m: float):
     assert (summary["H_c"], summary["status"]) == (None, "negative film")
     named = re.findall(r"(\w+\.\w+) = ([\d.]+)", summary["assessment"])
     assert [key for key, _ in named] == ["grid.y_extent", "grid.points_y", "solver.max_cycles"]
-    found = []
+    result = []
     for wider in (1.0, 1.5):
         remedy = {key: float(value) if "." in value else int(value) for key, value in named}
         remedy["grid.y_extent"] *= wider
         remedy["grid.points_y"] = round((remedy["grid.points_y"] - 1) * wider) + 1
         with pyehl.Solver(pyehl.Case.from_text("", keys | remedy)) as solver:
             assert solver.run()
-            found.append(solver.summary)
+            result.append(solver.summary)
     for name in ("H_c", "H_min"):
-        assert abs(default[name] - found[0][name]) <= default[f"{name}_error"]
+        assert abs(default[name] - result[0][name]) <= default[f"{name}_error"]
     # the sides of the domain are far enough
-    assert found[0]["H_c"] == pytest.approx(found[1]["H_c"], rel=3e-5)
-    assert found[0]["H_min"] == pytest.approx(found[1]["H_min"], rel=1e-4)
+    assert result[0]["H_c"] == pytest.approx(result[1]["H_c"], rel=3e-5)
+    assert result[0]["H_min"] == pytest.approx(result[1]["H_min"], rel=1e-4)

@@ -114,14 +114,15 @@ def test_elliptical_contact(solve):
     long = {"contact.radius_x": 0.04, "contact.radius_y": 0.01}
     keys = {key: value for key, value in FAST.items() if key not in ("contact.radius",)}
     keys = {key: value for key, value in keys.items() if not key.startswith("grid.")}
-    found = [solve(None, 65, keys | shape) for shape in (wide, long)]
-    for done in found:
+    result = [solve(None, 65, keys | shape) for shape in (wide, long)]
+    for done in result:
         walls = [done[f"temperature_rise_wall_{k}_max_K"] for k in (1, 2)]
         assert done["flash_temperature_K"] == pytest.approx(np.mean(walls), rel=0.03)
         assert 0.4 < done["mu"] / done["mu_isothermal"] < 0.9
     # the same load and heat, but a longer way to take it up
     assert (
-        found[1]["temperature_rise_wall_1_max_K"] > 1.1 * found[0]["temperature_rise_wall_1_max_K"]
+        result[1]["temperature_rise_wall_1_max_K"]
+        > 1.1 * result[0]["temperature_rise_wall_1_max_K"]
     )
 
 
@@ -180,16 +181,16 @@ def test_prediction_has_it_too(radii: tuple[float, float]):
     }
     keys |= {"contact.radius_x": radii[0], "contact.radius_y": radii[1]}
     case = pyehl.Case.from_text("", keys | {"surface.kind": "fractal", "surface.pixels": 64})
-    found = pyehl.predict(case).summary
+    result = pyehl.predict(case).summary
     solved = summary_of(pyehl.solve(case.with_options("surface.kind=smooth", "grid.points=257")))
-    assert found["mu_smooth"] / found["mu_smooth_isothermal"] == pytest.approx(
+    assert result["mu_smooth"] / result["mu_smooth_isothermal"] == pytest.approx(
         solved["mu"] / solved["mu_isothermal"], rel=0.01
     )
-    assert found["mu"] == pytest.approx(found["mu_ratio"] * found["mu_smooth"], rel=1e-12)
-    assert found["temperature_rise_max_K"] == pytest.approx(
+    assert result["mu"] == pytest.approx(result["mu_ratio"] * result["mu_smooth"], rel=1e-12)
+    assert result["temperature_rise_max_K"] == pytest.approx(
         solved["temperature_rise_max_K"], rel=0.02
     )
     # at its own friction, of the rough contact
-    assert found["flash_temperature_K"] == pytest.approx(
-        solved["flash_temperature_K"] * found["mu"] / solved["mu"], rel=1e-9
+    assert result["flash_temperature_K"] == pytest.approx(
+        solved["flash_temperature_K"] * result["mu"] / solved["mu"], rel=1e-9
     )

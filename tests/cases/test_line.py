@@ -42,20 +42,20 @@ def roller(points: int = 257, **options: object) -> pyehl.Case:
 
 @pytest.mark.parametrize(("moes_m", "moes_l", "h_c", "h_min"), line_newton.FILMS)
 def test_reference_values(moes_m, moes_l, h_c, h_min):
-    found = pyehl.solve(moes(moes_m, moes_l, 1025, **DOMAIN))
-    assert float(found.H_c_extrapolated) == pytest.approx(h_c, rel=3e-3)
-    assert float(found.H_min_extrapolated) == pytest.approx(h_min, rel=3e-3)
+    result = pyehl.solve(moes(moes_m, moes_l, 1025, **DOMAIN))
+    assert float(result.H_c_extrapolated) == pytest.approx(h_c, rel=3e-3)
+    assert float(result.H_min_extrapolated) == pytest.approx(h_min, rel=3e-3)
     # the limit is within twice the stated error of what the grid has
-    assert abs(float(found.H_c) - h_c) < 2.0 * float(found.H_c_error) + 1e-3 * h_c
+    assert abs(float(result.H_c) - h_c) < 2.0 * float(result.H_c_error) + 1e-3 * h_c
 
 
 def test_independent_solver():
     films = [line_newton.solve(100.0, 10.0, n, 0.0135, (-4.0, 1.5)) for n in (550, 1100)]
     limits = [(4.0 * fine - coarse) / 3.0 for coarse, fine in zip(*films, strict=True)]
     assert limits == pytest.approx([0.01349, 0.01214], rel=2e-3)
-    found = pyehl.solve(moes(100, 10, 1025, **DOMAIN))
+    result = pyehl.solve(moes(100, 10, 1025, **DOMAIN))
     assert limits == pytest.approx(
-        [float(found.H_c_extrapolated), float(found.H_min_extrapolated)], rel=2e-3
+        [float(result.H_c_extrapolated), float(result.H_min_extrapolated)], rel=2e-3
     )
 
 
@@ -68,9 +68,9 @@ def test_order_two():
 
 def test_few_cycles():
     # Newton steps on one row leave little: two cycles a level
-    found = pyehl.solve(moes(20, 10, 4097))
-    assert int(found.total_cycles) <= 2 * 7 + 2
-    assert abs(float(found.load_error)) < 1e-6
+    result = pyehl.solve(moes(20, 10, 4097))
+    assert int(result.total_cycles) <= 2 * 7 + 2
+    assert abs(float(result.load_error)) < 1e-6
 
 
 def test_same_bits(root, drivers, tmp_path):
@@ -99,22 +99,22 @@ def test_resolved_case_is_the_same_case():
 
 
 def test_scales_and_integrals_are_per_length():
-    found = pyehl.solve(roller(1025), SLIDING)
-    line = LineContact.from_settings(settings_of(found))
-    assert float(found.hertz_radius_m) == pytest.approx(line.half_width, rel=1e-12)
-    assert float(found.hertz_pressure_Pa) == pytest.approx(line.hertz_pressure, rel=1e-12)
-    assert float(found.moes_m_line) == pytest.approx(line.moes_m, rel=1e-12)
-    x, p, h = found.x_m.values, found.p_Pa.values[:, 0], found.h_m.values[:, 0]
+    result = pyehl.solve(roller(1025), SLIDING)
+    line = LineContact.from_settings(settings_of(result))
+    assert float(result.hertz_radius_m) == pytest.approx(line.half_width, rel=1e-12)
+    assert float(result.hertz_pressure_Pa) == pytest.approx(line.hertz_pressure, rel=1e-12)
+    assert float(result.moes_m_line) == pytest.approx(line.moes_m, rel=1e-12)
+    x, p, h = result.x_m.values, result.p_Pa.values[:, 0], result.h_m.values[:, 0]
     mesh = x[1] - x[0]
     # the border carries what lies beyond it
     assert mesh * p.sum() == pytest.approx(line.load_per_length, rel=1e-3)
-    lubricant = settings_of(found)["lubricant"]
+    lubricant = settings_of(result)["lubricant"]
     z, p0 = lubricant["roelands_z"], lubricant["roelands_p0"]
     eta = 0.04 * np.exp(2.2e-8 * p0 / z * ((1.0 + p / p0) ** z - 1.0))
     tau = 5e6 * np.arcsinh(eta * line.sliding_speed / h / 5e6)
-    assert float(found.mu) == pytest.approx(mesh * tau.sum() / line.load_per_length, rel=1e-9)
+    assert float(result.mu) == pytest.approx(mesh * tau.sum() / line.load_per_length, rel=1e-9)
     moment = line.radius * 0.25 * ((h[1:] + h[:-1]) * np.diff(p)).sum()
-    assert float(found.rolling_moment_N) == pytest.approx(moment, rel=1e-9)
+    assert float(result.rolling_moment_N) == pytest.approx(moment, rel=1e-9)
 
 
 def test_thinning_and_heat():
@@ -133,9 +133,9 @@ def test_thinning_and_heat():
 
 def test_moving_heat_source():
     """The flash temperature is that of a fast band of heat under a semi-ellipse of flux."""
-    found = pyehl.solve(roller(513), SLIDING, {"lubricant.temperature_viscosity": 0.04})
-    line = LineContact.from_settings(settings_of(found))
-    flux = float(found.mu) * line.hertz_pressure * line.sliding_speed
+    result = pyehl.solve(roller(513), SLIDING, {"lubricant.temperature_viscosity": 0.04})
+    line = LineContact.from_settings(settings_of(result))
+    flux = float(result.mu) * line.hertz_pressure * line.sliding_speed
     x = np.linspace(-1.0, 1.0, 4001)
     s = 0.5 * (x[1:] + x[:-1])
     # int sqrt(1 - x^2)/sqrt(s - x) dx, cells of which are integrated exactly
@@ -146,23 +146,23 @@ def test_moving_heat_source():
         rise = max(rise, float((2.0 * np.sqrt(1.0 - s**2) * ends)[inner].sum()))
     speeds = line.mean_velocity * (1.0 + np.array([0.15, -0.15]))
     own = flux * rise * np.sqrt(1.25e-5 * line.half_width / (np.pi * speeds)) / 46.0
-    assert float(found.flash_temperature_K) == pytest.approx(1.0 / (1.0 / own).sum(), rel=2e-3)
+    assert float(result.flash_temperature_K) == pytest.approx(1.0 / (1.0 / own).sum(), rel=2e-3)
 
 
 def test_boundary_film():
     case = roller(513, **{"lubricant.boundary_film": 2.5e-7, "lubricant.boundary_friction": 0.12})
-    found = pyehl.solve(case, SLIDING)
-    assert float(found.contact_load_share) > 0.9
-    assert float(found.mu) == pytest.approx(0.12, rel=0.05)
+    result = pyehl.solve(case, SLIDING)
+    assert float(result.contact_load_share) > 0.9
+    assert float(result.mu) == pytest.approx(0.12, rel=0.05)
     thin = pyehl.solve(case, SLIDING, {"lubricant.boundary_film": 1e-8})
     assert float(thin.contact_load_share) == 0.0
 
 
 def test_target_error():
     for target, points in ((2e-3, 1025), (1e-3, 2049)):
-        found = pyehl.solve(roller(), {"grid.target_error": target})
-        assert float(found.H_c_error_grid) <= target * float(found.H_c)
-        assert int(found.points) == points
+        result = pyehl.solve(roller(), {"grid.target_error": target})
+        assert float(result.H_c_error_grid) <= target * float(result.H_c)
+        assert int(result.points) == points
 
 
 def test_inlet_too_short_for_a_flooded_film():
@@ -235,15 +235,15 @@ TRANSVERSE = {
 def test_amplitude_reduction(moes_m, wavelength, points):
     """Small transverse waves in pure rolling: Venner 1997, 1/(1 + 0.17 x + 0.03 x^2)."""
     wave = {"surface.wavelength_x": wavelength, "surface.amplitude_over_film": 0.05}
-    found = pyehl.solve(moes(moes_m, 10, points), TRANSVERSE, wave)
+    result = pyehl.solve(moes(moes_m, 10, points), TRANSVERSE, wave)
     x = wavelength * moes_m**0.75 / 10**0.5
-    assert float(found.amplitude_ratio) == pytest.approx(
+    assert float(result.amplitude_ratio) == pytest.approx(
         1.0 / (1.0 + 0.17 * x + 0.03 * x**2), rel=0.1
     )
-    assert found.P.shape == (points, 1)
+    assert result.P.shape == (points, 1)
     # of one wave, where a product of two has A/2
-    rms = float(found.amplitude) / math.sqrt(2.0)
-    assert float(found.lambda_ratio_central) == pytest.approx(float(found.H_c) / rms, rel=1e-6)
+    rms = float(result.amplitude) / math.sqrt(2.0)
+    assert float(result.lambda_ratio_central) == pytest.approx(float(result.H_c) / rms, rel=1e-6)
 
 
 def test_strip_of_a_transverse_wave(tmp_path):
@@ -266,12 +266,12 @@ def test_strip_of_a_transverse_wave(tmp_path):
             "time.estimate_error": False,
         },
     )
-    found = pyehl.solve(strip)
-    assert found.P.shape[1] == int(found.points_y) > 8
+    result = pyehl.solve(strip)
+    assert result.P.shape[1] == int(result.points_y) > 8
     # nothing varies across but what cycles leave
-    assert float(np.ptp(found.H.values, axis=1).max()) < 1e-5
-    assert float(found.mu_ratio) == pytest.approx(float(wave.mu_ratio), abs=2e-4)
-    assert float(found.H_c) == pytest.approx(float(wave.H_c), rel=1e-4)
+    assert float(np.ptp(result.H.values, axis=1).max()) < 1e-5
+    assert float(result.mu_ratio) == pytest.approx(float(wave.mu_ratio), abs=2e-4)
+    assert float(result.H_c) == pytest.approx(float(wave.H_c), rel=1e-4)
 
 
 def test_strip_of_waves_across():
@@ -280,7 +280,7 @@ def test_strip_of_waves_across():
     row = pyehl.solve(moes(20, 10, 129), TRANSVERSE, small)
     long = pyehl.solve(moes(20, 10, 129), {**TRANSVERSE, "surface.wavelength_y": 4.0}, small)
     assert float(long.amplitude_ratio) == pytest.approx(float(row.amplitude_ratio), rel=0.02)
-    increases = [float(found.mu_ratio) - 1.0 for found in (row, long)]
+    increases = [float(result.mu_ratio) - 1.0 for result in (row, long)]
     assert increases[1] == pytest.approx(0.5 * increases[0], rel=0.05)
 
 
@@ -323,9 +323,9 @@ def test_strip_is_the_middle_of_a_wide_ellipse():
         grid={"points": 97, "y_extent": 9.0, "points_y": 433},
     )
     strip = pyehl.Case(contact={"shape": "line", "moes_m_line": 20.0, "moes_l_line": 10.0})
-    found = [pyehl.solve(case, domain, wave, rolling) for case in (wide, strip)]
+    result = [pyehl.solve(case, domain, wave, rolling) for case in (wide, strip)]
     speeds, films, kept = (
-        [float(f[name]) for f in found] for name in ("speed_parameter", "H_c", "amplitude_ratio")
+        [float(f[name]) for f in result] for name in ("speed_parameter", "H_c", "amplitude_ratio")
     )
     assert speeds[0] == pytest.approx(speeds[1], rel=1e-6)
     assert films[0] == pytest.approx(films[1], rel=0.01)
@@ -367,11 +367,11 @@ def test_boundary_film_in_the_middle_of_a_wide_ellipse(film, touching):
     for case in wide_and_line():
         scale = float(pyehl.solve(case).film_scale_m)
         options = {"lubricant.boundary_film": film * scale, "lubricant.boundary_friction": 0.1}
-        found = pyehl.solve(case, options)
-        middle = found.Y.size // 2
-        rows.append((found.X.values, found.P.values[:, middle], found.H.values[:, middle]))
+        result = pyehl.solve(case, options)
+        middle = result.Y.size // 2
+        rows.append((result.X.values, result.P.values[:, middle], result.H.values[:, middle]))
         # around an ellipse oil flows; a line lets all of it through
-        assert (float(found.contact_load_share) > 0.7) == touching
+        assert (float(result.contact_load_share) > 0.7) == touching
     (x, p, h), (x_line, p_line, h_line) = rows
     np.testing.assert_allclose(x, x_line)
     inner = np.abs(x) < 1.0
@@ -386,13 +386,13 @@ def test_dent_in_the_middle_of_a_wide_ellipse():
     wide, line = wide_and_line()
     changes = []
     for case, spacing in ((wide, 0.0), (line, 0.0), (line, 2.0)):
-        found = pyehl.solve(case, dent, rolling, {"surface.spacing_y": spacing}, check=False)
+        result = pyehl.solve(case, dent, rolling, {"surface.spacing_y": spacing}, check=False)
         rows = 96 if spacing == 0.0 else 48
-        assert case is wide or found.Y.size == rows
+        assert case is wide or result.Y.size == rows
         smooth = pyehl.solve(case)
-        row = found.Y.size // 2, smooth.Y.size // 2
-        changes.append([(found[f][:, row[0]] - smooth[f][:, row[1]]).values for f in ("P", "H")])
-    inner = np.abs(found.X.values) < 1.0
+        row = result.Y.size // 2, smooth.Y.size // 2
+        changes.append([(result[f][:, row[0]] - smooth[f][:, row[1]]).values for f in ("P", "H")])
+    inner = np.abs(result.X.values) < 1.0
     for strip in changes[1:]:
         for change, expected in zip(strip, changes[0], strict=True):
             off = np.sqrt(np.mean((change - expected)[inner] ** 2))
@@ -457,12 +457,12 @@ def test_strip_carries_a_fractal_surface():
         "surface.shortest_wavelength": 3e-5,
         "time.steps": 6,
     }
-    found = pyehl.solve(roller(129), tile, check=False)
-    b = float(found.hertz_radius_m)
-    assert found.attrs["status"] == "not settled"
-    assert int(found.points_y) * float(found.y_mesh) * b == pytest.approx(1.0e-4, rel=1e-9)
+    result = pyehl.solve(roller(129), tile, check=False)
+    b = float(result.hertz_radius_m)
+    assert result.attrs["status"] == "not settled"
+    assert int(result.points_y) * float(result.y_mesh) * b == pytest.approx(1.0e-4, rel=1e-9)
     again = pyehl.solve(roller(129), {**tile, "solver.threads": 2}, check=False)
-    np.testing.assert_array_equal(found.P, again.P)
+    np.testing.assert_array_equal(result.P, again.P)
     other = {**tile, "second_surface.kind": "harmonic", "second_surface.wavelength_y": 0.51}
     with pytest.raises(pyehl.InputError, match="no width in common"):
         pyehl.solve(roller(129), other)
@@ -520,8 +520,8 @@ def test_inlet_that_is_too_short():
 
 
 def test_picture_and_report(root, tmp_path):
-    found = pyehl.solve(root / "cases" / "line.nml", output=tmp_path / "out")
-    figures = solution_figures(found)
+    result = pyehl.solve(root / "cases" / "line.nml", output=tmp_path / "out")
+    figures = solution_figures(result)
     assert set(figures) == {"pressure_and_film"}
     assert figures["pressure_and_film"].axes[0].get_xlabel() == "x [mm]"
     page = report(tmp_path / "out", tmp_path / "page.html").read_text(encoding="utf-8")
@@ -538,8 +538,8 @@ def test_both_kinds_of_a_line(ehl: str, tmp_path: Path):
         pyehl.Case.from_text("", keys)
     case = tmp_path / "case.nml"
     case.write_text("&contact shape='line' load_per_length=1e5 moes_m_line=10 /\n")
-    found = subprocess.run(
+    result = subprocess.run(
         [ehl, case, "-o", tmp_path / "out"], check=False, capture_output=True, text=True
     )
-    assert found.returncode == 2
-    assert expected in found.stderr
+    assert result.returncode == 2
+    assert expected in result.stderr

@@ -51,18 +51,18 @@ def test_ball_bearing(root: Path, drive, tmp_path: Path):
     assert run.returncode == 0, run.stdout
     sheet = pyehl.film(case).summary
     same(texts(page), f"{report(sheet)}\n{run.stdout}")
-    found = summary_of(pyehl.load(tmp_path / "out"))
+    result = summary_of(pyehl.load(tmp_path / "out"))
     text = page.read_text(encoding="utf-8")
     assert f"| solved on 257 × 961 nodes | {row_of(text)} |" in text
-    unit = found["film_scale_m"] * 1e9
-    films = [found[f"{name}_extrapolated"] * unit for name in ("H_c", "H_min")]
+    unit = result["film_scale_m"] * 1e9
+    films = [result[f"{name}_extrapolated"] * unit for name in ("H_c", "H_min")]
     assert f"| {films[0]:.1f} nm | {films[1]:.1f} nm |" in text
     # those of its regime
     for formula in (f for f in sheet["formulas"] if f["applies"]):
         least = f" {formula['h_min_m'] * 1e9:.1f} nm |" if formula["h_min_m"] else ""
         assert f"| {formula['h_c_m'] * 1e9:.1f} nm |{least}" in text
-    assert f"{found['rolling_moment_N_m'] * 1e4:.2f}·10⁻⁴ N m" in text
-    assert f"is {1 - found['H_min'] / found['H_c']:.0%} below".replace("%", " %") in text
+    assert f"{result['rolling_moment_N_m'] * 1e4:.2f}·10⁻⁴ N m" in text
+    assert f"is {1 - result['H_min'] / result['H_c']:.0%} below".replace("%", " %") in text
     # bearing, speed and load make the case
     given = pyehl.Case(case).resolve()
     ball, pitch = 7.938e-3, 33.5e-3
@@ -101,10 +101,10 @@ def test_gear_pair(root: Path, drive, tmp_path: Path):
     assert predicted["outside_range"] == []
     options = ["--set", "surface.kind=smooth", "--set", "second_surface.kind=smooth"]
     assert drive("pyehl", case, "-o", "out", *options).returncode == 0
-    found = json.loads((tmp_path / "out" / "summary.json").read_text())
+    result = json.loads((tmp_path / "out" / "summary.json").read_text())
     for name in ("H_c", "H_min", "H_c_extrapolated", "mu_smooth"):
         # steadied to another tolerance before time steps
-        assert found[name] == pytest.approx(record[name], rel=2e-3)
+        assert result[name] == pytest.approx(record[name], rel=2e-3)
     # the block that made the flanks makes them still
     (block,) = re.findall(r"^```python\n(.*?)^```$", text, re.M | re.S)
     (tmp_path / "cases").mkdir()
@@ -129,10 +129,10 @@ def test_gear_pair_made_anew(root: Path, tmp_path: Path):
     record = json.loads(page.with_suffix(".json").read_text(encoding="utf-8"))
     words = ["run", root / "cases" / "gear_pair.nml", "-o", tmp_path / "out"]
     subprocess.run([sys.executable, "-P", "-m", "pyehl", *words], capture_output=True, check=True)
-    found = json.loads((tmp_path / "out" / "summary.json").read_text())
+    result = json.loads((tmp_path / "out" / "summary.json").read_text())
     for name, value in record.items():
         number = isinstance(value, float)
-        assert found[name] == (pytest.approx(value, rel=1e-4) if number else value), name
+        assert result[name] == (pytest.approx(value, rel=1e-4) if number else value), name
 
 
 def test_border_of_an_ellipse(root: Path, solve):
@@ -289,13 +289,13 @@ def test_cycles_whose_residual_grows_are_taken_back():
         "lubricant.pressure_viscosity": 2.2144e-8,
         "surface.kind": "smooth",
     }
-    found = []
+    result = []
     for points in (257, 513):
         with pyehl.Solver(pyehl.Case.from_text("", keys | {"grid.points": points})) as solver:
             assert solver.run()
-            found.append(solver.summary)
-    assert [done["restarts"] for done in found] == [1, 1]
-    coarse, fine = found
+            result.append(solver.summary)
+    assert [done["restarts"] for done in result] == [1, 1]
+    coarse, fine = result
     assert abs(coarse["H_c"] - fine["H_c"]) <= coarse["H_c_error"] + fine["H_c_error"]
 
 
@@ -314,9 +314,9 @@ def test_sharp_spike_is_left_to_the_sweeps():
     }
     with pyehl.Solver(pyehl.Case.from_text("", keys)) as solver:
         assert solver.run()
-        found = solver.summary
-    assert found["restarts"] == 0
-    assert found["cycles"] <= 12
+        result = solver.summary
+    assert result["restarts"] == 0
+    assert result["cycles"] <= 12
 
 
 @pytest.mark.long
@@ -330,10 +330,10 @@ def test_a_flow_that_thins_is_softened_at_first():
     films = {}
     for stress in (1.301e6, 5.2e6):
         case = pyehl.Case(contact=contact, lubricant={**oil, "eyring_stress": stress})
-        found = pyehl.solve(case)
-        assert found.attrs["status"] == "converged"
-        assert found.restarts == 0
-        films[stress] = float(found.H_c)
+        result = pyehl.solve(case)
+        assert result.attrs["status"] == "converged"
+        assert result.restarts == 0
+        films[stress] = float(result.H_c)
     # the law of the case is the one at the end: a smaller stress thins the film
     assert 0.75 < films[1.301e6] / films[5.2e6] < 0.9
 

@@ -250,15 +250,15 @@ def test_mirrored_map_is_its_tile(shape: tuple[int, int], pixel: float, cut: flo
         "&contact load = 20.0 /\n&grid points = 65 /\n"
         "&time steps = 2, skip_start = .false., estimate_error = .false. /\n"
     )
-    found = []
+    result = []
     for given, images in ((mirrored(z), ".false."), (z, ".true.")):
         option = f"surface.tile_mirrored={images}"
         with solver_on_heights(
             Case.from_text(case, [option]), {"surface": np.asfortranarray(given)}
         ) as solver:
             solver.run()
-            found.append((solver.field("RR"), solver.summary))
-    (tile, whole), (folded, part) = found
+            result.append((solver.field("RR"), solver.summary))
+    (tile, whole), (folded, part) = result
     assert np.abs(tile).max() > 0.0
     assert folded == pytest.approx(tile, abs=1e-13 * np.abs(tile).max())
     for name in ("surface_rms_m", "variance_cut", "variance_unresolved", "variance_left_out"):

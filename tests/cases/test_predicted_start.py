@@ -106,13 +106,13 @@ def test_every_surface_lies_where_the_prediction_has_it(
         tile | {"surface.edges": "mirror", "surface.track": 1.3e-4},
         tile | {"surface.edges": "periodic", "surface.track": 1.3e-4},
     ):
-        found = run(settings)
-        assert found.attrs["start"] == "prediction"
+        result = run(settings)
+        assert result.attrs["start"] == "prediction"
         case, tiles, x, y, fronts = given.pop()
-        times = found.history_T.values
+        times = result.history_T.values
         run_for = times[-1] - times[0] + (times[1] - times[0])
         inside = np.hypot(*np.meshgrid(x, y, indexing="ij")) < 0.7
-        simulated = (found.P - found.P_smooth).values[inside]
+        simulated = (result.P - result.P_smooth).values[inside]
         place = fronts[0, 0] + case["surface"]["velocity_ratio"] * run_for
         early, there, late = (
             np.corrcoef(

@@ -86,9 +86,9 @@ def test_waves_on_an_ellipse(monkeypatch: pytest.MonkeyPatch):
     """A wide contact of a thick film, as the circle above."""
     case = Case.from_text(CASE, ["contact.radius_ratio=0.5438"])
     monkeypatch.setattr("pyehl.measured_response.folder.TIERS", TINY)
-    found = pyehl.response(case)
-    assert float(found.ellipticity) == pytest.approx(1.5, abs=1e-4)
-    fine = found.where(found["tier"] == "middle", drop=True).sel(X=0.0)
+    result = pyehl.response(case)
+    assert float(result.ellipticity) == pytest.approx(1.5, abs=1e-4)
+    fine = result.where(result["tier"] == "middle", drop=True).sel(X=0.0)
     assert fine.sizes["wave"] >= 2
     assert float(fine["shipped_difference"].max()) < 0.03
     assert float(abs(fine["pressure_ratio"] - 1.0).max()) < 0.1
@@ -170,15 +170,15 @@ def test_small_waves_are_linear():
     """Half the amplitude gives the same response."""
     settings = Case.from_text("&contact moes_m = 1000.0 moes_l = 10.0 /\n").resolve()
     waves = measurement.tier_waves(measurement.Tier("long", 4.0, 129, 4.0, 0.25))
-    found = [
+    result = [
         superpose(
             settings, waves, points=129, velocity_ratio=1.01, slope=slope, solver={"accuracy": 1e-4}
         ).response
         for slope in (1.2e-3, 0.6e-3)
     ]
-    within = slice(found[0].shape[1] // 4, -found[0].shape[1] // 4)
+    within = slice(result[0].shape[1] // 4, -result[0].shape[1] // 4)
     # a term of second order in the amplitude would be halved, too
-    assert np.abs(found[0] - found[1])[:, within].max() < 2e-3
+    assert np.abs(result[0] - result[1])[:, within].max() < 2e-3
 
 
 @pytest.mark.long
@@ -189,7 +189,7 @@ def test_second_solver_has_the_same_response():
         f"&contact moes_m = {m} moes_l = {ell} /\n&lubricant roelands_z = {Z} /\n"
     ).resolve()
     waves = WaveSet(wavelength, np.array([1]), np.array([1]), np.zeros(1))
-    found = superpose(
+    result = superpose(
         settings,
         waves,
         points=points,
@@ -210,7 +210,7 @@ def test_second_solver_has_the_same_response():
     basis = np.stack([np.ones(period), np.cos(turn), np.sin(turn)], axis=1)
     _, cosine, sine = np.linalg.lstsq(basis, film, rcond=None)[0]
     t = -(cosine + 1j * sine) / amplitude
-    at = int(np.argmin(np.abs(found.x)))
+    at = int(np.argmin(np.abs(result.x)))
     assert 0.2 < abs(t) < 0.8
     # what differs is the algebraic error of both
-    assert abs(found.response[0, at] - t) < 5e-4
+    assert abs(result.response[0, at] - t) < 5e-4

@@ -118,8 +118,8 @@ def test_profiles_of_both_bodies_are_added(ehl, tmp_path):
     whole = pyehl.solve(roller(65, **LOGARITHMIC))
     parts = {"profile": "logarithmic", "log_amplitude": 1e-6}
     both = roller(65, **parts, profile_2="logarithmic", log_amplitude_2=2e-6)
-    found = pyehl.solve(both)
-    np.testing.assert_allclose(found.P.values, whole.P.values, atol=1e-9)
+    result = pyehl.solve(both)
+    np.testing.assert_allclose(result.P.values, whole.P.values, atol=1e-9)
     # body 2 alone, by the program too
     two = roller(65, profile_2="logarithmic", log_amplitude_2=3e-6)
     np.testing.assert_array_equal(pyehl.solve(two).P.values, whole.P.values)
@@ -181,24 +181,24 @@ def test_table_of_a_profile(tmp_path):
     y = np.linspace(-0.005, 0.005, 4001)
     table = tmp_path / "profile.csv"
     table.write_text("# y, drop [m]\n" + "\n".join(f"{a:.9e}, {a * a / 2.0:.9e}" for a in y))
-    found = pyehl.solve(roller(129, profile="file", profile_file=str(table)))
+    result = pyehl.solve(roller(129, profile="file", profile_file=str(table)))
     crown = pyehl.solve(roller(129, profile="crown", crown_radius=1.0))
     for name in ("H_c", "H_min", "P_max"):
-        assert float(found[name]) == pytest.approx(float(crown[name]), rel=1e-4)
+        assert float(result[name]) == pytest.approx(float(crown[name]), rel=1e-4)
     # a resolved case holds the table
-    text = found.attrs["case"]
+    text = result.attrs["case"]
     table.unlink()
     again = tmp_path / "again.nml"
     again.write_text(text)
-    assert float(pyehl.solve(again).H_c) == float(found.H_c)
+    assert float(pyehl.solve(again).H_c) == float(result.H_c)
 
 
 def test_ehl_reads_what_pyehl_resolves(tmp_path, ehl):
     case = roller(65, **LOGARITHMIC)
     (tmp_path / "case.nml").write_text(case.text)
     subprocess.run([ehl, tmp_path / "case.nml", "-o", tmp_path / "out"], check=True)
-    found, ds = pyehl.load(tmp_path / "out"), pyehl.solve(case)
-    np.testing.assert_array_equal(found.P.values, ds.P.values)
+    result, ds = pyehl.load(tmp_path / "out"), pyehl.solve(case)
+    np.testing.assert_array_equal(result.P.values, ds.P.values)
 
 
 @pytest.mark.parametrize(
@@ -283,8 +283,8 @@ def test_commands_that_do_not_take_rollers():
 
 def test_pictures_show_the_whole_roller():
     """The strip over the length, on a map as wide as the roller; no Hertz pressure along it."""
-    found = pyehl.solve(roller(129, **LOGARITHMIC))
-    figures = solution_figures(found)
+    result = pyehl.solve(roller(129, **LOGARITHMIC))
+    figures = solution_figures(result)
     half = 0.5 * 10.0  # [mm]
     top = figures["film"].axes[0]
     assert top.get_xlim() == pytest.approx((-half, half), rel=0.01)

@@ -32,8 +32,8 @@ def test_soft_formula_is_that_of_textbooks(load_number: float, ellipticity: floa
     elasticity = load_number ** (8.0 / 3.0) / speed**2
     shape = 1.0 - 0.85 * math.exp(-0.31 * ellipticity)
     textbook = 8.70 * elasticity**0.67 * shape * (speed / load_number) ** 2
-    found = film.hamrock_dowson_soft(speed, load_number, ellipticity)[1]
-    assert found == pytest.approx(textbook, rel=0.012)
+    result = film.hamrock_dowson_soft(speed, load_number, ellipticity)[1]
+    assert result == pytest.approx(textbook, rel=0.012)
 
 
 @pytest.mark.parametrize("moes_m", [0.2, 1.0, 2.0])

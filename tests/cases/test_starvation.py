@@ -32,12 +32,12 @@ def flooded():
 
 @pytest.mark.parametrize("layer", [0.02, 0.1, 0.2])
 def test_layer_of_a_point_contact(flooded, layer):
-    found = solve(film_hertz=layer)
-    assert abs(float(found.oil_imbalance)) <= 1e-6
-    leaves = float(found.oil_out) + float(found.oil_at_sides)
-    assert float(found.oil_in) == pytest.approx(leaves, rel=2e-6)
+    result = solve(film_hertz=layer)
+    assert abs(float(result.oil_imbalance)) <= 1e-6
+    leaves = float(result.oil_out) + float(result.oil_at_sides)
+    assert float(result.oil_in) == pytest.approx(leaves, rel=2e-6)
     ratio = layer / (DENSITY * float(flooded.H_c))
-    share = float(found.H_c) / float(flooded.H_c)
+    share = float(result.H_c) / float(flooded.H_c)
     if ratio < 0.2:
         assert share == pytest.approx(ratio, rel=0.01)
         return
@@ -72,13 +72,13 @@ def test_a_thick_layer_floods():
 
 @pytest.mark.parametrize("layer", [0.02, 0.06, 0.15])
 def test_a_line_lets_all_oil_through(layer):
-    found, flooded = solve(LINE, 129, film_hertz=layer), solve(LINE, 129, grid={"border": "zero"})
+    result, flooded = solve(LINE, 129, film_hertz=layer), solve(LINE, 129, grid={"border": "zero"})
     if layer > 0.11:
-        assert float(found.H_c) == pytest.approx(float(flooded.H_c), rel=1e-4)
+        assert float(result.H_c) == pytest.approx(float(flooded.H_c), rel=1e-4)
         return
-    assert float(found.oil_out) == pytest.approx(layer, rel=1e-6)
+    assert float(result.oil_out) == pytest.approx(layer, rel=1e-6)
     # flat pressures: no flow by pressure in the middle
-    assert float(found.H_c) * DENSITY == pytest.approx(layer, rel=0.01)
+    assert float(result.H_c) * DENSITY == pytest.approx(layer, rel=0.01)
 
 
 def test_position_is_the_border_and_no_error():
@@ -92,17 +92,17 @@ def test_position_is_the_border_and_no_error():
     assert float(meant.starvation_by_formula) == pytest.approx(formula, rel=1e-9)
     assert float(meant.starvation) == pytest.approx(formula, rel=0.1)
     summary = {name: value.item() for name, value in meant.data_vars.items() if value.ndim == 0}
-    found = assess({"status": "converged", **summary})
-    assert found.confidence == HOLDS
-    assert "starved as the case has it" in found.text
+    result = assess({"status": "converged", **summary})
+    assert result.confidence == HOLDS
+    assert "starved as the case has it" in result.text
 
 
 def test_passages():
-    found = solve(film_hertz=0.1, passages=3)
-    assert int(found.passages) == 3
-    of = np.asarray(found.history_passage)
-    films = [np.asarray(found.history_H_c)[of == k][-1] for k in (1, 2, 3)]
-    layers = [np.asarray(found.history_oil_layer)[of == k][-1] for k in (1, 2, 3)]
+    result = solve(film_hertz=0.1, passages=3)
+    assert int(result.passages) == 3
+    of = np.asarray(result.history_passage)
+    films = [np.asarray(result.history_H_c)[of == k][-1] for k in (1, 2, 3)]
+    layers = [np.asarray(result.history_oil_layer)[of == k][-1] for k in (1, 2, 3)]
     assert films[0] > films[1] > films[2]
     # what arrives is what the film before it had
     assert layers[1:] == pytest.approx([DENSITY * film for film in films[:2]], rel=0.02)
@@ -173,10 +173,10 @@ def test_formulas_of_machines_refuse_a_starved_inlet(root: Path, tmp_path: Path,
 
 def test_stations_of_a_starved_gear_are_solved(root: Path, tmp_path: Path):
     few = {"spur_gear.stations": 5, "inlet.film": 5e-8}
-    found = pyehl.gear(without_roughness(root, "fzg_c", tmp_path), few, run="solve", jobs=1)
+    result = pyehl.gear(without_roughness(root, "fzg_c", tmp_path), few, run="solve", jobs=1)
     # the layer, less what is compressed
-    assert set(found.table["status"]) == {"converged"}
-    assert found.table["h_c_m"].between(3.9e-8, 4.2e-8).all()
+    assert set(result.table["status"]) == {"converged"}
+    assert result.table["h_c_m"].between(3.9e-8, 4.2e-8).all()
 
 
 def test_waves_are_not_measured_in_a_starved_contact(root: Path):
@@ -210,10 +210,10 @@ def test_layers_just_below_the_flooded_film_converge(load, points):
     density = 5e-8 / float(thin.h_c_m)
     for share in (0.9, 0.95, 0.98, 0.995):
         layer = share * density * float(flooded.h_c_m)
-        found = pyehl.solve(case, {"inlet.film": layer})
-        assert abs(float(found.oil_imbalance)) <= 1e-6
+        result = pyehl.solve(case, {"inlet.film": layer})
+        assert abs(float(result.oil_imbalance)) <= 1e-6
         # the border of the domain costs some of the last percent
-        assert float(found.h_c_m) / float(flooded.h_c_m) == pytest.approx(share, abs=0.006)
+        assert float(result.h_c_m) / float(flooded.h_c_m) == pytest.approx(share, abs=0.006)
 
 
 def test_thick_films_that_begin_near_the_contact():

@@ -264,10 +264,10 @@ def test_ehl_makes_the_same_bits(tmp_path: Path, ehl: Path):
 def test_steady_contacts_beside_a_duty():
     """They have the layer of their instant."""
     data = pyehl.solve(line([0.0, 0.5, 1.0, 12.0], inlet_film=[1.0, 1.0, 0.5, 0.5]))
-    found = pyehl.quasi_static(data, [0.0, float(data.history_t_s[-1])])
+    result = pyehl.quasi_static(data, [0.0, float(data.history_t_s[-1])])
     films = data.history_h_c_m.values[[0, -1]]
-    np.testing.assert_allclose(found.steady_h_c_m, films, rtol=2e-3)
-    assert "duty" in pyehl.plot(found)
+    np.testing.assert_allclose(result.steady_h_c_m, films, rtol=2e-3)
+    assert "duty" in pyehl.plot(result)
     assert "duty" in pyehl.plot(data)
 
 

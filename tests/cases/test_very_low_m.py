@@ -14,14 +14,14 @@ def test_error_covers_and_says_something(moes_m: float, limit: float, points: in
     settings = {"contact.moes_m": moes_m, "contact.moes_l": 0.0, "grid.points": points}
     with pyehl.Solver(pyehl.Case.from_text("", settings)) as solver:
         assert solver.run()
-        found = solver.summary
-        lines = conclude(found).lines
-    miss = abs(found["H_c"] - limit)
+        result = solver.summary
+        lines = conclude(result).lines
+    miss = abs(result["H_c"] - limit)
     # the domain has an error of its own, for the film of an endless one
-    assert miss <= found["H_c_error_grid"] * 1.05
-    assert found["H_c_error_grid"] <= 3.0 * miss
-    assert found["H_c_error"] <= 0.1 * limit
+    assert miss <= result["H_c_error_grid"] * 1.05
+    assert result["H_c_error_grid"] <= 3.0 * miss
+    assert result["H_c_error"] <= 0.1 * limit
     # three grids and a value of digits
-    assert (found["P_max_error"] is not None) == (points == 129)
+    assert (result["P_max_error"] is not None) == (points == 129)
     shown = lines["p_max"].split()[0]
-    assert float(shown) == pytest.approx(found["P_max"], rel=0.005)
+    assert float(shown) == pytest.approx(result["P_max"], rel=0.005)

@@ -28,11 +28,11 @@ def written(figure):
 
 def assert_apart(figure, name):
     """No two texts lie on each other, and all are inside of the picture."""
-    found = written(figure)
-    assert len(found) > 5, name
-    for (one, box), (other, next_to) in itertools.combinations(found, 2):
+    result = written(figure)
+    assert len(result) > 5, name
+    for (one, box), (other, next_to) in itertools.combinations(result, 2):
         assert not box.shrunk(0.98, 0.8).overlaps(next_to.shrunk(0.98, 0.8)), (name, one, other)
-    for text, box in found:
+    for text, box in result:
         inside = figure.bbox.x0 - 1 <= box.x0 and box.x1 <= figure.bbox.x1 + 1
         assert inside, (name, text)
         assert figure.bbox.y0 - 1 <= box.y0, (name, text)

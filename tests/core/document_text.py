@@ -33,7 +33,7 @@ def fences(path: Path) -> list[tuple[str, str]]:
 
 def blocks(path: Path, language: str) -> list[str]:
     """Fenced blocks of a language."""
-    return [text for found, text in fences(path) if found == language]
+    return [text for result, text in fences(path) if result == language]
 
 
 def lines_of(block: str) -> list[str]:
@@ -55,10 +55,10 @@ def is_shown(shown: str, printed: str) -> bool:
     parts = [
         f"({NUMBER})".join(map(re.escape, re.split(NUMBER, part))) for part in shown.split("...")
     ]
-    found = re.fullmatch(".*".join(parts), printed)
-    if found is None:
+    match = re.fullmatch(".*".join(parts), printed)
+    if match is None:
         return False
     return all(
         b == a if a.isdigit() and b.isdigit() else math.isclose(float(a), float(b), rel_tol=2e-3)
-        for a, b in zip(re.findall(NUMBER, shown), found.groups(), strict=True)
+        for a, b in zip(re.findall(NUMBER, shown), match.groups(), strict=True)
     )

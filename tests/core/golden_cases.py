@@ -138,24 +138,24 @@ def made(folder: Path) -> dict[str, tuple[str, list[str]]]:
     (folder / "scan.x3p").write_bytes((CASES / "scan.x3p").read_bytes())
     for name, table in BROKEN_TABLES.items():
         (folder / f"{name}.csv").write_text(table)
-    found = {f"base: {name}": (text, list[str]()) for name, text in BASES.items()}
-    found |= {f"more: {name}": (text, []) for name, text in MORE.items()}
+    result = {f"base: {name}": (text, list[str]()) for name, text in BASES.items()}
+    result |= {f"more: {name}": (text, []) for name, text in MORE.items()}
     for name in BROKEN_TABLES:
-        found[f"table: {name}"] = (f"&lubricant table = '{name}.csv' /", [])
-    found["table: at its temperature"] = (
+        result[f"table: {name}"] = (f"&lubricant table = '{name}.csv' /", [])
+    result["table: at its temperature"] = (
         "&lubricant table = 'one temperature.csv' temperature_viscosity = 0.03 /", []
     )  # fmt: skip
     for path in sorted(CASES.glob("*.nml")):
-        found[f"file: {path.name}"] = (path.read_text(), [])
+        result[f"file: {path.name}"] = (path.read_text(), [])
     for base, text in BASES.items():
         written = resolve(text, str(folder / "case.nml"))
         for key in (k for k in KEYS.values() if k.group not in MACHINES):
             for number, value in enumerate(values(key.allowed, key.default)):
                 option = f"{key.name}={value}"
-                found[f"{base}: {option}"] = (text, [option])
+                result[f"{base}: {option}"] = (text, [option])
                 if number == 0 and base not in ("defaults", "moes"):
-                    found[f"written {base}: {option}"] = (written, [option])
-    return found
+                    result[f"written {base}: {option}"] = (written, [option])
+    return result
 
 
 def outcome(text: str, options: list[str], folder: Path) -> list[str] | str:
@@ -179,11 +179,11 @@ def without_places(text: str, folder: Path) -> str:
 
 def lines(resolved: str) -> list[str]:
     """Give the lines ``group.key = value mark`` of a resolved case."""
-    found, group = [], ""
+    result, group = [], ""
     for line in resolved.splitlines():
         if line[:1] == "&":
             group = line[1:]
         elif (match := namelist.LINE.fullmatch(line)) and match[1] not in ADDED:
             mark = next((m for m in ("default", "derived") if line.endswith(f"! {m}")), "given")
-            found.append(f"{group}.{match[1]} = {match[2]} {mark}")
-    return found
+            result.append(f"{group}.{match[1]} = {match[2]} {mark}")
+    return result

@@ -121,7 +121,7 @@ def test_scalars_have_units(fractal: Path, tmp_path: Path):
     """Numbers of the summary are variables after solve, load, predict and sweep, not attributes."""
     solved = pyehl.solve(fractal, output=tmp_path / "out", check=False)
     for data in (solved, pyehl.load(tmp_path / "out"), pyehl.predict(fractal).data):
-        numbers = [name for name, found in data.variables.items() if found.dims == ()]
+        numbers = [name for name, result in data.variables.items() if result.dims == ()]
         assert len(numbers) > 30
         assert not data.attrs.keys() & data.variables.keys() - {"T"}
         numbers_left = {k for k, v in data.attrs.items() if not isinstance(v, str | bool)}
@@ -178,8 +178,8 @@ def test_surface_in_memory_keeps_track_and_cut(fractal: Path, tmp_path: Path):
     by_tile = pyehl.solve(fractal, place, surface=tile, check=False)
     assert by_tile.P.values == pytest.approx(by_case.P.values, abs=1e-9)
     assert np.abs(by_tile.P - pyehl.solve(fractal, check=False).P).max() > 1e-4
-    found = pyehl.predict(fractal, place, surface=tile).mu_ratio
-    assert found == pytest.approx(pyehl.predict(fractal, place).mu_ratio, rel=1e-9)
+    result = pyehl.predict(fractal, place, surface=tile).mu_ratio
+    assert result == pytest.approx(pyehl.predict(fractal, place).mu_ratio, rel=1e-9)
 
 
 @pytest.mark.parametrize(
@@ -423,9 +423,9 @@ def test_examples_in_docstrings(name: str, root: Path, tmp_path: Path, monkeypat
     shutil.copytree(root / "cases", tmp_path / "cases")
     monkeypatch.chdir(tmp_path)
     thing = getattr(pyehl, name)
-    (found,) = (t for t in doctest.DocTestFinder(recurse=False).find(thing, name, globs={}))
-    assert found.examples, f"pyehl.{name} has no example"
-    doctest.DebugRunner(optionflags=doctest.ELLIPSIS).run(found)
+    (result,) = (t for t in doctest.DocTestFinder(recurse=False).find(thing, name, globs={}))
+    assert result.examples, f"pyehl.{name} has no example"
+    doctest.DebugRunner(optionflags=doctest.ELLIPSIS).run(result)
 
 
 def test_a_case_that_cannot_be_planned_is_named(tmp_path: Path, capsys, drive):
@@ -441,8 +441,8 @@ def test_a_case_that_cannot_be_planned_is_named(tmp_path: Path, capsys, drive):
 
 def test_plot_takes_a_prediction_or_says_what_it_takes():
     case = pyehl.Case.from_text("", {"surface.kind": "harmonic", "surface.wavelength": 0.5})
-    found = pyehl.predict(case, tracks=1)
-    assert set(pyehl.plot(found)) == set(pyehl.plot(found.data))
+    result = pyehl.predict(case, tracks=1)
+    assert set(pyehl.plot(result)) == set(pyehl.plot(result.data))
     swept = pyehl.sweep(case, {"contact.moes_m": [100.0, 200.0]}, run="film", jobs=1)
     for other in (pyehl.film(case), swept, None):
         with pytest.raises(pyehl.InputError, match="expected a result of solve, predict or load"):

@@ -149,6 +149,6 @@ def test_last_lines():
 )
 def test_assessment(more: dict[str, Any], words: str, confidence: str):
     """Each thing that a result may be short of has its word, and the worst comes first."""
-    found = assess(GOOD | more)
-    assert words in found.text
-    assert found.confidence == confidence
+    result = assess(GOOD | more)
+    assert words in result.text
+    assert result.confidence == confidence

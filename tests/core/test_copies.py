@@ -31,14 +31,14 @@ COPIES: tuple[Callable[[Any], Any], ...] = (
 
 def exceptions() -> list[type[BaseException]]:
     """All classes of exceptions of the package."""
-    found = set()
+    result = set()
     for module in pkgutil.walk_packages(pyehl.__path__, "pyehl."):
         if module.name.endswith("__main__"):
             continue
         for _, thing in inspect.getmembers(importlib.import_module(module.name), inspect.isclass):
             if issubclass(thing, BaseException) and thing.__module__.startswith("pyehl"):
-                found.add(thing)
-    return sorted(found, key=lambda thing: thing.__name__)
+                result.add(thing)
+    return sorted(result, key=lambda thing: thing.__name__)
 
 
 @pytest.mark.parametrize("kind", exceptions(), ids=lambda kind: kind.__name__)

@@ -321,9 +321,9 @@ def test_map_is_in_the_order_of_the_build(root: Path):
 def test_modules_named_in_the_equation_table_hold_what_it_says(root: Path):
     """Routines that fortran/README.md names are in the files that it names."""
     text = (root / "fortran" / "README.md").read_text()
-    found = re.findall(r"((?:`\w+`(?:, )?)+) in `([\w/]+\.f90)`", text)
-    assert len(found) >= 4
-    for names, path in found:
+    result = re.findall(r"((?:`\w+`(?:, )?)+) in `([\w/]+\.f90)`", text)
+    assert len(result) >= 4
+    for names, path in result:
         source = (root / "fortran" / path).read_text()
         for name in re.findall(r"`(\w+)`", names):
             assert re.search(rf"(subroutine|function|procedure) {name}\b", source), (name, path)
@@ -417,9 +417,9 @@ def test_a_page_that_a_phone_cuts_is_found(script, tmp_path):
     own = f'<div style="overflow: auto">{wide}</div>'
     (tmp_path / "scrolls.html").write_text(f"{head}<article>{own}</article>")
     (tmp_path / "search.html").write_text(head)
-    found = " ".join(phone.faults(tmp_path, None))
-    assert "wide.html: 9" in found
-    assert "hidden.html: cut" in found
-    assert "good.html" not in found
-    assert "scrolls.html" not in found
-    assert "search: nothing" in found
+    result = " ".join(phone.faults(tmp_path, None))
+    assert "wide.html: 9" in result
+    assert "hidden.html: cut" in result
+    assert "good.html" not in result
+    assert "scrolls.html" not in result
+    assert "search: nothing" in result

@@ -32,11 +32,11 @@ def test_cases_resolve_as_recorded(folder: Path):
     bases = {n: outcome(*case, folder) for n, case in cases.items() if n.startswith("base: ")}
     wrong = []
     for name, recorded in RECORD.items():
-        found = outcome(*cases[name], folder)
-        if isinstance(found, list):
-            found = differences(found, bases[reference(name)])
-        if found != recorded:
-            wrong.append(f"{name}:\n{recorded}\n{found}")
+        result = outcome(*cases[name], folder)
+        if isinstance(result, list):
+            result = differences(result, bases[reference(name)])
+        if result != recorded:
+            wrong.append(f"{name}:\n{recorded}\n{result}")
     assert not wrong, "\n".join(wrong[:5])
 
 

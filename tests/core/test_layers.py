@@ -40,13 +40,13 @@ NUMERICS = (
 
 def modules(root: Path) -> dict[str, tuple[Path, set[str]]]:
     """File and used modules of every module and submodule."""
-    found = {}
+    result = {}
     for path in sorted((root / "fortran").rglob("*.f90*")):
         text = path.read_text()
         for name in re.findall(UNIT, text, re.M | re.I):
             used = set(re.findall(r"^\s*use\s+(\w+)", text, re.M | re.I))
-            found[name] = (path, used)
-    return found
+            result[name] = (path, used)
+    return result
 
 
 def folder(path: Path) -> str:
@@ -54,21 +54,21 @@ def folder(path: Path) -> str:
 
 
 def test_arrows_point_one_way(root: Path):
-    found = modules(root)
-    assert len(found) > 20
+    result = modules(root)
+    assert len(result) > 20
     wrong = [
         f"{name} uses {other}"
-        for name, (path, used) in found.items()
+        for name, (path, used) in result.items()
         for other in used
-        if other in found and RANK[folder(found[other][0])] > RANK[folder(path)]
+        if other in result and RANK[folder(result[other][0])] > RANK[folder(path)]
     ]
     assert not wrong
 
 
 def test_every_used_module_is_known(root: Path):
-    found = modules(root)
+    result = modules(root)
     system = {"iso_c_binding", "iso_fortran_env", "ieee_arithmetic", "omp_lib"}
-    unknown = {u for _, used in found.values() for u in used} - set(found) - system
+    unknown = {u for _, used in result.values() for u in used} - set(result) - system
     assert not unknown
 
 
@@ -106,14 +106,14 @@ def test_one_owner(root: Path, owner: str, pattern: str):
     # symmetric operators as such, their transfers and products are no discretisation
     apart = {"app", "bind", "test"}
     general = {"nine_point.f90", "alcouffe.f90", "galerkin.f90"}
-    found = {
+    result = {
         path.relative_to(library).as_posix()
         for path in library.rglob("*.f90")
         if folder(path) not in apart and path.name not in general
         for line in path.read_text().splitlines()
         if re.search(pattern, line.split("!")[0])
     }
-    assert found == set(owner.split())
+    assert result == set(owner.split())
 
 
 def test_module_is_named_as_its_file(root: Path):

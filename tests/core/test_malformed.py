@@ -403,8 +403,8 @@ def test_program_refuses_it(drive, tmp_path: Path, name, marked, options, parts)
         )
     what = str(reported.value).splitlines()[0].partition("error: ")[2]
     names = re.findall(r"[a-z]\w+(?=\.)|\b\w+_\w+|&\w+|'\w+'", what)
-    found = any(name.strip("&'").lower() in done.stderr.lower() for name in names)
-    assert found or not names or name in NAMELESS
+    result = any(name.strip("&'").lower() in done.stderr.lower() for name in names)
+    assert result or not names or name in NAMELESS
 
 
 def words_of(options: list[str]) -> list[str]:

@@ -29,12 +29,12 @@ def test_scripts_in_documents_are_there(root: Path):
 
 def options_of(parser: argparse.ArgumentParser) -> set[str]:
     """Options of a subcommand and of those below it."""
-    found: set[str] = set()
+    result: set[str] = set()
     for action in parser._actions:
-        found |= set(action.option_strings)
+        result |= set(action.option_strings)
         if isinstance(action, argparse._SubParsersAction):
-            found |= set().union(*map(options_of, action.choices.values()))
-    return found
+            result |= set().union(*map(options_of, action.choices.values()))
+    return result
 
 
 def test_options_in_documents_are_options(root: Path):
@@ -64,7 +64,7 @@ def test_options_of_scripts_are_options(root: Path, capsys: pytest.CaptureFixtur
                     importlib.import_module(script).main(["--help"])
                 known[script] = capsys.readouterr().out
             for option in re.findall(r"(?<!\S)--?[a-z][a-z-]*", words.partition("#")[0]):
-                found = re.search(rf"(?<![\w-]){option}\b", known[script])
-                assert found, f"{name}: {script} {option}"
+                match = re.search(rf"(?<![\w-]){option}\b", known[script])
+                assert match, f"{name}: {script} {option}"
                 seen += 1
     assert seen > 30

@@ -33,15 +33,15 @@ def end(text: str, *options: str, stop: int | None = None) -> dict[str, Any]:
 
 
 def test_film_breakdown_of_a_run():
-    found = end(WAVE, "surface.amplitude_over_film=0.8")
-    assert found["status"] == "negative film"
+    result = end(WAVE, "surface.amplitude_over_film=0.8")
+    assert result["status"] == "negative film"
     # T of the step that failed
-    place = f"the time step to T = {found['T'] + found['x_mesh']:.4f} on 65 x 65 nodes"
-    assert found["assessment"].startswith(
+    place = f"the time step to T = {result['T'] + result['x_mesh']:.4f} on 65 x 65 nodes"
+    assert result["assessment"].startswith(
         f"film breakdown: no solution with a positive film for {place}, "
         "minimum film before H_min = "
     )
-    assert found["assessment"].endswith(
+    assert result["assessment"].endswith(
         "; the shortest waves have 7 nodes, and as high as the film they need 32: give a finer "
         "grid (grid.points = 129), a smoother surface; pyehl predict reports where the film ends"
     )
@@ -107,10 +107,10 @@ def test_film_breakdown_of_a_feature_in_metres():
     ],
 )
 def test_other_ends(options: list[str], stop: int | None, status: str, words: str):
-    found = end(WAVE, *options, stop=stop)
-    assert found["status"] == status
-    assert found["assessment"] == f"no result: the status is '{status}': {found['message']}"
-    assert found["message"].endswith(words)
+    result = end(WAVE, *options, stop=stop)
+    assert result["status"] == status
+    assert result["assessment"] == f"no result: the status is '{status}': {result['message']}"
+    assert result["message"].endswith(words)
 
 
 def test_an_answer_has_no_message():

@@ -53,31 +53,31 @@ def everywhere(request, tmp_path_factory, drivers) -> tuple[dict[str, dict[str, 
     text = {"left out": LEFT_OUT, "on the grid": ON_GRID}[request.param]
     folder = tmp_path_factory.mktemp("numbers")
     case = Case.from_text(text)
-    found = {}
+    result = {}
     with Solver(case) as solver:
         solver.run()
-        found["Solver"] = solver.summary
+        result["Solver"] = solver.summary
         solver.write(folder / "written")
-    found["Solver.write"] = summary_of(folder / "written")
-    found["solve"] = scalars_of(pyehl.solve(case))
-    found["sweep"] = execute(Task(0, case.text, "solve"))
-    found["sweep with folders"] = execute(Task(0, case.text, "solve", str(folder / "of a sweep")))
+    result["Solver.write"] = summary_of(folder / "written")
+    result["solve"] = scalars_of(pyehl.solve(case))
+    result["sweep"] = execute(Task(0, case.text, "solve"))
+    result["sweep with folders"] = execute(Task(0, case.text, "solve", str(folder / "of a sweep")))
     (folder / "case.nml").write_text(text)
     assert cli.main(["run", str(folder / "case.nml"), "-o", str(folder / "run"), "-q"]) == 0
-    found["run"] = summary_of(folder / "run")
-    return found, request.param == "left out"
+    result["run"] = summary_of(folder / "run")
+    return result, request.param == "left out"
 
 
 def test_the_error_is_one_number(everywhere):
-    found, left_out = everywhere
-    first = found["run"]
+    result, left_out = everywhere
+    first = result["run"]
     assert (first["variance_left_out"] > 0.0) == left_out
     assert (first["mu_ratio_error_left_out"] > 0.0) == left_out
     assert first["mu_ratio_error"] == sum(first[part] for part in PARTS)
     if left_out:
         # what the grid leaves out counts here
         assert first["mu_ratio_error_left_out"] > 0.1 * first["mu_ratio_error"]
-    for way, values in found.items():
+    for way, values in result.items():
         for name in ("mu_ratio", "mu_ratio_error", "mu_ratio_unresolved", *PARTS):
             assert values[name] == first[name], (way, name)
         assert values["mu_ratio_error_note"] == "", way
@@ -319,13 +319,13 @@ def test_no_error_where_no_limit_is_in_sight():
     for values, known in (({}, False), ({"contact.moes_l": 2.0}, True)):
         with Solver(Case.from_text("", ridge | values)) as solver:
             assert solver.run()
-            found = solver.summary
-        assert (found["mu_ratio_error"] is not None) == known
-        assert ("no limit is in sight" in found["mu_ratio_error_note"]) != known
+            result = solver.summary
+        assert (result["mu_ratio_error"] is not None) == known
+        assert ("no limit is in sight" in result["mu_ratio_error_note"]) != known
         if known:
             # what the error of the film makes of the increase
-            film = found["H_c_error_grid"] / found["H_c"]
-            assert found["mu_ratio_error_grid"] >= 1.99 * film * abs(found["mu_ratio"] - 1.0)
+            film = result["H_c_error_grid"] / result["H_c"]
+            assert result["mu_ratio_error_grid"] >= 1.99 * film * abs(result["mu_ratio"] - 1.0)
 
 
 @pytest.mark.long

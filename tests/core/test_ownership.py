@@ -75,14 +75,14 @@ def call(
 
 def tree(folder: Path) -> dict[str, object]:
     """All that is below a folder: files with their bytes, links with their targets."""
-    found: dict[str, object] = {}
+    result: dict[str, object] = {}
     for path in sorted(folder.rglob("*")):
         name = str(path.relative_to(folder))
         if path.is_symlink():
-            found[name] = path.readlink()
+            result[name] = path.readlink()
         else:
-            found[name] = path.read_bytes() if path.is_file() else None
-    return found
+            result[name] = path.read_bytes() if path.is_file() else None
+    return result
 
 
 def foreign(folder: Path) -> None:

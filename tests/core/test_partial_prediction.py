@@ -54,27 +54,27 @@ def test_full_film_is_as_without_a_layer():
 def test_error_of_the_smooth_film_is_one_of_the_load_share():
     """Of a surface that is nearly smooth there is hardly another."""
     text = TEXT.format(0.1, 3e-8, 0.1).replace("rms_height = 3e-8", "rms_height = 1e-11")
-    found = summary_of(text)
-    assert found["contact_load_share"] > 0.0
-    assert found["contact_load_share_error"] > 0.1 * found["contact_load_share"]
-    assert found["h_min_rough_error_m"] > 0.1 * found["h_min_error_m"]
+    result = summary_of(text)
+    assert result["contact_load_share"] > 0.0
+    assert result["contact_load_share_error"] > 0.1 * result["contact_load_share"]
+    assert result["h_min_rough_error_m"] > 0.1 * result["h_min_error_m"]
 
 
 @pytest.mark.long
 def test_share_grows_with_the_layer_up_to_dry_contact():
-    found = [predicted(layer) for layer in (9e-8, 1.1e-7, 1.3e-7, 4e-7)]
-    shares = [summary["contact_load_share"] for summary in found]
+    result = [predicted(layer) for layer in (9e-8, 1.1e-7, 1.3e-7, 4e-7)]
+    shares = [summary["contact_load_share"] for summary in result]
     assert 0.0 < shares[0] < 0.1
     assert (np.diff(shares) > 0.05).all()
     assert shares[-1] == pytest.approx(1.0, abs=0.02)
     # friction is that of the layer there
-    assert found[-1]["mu"] == pytest.approx(0.1, rel=0.05)
-    assert all(s["contact_load_share_error"] >= 0.0 for s in found[:-1])
+    assert result[-1]["mu"] == pytest.approx(0.1, rel=0.05)
+    assert all(s["contact_load_share_error"] >= 0.0 for s in result[:-1])
     # of dry contact no film states how it misses that of the smooth one
-    assert found[-1]["contact_load_share_error"] is None
-    assert "no film has the load share" in found[-1]["contact_load_share_error_note"]
-    assert all(s["status"] == "predicted" for s in found)
-    assert "mixed film" in found[1]["assessment"]
+    assert result[-1]["contact_load_share_error"] is None
+    assert "no film has the load share" in result[-1]["contact_load_share_error_note"]
+    assert all(s["status"] == "predicted" for s in result)
+    assert "mixed film" in result[1]["assessment"]
 
 
 @pytest.mark.parametrize(
@@ -326,16 +326,16 @@ def test_obstacle(most):
     q = np.hypot(np.fft.rfftfreq(60)[:, None], np.fft.fftfreq(60)[None])
     kernel = np.divide(1.0, q, out=np.zeros_like(q), where=q > 0.0)
     compliance = Compliance(kernel, (60, 60))
-    found = lifted(gap, compliance, 0.1, most)
-    assert found is not None
-    assert (found.pressure >= 0.0).all()
-    assert (found.pressure[:, :4] == 0.0).all()
-    left = gap + found.lift
+    result = lifted(gap, compliance, 0.1, most)
+    assert result is not None
+    assert (result.pressure >= 0.0).all()
+    assert (result.pressure[:, :4] == 0.0).all()
+    left = gap + result.lift
     assert left.min() >= -2e-3
-    assert np.abs(left[found.pressure > 0.0]).max() <= 1e-2
-    rise = found.lift - compliance(found.pressure)
+    assert np.abs(left[result.pressure > 0.0]).max() <= 1e-2
+    rise = result.lift - compliance(result.pressure)
     if np.isfinite(most):
-        assert found.pressure.sum() == pytest.approx(most)
+        assert result.pressure.sum() == pytest.approx(most)
         assert rise.min() > 0.0
     else:
         assert np.abs(rise).max() < 1e-12
@@ -355,15 +355,15 @@ def test_lift_off_with_its_error():
             speeds, (0.0, 0.005, 0.05, 0.5), (0.0, 0.004, 0.03, 0.1), strict=True
         )
     ]
-    found = lift_off(speeds, pd.DataFrame(rows))
-    assert found is not None
+    result = lift_off(speeds, pd.DataFrame(rows))
+    assert result is not None
     part = (0.05 - 0.01) / (0.05 - 0.005)
-    assert found.speed == pytest.approx(0.2 * 2.0**part)
+    assert result.speed == pytest.approx(0.2 * 2.0**part)
     lower = 0.2 * 2.0 ** ((0.02 - 0.01) / (0.02 - 0.001))
-    assert found.error == pytest.approx(found.speed - lower)
-    assert found.lambda_ratio == pytest.approx(10.0 * found.speed)
-    assert "Lambda" in found.words
-    assert "theta_2" not in found.words
+    assert result.error == pytest.approx(result.speed - lower)
+    assert result.lambda_ratio == pytest.approx(10.0 * result.speed)
+    assert "Lambda" in result.words
+    assert "theta_2" not in result.words
     # no speed where its error is not known: beyond the curve, or by a point without one
     for error in (1.0, None):
         unknown = [row | {"contact_load_share_error": error} for row in rows]

@@ -41,13 +41,13 @@ RANK = {name: rank for rank, names in enumerate(LAYERS) for name in names}
 @cache
 def modules(root: Path) -> dict[str, tuple[Path, ast.Module]]:
     """File and syntax tree of every module, by its name within the package."""
-    found = {}
+    result = {}
     for path in sorted((root / "pyehl").rglob("*.py")):
         parts = path.relative_to(root / "pyehl").with_suffix("").parts
         if len(parts) > 1 and parts[-1] == "__init__":
             parts = parts[:-1]
-        found[".".join(parts)] = (path, ast.parse(path.read_text()))
-    return found
+        result[".".join(parts)] = (path, ast.parse(path.read_text()))
+    return result
 
 
 def executed(tree: ast.Module) -> ast.Module:
@@ -76,8 +76,8 @@ def imported(tree: ast.Module, known: set[str]) -> set[str]:
 
 @pytest.fixture(scope="module")
 def graph(root: Path) -> dict[str, set[str]]:
-    found = modules(root)
-    return {name: imported(tree, set(found)) for name, (_, tree) in found.items()}
+    result = modules(root)
+    return {name: imported(tree, set(result)) for name, (_, tree) in result.items()}
 
 
 def top(name: str) -> str:
@@ -98,9 +98,9 @@ def test_arrows_point_one_way(graph: dict[str, set[str]]):
 
 def test_no_circle(root: Path):
     """The modules can be ordered so that each runs only those before it."""
-    found = modules(root)
+    result = modules(root)
     # `from pyehl.surfaces import x` inside the folder would run its __init__ first
-    left = {n: imported(executed(tree), set(found)) - {n} for n, (_, tree) in found.items()}
+    left = {n: imported(executed(tree), set(result)) - {n} for n, (_, tree) in result.items()}
     while left:
         free = {name for name, others in left.items() if not others & set(left)}
         assert free, f"a circle among {sorted(left)}"

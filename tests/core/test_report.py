@@ -183,13 +183,13 @@ def test_no_result_is_said(tmp_path, root):
 
 @pytest.mark.long
 def test_broken_film_is_said(tmp_path, root):
-    found = pyehl.predict(
+    result = pyehl.predict(
         root / "cases/table1.nml", "surface.rms_height=4e-7", output=tmp_path / "run", plots=False
     )
-    assert found.summary["status"] == "film breakdown"
+    assert result.summary["status"] == "film breakdown"
     page = read(pyehl.report(tmp_path / "run", tmp_path / "page.html"))
     assert "Film breakdown. " in page.text
-    assert found.summary["message"][1:] in page.text
+    assert result.summary["message"][1:] in page.text
     assert "suggested_shortest_wavelength_m" in page.text
 
 
@@ -232,11 +232,11 @@ def test_a_page_for_a_measured_response(tmp_path, root):
         "tiers": [{"points": 129, "waves": 5}, {"points": 257, "waves": 7}],
     }
     (folder / "summary.json").write_text(json.dumps(summary))
-    found = read(pyehl.report(folder))
-    assert len(found.pictures) == 1
-    assert "Take with care. 12 waves; they differ from the shipped response by 0.021" in found.text
-    assert "Film and pressure are isothermal" in found.text
-    assert "one track" not in found.text
+    result = read(pyehl.report(folder))
+    assert len(result.pictures) == 1
+    assert "Take with care. 12 waves; they differ from the shipped response by 0.021" in result.text
+    assert "Film and pressure are isothermal" in result.text
+    assert "one track" not in result.text
     (folder / "case.nml").unlink()
     with pytest.raises(pyehl.FileError, match=r"case\.nml.*cannot be read"):
         pyehl.report(folder)
@@ -378,9 +378,9 @@ GOOD = {
     ],
 )
 def test_assessment(changed, word, why, kind):
-    found = assess(GOOD | changed)
-    assert (found.word, found.kind) == (word, kind)
-    assert why in found.why
+    result = assess(GOOD | changed)
+    assert (result.word, result.kind) == (word, kind)
+    assert why in result.why
 
 
 def test_limits_that_apply(root):
@@ -425,8 +425,8 @@ def test_stress_in_a_report(tmp_path: Path, capsys: pytest.CaptureFixture[str]) 
 
     def words(*options: str) -> tuple[str, int]:
         assert main(["report", str(run), *options]) == 0
-        found = Page((run / "report.html").read_text(encoding="utf-8"))
-        return " ".join(found.words), len(found.pictures)
+        result = Page((run / "report.html").read_text(encoding="utf-8"))
+        return " ".join(result.words), len(result.pictures)
 
     without, pictures = words()
     assert "Stress below the surface" not in without

@@ -51,9 +51,9 @@ QUICK = ("coarser run fails", "predicted start")
 def ended(solver: pyehl.Solver) -> dict[str, Any]:
     """Summary at the end, without times, and the frames."""
     solver.run()
-    found = {name: value for name, value in solver.summary.items() if "seconds" not in name}
+    result = {name: value for name, value in solver.summary.items() if "seconds" not in name}
     frames = solver.dataset().get("frame_P")
-    return found if frames is None else found | {"frames": frames.values.tobytes()}
+    return result if frames is None else result | {"frames": frames.values.tobytes()}
 
 
 def killed_and_resumed(case: pyehl.Case, folder: Path, advances: int) -> dict[str, Any] | None:
@@ -83,9 +83,9 @@ def test_whole_summary(kind: str, tmp_path: Path):
         whole = ended(solver)
     resumed = 0
     for share in (0.3, 0.5, 0.75, 0.95):
-        found = killed_and_resumed(case, tmp_path / f"{share}", int(share * advances))
-        if found is not None:
-            assert found == whole
+        result = killed_and_resumed(case, tmp_path / f"{share}", int(share * advances))
+        if result is not None:
+            assert result == whole
             resumed += 1
     assert resumed >= 2
     if kind == "coarser run fails":
@@ -121,8 +121,8 @@ def test_steps_from_a_prediction_that_fail_after_a_resumption(tmp_path: Path):
     assert whole["frames"]
     for advances in (before, again + 1, again + 40):
         folder = tmp_path / str(advances)
-        found = killed_and_resumed(case, folder, advances)
-        assert found == whole
+        result = killed_and_resumed(case, folder, advances)
+        assert result == whole
 
 
 @pytest.mark.parametrize("estimate_error", [True, False])

@@ -166,8 +166,8 @@ def test_sources_name_keys_that_exist(root: Path):
         *(root / "pyehl" / "case").glob("*.py"),
     ]:
         text = path.read_text()
-        found = re.findall(r'given\("(\w+)", "(\w+)"\)', text)
-        found += re.findall(rf'"({groups})\.(\w+)"', text)
-        named |= {f"{group}.{name}" for group, name in found}
+        result = re.findall(r'given\("(\w+)", "(\w+)"\)', text)
+        result += re.findall(rf'"({groups})\.(\w+)"', text)
+        named |= {f"{group}.{name}" for group, name in result}
     assert len(named) > 50
     assert named - set(KEYS) == set()

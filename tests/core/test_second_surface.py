@@ -54,8 +54,8 @@ def heights(tmp_path: Path) -> dict[str, np.ndarray]:
 def test_velocities_follow(keys: str, velocities: tuple[float, float], slide_to_roll: float):
     case = Case.from_text(WAVE.format("second_surface", ""), keys.split())
     groups = case.resolve()
-    found = [groups[name]["velocity_ratio"] for name in ("surface", "second_surface")]
-    assert found == pytest.approx(velocities, rel=1e-15)
+    result = [groups[name]["velocity_ratio"] for name in ("surface", "second_surface")]
+    assert result == pytest.approx(velocities, rel=1e-15)
     assert groups["contact"]["slide_to_roll"] == slide_to_roll
     assert Case.from_text(case.text).text == case.text
     # what followed follows anew

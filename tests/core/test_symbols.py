@@ -97,7 +97,7 @@ def scripts(tokens: list[str], at: int, name: str) -> tuple[set[str], set[str], 
 
 def symbols(tokens: list[str]) -> set[str]:
     """Symbols of a formula, with marks and subscripts."""
-    found: set[str] = set()
+    result: set[str] = set()
     at = 0
     while at < len(tokens):
         name = tokens[at]
@@ -121,8 +121,8 @@ def symbols(tokens: list[str]) -> set[str]:
             inside, at = argument(tokens, at)
             name += " " + "".join(inside)
         whole, inner, at = scripts(tokens, at, name)
-        found |= whole | inner
-    return found - PLAIN
+        result |= whole | inner
+    return result - PLAIN
 
 
 def of_formula(tex: str) -> set[str]:

@@ -31,9 +31,9 @@ def test_chapter_leads_to_the_code(chapter):
     text = chapter.read_text(encoding="utf-8")
     if chapter.stem in INDICES:
         return
-    found = rows(text)
-    assert found, "no table from equation or step to module"
-    for row in found:
+    result = rows(text)
+    assert result, "no table from equation or step to module"
+    for row in result:
         names = re.findall(r"`([^`]+)`", row)
         files = [name for name in names if re.fullmatch(r"[\w/]+\.(?:f90|py)", name)]
         places = {

@@ -108,8 +108,8 @@ def lines_of(path: Path) -> Iterator[str]:
 class Reader:
     """Takes in a file line by line."""
 
-    def __init__(self, found: Sources) -> None:
-        self.found = found
+    def __init__(self, result: Sources) -> None:
+        self.sources = result
         self.unit = self.kind = self.generic = ""
         self.interface = False
         # procedures that are open: name, name of the result, whether it is a function
@@ -117,15 +117,15 @@ class Reader:
 
     def take(self, line: str) -> None:
         """Take a line."""
-        found = self.found
+        results = self.sources
         if match := UNIT.match(line):
             self.unit = match[2]
-            found.parent[self.unit] = match[1]
-            found.used[self.unit], found.generics[self.unit] = {}, {}
+            results.parent[self.unit] = match[1]
+            results.used[self.unit], results.generics[self.unit] = {}, {}
         elif match := re.match(r"use\s+(\w+)\s*,\s*only:\s*(.*)", line):
             for item in match[2].split(","):
                 local, _, other = (word.strip() for word in item.partition("=>"))
-                found.used[self.unit][local] = (match[1], other or local)
+                results.used[self.unit][local] = (match[1], other or local)
         elif not self.stack and self.declares(line):
             return
         elif match := PROCEDURE.match(line):
@@ -138,7 +138,7 @@ class Reader:
 
     def open(self, name: str, result: str, is_function: bool) -> None:
         self.stack.append((name, result, is_function))
-        self.found.body.setdefault((self.unit, name), [])
+        self.sources.body.setdefault((self.unit, name), [])
 
     def declares(self, line: str) -> bool:
         """Take a line of a module before its procedures; whether it is one."""
@@ -150,12 +150,12 @@ class Reader:
             match = re.match(r"(?:module )?procedure\s*(?:::)?\s*(.*)", line)
             if match and self.generic:
                 names = [word.strip() for word in match[1].split(",")]
-                self.found.generics[self.unit].setdefault(self.generic, []).extend(names)
+                self.sources.generics[self.unit].setdefault(self.generic, []).extend(names)
         elif line.startswith("end type"):
             self.kind = ""
         elif match := TYPE.match(line):
             self.kind = match[2]
-            self.found.extends[self.kind], self.found.home[self.kind] = match[1], self.unit
+            self.sources.extends[self.kind], self.sources.home[self.kind] = match[1], self.unit
         elif self.kind and (match := BINDING.match(line)):
             self.bind([match[2]] if match[1] == "generic" else match[2].split(","))
         else:
@@ -168,7 +168,7 @@ class Reader:
             name, _, targets = (word.strip() for word in item.partition("=>"))
             for target in (targets or name).split(","):
                 bound = (self.kind, (self.unit, target.strip()))
-                self.found.bindings.setdefault(name, []).append(bound)
+                self.sources.bindings.setdefault(name, []).append(bound)
 
     def statement(self, line: str) -> None:
         """Take a line of a procedure."""
@@ -177,31 +177,31 @@ class Reader:
             return
         name, result, is_function = self.stack[-1]
         key = (self.unit, name)
-        self.found.body[key].append(line)
+        self.sources.body[key].append(line)
         if line == "!f2py threadsafe":
-            self.found.unlocked.append(key)
+            self.sources.unlocked.append(key)
         match = TEXT.match(line)
         if is_function and match and re.search(rf"\b{result}\b", match[1]):
-            self.found.texts.add(key)
+            self.sources.texts.add(key)
 
 
 def test_no_static_text_without_the_lock(root: Path):
     """The call graph of the sources, from every routine that releases the lock."""
-    found = Sources()
+    result = Sources()
     for path in sorted((root / "fortran").rglob("*.f90")):
         if path.parent.name not in ("test", "app"):
-            reader = Reader(found)
+            reader = Reader(result)
             for line in lines_of(path):
                 reader.take(line)
-    assert ("ehl_f2py_solver", "advance") in found.unlocked
-    assert len(found.texts) > 20
-    caller: dict[Key, Key | None] = dict.fromkeys(found.unlocked)
-    todo = list(found.unlocked)
+    assert ("ehl_f2py_solver", "advance") in result.unlocked
+    assert len(result.texts) > 20
+    caller: dict[Key, Key | None] = dict.fromkeys(result.unlocked)
+    todo = list(result.unlocked)
     wrong = []
     while todo:
         key = todo.pop()
-        for called in found.calls(key):
-            if called in found.texts:
+        for called in result.calls(key):
+            if called in result.texts:
                 wrong.append(f"{called} in {key}")
             elif called not in caller:
                 caller[called] = key
@@ -247,14 +247,14 @@ def test_many_threads_find_what_one_finds(cases: int):
                 solver.run()
             except pyehl.InputError as error:
                 return str(error)
-            found = solver.summary
-            return str([(name, value) for name, value in found.items() if "seconds" not in name])
+            result = solver.summary
+            return str([(name, value) for name, value in result.items() if "seconds" not in name])
 
     alone = [outcome(k) for k in range(len(texts))]
     assert len(set(alone)) == len(texts)
     with ThreadPoolExecutor(8) as pool:
         together = list(pool.map(outcome, range(cases)))
-    assert [k for k, found in enumerate(together) if found != alone[k % len(texts)]] == []
+    assert [k for k, result in enumerate(together) if result != alone[k % len(texts)]] == []
 
 
 @pytest.mark.long

@@ -56,8 +56,8 @@ def test_half_load_zone_of_an_oblique_contact(power, axial, largest):
         ring = equilibrium(1e14, power, count, play, load, centres)
     else:
         ring = equilibrium(1e10, power, count, 0.0, load, math.inf, angle)
-    found = ring.loads.max() * count * math.cos(angle) / 1000.0
-    assert found == pytest.approx(largest, abs=0.006)
+    result = ring.loads.max() * count * math.cos(angle) / 1000.0
+    assert result == pytest.approx(largest, abs=0.006)
     assert np.count_nonzero(ring.loads) == pytest.approx(count / 2, rel=0.01)
 
 
@@ -80,13 +80,13 @@ def test_load_zone_by_clearance(power):
 
 def test_five_f_over_z_is_that_of_some_clearance():
     """Stribeck's 5 F/Z lies between no clearance and that of a CN bearing with plenty of it."""
-    found = [
+    result = [
         made(BALLS, {"ball_bearing.clearance": c})[1].facts["load_max_Z_over_F"]
         for c in (0.0, 1e-5, 5e-5, 1e-4)
     ]
-    assert found == sorted(found)
-    assert found[0] == pytest.approx(4.385, abs=0.005)  # nine balls, one under the load
-    assert found[1] < 5.0 < found[2]
+    assert result == sorted(result)
+    assert result[0] == pytest.approx(4.385, abs=0.005)  # nine balls, one under the load
+    assert result[1] < 5.0 < result[2]
     # all of the load on one ball in the end
     wide = made(BALLS, {"ball_bearing.clearance": 4e-4, "ball_bearing.radial_load": 10.0})[1]
     assert wide.facts["load_max_Z_over_F"] == pytest.approx(9.0)
@@ -118,8 +118,8 @@ def test_equilibrium_of_random_bearings():
 def test_pure_axial_load_is_shared_equally():
     """Q = F_a/(Z sin alpha) with cos alpha = cos alpha_0/(1 + delta/A) (Harris)."""
     options = {"ball_bearing.radial_load": 0.0, "ball_bearing.axial_load": 2000.0}
-    _, found = made(BALLS, options, {"ball_bearing.contact_angle": 25.0})
-    angles, loads = found.ring.angles, found.ring.loads
+    _, result = made(BALLS, options, {"ball_bearing.contact_angle": 25.0})
+    angles, loads = result.ring.angles, result.ring.loads
     assert loads == pytest.approx(2000.0 / (9 * np.sin(angles)))
     assert np.all(np.degrees(angles) > 25.0)
     centres = 0.05 * 9.525e-3
@@ -144,15 +144,15 @@ def test_tapered_rollers():
     least = 3000.0 * math.tan(math.radians(15.0))
     loaded = []
     for axial in (1.002 * least, 1.2 * least, 2.0 * least, 20.0 * least):
-        _, found = made(TAPERED, {"roller_bearing.axial_load": axial})
-        assert forces(found.ring) == pytest.approx((3000.0, axial), rel=1e-10)
-        loaded.append(found.facts["elements_loaded"])
+        _, result = made(TAPERED, {"roller_bearing.axial_load": axial})
+        assert forces(result.ring) == pytest.approx((3000.0, axial), rel=1e-10)
+        loaded.append(result.facts["elements_loaded"])
     assert loaded == sorted(loaded)
     assert (loaded[0], loaded[-1]) == (3.0, 13.0)
-    _, found = made(TAPERED, {"roller_bearing.radial_load": 0.0})
-    assert found.ring.loads == pytest.approx(2000.0 / (13 * math.sin(math.radians(15.0))))
+    _, result = made(TAPERED, {"roller_bearing.radial_load": 0.0})
+    assert result.ring.loads == pytest.approx(2000.0 / (13 * math.sin(math.radians(15.0))))
     # three forces on a roller: both raceways and the flange, along its axis and across it
-    load, flange = found.facts["load_max_N"], found.facts["flange_load_max_N"]
+    load, flange = result.facts["load_max_N"], result.facts["flange_load_max_N"]
     outer, inner, axis = (math.radians(a) for a in (15.0, 11.0, 13.0))
     assert load * (math.cos(outer) - math.cos(inner)) == pytest.approx(-flange * math.sin(axis))
     assert load * (math.sin(outer) - math.sin(inner)) == pytest.approx(flange * math.cos(axis))
@@ -204,14 +204,14 @@ def test_hertz_stiffness():
 def test_velocities_of_a_bearing():
     """Both rings: u = omega d_m/4 (1 - (D/d_m)^2), and rolling seen from the cage."""
     for options, d in ((BALLS, 9.525e-3), (ROLLERS, 9e-3)):
-        machine, found = made(options)
+        machine, result = made(options)
         gamma = d / 0.046
         omega = TURN * 3000.0
         expected = 0.25 * omega * 0.046 * (1.0 - gamma**2)
-        assert [c.mean_velocity for c in found.contacts] == pytest.approx(
-            [expected] * len(found.contacts)
+        assert [c.mean_velocity for c in result.contacts] == pytest.approx(
+            [expected] * len(result.contacts)
         )
-        cage = TURN * found.facts["cage_speed_per_min"]
+        cage = TURN * result.facts["cage_speed_per_min"]
         # seen from the cage, the raceways run by at the same velocity
         assert (omega - cage) * 0.5 * (0.046 - d) == pytest.approx(expected)
         assert cage * 0.5 * (0.046 + d) == pytest.approx(expected)
@@ -223,16 +223,16 @@ def test_velocities_of_a_bearing():
 
 def test_contacts_of_a_6206():
     """The radii of the drawing; both rings carry the same load."""
-    _, found = made(BALLS)
-    inner, outer = found.contacts[0], found.contacts[1]
+    _, result = made(BALLS)
+    inner, outer = result.contacts[0], result.contacts[1]
     assert inner.radii == pytest.approx((4.7625e-3, 4.7625e-3, 18.2375e-3, -4.953e-3))
     assert outer.radii == pytest.approx((4.7625e-3, 4.7625e-3, -27.7625e-3, -5.04825e-3))
     assert inner.load == outer.load
 
 
 def test_spin_of_an_angular_contact():
-    _, found = made(BALLS, {"ball_bearing.axial_load": 2000.0, "ball_bearing.contact_angle": 25.0})
-    for contact, place in zip(found.contacts, found.places, strict=True):
+    _, result = made(BALLS, {"ball_bearing.axial_load": 2000.0, "ball_bearing.contact_angle": 25.0})
+    for contact, place in zip(result.contacts, result.places, strict=True):
         angle = math.radians(place["contact_angle_deg"])
         expected = TURN * 3000.0 * math.sin(angle) if place["ring"] == "inner" else 0.0
         assert contact.spin == pytest.approx(expected)

@@ -36,14 +36,14 @@ def test_share_of_one_pixel_is_its_chord():
     deformed = np.zeros((200, 300))
     deformed[40, 0] = 1.2e-7
     a = 1e-4
-    found = ends(deformed, a, flat(1e-7))
+    result = ends(deformed, a, flat(1e-7))
     # mean over the passage of the area below zero inside the circle, over that of the circle
-    assert found.share == pytest.approx(2 * a * 1e-6 / 200e-6 * 1e-6 / (np.pi * a * a), rel=0.01)
-    assert found.deepest == pytest.approx(-2e-8)
-    assert (found.pixels, found.count) == (((40, 0),), 1)
+    assert result.share == pytest.approx(2 * a * 1e-6 / 200e-6 * 1e-6 / (np.pi * a * a), rel=0.01)
+    assert result.deepest == pytest.approx(-2e-8)
+    assert (result.pixels, result.count) == (((40, 0),), 1)
     deformed[41, 80] = 1.1e-7
     both = ends(deformed, a, flat(1e-7))
-    assert both.share / found.share == pytest.approx(1 + np.sqrt(1 - 0.8**2), rel=0.03)
+    assert both.share / result.share == pytest.approx(1 + np.sqrt(1 - 0.8**2), rel=0.03)
     # a row that never comes near the contact
     deformed[0, 150] = 1.0
     assert ends(deformed, a, flat(1e-7)) == both
@@ -57,8 +57,8 @@ def test_film_that_is_thin_at_the_rim():
     def film(x, y):
         return np.where((np.abs(x)[:, None] > 6e-5) & (np.abs(y)[None, :] > 2e-5), 0.3, 1.0)
 
-    found = ends(deformed, 1e-4, film)
-    assert (found.pixels, found.deepest) == (((7, 30),), pytest.approx(-0.2))
+    result = ends(deformed, 1e-4, film)
+    assert (result.pixels, result.deepest) == (((7, 30),), pytest.approx(-0.2))
     deformed[7, 30], deformed[7, 0] = 0.0, 0.5
     assert ends(deformed, 1e-4, film).share == 0.0
 
@@ -84,10 +84,10 @@ def test_cut_off_that_carries_is_found():
         return np.abs(filtered(tile, shortest).heights).max() < 0.8
 
     limits = 2.0 * LENGTH / 256, LENGTH
-    found = suggested_wavelength(*limits, is_full)
-    assert is_full(found)
-    assert not is_full(0.9 * found)
-    assert short < found < 1.15 * short
+    result = suggested_wavelength(*limits, is_full)
+    assert is_full(result)
+    assert not is_full(0.9 * result)
+    assert short < result < 1.15 * short
     assert suggested_wavelength(*limits, lambda shortest: False) is None
 
 
@@ -98,9 +98,9 @@ def test_threshold_that_carries_is_found():
     def without(threshold):
         return Topography(np.where(away > threshold, 0.0, away), (1e-4, 1e-4))
 
-    found = suggested_outliers(away, without, lambda tile: tile.heights.max() < 100.0)
-    assert found is not None
-    threshold, points = found
+    result = suggested_outliers(away, without, lambda tile: tile.heights.max() < 100.0)
+    assert result is not None
+    threshold, points = result
     assert points == 2
     assert 40.0 < threshold < 300.0
     assert suggested_outliers(away, without, lambda tile: False) is None

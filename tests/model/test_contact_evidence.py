@@ -25,11 +25,11 @@ def test_this_build_makes_the_stored_shares(evidence):
     """On the coarsest grid, where the inlet is not resolved and everything touches."""
     row = evidence.read()[0]
     run = {"contact": row["contact"], "boundary_film": float(row["boundary_film"]), "points": 65}
-    found = evidence.simulated(run)
+    result = evidence.simulated(run)
     for name in ("contact_load_share", "contact_area_share", "mass_defect"):
-        assert found[name] == pytest.approx(float(row[name]), rel=1e-6), name
+        assert result[name] == pytest.approx(float(row[name]), rel=1e-6), name
     # friction over that of a smooth contact that touches because of the grid
-    assert found["mu"] is None
+    assert result["mu"] is None
 
 
 @pytest.fixture(scope="module")
@@ -47,13 +47,13 @@ def dry(script):
 )
 def test_rough_balls_at_vanishing_speed(dry, surface):
     """Area and pressure of the dry solver within 3 %; of tile 8, with streaks, the pressure."""
-    found = dry.simulated(surface, 129)
-    assert abs(dry.area_off(found)) < 0.03 or surface == "tile 8"
-    assert found["rms"] < 0.03
-    assert abs(found["P_max_off"]) < 0.03
+    result = dry.simulated(surface, 129)
+    assert abs(dry.area_off(result)) < 0.03 or surface == "tile 8"
+    assert result["rms"] < 0.03
+    assert abs(result["P_max_off"]) < 0.03
     (row,) = (r for r in dry.read() if (r["surface"], r["points"]) == (surface, 129))
     for name in dry.NAMES[1:]:
-        assert found[name] == pytest.approx(row[name], rel=1e-3), name
+        assert result[name] == pytest.approx(row[name], rel=1e-3), name
 
 
 def test_the_layer_is_thicker_than_the_film_of_the_inlet(text: str, dry):

@@ -16,22 +16,22 @@ def evidence(script) -> ModuleType:
 
 def test_this_build_makes_the_stored_errors(evidence):
     for (points, accuracy), stored in zip(evidence.runs(), evidence.read(), strict=True):
-        found = evidence.row(points, accuracy)
+        result = evidence.row(points, accuracy)
         for name in evidence.NAMES[:4]:
-            assert found[name] == stored[name], (points, accuracy, name)
+            assert result[name] == stored[name], (points, accuracy, name)
         # rounding is a part of what 16 points leave
         for name in ("accuracy", "error", "discretisation", "inside"):
-            assert found[name] == pytest.approx(stored[name], rel=1e-3, abs=1e-13), (points, name)
+            assert result[name] == pytest.approx(stored[name], rel=1e-3, abs=1e-13), (points, name)
 
 
 @pytest.mark.long
 def test_share_in_the_friction_of_a_short_wave(root: Path):
-    found = share_of_deflection()
-    share = f"{100.0 * found['share']:.1f} % of the grid error there"
+    result = share_of_deflection()
+    share = f"{100.0 * result['share']:.1f} % of the grid error there"
     for page, stated in (
         ("theory/deflection.md", "it is {:.2f} %, which is " + share),
         ("evidence/workprec/README.md", "an error of {:.2f} % in μ_r/μ_s"),
         ("evidence/workprec/README.md", share),
     ):
         text = plain(root / "docs" / page)
-        assert stated.format(100.0 * found["difference"]) in text
+        assert stated.format(100.0 * result["difference"]) in text

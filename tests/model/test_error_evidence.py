@@ -60,14 +60,14 @@ def test_cells_of_ellipses(root: Path, script):
     lines = re.findall(r"^\| ([\d.]+), (\d+) \| (.*) \|$", part, re.MULTILINE)
     assert len(lines) == 7
     for kappa, moes_m, cells in lines:
-        found = show.cells(rows, (float(kappa), float(moes_m)))
+        result = show.cells(rows, (float(kappa), float(moes_m)))
         reported = [cell.strip() for cell in cells.split("|")]
         for ratio, cell in zip((0.25, 0.5, 1.0), reported, strict=False):
-            near = [error for shape, (_, error) in found.items() if abs(shape - ratio) < 0.02]
+            near = [error for shape, (_, error) in result.items() if abs(shape - ratio) < 0.02]
             assert cell == (f"{100.0 * near[0]:.2f} %" if near else "")
         if reported[3]:
             ratio = float(re.findall(r"1 : ([\d.]+)", reported[3])[0])
-            (near,) = (error for shape, (_, error) in found.items() if abs(shape - ratio) < 0.04)
+            (near,) = (error for shape, (_, error) in result.items() if abs(shape - ratio) < 0.04)
             assert reported[3].startswith(f"{100.0 * near:.2f} %")
 
 
@@ -104,6 +104,6 @@ def test_this_build_makes_a_point_left_out(root: Path, evidence):
     leave_out = evidence("response", "leave_out")
     everything = leave_out.read()
     data = everything.chosen(leave_out.select(everything))
-    found = leave_out.left_out(data, leave_out.fit(data), 500.0, 5.0)
+    result = leave_out.left_out(data, leave_out.fit(data), 500.0, 5.0)
     text = (root / "docs/evidence/response/leave_out.csv").read_text(encoding="utf-8")
-    assert f"500,5,{','.join(found)}\n" in text
+    assert f"500,5,{','.join(result)}\n" in text

@@ -82,10 +82,10 @@ def test_waves_that_a_coarse_grid_leaves_out_are_in_its_error(evidence):
     for coarse in csv.DictReader(x for x in lines if not x.startswith("#")):
         (row,) = (row for row in compare.rows() if row["name"] == coarse["name"])
         row["points"] = float(coarse["points"])
-        found = resolution(cases.case(row), {"surface": cases.surface(row)})
+        result = resolution(cases.case(row), {"surface": cases.surface(row)})
         difference = abs(fine[row["name"]] - float(coarse["mu_ratio"]))
         missed += difference > float(coarse["grid_error"])
-        assert difference <= float(coarse["grid_error"]) + abs(found.left_out), row["name"]
+        assert difference <= float(coarse["grid_error"]) + abs(result.left_out), row["name"]
     assert missed == 6
 
 
@@ -106,12 +106,12 @@ def test_page_of_the_theory_prints_the_bands(root: Path):
     table = [[float(word) for word in line] for line in shown]
     for column, ratio in ((0, 1.0), (2, 1.01)):
         keys = {"surface.seed": 21, "surface.velocity_ratio": ratio}
-        found = pyehl.predict(root / "cases/table1.nml", keys)
-        increases = [band.increase for band in found.bands]
+        result = pyehl.predict(root / "cases/table1.nml", keys)
+        increases = [band.increase for band in result.bands]
         assert [line[column] for line in table] == pytest.approx(increases, abs=6e-4)
         totals = [1.0 + sum(increases[: k + 1]) for k in range(len(increases))]
         assert [line[column + 1] for line in table] == pytest.approx(totals, abs=6e-4)
-    short = [band.longest < 1.01 * found.operating.hertz_radius / 16.0 for band in found.bands]
+    short = [band.longest < 1.01 * result.operating.hertz_radius / 16.0 for band in result.bands]
     below = sum(increase for increase, is_short in zip(increases, short, strict=True) if is_short)
     assert f"add {below:.2f};" in text
     assert f"by −{below - sum(increases):.2f}" in text

@@ -194,13 +194,13 @@ def test_both_programs_take_the_law(drivers: dict[str, list[str]], tmp_path: Pat
     case.write_text(
         Case.from_text("", {**OIL, **CONTACT, "lubricant.range_pressure_max": 4e8}).text
     )
-    found = []
+    result = []
     for name, command in drivers.items():
         folder = tmp_path / name
         subprocess.run([*command, str(case), "-o", str(folder)], check=True, capture_output=True)
         summary = json.loads((folder / "summary.json").read_text())
-        found.append((summary["H_c"], summary["mu"]))
-    assert found[0] == found[1]
+        result.append((summary["H_c"], summary["mu"]))
+    assert result[0] == result[1]
     # the last is that of pyehl, which states what holds of the lubricant
     assert "doolittle viscosity at 60.0 degC" in summary["lubricant_note"]
     assert "BEYOND in pressure" in summary["lubricant_note"]

@@ -130,7 +130,7 @@ def max_increase(kappa: float, peclet: float) -> float:
     c, s = np.cos(angle), np.sin(angle)
     node, of_node = np.polynomial.legendre.leggauss(40)
     node, of_node = 0.5 * math.pi * node, 0.5 * math.pi * of_node
-    found = []
+    result = []
     for x in np.linspace(-0.1, 1.0, 45):
         square, slope = c**2 + (s / kappa) ** 2, x * c
         root = np.sqrt(np.maximum(0.0, slope**2 - square * (x**2 - 1.0)))
@@ -140,8 +140,8 @@ def max_increase(kappa: float, peclet: float) -> float:
         heat = 1.0 - (x + r * c[:, np.newaxis]) ** 2 - (r * s[:, np.newaxis] / kappa) ** 2
         rise = np.sqrt(np.maximum(0.0, heat)) * np.exp(-peclet * r * (1.0 + c[:, np.newaxis]))
         along = (half * rise * np.cos(node) * of_node).sum(axis=1)
-        found.append(1.5 / math.pi * float((along * weight).sum()))
-    return max(found)
+        result.append(1.5 / math.pi * float((along * weight).sum()))
+    return max(result)
 
 
 @pytest.mark.parametrize("peclet", [0.0, 2.0, 20.0])

@@ -61,7 +61,7 @@ def test_flattening_by_one_cell(zone: Zone, width: float):
     """
     x = np.arange(START, END + 0.5 * SPACING, SPACING)
     qx, qy = np.array([0.0, 20.0, 90.0]), np.array([3.0, 0.0, 40.0])
-    found = wave_flattening(replace(zone, ellipticity=width), qx, qy, 0.0 * qx, x)
+    result = wave_flattening(replace(zone, ellipticity=width), qx, qy, 0.0 * qx, x)
     strip = np.exp(-np.euler_gamma) / (width if np.isfinite(width) else 1.0)
     for m, i, j in ((0, 9, 9), (0, 9, 10), (1, 9, 9), (1, 9, 8), (1, 9, 30), (2, 9, 10), (2, 9, 9)):
         kappa, away = np.hypot(qy[m], strip), x[j] - x[i]
@@ -75,7 +75,7 @@ def test_flattening_by_one_cell(zone: Zone, width: float):
         ]
         expected = 4.0 / np.pi**2 / zone.stiffness * complex(*parts)
         # K_0 beside 0 is taken without its square
-        assert found[m, i, j] == pytest.approx(expected, rel=2e-2 if i == j else 1e-4)
+        assert result[m, i, j] == pytest.approx(expected, rel=2e-2 if i == j else 1e-4)
 
 
 def test_what_is_convected_is_exact_for_polynomials_on_a_wave():
@@ -85,9 +85,9 @@ def test_what_is_convected_is_exact_for_polynomials_on_a_wave():
     operator = convected_by(n, h, slip)
     for rows, degree in ((slice(2, -1), 3), (slice(-1, None), 2), (slice(1, 2), 1)):
         wave = np.exp(1j * np.outer(slip, x))
-        found = np.einsum("mij,mj->mi", operator, wave * x**degree)
+        result = np.einsum("mij,mj->mi", operator, wave * x**degree)
         expected = wave * degree * x ** (degree - 1)
-        np.testing.assert_allclose(found[:, rows], expected[:, rows], atol=1e-12)
+        np.testing.assert_allclose(result[:, rows], expected[:, rows], atol=1e-12)
 
 
 @pytest.mark.parametrize("ratio", [0.5, 1.0, 1.5])
@@ -116,8 +116,8 @@ def test_waves_between_those_that_are_solved(zone: Zone):
         zone, factors=FlowFactors(2.0 * one, 1.5 * one, 0.3 * one, 0.1 * one, 2.2 * one)
     )
     for contact, ratio in ((zone, 0.5), (zone, 1.5), (thinning, 1.5)):
-        found = passed(contact, qx, qy, ratio)
-        np.testing.assert_allclose(found, at_inlet(contact, qx, qy, ratio), atol=0.003)
+        result = passed(contact, qx, qy, ratio)
+        np.testing.assert_allclose(result, at_inlet(contact, qx, qy, ratio), atol=0.003)
 
 
 @pytest.mark.parametrize("edge", [0.8, 1.2])
@@ -162,5 +162,5 @@ def test_measured_waves_beyond_the_slip_of_the_fit(evidence, moes, count, larges
     centre = rows[slip.compared(rows) & (rows[:, 6] == 0.0)]
     assert 0.8 * largest < slip.off(centre).max() < largest
     run = rows[(rows[:, 2:4] == runs[0]).all(1)]
-    found = slip.predicted(run)
-    np.testing.assert_allclose(found, run[:, 9] + 1j * run[:, 10], atol=2e-3)
+    result = slip.predicted(run)
+    np.testing.assert_allclose(result, run[:, 9] + 1j * run[:, 10], atol=2e-3)

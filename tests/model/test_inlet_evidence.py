@@ -31,9 +31,9 @@ def test_this_build_makes_rows_of_the_table(evidence, number, points):
     )
     keys, _ = next(islice(evidence.contacts(), number, None))
     case = pyehl.Case.from_text("", keys | {"grid.points": points, "solver.max_cycles": 100})
-    found = summary_of(pyehl.solve(case))
+    result = summary_of(pyehl.solve(case))
     for name in ("h_c_m", "h_c_error_m", "h_min_m", "contact_load_share"):
         if row[name]:
-            assert found[name] == pytest.approx(float(row[name]), rel=1e-3), name
+            assert result[name] == pytest.approx(float(row[name]), rel=1e-3), name
         else:
-            assert name not in found
+            assert name not in result

@@ -18,8 +18,8 @@ from pyehl.machines.perform import Prepared
 
 def test_mean_friction_of_a_constant_coefficient():
     """With the same mu everywhere the mean is that mu, and the loss mu H_V P."""
-    found = gear(FZG, OIL)
-    table, s = found.table, found.summary
+    result = gear(FZG, OIL)
+    table, s = result.table, result.summary
     sliding = table["load_N"] * (table["slide_to_roll"] * table["mean_velocity_m_per_s"]).abs()
     power = np.trapezoid(0.05 * sliding, table["s_m"]) / s["base_pitch_m"]
     assert power / (s["loss_factor"] * s["input_power_W"]) == pytest.approx(0.05)
@@ -37,8 +37,8 @@ def test_friction_of_lines_and_ellipses():
     """Without heat: tau_0 asinh(eta u/(h tau_0)) over the mean pressure, integrated elsewhere."""
     options = {**FZG, **OIL, "lubricant.thermal_friction": "never"}
     for crowning, weight in ((0.0, 0.0), (3e-4, 1.0)):
-        found = gear(options, {"spur_gear.crowning_1": crowning})
-        row = found.table.iloc[5]
+        result = gear(options, {"spur_gear.crowning_1": crowning})
+        row = result.table.iloc[5]
         oil = pyehl.Lubricant.from_name("fva3", 60.0)
         r = (np.arange(20000) + 0.5) / 20000
         pressure = row["hertz_pressure_Pa"] * np.sqrt(1.0 - r**2)
@@ -141,18 +141,18 @@ def test_rolling_resistance_beside_solved_contacts(root: Path):
 
 def test_trial_of_a_gear_pair():
     """302 N m, FVA 3 at 60 degC; ellipses of a made-up crown had 229 to 356 nm, 0.036 to 0.043."""
-    found = gear(FZG, OIL, {"spur_gear.torque": 302.0})
-    films = found.table["h_c_m"] * 1e9
+    result = gear(FZG, OIL, {"spur_gear.torque": 302.0})
+    films = result.table["h_c_m"] * 1e9
     assert films.min() > 229.0
     assert films.max() < 1.15 * 356.0
-    assert 0.033 < found.summary["mu_mean"] < 0.043
+    assert 0.033 < result.summary["mu_mean"] < 0.043
 
 
 def test_sliding_in_a_groove():
     """Limits: an Eyring stress far below the Newtonian one; a spin alone turns with its torque."""
     options = {"lubricant.shear_law": "limiting", "lubricant.limiting_stress": 1e5}
-    found = bearing(BALLS, options)
-    row = found.table.iloc[0]
+    result = bearing(BALLS, options)
+    row = result.table.iloc[0]
     # a constant stress k: P = k integral of |du|, du = c (y0^2 - y^2) with the y0 that balances
     inner = row["half_width_m"], row["half_width_m"] * row["ellipticity"]
     groove, ball = 0.52 * 9.525e-3, 0.5 * 9.525e-3
@@ -168,8 +168,8 @@ def test_sliding_in_a_groove():
     assert math.isnan(newtonian.summary["torque_N_m"])
     assert newtonian.summary["rolling_torque_N_m"] > 0.0
     pair = gear(FZG)
-    for found in (newtonian, pair):
-        lines = repr(found).splitlines()
+    for result in (newtonian, pair):
+        lines = repr(result).splitlines()
         assert sum("not reported: give a lubricant.shear_law" in line for line in lines) == 3
         assert not any("no result" in line or "nan" in line for line in lines)
 
@@ -376,12 +376,12 @@ def test_prediction_needs_a_rough_surface():
 def test_interrupted_before_any_contact(root: Path, name: str):
     """No film, no friction that needs it, and nothing in their place."""
     path = root / "cases" / f"{name}.nml"
-    found = Prepared(path, [], (FILES[name][1],), "solve").result({})
-    assert not found.complete
-    assert set(found.table["status"]) == {"not run"}
-    assert found.table[["h_c_m", "h_min_m"]].isna().all(axis=None)
-    assert math.isnan(found.summary["h_min_m"])
-    assert "minimum film                  not reported: a contact has no result" in repr(found)
+    result = Prepared(path, [], (FILES[name][1],), "solve").result({})
+    assert not result.complete
+    assert set(result.table["status"]) == {"not run"}
+    assert result.table[["h_c_m", "h_min_m"]].isna().all(axis=None)
+    assert math.isnan(result.summary["h_min_m"])
+    assert "minimum film                  not reported: a contact has no result" in repr(result)
 
 
 def test_crown_of_a_nanometre_is_a_line():
@@ -401,9 +401,9 @@ def test_formulas_that_contradict_each_other():
 
 def test_pressure_above_the_static_limit_is_noted():
     for load, yields in ((3000.0, False), (30000.0, True)):
-        found = bearing(BALLS, {"ball_bearing.radial_load": load})
-        assert (found.summary["hertz_pressure_max_Pa"] > 4.2e9) == yields
-        assert ("steel      yields" in repr(found)) == yields
+        result = bearing(BALLS, {"ball_bearing.radial_load": load})
+        assert (result.summary["hertz_pressure_max_Pa"] > 4.2e9) == yields
+        assert ("steel      yields" in repr(result)) == yields
 
 
 @pytest.mark.parametrize(

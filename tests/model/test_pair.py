@@ -113,19 +113,19 @@ def test_without_sliding_they_are_one_surface(contact):
     # two tiles of one are as long as one of the other
     short = Topography(other.heights, (0.5 * other.length_x, other.length_y))
     doubled = Topography(np.tile(short.heights, (2, 1)), other.size)
-    found, _, _ = run(pair(contact, (one, short), (1.0, 1.0)), 0)
+    result, _, _ = run(pair(contact, (one, short), (1.0, 1.0)), 0)
     expected, _, _ = run(pair(contact, (one, doubled), (1.0, 1.0)), 0)
-    assert found.mu_ratio == pytest.approx(expected.mu_ratio, rel=1e-6)
+    assert result.mu_ratio == pytest.approx(expected.mu_ratio, rel=1e-6)
 
 
 def test_small_waves_are_deformed_as_if_alone(contact):
     """The leak at an amplitude is of second order."""
     tiles, ratios = (rough(3, 1e-11), rough(4, 1e-11)), (1.1, 0.9)
-    for found, tile, ratio in zip(
+    for result, tile, ratio in zip(
         pair(contact, tiles, ratios).responses(), tiles, ratios, strict=True
     ):
         (expected,) = alone(contact, tile, ratio).deformed()
-        assert found.deformed == pytest.approx(expected, abs=1e-6 * np.abs(expected).max())
+        assert result.deformed == pytest.approx(expected, abs=1e-6 * np.abs(expected).max())
 
 
 @pytest.mark.long
@@ -199,12 +199,12 @@ def test_positions():
 
 @pytest.mark.long
 def test_what_is_left_undecided(contact):
-    found, _, _ = run(pair(contact, (rough(3), rough(4, length=3.7e-4)), (1.05, 0.95)), 0)
+    result, _, _ = run(pair(contact, (rough(3), rough(4, length=3.7e-4)), (1.05, 0.95)), 0)
     more = pair(contact, (rough(3), rough(4, length=3.7e-4)), (1.05, 0.95))
     finer, _, _ = run(replace(more, options=ModelOptions(positions=1600)), 0)
     assert finer.passage.size == 1680
-    error = abs(found.mu_ratio / finer.mu_ratio - 1.0)
-    assert error < found.position_error + finer.position_error < 0.01
+    error = abs(result.mu_ratio / finer.mu_ratio - 1.0)
+    assert error < result.position_error + finer.position_error < 0.01
 
 
 @pytest.mark.parametrize("ahead", [0.1125, 0.3375])
@@ -238,9 +238,9 @@ def test_film_between_two_tiles(contact):
     heights[0] += 1e-10 * rng.random((64, 64))
     flat = Topography(np.ones((64, 64)), (RADIUS, RADIUS))
     all_positions = pair(contact, (flat, flat), (1.01, 0.99))
-    found = of_model(all_positions, heights, film)
-    assert found.deepest == pytest.approx(-3e-8, abs=2e-10)
-    assert found.pixels == ((10, 3), (40, 3))
+    result = of_model(all_positions, heights, film)
+    assert result.deepest == pytest.approx(-3e-8, abs=2e-10)
+    assert result.pixels == ((10, 3), (40, 3))
     # tiles as long as their velocities are fast: a pixel of one is met by few of the other
     longer = Topography(flat.heights, (1.01 * RADIUS, RADIUS))
     shorter = Topography(flat.heights, (0.99 * RADIUS, RADIUS))
@@ -249,7 +249,7 @@ def test_film_between_two_tiles(contact):
     for ahead in np.arange(64) / 64:
         moved = pair(contact, (longer, shorter), (1.01, 0.99), (-2.5, -2.5 + ahead * 0.99))
         deepest.append(of_model(moved, heights, film).deepest)
-    assert min(deepest) == pytest.approx(found.deepest, abs=1e-15)
+    assert min(deepest) == pytest.approx(result.deepest, abs=1e-15)
     # the others pass each other out of reach
     assert sum(d > 5e-9 for d in deepest) > 50
 
@@ -265,17 +265,17 @@ def breaking(load: float = 120.0) -> str:
 @pytest.mark.long
 def test_what_would_carry():
     """The one that breaks the film must go, the other one alone does not help."""
-    found = pyehl.predict(pyehl.Case.from_text(breaking()))
-    assert found.summary["status"] == "film breakdown"
-    assert np.isnan(found.mu_ratio)
-    about = found.summary["film_breakdown"]
+    result = pyehl.predict(pyehl.Case.from_text(breaking()))
+    assert result.summary["status"] == "film breakdown"
+    assert np.isnan(result.mu_ratio)
+    about = result.summary["film_breakdown"]
     assert about["film_m"] < 0.0
     assert 0.0 < about["share_of_contact"] < 1.0
     assert about["suggested_shortest_wavelength_m"] is None
     cut = about["suggested_second_shortest_wavelength_m"]
     both = about["suggested_both_shortest_wavelength_m"]
     assert 0.0 < both <= cut
-    reported = "\n".join(found.advice.report())
+    reported = "\n".join(result.advice.report())
     assert "of surface meets x = " in reported
     assert f"second_surface.shortest_wavelength = {cut:.4g}" in reported
     mended = pyehl.predict(
@@ -289,8 +289,8 @@ def test_what_would_carry():
 def test_beyond_the_linear_response_names_cut_offs(contact):
     tiles = rough(3, 2e-8), rough(4, 9.5e-8)
     both = pair(contact, tiles, (1.1, 0.9))
-    found, over, bands = run(both)
-    assert found.status == "beyond linear response", found
+    result, over, bands = run(both)
+    assert result.status == "beyond linear response", result
     assert np.isnan(over[0])
     assert not bands
     ways = ways_into_range(both)
@@ -304,8 +304,8 @@ def test_advice_names_the_surfaces_that_it_cuts(contact):
     assert both.merged.surfaces[0].groups == ("surface", "second_surface")
     second = replace(both.surfaces[1], topography=rough(4, 1.2e-7), velocity_ratio=1.1)
     alone = replace(both, surfaces=(second,))
-    found, _, _ = run(alone, 0)
-    assert found.status == "beyond linear response", found
+    result, _, _ = run(alone, 0)
+    assert result.status == "beyond linear response", result
     ways = ways_into_range(alone)
     assert ways.startswith("; second_surface.shortest_wavelength = ")
     assert "; surface." not in ways
@@ -332,12 +332,12 @@ def test_no_tile_of_too_many_pixels(monkeypatch):
 
 def test_bands_hold_the_waves_of_both(contact):
     tiles = wave(1.1, 2e-3), wave(0.225, 1e-3)
-    found, _, bands = run(pair(contact, tiles, (1.1, 0.9)), 0)
+    result, _, bands = run(pair(contact, tiles, (1.1, 0.9)), 0)
     assert len(bands) == 2
     assert bands[0].longest == pytest.approx(1.1 * RADIUS)
     heights = [a * POINT.film_scale / np.sqrt(2.0) for a in (2e-3, 1e-3)]
     assert [band.rms_height for band in bands] == pytest.approx(heights, rel=1e-9)
-    assert sum(band.increase for band in bands) == pytest.approx(found.mu_ratio - 1.0, abs=1e-12)
+    assert sum(band.increase for band in bands) == pytest.approx(result.mu_ratio - 1.0, abs=1e-12)
 
 
 def test_composite_statistics():

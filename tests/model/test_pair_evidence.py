@@ -27,7 +27,7 @@ def test_pair_is_still_predicted(pairs, name):
     """By the version of today as before the simulation; so little may change by the lattice."""
     cases, compare = pairs
     (row,) = (row for row in cases.rows() if row["name"] == name)
-    found = pyehl.predict(cases.case(row), **cases.surfaces(row), tracks=1)
+    result = pyehl.predict(cases.case(row), **cases.surfaces(row), tracks=1)
     table = compare.read("table.csv")[name]
-    assert found.mu_ratio == pytest.approx(float(table["prediction_now"]), rel=1e-3)
-    assert abs(found.mu_ratio - float(table["mu_ratio"])) <= found.model_error
+    assert result.mu_ratio == pytest.approx(float(table["prediction_now"]), rel=1e-3)
+    assert abs(result.mu_ratio - float(table["mu_ratio"])) <= result.model_error

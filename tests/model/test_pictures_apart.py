@@ -20,14 +20,14 @@ from pyehl.surfaces import Topography
 @pytest.fixture
 def seen(monkeypatch):
     """Take the pictures that scripts save; none is written."""
-    found = {}
+    result = {}
 
     def take(figure, path, *_, **__):
-        found[path.stem] = figure
+        result[path.stem] = figure
         return path
 
     monkeypatch.setattr(style, "save", take)
-    return found
+    return result
 
 
 def rows_of(path):
@@ -77,7 +77,7 @@ def test_prediction_of_two_surfaces(kappa, length):
     about["second_surface"] = "fractal"
     passage = {"shift_m": shift, "second_shift_m": 0.8 * shift, "mu_ratio": 1.0 + shift}
     bands = {"longest_m": [length, length / 2], "shortest_m": [length / 2, length / 4]}
-    bands = {name: np.array(found) for name, found in bands.items()} | {
+    bands = {name: np.array(result) for name, result in bands.items()} | {
         "increase": np.array([2e-4, 0.3])
     }
     made = figures.prediction_figures(about, arrays, {"passage": passage, "bands": bands})
@@ -163,9 +163,9 @@ def test_pictures_of_the_evidence(seen, evidence, root, folder, name, table):
     home = root / "docs" / "evidence" / folder
     path = home / "picture.png"
     if folder == "films":
-        data, found = (module.read_profiles(home / f"{n}.csv") for n in ("mourier", "profiles"))
+        data, result = (module.read_profiles(home / f"{n}.csv") for n in ("mourier", "profiles"))
         for source in ("measured", "simulated"):
-            module.draw(source, data, found)
+            module.draw(source, data, result)
     elif folder == "validation":
         module.draw(module.table_of(home / table))
     elif folder == "stribeck":

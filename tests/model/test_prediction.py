@@ -59,9 +59,9 @@ def test_every_function_of_the_table_of_equations_exists(root):
     for kind, name in re.findall(r":(\w+):`([\w.]+)`", model.__doc__):
         parts = (name if name.startswith("pyehl.") else f"pyehl.prediction.{name}").split(".")
         module, rest = (parts, []) if kind == "mod" else (parts[:3], parts[3:])
-        found = importlib.import_module(".".join(module))
+        result = importlib.import_module(".".join(module))
         for part in rest:
-            found = getattr(found, part)
+            result = getattr(result, part)
     table = page[page.index("## From equation to module") :]
     rows = re.findall(r"^\|.*\|(.*)\|$", table, re.M)
     for path in re.findall(r"`(pyehl/[\w/]+\.py)`", table):
@@ -227,13 +227,13 @@ def test_turned_ellipse_is_no_smooth_contact_of_another(tmp_path):
 
 def test_what_a_grid_does_not_resolve():
     """More friction hangs on unresolved waves on a coarser grid; the parts agree with bands."""
-    found = {}
+    result = {}
     for points in (129, 513):
         case = pyehl.Case(CASES / "table1.nml", f"grid.points={points}")
-        found[points] = resolution(case)
-    assert found[129].mu_ratio == found[513].mu_ratio
-    assert found[129].matters
-    assert found[129].resolved < found[513].resolved < found[513].mu_ratio
+        result[points] = resolution(case)
+    assert result[129].mu_ratio == result[513].mu_ratio
+    assert result[129].matters
+    assert result[129].resolved < result[513].resolved < result[513].mu_ratio
     assert resolution(pyehl.Case(CASES / "quick.nml")) is None
 
 
@@ -399,10 +399,10 @@ def test_what_cannot_pull_carries_nothing(contact, table_1, monkeypatch):
     """Negative pressures carry nothing, and what is around them in their ring carries less."""
     one = passage(contact, table_1(seed=21), 1.01)
     points = one.rough_contact(one.components())
-    found = []
+    result = []
 
     def stress(pressure, film):
-        found.append(pressure.copy())
+        result.append(pressure.copy())
         return np.ones_like(film)
 
     monkeypatch.setattr(points, "stress", stress)
@@ -411,7 +411,7 @@ def test_what_cannot_pull_carries_nothing(contact, table_1, monkeypatch):
     change[..., 1][pulls] = -2.0
     points.sheared(change, points.smooth_film())
     whole = (points.pressure + change[..., 1])[points.inside]
-    (left,) = found
+    (left,) = result
     assert left.min() == 0.0
     for ring in range(3):
         here = points.rings == ring
@@ -445,11 +445,11 @@ def test_free_waves_beside_the_centre_line(contact, table_1):
     (tile,) = points.tiles
     waves = tile.waves
     columns = (tile.columns // waves.stride % waves.driven.shape[2]).astype(np.int32)
-    found = waves.beside(columns, *moving_tile.two_lines(points.across))
-    tiles = np.fft.irfft(waves.off_centre, n=found.shape[0])
+    result = waves.beside(columns, *moving_tile.two_lines(points.across))
+    tiles = np.fft.irfft(waves.off_centre, n=result.shape[0])
     weights = moving_tile.line_weights(points.across)
     expected = np.einsum("jl,lpjr->rjp", weights, tiles[:, :, columns])
-    assert found == pytest.approx(expected, abs=1e-6 * np.abs(expected).max())
+    assert result == pytest.approx(expected, abs=1e-6 * np.abs(expected).max())
 
 
 def test_free_waves_swell_where_the_pressure_is_lower(contact, table_1):
@@ -474,7 +474,7 @@ def test_small_waves_leak_as_such():
     for rms in (1e-5, 2e-5):
         spectrum = Spectrum.of(rms * heights, 1.0, 1.0)
         small = one_transfer(spectrum, zone, (200.0, 10.0), 1.05)
-        found = one_transfer(spectrum, zone, (200.0, 10.0), 1.05, at_amplitude=True)
-        changes.append(np.abs(found.free[1] - small.free[1]).max())
+        result = one_transfer(spectrum, zone, (200.0, 10.0), 1.05, at_amplitude=True)
+        changes.append(np.abs(result.free[1] - small.free[1]).max())
     assert 0.0 < changes[0] < 1e-3
     assert changes[1] == pytest.approx(4.0 * changes[0], rel=0.01)

@@ -61,16 +61,16 @@ def test_pressure_of_waves_on_an_ellipse_against_elements(ratio):
     deflection *= 2.0 / math.pi**2 * shape.kernel_ratio
     qx, qy = np.array([1.5, 0.0, 2.0, 4.0]), np.array([0.0, 2.0, 1.5, 3.0])
     waves = np.exp(1j * (np.outer(x, qx) + np.outer(y, qy)))
-    found = np.linalg.solve(deflection, np.column_stack([waves, np.ones(x.size)]))
+    result = np.linalg.solve(deflection, np.column_stack([waves, np.ones(x.size)]))
     # no load
-    sums = found.sum(axis=0)
-    found = found[:, :-1] - found[:, -1:] * (sums[:-1] / sums[-1])
+    sums = result.sum(axis=0)
+    result = result[:, :-1] - result[:, -1:] * (sums[:-1] / sums[-1])
     middle = np.hypot(x, y / kappa) < 0.7
     k = 0.25 * math.pi / shape.kernel_ratio * np.hypot(qx, qy)
     here = Series(shape, x, y / kappa, 14.0 * max(1.0, kappa)).of(qx, qy)
-    assert (np.abs(here - found)[middle] / k).max() < 0.015
+    assert (np.abs(here - result)[middle] / k).max() < 0.015
     # beside that of the half-space, which is far away
-    assert (np.abs(k * waves - found)[middle] / k).max() > 0.5
+    assert (np.abs(k * waves - result)[middle] / k).max() > 0.5
 
 
 def test_circle_is_the_disc():
@@ -107,11 +107,11 @@ def test_circle_is_the_limit_of_ellipses():
     Its film is that of a formula, and the pressure of oblique waves is calculated, not fitted.
     """
     contact = {"contact.moes_m": 300.0, "contact.moes_l": 10.0}
-    found = [
+    result = [
         pyehl.predict(pyehl.Case.from_text("", contact | ROUGH | {"contact.radius_ratio": ratio}))
         for ratio in (1.0, 1.0 + 1e-6)
     ]
-    here, near = found
+    here, near = result
     assert near.mu_ratio == pytest.approx(here.mu_ratio, rel=1e-3)
     assert near.summary["mu_ratio_tracks"] == pytest.approx(
         here.summary["mu_ratio_tracks"], rel=1e-3
@@ -177,10 +177,10 @@ def test_shipped_waves_are_those_of_the_table(root: Path, script):
     zone = zone_of(smooth, point, oil)
     moes = circle_with_same_inlet(point, oil, smooth.central_film)
     kx, ky = (np.array([row[name] for row in part]) for name in ("kx", "ky"))
-    found = shipped_response(kx, ky, zone, moes, 1.02)[:, 1]
+    result = shipped_response(kx, ky, zone, moes, 1.02)[:, 1]
     there = np.array([complex(row["circle_re"], row["circle_im"]) for row in part])
     # the table has the film of its own grid
-    assert np.abs(found - there).max() < 0.02
+    assert np.abs(result - there).max() < 0.02
 
 
 def test_off_the_centre_line(root: Path):
@@ -226,8 +226,8 @@ def test_share_below_a_film():
     ellipse_of = {"contact.moes_m": 300.0, "contact.moes_l": 10.0, "contact.radius_ratio": WIDE}
     case = pyehl.Case.from_text("", ellipse_of | ROUGH)
     limit = pyehl.predict(case).summary["h_min_m"]
-    found = pyehl.predict(case.with_options(f"psd.film_limit={limit!r}")).summary
-    assert 0.0 < found["film_below_limit_share"] < 0.5
+    result = pyehl.predict(case.with_options(f"psd.film_limit={limit!r}")).summary
+    assert 0.0 < result["film_below_limit_share"] < 0.5
 
 
 def test_outside_of_the_range_by_the_same_inlet():
@@ -259,12 +259,12 @@ def test_table_is_what_is_predicted(compare, name):
     (row,) = (row for row in compare.read("cases.csv") if row["name"] == name)
     (line,) = (line for line in compare.read("table.csv") if line["name"] == name)
     (run,) = (run for run in compare.read("simulated.csv") if run["name"] == name)
-    found = compare.prediction(row)
-    assert found == pytest.approx(line["prediction"], rel=1e-3)
+    result = compare.prediction(row)
+    assert result == pytest.approx(line["prediction"], rel=1e-3)
     assert line["mu_ratio"] == run["mu_ratio"]
-    error = model_error(found, ellipticity=row["ellipticity"])
+    error = model_error(result, ellipticity=row["ellipticity"])
     assert error == pytest.approx(line["model_error"], abs=2e-4)
-    assert abs(found - run["mu_ratio"]) <= error
+    assert abs(result - run["mu_ratio"]) <= error
 
 
 def test_readme_says_what_the_table_says(compare):
@@ -368,9 +368,9 @@ def test_wide_contacts_were_predicted_before(root: Path, script, monkeypatch):
     assert len(rows) >= 6
     assert all(row["covered"] for row in rows)
     (row,) = (row for row in rows if row["name"] == "w01")
-    found = pyehl.predict(wide.case_of(row), tracks=1).summary
-    assert found["mu_ratio"] == pytest.approx(row["prediction"], rel=1e-3)
-    assert found["mu_ratio_model_error"] == pytest.approx(row["model_error"], rel=1e-2)
-    assert found["outside_range"] == []
+    result = pyehl.predict(wide.case_of(row), tracks=1).summary
+    assert result["mu_ratio"] == pytest.approx(row["prediction"], rel=1e-3)
+    assert result["mu_ratio_model_error"] == pytest.approx(row["model_error"], rel=1e-2)
+    assert result["outside_range"] == []
     # film and pressure over the roughness were not compared
-    assert found["h_min_rough_error_m"] is None
+    assert result["h_min_rough_error_m"] is None

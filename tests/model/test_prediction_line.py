@@ -55,8 +55,8 @@ def test_correction_of_a_strip():
     series = chebyshev.chebvander(x, ORDERS) @ weights[:, 0] / np.sqrt(1.0 - x**2)
     wanted = series - math.hypot(4.0, 2.0) * np.exp(4j * x)
     parts = edge.correction(kx, ky)[:, 0].reshape(-1, DEGREE + 1)
-    found = edge.polynomials(x) @ (parts.T @ edge.waves(y))
-    assert found == pytest.approx(
+    result = edge.polynomials(x) @ (parts.T @ edge.waves(y))
+    assert result == pytest.approx(
         np.outer(wanted, np.exp(-2j * y)), abs=0.02 * np.abs(wanted).max()
     )
     # held near the edge
@@ -102,8 +102,8 @@ def test_a_strip_and_two_beside_each_other_are_one():
     doubled = Topography(np.tile(heights, (1, 2)), (b, 2.0 * b))
     moved = Topography(np.roll(heights, 7, axis=1), (b, b))
     for other in (doubled, moved):
-        found = pyehl.predict(case, surface=other)
-        assert found.mu_ratio - 1.0 == pytest.approx(single.mu_ratio - 1.0, rel=0.01)
+        result = pyehl.predict(case, surface=other)
+        assert result.mu_ratio - 1.0 == pytest.approx(single.mu_ratio - 1.0, rel=0.01)
     assert single.summary["mu_ratio_tracks"] is None
     assert single.summary["shape"] == "line"
     assert single.model_error > 0.0
@@ -127,10 +127,10 @@ def _rows(root: Path, name: str) -> dict[str, dict[str, str]]:
 
 def test_predicted_before_simulated(root: Path):
     """Deviations of committed predictions: 2 % to a ratio of 1.5, 6 % to 2.5; 0.5 % with a law."""
-    stated, found = _rows(root, "committed.csv"), _rows(root, "simulated.csv")
-    assert set(stated) == set(found)
+    stated, result = _rows(root, "committed.csv"), _rows(root, "simulated.csv")
+    assert set(stated) == set(result)
     held = []
-    for name, row in found.items():
+    for name, row in result.items():
         p, s = float(stated[name]["mu_ratio"]), float(row["mu_ratio"])
         held.append(abs(p - s) <= float(stated[name]["mu_ratio_model_error"]))
         limit = 0.005 if name[0] == "e" else 0.02 if s < 1.5 else 0.06
@@ -142,10 +142,10 @@ def test_predicted_before_simulated(root: Path):
 
 def test_stress_under_a_line(root: Path):
     """0.300 p_h at 0.786 b (Johnson 1985, section 4.2); a strip of equal rows has the same."""
-    found = pyehl.solve(root / "cases" / "line.nml", {"grid.points": 513})
-    x = found.X.values[:, np.newaxis]
+    result = pyehl.solve(root / "cases" / "line.nml", {"grid.points": 513})
+    x = result.X.values[:, np.newaxis]
     dry = np.sqrt(np.maximum(0.0, 1.0 - x**2))
-    below = pyehl.stress(found.assign(P=(("X", "Y"), dry)), friction="none")
+    below = pyehl.stress(result.assign(P=(("X", "Y"), dry)), friction="none")
     assert float(below.principal_shear_max) == pytest.approx(0.300, abs=1e-3)
     assert float(below.principal_shear_max_depth) == pytest.approx(0.786, abs=0.01)
     # plane strain
@@ -162,7 +162,7 @@ def test_stress_of_a_predicted_strip():
 
 
 def test_curve_over_the_speed_of_a_line():
-    found = pyehl.stribeck(
+    result = pyehl.stribeck(
         pyehl.Case(
             contact={"shape": "line", "load_per_length": 1.8e5, "radius": 0.01},
             lubricant={"shear_law": "eyring"},
@@ -172,7 +172,7 @@ def test_curve_over_the_speed_of_a_line():
         {"contact.mean_velocity": [0.3, 0.45]},
         jobs=1,
     )
-    assert list(found.status.values) == ["full film"] * 2
-    assert np.all(np.diff(found.h_c_m.values) > 0.0)
-    assert np.all((found.mu.values > 0.01) & (found.mu.values < 0.1))
-    assert found.hersey.values[0] == pytest.approx(0.04 * 0.3 / 1.8e5)
+    assert list(result.status.values) == ["full film"] * 2
+    assert np.all(np.diff(result.h_c_m.values) > 0.0)
+    assert np.all((result.mu.values > 0.01) & (result.mu.values < 0.1))
+    assert result.hersey.values[0] == pytest.approx(0.04 * 0.3 / 1.8e5)

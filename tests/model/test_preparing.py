@@ -314,9 +314,9 @@ def test_areal_numbers_are_those_of_the_library():
     library = pytest.importorskip("SurfaceTopography")
     z = rough()
     scan = library.Topography(z, (64e-6, 48e-6), unit="m", periodic=False)
-    found = areal_numbers(z, PIXEL)
-    assert found["Sq"] == pytest.approx(scan.Sq(), rel=1e-9)
-    assert found["Sdq"] == pytest.approx(scan.rms_gradient(), rel=1e-9)
+    result = areal_numbers(z, PIXEL)
+    assert result["Sq"] == pytest.approx(scan.Sq(), rel=1e-9)
+    assert result["Sdq"] == pytest.approx(scan.rms_gradient(), rel=1e-9)
 
 
 def test_texture_aspect_ratio_of_a_gaussian_surface():

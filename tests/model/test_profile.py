@@ -66,9 +66,9 @@ FILES = {
 def test_profiles_are_read_with_their_units(tmp_path, z, name, encoding):
     path = tmp_path / name
     path.write_text(FILES[name](z), encoding=encoding, newline="\r\n")
-    found = read_profile(path)
-    assert found.spacing == pytest.approx(DX, rel=1e-3)
-    assert found.heights == pytest.approx(z, abs=2e-10)
+    result = read_profile(path)
+    assert result.spacing == pytest.approx(DX, rel=1e-3)
+    assert result.heights == pytest.approx(z, abs=2e-10)
     assert is_profile(path)
 
 
@@ -81,9 +81,9 @@ def test_one_column_asks_for_its_length_and_unit(tmp_path, z):
         read_profile(path)
     with pytest.raises(InputError, match=r"one column\nexpected: surface\.length_x"):
         read_profile(path, height_unit="um")
-    found = read_profile(path, N * DX, "um")
-    assert found.heights == pytest.approx(z, abs=1e-10)
-    assert found.spacing == pytest.approx(DX)
+    result = read_profile(path, N * DX, "um")
+    assert result.heights == pytest.approx(z, abs=1e-10)
+    assert result.spacing == pytest.approx(DX)
     np.save(tmp_path / "one.npy", z)
     assert np.array_equal(read_profile(tmp_path / "one.npy", N * DX, "m").heights, z)
 
@@ -129,13 +129,13 @@ def test_bands_hold_the_truth(hurst, rolloff):
     """Of 20 profiles the bands of 95 % hold nearly all."""
     held = {"hurst": 0, "rolloff": 0, "rms": 0}
     for seed in range(20):
-        found = fit(made(hurst, rolloff, seed), ridges=True)
-        held["hurst"] += found.hurst_band[0] <= hurst <= found.hurst_band[1]
+        result = fit(made(hurst, rolloff, seed), ridges=True)
+        held["hurst"] += result.hurst_band[0] <= hurst <= result.hurst_band[1]
         # one that is not distinguished from none is none
-        reported = found.rolloff_band[0] <= rolloff <= found.rolloff_band[1]
-        held["rolloff"] += reported or found.rolloff == 0.0
-        held["rms"] += found.rms_band[0] <= 3e-7 <= found.rms_band[1]
-        assert found.hurst_band[1] - found.hurst_band[0] < 0.5
+        reported = result.rolloff_band[0] <= rolloff <= result.rolloff_band[1]
+        held["rolloff"] += reported or result.rolloff == 0.0
+        held["rms"] += result.rms_band[0] <= 3e-7 <= result.rms_band[1]
+        assert result.hurst_band[1] - result.hurst_band[0] < 0.5
     assert held["hurst"] >= 17
     assert held["rolloff"] >= 17
     if rolloff:
@@ -145,16 +145,16 @@ def test_bands_hold_the_truth(hurst, rolloff):
 @pytest.mark.long
 def test_an_isotropic_surface_is_told_by_a_profile():
     """The profile of an isotropic surface falls with an exponent lower by one than the surface."""
-    found = []
+    result = []
     for seed in range(6):
         tile = fractal(
             (2048, 512), 1.024e-3, 2.56e-4, rms_height=3e-7, hurst=0.7, seed=seed,
             rolloff_wavenumber=1e5, modulus="gaussian",
         )  # fmt: skip
-        found.append(fit(Profile(tile.heights[::2, 5], 1e-6, "made")))
-    assert np.mean([f.hurst for f in found]) == pytest.approx(0.7, abs=0.07)
-    assert np.median([f.rolloff for f in found]) == pytest.approx(1e5, rel=0.15)
-    assert np.mean([f.rms for f in found]) == pytest.approx(3e-7, rel=0.1)
+        result.append(fit(Profile(tile.heights[::2, 5], 1e-6, "made")))
+    assert np.mean([f.hurst for f in result]) == pytest.approx(0.7, abs=0.07)
+    assert np.median([f.rolloff for f in result]) == pytest.approx(1e5, rel=0.15)
+    assert np.mean([f.rms for f in result]) == pytest.approx(3e-7, rel=0.1)
 
 
 @pytest.mark.long
@@ -181,12 +181,12 @@ def test_a_profile_as_an_isotropic_surface(tmp_path, z):
         f"&surface kind = 'map' file = '{path}' profile = 'isotropic' pixels = 128 /"
     )
     result = pyehl.predict(case, UNSOLVED, tracks=1)
-    found = fit(read_profile(path))
+    results = fit(read_profile(path))
     tile = result.surface
     assert tile.shape == (128, 128)
     assert tile.size == pytest.approx((N * DX, N * DX))
-    assert 0.8 * found.rms < tile.rms_height <= found.rms
-    assert f"Hurst exponent {found.hurst:.2f}" in tile.preparation.record.note
+    assert 0.8 * results.rms < tile.rms_height <= results.rms
+    assert f"Hurst exponent {results.hurst:.2f}" in tile.preparation.record.note
     # along and across alike, and another seed is another surface
     slopes = [np.std(np.diff(tile.heights, axis=axis)) for axis in (0, 1)]
     assert slopes[0] == pytest.approx(slopes[1], rel=0.1)
@@ -225,10 +225,10 @@ def test_a_profile_in_place_of_a_map_says_how(tmp_path, z, capsys):
         pyehl.predict(case)
     assert cli.main(["surface", str(path)]) == 0
     out = capsys.readouterr().out
-    found = fit(read_profile(path))
-    assert f"Hurst      {found.hurst:.2f} ({found.hurst_band[0]:.2f} to" in out
+    result = fit(read_profile(path))
+    assert f"Hurst      {result.hurst:.2f} ({result.hurst_band[0]:.2f} to" in out
     keys = next(line for line in out.splitlines() if "&surface kind" in line)
     there = pyehl.Case.from_text(keys.strip()).resolve()["surface"]
-    assert there["rms_height"] == pytest.approx(found.rms, rel=5e-3)
-    assert there["rolloff_wavenumber"] == pytest.approx(found.rolloff, rel=5e-3)
-    assert math.isclose(there["hurst"], found.hurst, abs_tol=5e-3)
+    assert there["rms_height"] == pytest.approx(result.rms, rel=5e-3)
+    assert there["rolloff_wavenumber"] == pytest.approx(result.rolloff, rel=5e-3)
+    assert math.isclose(there["hurst"], result.hurst, abs_tol=5e-3)

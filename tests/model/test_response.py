@@ -198,13 +198,13 @@ def test_pressure_of_a_wave_on_the_disc_is_that_of_a_dense_system():
     system[:n, :n] = 2.0 / np.pi**2 * cell(x[:, None] - x, y[:, None] - y, h)
     system[n, n] = 0.0
     # the last unknown is the approach of the bodies, the last equation: no load
-    found = np.linalg.solve(system, np.vstack([wave, np.zeros((1, 2))]))[:n]
+    result = np.linalg.solve(system, np.vstack([wave, np.zeros((1, 2))]))[:n]
     middle = np.hypot(x, y) < 0.7
     terms = disc.monomials(x[middle], y[middle]) @ disc.disc_correction(qx, qy)
     closed = 0.25 * np.pi * np.hypot(qx, qy) * wave[middle] + terms
     size = np.abs(closed).max(axis=0)
     # first order in the cell at the edge, where the pressure is singular; and a cut series
-    assert np.abs(found[middle] - closed).max(axis=0) / size == pytest.approx(0.0, abs=0.03)
+    assert np.abs(result[middle] - closed).max(axis=0) / size == pytest.approx(0.0, abs=0.03)
 
 
 @pytest.fixture(scope="module")
@@ -219,9 +219,9 @@ def test_coefficients_are_the_fit_to_the_measured_waves(
 ):
     everything = evidence.read()
     data = everything.chosen(evidence.select(everything))
-    found = evidence.fit(data)
+    result = evidence.fit(data)
     shipped = json.loads((root / "pyehl" / "theory" / "response.json").read_text())
-    anew = found.as_json()
+    anew = result.as_json()
     assert {k: shipped[k] for k in ("range", "parameter", "slope")} == {
         k: anew[k] for k in ("range", "parameter", "slope")
     }
@@ -241,7 +241,7 @@ def test_coefficients_are_the_fit_to_the_measured_waves(
     # and the table of residuals is of this fit
     with (Path(evidence.HERE) / "residuals.csv").open() as stream:
         stored = list(csv.reader(stream))[1:]
-    for old, new in zip(stored, evidence.table(found, data), strict=True):
+    for old, new in zip(stored, evidence.table(result, data), strict=True):
         assert old[:4] == new[:4]
         assert float(old[4]) <= 0.02, old
         assert [float(v) for v in old[4:]] == pytest.approx([float(v) for v in new[4:]], abs=1e-3)

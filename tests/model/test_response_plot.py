@@ -18,9 +18,9 @@ def test_lags_of_many_turns_lie_on_the_lines():
         for d in (0.0, 45.0, 90.0)
     }
     places, directions = np.geomspace(0.25, 15.0, 12), np.tile([0.0, 30.0, 45.0, 80.0], 3)
-    found = (lag(places, directions) + 180.0) % 360.0 - 180.0
+    result = (lag(places, directions) + 180.0) % 360.0 - 180.0
     waves = {"nabla_2": places, "direction": directions, "amplitude": 0.5 + 0.0 * places}
-    figure = response_figure(waves | {"lag": found}, lines, "")
+    figure = response_figure(waves | {"lag": result}, lines, "")
     ax = figure.axes[1]
     (dots,) = ax.collections
     np.testing.assert_allclose(np.asarray(dots.get_offsets())[:, 1], lag(places, directions))

@@ -46,10 +46,10 @@ def ehd() -> str:
 def test_film_steps_of_an_ehd_file(tmp_path: Path, encoding: str) -> None:
     path = tmp_path / "film.txt"
     path.write_bytes(ehd().encode(encoding))
-    found = read_rig(path)
-    assert found.format == "PCS"
-    assert [step.title for step in found.steps] == [f'Step {n} "New film step"' for n in (2, 5)]
-    for step, rows in zip(found.steps, (FILMS_40, FILMS_100), strict=True):
+    result = read_rig(path)
+    assert result.format == "PCS"
+    assert [step.title for step in result.steps] == [f'Step {n} "New film step"' for n in (2, 5)]
+    for step, rows in zip(result.steps, (FILMS_40, FILMS_100), strict=True):
         speed, film, temperature, load = np.array(rows).T
         assert step.columns["contact.mean_velocity"] == pytest.approx(speed * 1e-3)
         assert step.columns["h_c_m"] == pytest.approx(film * 1e-9)
@@ -151,10 +151,10 @@ def test_deviations_per_decade(tmp_path: Path) -> None:
     path.write_text("speed (m/s),film (nm)\n" + rows)
     curve = averaged(read_rig(path).steps, FILM, SPEED)
     places = np.array([0.005, 0.1, 2.0])
-    found = deviations(curve, places, 1.05 * 100e-9 * places**0.67)
-    assert [d.count for d in found] == [5, 4, 2, 11]
-    for part in found:
+    result = deviations(curve, places, 1.05 * 100e-9 * places**0.67)
+    assert [d.count for d in result] == [5, 4, 2, 11]
+    for part in result:
         assert (part.mean, part.rms, part.largest) == pytest.approx((0.05, 0.05, 0.05))
-    assert "11 points, mean +5.0%" in str(found[-1])
+    assert "11 points, mean +5.0%" in str(result[-1])
     with pytest.raises(pyehl.InputError, match="none is reached"):
         deviations(curve, np.array([5.0, 6.0]), np.array([1e-7, 2e-7]))

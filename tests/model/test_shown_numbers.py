@@ -37,25 +37,25 @@ def states(root: Path):
 
 @pytest.mark.long
 def test_smooth_contact_of_the_readme(states, cases: Path):
-    found = summary_of(pyehl.solve(cases / "finish.nml", {"surface.kind": "smooth"}))
-    film = 1e9 * found["h_c_m"] / found["H_c"] * found["H_c_extrapolated"]
+    result = summary_of(pyehl.solve(cases / "finish.nml", {"surface.kind": "smooth"}))
+    film = 1e9 * result["h_c_m"] / result["H_c"] * result["H_c_extrapolated"]
     states(
         "README.md",
-        f"is {1e9 * found['h_c_m']:.1f} nm on this grid and {film:.1f} nm extrapolated",
+        f"is {1e9 * result['h_c_m']:.1f} nm on this grid and {film:.1f} nm extrapolated",
     )
 
 
 def test_stress_of_a_newtonian_oil(states, cases: Path):
-    found = summary_of(pyehl.solve(cases / "table1.nml", {"surface.kind": "smooth"}))
-    assert found["shear_stress_max_Pa"] == pytest.approx(2e13, rel=0.1)
+    result = summary_of(pyehl.solve(cases / "table1.nml", {"surface.kind": "smooth"}))
+    assert result["shear_stress_max_Pa"] == pytest.approx(2e13, rel=0.1)
     states("docs/theory/prediction-compared.md", "whose shear stress here would be 2·10¹³ Pa")
 
 
 @pytest.mark.long
 def test_tutorial(states, cases: Path):
     smooth = {"surface.kind": "smooth", "grid.target_error": 0.02}
-    found = summary_of(pyehl.solve(cases / "finish.nml", smooth))
-    values = [found[f"H_c{end}"] for end in ("", "_extrapolated", "_error", "_error_grid")]
+    result = summary_of(pyehl.solve(cases / "finish.nml", smooth))
+    values = [result[f"H_c{end}"] for end in ("", "_extrapolated", "_error", "_error_grid")]
     say = "`H_c` {:.4f}, `H_c_extrapolated` {:.4f} and `H_c_error` {:.4f}. Of this error {:.4f} is"
     ground, honed = (
         pyehl.predict(cases / "finish.nml", {"surface.rms_height": height}).summary
@@ -74,10 +74,10 @@ def test_tutorial(states, cases: Path):
 
 @pytest.mark.long
 def test_measured_surface(states, cases: Path):
-    found = pyehl.predict(cases / "scan.nml", {"surface.outliers": 100}, tracks=4)
-    steps = found.summary["surface_preparation"]["steps"]
-    rms = [1e9 * found.summary[f"rms_{name}_m"] for name in ("height", "deformed")]
-    strongest = max(found.bands, key=lambda band: band.increase)
+    result = pyehl.predict(cases / "scan.nml", {"surface.outliers": 100}, tracks=4)
+    steps = result.summary["surface_preparation"]["steps"]
+    rms = [1e9 * result.summary[f"rms_{name}_m"] for name in ("height", "deformed")]
+    strongest = max(result.bands, key=lambda band: band.increase)
     low, high = 1e6 * strongest.shortest, 1e6 * strongest.longest
     states(
         "docs/howto/measured-surface.md",
@@ -105,8 +105,8 @@ def test_traction_near_the_origin(states, cases: Path):
 @pytest.mark.long
 def test_fitted_shear_law(states, cases: Path):
     case = pyehl.Case(cases / "traction.nml", ["grid.points=65"])
-    (found,) = pyehl.fit_lubricant(cases / "traction.csv", case).parameters
-    value, low, high = (f"{1e-6 * v:.1f}" for v in (found.value, found.low, found.high))
+    (result,) = pyehl.fit_lubricant(cases / "traction.csv", case).parameters
+    value, low, high = (f"{1e-6 * v:.1f}" for v in (result.value, result.low, result.high))
     states(
         "docs/howto/lubricants.md", f"finds {value} MPa with a 95 % interval from {low} to {high}"
     )
@@ -125,8 +125,8 @@ def test_ellipses_whose_film_was_not_compared(states, cases: Path, name: str, ca
 @pytest.mark.long
 def test_limits(states, cases: Path):
     """Scatter over the scan lines, and the viscosity of a high pressure."""
-    found = pyehl.predict(cases / "table1.nml").summary
-    spread = found["mu_ratio_tracks_spread"] / found["mu_ratio_tracks"]
+    result = pyehl.predict(cases / "table1.nml").summary
+    spread = result["mu_ratio_tracks_spread"] / result["mu_ratio_tracks"]
     pressure = OperatingPoint.from_moes(2000.0, 20.0).hertz_pressure
     assert pressure > 4e9
     power = np.log(Lubricant().viscosity_ratio(pressure)) + 1e-9

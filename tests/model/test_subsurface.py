@@ -143,8 +143,8 @@ def test_line_contact_with_friction(z: float) -> None:
     for component, values in exact.items():
         assert np.abs(stress[component] - values).max() < 0.005
     top = np.hypot(0.5 * (exact[0] - exact[2]), exact[4]).max()
-    found = np.hypot(0.5 * (stress[0] - stress[2]), stress[4]).max()
-    assert found == pytest.approx(top, rel=5e-3)
+    result = np.hypot(0.5 * (stress[0] - stress[2]), stress[4]).max()
+    assert result == pytest.approx(top, rel=5e-3)
 
 
 def test_depths_follow_the_waves() -> None:
@@ -155,15 +155,15 @@ def test_depths_follow_the_waves() -> None:
     smooth = depths(pressure, mesh, 1.0)
     for k in (20.0, 60.0):
         wavy = pressure * (1.0 + 0.1 * np.cos(k * X)[:, np.newaxis])
-        found = depths(wavy, mesh, 1.0)
-        assert found[0] == 0.0
-        assert found[1] == pytest.approx(0.4 / k, rel=0.25)
-        assert found[1] < smooth[1]
-        assert np.count_nonzero((found > 0.4 / k) & (found < 2.5 / k)) >= 6
+        result = depths(wavy, mesh, 1.0)
+        assert result[0] == 0.0
+        assert result[1] == pytest.approx(0.4 / k, rel=0.25)
+        assert result[1] < smooth[1]
+        assert np.count_nonzero((result > 0.4 / k) & (result < 2.5 / k)) >= 6
         # geometric, down to three half widths
-        assert found[2:] / found[1:-1] == pytest.approx(found[2] / found[1])
-        assert found[2] / found[1] <= 1.3
-        assert found[-1] == pytest.approx(3.0)
+        assert result[2:] / result[1:-1] == pytest.approx(result[2] / result[1])
+        assert result[2] / result[1] <= 1.3
+        assert result[-1] == pytest.approx(3.0)
 
 
 @pytest.mark.parametrize("along", [True, False])
@@ -231,9 +231,11 @@ def test_fatigue_limits_are_met_by_their_own_tests() -> None:
     torsion, bending = np.zeros((6, 73, 1)), np.zeros((6, 73, 1))
     torsion[3, :, 0], bending[0, :, 0] = 300.0 * np.sin(time), 450.0 * np.sin(time)
     for criterion in ("dang-van", "crossland"):
-        found = Fatigue(criterion, 300.0, 450.0)
+        result = Fatigue(criterion, 300.0, 450.0)
         for history in (torsion, bending):
-            assert found.largest(Cycle.of(history, found.weight)) == pytest.approx(300.0, rel=1e-3)
+            assert result.largest(Cycle.of(history, result.weight)) == pytest.approx(
+                300.0, rel=1e-3
+            )
     with pytest.raises(pyehl.InputError, match="torsion_limit/bending_limit"):
         Fatigue("dang-van", 100.0, 450.0)
 
@@ -356,8 +358,8 @@ def test_depth_of_0_with_a_singular_edge(power: float, *, singular: bool) -> Non
 
 def test_predicted_contact() -> None:
     """A prediction has the smooth contact under it, and more shear near the surface."""
-    found = pyehl.predict(CASES / "table1.nml", "surface.pixels=128")
-    below = pyehl.stress(found, contamination=0.3)
+    result = pyehl.predict(CASES / "table1.nml", "surface.pixels=128")
+    below = pyehl.stress(result, contamination=0.3)
     assert float(below.principal_shear_max_smooth) == pytest.approx(0.3115, rel=0.01)
     near = float(below.Z.sel(Z=0.01, method="nearest"))
     rough, smooth = (below[f"principal_shear{end}"].sel(Z=near) for end in ("", "_smooth"))

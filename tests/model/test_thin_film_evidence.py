@@ -53,7 +53,7 @@ def test_film_that_a_loss_leaves(evidence, page):
 @pytest.mark.long
 def test_the_predictions_are_those_of_this_build(evidence, known):
     row = known["1", 6.0, "consistent"]
-    found = evidence.predicted(1, 6.0, "consistent")
-    assert found["status"] == row["status"]
+    result = evidence.predicted(1, 6.0, "consistent")
+    assert result["status"] == row["status"]
     for name in ("mu_ratio", "h_min_rough_m", "loss"):
-        assert found[name] == pytest.approx(evidence.number(row, name), rel=1e-3)
+        assert result[name] == pytest.approx(evidence.number(row, name), rel=1e-3)

@@ -49,8 +49,8 @@ def table_1(*options: str) -> Case:
     ],
 )
 def test_flow_factors_of_the_printed_table(law, exponent, b, s, phi):
-    found = flow_factors(law, exponent, [b], s)
-    assert (found.along[0], found.across[0]) == pytest.approx(phi, rel=1e-4)
+    result = flow_factors(law, exponent, [b], s)
+    assert (result.along[0], result.across[0]) == pytest.approx(phi, rel=1e-4)
 
 
 def test_slopes_of_flow_factors():
@@ -111,11 +111,11 @@ def test_the_table_of_waves_is_that_of_this_package(root, evidence):
     run, measured = compare.PLAN[name], compare.of_table()
     waves = compare.Waves(run, measured[name])
     newtonian = compare.Waves(compare.twin(run), measured[f"{name}-newtonian"])
-    found, _ = compare.predicted(waves, newtonian)
+    result, _ = compare.predicted(waves, newtonian)
     with (folder / "waves.csv").open(newline="", encoding="utf-8") as stream:
         rows = [row for row in csv.DictReader(stream) if row["run"] == name]
     table = [complex(float(r["predicted_re"]), float(r["predicted_im"])) for r in rows]
-    np.testing.assert_allclose(found.ravel(), table, atol=2e-3)
+    np.testing.assert_allclose(result.ravel(), table, atol=2e-3)
 
 
 def test_friction_hardly_increases():
@@ -135,9 +135,9 @@ def test_friction_hardly_increases():
 
 
 def test_a_law_in_the_friction_alone_states_no_error():
-    found = pyehl.predict(table_1("lubricant.flow='newtonian'"))
-    assert math.isnan(found.model_error)
-    assert "those of a Newtonian flow" in found.note
+    result = pyehl.predict(table_1("lubricant.flow='newtonian'"))
+    assert math.isnan(result.model_error)
+    assert "those of a Newtonian flow" in result.note
 
 
 def by_quadrature(
@@ -159,10 +159,10 @@ def by_quadrature(
         return [math.asinh(x) - math.asinh(b), y / (1.0 + b)]
 
     alone = math.asinh(b) if law == "eyring" else b**exponent
-    found = optimize.root(balance, [alone, 0.0], tol=1e-12)
-    assert np.abs(found.fun).max() < 1e-8
-    flow = (weights * xi * shear(found.x)).sum(axis=0)
-    return [*(12.0 * flow / np.asarray(s)), float(found.x[0])]
+    result = optimize.root(balance, [alone, 0.0], tol=1e-12)
+    assert np.abs(result.fun).max() < 1e-8
+    flow = (weights * xi * shear(result.x)).sum(axis=0)
+    return [*(12.0 * flow / np.asarray(s)), float(result.x[0])]
 
 
 def test_reference_values(root):
@@ -185,9 +185,9 @@ def test_reference_values(root):
         exact = by_quadrature(law, 0.5, b, (x, y), points=200)
         coarse = (law, x) == ("carreau", 5.0)
         assert six == pytest.approx(exact, rel=9e-4 if coarse else 1e-6, abs=1e-9)
-        found = flow_factors(law, 0.5, [b], ([x], [y]))
-        assert found.along[0] == pytest.approx(along, rel=1e-5)
-        assert found.across[0] == pytest.approx(across, rel=1e-5)
+        result = flow_factors(law, 0.5, [b], ([x], [y]))
+        assert result.along[0] == pytest.approx(along, rel=1e-5)
+        assert result.across[0] == pytest.approx(across, rel=1e-5)
 
 
 def test_six_points_through_the_film():
@@ -202,9 +202,9 @@ def test_what_sliding_and_gradient_do(law):
     """As docs/theory/thinning.md states."""
     sliding = np.geomspace(1e-2, 1e6, 60)
     for x, y in ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (10.0, 0.0), (20.0, 20.0)):
-        found = flow_factors(law, 0.5, sliding, (x, y))
-        assert np.all(np.diff(found.along) > 0.0)
-        assert np.all(found.across <= found.along * (1.0 + 1e-12))
+        result = flow_factors(law, 0.5, sliding, (x, y))
+        assert np.all(np.diff(result.along) > 0.0)
+        assert np.all(result.across <= result.along * (1.0 + 1e-12))
     rolling = flow_factors(law, 0.5, [0.0, 0.0], ([1.0, 2.0], [1.0, 2.0]))
     np.testing.assert_allclose(rolling.along, rolling.across, rtol=1e-12)
     assert 1.0 < rolling.along[0] < rolling.along[1]
@@ -231,8 +231,8 @@ def test_share_below_a_film():
 
 
 def test_the_deformed_surface_in_numbers():
-    found = pyehl.predict(table_1())
-    s, response = found.summary, found.friction.response
+    result = pyehl.predict(table_1())
+    s, response = result.summary, result.friction.response
     assert s["rms_deformed_m"] == pytest.approx(np.std(response.deformed))
     assert s["lambda_ratio_deformed"] == pytest.approx(s["h_min_m"] / s["rms_deformed_m"])
     # the centre of the contact meets every point of the tile, in the waves of its own place
@@ -245,16 +245,16 @@ def test_the_deformed_surface_in_numbers():
     assert s["h_min_rough_m"] < s["h_min_m"]
     for name in ("rms_deformed_error_m", "p_rise_rms_error_Pa", "h_min_rough_error_m"):
         assert s[name] > 0.0
-    model = replace(found.model, operating=replace(found.operating, load=1e5))
-    outside = replace(found, model=model).summary
+    model = replace(result.model, operating=replace(result.operating, load=1e5))
+    outside = replace(result, model=model).summary
     assert outside["outside_range"]
     assert outside["p_rise_rms_error_Pa"] is None
 
 
 def test_waves_that_a_grid_leaves_out():
-    found = resolution(table_1("grid.points=65"))
-    assert abs(found.left_out) < 0.01
-    assert found.mu_ratio == pytest.approx(1.0, abs=0.02)
+    result = resolution(table_1("grid.points=65"))
+    assert abs(result.left_out) < 0.01
+    assert result.mu_ratio == pytest.approx(1.0, abs=0.02)
 
 
 def test_start_without_the_waves_that_the_grid_does_not_carry():
@@ -301,9 +301,9 @@ ERRORS = {
 def test_table_of_surfaces_is_what_is_predicted(root, script, name):
     rough = script("docs/evidence/thinning/rough.py")
     line = numbers(root / "docs" / "evidence" / "thinning" / "predicted.csv")[name]
-    found = rough.predicted(rough.PLAN[name])
+    result = rough.predicted(rough.PLAN[name])
     for key in (*ERRORS, *ERRORS.values()):
-        assert found[key] == pytest.approx(line[key], rel=1e-4), key
+        assert result[key] == pytest.approx(line[key], rel=1e-4), key
 
 
 def numbers(path) -> dict[str, dict[str, float]]:

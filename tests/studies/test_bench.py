@@ -362,9 +362,9 @@ def test_stated_errors_that_miss_are_counted():
 def test_mutated_inputs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     # it goes there, in a process of its own
     monkeypatch.chdir(tmp_path)
-    found = faults_inputs.run_chunk(5, 40, tmp_path, main)
-    assert found["bad"] == []
-    assert sum(found["counts"].values()) == 40
+    result = faults_inputs.run_chunk(5, 40, tmp_path, main)
+    assert result["bad"] == []
+    assert sum(result["counts"].values()) == 40
 
 
 @pytest.mark.slow
@@ -453,11 +453,11 @@ def test_cheapest_setting():
         return {"setting": setting, "seconds": seconds, "error": error} | names
 
     rows = [row("dear", 9.0, 1e-5), row("cheap", 1.0, 0.02), row("mean", 2.0, 0.008)]
-    found = {r["level"]: r["best"] for r in workprec.cheapest(rows)}
-    assert found[0.03]["setting"] == "cheap"
-    assert found[0.01]["setting"] == "mean"
-    assert found[0.001]["setting"] == "dear"
-    assert math.isclose(sum(found), sum(workprec.LEVELS))
+    result = {r["level"]: r["best"] for r in workprec.cheapest(rows)}
+    assert result[0.03]["setting"] == "cheap"
+    assert result[0.01]["setting"] == "mean"
+    assert result[0.001]["setting"] == "dear"
+    assert math.isclose(sum(result), sum(workprec.LEVELS))
 
 
 @pytest.mark.long

@@ -50,7 +50,7 @@ def workers(tmp_path: Path) -> Iterator[tuple[str, list[subprocess.Popen[bytes]]
             "--no-dashboard",
             f"--scheduler-file={place}",
         )
-        found = [
+        result = [
             dask(
                 stack,
                 "dask_worker",
@@ -68,14 +68,14 @@ def workers(tmp_path: Path) -> Iterator[tuple[str, list[subprocess.Popen[bytes]]
         while not place.is_file():
             assert time.monotonic() < end
             time.sleep(0.1)
-        yield json.loads(place.read_text())["address"], found
+        yield json.loads(place.read_text())["address"], result
 
 
 @pytest.mark.slow
 def test_a_killed_worker_takes_nothing_with_it(
     workers: tuple[str, list[subprocess.Popen[bytes]]], cases: Path, tmp_path: Path
 ):
-    address, found = workers
+    address, result = workers
     folder = tmp_path / "out"
     words = ["--set", "grid.points=129", "--vary", "contact.moes_m=50:400:40log"]
     words += ["-o", str(folder), "--scheduler", address]
@@ -90,7 +90,7 @@ def test_a_killed_worker_takes_nothing_with_it(
             assert time.monotonic() < end
             assert process.poll() is None, process.communicate()[0]
             time.sleep(0.01)
-        found[0].kill()
+        result[0].kill()
         rows_then = len(rows_in(folder))
         reported, _ = process.communicate(timeout=240)
     assert process.returncode == 0, reported

@@ -107,11 +107,11 @@ def test_a_single_result(cases: Path, tmp_path: Path):
         f"200,65,smooth,{value + 1e-4},2e-4,here",
         "200,129,smooth,0.1,1,elsewhere",
     )
-    found = compare(read_results(tmp_path / "one"), read_reference(table))
-    (deviation,) = found.deviations
+    result = compare(read_results(tmp_path / "one"), read_reference(table))
+    (deviation,) = result.deviations
     assert deviation.passed
     assert deviation.difference == pytest.approx(-1e-4)
-    assert [row.keys["grid.points"] for row in found.missing] == [129.0]
+    assert [row.keys["grid.points"] for row in result.missing] == [129.0]
     assert main(["compare", str(tmp_path / "one"), str(table)]) == 0
 
 
@@ -121,10 +121,10 @@ def test_a_result_without_the_number_fails(tmp_path: Path, study: tuple[Path, li
     (folder / "summary.json").write_text(json.dumps({"status": "cycle limit", "H_c": None}))
     (folder / "case.nml").write_text(pyehl.Case.from_text("").text)
     table = write(tmp_path / "t.csv", "H_c,H_c_rtol", "0.1,10")
-    found = compare(read_results(folder), read_reference(table))
-    assert not found.passed
-    assert "cycle limit" in str(found.deviations[0])
-    assert math.isnan(found.deviations[0].difference)
+    result = compare(read_results(folder), read_reference(table))
+    assert not result.passed
+    assert "cycle limit" in str(result.deviations[0])
+    assert math.isnan(result.deviations[0].difference)
 
 
 def test_any_csv(tmp_path: Path):

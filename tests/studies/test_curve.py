@@ -240,9 +240,9 @@ def test_pattern_of_a_map_of_one_wave_is_that_wave(tmp_path: Path):
             f"surface.length_y={3 * wavelength}",
         ],
     )
-    found = pattern(case.resolve(), point, 2e-7)
-    assert found.wavelength == pytest.approx(wavelength, rel=1e-9)
-    assert found.rms_height == pytest.approx(1.5e-8, rel=1e-9)
+    result = pattern(case.resolve(), point, 2e-7)
+    assert result.wavelength == pytest.approx(wavelength, rel=1e-9)
+    assert result.rms_height == pytest.approx(1.5e-8, rel=1e-9)
 
 
 @pytest.mark.parametrize(
@@ -293,12 +293,12 @@ def test_ends_of_a_curve_say_why(cases: Path, tmp_path: Path):
     reported, complaint = run(
         str(cases / "table1.nml"), "--speed", "0.005,4", *words, str(tmp_path / "1"), expect=1
     )
-    lost, found = table(tmp_path / "1")
+    lost, result = table(tmp_path / "1")
     assert lost["status"] == "not solved"
     assert "did not converge on 1025 nodes along X" in lost["message"]
     assert "point 1 of 2 (contact.mean_velocity=0.005): not solved: failed: " in complaint
     assert "full film at all points with a result; 1 have none" in reported
-    assert found["status"] == FULL_FILM
+    assert result["status"] == FULL_FILM
     words = ("--set", "surface.pixels=256", "--set", "grid.points=257", "--set")
     words += ("surface.rms_height=7e-8", "-o", str(tmp_path / "2"))
     reported, _ = run(str(cases / "table1.nml"), "--viscosity", "0.01,0.1", *words)

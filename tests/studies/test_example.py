@@ -22,9 +22,9 @@ def make(script: Callable[[str], ModuleType]) -> ModuleType:
 @pytest.fixture(scope="module")
 def data(make: ModuleType) -> dict[tuple[str, str, float], list[Row]]:
     """Curves by surface, law and slide-to-roll ratio; ten points of rising speed each."""
-    found = make.stored()
+    result = make.stored()
     curves = {
-        (surface, law, slip): list(make.rows(found, surface, law, slip))
+        (surface, law, slip): list(make.rows(result, surface, law, slip))
         for surface in make.SURFACES
         for law in make.LAWS
         for slip in make.SLIPS

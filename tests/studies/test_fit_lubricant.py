@@ -28,13 +28,13 @@ def case(tmp_path: Path) -> Path:
 def curve(case: Path, noise: float = 0.0, **law: object) -> list[tuple[float, float]]:
     """Friction of solved contacts with a law, and noise of a relative size."""
     random = np.random.default_rng(1)
-    found = []
+    result = []
     for ratio in RATIOS:
         options = {"contact.slide_to_roll": ratio, "grid.points": 65}
         options |= {f"lubricant.{key}": value for key, value in law.items()}
         mu = float(pyehl.solve(case, options).mu)
-        found.append((ratio, mu * (1.0 + noise * random.standard_normal())))
-    return found
+        result.append((ratio, mu * (1.0 + noise * random.standard_normal())))
+    return result
 
 
 def write(path: Path, rows: list[tuple[float, float]]) -> Path:

@@ -150,11 +150,11 @@ def test_first_starts_at_once_lose_nothing(tmp_path: Path):
                     return str(error)
                 return number
 
-            found = list(pool.map(start, range(starts)))
-            words = {text for text in found if isinstance(text, str)}
+            result = list(pool.map(start, range(starts)))
+            words = {text for text in result if isinstance(text, str)}
             assert all(re.fullmatch(f"{folder}: .*process.* works on this study", w) for w in words)
             refused += len(words)
-            lost += sorted({k for k in found if isinstance(k, int)} - set(rows_of(folder)))
+            lost += sorted({k for k in result if isinstance(k, int)} - set(rows_of(folder)))
             assert {p.name for p in folder.iterdir()} <= set(FILES)
     assert lost == []
     assert refused

@@ -33,9 +33,9 @@ def test_measured_data_over_other_abscissae(tmp_path: Path):
     table = {"u": [1.0, 4.0, 16.0], "lambda_ratio": [1.0, 16.0, 256.0]}
     curve = Curve("", "u", pd.DataFrame(table))
     assert measured.over("u", curve) == pytest.approx([2.0, 8.0, 99.0])
-    found = measured.over("lambda_ratio", curve)
-    assert found[:2] == pytest.approx([4.0, 64.0])
-    assert np.isnan(found[2])
+    result = measured.over("lambda_ratio", curve)
+    assert result[:2] == pytest.approx([4.0, 64.0])
+    assert np.isnan(result[2])
     back = Measured("lambda_ratio", np.array([9.0]), "mu", np.array([0.1]), np.zeros(1))
     assert back.over("u", curve) == pytest.approx([3.0])
 

@@ -34,8 +34,8 @@ def test_numbers_of_the_howto_are_of_the_record(
         low, high = re.findall(r"\d\.\d+", row["reason"].split("fit")[1])
         assert f"{float(row['pyehl']):.3f} (" in item
         assert f"{low} to {high}) for {row['paper']}" in item
-    (found,) = (f["text"] for f in made["read"]("findings.csv") if f["title"].startswith("Below"))
-    above, below = re.findall(r"scatter by ([\d.]+) %", found)
+    (result,) = (f["text"] for f in made["read"]("findings.csv") if f["title"].startswith("Below"))
+    above, below = re.findall(r"scatter by ([\d.]+) %", result)
     assert f"{above} % of scatter" in item
     assert f"scatter by {below} %" in item
 
@@ -43,11 +43,13 @@ def test_numbers_of_the_howto_are_of_the_record(
 @pytest.mark.long
 def test_this_build_makes_the_record(tmp_path: Path, made: dict[str, Any], rows: Any):
     """Those pieces that need no simulation."""
-    found = [
+    results = [
         dict(zip(made["COLUMNS"], row, strict=True))
         for result in reproduce(["table 1", "figure 1", "figure 5"], QUICK, tmp_path)
         for row in made["rows_of"](QUICK, result)
     ]
     names = ("piece", "quantity", "paper", "pyehl", "tolerance", "verdict", "reason")
     stored = [row for row in rows if row["piece"] in ("table 1", "figure 1", "figure 5")]
-    assert [[row[n] for n in names] for row in found] == [[row[n] for n in names] for row in stored]
+    assert [[row[n] for n in names] for row in results] == [
+        [row[n] for n in names] for row in stored
+    ]

@@ -63,10 +63,10 @@ def test_assessment_of_a_ratio_beyond_linear_response(cases: Path):
 def test_tracks_are_there_where_they_are_asked_for(cases: Path):
     vary = {"surface.seed": [1, 2]}
     asked = ("mu_ratio", "mu_ratio_tracks", "mu_ratio_tracks_spread")
-    found = pyehl.sweep(cases / "table1.nml", vary, *SMALL, run="predict", outputs=asked, jobs=1)
+    result = pyehl.sweep(cases / "table1.nml", vary, *SMALL, run="predict", outputs=asked, jobs=1)
     alone = pyehl.predict(cases / "table1.nml", *SMALL, "surface.seed=2").summary
     for name in asked:
-        assert float(found[name][1]) == alone[name]
+        assert float(result[name][1]) == alone[name]
     brief = pyehl.sweep(cases / "table1.nml", vary, *SMALL, run="predict", jobs=1)
     assert "mu_ratio_tracks" not in brief
     assert float(brief.mu_ratio[1]) == alone["mu_ratio"]

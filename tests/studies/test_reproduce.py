@@ -31,8 +31,8 @@ def one(name: str, folder: Path, **more: Any) -> Result:
 
 
 def check_of(result: Result, words: str) -> Check:
-    (found,) = [check for check in result.checks if words in check.name]
-    return found
+    (results,) = [check for check in result.checks if words in check.name]
+    return results
 
 
 def wrong(name: str, factor: float) -> dict[str, Any]:
@@ -161,15 +161,15 @@ def test_fit_finds_what_is_there():
     theta = np.geomspace(0.5, 5.0, 40)
     curve = np.repeat(np.arange(8), 5)
     exact = evaluate(theta, 0.5, 0.2)
-    found = fit(theta, exact, curve)
-    assert (found.second, found.fourth) == pytest.approx((0.5, 0.2), rel=1e-9)
-    assert scatter(exact, found.at(theta)) < 1e-12
+    result = fit(theta, exact, curve)
+    assert (result.second, result.fourth) == pytest.approx((0.5, 0.2), rel=1e-9)
+    assert scatter(exact, result.at(theta)) < 1e-12
     # each curve off by some per cent of its own: the interval is wider than that of single points
     random = np.random.default_rng(0)
     off = exact * np.exp(0.05 * random.standard_normal(8))[curve]
-    found = fit(theta, off, curve)
-    assert found.second_interval[0] < found.second < found.second_interval[1]
-    assert found.fourth_interval[0] < 0.2 < found.fourth_interval[1]
+    result = fit(theta, off, curve)
+    assert result.second_interval[0] < result.second < result.second_interval[1]
+    assert result.fourth_interval[0] < 0.2 < result.fourth_interval[1]
     with pytest.raises(ValueError, match="three curves"):
         fit(theta[:5], exact[:5], curve[:5])
 
@@ -207,17 +207,17 @@ def test_waves_and_surfaces_on_coarse_grids(tmp_path: Path, monkeypatch: pytest.
     monkeypatch.setattr(conditions, "CURVES", curves)
     monkeypatch.setattr(conditions, "RATIOS", (1.6, 2.5, 5.0))
     names = [n for n in PIECES if n not in ("table 1", "figure 1", "figure 2", "figure 5")]
-    found = {r.name: r for r in reproduce(names, SMALL, tmp_path)}
-    assert set(found) == set(names)
+    result = {r.name: r for r in reproduce(names, SMALL, tmp_path)}
+    assert set(result) == set(names)
     # the response brings the waves together better than theta_2, under the narrow scheme
-    narrow = next(n for n in found["figure 4"].notes if "'narrow', theta_r" in n)
+    narrow = next(n for n in result["figure 4"].notes if "'narrow', theta_r" in n)
     assert float(re.search(r"that is ([\d.]+) times less", narrow)[1]) > 1.3
-    assert check_of(found["figure 6"], "correlation").found > 0.95
-    assert check_of(found["figure 7"], "our prediction").found < 0.02
-    assert all(r.findings for r in (found["figure 6"], found["figure 7"], found["table 2"]))
-    assert all(r.seconds > 0.0 for r in found.values())
-    assert found["figure 3"].line().startswith("nothing to judge: ")
-    assert found["table 2"].line().startswith("nothing to judge: ")
+    assert check_of(result["figure 6"], "correlation").value > 0.95
+    assert check_of(result["figure 7"], "our prediction").value < 0.02
+    assert all(r.findings for r in (result["figure 6"], result["figure 7"], result["table 2"]))
+    assert all(r.seconds > 0.0 for r in result.values())
+    assert result["figure 3"].line().startswith("nothing to judge: ")
+    assert result["table 2"].line().startswith("nothing to judge: ")
 
 
 def test_a_failure_that_a_run_explains():
@@ -235,9 +235,9 @@ def test_what_has_no_number_to_judge_is_no_pass():
     """Neither green in the report nor counted among the pieces that are within tolerances."""
     free = Check("x", 2.0, 1.0, None, "of another surface", "there")
     for checks in ((), (free,)):
-        found = Result(checks, unjudged="it is not published")
-        assert found.verdict == "nothing to judge"
-        assert found.line() == "nothing to judge: it is not published"
+        result = Result(checks, unjudged="it is not published")
+        assert result.verdict == "nothing to judge"
+        assert result.line() == "nothing to judge: it is not published"
 
 
 def test_command(tmp_path: Path, capsys: Any):

@@ -51,9 +51,9 @@ def case(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module")
 def solved(case: Path) -> np.ndarray:
     """Central films of the solver [m], extrapolated."""
-    found = pyehl.sweep(case, {"contact.mean_velocity": SPEEDS.tolist()}, FINE, run="solve")
-    scale = found.h_c_m / found.H_c
-    films = np.asarray((found.H_c_extrapolated * scale).values)
+    result = pyehl.sweep(case, {"contact.mean_velocity": SPEEDS.tolist()}, FINE, run="solve")
+    scale = result.h_c_m / result.H_c
+    films = np.asarray((result.H_c_extrapolated * scale).values)
     assert np.isfinite(films).all()
     return films
 
@@ -100,7 +100,7 @@ def test_eyring_stress_is_in_its_interval(tmp_path: Path) -> None:
     case.write_text(TRACTION)
     ratios = np.array([0.01, 0.02, 0.05, 0.1, 0.2])
     law = {"lubricant.shear_law": "eyring", "lubricant.eyring_stress": STRESS}
-    found = pyehl.sweep(case, {"contact.slide_to_roll": ratios.tolist()}, law, run="solve")
+    result = pyehl.sweep(case, {"contact.slide_to_roll": ratios.tolist()}, law, run="solve")
     random, inside = np.random.default_rng(5), 0
     head = "Step Time (s)\tTraction Coeff (-)\tLube RTD Temp (degC)\tBall Load (N)\t"
     head += "Rolling Speed (mm/s)\tSRR (%)"
@@ -111,7 +111,7 @@ def test_eyring_stress_is_in_its_interval(tmp_path: Path) -> None:
             lines += [f"Step {step} started at 1/1/2020", head]
             lines += [
                 f"{k}\t{mu:.9g}\t60.0\t50.0\t2000.0\t{srr * 100.0:.9g}"
-                for k, (srr, mu) in enumerate(zip(ratios, found.mu.values * noise, strict=True))
+                for k, (srr, mu) in enumerate(zip(ratios, result.mu.values * noise, strict=True))
             ]
             lines.append("")
         file = tmp_path / "traction.txt"

@@ -55,18 +55,18 @@ def test_rise_plateau_and_fall(tmp_path: Path):
         *(str(tmp_path / "ball.nml"), "--slide-to-roll", slips, "-o", str(tmp_path / "out")),
         *("--measured", str(tmp_path / "measured.csv")),
     )
-    found = columns(tmp_path / "out")
-    mu, isothermal = found["mu"], found["mu_isothermal"]
+    result = columns(tmp_path / "out")
+    mu, isothermal = result["mu"], result["mu_isothermal"]
     assert np.isnan(mu[0])
     assert mu[2] == pytest.approx(2.0 * mu[1], rel=1e-3)
     assert mu[4] == pytest.approx(mu[3], rel=0.02)
     assert mu[5] < 0.96 * mu[4]
     assert np.all(np.diff(isothermal[1:]) > 0.0)
-    assert np.isnan(found["temperature_rise_max_K"][:3]).all()
-    assert np.all(np.diff(found["temperature_rise_max_K"][3:]) > 0.0)
+    assert np.isnan(result["temperature_rise_max_K"][:3]).all()
+    assert np.all(np.diff(result["temperature_rise_max_K"][3:]) > 0.0)
     assert (tmp_path / "out" / "stribeck.png").is_file()
     # the deviation at the two measured points on the curve, by hand
-    there = np.interp([0.1, 0.3], found[SLIP][1:], mu[1:]) / 0.033 - 1.0
+    there = np.interp([0.1, 0.3], result[SLIP][1:], mu[1:]) / 0.033 - 1.0
     assert f"off by {there.mean():+.1%} in the mean" in reported
     assert f"{np.sqrt(np.mean(there**2)):.1%} rms" in reported
     assert "2 of 2 points" in reported
@@ -99,19 +99,19 @@ def test_empirical_left_end(tmp_path: Path):
     words = (str(tmp_path / "ball.nml"), "--speed", "0.2,0.8,10", "--slide-to-roll", "0.05")
     words += ("--set", "grid.points=129")
     reported = run(*words, "-o", str(tmp_path / "out"), "--boundary-friction", "0.12", expect=0)
-    found = columns(tmp_path / "out")
-    ratio = found["lambda_ratio_central"]
+    result = columns(tmp_path / "out")
+    ratio = result["lambda_ratio_central"]
     assert ratio[0] < 0.5
     assert ratio[2] > 4.0
-    broken = np.isnan(found["mu"])
+    broken = np.isnan(result["mu"])
     assert broken.tolist() == [True, False, False]
     share = np.exp(-AIHARA[0] * ratio ** AIHARA[1])
-    assert found["asperity_load_share_empirical"] == pytest.approx(share, rel=1e-12)
-    expected = share * 0.12 + (1.0 - share) * found["mu"]
-    assert found["mu_empirical"][~broken] == pytest.approx(expected[~broken], rel=1e-12)
+    assert result["asperity_load_share_empirical"] == pytest.approx(share, rel=1e-12)
+    expected = share * 0.12 + (1.0 - share) * result["mu"]
+    assert result["mu_empirical"][~broken] == pytest.approx(expected[~broken], rel=1e-12)
     # where the film ends it has the friction of the smooth contact
-    assert share[0] * 0.12 < found["mu_empirical"][0] < share[0] * 0.12 + (1.0 - share[0]) * 0.06
-    assert found["mu_empirical"][2] == pytest.approx(found["mu"][2], rel=0.01)
+    assert share[0] * 0.12 < result["mu_empirical"][0] < share[0] * 0.12 + (1.0 - share[0]) * 0.06
+    assert result["mu_empirical"][2] == pytest.approx(result["mu"][2], rel=0.01)
     assert "empirical: exp(-1.8 (h_c/sigma)^1.2)" in reported
     # the same curve with another law: nothing is computed again
     reported = run(*words, "-o", str(tmp_path / "out"), *("--boundary-friction", "0.1"))
@@ -142,20 +142,20 @@ def test_no_empirical_number(tmp_path: Path, option: str, words: str):
 @pytest.fixture(scope="module")
 def stored(root: Path) -> dict[str, dict[str, np.ndarray]]:
     """The tables of docs/evidence/traction."""
-    found = {}
+    result = {}
     for name in ("traction", "empirical"):
         with (root / "docs" / "evidence" / "traction" / f"{name}.csv").open(newline="") as stream:
             rows = list(csv.DictReader(stream))
         names = [word for word in rows[0] if word not in WORDS]
-        found[name] = {word: np.array([float(r[word] or "nan") for r in rows]) for word in names}
-    return found
+        result[name] = {word: np.array([float(r[word] or "nan") for r in rows]) for word in names}
+    return result
 
 
 def test_the_table_is_what_a_run_gives(cases: Path, tmp_path: Path, stored):
     run(str(cases / "mtm.nml"), "--slide-to-roll", "0.125,0.5", "-o", str(tmp_path / "out"))
-    found, t = columns(tmp_path / "out"), stored["traction"]
-    assert set(found) == set(t)
-    for k, slip in enumerate(found[SLIP]):
+    result, t = columns(tmp_path / "out"), stored["traction"]
+    assert set(result) == set(t)
+    for k, slip in enumerate(result[SLIP]):
         row = int(np.argmin(np.abs(t[SLIP] - slip)))
         for name in ("mu", "mu_isothermal", "temperature_rise_max_K", "h_c_m"):
-            assert found[name][k] == pytest.approx(t[name][row], rel=1e-4), name
+            assert result[name][k] == pytest.approx(t[name][row], rel=1e-4), name

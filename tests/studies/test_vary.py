@@ -32,10 +32,10 @@ from pyehl.studies.study import ECHOED, RESULTS, Axis, Study, axis, make, parse_
     ],
 )
 def test_texts(text: str, values: tuple[object, ...]):
-    found = parse_axis(text)
-    assert found.key == "a.b"
-    assert found.values == values
-    assert {type(v) for v in found.values} == {type(v) for v in values}
+    result = parse_axis(text)
+    assert result.key == "a.b"
+    assert result.values == values
+    assert {type(v) for v in result.values} == {type(v) for v in values}
 
 
 @pytest.mark.parametrize(
@@ -158,12 +158,12 @@ def test_study_file(tmp_path: Path):
         surface.seed = "1:2"
         """
     )
-    found = make(**read_study(path))
-    assert found.case == str(tmp_path / "sub" / "c.nml")
-    assert found.options == ("grid.points=65", "lubricant.viscosity_law=barus")
-    assert found.shape == (3, 2)
-    assert found.outputs == ("mu_ratio",)
-    assert found.run == "predict"
+    result = make(**read_study(path))
+    assert result.case == str(tmp_path / "sub" / "c.nml")
+    assert result.options == ("grid.points=65", "lubricant.viscosity_law=barus")
+    assert result.shape == (3, 2)
+    assert result.outputs == ("mu_ratio",)
+    assert result.run == "predict"
 
 
 @pytest.mark.parametrize(

@@ -27,7 +27,7 @@ def read() -> list[dict[str, str]]:
 def lines() -> list[str]:
     """Give the table of what came of them, by kind."""
     rows = read()
-    found = [
+    result = [
         "| machines | drawn | refused | right | contacts solved | converged | film over formula |",
         "|" + "---|" * 7,
     ]
@@ -36,13 +36,13 @@ def lines() -> list[str]:
         states = [row["status"] for row in mine]
         solved = [row for row in mine if row["converged"]]
         ratios = [float(row[f"film_ratio_{end}"]) for row in solved for end in ("min", "max")]
-        found.append(
+        result.append(
             f"| {kind} | {len(mine)} | {states.count('refused')} | {states.count('right')} | "
             f"{sum(int(row['contacts']) for row in solved)} | "
             f"{sum(int(row['converged']) for row in solved)} | "
             f"{min(ratios):.2f} to {max(ratios):.2f} |"
         )
-    return found
+    return result
 
 
 def main(names: list[str]) -> None:

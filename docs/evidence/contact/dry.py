@@ -86,7 +86,7 @@ def dry_pressure(
     # E* over p_h a / film scale
     stiffness = 0.5 * modulus / summary["hertz_pressure_Pa"]
     stiffness *= summary["film_scale_m"] / summary["hertz_radius_m"]
-    found = constrained_conjugate_gradients(
+    result = constrained_conjugate_gradients(
         FreeFFTElasticHalfSpace(gap.shape, stiffness, size),
         -gap,
         hardness=None if limit is None else limit * cell.prod(),
@@ -95,10 +95,10 @@ def dry_pressure(
         thermotol=1e-8,
         maxiter=2000,
     )
-    if not found.success:
+    if not result.success:
         msg = "the dry contact is not solved"
         raise RuntimeError(msg)
-    return np.asarray(found.jac) / cell.prod()
+    return np.asarray(result.jac) / cell.prod()
 
 
 def dry_area(summary: Mapping[str, Any], pressure: Array) -> float:

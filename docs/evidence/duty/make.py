@@ -35,9 +35,9 @@ def periodic() -> Iterator[Row]:
         last = h["T"] >= 16.0 - 1e-9
         t, film = (h["T"][last] - 16.0) / 8.0, h["H_c"][last]
         mean = float(np.trapezoid(film, t) / (t[-1] - t[0]))
-        found = film.max(), t[film.argmax()], film.min(), mean, h["H_min"][last].min()
+        result = film.max(), t[film.argmax()], film.min(), mean, h["H_min"][last].min()
         names = "largest H_c", "its T/8", "least H_c", "mean H_c", "least H_min"
-        for name, value, reference in zip(names, found, other, strict=True):
+        for name, value, reference in zip(names, result, other, strict=True):
             yield f"periodic speed, {points} nodes", name, float(value), reference
 
 

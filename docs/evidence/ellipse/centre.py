@@ -52,12 +52,12 @@ def at_centre(
 
 def _edge(shape: Ellipse, kx: Array, ky: Array) -> Complex:
     """Give what the edge does to the pressure of a wave at the centre."""
-    found = EllipseEdge(shape)
+    result = EllipseEdge(shape)
     origin = np.zeros(1)
     q = np.hypot(kx, ky)
-    feels = (q > 1e-9) & (q < found.largest)
+    feels = (q > 1e-9) & (q < result.largest)
     changed = np.zeros(q.shape, dtype=complex)
     if feels.any():
-        there = found.correction(kx[feels], ky[feels])
-        changed[feels] = (found.functions(origin, origin).T @ there)[0]
+        there = result.correction(kx[feels], ky[feels])
+        changed[feels] = (result.functions(origin, origin).T @ there)[0]
     return changed

@@ -59,12 +59,12 @@ def predict() -> None:
     for row in read("cases.csv"):
         if row["name"] in there:
             continue
-        found = prediction(row)
+        result = prediction(row)
         table.append(
             {
                 "name": row["name"],
-                "prediction": round(found, 4),
-                "model_error": round(model_error(found, ellipticity=row["ellipticity"]), 4),
+                "prediction": round(result, 4),
+                "model_error": round(model_error(result, ellipticity=row["ellipticity"]), 4),
             }
         )
         print(*table[-1].values(), flush=True)
@@ -125,7 +125,7 @@ def report(table: list[dict[str, Any]]) -> None:
 
 def fine_lines() -> list[str]:
     """Give the table of the cases that were also simulated on 1025 nodes along X."""
-    found = [
+    result = [
         "| case | κ | 513 nodes | deviation of the prediction "
         "| 1025 nodes | deviation of the prediction |",
         "|---|---|---|---|---|---|",
@@ -142,8 +142,8 @@ def fine_lines() -> list[str]:
         ):
             cells.append(f"{ratio:.4f}" + (f" ± {error:.4f}" if error else ""))
             cells.append(f"{100.0 * (row['prediction'] / ratio - 1.0):+.1f} %".replace("-", "−"))
-        found.append(f"| {' | '.join(cells)} |")
-    return found
+        result.append(f"| {' | '.join(cells)} |")
+    return result
 
 
 @styled()

@@ -50,9 +50,9 @@ def drawn(number: int, random: np.random.Generator) -> dict[str, Any]:
     }
     row["pixels_y"] = round(96 * row["length_y"])
     for _ in range(8):
-        found = prediction(row)
+        result = prediction(row)
         # the rise is of second order in the height
-        row["rms_height"] *= min(2.0, max(0.5, ((goal - 1.0) / max(found - 1.0, 0.01)) ** 0.4))
+        row["rms_height"] *= min(2.0, max(0.5, ((goal - 1.0) / max(result - 1.0, 0.01)) ** 0.4))
     return {k: float(f"{v:.5g}") if isinstance(v, float) else v for k, v in row.items()}
 
 

@@ -83,19 +83,19 @@ def predicted(
     return amplitudes, np.abs(pressure) / cell
 
 
-def lines(conditions: list[float], waves: WaveSet, found: Superposition) -> list[list[str]]:
+def lines(conditions: list[float], waves: WaveSet, result: Superposition) -> list[list[str]]:
     """Give the lines of a measurement."""
     amplitudes, pressure = predicted(conditions, waves.kx, waves.ky, TIERS[0].points)
-    middle = int(np.argmin(np.abs(found.x)))
+    middle = int(np.argmin(np.abs(result.x)))
     table = []
     for k in np.argsort(waves.q):
         length = 2.0 * np.pi / waves.q[k]
-        if length < NODES * found.spacing * 0.9 or 2.0 * np.pi / waves.kx[k] > LONGEST:
+        if length < NODES * result.spacing * 0.9 or 2.0 * np.pi / waves.kx[k] > LONGEST:
             continue
         values = [*conditions, waves.kx[k], waves.ky[k]]
-        for one in (found.response[k, middle], *(wave[k] for wave in amplitudes)):
+        for one in (result.response[k, middle], *(wave[k] for wave in amplitudes)):
             values += [one.real, one.imag]
-        values += [abs(found.stiffness[k, middle]), pressure[k]]
+        values += [abs(result.stiffness[k, middle]), pressure[k]]
         table.append([f"{v:.5g}" for v in values])
     return table
 
@@ -126,11 +126,11 @@ def main() -> None:
     conditions = [float(word) for word in sys.argv[1:5]]
     waves = tier_waves(TIERS[0])
     settings = case_of_circle(*conditions).resolve()
-    found = superpose(settings, waves, points=TIERS[0].points, velocity_ratio=conditions[3])
+    result = superpose(settings, waves, points=TIERS[0].points, velocity_ratio=conditions[3])
     fresh = [] if path.exists() else [COLUMNS]
     with path.open("a", newline="", encoding="utf-8") as stream:
         writer = csv.writer(stream, lineterminator="\n")
-        writer.writerows(fresh + lines(conditions, waves, found))
+        writer.writerows(fresh + lines(conditions, waves, result))
 
 
 if __name__ == "__main__":

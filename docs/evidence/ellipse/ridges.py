@@ -42,13 +42,14 @@ def main() -> None:
     for contact in CONTACTS:
         settings = case_of_circle(*contact, 1.0).resolve()
         point, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
-        found = ridges(settings, WAVELENGTHS, points=POINTS)
-        middle = int(np.argmin(np.abs(found["x"])))
+        result = ridges(settings, WAVELENGTHS, points=POINTS)
+        middle = int(np.argmin(np.abs(result["x"])))
         smooth = solve_contact(settings)
         zone = zone_of(smooth, point, oil)
         moes = circle_of(smooth, point, oil)
         t, pressure = at_centre(zone, moes, (0.0 * ky, ky, 1.0), point.ellipse, edge=True)
-        columns = found["response"][:, middle], t.real, found["stiffness"][:, middle], pressure.real
+        response, stiffness = (result[name][:, middle] for name in ("response", "stiffness"))
+        columns = response, t.real, stiffness, pressure.real
         for values in zip(WAVELENGTHS, *columns, strict=True):
             lines.append([f"{v:.4g}" for v in (*contact, *values)])
             print(*lines[-1], flush=True)

@@ -67,9 +67,9 @@ def drawn(number: int) -> Row:
     row = {k: float(f"{v:.4g}") if isinstance(v, float) else v for k, v in row.items()}
     if law == "newtonian":
         for _ in range(2):
-            found = pyehl.predict(case_of(row)).mu_ratio
+            result = pyehl.predict(case_of(row)).mu_ratio
             # the rise is of second order in the height
-            factor = min(2.0, max(0.5, ((goal - 1.0) / max(found - 1.0, 0.01)) ** 0.45))
+            factor = min(2.0, max(0.5, ((goal - 1.0) / max(result - 1.0, 0.01)) ** 0.45))
             row["rms_over_film"] = float(f"{row['rms_over_film'] * factor:.3g}")
     return row
 
@@ -142,13 +142,13 @@ def read(path: Path) -> dict[str, Row]:
     if not path.exists():
         return {}
     words = {"lay", "law", "status", "outside_range"}
-    found = {}
+    result = {}
     with path.open(encoding="utf-8", newline="") as stream:
         for row in csv.DictReader(stream):
             name = row.pop("name")
             values = {k: v if k in words else float(v) if v else None for k, v in row.items()}
-            found[name] = values | ({"seed": int(row["seed"])} if "seed" in row else {})
-    return found
+            result[name] = values | ({"seed": int(row["seed"])} if "seed" in row else {})
+    return result
 
 
 def write(path: Path, rows: dict[str, Row]) -> None:
@@ -163,7 +163,7 @@ def write(path: Path, rows: dict[str, Row]) -> None:
 
 def compare() -> list[Row]:
     """Set predictions beside simulations: deviation, and whether the error covers it."""
-    found = []
+    result = []
     predictions = read(PREDICTED)
     for name, run in read(SIMULATED).items():
         if run["status"] != "converged":
@@ -171,8 +171,8 @@ def compare() -> list[Row]:
         row = predictions[name] | run | {"name": name}
         off = row["prediction"] - row["mu_ratio"]
         row |= {"deviation": off / row["mu_ratio"], "covered": abs(off) <= row["model_error"]}
-        found.append(row)
-    return found
+        result.append(row)
+    return result
 
 
 def main(what: str, *names: str) -> None:
@@ -188,9 +188,9 @@ def main(what: str, *names: str) -> None:
     elif what == "simulate":
         for name, row in read(PREDICTED).items():
             if name not in read(SIMULATED) and name in (names or [name]):
-                found = simulated(row)
+                result = simulated(row)
                 # others may have been added meanwhile
-                rows = read(SIMULATED) | {name: found}
+                rows = read(SIMULATED) | {name: result}
                 write(SIMULATED, dict(sorted(rows.items())))
                 print(name, rows[name], flush=True)
     else:

@@ -69,10 +69,10 @@ def domain_rows(what: tuple[str, tuple[float, float]]) -> list[Row]:
     rows = []
     for inlet, outlet, side in BORDERS[border][1]:
         domain = {"x_inlet": -inlet * unit, "x_outlet": outlet * unit, "y_extent": side * unit}
-        found = run(options_of(point, border, mesh, domain) | {"solver.accuracy": 0.02})
+        result = run(options_of(point, border, mesh, domain) | {"solver.accuracy": 0.02})
         row = {"moes_m": point[0], "moes_l": point[1]} | domain
         for name in ("H_c", "H_min"):
-            row |= {name: found[name], f"{name}_error_domain": found[f"{name}_error_domain"]}
+            row |= {name: result[name], f"{name}_error_domain": result[f"{name}_error_domain"]}
         rows.append(row)
     return rows
 
@@ -90,10 +90,10 @@ def ratio_rows(wave: tuple[float, ...]) -> list[Row]:
             "time.estimate_error": False,
             "solver.accuracy": 0.02,
         }
-        found = run(options)
+        result = run(options)
         row = dict(zip(WAVE_NAMES, wave, strict=True))
-        row |= {"width": width} | {k: found[k] for k in ("H_c", "mu_ratio")}
-        rows.append(row | {"mu_ratio_error_domain": found["mu_ratio_error_domain"]})
+        row |= {"width": width} | {k: result[k] for k in ("H_c", "mu_ratio")}
+        rows.append(row | {"mu_ratio_error_domain": result["mu_ratio_error_domain"]})
     return rows
 
 
@@ -130,10 +130,10 @@ def ratio_shares() -> np.ndarray:
 def show() -> None:
     """Print how the estimates cover the tables."""
     for border, name in itertools.product(BORDERS, ("H_c", "H_min")):
-        found = shares_covered(border, name)
+        result = shares_covered(border, name)
         print(
-            f"{border}, {name}: {found.size} changes, {np.mean(found <= 1.0):.1%} covered, "
-            f"median {np.median(found):.2f} of the estimate, at most {found.max():.2f}"
+            f"{border}, {name}: {result.size} changes, {np.mean(result <= 1.0):.1%} covered, "
+            f"median {np.median(result):.2f} of the estimate, at most {result.max():.2f}"
         )
     print("mu_ratio:", *np.round(ratio_shares(), 2))
 

@@ -65,18 +65,18 @@ def smooth_rows(point: Row) -> list[Row]:
     doubled = {f"grid.{key}": 2.0 * grid[key] for key in ("x_inlet", "x_outlet", "y_extent")}
     rows = []
     for points in grids:
-        found = run(point | {"grid.points": points})
+        result = run(point | {"grid.points": points})
         wide = dict.fromkeys(("status", *QUANTITIES))
         if 2 * points - 1 <= FINEST:
             wide = run(point | doubled | {"grid.points": 2 * points - 1})
         row = {"moes_m": point["contact.moes_m"], "moes_l": point["contact.moes_l"]}
         row |= {"x_inlet": grid["x_inlet"], "points": points}
-        row |= {"status": found["status"], "status_doubled": wide["status"]}
+        row |= {"status": result["status"], "status_doubled": wide["status"]}
         for name in QUANTITIES:
-            row |= {name: found[name], f"{name}_error": found[f"{name}_error"]}
+            row |= {name: result[name], f"{name}_error": result[f"{name}_error"]}
             row |= {f"{name}_doubled": wide[name]}
         for name in ("H_c", "H_min"):
-            row |= {f"{name}_error_domain": found[f"{name}_error_domain"]}
+            row |= {f"{name}_error_domain": result[f"{name}_error_domain"]}
         rows.append(row)
     # the limit of fine grids on the doubled domain, order 2
     for name in QUANTITIES:
@@ -124,11 +124,11 @@ def rough_rows(case: Row) -> list[Row]:
     rows = []
     for points in [*grids, 2 * grids[-1] - 1]:
         reference = {"time.estimate_error": False} if points not in grids else {}
-        found = run(case | {"grid.points": points} | reference)
+        result = run(case | {"grid.points": points} | reference)
         row = {key.partition(".")[2]: value for key, value in case.items()}
         row = {name: row.get(name) for name in ROUGH_NAMES} | {"points": points}
-        row |= {name: found.get(name) for name in ("status", "mu_ratio", "mu_ratio_error")}
-        row["mu_ratio_error_stop"] = found.get("mu_ratio_error_stop")
+        row |= {name: result.get(name) for name in ("status", "mu_ratio", "mu_ratio_error")}
+        row["mu_ratio_error_stop"] = result.get("mu_ratio_error_stop")
         rows.append(row)
     middle, fine = (row["mu_ratio"] for row in rows[-2:])
     known = middle is not None and fine is not None
@@ -149,8 +149,8 @@ def main() -> None:
     make = smooth_rows if what == "smooth" else rough_rows
     rows: list[Row] = []
     with ProcessPoolExecutor(2) as pool:
-        for number, found in enumerate(pool.map(make, todo), 1):
-            rows += found
+        for number, result in enumerate(pool.map(make, todo), 1):
+            rows += result
             print(f"{number} of {len(todo)}", file=sys.stderr)
     with (HERE / f"{what}.csv").open("w", newline="", encoding="utf-8") as stream:
         writer = csv.DictWriter(stream, rows[0], lineterminator="\n")

@@ -98,16 +98,16 @@ def errors(point: tuple[str, float, float, float]) -> list[Row]:
     doubled = {f"grid.{key}": 2.0 * grid[key] for key in ("x_inlet", "x_outlet", "y_extent")}
     rows = []
     for nodes in grids_of(*shape[:2], grid):
-        found = solved(keys | {"grid.points": nodes})
+        result = solved(keys | {"grid.points": nodes})
         wide: Row = {}
-        if 4 * nodes * found["points_y"] <= MOST:
-            size = {"grid.points": 2 * nodes - 1, "grid.points_y": 2 * found["points_y"] - 1}
+        if 4 * nodes * result["points_y"] <= MOST:
+            size = {"grid.points": 2 * nodes - 1, "grid.points_y": 2 * result["points_y"] - 1}
             wide = solved(keys | doubled | size)
         row: Row = dict(zip(NAMES, point, strict=True))
-        row |= {"points": nodes, "points_y": found["points_y"]}
-        row |= {"status": found["status"], "status_doubled": wide.get("status")}
+        row |= {"points": nodes, "points_y": result["points_y"]}
+        row |= {"status": result["status"], "status_doubled": wide.get("status")}
         for name in QUANTITIES:
-            row |= {key: found[key] for key in (name, f"{name}_error", f"{name}_error_domain")}
+            row |= {key: result[key] for key in (name, f"{name}_error", f"{name}_error_domain")}
             row |= {f"{name}_doubled": wide.get(name)}
         rows.append(row)
     # the limit of fine grids on the doubled domain, order 2
@@ -139,10 +139,10 @@ def cells(point: tuple[float, float, float]) -> list[Row]:
             made = any((r["points"], r["points_y"]) == (nodes, across + 1) for r in rows)
             if made or across < 64 or nodes * across > MOST / 2:
                 continue
-            found = solved(keys | {"grid.points": nodes, "grid.points_y": across + 1})
+            result = solved(keys | {"grid.points": nodes, "grid.points_y": across + 1})
             row: Row = dict(zip(NAMES[1:], point, strict=True))
             row |= {"ratio": ratio, "points": nodes, "points_y": across + 1}
-            row |= {key: found[key] for key in ("status", "total_cycles", "restarts", *QUANTITIES)}
+            row |= {key: result[key] for key in ("status", "total_cycles", "restarts", *QUANTITIES)}
             rows.append(row)
     return rows
 
@@ -161,9 +161,9 @@ EXTREME = (
 def ends(point: tuple[float, float, float, int]) -> list[Row]:
     """Solve a very narrow or wide contact."""
     *place, nodes = point
-    found = solved(contact(*place) | {"contact.moes_l": point[2], "grid.points": nodes})
+    result = solved(contact(*place) | {"contact.moes_l": point[2], "grid.points": nodes})
     row: Row = dict(zip((*NAMES[1:], "points"), point, strict=True))
-    return [row | {key: found[key] for key in ("status", "cycles", "restarts")}]
+    return [row | {key: result[key] for key in ("status", "cycles", "restarts")}]
 
 
 TABLES: dict[str, tuple[Callable[[Any], list[Row]], Callable[[], Any]]] = {

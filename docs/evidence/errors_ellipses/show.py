@@ -42,7 +42,7 @@ def over_estimate(rows: list[Row], ratio: float) -> tuple[list[float], list[floa
 
     In narrow contacts, on cells so many times as long across the motion as along it.
     """
-    found: tuple[list[float], list[float]] = [], []
+    result: tuple[list[float], list[float]] = [], []
     narrow = [row for row in rows if row["kappa"] < 1.0 and row["ratio"] == ratio]
     for row in narrow:
         finer = [
@@ -57,7 +57,7 @@ def over_estimate(rows: list[Row], ratio: float) -> tuple[list[float], list[floa
         square = row["kappa"] ** 2
         rough = 0.16 * row["moes_m"] * (4.0 / (row["points"] - 1)) ** 2
         stated = (1.0 + 0.05 * (1.0 / square - 1.0), 2.0 * max(1.0, 0.3 / square))
-        for name, factor, ratios in zip(("H_c", "H_min"), stated, found, strict=True):
+        for name, factor, ratios in zip(("H_c", "H_min"), stated, result, strict=True):
             limit = (4.0 * finer[0][name] - row[name]) / 3.0
             ratios.append(abs(row[name] / limit - 1.0) / (rough * factor))
-    return found
+    return result

@@ -19,13 +19,13 @@ COLUMNS = ("campaign", "trials", "outcomes", "wrong")
 
 def lines() -> list[str]:
     """Make the table of docs/robustness.md."""
-    found = ["| what | trials | outcomes | wrong |", "|---|---|---|---|"]
+    result = ["| what | trials | outcomes | wrong |", "|---|---|---|---|"]
     with (HERE / "faults.csv").open(encoding="utf-8", newline="") as stream:
-        found += [
+        result += [
             "| " + " | ".join(row[name] for name in COLUMNS) + " |"
             for row in csv.DictReader(stream)
         ]
-    return found
+    return result
 
 
 def main(file: str) -> None:

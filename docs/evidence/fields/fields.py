@@ -83,7 +83,7 @@ def case_of(name: str, points: int) -> tuple[pyehl.Case, Topography]:
 
 def simulate(case: pyehl.Case, heights: Array | None = None) -> list[Moment]:
     """Fields of the last period of a case, with heights in place of its surface."""
-    found: list[Moment] = []
+    result: list[Moment] = []
     with solver_on_heights(case, {"surface": heights}) as run:
         while not run.done:
             run.advance()
@@ -92,11 +92,11 @@ def simulate(case: pyehl.Case, heights: Array | None = None) -> list[Moment]:
                 continue
             x, y = run.axes()
             fields = [run.field(k).copy() for k in ("P", "H", "P_smooth", "H_smooth")]
-            found.append(Moment(float(summary["T"]), x, y, *fields))
+            result.append(Moment(float(summary["T"]), x, y, *fields))
             period = float(summary["T_period"])
-            found = [moment for moment in found if moment.time > found[-1].time - period]
-    ends = found[-1].time - period * np.arange(MOMENTS) / MOMENTS
-    return [min(found, key=lambda moment: abs(moment.time - end)) for end in ends]
+            result = [moment for moment in result if moment.time > result[-1].time - period]
+    ends = result[-1].time - period * np.arange(MOMENTS) / MOMENTS
+    return [min(result, key=lambda moment: abs(moment.time - end)) for end in ends]
 
 
 def on_points(values: Array, moment: Moment, contact: RoughContact) -> Array:

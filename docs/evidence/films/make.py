@@ -57,12 +57,12 @@ COLUMNS = ("source", "ssr", "instant", "centre_um", "quantity", "theirs_nm", "py
 
 def read_profiles(path: Path) -> dict[Key, Array]:
     """Read profiles on the centre line: x [um] and film [nm] in columns."""
-    found: dict[Key, list[tuple[float, float]]] = {}
+    result: dict[Key, list[tuple[float, float]]] = {}
     with path.open(encoding="utf-8", newline="") as stream:
         for row in csv.DictReader(stream):
             key = row["source"], row["ssr"], int(row["instant"])
-            found.setdefault(key, []).append((float(row["x_um"]), float(row["h_nm"])))
-    return {key: np.array(values).T for key, values in found.items()}
+            result.setdefault(key, []).append((float(row["x_um"]), float(row["h_nm"])))
+    return {key: np.array(values).T for key, values in result.items()}
 
 
 def centre(key: Key, profile: Array) -> float:
@@ -120,15 +120,15 @@ def films(
     assert ds.attrs["status"] in ("converged", "not settled"), ds.attrs["status"]
     line = int(np.argmin(np.abs(ds.Y.values)))
     x = 1e6 * a * ds.X.values
-    found = []
+    result = []
     for place in centres:
         if np.isnan(place):
             film = smooth.H.values[:, line]
         else:
             time = (place * 1e-6 / a - start + BEHIND) / velocity
             film = ds.frame_H.values[:, line, int(np.argmin(np.abs(ds["T"].values - time)))]
-        found.append((x, 1e9 * float(ds.film_scale_m) * film))
-    return found
+        result.append((x, 1e9 * float(ds.film_scale_m) * film))
+    return result
 
 
 def mean(profile: Array, low: float, high: float) -> float:
@@ -182,7 +182,7 @@ def simulate(data: dict[Key, Array]) -> None:
     write(HERE / "profiles.csv", ("source", "ssr", "instant", "x_um", "h_nm"), rows)
 
 
-def table(data: dict[Key, Array], found: dict[Key, Array]) -> list[tuple[str, ...]]:
+def table(data: dict[Key, Array], result: dict[Key, Array]) -> list[tuple[str, ...]]:
     """Rows of table.csv."""
     return [
         (
@@ -193,18 +193,18 @@ def table(data: dict[Key, Array], found: dict[Key, Array]) -> list[tuple[str, ..
             f"{ours:.0f}",
         )
         for key in data
-        for name, theirs, ours in compare(key, data[key], found[key])
+        for name, theirs, ours in compare(key, data[key], result[key])
     ]
 
 
-def vary(name: str, data: dict[Key, Array], found: dict[Key, Array]) -> None:
+def vary(name: str, data: dict[Key, Array], result: dict[Key, Array]) -> None:
     """Run the measured cases with a change of VARIANTS, and write its table."""
     rows: list[tuple[object, ...]] = []
     for ssr, more in VARIANTS[name].items():
         keys = [key for key in data if key[:2] == ("measured", ssr)]
         places = [centre(key, data[key]) for key in keys]
         for key, film in zip(keys, films("measured", ssr, places, **more), strict=True):
-            before = [(what, ours) for what, _, ours in compare(key, data[key], found[key])]
+            before = [(what, ours) for what, _, ours in compare(key, data[key], result[key])]
             after = [ours for _, _, ours in compare(key, data[key], np.array(film))]
             for (what, ours), other in zip(before, after, strict=True):
                 rows.append((*key[1:], what, f"{ours:.0f}", f"{other:.0f}"))
@@ -217,17 +217,17 @@ def repeated(data: dict[Key, Array], ssr: str = "0") -> float:
     In pure rolling it is measured four times while the dimple is elsewhere.
     """
     keys = [("measured", ssr, instant) for instant in range(1, 5)]
-    found = [
+    result = [
         theirs
         for key in keys
         for what, theirs, _ in compare(key, data[key], data[key])
         if what == "outlet"
     ]
-    return 0.5 * (max(found) - min(found))
+    return 0.5 * (max(result) - min(result))
 
 
 @styled()
-def draw(source: str, data: dict[Key, Array], found: dict[Key, Array]) -> None:
+def draw(source: str, data: dict[Key, Array], result: dict[Key, Array]) -> None:
     """Draw the profiles of all instants; measured ones with how well they repeat."""
     figure = new_figure(PAGE, 3.4)
     axes = figure.subplots(2, 5, sharex=True, sharey=True)
@@ -239,7 +239,7 @@ def draw(source: str, data: dict[Key, Array], found: dict[Key, Array]) -> None:
                 error = np.full(film.shape, repeated(data))
                 band(ax, place, film, error, color=VERMILLION, alpha=0.3, label="repeatability")
             ax.plot(place, film, "o-", ms=1.5, lw=0.6, color=VERMILLION, label=source)
-            ax.plot(*found[key], lw=1.0, color=BLUE, label="pyehl")
+            ax.plot(*result[key], lw=1.0, color=BLUE, label="pyehl")
             ax.grid(visible=True)
         line[0].set_ylabel(f"film [nm], SRR {ssr}".replace("-", "−"))
     for instant, ax in enumerate(axes[0], 1):
@@ -257,11 +257,11 @@ def lines(rows: Iterable[Sequence[str]], source: str) -> Iterator[str]:
     names += ["dimple"] if source == "simulated" else []
     yield "| slide-to-roll ratio | instant | dimple at [µm] | " + " | ".join(names) + " |"
     yield "|---" * (3 + len(names)) + "|"
-    found: dict[Sequence[str], dict[str, str]] = {}
+    result: dict[Sequence[str], dict[str, str]] = {}
     for kind, ssr, instant, place, name, theirs, ours in rows:
         if kind == source:
-            found.setdefault((ssr, instant, place), {})[name] = f"{theirs}, {ours}"
-    for head, films in found.items():
+            result.setdefault((ssr, instant, place), {})[name] = f"{theirs}, {ours}"
+    for head, films in result.items():
         cells = [*head, *(films.get(name, "") for name in names)]
         yield "| " + " | ".join(cells).replace("-", "−") + " |"
 
@@ -271,14 +271,14 @@ def main(arguments: Sequence[str]) -> None:
     data = read_profiles(HERE / "mourier.csv")
     if not arguments:
         simulate(data)
-    found = read_profiles(HERE / "profiles.csv")
+    result = read_profiles(HERE / "profiles.csv")
     for name in VARIANTS:
         if list(arguments) == [name]:
-            vary(name, data, found)
-    rows = table(data, found)
+            vary(name, data, result)
+    rows = table(data, result)
     write(HERE / "table.csv", COLUMNS, rows)
     for source in ("measured", "simulated"):
-        draw(source, data, found)
+        draw(source, data, result)
         sys.stdout.write("\n".join(lines(rows, source)) + "\n\n")
 
 

@@ -91,12 +91,12 @@ def run(count: int) -> None:
             # where the film is close to the layer the edge of the touching zone moves slowly
             more = {"grid.points": points, "solver.max_cycles": 100}
             case = pyehl.Case.from_text("", keys | more)
-            found = summary_of(pyehl.solve(case, check=False))
-            film = what["layer_over_film"], found["boundary_film"]
-            mesh = found["x_mesh"]
+            result = summary_of(pyehl.solve(case, check=False))
+            film = what["layer_over_film"], result["boundary_film"]
+            mesh = result["x_mesh"]
             missed = FACTOR * mesh**2 * (film[1] / film[0] / density(case)) ** (-4.0 / 3.0)
             row = {"contact": number, **what, "missed": missed, "points": points}
-            row |= {name: found.get(name) for name in RESULTS}
+            row |= {name: result.get(name) for name in RESULTS}
             append(row)
 
 
@@ -138,7 +138,7 @@ def covered(rows: list[dict[str, str]], name: str) -> dict[int, tuple[int, int, 
         for row in rows
         if int(row["points"]) == FINEST and row[name]
     }
-    found = {}
+    result = {}
     for points in GRIDS[:-1]:
         those = [r for r in rows if int(r["points"]) == points and r["contact"] in best]
         stated = [r for r in those if r[name] and r[QUANTITIES[name]]]
@@ -147,8 +147,8 @@ def covered(rows: list[dict[str, str]], name: str) -> dict[int, tuple[int, int, 
             for r in stated
             if abs(float(r[name]) - best[r["contact"]]) <= float(r[QUANTITIES[name]])
         ]
-        found[points] = len(stated), len(good), len(those) - len(stated)
-    return found
+        result[points] = len(stated), len(good), len(those) - len(stated)
+    return result
 
 
 def by_two_grids(rows: list[dict[str, str]]) -> tuple[int, int]:
@@ -173,12 +173,12 @@ def lines() -> list[str]:
         "|---" * (len(GRIDS) + 1) + "|",
     ]
     for name, said in names.items():
-        found = covered(rows, name)
+        result = covered(rows, name)
         cells = [
             f"{good} of {stated}" + (f", {none} none" if none else "")
-            for stated, good, none in found.values()
+            for stated, good, none in result.values()
         ]
-        stated, good = (sum(part[k] for part in found.values()) for k in (0, 1))
+        stated, good = (sum(part[k] for part in result.values()) for k in (0, 1))
         cells.append(f"{good} of {stated} = {100.0 * good / stated:.0f} %")
         found_lines.append(f"| {said} | " + " | ".join(cells) + " |")
     return found_lines

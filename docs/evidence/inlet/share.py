@@ -77,12 +77,12 @@ def run(*, strict: bool) -> None:
     }
     for row in rows:
         case = keys[int(row["seed"]), int(row["contact"])] | {"grid.points": row["points"]}
-        found = summary_of(
+        result = summary_of(
             pyehl.solve(pyehl.Case.from_text("", case | (STRICT if strict else {})), check=False)
         )
         names = [n for n in RESULTS if not strict or f"strict_{n}" in row]
         for name in names:
-            value = found.get(RESULTS[name])
+            value = result.get(RESULTS[name])
             text = f"{value:.6g}" if isinstance(value, float) else "" if value is None else value
             row[f"strict_{name}" if strict else name] = text
         with TABLE.open("w", newline="", encoding="utf-8") as file:
@@ -115,7 +115,7 @@ def lines() -> list[str]:
         "differences above half the grid error",
         "cycles",
     )
-    found = ["| " + " | ".join(heads) + " |", "|---" * len(heads) + "|"]
+    result = ["| " + " | ".join(heads) + " |", "|---" * len(heads) + "|"]
     for seed in sorted({int(row["seed"]) for row in read()}):
         solved = [row for row in read() if int(row["seed"]) == seed and row["status"]]
         for which, name in (("before_", "changes of a cycle"), ("", "changes and residual")):
@@ -127,8 +127,8 @@ def lines() -> list[str]:
             cells = f"{seed}", name, f"{len(rows)}", f"{np.sum(off <= values[:, 1])}"
             far = off > 0.5 * (values[:, 3] - values[:, 4])
             cells = *cells, f"{off.max():.3f}", f"{far.sum()}", f"{cycles}"
-            found.append("| " + " | ".join(cells) + " |")
-    return found
+            result.append("| " + " | ".join(cells) + " |")
+    return result
 
 
 if __name__ == "__main__":

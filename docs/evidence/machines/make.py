@@ -185,9 +185,9 @@ def measure_cells() -> None:
         keys = dict(contact.values) | SETTINGS | {"grid.points": row["points"]}
         short = timed(keys | {"grid.points_y": across + 1})
         long = timed(keys | {"grid.points_y": across // 2 + 1})
-        found = row | {name: short[name] for name in ("points_y", "total_cycles", "seconds")}
-        found |= {f"long_{name}": long[name] for name in ("status", "total_cycles", "seconds")}
-        rows.append(found | {"alpha_p_h": alpha_p_h})
+        result = row | {name: short[name] for name in ("points_y", "total_cycles", "seconds")}
+        result |= {f"long_{name}": long[name] for name in ("status", "total_cycles", "seconds")}
+        rows.append(result | {"alpha_p_h": alpha_p_h})
     write("cells.csv", CELLS, rows)
 
 
@@ -223,8 +223,8 @@ def measure_border() -> None:
                 keys |= {"grid.x_outlet": 1.5, "grid.y_extent": 0.5 * across * 1.35 * mesh}
                 points = round((1.5 - inlet) / mesh) + 1
                 keys |= {"grid.points": points, "grid.points_y": across + 1}
-                found = timed(keys | SETTINGS | {"solver.accuracy": ACCURACY})
-                rows.append(found | {key.partition(".")[2]: keys[key] for key in keys})
+                result = timed(keys | SETTINGS | {"solver.accuracy": ACCURACY})
+                rows.append(result | {key.partition(".")[2]: keys[key] for key in keys})
                 rows[-1]["ellipticity"] = kappa
     write("border.csv", BORDER, rows)
 

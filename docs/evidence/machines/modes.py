@@ -74,7 +74,7 @@ def factor(x: Field, y: Field, ratio: float, conductance: float, *, dipole: bool
 def lines() -> list[str]:
     """Make the table."""
     columns = [f"{c:g}" for c in CONDUCTANCES]
-    found = [
+    result = [
         "| cells | dipoles, rough in X or Y: ε/h_y² = "
         f"{' / '.join(columns)} | rough in X | single changes, any: ε/h_x² = {SWITCH:g} "
         f"| ε/h_y² = {SWITCH:g} |",
@@ -91,8 +91,8 @@ def lines() -> list[str]:
             " / ".join(f"{each[rough_x].max():.2f}" for each in left),
             *(f"{each:.1f}" for each in single),
         ]
-        found.append(f"| 1 : {ratio:g} | {' | '.join(cells)} |")
-    return found
+        result.append(f"| 1 : {ratio:g} | {' | '.join(cells)} |")
+    return result
 
 
 if __name__ == "__main__":

@@ -36,7 +36,7 @@ def rows() -> list[dict[str, str]]:
 
 def lines() -> list[str]:
     """Give the points with a full simulation: prediction, then simulation."""
-    found = [
+    result = [
         "| speed [m/s] | Λ | load share | simulated | area share | simulated | minimum film [nm] "
         "| simulated |",
         "|---|---|---|---|---|---|---|---|",
@@ -54,8 +54,8 @@ def lines() -> list[str]:
         areas = [f"{float(row[name]):.2g}" for name in (AREA, f"{AREA}_ehl")]
         films = [f"{1e9 * float(row[name]):.1f}" for name in (FILM, "h_min_rough_ehl_m")]
         cells = [speed, f"{float(row['lambda_ratio']):.2f}", *shares, *areas, *films]
-        found.append(f"| {' | '.join(cells)} |")
-    return found
+        result.append(f"| {' | '.join(cells)} |")
+    return result
 
 
 def draw() -> Figure:

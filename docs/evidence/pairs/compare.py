@@ -33,11 +33,11 @@ def compared() -> list[dict[str, Any]]:
     before, simulated = read("predicted.csv"), read("simulated.csv")
     table = []
     for row in rows():
-        found = simulated.get(row["name"])
-        if found is None or found["status"] != "converged":
+        result = simulated.get(row["name"])
+        if result is None or result["status"] != "converged":
             continue
-        ratio = float(found["mu_ratio"])
-        error = sum(float(found[f"mu_ratio_error_{part}"] or 0.0) for part in PARTS)
+        ratio = float(result["mu_ratio"])
+        error = sum(float(result[f"mu_ratio_error_{part}"] or 0.0) for part in PARTS)
         first, stated = (float(before[row["name"]][k]) for k in ("mu_ratio", "model_error"))
         now = pyehl.predict(case(row), **surfaces(row), tracks=1).mu_ratio
         operating = OperatingPoint.from_settings(case(row).resolve())
@@ -49,7 +49,7 @@ def compared() -> list[dict[str, Any]]:
                 "slide_to_roll": row["slide_to_roll"],
                 "first": row["first"],
                 "second": row["second"],
-                "points": found["points"],
+                "points": result["points"],
                 "mu_ratio": round(ratio, 5),
                 "mu_ratio_error": round(error, 5),
                 "predicted": first,

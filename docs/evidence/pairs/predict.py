@@ -23,9 +23,9 @@ def main() -> None:
     for row in rows():
         if row["name"] in done:
             continue
-        found = pyehl.predict(case(row), **surfaces(row), tracks=1)
-        numbers = [found.mu_ratio, found.model_error, found.friction.position_error]
-        words = [row["name"], found.friction.status, *(f"{v:.5f}" for v in numbers)]
+        result = pyehl.predict(case(row), **surfaces(row), tracks=1)
+        numbers = [result.mu_ratio, result.model_error, result.friction.position_error]
+        words = [row["name"], result.friction.status, *(f"{v:.5f}" for v in numbers)]
         with place.open("a", newline="", encoding="utf-8") as stream:
             csv.writer(stream, lineterminator="\n").writerow(words)
         print(*words, flush=True)

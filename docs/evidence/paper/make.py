@@ -38,8 +38,8 @@ HEAD = (
 
 def grid_of(name: str, piece: str, level: Level) -> str:
     """Nodes per side that a number is from, '' where no grid is in it."""
-    if found := re.search(r"(\d+) x \1 nodes", name):
-        return found[1]
+    if match := re.search(r"(\d+) x \1 nodes", name):
+        return match[1]
     if piece == "figure 2":
         return str(level.wave_grids[-1])
     if piece == "table 2":
@@ -59,7 +59,7 @@ def rows_of(level: Level, result: Result) -> Iterator[tuple[str, ...]]:
             check.name,
             grid_of(check.name, result.name, level),
             f"{check.expected:.6g}",
-            f"{check.found:.6g}",
+            f"{check.value:.6g}",
             "0" if rounding else f"{check.deviation:+.3g}",
             "" if check.tolerance is None else f"{check.tolerance:.2g}",
             "not reproduced" if check.explained else check.verdict,

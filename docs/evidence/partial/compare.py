@@ -28,26 +28,26 @@ def compared() -> list[dict[str, Any]]:
     before, simulated = read("predicted.csv"), read("simulated.csv")
     table = []
     for row in rows():
-        found = simulated.get(row["name"])
-        if found is None or found["status"] != "converged":
+        result = simulated.get(row["name"])
+        if result is None or result["status"] != "converged":
             continue
         then, now = before[row["name"]], pyehl.predict(case(row), tracks=1).summary
         line: dict[str, Any] = {
             "name": row["name"],
             "points": int(row["points"]),
-            "moes_m": round(float(found["moes_m"])),
-            "moes_l": round(float(found["moes_l"]), 1),
+            "moes_m": round(float(result["moes_m"])),
+            "moes_l": round(float(result["moes_l"]), 1),
             "slide_to_roll": row["slide_to_roll"],
         }
         for name, digits in (("contact_load_share", 4), ("contact_area_share", 4), ("mu", 4)):
             line |= {
-                name: round(float(found[name]), digits),
+                name: round(float(result[name]), digits),
                 f"{name}_predicted": round(float(then[name]), digits),
                 f"{name}_now": round(now[name], digits),
             }
         error = round(now["contact_load_share_error"], 4)
-        grid = round(float(found["contact_load_share_error_grid"]), 4)
-        off = abs(now["contact_load_share"] - float(found["contact_load_share"]))
+        grid = round(float(result["contact_load_share_error_grid"]), 4)
+        off = abs(now["contact_load_share"] - float(result["contact_load_share"]))
         line |= {
             "simulation_error": grid,
             "stated_error": error,

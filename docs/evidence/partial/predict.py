@@ -35,13 +35,13 @@ def main() -> None:
     for row in rows():
         if row["name"] in done:
             continue
-        found = pyehl.predict(case(row), tracks=1).summary
-        numbers = [found[name] for name in COLUMNS]
+        result = pyehl.predict(case(row), tracks=1).summary
+        numbers = [result[name] for name in COLUMNS]
         words = ["" if v is None else f"{v:.5g}" for v in numbers]
         with place.open("a", newline="", encoding="utf-8") as stream:
             writer = csv.writer(stream, lineterminator="\n")
-            writer.writerow([row["name"], found["status"], *words])
-        print(row["name"], found["status"], *words, flush=True)
+            writer.writerow([row["name"], result["status"], *words])
+        print(row["name"], result["status"], *words, flush=True)
 
 
 if __name__ == "__main__":

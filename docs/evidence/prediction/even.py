@@ -42,21 +42,21 @@ def fields(row: dict[str, Any], factor: float) -> tuple[Array, Array, Fields]:
     """
     one_grid = case(row).with_options("time.estimate_error=.false.")
     with solver_on_heights(one_grid, {"surface": surface(row).heights * factor}) as solver:
-        found = [
+        result = [
             (solver.field("P"), solver.field("H"))
             for step in solver
             if step.number > BEFORE and step.number % EVERY == 0
         ]
-        return *solver.axes(), [found[0], *found[-round(LAST * len(found)) :]]
+        return *solver.axes(), [result[0], *result[-round(LAST * len(result)) :]]
 
 
 def compared(row: dict[str, Any]) -> list[str]:
     """Give the line of a case."""
     settings = case(row).resolve()
     operating, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
-    x, y, found = fields(row, 1.0)
+    x, y, result = fields(row, 1.0)
     _, _, turned = fields(row, -1.0)
-    smooth, film = found[0]
+    smooth, film = result[0]
     step = 1e-3
     rho = [
         oil.density_ratio(np.maximum(smooth + d, 0.0) * operating.hertz_pressure)
@@ -79,7 +79,7 @@ def compared(row: dict[str, Any]) -> list[str]:
     stiff = stiffness(q) / (1.0 + stiffness(q) * film[middle] * c[middle])
     part = radius < RADIUS
     values = []
-    for (up, film_up), (down, film_down) in zip(found[1:], turned[1:], strict=True):
+    for (up, film_up), (down, film_down) in zip(result[1:], turned[1:], strict=True):
         p1, t1 = 0.5 * (up - down), 0.5 * (film_down - film_up)
         source = window * (c * p1 * t1 - 0.5 * r * film * p1**2)
         second = scipy.fft.irfft2(stiff * scipy.fft.rfft2(source), s=source.shape)

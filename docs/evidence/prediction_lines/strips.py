@@ -74,14 +74,14 @@ DRAWN = 20261128, 8
 def drawn(seed: int, count: int) -> dict[str, Row]:
     """Draw strips: waves, isotropic surfaces and pairs of them, under every law."""
     rng = np.random.default_rng(seed)
-    found = {}
+    result = {}
     for number in range(count):
         moes_m = float(np.exp(rng.uniform(np.log(20.0), np.log(100.0))))
         law = str(rng.choice(["", f"{EYRING} 5e6", f"{EYRING} 1e7", f"{CARREAU} 6e6"]))
         waves = [float(length) for length in rng.choice([0.25, 0.5, 1.0, 2.0], 2)]
         kind = str(rng.choice(["wave", "fractal", "fractal", "two"]))
         rms = rng.uniform(0.1, 0.35)
-        found[f"d{number + 1}"] = Row(
+        result[f"d{number + 1}"] = Row(
             round(moes_m, 1),
             round(float(rng.uniform(5.0, 14.0)), 1),
             round(float(rng.uniform(0.95, 1.05)), 3),
@@ -91,7 +91,7 @@ def drawn(seed: int, count: int) -> dict[str, Row]:
             second=round(float(rng.uniform(0.1, 0.2)), 3) if kind == "two" else 0.0,
             law=law,
         )
-    return found
+    return result
 
 
 PLAN |= drawn(*DRAWN)
@@ -186,10 +186,10 @@ def main(arguments: list[str]) -> None:
     """Predict, simulate or compare."""
     what, *names = arguments
     if what == "commit":
-        found = read(HERE / "committed.csv")
-        known = found | read(HERE / "simulated.csv")
+        result = read(HERE / "committed.csv")
+        known = result | read(HERE / "simulated.csv")
         new = {name: predicted(row) for name, row in PLAN.items() if name not in known}
-        write(HERE / "committed.csv", found | new)
+        write(HERE / "committed.csv", result | new)
     elif what == "simulate":
         for name in names or PLAN:
             if name not in read(HERE / "simulated.csv"):
@@ -197,12 +197,12 @@ def main(arguments: list[str]) -> None:
                 # others may have been added meanwhile
                 write(HERE / "simulated.csv", read(HERE / "simulated.csv") | {name: row})
     elif what == "compare":
-        said, found = read(HERE / "committed.csv"), read(HERE / "simulated.csv")
+        said, result = read(HERE / "committed.csv"), read(HERE / "simulated.csv")
         for name in PLAN:
-            if name in said and name in found:
-                p, s = (float(rows[name]["mu_ratio"] or "nan") for rows in (said, found))
+            if name in said and name in result:
+                p, s = (float(rows[name]["mu_ratio"] or "nan") for rows in (said, result))
                 error = float(said[name]["mu_ratio_model_error"] or "nan")
-                grid = float(found[name]["mu_ratio_error_grid"] or "nan")
+                grid = float(result[name]["mu_ratio_error_grid"] or "nan")
                 held = "covered" if abs(p - s) <= error else "not covered"
                 print(
                     f"{name:10s} {p:.4f} / {s:.4f} +- {grid:.4f}: {p / s - 1.0:+.2%}, "

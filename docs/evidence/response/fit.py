@@ -54,25 +54,25 @@ def _terms() -> list[tuple[int, ...]]:
         rest = (*others, 0, 0, 0, 0, 0)[:5]
         return [(i, j, *rest) for i in range(order + 1) for j in range(order + 1) if i + j <= order]
 
-    found = upto(5)
+    result = upto(5)
     for powers in ((1, 0), (0, 1)):
-        found += upto(4, *powers)
+        result += upto(4, *powers)
     for powers in ((2, 0), (0, 2), (1, 1)):
-        found += upto(3, *powers)
+        result += upto(3, *powers)
     for powers in ((3, 0), (0, 3), (2, 1), (1, 2)):
-        found += upto(2, *powers)
-    found += upto(4, 0, 0, 1) + upto(2, 0, 0, 2)
-    found += upto(2, 1, 0, 1) + upto(2, 0, 1, 1)
+        result += upto(2, *powers)
+    result += upto(4, 0, 0, 1) + upto(2, 0, 0, 2)
+    result += upto(2, 1, 0, 1) + upto(2, 0, 1, 1)
     for powers in ((2, 0, 1), (0, 2, 1), (1, 1, 1)):
-        found += upto(1, *powers)
+        result += upto(1, *powers)
     for powers in ((1, 0, 2), (0, 1, 2)):
-        found += upto(0, *powers)
+        result += upto(0, *powers)
     # what the leak in the inlet does at low M L, and nothing elsewhere
-    found += upto(5, 0, 0, 0, 1) + upto(4, 0, 0, 0, 2)
-    found += upto(4, 0, 0, 1, 1) + upto(4, 0, 0, 2, 1) + upto(3, 0, 0, 1, 2)
+    result += upto(5, 0, 0, 0, 1) + upto(4, 0, 0, 0, 2)
+    result += upto(4, 0, 0, 1, 1) + upto(4, 0, 0, 2, 1) + upto(3, 0, 0, 1, 2)
     # ridges do not move: U is nothing to them
-    found = [(i, j + (e > 0), a, b, e, *rest) for i, j, a, b, e, *rest in found]
-    return found + upto(1, 0, 0, 0, 0, 1)
+    result = [(i, j + (e > 0), a, b, e, *rest) for i, j, a, b, e, *rest in result]
+    return result + upto(1, 0, 0, 0, 0, 1)
 
 
 TERMS = _terms()
@@ -211,12 +211,12 @@ class Fit:
         """Coefficients as :mod:`pyehl.theory.response` reads them."""
 
         def listed(terms: list[tuple[int, ...]], values: Array) -> list[list[float]]:
-            found = []
+            result = []
             for term, value in zip(terms, values, strict=True):
                 if not term[6]:
                     scale = np.prod([f**p for f, p in zip(SCALES, term, strict=True)])
-                    found.append([float(f"{value * scale:.7g}"), *term[:6]])
-            return found
+                    result.append([float(f"{value * scale:.7g}"), *term[:6]])
+            return result
 
         names = {"modulus": TERMS, "angle": TERMS, "origin": ORIGIN, "growth": GROWTH}
         return {
@@ -267,10 +267,10 @@ def fit(data: Data, iterations: tuple[int, int] = (40, 40), start: Fit | None = 
     grown = growth * (c * slip)[:, np.newaxis]
     # what a change of G does to T at all X, as one number
     strength = np.maximum(np.sqrt((np.abs(data.free) ** 2).sum(axis=1)), 1e-12)
-    found = start or _start(data)
+    result = start or _start(data)
     for k in range(sum(iterations)):
         last = k >= iterations[0]
-        g, z = found.of_powers(data, powers, origin, growth)
+        g, z = result.of_powers(data, powers, origin, growth)
         left = data.driven + data.free * g[:, np.newaxis] - data.t
         size = np.abs(left).max(axis=1) * first
         weight = first * (0.003 + size) ** (4.0 if last else 1.0)
@@ -285,15 +285,15 @@ def fit(data: Data, iterations: tuple[int, int] = (40, 40), start: Fit | None = 
         b = np.concatenate([wanted.real, wanted.imag])
         normal = a.T @ a
         penalty = np.diag(PENALTY**2 + 1e-9 * np.diag(normal))
-        step = np.linalg.solve(normal + penalty, a.T @ b - PENALTY**2 * found.coefficients)
+        step = np.linalg.solve(normal + penalty, a.T @ b - PENALTY**2 * result.coefficients)
         limit = min(1.0, 3.0 / np.abs(step).max()) if k < 5 else 0.3 if last else 0.7
-        found = Fit(found.coefficients + limit * step)
-    return found
+        result = Fit(result.coefficients + limit * step)
+    return result
 
 
-def table(found: Fit, data: Data) -> list[list[str]]:
+def table(result: Fit, data: Data) -> list[list[str]]:
     """Largest and rms residual of T per operating point, at X = 0 and over all X."""
-    left = np.abs(found.residual(data))
+    left = np.abs(result.residual(data))
     groups: dict[tuple[float, float, float], list[int]] = defaultdict(list)
     for i, key in enumerate(zip(data.m, data.l, data.ratio, strict=True)):
         if data.kx[i] > 0.0:
@@ -310,20 +310,20 @@ def main(target: Path) -> None:
     """Fit, write the coefficients and the residuals, print them."""
     everything = read()
     data = everything.chosen(select(everything))
-    found = fit(data)
+    result = fit(data)
     # a term a line
     text = re.sub(
-        r"\[[^][]*\]", lambda m: " ".join(m[0].split()), json.dumps(found.as_json(), indent=1)
+        r"\[[^][]*\]", lambda m: " ".join(m[0].split()), json.dumps(result.as_json(), indent=1)
     )
     target.write_text(text + "\n", encoding="utf-8")
-    lines = table(found, data)
+    lines = table(result, data)
     with (HERE / "residuals.csv").open("w", newline="", encoding="utf-8") as stream:
         writer = csv.writer(stream, lineterminator="\n")
         names = "moes_m moes_l velocity_ratio waves largest_at_centre rms_at_centre largest".split()
         writer.writerows([names, *lines])
     for line in lines:
         print("  ".join(value.rjust(7) for value in line))
-    left = np.abs(found.residual(data))
+    left = np.abs(result.residual(data))
     ridge = data.kx == 0.0
     print(
         f"{np.count_nonzero(~ridge)} waves: at X = 0 largest {left[~ridge, 1].max():.4f}, rms "

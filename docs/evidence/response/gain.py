@@ -29,7 +29,7 @@ Array = NDArray[np.float64]
 def read() -> Array:
     """M, L, kx, ky, H_c and the measured gain, (waves, 6)."""
     films: dict[tuple[float, float], float] = {}
-    found = []
+    result = []
     with (HERE / "waves.csv").open(newline="", encoding="utf-8") as stream:
         for row in csv.DictReader(stream):
             moes = float(row["moes_m"]), float(row["moes_l"])
@@ -43,8 +43,8 @@ def read() -> Array:
             # pressures that are constant over the cells of the grid deflect less
             half = 2.0 / (POINTS - 1.0) / np.pi
             cells = np.sinc(half * kx) * np.sinc(half * ky)
-            found.append((*moes, kx, ky, films[moes], float(row["pressure_ratio"]) * cells))
-    return np.array(found)
+            result.append((*moes, kx, ky, films[moes], float(row["pressure_ratio"]) * cells))
+    return np.array(result)
 
 
 def residual(waves: Array, constants: Array | tuple[float, ...]) -> Array:

@@ -23,8 +23,8 @@ def left_out(data: Data, whole: Fit, moes_m: float, moes_l: float) -> list[str]:
     """Largest deviation at a point from the fit to all others, at U = 1 and 1.01 and elsewhere."""
     here = (data.m == moes_m) & (data.l == moes_l)
     waves = data.chosen(here & (data.kx > 0.0))
-    found = fit(data.chosen(~here), FEW, whole)
-    left = np.abs(found.residual(waves)).max(axis=1)
+    result = fit(data.chosen(~here), FEW, whole)
+    left = np.abs(result.residual(waves)).max(axis=1)
     slow = np.abs(waves.ratio - 1.0) < 0.02
     return [f"{left[part].max():.3f}" if part.any() else "" for part in (slow, ~slow)]
 

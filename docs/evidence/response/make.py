@@ -122,27 +122,27 @@ def parts_of(
 ) -> list[tuple[Complex, Complex]]:
     """Driven part of T at the STATIONS, and the free part but for what is fitted of it."""
     base = inlet_base(zone, kx, ky, moes, ratio, spacing)
-    found = []
+    result = []
     for x, (driven, free) in zip(
         STATIONS, transport(zone, kx, ky, ratio, STATIONS, spacing), strict=True
     ):
-        found.append((driven, free * base * np.exp(1j * kx * (ratio - 1.0) * (x + 1.0))))
-    return found
+        result.append((driven, free * base * np.exp(1j * kx * (ratio - 1.0) * (x + 1.0))))
+    return result
 
 
 def rows(
-    waves: WaveSet, found: Superposition, moes_m: float, moes_l: float, ratio: float
+    waves: WaveSet, result: Superposition, moes_m: float, moes_l: float, ratio: float
 ) -> Iterator[list[str]]:
     """Lines of the table: T, and the parts of it that the transport equation gives."""
     kx, ky = waves.kx, waves.ky
-    points = round(TILE / found.spacing) + 1
+    points = round(TILE / result.spacing) + 1
     zone = smooth_zone(moes_m, moes_l, points)
-    parts = parts_of(zone, kx, ky, (moes_m, moes_l), ratio, found.spacing)
+    parts = parts_of(zone, kx, ky, (moes_m, moes_l), ratio, result.spacing)
     for j in range(kx.size):
         for x, (driven, free) in zip(STATIONS, parts, strict=True):
-            i = int(np.argmin(np.abs(found.x - x)))
-            t = found.response[j, i]
-            ratio_p = abs(found.stiffness[j, i] / (stiffness(waves.q[j]) * (1.0 - t)))
+            i = int(np.argmin(np.abs(result.x - x)))
+            t = result.response[j, i]
+            ratio_p = abs(result.stiffness[j, i] / (stiffness(waves.q[j]) * (1.0 - t)))
             values = [v for c in (t, driven[j], free[j]) for v in (c.real, c.imag)]
             yield [
                 *(f"{v:g}" for v in (moes_m, moes_l, ratio, points)),
@@ -180,10 +180,10 @@ def main(arguments: list[str]) -> None:
             print(f"M {m:g} L {ell:g} U {u:g}: {n} x {n} nodes, waves {variant}", flush=True)
             waves = waves_of(n, variant)
             filling = SETTLED if (m, ell, u, n, variant) in LATER else FILLING
-            found = superpose(
+            result = superpose(
                 settings_of(m, ell), waves, points=n, velocity_ratio=u, filling=filling
             )
-            writer.writerows(rows(waves, found, m, ell, u))
+            writer.writerows(rows(waves, result, m, ell, u))
 
 
 if __name__ == "__main__":

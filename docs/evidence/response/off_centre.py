@@ -73,7 +73,7 @@ def measure(moes_m: float, moes_l: float) -> list[list[str]]:
 
 def left(table: NDArray[np.float64]) -> NDArray[np.float64]:
     """|T| beside the centre line that the oblique inlet leaves of the measured change (n,)."""
-    found = np.empty(len(table))
+    result = np.empty(len(table))
     for m, ell in RUNS:
         here = np.flatnonzero((table[:, 0] == m) & (table[:, 1] == ell))
         zone, kx = smooth_zone(m, ell, POINTS), table[here, 2]
@@ -85,8 +85,8 @@ def left(table: NDArray[np.float64]) -> NDArray[np.float64]:
         behind = np.sqrt(1.0 - np.square(table[here, 3])) - 1.0
         change = np.array(line) / np.array(middle) * np.exp(1j * kx * (RATIO - 1.0) * behind)
         centre = np.repeat(((t - driven) / free)[table[here, 3] == 0.0], len(LINES))
-        found[here] = np.abs(driven + free * centre * change - t)
-    return found
+        result[here] = np.abs(driven + free * centre * change - t)
+    return result
 
 
 def main(arguments: list[str]) -> None:

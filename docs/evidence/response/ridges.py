@@ -88,16 +88,16 @@ def main(path: Path) -> None:
         writer.writerow("moes_m moes_l points ky T driven free pressure_ratio".split())
         for m, ell in sorted(BETWEEN | {run[:2] for run in runs()}):
             settings = settings_of(m, ell)
-            found = ridges(settings, WAVELENGTHS, points=POINTS)
-            centre = int(np.argmin(np.abs(found["x"])))
+            result = ridges(settings, WAVELENGTHS, points=POINTS)
+            centre = int(np.argmin(np.abs(result["x"])))
             ky = 2.0 * np.pi / np.array(WAVELENGTHS)
             operating = OperatingPoint.from_settings(settings)
             lubricant = Lubricant.from_settings(settings)
-            pressure = np.maximum(found["pressure"], 0.0)
-            zone = zone_on(found["x"], pressure, found["film"], operating, lubricant)
-            parts = parts_of(zone, 0.0 * ky, ky, (m, ell), 1.0, float(found["spacing"]))
-            t = found["response"][:, centre]
-            ratio = found["stiffness"][:, centre] / (stiffness(ky) * (1.0 - t))
+            pressure = np.maximum(result["pressure"], 0.0)
+            zone = zone_on(result["x"], pressure, result["film"], operating, lubricant)
+            parts = parts_of(zone, 0.0 * ky, ky, (m, ell), 1.0, float(result["spacing"]))
+            t = result["response"][:, centre]
+            ratio = result["stiffness"][:, centre] / (stiffness(ky) * (1.0 - t))
             for row in zip(ky, t, *(part.real for part in parts[MIDDLE]), ratio, strict=True):
                 k, *values, last = row
                 writer.writerow(

@@ -40,11 +40,11 @@ NODES, LONGEST = 10.0, 3.0
 def measure(moes_m: float, moes_l: float, ratio: float, points: int) -> NDArray[np.float64]:
     """Rows of a run, without the prediction."""
     waves = waves_of(points, 0)
-    found = superpose(
+    result = superpose(
         settings_of(moes_m, moes_l), waves, points=points, velocity_ratio=ratio, filling=FILLING
     )
-    place = [int(np.argmin(np.abs(found.x - x))) for x in STATIONS]
-    t = found.response[:, place]
+    place = [int(np.argmin(np.abs(result.x - x))) for x in STATIONS]
+    t = result.response[:, place]
     heads = np.broadcast_to([moes_m, moes_l, ratio, points], (*t.shape, 4))
     q = np.repeat(np.stack([waves.kx, waves.ky], axis=-1)[:, np.newaxis], STATIONS.size, axis=1)
     x = np.broadcast_to(STATIONS, t.shape)
@@ -84,14 +84,14 @@ def off(rows: NDArray[np.float64]) -> NDArray[np.float64]:
 def main() -> None:
     """Measure what is missing, predict all, print and write."""
     rows = read()
-    found = []
+    result = []
     print("moes_m moes_l    U  points  waves  X = 0: rms  largest  all X: largest")
     for key in PLAN:
         there = rows[(rows[:, :4] == key).all(1)]
         run = there if there.size else measure(*key)
         t = predicted(run)
         run[:, 9], run[:, 10] = t.real, t.imag
-        found.append(run)
+        result.append(run)
         here = run[compared(run)]
         centre, all_x = off(here[here[:, 6] == STATIONS[MIDDLE]]), off(here)
         numbers = np.sqrt(np.mean(centre**2)), centre.max(), all_x.max()
@@ -103,7 +103,7 @@ def main() -> None:
     with TABLE.open("w", newline="", encoding="utf-8") as stream:
         writer = csv.writer(stream, lineterminator="\n")
         writer.writerow(COLUMNS)
-        for row in np.concatenate(found):
+        for row in np.concatenate(result):
             heads = [f"{v:.6g}" for v in row[:7]]
             writer.writerow([*heads, *(f"{v:.5f}" for v in row[7:])])
 

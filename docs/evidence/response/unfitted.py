@@ -22,7 +22,7 @@ HERE = Path(__file__).resolve().parent
 
 def main() -> None:
     """Compare T = driven + free F with what was measured."""
-    found: dict[tuple[str, ...], list[float]] = defaultdict(list)
+    result: dict[tuple[str, ...], list[float]] = defaultdict(list)
     with (HERE / "unfitted.csv").open(newline="", encoding="utf-8") as stream:
         for row in csv.DictReader(stream):
             t, driven, free = (
@@ -36,9 +36,9 @@ def main() -> None:
             inlet = complex(inlet_fit([kx], [ky], moes, float(row["velocity_ratio"]))[0])
             octave = f"a/{2 ** round(np.log2(np.hypot(kx, ky) / (2.0 * np.pi)))}"
             key = (row["moes_m"], row["moes_l"], row["velocity_ratio"], octave)
-            found[key].append(abs(driven + free * inlet - t))
+            result[key].append(abs(driven + free * inlet - t))
     print("moes_m moes_l     U  wavelength  largest")
-    for (m, ell, ratio, octave), left in sorted(found.items()):
+    for (m, ell, ratio, octave), left in sorted(result.items()):
         print(f"{m:>6} {ell:>6} {ratio:>5}  {octave:>10}  {max(left):7.3f}")
 
 

@@ -56,11 +56,11 @@ def dry_pressure(ds: xr.Dataset) -> NDArray[np.float64]:
     sizes = nodes[0] * step[0], nodes[1] * step[1]
     half_space = FreeFFTElasticHalfSpace(nodes, 0.5 * c["reduced_modulus"], sizes)
     system = NonSmoothContactSystem(half_space, Topography(-gap, sizes))
-    found = system.minimize_proxy(external_force=c["load"], pentol=1e-9)
-    if not found.success:
-        raise RuntimeError(f"no dry contact: {found.message}")
+    result = system.minimize_proxy(external_force=c["load"], pentol=1e-9)
+    if not result.success:
+        raise RuntimeError(f"no dry contact: {result.message}")
     pressure = np.zeros((x.size, y.size))
-    pressure[inner] = np.asarray(found.jac).reshape(nodes) / math.prod(step)
+    pressure[inner] = np.asarray(result.jac).reshape(nodes) / math.prod(step)
     return pressure
 
 

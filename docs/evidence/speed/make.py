@@ -84,8 +84,8 @@ TABLES: dict[str, tuple[tuple[str, ...], dict[str, str]]] = {
 def read_measurements(folder: Path) -> None:
     """Write the tables."""
     for name, (files, columns) in TABLES.items():
-        found = [json.loads((folder / f"{file}.json").read_text()) for file in files]
-        rows = runs(found[0]) if name == "runs" else [row for one in found for row in one["rows"]]
+        result = [json.loads((folder / f"{file}.json").read_text()) for file in files]
+        rows = runs(result[0]) if name == "runs" else [row for one in result for row in one["rows"]]
         with (HERE / f"{name}.csv").open("w", newline="", encoding="utf-8") as stream:
             writer = csv.writer(stream, lineterminator="\n")
             writer.writerow(columns)
@@ -133,23 +133,23 @@ def percent(error: str) -> str:
 def steps() -> list[str]:
     """Make the table of time steps: each problem on one thread and on two."""
     rows = table("steps")
-    found = []
+    result = []
     for one, two in zip(rows[::2], rows[1::2], strict=True):
         half = ", half of the domain" if one["domain"] == "half" else ""
         grid = f"{one['points']} × {one['points']}"
         units = one["units"], two["units"]
-        found.append(
+        result.append(
             [grid, PROBLEMS[one["case"]] + half, one["cycles"], *units, percent(one["error"])]
         )
     return lines(
         "| grid | problem | cycles a step | units, one thread | two threads | error of μ_r/μ_s |",
-        found,
+        result,
     )
 
 
 def whole() -> list[str]:
     """Make the table of whole transient runs."""
-    found = [
+    result = [
         [
             f"{row['points']} × {row['points']}",
             PROBLEMS[row["case"]],
@@ -157,13 +157,13 @@ def whole() -> list[str]:
         ]
         for row in table("runs")
     ]
-    return lines("| grid | problem | steps | units, two threads | μ_r/μ_s | error |", found)
+    return lines("| grid | problem | steps | units, two threads | μ_r/μ_s | error |", result)
 
 
 def smooth() -> list[str]:
     """Make the table of smooth contacts by multi-integration, and by FFT beside it."""
     rows = {(r["points"], r["engine"], r["threads"]): r for r in table("smooth")}
-    found = []
+    result = []
     for points in dict.fromkeys(key[0] for key in rows):
         row = rows[points, "mlmi", "1"]
         if row["status"] != "converged":
@@ -171,22 +171,22 @@ def smooth() -> list[str]:
         units = [
             rows[points, *how]["units"] for how in (("mlmi", "1"), ("mlmi", "2"), ("fft", "1"))
         ]
-        found.append([f"{points} × {points}", row["cycles"], *units, percent(row["error"])])
+        result.append([f"{points} × {points}", row["cycles"], *units, percent(row["error"])])
     return lines(
         "| grid | cycles on the finest grid | units, one thread | two threads | FFT, one thread "
         "| error of H_c |",
-        found,
+        result,
     )
 
 
 def ratios() -> list[str]:
     """Make the table of what a law, an ellipse or a second surface costs."""
-    found = [
+    result = [
         [PROBLEMS[row["case"]], f"{row['points']} nodes", row["ratio"]]
         for row in table("ratios")
         if row["case"] in PROBLEMS
     ]
-    return lines("| problem | along X | time per node |", found)
+    return lines("| problem | along X | time per node |", result)
 
 
 def power(text: str) -> str:
@@ -200,17 +200,17 @@ def power(text: str) -> str:
 
 def skips() -> list[str]:
     """Make the table of what is skipped."""
-    found = []
+    result = []
     for row in table("skips"):
         what = row["skipped"].replace("time.start = 'prediction'", "`time.start = 'prediction'`")
         quantity = (
             row["quantity"].replace("mu_ratio", "μ_r/μ_s").replace("coarser H_c", "H_c there")
         )
         numbers = power(row["difference"]), power(row["allowed"])
-        found.append(
+        result.append(
             [row["problem"], what, f"{100 * float(row['saved']):.0f} %", quantity, *numbers]
         )
-    return lines("| problem | not done | time saved | quantity | difference | allowed |", found)
+    return lines("| problem | not done | time saved | quantity | difference | allowed |", result)
 
 
 def sweep() -> list[str]:
@@ -225,7 +225,7 @@ def sweep() -> list[str]:
         "transient 257": "transient run of a wave, 257 × 257",
         "transient 513": "transient run of a wave, 513 × 513",
     }
-    found = [
+    result = [
         [
             names[row["problem"]],
             two_digits(rate["smooth 257", "1"] / rate[row["problem"], "1"]),
@@ -234,7 +234,7 @@ def sweep() -> list[str]:
         for row in rows
         if row["processes"] == "2"
     ]
-    return lines("| what | units | throughput of two processes over one |", found)
+    return lines("| what | units | throughput of two processes over one |", result)
 
 
 def main() -> None:

@@ -87,13 +87,13 @@ def problems(folder: Path) -> dict[str, dict[str, Any]]:
 
 def row_of(name: str, points: int, options: dict[str, Any]) -> dict[str, Any]:
     """Run a problem both ways."""
-    found = []
+    result = []
     for start in ("front", "prediction"):
         case = pyehl.Case.from_text("", options | {"grid.points": points, "time.start": start})
         with pyehl.Solver(case) as solver:
             solver.run()
-            found.append(solver.summary)
-    front, other = found
+            result.append(solver.summary)
+    front, other = result
     return {
         "problem": name,
         "points": points,

@@ -117,10 +117,10 @@ def solve_again(row: Row) -> str:
             ahead = LATER if row["outcome"] == "negative film" else 1
             films = (film.min() for _, film in islice(solver.steps(wave), steps + ahead))
             return NO_SOLUTION if any(least <= 0.0 for least in films) else SOLVABLE
-        found = list(islice(solver.steps(wave), steps))
+        result = list(islice(solver.steps(wave), steps))
     except (NotSolvedError, np.linalg.LinAlgError, ValueError):
         return UNSOLVED
-    last = [ratio for ratio, _ in found][max(0, steps - int(row["T_mean"] / solver.h) - 1) :]
+    last = [ratio for ratio, _ in result][max(0, steps - int(row["T_mean"] / solver.h) - 1) :]
     return SAME if abs(max(last) / row["mu_ratio_max"] - 1.0) < AGREE else DIFFERS
 
 
@@ -145,7 +145,7 @@ def wrong(row: dict[str, str]) -> bool:
 
 def lines() -> list[str]:
     """Make the table of docs/robustness.md."""
-    found = [
+    result = [
         "| problems | cases | converged | all steps done | no solution | other ends | checked "
         "| wrong |",
         "|---|---|---|---|---|---|---|---|",
@@ -162,9 +162,9 @@ def lines() -> list[str]:
         ]
         counts.append(counts[0] - sum(counts[1:]))
         counts += [sum(bool(row["difference"]) for row in mine), sum(map(wrong, mine))]
-        found.append(f"| {name} | " + " | ".join(str(n or "") for n in counts[:-1]))
-        found[-1] += f" | {counts[-1]} |"
-    return found
+        result.append(f"| {name} | " + " | ".join(str(n or "") for n in counts[:-1]))
+        result[-1] += f" | {counts[-1]} |"
+    return result
 
 
 def main(file: str) -> None:

@@ -89,16 +89,16 @@ def stored() -> list[dict[str, str]]:
 
 
 def rows(
-    found: list[dict[str, str]], surface: str, law: str, slip: float
+    result: list[dict[str, str]], surface: str, law: str, slip: float
 ) -> Iterator[dict[str, str]]:
     """Rows of one curve, in the order of speed."""
-    for row in found:
+    for row in result:
         if (row["surface"], row["law"]) == (surface, law) and float(row[KEYS[1]]) == slip:
             yield row
 
 
 @styled()
-def draw(found: list[dict[str, str]], path: Path) -> None:
+def draw(result: list[dict[str, str]], path: Path) -> None:
     """Draw coefficient (Eyring) and ratio (Newtonian) over the speed."""
     figure = new_figure(PAGE, 3.6)
     axes = figure.subplots(1, 2)
@@ -108,7 +108,7 @@ def draw(found: list[dict[str, str]], path: Path) -> None:
             for slip, colour in zip(SLIPS, (BLUE, VERMILLION, GREEN), strict=True):
                 points = [
                     (float(row[KEYS[0]]), float(row[ordinate]))
-                    for row in rows(found, surface, law, slip)
+                    for row in rows(result, surface, law, slip)
                     if row[ordinate]
                 ]
                 if points:

@@ -42,8 +42,8 @@ def solved(name: str, points: int) -> xr.Dataset:
     plan = rough.PLAN[name]
     period = plan.length / plan.velocity_ratio
     case = rough.case_of(plan, points).with_options(f"output.frame_interval={period / FRAMES!r}")
-    found = pyehl.solve(case, check=False)
-    return found.isel(T=np.flatnonzero(found.T > float(found.T[-1]) - period))
+    result = pyehl.solve(case, check=False)
+    return result.isel(T=np.flatnonzero(result.T > float(result.T[-1]) - period))
 
 
 def row_of(name: str, last: xr.Dataset) -> dict[str, Any]:
@@ -53,8 +53,8 @@ def row_of(name: str, last: xr.Dataset) -> dict[str, Any]:
     a = OperatingPoint.from_settings(case.resolve()).hertz_radius
     depths = [a * z for z in DEPTHS]
     simulated, predicted = (
-        pyehl.stress(found, friction="none", near=NEAR * a, depths=depths)
-        for found in (last, pyehl.predict(case))
+        pyehl.stress(result, friction="none", near=NEAR * a, depths=depths)
+        for result in (last, pyehl.predict(case))
     )
     row = {"name": name, "points": points}
     for layer, value in (("near", "near_surface_shear"), ("inner", "near_surface_shear_inner")):
@@ -88,8 +88,8 @@ def main() -> None:
     parser.add_argument("--points", type=int, default=257)
     args = parser.parse_args()
     for name in args.names:
-        found = row_of(name, solved(name, args.points))
-        new = {k: v if k == "name" else f"{v:.5g}" for k, v in found.items()}
+        result = row_of(name, solved(name, args.points))
+        new = {k: v if k == "name" else f"{v:.5g}" for k, v in result.items()}
         kept = [r for r in rows() if (r["name"], r["points"]) != (name, new["points"])]
         with (HERE / "table.csv").open("w", newline="", encoding="utf-8") as stream:
             writer = csv.DictWriter(stream, COLUMNS, lineterminator="\n")

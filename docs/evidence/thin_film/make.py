@@ -146,9 +146,9 @@ def simulated(seed: int, speed: float, flow: str, points: int) -> Row:
         data = pyehl.solve(case_of(seed, speed, flow, points))
     except pyehl.NotConverged as error:
         data = error.results
-    found = {name: summary_of(data).get(name) for name in NAMES["simulated.csv"]}
-    variables = [name for name in found if name in data]
-    return found | {name: float(data[name]) for name in variables}
+    result = {name: summary_of(data).get(name) for name in NAMES["simulated.csv"]}
+    variables = [name for name in result if name in data]
+    return result | {name: float(data[name]) for name in variables}
 
 
 def read(name: str) -> list[Row]:
@@ -184,7 +184,7 @@ def with_error(value: float, error: float, form: str) -> str:
 def lines() -> list[str]:
     """Give the table of predicted beside simulated."""
     known = {tuple(row[k] for k in KEYS[:3]): row for row in read("predicted.csv")}
-    found = [
+    result = [
         "| surface | speed [m/s] | flow | predicted | minimum film [nm] | nodes | simulated "
         "| minimum film [nm] | maximum pressure [p_h] |",
         "|---|---|---|---|---|---|---|---|---|",
@@ -205,14 +205,14 @@ def lines() -> list[str]:
             with_error(1e9 * number(row, "h_min_rough_m"), math.nan, ".0f"),
             with_error(number(row, "P_max_rough"), math.nan, ".1f"),
         ]
-        found.append(f"| {' | '.join(cells)} |")
-    return found
+        result.append(f"| {' | '.join(cells)} |")
+    return result
 
 
 def film_lines() -> list[str]:
     """Give the table of the film that a loss leaves, beside `film_left`."""
     rows = read("film.csv")
-    found = [
+    result = [
         "| first-order loss | below 0.7 a | 0.7 to 0.9 a | `film_left` |",
         "|---|---|---|---|",
     ]
@@ -227,8 +227,8 @@ def film_lines() -> list[str]:
         row = next(iter(here.values()))
         middle = 0.5 * (number(row, "from") + number(row, "to"))
         law = float(film_left(np.array(middle)))
-        found.append(f"| {low} to {row['to']} | {' | '.join(cells)} | {law:.2f} |")
-    return found
+        result.append(f"| {low} to {row['to']} | {' | '.join(cells)} | {law:.2f} |")
+    return result
 
 
 def main(arguments: list[str]) -> None:

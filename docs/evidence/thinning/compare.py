@@ -44,20 +44,20 @@ COLUMNS = (
 
 def of_runs(folder: Path) -> dict[str, Measured]:
     """Waves of the runs in a folder, by their names."""
-    found = {}
+    result = {}
     for path in sorted(folder.glob("*.npz")):
         stored = np.load(path)
         kx, ky = (2.0 * np.pi / TILE * stored[name] for name in ("along", "across"))
         place = [int(np.argmin(np.abs(stored["x"] - x))) for x in STATIONS]
-        found[path.stem] = kx, ky, stored["response"][:, place]
-    return found
+        result[path.stem] = kx, ky, stored["response"][:, place]
+    return result
 
 
 def of_table() -> dict[str, Measured]:
     """Waves of ``waves.csv``, by the names of their runs."""
     with (HERE / "waves.csv").open(newline="", encoding="utf-8") as stream:
         rows = list(csv.DictReader(stream))
-    found = {}
+    result = {}
     for name in PLAN:
         here = [row for row in rows if row["run"] == name]
         kx, ky = (np.array([float(row[k]) for row in here[:: STATIONS.size]]) for k in ("kx", "ky"))
@@ -65,8 +65,8 @@ def of_table() -> dict[str, Measured]:
             if end and PLAN[name].points != POINTS:
                 continue
             parts = [float(row[f"{column}_re"]) + 1j * float(row[f"{column}_im"]) for row in here]
-            found[f"{name}{end}"] = kx, ky, np.array(parts).reshape(-1, STATIONS.size)
-    return found
+            result[f"{name}{end}"] = kx, ky, np.array(parts).reshape(-1, STATIONS.size)
+    return result
 
 
 class Waves:
@@ -91,12 +91,12 @@ class Waves:
         here = replace(self.zone, newtonian=newtonian)
         moes = o.moes_m, o.moes_l
         inlet = inlet_transfer(here, *waves, moes, self.ratio, spacing=spacing) * of_grid
-        found = []
+        result = []
         for x, (driven, free) in zip(
             STATIONS, transport(here, *waves, self.ratio, STATIONS, spacing), strict=True
         ):
-            found.append(driven + free * inlet * np.exp(1j * self.kx * (self.ratio - 1) * (x + 1)))
-        return np.stack(found, axis=-1)
+            result.append(driven + free * inlet * np.exp(1j * self.kx * (self.ratio - 1) * (x + 1)))
+        return np.stack(result, axis=-1)
 
     def of_grid(self) -> Complex:
         """Give what the grid makes of the inlet transfer, of Newtonian waves."""

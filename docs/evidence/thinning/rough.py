@@ -239,20 +239,20 @@ def compare(predictions: dict[str, dict[str, Any]], simulations: dict[str, dict[
     """
     covered: dict[str, list[bool]] = {name: [] for name in QUANTITIES}
     relative: dict[str, list[float]] = {name: [] for name in QUANTITIES}
-    for row, found in simulations.items():
+    for row, result in simulations.items():
         if row not in predictions:
             continue
         said = predictions[row]
-        print(f"{row:12s} {said['status']} / {found['status']}", end="")
-        if found["status"] != "converged" or said["status"] != "predicted":
+        print(f"{row:12s} {said['status']} / {result['status']}", end="")
+        if result["status"] != "converged" or said["status"] != "predicted":
             print()
             continue
         for name, error in QUANTITIES.items():
-            if not said.get(error) or not found[name]:
+            if not said.get(error) or not result[name]:
                 continue
-            p, s = float(said[name]), float(found[name])
+            p, s = float(said[name]), float(result[name])
             if name == "h_min_rough_m":
-                s += float(found["h_min_extrapolated_m"]) - float(found["h_min_m"])
+                s += float(result["h_min_extrapolated_m"]) - float(result["h_min_m"])
             covered[name].append(abs(p - s) <= float(said[error]))
             relative[name].append(p / s - 1.0)
             stated = error_of(said, error, p)
@@ -277,12 +277,12 @@ def error_of(said: dict[str, Any], name: str, value: float) -> str:
 
 def add(path: Path, names: Iterable[str], points: int) -> None:
     """Simulate what a table lacks."""
-    found = read(path)
+    result = read(path)
     for name in names:
-        if name not in found:
+        if name not in result:
             print(name, flush=True)
-            found[name] = simulated(PLAN[name], points)
-            write(path, found)
+            result[name] = simulated(PLAN[name], points)
+            write(path, result)
 
 
 def main(arguments: list[str]) -> None:
@@ -291,10 +291,10 @@ def main(arguments: list[str]) -> None:
     if what == "predict":
         write(HERE / "predicted.csv", {name: predicted(row) for name, row in PLAN.items()})
     elif what == "commit":
-        found = read(HERE / "committed.csv")
-        known = found | read(HERE / "simulated.csv")
+        result = read(HERE / "committed.csv")
+        known = result | read(HERE / "simulated.csv")
         new = {name: predicted(row) for name, row in PLAN.items() if name not in known}
-        write(HERE / "committed.csv", found | new)
+        write(HERE / "committed.csv", result | new)
     elif what == "simulate":
         add(HERE / "simulated.csv", PLAN, POINTS)
     elif what == "fine":

@@ -144,7 +144,7 @@ def main(arguments: list[str]) -> None:
             continue
         waves = waves_of(run)
         print(name, flush=True)
-        found = superpose(
+        result = superpose(
             case_of(run).resolve(),
             waves,
             points=run.points,
@@ -153,7 +153,7 @@ def main(arguments: list[str]) -> None:
             solver={"threads": 1},
         )
         unfinished = path.with_suffix(".unfinished.npz")
-        np.savez(unfinished, **asdict(waves), **asdict(found))
+        np.savez(unfinished, **asdict(waves), **asdict(result))
         unfinished.rename(path)
 
 

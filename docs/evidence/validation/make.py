@@ -164,11 +164,11 @@ def formulas() -> Iterator[tuple[Any, ...]]:
         options = {"contact.moes_m": moes_m, "contact.moes_l": float(moes_l)}
         ds = solved(options, 513)
         point = OperatingPoint.from_moes(moes_m, float(moes_l))
-        for found in estimates(point, Lubricant()):
-            for name, value in (("H_c", found.h_c), ("H_min", found.h_min)):
+        for result in estimates(point, Lubricant()):
+            for name, value in (("H_c", result.h_c), ("H_min", result.h_min)):
                 if math.isfinite(value):
                     ratio = value / point.film_scale / float(ds[f"{name}_extrapolated"])
-                    yield moes_m, moes_l, found.name, name, ratio, bool(found.outside)
+                    yield moes_m, moes_l, result.name, name, ratio, bool(result.outside)
 
 
 def write(path: Path, columns: tuple[str, ...], rows: Iterator[tuple[Any, ...]]) -> None:
@@ -236,14 +236,14 @@ def show() -> None:
     for name in names:
         for quantity in ("H_c", "H_min"):
             for low, high in ((20.0, 100.0), (200.0, 2000.0)):
-                found = [
+                result = [
                     float(row["ratio"])
                     for row in rows
                     if (row["formula"], row["quantity"]) == (name, quantity)
                     and low <= float(row["moes_m"]) <= high
                 ]
-                if found:
-                    span = f"{min(found):.3f} | {max(found):.3f}"
+                if result:
+                    span = f"{min(result):.3f} | {max(result):.3f}"
                     print(f"| {name} | {quantity} | {low:g} to {high:g} | {span} |")
 
 

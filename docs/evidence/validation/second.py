@@ -38,8 +38,8 @@ def ours(row: dict[str, str], cells: int) -> dict[str, float]:
         "solver.deflection": "fft",
         "solver.accuracy": 1e-4,
     }
-    found = pyehl.solve(pyehl.Case(), changes)
-    return {name: float(found[name]) for name in ("H_c", "H_min")}
+    result = pyehl.solve(pyehl.Case(), changes)
+    return {name: float(result[name]) for name in ("H_c", "H_min")}
 
 
 def main() -> None:
@@ -60,12 +60,12 @@ def main() -> None:
                 shape = {"kappa": float(row["kappa"]), "side": float(row["y_extent"])}
                 second = SecondSolver(*point, 4 * cells + 1, **shape)
                 p, _, film = second.smooth()
-                found = ours(row, cells)
+                result = ours(row, cells)
                 films = film[np.argmin(second.x**2 + second.y**2)], film[p > 0.0].min()
                 for name, value in zip(("H_c", "H_min"), films, strict=True):
                     given = row[name] if cells == 32 else ""
                     made = {"quantity": name, "second": f"{value:.6g}", "c": given}
-                    made |= {"ours": f"{found[name]:.6g}", "cells": str(cells)}
+                    made |= {"ours": f"{result[name]:.6g}", "cells": str(cells)}
                     writer.writerow(row | made)
                     stream.flush()
 
