@@ -54,8 +54,8 @@ def conclude(values: Mapping[str, Any]) -> Conclusion:
 RESUMPTION = {
     "interrupted": "to resume",
     "failed": "to resume",
-    "not settled": "to go on with a larger time.max_periods or time.steps (--set)",
-    "cycle limit": "to go on with a larger solver.max_cycles (--set)",
+    "not settled": "to continue with a larger time.max_periods or time.steps (--set)",
+    "cycle limit": "to continue with a larger solver.max_cycles (--set)",
 }
 
 

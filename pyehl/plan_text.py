@@ -285,14 +285,14 @@ def _share(share: float) -> str:
 
 
 def _domain(v: Values) -> Iterator[str]:
-    """Borders, what they cost, and whether half of it is enough."""
-    cost = "it is far too small for a flooded contact"
-    if v["domain_cost"] < 1.0:
+    """Borders, the error by them, and whether half of the domain is enough."""
+    error = "it is far too small for a flooded contact"
+    if v["domain_error"] < 1.0:
         of = "film" if v["starved"] else "flooded film"
-        cost = f"it costs at most {fixed(100.0 * v['domain_cost'], 2)} % of the {of}"
+        error = f"its error is at most {fixed(100.0 * v['domain_error'], 2)} % of the {of}"
     inlet, outlet, side = (digits(v[name]) for name in ("x_inlet", "x_outlet", "y_extent"))
     sides = "" if v["line"] else f", |Y| <= {side}"
-    yield f"domain     {inlet} <= X <= {outlet}{sides}; {cost}"
+    yield f"domain     {inlet} <= X <= {outlet}{sides}; {error}"
     pressure = "the pressure of a fully flooded contact" if v["flooded"] else "P = 0"
     if v["starved"]:
         pressure += ", where the oil is meant to begin"

@@ -62,7 +62,7 @@ REASONS = {
     35: "isothermal: the Newtonian stress is above lubricant.eyring_stress, its heat is not "
     "computed",
     36: "isothermal: by estimate a rise of {rise} K changes it by less than 0.1 %",
-    37: "isothermal: a wall at rest under an infinite line warms for ever",
+    37: "isothermal: the temperature of a wall at rest under an infinite line has no limit",
     38: f"{WITH_HEAT}; {OF_ROUGH}",
     41: NO_SIZE,
     42: VANISHING + ", and rolling_moment_N_m resists the rolling",

@@ -181,7 +181,7 @@ def run(
     with signals_to(request.take), _open_named(inputs, case, resumed, given) as solver:
         say(solver.describe(predict=True))
         if os.fspath(resumed):
-            begins = "there is no state yet: the run begins at its beginning"
+            begins = "there is no state yet: the run starts from the beginning"
             say(f"resume: {solver.resume(resumed) or begins}")
         note = solver.checkpoint(folder, resumed)
         if note:

@@ -49,7 +49,7 @@ contains
             arguments%options = arguments%options // "--set " // value // newline
          case ("--resume")
             call next_argument(k, word, arguments%resume, status)
-            if (arguments%resume == "") call refuse("the folder behind --resume has no name", status)
+            if (arguments%resume == "") call refuse("the folder after --resume has no name", status)
          case ("--force")
             arguments%force = .true.
          case ("-q", "--quiet")
@@ -105,7 +105,7 @@ contains
       if (k <= command_argument_count()) then
          value = argument(k)
       else
-         call refuse("nothing behind " // option, status)
+         call refuse("no value after " // option, status)
       end if
    end subroutine next_argument
 

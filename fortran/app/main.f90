@@ -13,7 +13,7 @@ program ehl
    use ehl_outcome, only: outcome_cycle_limit, outcome_failed, outcome_interrupted, outcome_unsettled
    use ehl_plan_need, only: bytes_needed
    use ehl_result_folder, only: result_names, write_results
-   use ehl_signals, only: stop_wanted, watch_signals
+   use ehl_signals, only: stop_requested, watch_signals
    use ehl_solver, only: solver_t
    use ehl_status, only: ehl_bad_input, status_t
    use ehl_streams, only: guard_streams
@@ -41,7 +41,7 @@ program ehl
    if (arguments%help .or. arguments%version) then
       if (arguments%help) call terminal%say(without_end(help_text()))
       if (arguments%version) call terminal%say("ehl " // version // newline // build_text())
-      call end_if_mute()
+      call end_if_unprinted()
       stop exit_ok, quiet=.true.
    end if
 
@@ -72,11 +72,11 @@ program ehl
       call terminal%say(to_text(plan%finest%nx)//" x "//to_text(plan%finest%full_ny())//" nodes, "//to_text(plan%levels)// &
                         " levels, about "//amount(bytes_needed(plan, plan%threads))//" of memory")
    end associate
-   call end_if_mute()
+   call end_if_unprinted()
    if (arguments%resume /= "") then
       call solver%resume(checkpoint_path(arguments%resume), note, status)
       call end_if_failed()
-      if (note == "") note = "there is no state yet: the run begins at its beginning"
+      if (note == "") note = "there is no state yet: the run starts from the beginning"
       call terminal%say("resume: " // note)
    end if
    call terminal%checkpoints%open(arguments%folder, input, solver, arguments%resume, heights, second_heights, note, status)
@@ -100,15 +100,15 @@ program ehl
    if (solver%converged()) call terminal%checkpoints%close()
    call terminal%checkpoints%release()
    if (solver%converged()) stop merge(exit_failed, exit_ok, terminal%failed), quiet=.true.
-   ! one that would end the same way is no state to go on with
+   ! a run that would end the same way is not worth resuming
    if (terminal%checkpoints%has_state() .and. any(solver%outcome() == [outcome_interrupted, outcome_failed, outcome_unsettled, &
                                                                        outcome_cycle_limit])) then
       note = "to resume"
-      if (solver%outcome() == outcome_unsettled) note = "to go on with a larger time.max_periods or time.steps (--set)"
-      if (solver%outcome() == outcome_cycle_limit) note = "to go on with a larger solver.max_cycles (--set)"
+      if (solver%outcome() == outcome_unsettled) note = "to continue with a larger time.max_periods or time.steps (--set)"
+      if (solver%outcome() == outcome_cycle_limit) note = "to continue with a larger solver.max_cycles (--set)"
       call terminal%say("state: " // checkpoint_path(arguments%folder) // newline // note // ": ehl --resume " // arguments%folder)
    end if
-   if (stop_wanted()) stop exit_interrupted, quiet=.true.
+   if (stop_requested()) stop exit_interrupted, quiet=.true.
    stop exit_failed, quiet=.true.
 
 contains
@@ -120,10 +120,10 @@ contains
       answer = text(:len(text) - 1)
    end function without_end
 
-   !> End where the first lines have found no way out
-   subroutine end_if_mute()
+   !> End the program when its first lines could not be printed
+   subroutine end_if_unprinted()
       if (terminal%failed) stop exit_failed, quiet=.true.
-   end subroutine end_if_mute
+   end subroutine end_if_unprinted
 
    !> Report a failure and end the program
    subroutine end_if_failed()

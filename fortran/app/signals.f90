@@ -4,7 +4,7 @@ module ehl_signals
    use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int
    implicit none (type, external)
    private
-   public :: watch_signals, stop_wanted
+   public :: watch_signals, stop_requested
 
    logical, volatile :: wanted = .false.
 
@@ -30,9 +30,9 @@ contains
    end subroutine watch_signals
 
    !> Whether a signal has come
-   logical function stop_wanted()
-      stop_wanted = wanted
-   end function stop_wanted
+   logical function stop_requested()
+      stop_requested = wanted
+   end function stop_requested
 
    !> What the system calls when a signal comes; a second one ends the program at once
    subroutine note_signal(number) bind(c)

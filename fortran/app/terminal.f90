@@ -8,7 +8,7 @@ module ehl_terminal
    use ehl_kinds, only: dp
    use ehl_observer, only: observer_t
    use ehl_progress, only: progress_line
-   use ehl_signals, only: stop_wanted
+   use ehl_signals, only: stop_requested
    use ehl_status, only: status_t
    use ehl_streams, only: put_line
    implicit none (type, external)
@@ -45,10 +45,10 @@ contains
          call self%say(progress_line(run, run%outcome, .false.))
          self%since_line = start_clock()
       end if
-      leave = stop_wanted()
+      leave = stop_requested()
    end subroutine watch
 
-   !> A line to the terminal, unless it shall be quiet
+   !> Print a line, unless --quiet was given
    subroutine say(self, text)
       class(terminal_t), intent(inout) :: self
       character(len=*), intent(in) :: text

@@ -30,7 +30,7 @@ contains
       if (stat /= 0) call status%fail(ehl_file, path//": error: cannot "//action//": "//trim(reason))
    end subroutine open_checksummed
 
-   !> Close a file that was written and seal it. It is on the disk itself then, lest it is lost with the power.
+   !> Append the checksum and close a file that was written. It is flushed to the disk: a power failure does not lose it.
    subroutine end_checksummed(lun, path, stat, reason, status)
       integer, intent(in) :: lun
       character(len=*), intent(in) :: path
@@ -52,7 +52,7 @@ contains
       if (sealing == 0) write (again, iostat=sealing, iomsg=why) ours
       call end_writing(again, path, bytes + of_checksum, sealing, why, status)
       if (status%failed()) return
-      if (.not. flush_file(path)) call status%fail(ehl_file, path//": cannot write: it does not get onto the disk")
+      if (.not. flush_file(path)) call status%fail(ehl_file, path//": cannot write: it cannot be flushed to the disk")
    end subroutine end_checksummed
 
    !> Close a file that was read
@@ -68,7 +68,7 @@ contains
       if (stat /= 0) call status%fail(ehl_file, path//": error: cannot read: "//trim(reason))
    end subroutine end_reading
 
-   !> Whether all of a file is there as it was written
+   !> Whether a file is complete and unchanged
    logical function has_checksum(path)
       character(len=*), intent(in) :: path
       integer(int64) :: bytes, theirs

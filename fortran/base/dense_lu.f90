@@ -8,7 +8,7 @@ module ehl_dense_lu
 
 contains
 
-   !> Factors of a matrix, in its place, and the row exchanges. Column by column; each takes up those before it, four at
+   !> Factors of a matrix, in its place, and the row exchanges. Column by column; each is updated by those before it, four at
    !> a time.
    pure subroutine factor(a, pivot)
       real(dp), contiguous, intent(inout) :: a(:, :)

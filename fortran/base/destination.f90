@@ -28,7 +28,7 @@ module ehl_destination
       !> Lists, each item with a line end: names that the result may need, paths that the command reads, and other
       !> names that belong to this kind
       character(len=:), allocatable :: names, inputs, kept
-      !> Whether other files may be in the folder
+      !> Whether the folder may hold other files
       logical :: force = .false.
    contains
       procedure :: check
@@ -37,7 +37,7 @@ module ehl_destination
    end type destination_t
 
    character(len=*), parameter :: any_other = "expected: another folder", &
-      ! how names begin of what is being written, or was when the command was killed: it stays, and disturbs no other
+      ! how names of unfinished results begin; those of a killed command stay
       partial = ".partial", leftover = partial//"-"
    !> Names for a new folder that are tried
    integer, parameter :: tries = 3
@@ -138,7 +138,7 @@ contains
       if (status%failed()) status%message = status%message//newline//"the new result is in "//fresh
    end subroutine finish
 
-   !> See what is there, and refuse what the rule refuses
+   !> Read what the folder holds, and apply the rule
    subroutine look(self, found, status)
       class(destination_t), intent(in) :: self
       type(found_t), intent(out) :: found
@@ -175,7 +175,7 @@ contains
 
    contains
 
-      !> The rule, for a folder that can be written
+      !> The rule above, for a folder that can be written
       subroutine judge()
          logical :: ours, read_from
          integer :: k

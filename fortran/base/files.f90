@@ -100,7 +100,7 @@ module ehl_files
 
 contains
 
-   !> Have the bytes of a file on the disk itself, lest they are lost with the power; false when that fails
+   !> Flush a file to the disk, so that a power failure does not lose it; false when that fails
    logical function flush_file(path)
       character(len=*), intent(in) :: path
       integer(c_int), parameter :: to_write = 1

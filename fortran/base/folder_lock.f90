@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Who writes into a folder: a file DIR.lock beside it, with process and machine, for as long as a run has the folder. The lock of
+!> Who writes into a folder: a file DIR.lock beside it, with process and machine, while a run writes into it. The lock of
 !> a process that has ended is taken over, and removed by the next result that is written beside it.
 module ehl_folder_lock
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char, c_size_t
@@ -22,7 +22,7 @@ module ehl_folder_lock
    end type folder_lock_t
 
    character(len=*), parameter :: suffix = ".lock", mark = "! A run writes into the folder beside this file; removed with its end"
-   !> Bytes of the longest file of ours
+   !> Maximum size of a lock file [bytes]
    integer, parameter :: longest = 4096
 
    interface
@@ -36,7 +36,7 @@ module ehl_folder_lock
 
 contains
 
-   !> Take a folder; refuse one that another run has, or another solver of this process. Nothing happens where no file can be
+   !> Lock a folder; refuse one that another run or another solver of this process has locked. No lock where no file can be
    !> written beside the folder.
    subroutine take(self, folder, status)
       class(folder_lock_t), intent(inout) :: self
@@ -75,7 +75,7 @@ contains
       if (.not. status%failed()) call status%fail(ehl_file, path//": error: cannot be written")
    end subroutine take
 
-   !> Give the folder back
+   !> Unlock the folder
    subroutine release(self)
       class(folder_lock_t), intent(inout) :: self
       logical :: gone

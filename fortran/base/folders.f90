@@ -163,7 +163,7 @@ contains
       if (c_associated(lock)) stat = posix_closedir(lock)
    end subroutine unlock_folder
 
-   !> Two files or folders change their places, in one step where the file system can do that. False: nothing
+   !> Exchange two files or folders, in one step where the file system can do that. False: nothing
    !> has changed.
    logical function change_places(one, other)
       character(len=*), intent(in) :: one, other
@@ -224,7 +224,7 @@ contains
       text = fortran_text(buffer)
    end function link_text
 
-   !> Whether a name is taken, by a link to nothing too
+   !> Whether a name is taken, also by a link to nothing
    logical function is_there(path)
       character(len=*), intent(in) :: path
 
@@ -243,7 +243,7 @@ contains
       if (error_number() == other_device) is_movable = .false.
    end function is_movable
 
-   !> An unused path that begins so
+   !> An unused path with this beginning
    function spare_path(beginning) result(path)
       character(len=*), intent(in) :: beginning
       character(len=:), allocatable :: path
@@ -264,7 +264,7 @@ contains
       is_here = path == real_path(absolute_path("."))
    end function is_here
 
-   !> The folder from the root without a '/' at its end; empty when it cannot be a folder of ours
+   !> The folder from the root without a '/' at its end; empty when it cannot be used
    function full_path(folder) result(path)
       character(len=*), intent(in) :: folder
       character(len=:), allocatable :: path

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Number kinds, taken from iso_c_binding so that the Python face agrees with the solver, and constants
+!> Number kinds, taken from iso_c_binding so that the Python interface agrees with the solver, and constants
 module ehl_kinds
    use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
    implicit none (type, external)

@@ -16,7 +16,7 @@ contains
 
    !> Refuse what would not fit, before memory is taken
    subroutine check_memory(what, needed, status)
-      !> What wants the memory
+      !> What needs the memory
       character(len=*), intent(in) :: what
       real(dp), intent(in) :: needed
       type(status_t), intent(inout) :: status
@@ -28,7 +28,7 @@ contains
       call status%fail(ehl_no_memory, what//" needs "//amount(needed)//" of memory, "//amount(free)//" are free")
    end subroutine check_memory
 
-   !> Bytes in words
+   !> Bytes as text with a unit
    pure function amount(bytes) result(text)
       real(dp), intent(in) :: bytes
       character(len=len_trim(amount_buffer(bytes))) :: text

@@ -70,7 +70,7 @@ contains
       text = magic // char(1) // char(0) // char(mod(length, 256)) // char(length/256) // text
    end function header
 
-   !> Header and numbers; machines with the other byte order are not served
+   !> Header and numbers; machines with the other byte order are not supported
    subroutine write_values(path, head, values, status, behind)
       character(len=*), intent(in) :: path, head
       real(dp), intent(in) :: values(:, :)

@@ -130,7 +130,7 @@ contains
       write (text, "(i0)") i
    end function integer_buffer
 
-   !> Bytes in words
+   !> Bytes as text with a unit
    pure function amount_buffer(bytes) result(text)
       real(dp), intent(in) :: bytes
       character(len=40) :: text

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Which processes are there, and what those that are not have left
+!> Processes that run, and files that ended ones have left
 module ehl_processes
    use, intrinsic :: iso_c_binding, only: c_int
    use ehl_files, only: remove_file, remove_folder
@@ -18,7 +18,7 @@ module ehl_processes
 
 contains
 
-   !> Whether a process of this machine is there, by its number
+   !> Whether a process of this number runs on this machine
    logical function process_is_there(process)
       character(len=*), intent(in) :: process
       !> No signal; processes of other users may not be signalled
@@ -38,17 +38,17 @@ contains
 
    !> Remove what killed processes have left beside a path, in folders `path//between//number`: files of these names, and the
    !> folder if it holds nothing else
-   subroutine remove_left_over(path, between, list, may_go)
+   subroutine remove_left_over(path, between, list, may_remove)
       !> From the root, without a '/' at its end
       character(len=*), intent(in) :: path, between
-      !> Names that may_go is called with
+      !> Names that may_remove is called with
       character(len=*), intent(in) :: list
       interface
-         !> Whether a file of that name may go
-         logical function may_go(name, list)
+         !> Whether a file of that name may be removed
+         logical function may_remove(name, list)
             implicit none (type, external)
             character(len=*), intent(in) :: name, list
-         end function may_go
+         end function may_remove
       end interface
       type(name_t), allocatable :: beside(:), names(:)
       character(len=:), allocatable :: folder, beginning, number
@@ -68,7 +68,7 @@ contains
             if (link_text(folder//"/"//name) /= "") cycle
             if (.not. list_folder(folder//"/"//name, names)) cycle
             do n = 1, size(names)
-               if (may_go(names(n)%text, list)) gone = remove_file(folder//"/"//name//"/"//names(n)%text)
+               if (may_remove(names(n)%text, list)) gone = remove_file(folder//"/"//name//"/"//names(n)%text)
             end do
             gone = remove_folder(folder//"/"//name)
          end associate

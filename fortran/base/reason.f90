@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Why a number is not known, and what a coefficient of friction is: codes. pyehl has their words (pyehl/reasons.py).
+!> Codes: why a result is missing, and which model a coefficient of friction is by. Their texts are in pyehl/reasons.py.
 module ehl_reason
    implicit none (type, external)
    private
@@ -12,7 +12,7 @@ module ehl_reason
              friction_of_rough, friction_no_size, friction_rolling, friction_no_smooth, friction_above_limit, &
              friction_not_converged, friction_wall_at_rest, friction_rolling_line
 
-   !> Of an error that is not known: there is no solution; fewer than three grids have one; the change from grid to grid does
+   !> Of a missing error: there is no solution; fewer than three grids have one; the change from grid to grid does
    !> not fall; no flooded film to compare with; bodies touch because the inlet is not resolved; the grid is too coarse for a
    !> solution; the ends of a narrow contact
    integer, parameter :: reason_none = 0, reason_no_solution = 1, reason_two_grids = 2, reason_no_limit = 3, &

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Named values in the order in which they were set: what a run found, and codes of reasons that pyehl has the words for
+!> Named values in the order in which they were set: results of a run, and codes of reasons, whose texts are in pyehl
 module ehl_record
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ehl_kinds, only: dp, not_known

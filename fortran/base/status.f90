@@ -6,7 +6,7 @@ module ehl_status
    public :: status_t
    public :: ehl_bad_input, ehl_closed, ehl_no_memory, ehl_file, ehl_internal
 
-   !> Everything went well
+   !> No error
    integer, parameter :: ehl_ok = 0
    !> The case file or an argument is not acceptable
    integer, parameter :: ehl_bad_input = 1

@@ -174,7 +174,7 @@ contains
       end if
    end function is_whole
 
-   !> A line and one value as text
+   !> Append one value to a line of text
    pure subroutine add_cell(line, x, whole)
       character(len=:), allocatable, intent(inout) :: line
       real(dp), intent(in) :: x

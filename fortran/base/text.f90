@@ -99,7 +99,7 @@ contains
       if (flag) text = ".true."
    end function logical_to_text
 
-   !> Text between single quotes, inner quotes doubled as a namelist wants them
+   !> Text between single quotes, inner quotes doubled as in a namelist
    pure function quoted(text) result(answer)
       character(len=*), intent(in) :: text
       character(len=:), allocatable :: answer
@@ -138,7 +138,7 @@ contains
       is_digit = c >= "0" .and. c <= "9"
    end function is_digit
 
-   !> The word of the list that needs the fewest edits to become the given one (insertion,
+   !> The word of the list with the fewest edits from the given one (insertion,
    !> deletion, substitution, swap of neighbours); empty when none is near
    pure function nearest_word(word, list) result(answer)
       character(len=*), intent(in) :: word

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Whole files: texts in and out, and what every file that was written must pass
+!> Whole text files, read and written, and the check of every file that was written
 module ehl_whole_file
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_files, only: file_exists, is_file
@@ -124,7 +124,7 @@ contains
          close (lun, iostat=failed, iomsg=why)
       else
          why = reason
-         ! what could not be written must not hold its unit
+         ! after a failure, too, the unit is closed
          close (lun, iostat=closing)
          if (closing /= 0) failed = closing
       end if

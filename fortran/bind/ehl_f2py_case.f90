@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What the completion of a case in Python takes from the solver; for the rules see ehl_f2py_solver
+!> Functions of the solver that complete a case in Python; for the rules see ehl_f2py_solver
 module ehl_f2py_case
    use, intrinsic :: iso_c_binding, only: c_double, c_int
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
@@ -57,7 +57,7 @@ contains
       real(c_double), intent(in) :: radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, viscosity, alpha, &
                                     moes_m, moes_l
       integer(c_int), intent(in) :: border, smooth, thins, points, points_y, reverses
-      !> Of a duty: by how much the contact is larger at times
+      !> Of a duty: maximum size of the contact over that of the case
       real(c_double), intent(in) :: domain(3), widening
       integer(c_int), intent(out) :: border_out, points_out, points_y_out
       real(c_double), intent(out) :: domain_out(3)
@@ -85,7 +85,7 @@ contains
       end associate
    end subroutine grid_defaults
 
-   !> What makes the contact: 0 a point, 1 a line, by the load per length and its M and L, 2 a roller, by its own numbers
+   !> A contact by its code: 0 a point, 1 a line, by the load per length and its M and L, 2 a roller, by its own numbers
    pure subroutine take(input, line, roller, si, radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, viscosity, &
                         alpha, moes_m, moes_l)
       type(case_t), intent(inout) :: input

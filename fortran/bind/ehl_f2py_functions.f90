@@ -166,8 +166,8 @@ contains
 
    !> Friction with heat over that without it (NaN: not known), and the maximum increases of temperature of film and walls [K],
    !> of the contact of a case with the pressure and the film p, h(nx, ny), the first node at (x0, y0); mirror: the rows are
-   !> those of Y >= 0; touching: 1 where the bodies touch at the boundary film. Whether the heat counts, and what a coefficient of
-   !> friction is then (ehl_reason), with the rise by estimate [K].
+   !> those of Y >= 0; touching: 1 where the bodies touch at the boundary film. Whether the heat is significant, and
+   !> what a coefficient of friction is then (ehl_reason), with the estimated rise [K].
    subroutine frictional_heat(text, nx, ny, p, h, touching, x0, y0, hx, hy, mirror, counts, ratio, rises, reason, estimate, &
                               stat, message)
       character(len=*), intent(in) :: text

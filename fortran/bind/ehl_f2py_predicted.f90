@@ -53,7 +53,7 @@ contains
       call reply(status, stat, message)
    end subroutine start_fronts
 
-   !> Hand that pressure [p_h] over, on the whole finest grid, or why there is none
+   !> Pass that pressure [p_h] to the solver, on the whole finest grid, or the reason why there is none
    subroutine take_start(handle, why, nx, ny, pressure, stat, message)
       integer(c_int), intent(in) :: handle, nx, ny
       character(len=*), intent(in) :: why

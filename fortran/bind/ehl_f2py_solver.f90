@@ -2,7 +2,7 @@
 !> Solvers for Python, by number.
 !>
 !> The modules for Python are in the small part of Fortran that f2py reads. No arithmetic in them:
-!> every routine hands its arguments on, and ends in a status and a message. Only the long
+!> every routine passes its arguments on, and returns a status and a message. Only the long
 !> routines release Python's lock (threadsafe): gfortran keeps the length of an allocatable text that
 !> a function returns in static memory, so that no such function may be reached from them.
 module ehl_f2py_solver
@@ -61,7 +61,7 @@ contains
       call reply(status, stat, message)
    end subroutine close_case
 
-   !> One cycle or step; done is 1 when there is nothing left to do
+   !> One cycle or step; done is 1 at the end of the run
    subroutine advance(handle, done, converged, stat, message)
       integer(c_int), intent(in) :: handle
       integer(c_int), intent(out) :: done, converged, stat
@@ -81,7 +81,7 @@ contains
       call reply(status, stat, message)
    end subroutine advance
 
-   !> End a run here; what there is stays readable
+   !> Interrupt a run; its results remain readable
    subroutine interrupt(handle, stat, message)
       integer(c_int), intent(in) :: handle
       integer(c_int), intent(out) :: stat
@@ -184,7 +184,7 @@ contains
       call reply(status, stat, message)
    end subroutine keep_states
 
-   !> What was found so far, or the plan of it: names one a line, behind a tab a text; kinds as of ehl_record, and values
+   !> Results so far, or the plan of the run: one name a line, with a text after a tab; kinds as in ehl_record, and values
    subroutine results(handle, of_plan, n, bytes, m, kinds, values, length, found, stat, message)
       integer(c_int), intent(in) :: handle, of_plan
       integer(c_int), intent(in) :: n, m
@@ -234,7 +234,7 @@ contains
       call reply(status, stat, message)
    end subroutine progress
 
-   !> How much of a transient run is done, and how much there is until its earliest and its latest end, in time
+   !> Steps of a transient run that are done, and those until its earliest and its latest end, in time
    !> steps; both are 0 where it is not known
    subroutine work(handle, done, earliest, latest, stat, message)
       integer(c_int), intent(in) :: handle
@@ -311,7 +311,7 @@ contains
       call reply(status, stat, message)
    end subroutine field
 
-   !> Arrays must have the shape of the grid
+   !> Refuse arrays without the shape of the grid
    subroutine check_shape(run, nx, ny, status)
       type(run_t), intent(in) :: run
       integer(c_int), intent(in) :: nx, ny

@@ -13,7 +13,7 @@ module ehl_handles
    private
    public :: run_t, new_handle, drop_handle, run_of, reply, put_text, fitted
 
-   !> A case on its way: the resolved input, the solver, its states on disk, the time since it was opened
+   !> A run: the resolved input, the solver, its states on disk, the time since it was opened
    type :: run_t
       type(case_t) :: input
       type(solver_t) :: solver
@@ -21,10 +21,10 @@ module ehl_handles
       type(clock_t) :: clock
    end type run_t
 
-   !> A place of the table
+   !> An entry of the table
    type :: slot_t
       type(run_t), pointer :: run => null()
-      !> Handles of this place; a handle is never used twice
+      !> Handles of this entry so far; a handle is never used twice
       integer :: generation = 0
    end type slot_t
 
@@ -126,7 +126,7 @@ contains
       end do
    end subroutine put_text
 
-   !> Words for a person in so much room; a text that does not fit ends with a mark
+   !> A message in a buffer of fixed length; one that does not fit ends with a mark
    pure function fitted(text, room) result(words)
       character(len=*), intent(in) :: text
       integer, intent(in) :: room

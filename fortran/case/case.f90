@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Everything a case file can say, one type per namelist group, with the defaults
+!> All keys of a case file, one type per namelist group, with the defaults
 module ehl_case
    use ehl_kinds, only: dp
    use ehl_roller, only: body_profile_t, profile_t
@@ -39,7 +39,7 @@ module ehl_case
       !> radius_x/radius_y, set by the reader where the case was given in SI
       real(dp) :: radius_ratio = 1.0_dp
       real(dp) :: reduced_modulus = 2.26e11_dp
-      !> Maximum pressure that the solids carry
+      !> Maximum pressure that the solids sustain
       real(dp) :: hardness = 0.0_dp
       !> Of the plane of radius_x against that of the motion, counter-clockwise
       real(dp) :: angle = 0.0_dp
@@ -127,7 +127,7 @@ module ehl_case
    type :: inlet_case_t
       !> Where the oil begins, ahead of the centre [m]; the same [a], set by the reader
       real(dp) :: position = 0.0_dp, position_hertz = 0.0_dp
-      !> Layer that arrives [m]; the same [a^2/R], set by the reader
+      !> Thickness of the oil layer at the inlet [m]; the same [a^2/R], set by the reader
       real(dp) :: film = 0.0_dp, film_hertz = 0.0_dp
       !> Contacts one after another, and the share of the missing oil that returns between them
       integer :: passages = 1
@@ -214,7 +214,7 @@ module ehl_case
       character(len=word_length) :: interpolation = "linear"
       logical :: periodic = .false.
       integer :: periods = 3
-      !> Time step over that by the mesh; error of the films by time steps that is asked for
+      !> Time step over that by the mesh; target of the error of the films by time steps
       real(dp) :: time_step = 1.0_dp, target_error = 0.0_dp
       real(dp), allocatable, dimension(:) :: time, load, u1, u2, mean_velocity, slide_to_roll, radius_x, radius_y, viscosity, &
                                              inlet_film

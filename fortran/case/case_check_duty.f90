@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What of a duty cannot be solved
+!> Duties that cannot be solved are refused
 module ehl_case_check_duty
    use ehl_case, only: case_t, has_no_height
    use ehl_case_source, only: case_source_t
@@ -12,7 +12,7 @@ module ehl_case_check_duty
 
    !> Minimum load over that of the case
    real(dp), parameter :: min_load = 1.0e-3_dp
-   !> Difference of the first and the last row of a period that is none
+   !> Relative difference below which the first and the last row of a period are equal
    real(dp), parameter :: same = 1.0e-9_dp
    character(len=*), parameter :: keys(9) = [character(len=13) :: "load", "u1", "u2", "mean_velocity", "slide_to_roll", &
                                              "radius_x", "radius_y", "viscosity", "inlet_film"]
@@ -110,7 +110,7 @@ contains
          if (minval(numbers) <= 0.0_dp) call refuse(key, "duty."//key//" of "//to_text(minval(numbers)), "positive numbers")
       end subroutine positive
 
-      !> A layer that changes is that of the case at times, and never below the boundary film
+      !> A variable oil layer needs one in the case, and is never below the boundary film
       subroutine check_layer()
          numbers = input%duty%list("inlet_film")
          if (size(numbers) == 0) return
@@ -121,7 +121,7 @@ contains
             "layers above lubricant.boundary_film")
       end subroutine check_layer
 
-      !> A period ends where it begins
+      !> A period ends with the values of its beginning
       subroutine check_period()
          integer :: i
 
@@ -135,7 +135,7 @@ contains
          end do
       end subroutine check_period
 
-      !> A surface at rest in the case has no way by which it could be placed
+      !> Refuse a surface at rest in the case: the duty could not place it
       subroutine check_surface(group, body)
          character(len=*), intent(in) :: group
          integer, intent(in) :: body

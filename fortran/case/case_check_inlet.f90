@@ -15,7 +15,7 @@ module ehl_case_check_inlet
 
    !> Minimum distance of the sides of the domain from the centre, in terms of the contact
    real(dp), parameter :: beyond_contact = 1.05_dp
-   !> Relative difference of values that is none
+   !> Relative difference below which values are equal
    real(dp), parameter :: rounding = 1.0e-6_dp
 
 contains

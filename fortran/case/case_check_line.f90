@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Keys of a point beside a line contact, keys of a line beside a point, and what a line does not have
+!> Refuse keys of a point with a line contact, those of a line with a point, and what a line does not have
 module ehl_case_check_line
    use ehl_case, only: case_t
    use ehl_case_defaults, only: line_keys, point_keys
@@ -37,7 +37,8 @@ contains
          "solver.deflection = 'mlmi' with "//shape, "'fft': a strip that repeats has no multi-integration", status)
       if (input%lubricant%thermal_friction == "always" .and. .not. abs(input%contact%slide_to_roll) < 2.0_dp) then
          call source%refuse("lubricant.thermal_friction", "lubricant.thermal_friction = 'always' with a wall at rest under an "// &
-                            "infinite line, which warms for ever", "'auto' or 'never', or a slide_to_roll between -2 and 2", status)
+                            "infinite line, whose temperature has no limit", "'auto' or 'never', or a slide_to_roll between "// &
+                            "-2 and 2", status)
       end if
    end subroutine check_line
 

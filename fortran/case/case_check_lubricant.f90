@@ -17,7 +17,7 @@ module ehl_case_check_lubricant
    private
    public :: check_constants, check_lubricant
 
-   !> Relative difference of values that is none
+   !> Relative difference below which values are equal
    real(dp), parameter :: rounding = 1.0e-6_dp
    !> Maximum pressure at which a law must give a viscosity, over the Hertz pressure
    real(dp), parameter :: beyond_hertz = 1.5_dp

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Keys of a roller: which belong together, and what a roller does not have
+!> Keys of a roller: those that belong together, and those that a roller does not have
 module ehl_case_check_roller
    use ehl_case, only: case_t, has_no_height
    use ehl_case_source, only: case_source_t
@@ -86,7 +86,7 @@ contains
       end associate
    end subroutine check_length
 
-   !> Of each body the keys of its profile alone, and all of them; the drop of both together
+   !> Each body needs all keys of its profile and no others; the drop of both is limited
    subroutine check_profile(source, input, status)
       type(case_source_t), intent(in) :: source
       type(case_t), intent(in) :: input
@@ -145,7 +145,7 @@ contains
       if (one%kind == "file") call check_table(source, one, ending, length, status)
    end subroutine check_body
 
-   !> As many drops as places, which rise and cover the roller
+   !> A table has as many drops as places; places increase and cover the roller
    subroutine check_table(source, one, ending, length, status)
       type(case_source_t), intent(in) :: source
       type(body_profile_t), intent(in) :: one

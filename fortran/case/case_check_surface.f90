@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Keys of the surfaces of a complete case that do not go together
+!> Keys of the surfaces of a complete case that contradict each other
 module ehl_case_check_surface
    use ehl_case, only: case_t, contact_case_t, is_feature, surface_case_t
    use ehl_case_defaults, only: latest_start, waits
@@ -25,7 +25,7 @@ contains
       call check_surface(source, "second_surface", input%contact, input%second_surface, input%surface, status)
    end subroutine check_surfaces
 
-   !> One, beside the other
+   !> One surface, given the other one
    subroutine check_surface(source, group, contact, s, other, status)
       type(case_source_t), intent(in) :: source
       character(len=*), intent(in) :: group

@@ -25,9 +25,9 @@ module ehl_case_checks
 
    !> Largest M of a round contact with the same equations
    real(dp), parameter :: max_m = 1.0e5_dp
-   !> Minimum p_h/E' of a contact that can be meant: 0.1 MPa between steel bodies
+   !> Minimum p_h/E' of a plausible contact: 0.1 MPa between steel bodies
    real(dp), parameter :: min_strain = 4.0e-7_dp
-   !> Difference of velocity ratios that is none
+   !> Difference below which velocity ratios are equal
    real(dp), parameter :: same_velocity = 1.0e-9_dp
    character(len=*), parameter :: by_pyehl = "what 'pyehl check CASE.nml --resolved out.nml' writes, for ehl out.nml; or ", &
       si_units = "load, mean_velocity, reduced_modulus and radius or radius_x and radius_y", &
@@ -112,7 +112,7 @@ contains
       end subroutine need_height
    end subroutine check_given
 
-   !> All else, of a complete case
+   !> The other checks, of a complete case
    subroutine check_complete(source, input, status)
       type(case_source_t), intent(in) :: source
       type(case_t), intent(in) :: input
@@ -172,7 +172,7 @@ contains
       end subroutine agree
    end subroutine check_bodies
 
-   !> An operating point that can be meant; a slip of units mostly makes one that cannot
+   !> Refuse implausible operating points, which mistakes in the units mostly make
    subroutine check_point(source, input, scales, point, status)
       type(case_source_t), intent(in) :: source
       type(case_t), intent(in) :: input
@@ -238,7 +238,7 @@ contains
       end do
    end subroutine check_domain
 
-   !> Halving points - 1 must end at a grid that can be the coarsest one, and points_y - 1 must halve as often
+   !> Halving of points - 1 must end at a possible coarsest grid, and points_y - 1 must be divisible as often
    subroutine check_points(source, input, status)
       type(case_source_t), intent(in) :: source
       type(case_t), intent(in) :: input

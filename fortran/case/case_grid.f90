@@ -19,7 +19,7 @@ module ehl_case_grid
    !> Least and largest ratio of the sides of a cell, Y over X; the least in a smooth contact: the film of a narrow one varies
    !> across the motion over its width
    real(dp), parameter :: min_ratio = 0.25_dp, largest_ratio = 1.41_dp, min_smooth = 0.125_dp
-   !> Largest ratio in a smooth contact, as it is and over kappa: the film of a wide one varies across the motion over the length
+   !> Largest ratio in a smooth contact, and the same over kappa: the film of a wide one varies across the motion over the length
    !> of the contact there. Up to `blunt_spike` of alpha p_h, and an L of `high_spike` where the flow does not thin: beyond, the
    !> pressure spike on the oblique edge is a few nodes wide, and cycles on such cells let it oscillate (docs/theory/relaxation.md).
    real(dp), parameter :: largest_smooth = 2.8_dp, smooth_by_kappa = 0.5_dp
@@ -32,7 +32,7 @@ module ehl_case_grid
 
 contains
 
-   !> Border and domain follow from the operating point, side by side, unless they are given
+   !> Border and each side of the domain follow from the operating point, unless they are given
    pure subroutine fill_grid(contact, point, smooth, thins, given, grid, widening, reverses)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point

@@ -38,7 +38,7 @@ contains
       uses_law = own_law(l) == name .or. l%viscosity_law == name
    end function uses_law
 
-   !> Whether a law of viscosity or density says how the oil changes with temperature
+   !> Whether a law of viscosity or density includes the temperature
    pure logical function knows_temperature(l)
       type(lubricant_case_t), intent(in) :: l
       knows_temperature = own_law(l) /= "" .or. l%density_law == "murnaghan" .or. l%density_law == "tait"

@@ -86,7 +86,7 @@ contains
       !> group.key of both
       character(len=*), intent(in) :: one, other, expected
       type(status_t), intent(inout) :: status
-      !> What contradicts, in values
+      !> Values that contradict
       character(len=*), intent(in), optional :: why
       character(len=:), allocatable :: what
 
@@ -105,7 +105,7 @@ contains
       !> group.key of both
       character(len=*), intent(in) :: name, culprit
       real(dp), intent(in) :: value
-      !> What it follows from, in words
+      !> Text of what it follows from
       character(len=*), intent(in) :: from
       type(status_t), intent(inout) :: status
       character(len=:), allocatable :: range

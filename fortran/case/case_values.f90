@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Pieces of namelist text checked one by one, and each group read by one intrinsic read
+!> Check pieces of namelist text one by one, and read each group by one intrinsic read
 module ehl_case_values
    use ehl_case, only: case_t, path_length
    use ehl_case_groups, only: group_names, read_group, write_group
@@ -67,7 +67,7 @@ contains
       call keep_pieces(source%pieces, good)
    end subroutine check_pieces
 
-   !> What a name could have been
+   !> Suggestions for a name
    pure function one_of(name, names) result(expected)
       character(len=*), intent(in) :: name, names(:)
       character(len=:), allocatable :: expected

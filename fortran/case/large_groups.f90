@@ -7,7 +7,7 @@ module ehl_large_groups
    private
    public :: line_length, lubricant_group, surface_group
 
-   !> Of a written key with its value
+   !> Length of a written key with its value
    integer, parameter :: line_length = path_length + 64
 
 contains

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Namelist text in pieces `key = value`, each with its group and its line. The intrinsic read takes much for good: '600 N' is
-!> 600, a word without quotes nothing, a group inside a comment a group. Pieces have none of that.
+!> Namelist text in pieces `key = value`, each with its group and its line. The intrinsic read accepts too much: '600 N' is
+!> 600, a word without quotes nothing, a group inside a comment a group. Pieces are checked for that.
 module ehl_namelist_pieces
    use ehl_status, only: ehl_bad_input, status_t
    use ehl_text, only: lower_case, newline, to_text
@@ -17,7 +17,7 @@ module ehl_namelist_pieces
       !> The values with commas between them, and how many
       character(len=:), allocatable :: value
       integer :: values = 0
-      !> Where it stands: a line, or an option as it was typed
+      !> Its line, or the option as it was typed
       integer :: line = 0
       character(len=:), allocatable :: option
       !> Whether the text marks it as not given
@@ -32,7 +32,7 @@ module ehl_namelist_pieces
       integer :: first = 1, last = 0
    end type token_t
 
-   !> What is between words, and what else ends one
+   !> Blanks between words, and other characters that end a word
    character(len=*), parameter :: blanks = " "//achar(9)//achar(13)//newline, ends = blanks//",=/!&'"""
 
 contains

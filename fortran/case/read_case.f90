@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> A case from a plain namelist: the one reader of the program and of the extension. Pieces of the text are checked one by one,
-!> then each group is read by one intrinsic read, completed by values that numerics provides, and checked as a whole.
+!> then each group is read by one intrinsic read, completed by the defaults of the solver, and checked as a whole.
 module ehl_read_case
    use ehl_case, only: case_t, lubricant_case_t, path_length
    use ehl_case_check_lubricant, only: check_constants

@@ -87,7 +87,7 @@ contains
       end do
    end subroutine list_text
 
-   !> Whether a key has a value, and its rival does not
+   !> Whether a key has a value, and the key that excludes it does not
    pure logical function holds(name, input)
       character(len=*), intent(in) :: name
       type(case_t), intent(in) :: input

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The macroscopic contact: what of a problem is due to the shape of the two bodies and the load on them. That of a ball on a
-!> flat (Hertz 1881); another shape extends it, and only ehl_contact_factory names one. Lengths, films and pressures by the
+!> The macroscopic contact: shape of the two bodies and the load on them. The base type is a ball on a flat (Hertz 1881);
+!> other shapes extend it, and only ehl_contact_factory names them. Lengths, films and pressures by the
 !> scales of the contact (ehl_scales).
 module ehl_contact
    use ehl_film_formula, only: film_central_formula
@@ -16,7 +16,7 @@ module ehl_contact
       integer :: dimensions = 2
       !> Semi-axis of the dry contact across the motion over that along it; D = R_x/R_y
       real(dp) :: ellipticity = 1.0_dp, radius_ratio = 1.0_dp
-      !> Angle of the principal axes against X and Y [rad], counter-clockwise; how far the dry contact reaches along X and Y
+      !> Angle of the principal axes against X and Y [rad], counter-clockwise; half lengths of the dry contact along X and Y
       real(dp) :: angle = 0.0_dp, reach(2) = 1.0_dp
       !> iint P dX dY; k_b of the deflection k_b iint P/r; H00 of the dry contact
       real(dp) :: load = 2.0_dp*pi/3.0_dp, kernel_factor = circle_factor, dry_separation = -1.0_dp
@@ -40,7 +40,7 @@ module ehl_contact
 
 contains
 
-   !> Whether nothing distinguishes X from Y
+   !> Whether the contact is rotationally symmetric
    pure logical function is_round(self)
       class(contact_t), intent(in) :: self
       is_round = .not. abs(self%radius_ratio - 1.0_dp) > 0.0_dp

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> From the bodies of a contact to its shape. No other module names a shape.
+!> Makes a contact from its bodies. No other module names a shape.
 module ehl_contact_factory
    use ehl_contact, only: contact_t
    use ehl_elliptical, only: new_elliptical
@@ -12,7 +12,7 @@ module ehl_contact_factory
 
 contains
 
-   !> The shape of a contact: a line, or round where both radii are the same
+   !> A line contact, a round one where both radii are equal, or an elliptical one
    subroutine new_contact(radius_ratio, angle, contact, line)
       !> D = R_x/R_y; angle of the plane of R_x against that of the motion [rad]
       real(dp), intent(in) :: radius_ratio, angle

@@ -1,68 +1,68 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The domain that a contact needs, and what a domain costs.
+!> The domain that a contact needs, and the error of the film by a finite domain.
 !>
-!> Either the border has the pressure that a fully flooded contact has there (ehl_far_field). What that leaves out falls
-!> with the third power of the distance in thick films, whose load is then slightly wrong, and with the fifth in thin ones,
-!> whose inlet is.
+!> Either the border has the pressure that a fully flooded contact has there (ehl_far_field). The error of that falls
+!> with the third power of the distance in thick films, where it is one of the load, and with the fifth in thin ones, where
+!> it is one of the inlet.
 !>
-!> Or P = 0, which takes away the pressure that a flooded inlet would have: it increases by dP/dX ~ (H - H_c)/H^3, H = H_c + g,
-!> with the gap g of the dry contact. Up to a distance x from the centre it has gained the share q(x) = Q(x)/Q(1) of all,
-!> Q(x) = int_x^inf g/(H_c + g)^3 dX, and the film falls by a fixed multiple of what is cut off. In thick films the
-!> pressure beyond the border supports load too: a share of about lambda_bar/x, which the film feels as it feels load.
+!> Or P = 0, without the pressure that a flooded inlet would have: it increases by dP/dX ~ (H - H_c)/H^3, H = H_c + g,
+!> with the gap g of the dry contact. Up to a distance x from the centre it has reached the share q(x) = Q(x)/Q(1),
+!> Q(x) = int_x^inf g/(H_c + g)^3 dX, and the film falls by a fixed multiple of that share at the border. In thick films the
+!> pressure beyond the border supports load too: a share of about lambda_bar/x, which changes the film as a change of the load does.
 !>
-!> What the factors were fitted to: docs/evidence/errors.
+!> Data of the fitted factors: docs/evidence/errors.
 module ehl_domain
    use ehl_contact, only: contact_t
    use ehl_kinds, only: dp, pi
-   use ehl_line_domain, only: line_cost, line_ends
+   use ehl_line_domain, only: line_domain_error, line_ends
    use ehl_moes, only: operating_t
    use ehl_scales, only: circle_factor
    implicit none (type, external)
    private
-   public :: domain_t, flooded_by_default, layer_that_floods, needed_domain, domain_cost, ratio_cost
+   public :: domain_t, flooded_by_default, layer_that_floods, needed_domain, domain_error, ratio_error
 
    !> inlet <= X <= outlet, -side <= Y <= side [a]
    type :: domain_t
       real(dp) :: inlet = -2.5_dp, outlet = 1.5_dp, side = 2.0_dp
    end type domain_t
 
-   !> Relative cost of H_c that a default domain may have
+   !> Largest relative error of H_c by a default domain
    real(dp), parameter :: tolerance = 0.002_dp
    !> From that M on border and domain are those of Zhang et al. 2019, unless the case states otherwise or the contact is so
-   !> wide that P = 0 there would cost per cents of the film
+   !> wide that P = 0 there would change the film by per cents
    real(dp), parameter :: first_usual = 500.0_dp, too_wide = 4.0_dp
-   !> With a flooded border. Thick films: load that is wrong by sides and inlet, over lambda_bar s^2/r^3 with the length
-   !> s = (2 H_c)^(1/2); most and least change of the film by load, and the M where it is half of the most. Thin films: what
-   !> an inlet of 2.5 a costs, its power of s, and up to which s. H_min over H_c.
+   !> With a flooded border. Thick films: error of the load by sides and inlet, over lambda_bar s^2/r^3 with the length
+   !> s = (2 H_c)^(1/2); maximum and minimum change of the film by load, and the M where it is half of the maximum. Thin films:
+   !> error by an inlet of 2.5 a, its power of s, and the maximum of s for that. Error of H_min over that of H_c.
    real(dp), parameter :: load_by_sides = 0.025_dp, load_by_inlet = 0.05_dp, by_load = 2.0_dp, min_by_load = 0.5_dp, &
                           half_by_load = 8.0_dp, by_inlet = 0.0042_dp, inlet_power = 1.3_dp, thin = 0.75_dp, &
                           minimum_over_central = 1.5_dp
-   !> With P = 0: what inlet and sides cost H_c, and what the sides cost H_min beside that, over q; films below which the
-   !> inlet costs more, with the power of that
+   !> With P = 0: errors of H_c by inlet and sides, and the additional one of H_min by the sides, over q; film below which the
+   !> error by the inlet is larger, with its power of the film
    real(dp), parameter :: of_inlet = 0.46_dp, of_sides = 0.06_dp, of_sides_at_minimum = 0.15_dp, &
                           thin_film = 0.06_dp, thin_power = 0.25_dp
-   !> Decay of what the sides of a wide contact cost with their distance from its ends, in half lengths along the motion, over
+   !> Decay of the error by the sides of a wide contact with their distance from its ends, in half lengths along the motion, over
    !> that around a round contact: at kappa = 1.5 to 16 and 1.15 to 2 half widths the changes fall with 1.2 at the least in thin
-   !> films (docs/evidence/machines); none in films from which on nothing is known of it
+   !> films (docs/evidence/machines); none for thicker films, for which it was not measured
    real(dp), parameter :: end_decay = 1.2_dp, thick_for_decay = 0.2_dp
-   !> Load beyond inlet and sides, over lambda_bar; least sensitivity of the film to load around M = 5, where the film
-   !> formula has none and the elastic dent counts
+   !> Load beyond inlet and sides, over lambda_bar; minimum sensitivity of the film to load around M = 5, where the
+   !> film formula has none and the elastic deflection matters
    real(dp), parameter :: load_beyond_inlet = 1.0_dp, load_beyond_sides = 0.25_dp, min_sensitivity = 0.5_dp, &
                           dented_below = 5.5_dp
-   !> Around an ellipse the bodies are deflected as much further out as kappa k_b is larger than that of a round contact:
-   !> what that costs with a flooded border, at the most, and with P = 0, where a narrow contact costs more, too
+   !> Around an ellipse the deflection extends further, by kappa k_b over that of a round contact: maximum of this factor of
+   !> the error with a flooded border, and its power with P = 0, where it is larger for a narrow contact, too
    real(dp), parameter :: max_wide = 4.0_dp, wide_power = 0.4_dp
-   !> Sides of a wide contact in terms of its half width, and length of the films from which on they are further out: sides half
+   !> Sides of a wide contact in terms of its half width, and length s of a film above which they are further out: sides half
    !> as far again change H_c by 0.01 % and H_min by up to 0.13 % (docs/evidence/machines)
    real(dp), parameter :: beyond_ends = 1.3_dp, thick_at_ends = 0.95_dp
-   !> Sides of a narrow contact in terms of the length over which its gap opens across the motion (side_scale); what they cost H_c
-   !> and H_min at twice that, with a flooded border and with P = 0, and the decay of that with their distance: upper limits of 21
-   !> drawn contacts with either border (docs/evidence/machines/narrow_sides.csv)
+   !> Sides of a narrow contact in terms of the length over which its gap opens across the motion (side_scale); the errors of
+   !> H_c and H_min at twice that, with a flooded border and with P = 0, and their decay with the distance: upper limits of 21
+   !> random contacts with either border (docs/evidence/machines/narrow_sides.csv)
    real(dp), parameter :: beyond_narrow = 4.0_dp, flooded_narrow(2) = [0.009_dp, 0.0125_dp], &
                           of_narrow(2) = [0.02_dp, 0.032_dp], narrow_decay = 4.0_dp
-   !> An inlet so far away that it costs nothing
+   !> An inlet so far away that its error vanishes
    real(dp), parameter :: far = 1.0e6_dp
-   !> Points of an integral
+   !> Points of the midpoint rule
    integer, parameter :: points = 100
 
 contains
@@ -83,7 +83,7 @@ contains
       type(operating_t), intent(in) :: point
       logical, intent(in) :: flooded
       type(domain_t) :: domain
-      real(dp) :: cost(2), wanted, unit, width, ends(2)
+      real(dp) :: error(2), wanted, unit, width, ends(2)
 
       if (contact%is_line()) then
          ends = line_ends(contact, point)
@@ -93,7 +93,7 @@ contains
       if (contact%is_roller()) then
          ! the line where the load per length is largest; X = 0 stays a node
          ends = line_ends(contact, point)*contact%reach(1)
-         do while (line_cost(contact, point, ends(1)/contact%reach(1), .false.) > tolerance)
+         do while (line_domain_error(contact, point, ends(1)/contact%reach(1), .false.) > tolerance)
             ends = 1.1_dp*ends
          end do
          domain = domain_t(ends(1), ends(2), contact%reach(2))
@@ -104,8 +104,8 @@ contains
       domain%outlet = domain%outlet*contact%reach(1)
       wanted = 4.0_dp
       do while (flooded)
-         cost = domain_cost(contact, point, domain, flooded)
-         if (.not. cost(1) > tolerance) exit
+         error = domain_error(contact, point, domain, flooded)
+         if (.not. error(1) > tolerance) exit
          wanted = 1.02_dp*wanted
          unit = 0.32_dp*10.0_dp**max(0, floor(log10(0.25_dp*wanted)))
          width = unit*ceiling(wanted/unit)
@@ -114,8 +114,8 @@ contains
       domain%side = min(domain%side, side_of_wide(contact, point), side_of_narrow(contact, point))
    end function needed_domain
 
-   !> Where the sides of a wide contact are far enough. Its ends are as far from one another as it is wide, and what lies beyond
-   !> an end concerns the film there alone.
+   !> Distance of the sides of a wide contact from the centre. Its ends are as far from one another as it is wide, and the
+   !> domain beyond an end affects the film there alone.
    pure real(dp) function side_of_wide(contact, point) result(side)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point
@@ -129,7 +129,7 @@ contains
       side = contact%reach(2)*(beyond_ends + (2.0_dp - beyond_ends)/wide**2)*max(1.0_dp, length/thick_at_ends)
    end function side_of_wide
 
-   !> Where the sides of a narrow contact are far enough: in terms of its length along the motion they are near, for there the gap
+   !> Distance of the sides of a narrow contact from the centre: short in terms of its length along the motion, because the gap
    !> opens with the radius across the motion
    pure real(dp) function side_of_narrow(contact, point) result(side)
       class(contact_t), intent(in) :: contact
@@ -148,45 +148,44 @@ contains
       side_scale = sqrt(contact%reach(2)**2 + 2.0_dp*contact%film_formula(point%moes_m, point%moes_l)*contact%radius/contact%ratio)
    end function side_scale
 
-   !> How far the contact reaches across the motion over how far along it
+   !> Extent of the dry contact across the motion over that along it
    pure real(dp) function elongation(contact)
       class(contact_t), intent(in) :: contact
       elongation = contact%reach(2)/contact%reach(1)
    end function elongation
 
-   !> How much further out the sides are than those around a round contact: as the ends of a wide contact, and around a narrow
-   !> one no less far, because in terms of its semi-axis the gap opens slowly there
+   !> Distance of the sides over that around a round contact: as the ends of a wide contact; not less around a narrow one,
+   !> because in terms of its semi-axis the gap opens slowly there
    pure real(dp) function sides_over_round(contact)
       class(contact_t), intent(in) :: contact
       sides_over_round = maxval(contact%reach)
    end function sides_over_round
 
-   !> Shares of H_c and H_min of the flooded contact that a domain changes, as an upper estimate; 1 and more: nothing
-   !> can be said
-   pure recursive function domain_cost(contact, point, domain, flooded, starved) result(cost)
+   !> Relative errors of H_c and H_min by the domain, against the flooded contact, as an upper estimate; 1 and more: unknown
+   pure recursive function domain_error(contact, point, domain, flooded, starved) result(error)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point
       type(domain_t), intent(in) :: domain
       logical, intent(in) :: flooded
-      !> Whether the inlet is where the oil is meant to begin, so that the sides alone cost; not if absent
+      !> Whether the inlet border is the position of the meniscus, so that only the sides have an error; not if absent
       logical, intent(in), optional :: starved
-      real(dp) :: cost(2)
+      real(dp) :: error(2)
       real(dp) :: at_sides(2), film, length, whole, inlet, load, sides, side, wide, width
 
       if (present(starved)) then
          if (starved) then
-            cost = 0.0_dp
-            if (.not. (contact%is_line() .or. contact%is_roller())) cost = &
-               domain_cost(contact, point, domain_t(-far, domain%outlet, domain%side), flooded)
+            error = 0.0_dp
+            if (.not. (contact%is_line() .or. contact%is_roller())) error = &
+               domain_error(contact, point, domain_t(-far, domain%outlet, domain%side), flooded)
             return
          end if
       end if
       if (contact%is_line()) then
-         cost = line_cost(contact, point, domain%inlet, flooded)
+         error = line_domain_error(contact, point, domain%inlet, flooded)
          return
       end if
       if (contact%is_roller()) then
-         cost = line_cost(contact, point, domain%inlet/contact%reach(1), flooded)
+         error = line_domain_error(contact, point, domain%inlet/contact%reach(1), flooded)
          return
       end if
       side = domain%side/sides_over_round(contact)
@@ -197,9 +196,9 @@ contains
             length = sqrt(2.0_dp*film)
             load = lambda_bar*length**2*max(min_by_load, by_load/(1.0_dp + (point%round_m/half_by_load)**2))
             at_sides = load*load_by_sides/side**3*[1.0_dp, minimum_over_central]
-            cost = load*load_by_inlet/abs(domain%inlet)**3 + &
+            error = load*load_by_inlet/abs(domain%inlet)**3 + &
                    by_inlet*min(max_wide, max(1.0_dp, width))*min(length, thin)**inlet_power*(2.5_dp/abs(domain%inlet))**5
-            cost(2) = minimum_over_central*cost(1)
+            error(2) = minimum_over_central*error(1)
          else
             whole = pressure_gain(1.0_dp, film)
             inlet = pressure_gain(-domain%inlet/contact%reach(1), film)/whole
@@ -211,15 +210,15 @@ contains
             load = lambda_bar*max(sensitivity(contact, point), min_sensitivity*min(1.0_dp, (dented_below/point%round_m)**6))
             width = merge(width**wide_power, 1.0_dp/width, width >= 1.0_dp)
             at_sides = (of_sides*sides + load*load_beyond_sides/side)*width + [0.0_dp, of_sides_at_minimum*sides]
-            cost = (of_inlet*max(1.0_dp, (thin_film/film)**thin_power)*inlet + load*load_beyond_inlet/abs(domain%inlet))*width
+            error = (of_inlet*max(1.0_dp, (thin_film/film)**thin_power)*inlet + load*load_beyond_inlet/abs(domain%inlet))*width
          end if
       end associate
       if (elongation(contact) < 1.0_dp) at_sides = min(at_sides, merge(flooded_narrow, of_narrow, flooded) &
                                                        *(2.0_dp*side_scale(contact, point)/domain%side)**narrow_decay)
-      cost = cost + at_sides
-   end function domain_cost
+      error = error + at_sides
+   end function domain_error
 
-   !> Layer that fills the gap at a distance from the centre, X < 0
+   !> Thickness of the oil layer that fills the gap from a position X < 0 on
    pure real(dp) function layer_that_floods(contact, point, x) result(layer)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point
@@ -235,12 +234,12 @@ contains
       end if
    end function layer_that_floods
 
-   !> What a cost of H_c makes of a friction ratio: waves of a height of their own rise as the film falls, with about the
-   !> square of their height over it, and exponentially where they raise the pressure by much (docs/evidence/errors)
-   pure real(dp) function ratio_cost(cost, ratio)
-      real(dp), intent(in) :: cost, ratio
-      ratio_cost = 2.0_dp*cost*abs(ratio - 1.0_dp)*max(1.0_dp, log(max(ratio, 1.0_dp)))
-   end function ratio_cost
+   !> Error of a friction ratio by a relative error of H_c: the increase of friction by waves of a fixed height goes with about
+   !> the square of their height over the film, and exponentially where they increase the pressure much (docs/evidence/errors)
+   pure real(dp) function ratio_error(error, ratio)
+      real(dp), intent(in) :: error, ratio
+      ratio_error = 2.0_dp*error*abs(ratio - 1.0_dp)*max(1.0_dp, log(max(ratio, 1.0_dp)))
+   end function ratio_error
 
    !> -d ln h/d ln w at constant speed, by the film formula
    pure real(dp) function sensitivity(contact, point)

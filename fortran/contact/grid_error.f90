@@ -1,24 +1,24 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What a grid misses of the film of a smooth contact, before anything is solved
+!> A-priori errors of the film of a smooth contact by the mesh
 module ehl_grid_error
    use ehl_contact, only: contact_t
    use ehl_kinds, only: dp
    use ehl_moes, only: operating_t
    implicit none (type, external)
    private
-   public :: relative_errors, lone_grid_errors
+   public :: relative_errors, single_grid_errors
 
    !> A-priori error of H_c by the second-order wedge term: 0.16 M h^2 (fitted to grids of 65^2 to 513^2 for 20 <= M <= 1000,
    !> 10 <= L <= 15), or in thick films, whose length is s = (2 H_c)^(1/2), (h/s)^2 times 0.85 (1 + (M/5)^2), whichever is less
    !> (33^2 to 513^2 for 0.05 <= M <= 20: 0.61 to 0.68 up to M = 1, 1.07 at M = 5, 2.9 at M = 20, with the film of the solution)
    real(dp), parameter :: by_contact = 0.16_dp, by_film = 0.85_dp, thick_m = 5.0_dp
-   !> What grids miss in contacts that are narrow, over what they miss in round ones, by H_c and by H_min: 1 + a (1/kappa^2 - 1)
+   !> Errors of H_c and H_min in narrow contacts over those in round ones: 1 + a (1/kappa^2 - 1)
    !> and b/kappa^2 (docs/evidence/errors_ellipses)
    real(dp), parameter :: narrow_central = 0.05_dp, narrow_minimum = 0.3_dp
-   !> What a grid misses of thin films whose viscosity is that of the inlet, over h^2/H_c^(1/3), H_c as it is on that grid:
-   !> 0.26 to 0.31 of H_c, up to 0.34 of H_min (L = 0, 655 <= M <= 2304). Where viscosity increases see by_contact.
+   !> Error of thin films of constant viscosity over h^2/H_c^(1/3), H_c on that grid: 0.26 to 0.31 for H_c, up to 0.34 for H_min
+   !> (L = 0, 655 <= M <= 2304). Where viscosity increases see by_contact.
    real(dp), parameter :: by_inlet = 0.4_dp
-   !> What a narrow contact misses that is solved on a single grid, over the a-priori error: 1.9 and 1.6 at kappa = 0.31, M = 1789
+   !> Error of a narrow contact on a single grid over the a-priori error: 1.9 and 1.6 at kappa = 0.31, M = 1789
    real(dp), parameter :: alone_and_narrow = 2.0_dp
 
 contains
@@ -40,9 +40,9 @@ contains
       errors(2) = 2.0_dp*errors(2)*max(1.0_dp, narrow_minimum/square)
    end function relative_errors
 
-   !> Errors of H_c and H_min that are solved on this grid alone: those known a priori, and no less than what it misses of the
-   !> inlet, which where films are thin is as much as there is
-   pure function lone_grid_errors(contact, point, h, films) result(errors)
+   !> Errors of H_c and H_min that are solved on this grid alone: the a-priori ones, and no less than that of the inlet of a
+   !> thin film
+   pure function single_grid_errors(contact, point, h, films) result(errors)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point
       !> Mesh size along X [a]
@@ -54,5 +54,5 @@ contains
       errors = relative_errors(contact, point, h)*films
       if (contact%reach(2) < contact%reach(1)) errors = alone_and_narrow*errors
       errors = max(errors, by_inlet*h**2/films(1)**(1.0_dp/3.0_dp))
-   end function lone_grid_errors
+   end function single_grid_errors
 end module ehl_grid_error

@@ -1,18 +1,18 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The domain that a line contact needs, and what a domain costs; what the factors were fitted to: docs/theory/line.md
+!> The domain that a line contact needs, and the error of the film by a finite domain; data of the factors: docs/theory/line.md
 module ehl_line_domain
    use ehl_contact, only: contact_t
    use ehl_kinds, only: dp
    use ehl_moes, only: operating_t
    implicit none (type, external)
    private
-   public :: line_ends, line_cost
+   public :: line_ends, line_domain_error
 
    !> Inlet and outlet in half widths, or in lengths s = (2 H_c)^(1/2) of the film where that is more. X = 0 is a node of every
    !> grid of 4 n + 1 nodes.
    real(dp), parameter :: inlet = -4.5_dp, outlet = 1.5_dp
-   !> What an inlet at X costs H_c with P = 0: by the pressure that is missing there, 4 lambda_bar/(3 |X|^3) far from the
-   !> contact and more close to it, and by the load beyond it; and what a flooded one costs
+   !> Error of H_c by an inlet at X with P = 0: by the missing pressure there, 4 lambda_bar/(3 |X|^3) far from the contact and
+   !> more close to it, and by the load beyond it; and the error with a flooded border
    real(dp), parameter :: by_pressure = 1.5_dp, by_load = 0.9_dp, by_flooded = 0.07_dp
 
 contains
@@ -26,8 +26,8 @@ contains
       ends = [inlet, outlet]*max(1.0_dp, sqrt(2.0_dp*contact%film_formula(point%moes_m, point%moes_l)))
    end function line_ends
 
-   !> Share of the film of the flooded contact that an inlet at x changes, as an upper estimate
-   pure real(dp) function line_cost(contact, point, x, flooded) result(cost)
+   !> Relative error of the film by an inlet at x, against the flooded contact, as an upper estimate
+   pure real(dp) function line_domain_error(contact, point, x, flooded) result(error)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point
       real(dp), intent(in) :: x
@@ -37,15 +37,15 @@ contains
 
       associate (lambda_bar => point%speed_parameter, m => point%moes_m, l => point%moes_l)
          if (flooded) then
-            cost = by_flooded*lambda_bar*(1.0_dp + point%alpha_bar)/x**4
+            error = by_flooded*lambda_bar*(1.0_dp + point%alpha_bar)/x**4
             ! where the pressure at the border would be no less than its bound -ln(0)/alpha_bar the film is not determined
-            if (point%alpha_bar*4.0_dp*lambda_bar >= 3.0_dp*(x**2 - 1.0_dp)**1.5_dp) cost = 1.0_dp
+            if (point%alpha_bar*4.0_dp*lambda_bar >= 3.0_dp*(x**2 - 1.0_dp)**1.5_dp) error = 1.0_dp
          else
             ! -d ln h/d ln w at constant speed: H is h over b^2/R, which goes with the load
             sensitivity = -log(contact%film_formula(m*step, l)/contact%film_formula(m/step, l))/(2.0_dp*log(step)) - 1.0_dp
-            cost = lambda_bar*(by_pressure*(2.0_dp + point%alpha_bar)/(x**2 - 1.0_dp)**1.5_dp &
+            error = lambda_bar*(by_pressure*(2.0_dp + point%alpha_bar)/(x**2 - 1.0_dp)**1.5_dp &
                                + by_load*max(0.0_dp, sensitivity)/x**2)
          end if
       end associate
-   end function line_cost
+   end function line_domain_error
 end module ehl_line_domain

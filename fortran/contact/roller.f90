@@ -5,7 +5,7 @@
 !>    G = X^2/2 + (R/b^2) (g(bY) + theta b Y),    |Y| <= L/2,    L = length/b
 !>
 !>    crown        g = y^2/(2 R_crown)
-!>    logarithmic  g = -A ln(1 - (2y/length)^2)  (Johns & Gohar 1981, as in ISO/TS 16281), no more than that a thousandth of
+!>    logarithmic  g = -A ln(1 - (2y/length)^2)  (Johns & Gohar 1981, as in ISO/TS 16281), no more than its value a thousandth of
 !>                 the length from the end
 !>    chamfer      g = slope of a straight chamfer times the distance from its beginning
 !>    file         a table, straight between its points
@@ -61,7 +61,7 @@ module ehl_roller
 
    !> Share of half the length at which the logarithm ends
    real(dp), parameter :: last = 0.998_dp
-   !> Gap at the end, where no body is [b^2/R], and what of Y is rounding
+   !> Gap beyond the end, where no body is [b^2/R], and the rounding of Y
    real(dp), parameter :: open = 2.0_dp, rounding = 1.0e-9_dp
    !> Slices that the load is shared by
    integer, parameter :: slices = 200
@@ -88,8 +88,8 @@ contains
       contact%reach = [sqrt(largest_share(contact)), contact%ellipticity]
    end function new_roller
 
-   !> Largest load per length over its mean, where slices of the roller carry as much as they are pressed in (Palmgren):
-   !> 1 + (mean of the drop - drop)/d over what touches, d the approach of bodies without a profile
+   !> Largest load per length over its mean, where slices of the roller carry in proportion to their approach (Palmgren):
+   !> 1 + (mean of the drop - drop)/d over the slices in contact, d the approach of bodies without a profile
    pure real(dp) function largest_share(contact)
       type(roller_t), intent(in) :: contact
       real(dp) :: gap(slices), row(1), low, high, approach

@@ -42,7 +42,7 @@ module ehl_wall_heat
       procedure :: share
    end type wall_heat_t
 
-   !> What heat q [W/m^2] of a cell does there, all linear in q: value = at(1) + at(2) q
+   !> Effects of the heat q [W/m^2] of a cell there, all linear in q: value = at(1) + at(2) q
    type :: share_t
       !> Heat into wall 1 less that into wall 2 [W/m^2], mean rise across the film [K]
       real(dp) :: difference(2) = 0.0_dp, film(2) = 0.0_dp
@@ -62,14 +62,14 @@ contains
       class(contact_t), intent(in) :: contact
       real(dp) :: half, potential
 
-      ! under an infinite line a wall at rest warms for ever
+      ! under an infinite line the temperature of a wall at rest has no limit
       speed_of_rest = 0.0_dp
       if (contact%is_line()) return
       call find_source(contact, half, potential)
       speed_of_rest = half*(2.0_dp*pi*fast_integral/potential)**2/pi
    end function speed_of_rest
 
-   !> What flash_temperature needs to know of a contact: half its length along the motion, through its centre [a], and
+   !> Data of a contact for flash_temperature: half its length along the motion, through its centre [a], and
    !> iint P/r in the centre over that of a circle of this radius
    pure function heat_source(contact) result(source)
       class(contact_t), intent(in) :: contact
@@ -118,7 +118,7 @@ contains
       class(wall_heat_t), intent(in) :: self
       integer, intent(in) :: wall, first, last, i
       real(dp), contiguous, intent(in) :: heat(:)
-      !> Sums side by side: one alone would wait for itself
+      !> Several partial sums: the additions of one would wait for each other
       real(dp) :: parts(side_by_side)
       integer :: shift, k, rest
 
@@ -134,7 +134,7 @@ contains
       history = self%own(wall)*sum(parts)
    end function history
 
-   !> What the heat of a cell does, with the temperature rises of the walls that it has from upstream [K], its film h [m] of
+   !> Effects of the heat of a cell, with the temperature rises of the walls there by the heat upstream [K], its film h [m] of
    !> conductivity k_f [W/(m K)]
    pure type(share_t) function share(self, before, film, conductivity)
       class(wall_heat_t), intent(in) :: self

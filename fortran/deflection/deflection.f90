@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Elastic deflection of the half-space: what every engine offers
+!> Elastic deflection of the half-space: interface of all engines
 module ehl_deflection
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_kinds, only: dp

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> From the name of a deflection engine to the engine
+!> Makes a deflection engine by its name
 module ehl_deflection_factory
    use ehl_status, only: status_t, ehl_bad_input
    use ehl_deflection, only: deflection_t
@@ -20,12 +20,12 @@ module ehl_deflection_factory
 
 contains
 
-   !> Engine of a name, still to be set up for a grid
+   !> Engine by its name, to be set up for a grid
    subroutine new_deflection(engine, deflection, status, grid)
       character(len=*), intent(in) :: engine
       class(deflection_t), allocatable, intent(out) :: deflection
       type(status_t), intent(inout) :: status
-      !> That it is for: a short row needs no engine
+      !> The grid: a short row needs no engine
       type(grid_t), intent(in), optional :: grid
 
       if (present(grid)) then

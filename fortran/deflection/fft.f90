@@ -5,8 +5,8 @@
 !> and n-1 fall together there, but the kernel is even, so nothing is lost whatever P is on
 !> the border. The kernel's transform is real. The padding is never transformed in X: rows
 !> 1..ny go to spectra, then a few columns at a time are gathered, padded, transformed along
-!> Y, multiplied and transformed back while they are in the cache, and only the rows wanted
-!> return to X. Rows of zero pressure are skipped. On a folded grid columns are completed by
+!> Y, multiplied and transformed back while they are in the cache, and only the rows needed
+!> are transformed back in X. Rows of zero pressure are skipped. On a folded grid columns are completed by
 !> their mirror image; FFTW's cosine transforms took three times as long as that. A strip repeats along Y by itself: its columns
 !> are not padded, and one row has none.
 module ehl_fft
@@ -305,7 +305,7 @@ contains
       call drop_plan(plan)
    end subroutine transform_kernel
 
-   !> Give plans and memory back
+   !> Release plans and memory
    subroutine clear(self)
       type(fft_deflection_t), intent(inout) :: self
       integer :: k
@@ -322,7 +322,7 @@ contains
       self%allocated_bytes = 0
    end subroutine clear
 
-   !> At the end of its life
+   !> Finalizer
    subroutine release(self)
       type(fft_deflection_t), intent(inout) :: self
       call clear(self)

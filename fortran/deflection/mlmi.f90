@@ -12,7 +12,7 @@
 !> Sizes of transfers and corrections follow from the accuracy required, relative to the largest W, for max W about
 !> max P as in a contact of the Hertz radius. Corrections left out add up to 2.5 times the accuracy on the finest grid,
 !> in magnitude, and their effect to 2^(-1/2) times that on each next one: these are cheaper. They do not all have the
-!> same sign. What was measured: docs/design.md.
+!> same sign. Measurements: docs/design.md.
 ! Rows are passed by their first element
 ! allow(assumed-size)
 module ehl_mlmi
@@ -38,7 +38,7 @@ module ehl_mlmi
    integer, parameter :: operations = 16
    !> More halvings than any grid that fits into memory has
    integer, parameter :: max_stages = 64
-   !> Accuracies beyond which the estimate of the error holds no more
+   !> Range of accuracies in which the estimate of the error holds
    real(dp), parameter :: coarse_limit = 2.0e-4_dp, fine_limit = 1.0e-10_dp
    !> Accuracy from which on corrections are left out in proportion to it: that of meshes above a quarter of a, which only
    !> thick films have. By the limit above a patch would be wider than `reach` there.

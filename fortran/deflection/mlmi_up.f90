@@ -7,7 +7,7 @@
 !> along one axis. The remainder c falls off like the 2t-th derivative of 1/r, and is kept
 !> where it matters: the largest values, until the sum of the magnitudes left out is within
 !> the tolerance. What is left out is added up, for odd and even d along the axis apart, and
-!> spread over the values kept: a smooth pressure then hardly feels the truncation (the
+!> spread over the values kept: the truncation then hardly affects a smooth pressure (the
 !> error for the Hertz pressure falls to a half or a seventh).
 ! Rows are passed by their first element
 ! allow(assumed-size)
@@ -21,7 +21,7 @@ module ehl_mlmi_up
    private
    public :: ascend, stencil_t, transfer_weights
 
-   !> Corrections are looked for this far from the source, in mesh sizes
+   !> Maximum distance of a correction from its source, in mesh sizes
    integer, parameter :: reach = 48
    !> Fewest values, those at offsets along >= 0 counted, that are kept at an offset across
    integer, parameter :: min_values = 3
@@ -129,8 +129,8 @@ contains
       end do
    end subroutine make
 
-   !> The wanted values and those nearer to the axis across: for every offset across all
-   !> even and all odd offsets along up to the largest wanted, as the loops want them. A few
+   !> The selected values and those nearer to the axis across: for every offset across all
+   !> even and all odd offsets along up to the largest selected, as the loops need them. A few
    !> values at a large offset across do not justify the sum over two more rows.
    pure subroutine choose(wanted, kept)
       logical, intent(in) :: wanted(0:, 0:)

@@ -67,7 +67,7 @@ contains
       end do
    end subroutine apply
 
-   !> What the pressure of some nodes side by side adds: kernel(i) is that of the first of them at node i
+   !> Add the deflection by the pressure of some adjacent nodes: kernel(i) is that of the first of them at node i
    pure subroutine add(n, p, kernel, w)
       integer, intent(in) :: n
       real(dp), intent(in) :: p(:), kernel(2 - together:n)

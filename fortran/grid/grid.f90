@@ -26,7 +26,7 @@ module ehl_grid
       logical :: mirror = .false.
       !> The field repeats along Y: row 1 follows on row ny, or on a folded strip row ny - 1; integrals are means over Y
       logical :: periodic = .false.
-      !> The bodies end at the border rows (of a roller): nothing is known of a film there
+      !> The bodies end at the border rows (of a roller): there is no film there
       logical :: ends = .false.
    contains
       procedure :: x => x_of

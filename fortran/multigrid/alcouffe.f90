@@ -12,8 +12,8 @@ module ehl_alcouffe
    private
    public :: transfer_t
 
-   !> Weights of interpolation. A fine node between two coarse ones takes from these two, a node
-   !> amid four coarse ones takes from the four. Nodes that are not free take and give nothing.
+   !> Weights of interpolation. A fine node between two coarse ones is interpolated from these two,
+   !> one amid four coarse ones from the four. Nodes that are not free take no part.
    type :: transfer_t
       !> Coarse columns and rows, and rows of fine nodes between them: on a strip as many, for the one above the last coarse row
       !> lies below the first one
@@ -79,7 +79,7 @@ contains
 
    !> Weights for the operator of the fine grid: couplings as shares of their sum. Couplings to nodes that
    !> are not free and the excess take their shares and give nothing. No differences are formed: rounding
-   !> would make the weights wrong where one coupling dwarfs the others.
+   !> would make the weights wrong where one coupling is much larger than the others.
    subroutine find_weights(self, a, free, dependent)
       class(transfer_t), intent(inout) :: self
       type(nine_point_t), intent(in) :: a

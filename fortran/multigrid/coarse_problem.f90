@@ -124,8 +124,8 @@ contains
             if (coarse%poiseuille%frozen .or. coarse%supply%active) then
                coarse%rhs(i, j) = never
             else
-               ! keep the slack of cavitated regions, and where there is none make a little, lest rounding
-               ! decides which nodes stay cavitated
+               ! keep the slack of cavitated regions, and where there is none set a small one: else rounding
+               ! would decide which nodes stay cavitated
                coarse%rhs(i, j) = max(coarse%rhs(i, j), fine%rhs(step(1)*(i - 1) + 1, step(2)*(j - 1) + 1)) &
                                  + min_slack
             end if
@@ -153,7 +153,7 @@ contains
 
       step = mesh_ratio(fine%grid, coarse%grid)
       dependent = coarsening == coarsening_alcouffe .and. all(step == 2)
-      ! a coarse grid that finds a pressure that cannot be knows nothing of this state
+      ! a coarse grid with an impossible pressure gives no useful correction
       if (coarse%grid%ends) then
          if (.not. maxval(coarse%p) <= wild*maxval(space%p_start)) then
             coarse%p = space%p_start
@@ -202,7 +202,7 @@ contains
    end subroutine correct
 
    !> Make the change of a row small at a pressure spike that the coarse grid does not resolve: behind the inlet, where the
-   !> logarithm of the conductance bends by more than `sharp` from node to node. A coarse grid has that spike elsewhere.
+   !> logarithm of the conductance bends by more than `sharp` from node to node. A coarse grid has that spike at another position.
    pure subroutine weaken_at_spikes(p, eps, change)
       real(dp), contiguous, intent(in) :: p(:), eps(:)
       real(dp), contiguous, intent(inout) :: change(:)

@@ -15,10 +15,10 @@ module ehl_coarsest
    private
    public :: coarsest_t
 
-   !> Residual reduction wanted, and the most Newton steps to get it
+   !> Required reduction of the residual, and the maximum number of Newton steps
    real(dp), parameter :: reduction = 0.05_dp
    integer, parameter :: max_steps = 12
-   !> Factors serve while a step with them brings the residual down to this share
+   !> Factors are kept while a step with them reduces the residual to this share
    real(dp), parameter :: slow = 0.3_dp
    integer, parameter :: max_halvings = 12
 
@@ -105,7 +105,7 @@ contains
 
    !> Newton iteration with an active set of cavitated nodes, from the level's present state until
    !> the residual has fallen to `reduction` of its start, or for `max_steps` steps. The
-   !> factors are kept from step to step and from call to call while they serve.
+   !> factors are kept from step to step and from call to call while they are good enough.
    subroutine solve(self, level)
       class(coarsest_t), intent(inout) :: self
       type(level_t), intent(inout) :: level
@@ -129,13 +129,13 @@ contains
          if (fresh .and. norm < huge(1.0_dp)) then
             if (norm > slow*norm_before) self%factored = .false.
          else if (.not. norm <= slow*norm_before .or. .not. is_positive(level)) then
-            ! the old factors no longer serve: take the step back and factor anew
+            ! the old factors are not good enough: undo the step and factor again
             level%p = self%p_before
             level%h00 = self%h00_before
             call refresh(level)
             call self%find_residual(level, norm)
             self%factored = .false.
-            ! new ones did not either: the matrix is singular, or not a number was in it
+            ! nor are new ones: the matrix is singular, or holds a NaN
             if (fresh) exit
          end if
       end do
@@ -158,7 +158,7 @@ contains
             do i = 2, nx - 1
                u = unknown(self, nx, i, j)
                level%p(i, j) = self%p_before(i, j) + damping*self%direction(u)
-               ! exactly, lest rounding frees the node
+               ! exactly, so that rounding does not free the node
                if (self%held(u)) level%p(i, j) = cavity_pressure
             end do
             call cavitate(level%p(2:nx - 1, j))
@@ -171,7 +171,7 @@ contains
       call self%find_residual(level, norm)
    end subroutine move
 
-   !> Whether the lubricant has a film to flow through; above a boundary film it always has
+   !> Whether the film is positive; above a boundary film it always is
    pure logical function is_positive(level)
       type(level_t), intent(in) :: level
       is_positive = level%boundary%has_film(minval(level%h) > 0.0_dp)

@@ -15,7 +15,7 @@ module ehl_cycle
    public :: coarsening_classical, coarsening_alcouffe
 
    !> Damped cycles by degree: largest change of the logarithm of a node's conductance, relaxation factors of a sweep and of the
-   !> correction by a coarse grid. The first degree makes all of the correction: the film's level and the load come from there.
+   !> correction by a coarse grid. The first degree makes all of the correction, which sets the mean film and the load.
    !> Where the pressure spike is a few nodes wide (L = 25 on 513 x 513 nodes) F cycles make it oscillate; docs/design.md.
    integer, parameter :: max_damping = 4, usual_damping = 2
    real(dp), parameter :: damped_log_change(max_damping) = usual_log_change/[1.0_dp, 3.0_dp, 3.0_dp, 9.0_dp], &
@@ -35,8 +35,8 @@ module ehl_cycle
       real(dp) :: max_log_change = usual_log_change
       !> Relaxation factors of a sweep and of the correction by a coarse grid
       real(dp) :: relaxation_factor = 1.0_dp, correction_factor = 1.0_dp
-      !> Whether these are those of the finest level alone: where each level takes its share of what a coarser one finds,
-      !> next to nothing of the film's level and the load, which the coarsest finds, arrives on fine grids
+      !> Whether these apply to the finest level alone: where each level took a share of a coarser one's correction, hardly
+      !> anything of the mean film and the load, which the coarsest grid determines, would reach the fine grids
       logical :: finest_only = .false.
       !> Whether coarse grids leave sharp pressure spikes to the sweeps
       logical :: spare_spikes = .false.
@@ -46,8 +46,8 @@ module ehl_cycle
 
 contains
 
-   !> The W cycle whose sweeps and coarse grids make a part of their changes, for what another cycle failed on; less with every
-   !> degree
+   !> A damped W cycle, with relaxation factors of sweeps and coarse grids that fall with every degree, for states on which another
+   !> cycle failed
    pure function damped_cycle(options, degree) result(damped)
       type(cycle_options_t), intent(in) :: options
       integer, intent(in), optional :: degree
@@ -69,7 +69,7 @@ contains
       type(hierarchy_t), intent(inout) :: grids
       integer, intent(in) :: n
       type(cycle_options_t), intent(in) :: options
-      !> What is left (rms)
+      !> Residual after the cycle (rms)
       real(dp), intent(out) :: residual
       integer :: k
 
@@ -103,7 +103,7 @@ contains
       end if
    end subroutine fas_cycle
 
-   !> Relax level n, solve its problem on the coarser ones and take over the change
+   !> Relax level n, solve its problem on the coarser ones and add their correction
    recursive subroutine visit_coarser(grids, n, options)
       type(hierarchy_t), intent(inout) :: grids
       integer, intent(in) :: n

@@ -16,7 +16,7 @@ module ehl_galerkin
    !> elsewhere the deflection matters, which is not in the operator, and interpolation is bilinear
    real(dp), parameter :: dependent_from = 10.0_dp
 
-   !> What the cells above a coarse row add to the next row's couplings, shape (0:nx, ny)
+   !> Contributions of the cells above a coarse row to the next row's couplings, shape (0:nx, ny)
    type :: product_work_t
       real(dp), allocatable :: above_east(:, :), above_excess(:, :)
    contains

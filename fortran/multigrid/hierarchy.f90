@@ -22,7 +22,7 @@ module ehl_hierarchy
    private
    public :: hierarchy_t
 
-   !> Nodes of a grid from which several threads pay, measured on two cores that others use too; see docs/design.md
+   !> Nodes of a grid from which several threads are faster, measured on two shared cores; see docs/design.md
    integer, parameter :: parallel_from = 60000
    !> Cells that are so many times as long along Y as along X, or more, are coarsened along X alone
    real(dp), parameter :: long_y = 3.0_dp
@@ -77,7 +77,7 @@ contains
       self%ready = 0
       self%engine = engine
       self%threads = threads
-      call find_ladder(coarsest, n, grids, self%below)
+      call find_coarse_grids(coarsest, n, grids, self%below)
       if (allocated(self%levels)) deallocate (self%levels, self%workspaces, self%coarsenings, self%coarsest)
       associate (all => size(grids))
          allocate (self%levels(all), self%workspaces(all), self%coarsenings(all), self%coarsest(all), stat=stat)
@@ -132,7 +132,7 @@ contains
       end associate
    end subroutine set_up
 
-   !> Let a layer of rho H arrive at the inlet; 0: as much as the gap holds
+   !> Set the oil layer rho H at the inlet; 0: a filled gap
    subroutine supply(self, layer)
       class(hierarchy_t), intent(inout) :: self
       real(dp), intent(in) :: layer
@@ -177,7 +177,7 @@ contains
       end do
    end subroutine prepare_coarsening
 
-   !> How many of the threads work on a grid: all, or one where waiting for one another costs more than they gain
+   !> Number of threads on a grid: all, or one where synchronisation takes longer than several save
    pure integer function threads_that_pay(grid, threads)
       type(grid_t), intent(in) :: grid
       integer, intent(in) :: threads
@@ -191,7 +191,7 @@ contains
       deflection_accuracy = 2.2e-5_dp*(128.0_dp*max(grid%hx, grid%hy))**1.35_dp
    end function deflection_accuracy
 
-   !> Let a lubricant that thins do so on all grids as if the stress of its law were 1/share times as large
+   !> Weaken shear thinning on all grids, as if the stress of the law were 1/share times as large
    subroutine soften(self, share)
       class(hierarchy_t), intent(inout) :: self
       real(dp), intent(in) :: share
@@ -202,7 +202,7 @@ contains
       end do
    end subroutine soften
 
-   !> Drop what one cycle leaves for the next beyond the fields of its finest level
+   !> Reset the data that a cycle leaves for the next one beyond the fields of its finest level
    subroutine forget(self)
       class(hierarchy_t), intent(inout) :: self
       integer :: k
@@ -228,7 +228,7 @@ contains
 
    !> The first n grids are those of full multigrid, coarsest first. below(k) is the grid that grid k is corrected on, 0 where
    !> it is solved directly.
-   pure subroutine find_ladder(coarsest, n, grids, below)
+   pure subroutine find_coarse_grids(coarsest, n, grids, below)
       type(grid_t), intent(in) :: coarsest
       integer, intent(in) :: n
       type(grid_t), allocatable, intent(out) :: grids(:)
@@ -258,7 +258,7 @@ contains
          end if
          below(k) = same
       end do
-   end subroutine find_ladder
+   end subroutine find_coarse_grids
 
    !> What the mesh sizes are multiplied by on the next coarser grid; 1 and 1 where there is none
    pure function next_step(grid, min_columns) result(step)

@@ -38,9 +38,9 @@ module ehl_line_system
    public :: last_active, solve_lines
 
    integer, parameter :: nr = near_reach
-   !> Smaller pivots are none: those of nodes that may change are of the order of the wedge term's factor
+   !> Smallest pivot that counts: those of nodes that may change are of the order of the wedge term's factor
    real(dp), parameter :: min_pivot = 1.0e-100_dp
-   !> What is known of a node: pressure, density, H d rho/dP, the change of the conductance with pressure, 1 if
+   !> Data of a node: pressure, density, H d rho/dP, the change of the conductance with pressure, 1 if
    !> distributive, the residual; and of the Poiseuille term, see line_terms_t
    integer, parameter :: f_p = 1, f_rho = 2, f_h_drho_dp = 3, f_gain = 4, f_dipole = 5, f_residual = 6, &
                          f_other = 7, f_other_rate = 8, f_east = 9, f_east_rate = 10
@@ -53,7 +53,7 @@ contains
       type(level_t), intent(in) :: level
       !> 1 where a node changes distributively, else 0, shape (nx, ny)
       real(dp), contiguous, intent(in) :: dipole(:, :)
-      !> What a distributive change takes from the nodes beside it along X and along Y; kernel near the source: itself, and
+      !> Shares of a distributive change for the adjacent nodes along X and along Y; kernel near the source: itself, and
       !> for the distributive change
       real(dp), intent(in) :: shares(2), near(-nr:nr), near_dipole(-nr:nr)
       !> Rows of the grid; unused places repeat a row
@@ -87,12 +87,12 @@ contains
       i = max(i, level%boundary%last_touching(level%mass_content(:, j), j))
    end function last_active
 
-   !> Bring the lines side by side, a block at a time so that it stays in the cache
+   !> Gather the lines side by side, a block at a time so that it stays in the cache
    subroutine gather(level, dipole, rows, furthest, g)
       type(level_t), intent(in) :: level
       real(dp), contiguous, intent(in) :: dipole(:, :)
       integer, intent(in) :: rows(line_width)
-      !> Last node that is brought
+      !> Last node that is gathered
       integer, intent(in) :: furthest
       real(dp), intent(inout) :: g(line_width, line_fields, -1:level%grid%nx + 2)
       type(line_terms_t) :: terms

@@ -18,8 +18,8 @@ module ehl_relaxation
    public :: relax, usual_log_change
 
    !> Largest conductance/mesh-size^2 of a distributive node's neighbourhood, and that of a lubricant that thins. The
-   !> conductance across counts: lines along X include what is along them, and a change that is smooth across them is held by
-   !> their coupling to other lines alone.
+   !> conductance across counts: lines along X include what is along them, and only their coupling to other lines limits a change
+   !> that is smooth across them.
    real(dp), parameter :: switch = 0.1_dp, switch_thinning = 0.25_dp
    !> Under-relaxation of distributive changes, and of Gauss-Seidel changes where the wedge and
    !> the Poiseuille term compete; the latter tends to 1 where conductance/mesh-size^2 passes `strong`
@@ -27,7 +27,7 @@ module ehl_relaxation
    !> The latter between soft bodies: where the viscosity hardly increases the two terms compete in all of the contact, not at its
    !> edge alone, and smooth changes there overshoot (L = 0.5, M = 2000: 4 cycles, not converged in 30 with 0.5)
    real(dp), parameter :: omega_soft = 0.25_dp
-   !> The same in time steps, where smooth changes are taken back
+   !> The same in time steps, where the smooth part of changes is removed
    real(dp), parameter :: omega_step = 0.8_dp
    !> Largest change of the logarithm of a node's conductance in a sweep of a time step, to begin with: beyond it the
    !> linearised line has no meaning

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Relaxation of a grid of one row: Newton's linearised Reynolds equation (reynolds.f90) for all of its nodes, with the deflection
-!> up to `row_reach` nodes away. Smooth changes, whose deflection comes from further away, are what coarser grids are for.
+!> up to `row_reach` nodes away. Smooth changes, whose deflection comes from further away, are left to coarser grids.
 !>
 !> With d the changes of the pressure, r the residual, K(l) the deflection l nodes away, and per node i
 !>
@@ -83,7 +83,7 @@ contains
       !> Per node: d ln eps/d ln H, and the film that the conductance is of
       real(dp), dimension(level%grid%nx) :: exponent, thickness
       type(line_terms_t) :: terms
-      !> What of the flow to the node before does not come back from there
+      !> Part of the flow to the upstream node that does not come back from there
       real(dp) :: share
       integer :: first, i, k, l, m
 
@@ -153,9 +153,9 @@ contains
       end subroutine add_neighbour
    end subroutine assemble
 
-   !> Solve the equations of nodes 2 to `last` in place, without pivoting: the film answers most to the pressure of its own node.
-   !> A finished equation goes into all of those after it: into one equation after another each would be read at an offset right
-   !> after it was written, which processors wait for.
+   !> Solve the equations of nodes 2 to `last` in place, without pivoting: the diagonal dominates. A finished equation is
+   !> subtracted from all of those after it: an equation that took up one after another would be read at an offset right after it
+   !> was written, which processors wait for.
    pure subroutine solve(band, last, x)
       real(dp), contiguous, intent(inout) :: band(-row_below:, :), x(:)
       integer, intent(in) :: last

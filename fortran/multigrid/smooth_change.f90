@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Relaxation in time steps: the smooth part of changes at nodes with a small conductance is taken back at the end of a sweep, for
-!> the lines do not see its deflection. Where the values of the constants come from: docs/design.md.
+!> Relaxation in time steps: the smooth part of changes at nodes with a small conductance is removed at the end of a sweep,
+!> because the line systems leave out its deflection. Where the values of the constants come from: docs/design.md.
 module ehl_smooth_change
    use ehl_kinds, only: dp
    use ehl_level, only: change_flowing, level_t
@@ -10,17 +10,17 @@ module ehl_smooth_change
    public :: filter_smooth_change, find_smoothing_weights
 
    !> Conductance/mesh-size^2 around a node, as a share of the squeeze term's factor, at which half of the change
-   !> counts as one to be freed of its smooth part: a change smooth over a length l has a residual of about
-   !> squeeze*l*2/pi^2 by its deflection, and overshoots where the line holds less than half of that against
-   !> it. The largest conductance around the node counts, for in a valley narrower than the mean below nothing is
+   !> is filtered: a change smooth over a length l has a residual of about
+   !> squeeze*l*2/pi^2 by its deflection, and overshoots where the line system includes less than half of
+   !> that. The largest conductance around the node counts, for in a valley narrower than the mean below nothing is
    !> smooth.
    real(dp), parameter :: weak = 0.6_dp
-   !> What is around a node: so many columns on each side, and a row
+   !> Neighbourhood of a node: so many columns on each side, and a row
    integer, parameter :: around = 2
    !> Smaller shares count as 0
    real(dp), parameter :: min_weight = 0.01_dp
-   !> Weights of the mean that is the smooth part, along X and along Y. Narrower means take away from what
-   !> sweeps are there for.
+   !> Weights of the mean that is the smooth part, along X and along Y. Narrower means would remove the
+   !> short waves that sweeps have to correct.
    integer, parameter :: reach = 4
    real(dp), parameter :: binomial(-reach:reach) = [1.0_dp, 8.0_dp, 28.0_dp, 56.0_dp, 70.0_dp, 56.0_dp, 28.0_dp, &
                                                     8.0_dp, 1.0_dp]/256.0_dp
@@ -59,7 +59,7 @@ contains
       !$omp end parallel do
    end subroutine find_smoothing_weights
 
-   !> Take the smooth part of the changes of nodes with a weak conductance back
+   !> Remove the smooth part of the changes of nodes with a weak conductance
    subroutine filter_smooth_change(level, space, first, last)
       type(level_t), intent(inout) :: level
       type(workspace_t), intent(inout) :: space

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What multigrid needs of a level besides its fields: work space of the relaxation and of the coarse problem
+!> Work space of a level for multigrid: that of the relaxation and of the coarse problem
 module ehl_workspace
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_grid, only: grid_t
@@ -37,11 +37,11 @@ module ehl_workspace
       !> For time steps only: the share of a node's change that is to be free of its smooth part, these
       !> changes in a sweep, and their smooth part after its first pass
       real(dp), allocatable :: smoothing_weight(:, :), raw_change(:, :), mean_change(:, :)
-      !> A distributive change takes from the nodes beside it along X and along Y these shares of what it gives to its own.
+      !> A distributive change lowers the pressure of the adjacent nodes along X and along Y by these shares of its own.
       !> On cells that are longer across the lines less goes to their far neighbours: a quarter to each would leave a
       !> deflection that falls off slowly along them. On long cells they go with 1/h^2, so that the second moments along X and
-      !> along Y, h_x^2 times the one and h_y^2 times the other, are alike as on square cells (docs/theory/relaxation.md). On
-      !> nearly square ones, where either serves, they go with 1/h. Measured on cells of 1 to 1/4, 1.41, 2, 2.8 and 4.
+      !> along Y, h_x^2 times the one and h_y^2 times the other, are equal as on square cells (docs/theory/relaxation.md). On
+      !> nearly square ones, where either works, they go with 1/h. Measured on cells of 1 to 1/4, 1.41, 2, 2.8 and 4.
       real(dp) :: shares(2) = 0.25_dp
       !> Kernel near the source: itself, and for the distributive (dipole) change
       real(dp) :: near(-near_reach:near_reach) = 0.0_dp, near_dipole(-near_reach:near_reach) = 0.0_dp
@@ -103,9 +103,9 @@ contains
       end associate
    end subroutine setup
 
-   !> The kernel near the source as the equations of one row have it: over its value beyond their reach, for a constant more is
-   !> H00 and the logarithm falls so slowly that they would see its end, and for smooth changes stiffer than that by a share of
-   !> what the whole contact adds. Without it these are made so much too large on fine grids that cycles diverge; 2 cycles a
+   !> The kernel near the source for the equations of one row: less its value at the end of their reach, because a constant is
+   !> part of H00 and a truncated logarithm would have a step there; for smooth changes stiffer than that by a share of the
+   !> deflection by the whole contact. Without it these are made so much too large on fine grids that cycles diverge; 2 cycles a
    !> level with this share and width, from M = 0.5 to 500 on 65 to 4097 nodes.
    pure function kernel_of_row(grid, factor) result(near)
       type(grid_t), intent(in) :: grid

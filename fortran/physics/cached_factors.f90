@@ -2,7 +2,7 @@
 !> Flow factors (factor_rows.f90) of the nodes of a grid, cached with their changes: near the sliding B and the gradient
 !> S that they were found at, factors and stress follow to first order, with an error below 1e-4 beside that of factor_rows.f90.
 !> Sweeps and cycles change most nodes by less. So factors depend on what is cached, until that is forgotten. Where the
-!> lubricant flows as a Newtonian one nothing is cached: to read and write it costs more than to see that it is not needed.
+!> lubricant flows as a Newtonian one nothing is cached: reading and writing takes longer than the test that it is not needed.
 module ehl_cached_factors
    use, intrinsic :: iso_fortran_env, only: int64, real32
    use ehl_factor_rows, only: factor_rows_t, find_factors, flows_newtonian
@@ -21,15 +21,15 @@ module ehl_cached_factors
    real(dp), parameter :: faint = 0.05_dp
    !> B of a node without factors, near no other: all nodes of a segment have factors, or none
    real(dp), parameter :: none = -1.0_dp
-   !> What is cached of a node: B, S, phi and the stress; and as numbers of single precision, since memory is what time goes
-   !> to, the changes of phi and of the stress: those of ln(phi) with ln(B), and of ln(phi_x) and ln(phi_y) with S_x, with S_y
+   !> What is cached of a node: B, S, phi and the stress; and in single precision, because memory limits the speed,
+   !> the changes of phi and of the stress: those of ln(phi) with ln(B), and of ln(phi_x) and ln(phi_y) with S_x, with S_y
    integer, parameter :: f_b = 1, f_s = 2, f_phi = 4, f_stress = 6, fields = 6
    integer, parameter :: c_by_sliding = 1, c_by_x = 3, c_by_y = 5, c_tangent = 7, c_stress_by_sliding = 9, &
                          c_stress_by_gradient = 10, change_fields = 11
 
    type :: cached_factors_t
       type(thinning_t) :: law
-      !> Whether factors follow small changes, and how large those may be
+      !> Whether factors follow small changes, and the largest of these
       logical :: follows = .true.
       real(dp), private :: reach = 0.0_dp
       !> Whether the level is solved for a correction to a finer one: factors follow larger changes then
@@ -66,7 +66,7 @@ contains
       if (stat /= 0) self%width = 0
    end subroutine setup
 
-   !> Find all factors anew when they are needed next
+   !> Discard all factors: they are computed again when needed
    subroutine forget(self)
       class(cached_factors_t), intent(inout) :: self
       if (allocated(self%values)) self%values(:, f_b, :, :) = none
@@ -88,7 +88,7 @@ contains
       n = size(b)
       newtonian = flows_newtonian(self%law, b, s)
       if (newtonian) then
-         ! what was cached of another state would be taken for that of this one (film_exponent)
+         ! values cached of another state would be used for this one (film_exponent)
          if (self%values(1, f_b, segment, j) > none) self%values(:n, f_b, segment, j) = none
          return
       end if
@@ -116,7 +116,7 @@ contains
       end associate
    end subroutine find
 
-   !> Cache what was found
+   !> Store factors in the cache
    pure subroutine store(b, s, found, cached, changes)
       real(dp), intent(in) :: b(:), s(:, :)
       type(factor_rows_t), intent(in) :: found

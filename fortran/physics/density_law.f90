@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What every law of  under pressure and temperature offers, row by row
+!> Interface of the laws of density under pressure and temperature, row by row
 module ehl_density_law
    use ehl_kinds, only: dp
    implicit none (type, external)

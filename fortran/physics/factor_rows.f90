@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Flow factors (flow_factors.f90) of several nodes side by side, each with what it needs: none where they are 1 but for
-!> `negligible`, those of second order in the gradient where they are right to `tolerance`, else those through the film.
+!> Flow factors (flow_factors.f90) of several nodes side by side, each by the cheapest sufficient formula: 1 where they differ
+!> from it by less than `negligible`, second order in the gradient where that is right to `tolerance`, else through the film.
 !>
 !> The mean stress of the latter begins with that of the former; Newton steps correct it, and the factors take what is left to
 !> first order, an error of its square. Where that is not small enough flow_factors.f90 iterates.
@@ -14,7 +14,7 @@ module ehl_factor_rows
 
    !> Factors that differ less from 1 than this are 1; relative error of factors of second order
    real(dp), parameter :: negligible = 1.0e-6_dp, tolerance = 1.0e-4_dp
-   !> Evaluations of the integrals before the iteration; relative error of B of which the square is nothing
+   !> Evaluations of the integrals before the iteration; relative error of B whose square is negligible
    integer, parameter :: passes = 3
    real(dp), parameter :: enough = 1.0e-3_dp
    !> Two squares of stresses that differ less than this have a slope of F in common
@@ -28,7 +28,7 @@ module ehl_factor_rows
       real(dp) :: error(most), near(most, 2)
    end type factor_rows_t
 
-   !> Integrals through the film for a mean stress: J0, J2, K, A, C and D as xx, xy, yy, and what is missing of B
+   !> Integrals through the film for a mean stress: J0, J2, K, A, C and D as xx, xy, yy, and the residual of B
    type :: film_t
       real(dp), dimension(most) :: j0, j2, k
       real(dp), dimension(most, 3) :: a, c, d
@@ -163,7 +163,7 @@ contains
       end do
    end subroutine through_film
 
-   !> Node `to` has what another one has
+   !> Copy the factors of another node to node `to`
    pure subroutine take(rows, to, new, from)
       type(factor_rows_t), intent(inout) :: rows
       type(factor_rows_t), intent(in) :: new
@@ -178,7 +178,7 @@ contains
       rows%stress_by_gradient(to, :) = new%stress_by_gradient(from, :)
    end subroutine take
 
-   !> Node i has these factors
+   !> Set the factors of node i
    pure subroutine put(rows, i, factors)
       type(factor_rows_t), intent(inout) :: rows
       integer, intent(in) :: i
@@ -265,7 +265,7 @@ contains
       end do
    end subroutine integrate
 
-   !> Factors and their changes, with what is missing of B to first order
+   !> Factors and their changes, corrected to first order for the residual of B
    pure subroutine evaluate(b, s, mean, film, rows)
       real(dp), contiguous, intent(in) :: b(:), s(:, :), mean(:, :)
       type(film_t), intent(in) :: film

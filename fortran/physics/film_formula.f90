@@ -36,7 +36,7 @@ contains
       film = film**(1.0_dp/s)*(1.5_dp*moes_m/kernel_ratio)**(-2.0_dp/3.0_dp)
    end function film_central_formula
 
-   !> The same with a layer of rho H that arrives, if there is one: less than both, by Chevalier, Lubrecht, Cann, Colin & Dalmaz
+   !> The same with an oil layer rho H at the inlet, if there is one: less than both, by Chevalier, Lubrecht, Cann, Colin & Dalmaz
    !> (1998, J. Tribol. 120, 126), whose exponent is between 2 and 5
    pure real(dp) function starved_film(flooded, layer) result(film)
       real(dp), intent(in) :: flooded, layer

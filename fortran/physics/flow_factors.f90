@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Flow factors of a lubricant that thins by shear, exact through the film: how much more of it a gradient of pressure drives
-!> along X, the direction of the sliding, and along Y than of a Newtonian lubricant of its low-shear viscosity.
+!> Flow factors of a shear-thinning lubricant, exact through the film: its flow by a gradient of pressure along X, the direction
+!> of the sliding, and along Y over that of a Newtonian lubricant of its low-shear viscosity.
 !>
 !> With xi = z/h from -1/2 to 1/2 and stresses in units of the law's, the stress is tau(xi) = tau_m + xi S, where
 !> S = (h/stress) grad p. Its mean part follows from the sliding,
@@ -42,8 +42,8 @@ module ehl_flow_factors
    real(dp), parameter :: longest = 4.0_dp
    !> Two stresses that are closer than this, or than this share of their sum, have a slope of F in common
    real(dp), parameter :: close = 1.0e-4_dp
-   !> A smaller part of S counts as one of this size, which the factors notice by its square only, so that their changes are
-   !> no quotients of nothing
+   !> A smaller component of S is replaced by this, which changes the factors by its square only, so that their derivatives are
+   !> not 0/0
    real(dp), parameter :: min_gradient = 1.0e-4_dp
 
    !> Stress along X and along Y at the points of a film, its square, F and its slope (thinning.f90)
@@ -81,7 +81,7 @@ contains
       do step = 1, max_steps
          call through_film(law, mean, s, film)
          call balance(film, j0, k, a)
-         ! without sliding the mean stress is none, by symmetry
+         ! without sliding the mean stress is 0, by symmetry
          if (.not. b > 0.0_dp) exit
          off = [b, 0.0_dp] - mean*j0 - s*k*dot_product(mean, s)
          if (all(abs(off) <= enough*b)) then
@@ -114,7 +114,7 @@ contains
       call changes(b, s, a, c, d, r)
    end function exact_factors
 
-   !> A mean stress along X that is about right
+   !> Estimate of the mean stress along X
    pure real(dp) function first_guess(law, b, s)
       type(thinning_t), intent(in) :: law
       real(dp), intent(in) :: b, s(2)

@@ -13,7 +13,7 @@ module ehl_heat
    !> maximum rise where the semi-axis across the motion is 1/15 to 30 times that along it, 1 % for a circle
    real(dp), parameter :: narrow = 0.38_dp
 
-   !> Viscosity of a data sheet over temperature: what the line takes from the sheet, once for many temperatures
+   !> Viscosity of a data sheet over temperature: constants of the Walther line, computed once for many temperatures
    type :: walther_t
       private
       !> log T [ln K] and log log Z at the temperatures of the sheet
@@ -71,8 +71,8 @@ contains
       dynamic_viscosity = line%dynamic(temperature, density, expansion)
    end function dynamic_viscosity
 
-   !> The same of a line. None where that of the density has come to zero, above 1000 degC: an estimate of the heat may ask
-   !> there, a contact is never so hot.
+   !> The same of a line. NaN where the linear density is not positive, above 1000 degC: only
+   !> rough estimates of the heat get there.
    pure real(dp) function dynamic_of_line(line, temperature, density, expansion) result(viscosity)
       class(walther_t), intent(in) :: line
       real(dp), intent(in) :: temperature, density, expansion
@@ -123,9 +123,10 @@ contains
       flash_temperature = 2.32_dp*flux*half/sum(conductivity*sqrt(pi*raised_speed(peclet, 1.234_dp/potential**2, potential)))
    end function flash_temperature
 
-   !> Speed at which heat that flows straight down makes the maximum rise of a surface, from which it flows sideways as well:
-   !> that of the surface and that which one at rest has, together. On a circle and a wide contact they add up; under a
-   !> narrow one heat flows across the motion long before it is too slow to flow ahead.
+   !> Speed at which heat conduction normal to the surface alone gives the maximum temperature rise with conduction in all
+   !> directions: from that of the surface and the equivalent one of a surface at rest. On a circle
+   !> and a wide contact both speeds add up; under a narrow one heat flows across the motion at speeds at which it does not yet
+   !> flow ahead.
    elemental real(dp) function raised_speed(speed, rest, potential)
       !> Both speeds in any unit; iint P/r at the centre over that of a circle as long along the motion [-]
       real(dp), intent(in) :: speed, rest, potential

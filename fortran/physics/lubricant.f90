@@ -22,11 +22,11 @@ module ehl_lubricant
       class(density_law_t), allocatable :: compression
       !> Shear stress
       type(shear_law_t) :: shear
-      !> Film that pressure does not squeeze out, at P = 0 [a^2/R]; 0: there is none
+      !> Boundary film, which pressure does not squeeze out, at P = 0 [a^2/R]; 0: none
       real(dp) :: boundary_film = 0.0_dp
       !> Its shear stress at P = 1 over the Newtonian stress of eta = eta0 and H = 1; 0: not known, or there is no sliding
       real(dp) :: boundary_stress = 0.0_dp
-      !> Maximum pressure of the solids that it is on, their hardness; 0: there is no limit
+      !> Hardness of the solids, the maximum pressure between them; 0: no limit
       real(dp) :: boundary_limit = 0.0_dp
    contains
       procedure :: log_viscosity
@@ -37,7 +37,7 @@ module ehl_lubricant
 
 contains
 
-   !> Lubricant for a contact, with laws that need no constants of an oil but alpha and beta
+   !> Lubricant with laws that need no constants of an oil but alpha and beta
    function new_lubricant(viscosity_law, density_law, alpha_bar, hertz_pressure, z, roelands_p0, beta, expansion, &
                           temperature) result(lubricant)
       integer, intent(in) :: viscosity_law, density_law

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The scales of a contact: what one is in metres and pascals
+!> The scales of a contact: units of lengths, films and pressures in metres and pascals
 module ehl_scales
    use ehl_kinds, only: dp, pi
    implicit none (type, external)

@@ -86,8 +86,8 @@ contains
       end select
    end subroutine shear_stress
 
-   !> Whether the stress is another than the Newtonian one. Without sliding it is not: friction is then meant in the
-   !> limit of vanishing sliding, in which every law here is Newtonian.
+   !> Whether the stress differs from the Newtonian one. Without sliding it does not: friction is then the limit of vanishing
+   !> sliding, in which every law here is Newtonian.
    pure logical function thins(self)
       class(shear_law_t), intent(in) :: self
       thins = self%law /= shear_newtonian .and. self%scale > 0.0_dp
@@ -99,9 +99,9 @@ contains
       thins_flow = self%in_flow .and. (self%law == shear_eyring .or. (self%law == shear_carreau .and. self%exponent < 1.0_dp))
    end function thins_flow
 
-   !> About the central film of a lubricant that thins in the flow, from that of a Newtonian one, for solvers to begin with:
-   !> h goes with eta^(2/3), the viscosity is that in the inlet, where alpha p = 1, at the shear rate (u + |u1 - u2|)/h. It may
-   !> well be less than the film, but no solver should begin with much more.
+   !> Estimate of the central film of a shear-thinning lubricant, from that of a Newtonian one, as a start for solvers: h goes with
+   !> eta^(2/3), the viscosity is that in the inlet, where alpha p = 1, at the shear rate (u + |u1 - u2|)/h. It tends to be low:
+   !> solvers should not start with a film that is much too thick.
    pure real(dp) function thinned_film(self, newtonian, speed_parameter) result(film)
       class(shear_law_t), intent(in) :: self
       !> [a^2/R]; lambda_bar = 12 eta0 u/(a^2/R) over gradient_scale

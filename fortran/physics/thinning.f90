@@ -202,7 +202,7 @@ contains
       end if
       t = b
       if (.not. abs(b) > tiny(1.0_dp)) return
-      ! u = ln|tau|: ln|B| is between a line of slope 1 and one of slope 1/n, so that the iteration (Halley) cannot go astray
+      ! u = ln|tau|: ln|B| is between a line of slope 1 and one of slope 1/n, so that the iteration (Halley) converges
       m = 0.5_dp*(1.0_dp - self%exponent)/self%exponent
       wanted = log(abs(b))
       u = wanted

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What every law of  under pressure and temperature offers, row by row: the law is chosen once per row, and
+!> Interface of the laws of viscosity under pressure and temperature, row by row: the law is chosen once per row, and
 !> the loops of the laws vectorise
 module ehl_viscosity_law
    use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_value

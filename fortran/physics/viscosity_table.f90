@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Viscosity interpolated in a table of measured values: ln(eta) over pressure on each isotherm by monotone cubics (Fritsch &
-!> Butland 1984), between isotherms linear in 1/T. Beyond the table it goes on with its last slope: the plan and the summary
-!> name that.
+!> Butland 1984), between isotherms linear in 1/T. Beyond the table it is extrapolated with its last slope, which the
+!> plan and the summary report.
 module ehl_viscosity_table
    use ehl_kinds, only: dp
    use ehl_viscosity_law, only: viscosity_law_t

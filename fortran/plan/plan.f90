@@ -1,11 +1,11 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The plan of a run: what a case needs, decided once.
+!> The plan of a run: all decisions on how a case is solved.
 module ehl_plan
    use ehl_case, only: case_t
    use ehl_case_defaults, only: is_short_of_oil
    use ehl_contact, only: contact_t
    use ehl_cycle, only: cycle_options_t
-   use ehl_domain, only: domain_cost
+   use ehl_domain, only: domain_error
    use ehl_duty, only: duty_t
    use ehl_friction_mean, only: automatic_periods
    use ehl_film_formula, only: starved_film
@@ -40,28 +40,28 @@ module ehl_plan
    !> trailing edge moves from column to column in a few rows
    real(dp), parameter :: oblique = 4.0_dp
 
-   !> What the smooth contact needs, and all else
+   !> Plan of the smooth contact, and of everything after it
    type, extends(steady_options_t) :: plan_t
       class(contact_t), allocatable :: contact
       type(scales_t) :: scales
       type(operating_t) :: point
       type(lubricant_t) :: lubricant
-      !> Whether the inlet is meant to be short of oil
+      !> Whether the inlet is starved
       logical :: starved = .false.
       !> Central film of a flooded one, by formula
       real(dp) :: film_flooded = 0.0_dp
-      !> The same with the layer that arrives
+      !> The same with the given oil layer
       real(dp) :: film_starved = 0.0_dp
       !> Whether the smooth contact may touch at the boundary film
       logical :: touches = .false.
-      !> What absolute friction needs to know
+      !> Data for absolute friction
       type(sliding_t) :: sliding
-      !> The heat of it
+      !> Its frictional heat
       type(heat_plan_t) :: heat
       !> Coarsest and finest grid
       type(grid_t) :: coarsest, finest
-      !> Shares of H_c and H_min of the flooded contact that the domain changes
-      real(dp) :: domain_cost(2) = 0.0_dp
+      !> Relative errors of H_c and H_min by the domain
+      real(dp) :: domain_error(2) = 0.0_dp
       character(len=:), allocatable :: engine
       !> Cycles of a time step
       type(cycle_options_t) :: step_cycle
@@ -81,7 +81,7 @@ module ehl_plan
       logical :: skip_start = .true.
       !> Begin it with the contact full of roughness, from a prediction
       logical :: predicted_start = .false.
-      !> Why it does not, where that was asked for
+      !> Why it does not, where that was requested
       character(len=:), allocatable :: fallback_reason
       !> Repeat the run on the next coarser grid, for the grid error of the friction ratio
       logical :: coarse_run = .false.
@@ -147,7 +147,7 @@ contains
       plan%film_starved = merge(min(film, plan%layer/rho), starved_film(film, plan%layer/rho), plan%contact%is_line())
       plan%film_expected = film
       if (plan%layer > 0.0_dp) plan%film_expected = plan%film_starved
-      ! a film that is thicker than the gap where the oil begins carries nothing
+      ! a film that is thicker than the gap at the meniscus sustains no load
       if (plan%starved) plan%film_expected = min(plan%film_expected, input%grid%x_inlet**2)
       plan%film_expected = max(plan%film_expected, plan%lubricant%boundary_film)
       plan%engine = trim(input%solver%deflection)
@@ -214,7 +214,7 @@ contains
       has_steps = self%surfaces%move() .or. self%duty%active
    end function has_steps
 
-   !> What of the surfaces a grid resolves
+   !> Set the fraction of the surfaces that a grid resolves
    subroutine update_resolved_fraction(self, grid)
       class(plan_t), intent(inout) :: self
       type(grid_t), intent(in) :: grid
@@ -247,7 +247,7 @@ contains
          end if
          what = trim(slowest%group)//".velocity_ratio = "//to_text(slowest%surface%velocity_ratio)//": so slow a surface needs "
          if (plan%surfaces%repeats > 1) what = what//"by "//to_text(plan%surfaces%repeats)//" periods "
-         ! rounded up: what is named will do
+         ! rounded up: the suggested ratio is sufficient
          call status%fail(ehl_bad_input, what//fixed(steps, "es12.2e3")//" time steps until its friction is known, more than "// &
                           to_text(most)//new_line("a")//"expected: a velocity ratio of at least "// &
                           fixed(1.005_dp*steps*slowest%surface%velocity_ratio/most, "es12.2e3")// &

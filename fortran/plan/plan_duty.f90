@@ -12,7 +12,7 @@ module ehl_plan_duty
 
 contains
 
-   !> What changes with time, over what the case has; inactive where nothing does
+   !> Quantities that change with time, over those of the case; inactive where none does
    pure function plan_duty(input, scales, inlet_viscosity) result(duty)
       type(case_t), intent(in) :: input
       type(scales_t), intent(in) :: scales

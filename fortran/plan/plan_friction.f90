@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What absolute friction and the heat of it need to know of a case
+!> Data of a case for absolute friction and frictional heat
 module ehl_plan_friction
    use ehl_case, only: case_t
    use ehl_case_point, only: operating_point
@@ -26,7 +26,7 @@ module ehl_plan_friction
       real(dp) :: conductivity(2) = 0.0_dp, diffusivity(2) = 0.0_dp
       !> Film over the isothermal one, 1 where shear heating of the inlet is left out; thermal loading
       real(dp) :: reduction = 1.0_dp, loading = 0.0_dp
-      !> [Pa s] viscosity that makes the film: that of the warmer inlet
+      !> [Pa s] viscosity that determines the film: that of the inlet with shear heating
       real(dp) :: inlet_viscosity = 0.0_dp
    contains
       procedure :: speeds

@@ -63,7 +63,7 @@ contains
             plan%coarsest = new_grid(intervals(1) + 1, intervals(2) + 1, g%x_inlet, g%x_outlet, g%y_extent, mirror)
             plan%coarsest%ends = plan%contact%is_roller()
          end if
-         plan%domain_cost = domain_cost(plan%contact, plan%point, domain_t(g%x_inlet, g%x_outlet, g%y_extent), plan%flooded, &
+         plan%domain_error = domain_error(plan%contact, plan%point, domain_t(g%x_inlet, g%x_outlet, g%y_extent), plan%flooded, &
                                         plan%starved .and. plan%layer <= layer_that_floods(plan%contact, plan%point, g%x_inlet))
       end associate
       grid = plan%coarsest

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Whether the heat of sliding counts for the friction of a case, and what it needs to know then
+!> Whether the heat of sliding is significant for the friction of a case, and the data to compute it
 module ehl_plan_heat
    use ehl_case, only: case_t
    use ehl_case_point, only: find_contact, operating_point
@@ -40,8 +40,8 @@ module ehl_plan_heat
 
 contains
 
-   !> Decide by the maximum heat of the contact, that at the Hertz pressure in the central film by formula, or at a boundary
-   !> film that is thick beside it: the flash temperature of Tian & Kennedy for it, and the mean across the film over that
+   !> Decide by the maximum heat of the contact, at the Hertz pressure in the central film by formula, or at a boundary film that
+   !> is not much thinner: its flash temperature (Tian & Kennedy), and the additional mean rise across the film
    function plan_heat(input, contact, scales, sliding, lubricant, film) result(plan)
       type(case_t), intent(in) :: input
       class(contact_t), intent(in) :: contact

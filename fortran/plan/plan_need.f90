@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Memory and time that a plan needs, before it takes them
+!> Memory and time that a plan needs, estimated before the run
 module ehl_plan_need
    use ehl_friction_mean, only: automatic_periods, periods_compared
    use ehl_kinds, only: dp
@@ -13,13 +13,13 @@ module ehl_plan_need
    public :: bytes_needed, check_need, frames_kept, max_periods, seconds_needed
 
    !> Bytes per stored node of the finest grid, those of the coarser ones included, as measured on 513 x 513 nodes: the
-   !> smooth contact; what the rough one takes besides; what Alcouffe coarsening takes
+   !> smooth contact; in addition the rough one; in addition Alcouffe coarsening
    real(dp), parameter :: smooth_bytes = 190.0_dp, rough_bytes = 150.0_dp, alcouffe_bytes = 120.0_dp
    !> Of the temperatures of film and walls
    real(dp), parameter :: heat_bytes = 32.0_dp
    !> The same of a flow that thins
    real(dp), parameter :: thinning_bytes = 165.0_dp
-   !> Bytes per node of the whole finest grid, to write a field: it, a copy and what it is made of
+   !> Bytes per node of the whole finest grid, to write a field: the field, a copy and its source
    real(dp), parameter :: written_bytes = 24.0_dp
    !> Bytes per node along X and thread
    real(dp), parameter :: line_bytes = 2000.0_dp
@@ -27,8 +27,8 @@ module ehl_plan_need
    real(dp), parameter :: coarser_bytes = 0.25_dp, coarser_seconds = 0.125_dp
    !> Seconds per stored node of a smooth contact and of a time step or cycle, on one thread of a processor of 2020
    real(dp), parameter :: smooth_seconds = 8.0e-7_dp, step_seconds = 3.0e-7_dp
-   !> Seconds per cube of the unknowns of the coarsest grid, which is solved directly, ten times or so in a smooth contact; they
-   !> are what a long grid takes (0.5 s of 1.1 at kappa = 10 on 257 nodes)
+   !> Seconds per cube of the unknowns of the coarsest grid, which is solved directly, ten times or so in a smooth contact; on
+   !> a long grid they take half of the time (0.5 s of 1.1 at kappa = 10 on 257 nodes)
    real(dp), parameter :: direct_seconds = 1.0e-9_dp
    !> Cycles of a stationary rough contact
    real(dp), parameter :: stationary_cycles = 20.0_dp
@@ -48,7 +48,7 @@ contains
       what = what//to_text(plan%finest%nx)
       if (frames(plan, max_steps(plan)) > 0.0_dp) what = what//" with output.frame_interval = "//to_text(plan%frame_interval)
       needed = bytes_needed(plan, plan%threads)
-      ! what the surfaces hold now is free no more
+      ! memory of the surfaces is allocated already
       needed = needed - plan%surfaces%bytes()
       call check_memory(what, needed, status)
    end subroutine check_need

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The numbers of a plan by name, for the words that pyehl makes of them
+!> The numbers of a plan by name, for the text that pyehl makes of them
 module ehl_plan_record
    use ehl_cycle, only: coarsening_alcouffe
    use ehl_feature, only: feature_t
@@ -48,7 +48,7 @@ contains
       associate (g => plan%coarsest, finest => plan%finest)
          call record%set("starved", plan%starved)
          call record%set("layer", plan%layer)
-         call record%set("x_inlet x_outlet y_extent domain_cost", [g%x0, g%x(g%nx), g%y(g%ny), plan%domain_cost(1)])
+         call record%set("x_inlet x_outlet y_extent domain_error", [g%x0, g%x(g%nx), g%y(g%ny), plan%domain_error(1)])
          call record%set("flooded", plan%flooded)
          call record%set("mirror", g%mirror)
          call record%set("mesh_x mesh_y", [finest%hx, finest%hy])

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The rough surfaces that a case asks for
+!> The rough surfaces of a case
 module ehl_plan_surface
    use, intrinsic :: iso_fortran_env, only: int32
    use ehl_case, only: case_t, has_no_height, is_feature, surface_case_t
@@ -23,7 +23,7 @@ module ehl_plan_surface
    !> Length over which the front of a map fades [a]
    real(dp), parameter :: map_front = 0.5_dp
 
-   !> Wavelength across the motion from which on a wave on a line is one that does not vary there
+   !> Wavelength across the motion above which a wave on a line is transverse
    real(dp), parameter :: transverse = 1.0e6_dp
 
 contains
@@ -40,7 +40,7 @@ contains
       logical :: none(2)
 
       s = [input%surface, input%second_surface]
-      ! a transverse wave takes no rows of a strip
+      ! a transverse wave needs one row of a strip only
       where (s%wavelength_y >= transverse .and. input%contact%is_line()) s%wavelength_y = endless
       none = [has_no_height(input%surface), has_no_height(input%second_surface)]
       if (present(heights)) none(1) = none(1) .and. size(heights) == 0
@@ -207,7 +207,7 @@ contains
       end if
    end subroutine map_needs
 
-   !> A tile of heights [m]
+   !> Make a surface of a tile of heights [m]
    subroutine make_map(group, s, scales, heights, surface, status)
       character(len=*), intent(in) :: group
       type(surface_case_t), intent(in) :: s

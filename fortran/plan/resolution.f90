@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What a grid resolves of a smooth contact, before anything is solved
+!> A-priori estimates whether a grid resolves a smooth contact
 module ehl_resolution
    use ehl_contact, only: contact_t
    use ehl_grid, only: grid_t
@@ -12,7 +12,7 @@ module ehl_resolution
    private
    public :: has_solution, points_for_inlet, points_for_solution, why_no_solution
 
-   !> Most that half of the a-priori error of H_min may be where the equations have a solution (docs/robustness.md)
+   !> Largest half of the a-priori error of H_min at which the discrete equations have a solution (docs/robustness.md)
    real(dp), parameter :: max_unresolved = 0.6_dp
    !> Semi-axis across the motion over that along it from which on cells a quarter as long across can be too long, and a side
    !> of an eighth of the length of the domain is far enough
@@ -20,7 +20,7 @@ module ehl_resolution
 
 contains
 
-   !> Whether the equations have a solution on a grid, as far as that can be known
+   !> Whether the equations are expected to have a solution on a grid
    pure logical function has_solution(contact, point, grid)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point

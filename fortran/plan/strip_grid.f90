@@ -21,7 +21,7 @@ contains
       !> Of the coarsest grid along X, and levels
       integer, intent(in) :: intervals, levels
       real(dp), intent(in) :: x_inlet, x_outlet
-      !> Whether half of the strip will do, and whether transfers by the conductance are asked for
+      !> Whether half of the strip is enough, and whether operator-dependent transfers are requested
       logical, intent(in) :: mirror, alcouffe
       type(grid_t), intent(inout) :: coarsest
       type(status_t), intent(inout) :: status

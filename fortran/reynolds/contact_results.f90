@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What is read off a solution: film thicknesses, pressure, friction, load
+!> Results of a solution: film thicknesses, pressure, friction, load
 module ehl_contact_results
    use ehl_reynolds, only: load_excess
    use ehl_grid, only: grid_t
@@ -26,7 +26,7 @@ module ehl_contact_results
       real(dp) :: friction = 0.0_dp
       !> The same of a Newtonian lubricant, whatever the shear law
       real(dp) :: friction_newtonian = 0.0_dp
-      !> Load that the nodes are to carry, and the relative error of that
+      !> Load that the nodes have to sustain, and its relative error
       real(dp) :: load = 0.0_dp
       real(dp) :: load_error = 0.0_dp
       !> Whether every number is finite, and every film positive
@@ -44,7 +44,7 @@ module ehl_contact_results
 
 contains
 
-   !> Read off the present state of a level whose film and coefficients are up to date
+   !> Evaluate the present state of a level whose film and coefficients are up to date
    function measure(level) result(m)
       type(level_t), intent(in) :: level
       type(contact_results_t) :: m
@@ -87,7 +87,7 @@ contains
       films = [self%film_central, self%film_minimum]
    end function films
 
-   !> Change films, pressure and friction by what they have changed elsewhere
+   !> Scale films, pressure and friction by given ratios
    pure subroutine scale(self, from, to)
       class(contact_results_t), intent(inout) :: self
       type(contact_results_t), intent(in) :: from, to

@@ -1,12 +1,12 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What lies beyond the border of the domain: the pressure of a fully flooded contact, and the load that it sustains there.
+!> Far field beyond the border of the domain: the pressure of a fully flooded contact, and the load that it sustains there.
 !>
 !> Far away the bodies are rigid, the lubricant is that at P = 0, and H = r^2 f/2 has no length of its own, with
 !> f = cos^2 + D sin^2 of the angle, which is counted from the inlet, so that P = lambda_bar g(angle)/r^3. The Reynolds
 !> equation then is (f^3 g')' - 9 f^3 g = -8 cos(angle) with the solution g = 4 cos(angle)/((3 + 2 D) f^2) + share u(angle),
 !> (f^3 u')' = 9 f^3 u; in a round contact f = 1 and u = cosh(3 angle). The first part is that of Kapitza (1955), exact with
 !> r/(4 H^2) in place of 1/(r^3 f^2) also where H = c + r^2 f/2; the second one lets g and g' vanish where the film
-!> ruptures. What else a contact adds dies away with the sixth power of the distance.
+!> ruptures. Further terms decay with the sixth power of the distance.
 module ehl_far_field
    use ehl_contact, only: contact_t
    use ehl_grid, only: grid_t
@@ -44,7 +44,7 @@ module ehl_far_field
 
 contains
 
-   !> What does not depend on the grid
+   !> Set up the part that does not depend on the grid
    pure subroutine setup(self, contact)
       class(far_field_t), intent(inout) :: self
       class(contact_t), intent(in) :: contact
@@ -85,7 +85,7 @@ contains
       end function slope
    end subroutine setup
 
-   !> Give the border the pressure of a flooded contact, and leave to the nodes the load that is not sustained beyond it
+   !> Set the pressure of a flooded contact on the border, and the load of the nodes without the one beyond the border
    subroutine set_border(self, level, load)
       class(far_field_t), intent(in) :: self
       type(level_t), intent(inout) :: level
@@ -117,7 +117,7 @@ contains
       pressure = 0.25_dp*hypot(x, y)/film**2*self%around(atan2(abs(y), -x))
    end function pressure
 
-   !> f^2 g: what the pressure is around the contact, by the angle from the inlet
+   !> f^2 g: the pressure over the angle from the inlet
    pure real(dp) function around(self, angle)
       class(far_field_t), intent(in) :: self
       real(dp), intent(in) :: angle

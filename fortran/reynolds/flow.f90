@@ -3,8 +3,8 @@
 !>
 !>    q_x = -eps_x dP/dX,   q_y = -eps_y dP/dY
 !>
-!> with q the Poiseuille part of the mass flow, and how they change with P and H. What a kind of flow provides is in the
-!> file of that kind (newtonian_flow.f90, shear_thinning_flow.f90); flow_factory.f90 chooses. Everything else asks here.
+!> with q the Poiseuille part of the mass flow, and how they change with P and H. The kinds of flow are in
+!> newtonian_flow.f90 and shear_thinning_flow.f90; flow_factory.f90 chooses. Other modules use this interface.
 module ehl_flow
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_grid, only: grid_t
@@ -16,7 +16,7 @@ module ehl_flow
    private
    public :: flow_t, dir_x
 
-   !> Index of what concerns the flow along X in the arrays of a flow; `dir_y` of the flow is that of Y
+   !> Index of the flow along X in the arrays of a flow; `dir_y` of the flow is that of Y
    integer, parameter :: dir_x = 1
 
    !> Arrays of shape (nx, ny, dir_y)
@@ -102,7 +102,7 @@ contains
       if (stat /= 0) call status%fail(ehl_no_memory, "no memory for the conductances of a grid level")
    end subroutine setup
 
-   !> Another viscosity and another sliding speed than those that it was made for
+   !> Change the viscosity and the sliding speed
    pure subroutine rescale(self, inverse_speed, stress)
       class(flow_t), intent(inout) :: self
       real(dp), intent(in) :: inverse_speed
@@ -114,7 +114,7 @@ contains
       self%inverse_speed = inverse_speed
    end subroutine rescale
 
-   !> Let a lubricant thin as if the stress of its law were 1/share times as large; a Newtonian one has none
+   !> Weaken shear thinning as if the stress of the law were 1/share times as large; no effect on a Newtonian lubricant
    subroutine soften(self, share)
       class(flow_t), intent(inout) :: self
       real(dp), intent(in) :: share

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> From a lubricant to the kind of flow that it has
+!> Makes the flow of a lubricant
 module ehl_flow_factory
    use ehl_flow, only: flow_t
    use ehl_kinds, only: dp

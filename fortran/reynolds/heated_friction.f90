@@ -2,10 +2,10 @@
 !> Friction with the temperature of the film
 !>
 !> The heat of sliding q = tau |u1 - u2| warms the walls and the film (contact/wall_heat.f90), and the warmer lubricant has
-!> the shear stress tau of its law at eta(p, T). What is downstream does not heat what is upstream: a row is solved from
+!> the shear stress tau of its law at eta(p, T). Heat is not conducted upstream: a row is solved from
 !> node to node, each by one equation f(q) = q - |u1 - u2| tau(T(q)) = 0 that has one root, for tau falls with T and T
-!> increases with q. Pressure and film are those of the isothermal flow; a contact that changes in time is taken as if it
-!> stood still. Where the bodies touch at a boundary film the stress is mu_b P whatever the temperature: its heat warms the
+!> increases with q. Pressure and film are those of the isothermal flow; a contact that changes in time is treated as
+!> quasi-steady. Where the bodies touch at a boundary film the stress is mu_b P whatever the temperature: its heat warms the
 !> walls as that of the film does, through a boundary film that conducts as the lubricant.
 module ehl_heated_friction
    use ehl_flow, only: flow_t
@@ -66,7 +66,7 @@ contains
       type(lubricant_t), intent(in) :: lubricant
       !> Pressure and film, shape (nx, ny)
       real(dp), contiguous, intent(in) :: p(:, :), h(:, :)
-      !> Whether the temperature rises at the nodes are wanted
+      !> Whether the temperature rises at the nodes are requested
       logical, intent(in) :: keep
       integer, intent(in) :: threads
       type(heated_t), intent(out) :: found

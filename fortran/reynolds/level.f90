@@ -3,7 +3,7 @@
 !>
 !> The state of a node follows from the pressure: it is cavitated where P <= 0, elsewhere the lubricant fills the gap and flows
 !> (whether it touches: boundary_film.f90). A cavitated node is inactive, and stays as it is, unless its residual requires
-!> pressure (residual < 0). A NaN is no state: it fails every comparison, and nothing here makes a number of it. Procedures take
+!> pressure (residual < 0). A NaN is no state: it fails every comparison, and remains a NaN. Procedures take
 !> rows, since the loops of other modules would not vectorise around a call.
 module ehl_level
    use, intrinsic :: iso_fortran_env, only: int64
@@ -44,7 +44,7 @@ module ehl_level
       type(wedge_t) :: wedge
       !> Contact at a boundary film; inactive where there is none
       type(boundary_film_t) :: boundary
-      !> Oil that arrives where the inlet is not flooded; inactive where it is
+      !> Oil supply of a starved inlet; inactive where the inlet is flooded
       type(supply_t) :: supply
       !> Rigid separation H00
       real(dp) :: h00 = 0.0_dp
@@ -152,7 +152,7 @@ contains
       end do
    end subroutine flowing_around
 
-   !> Let nodes cavitate whose pressure has become negative
+   !> Make nodes with a negative pressure cavitated
    pure subroutine cavitate(p)
       real(dp), contiguous, intent(inout) :: p(:)
       integer :: i
@@ -163,7 +163,7 @@ contains
       end do
    end subroutine cavitate
 
-   !> Let nodes be cavitated that were so
+   !> Keep cavitated nodes cavitated
    pure subroutine stay_cavitated(before, p)
       !> Pressure that they had
       real(dp), intent(in) :: before(:)
@@ -175,7 +175,7 @@ contains
       end do
    end subroutine stay_cavitated
 
-   !> Give nodes in which the lubricant flows another pressure; where that is negative they cavitate
+   !> Change the pressure of nodes in which the lubricant flows; where it becomes negative they cavitate
    pure subroutine change_flowing(after, p)
       real(dp), contiguous, intent(in) :: after(:)
       real(dp), contiguous, intent(inout) :: p(:)

@@ -5,7 +5,7 @@
 !>    dI/dX = lambda_bar (H - q)/H^3,   H(X) = H_1 + (X^2 - X_1^2)/2 - (1/2) ln(X/X_1),   P = -ln(1 - alpha_bar I)/alpha_bar
 !>
 !> with the border at X_1; the last part of H is the deflection by the load, which is far away. With u = X_1/X the pressure at
-!> the border and the load that is carried beyond it are integrals over 0 < u < 1 of smooth functions.
+!> the border and the load that is sustained beyond it are integrals over 0 < u < 1 of smooth functions.
 module ehl_line_inlet
    use ehl_flow, only: dir_x
    use ehl_kinds, only: dp
@@ -19,7 +19,7 @@ module ehl_line_inlet
 
 contains
 
-   !> Give the border the pressure of a flooded contact, and leave to the nodes the load that is not carried beyond it
+   !> Set the pressure of a flooded contact on the border, and the load of the nodes without the one beyond the border
    subroutine set_line_border(level, load)
       type(level_t), intent(inout) :: level
       !> Load of the contact, int P dX
@@ -41,7 +41,7 @@ contains
             beyond = beyond + rise*x*(1.0_dp/u - 1.0_dp)
          end do
          call level%lubricant%log_viscosity([0.0_dp], level_of, slope)
-         ! where that has no meaning the domain is far too small: line_cost in contact/line_domain.f90 says so
+         ! where that has no meaning the domain is far too small: see line_domain_error in contact/line_domain.f90
          if (slope(1)*pressure > 0.0_dp .and. slope(1)*pressure < 1.0_dp) pressure = -log(1.0_dp - slope(1)*pressure)/slope(1)
          level%p(1, :) = pressure
          level%p(grid%nx, :) = 0.0_dp

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Oil that passes a contact whose inlet is short of it (supply.f90): what comes, what leaves behind and at the sides
+!> Oil flow through a starved contact (supply.f90): at the inlet, at the outlet and at the sides
 module ehl_oil_flow
    use ehl_kinds, only: dp
    use ehl_level, only: last_flowing, level_t
@@ -17,8 +17,8 @@ module ehl_oil_flow
    !> Flows per time, int rho H dY at the mean velocity [a^3/R]; of a line per length
    type :: oil_flow_t
       real(dp) :: enters = 0.0_dp, leaves = 0.0_dp, sides = 0.0_dp
-      !> What is gained or lost on the way, over what enters; 0 where the inlet is flooded. In a time step over what enters at the
-      !> mean velocity of the case, if that is more.
+      !> Imbalance over the flow that enters; 0 where the inlet is flooded. In a time step over the flow that enters at the mean
+      !> velocity of the case, if that is more.
       real(dp) :: imbalance = 0.0_dp
       !> Oil between the faces where it enters and leaves, int rho H dX dY [a^4/R], and the change of it with time
       real(dp) :: content = 0.0_dp, gain = 0.0_dp
@@ -72,7 +72,7 @@ contains
       flow%leaves = sum(last)
       flow%sides = sum(side)
       if (level%grid%is_row()) flow%between = between(level%h(:, 1))
-      ! a line that is not flooded has to let all through
+      ! a starved line passes all oil
       if (level%supply%held > 0) flow%enters = level%supply%layer(1)
       if (flow%fills_border .and. level%supply%held > 0) flow%enters = min(flow%enters, flow%leaves)
       flow%content = sum(held)
@@ -87,7 +87,7 @@ contains
       last_counted = level%grid%nx - merge(2, 1, level%wedge%squeeze > 0.0_dp)
    end function last_counted
 
-   !> Oil at the nodes of row j: rho H, less what is missing where it does not fill the gap
+   !> Oil at the nodes of row j: rho H, less the deficit where oil does not fill the gap
    subroutine content_row(level, j, content)
       type(level_t), intent(in) :: level
       integer, intent(in) :: j
@@ -101,7 +101,7 @@ contains
       content = content - short
    end subroutine content_row
 
-   !> The same of the nodes of a row, each with the curvature there
+   !> The same between the nodes of a row, with the curvature there
    pure real(dp) function between(h)
       real(dp), intent(in) :: h(:)
       integer :: n
@@ -141,7 +141,7 @@ contains
 
    contains
 
-      !> Through the east face of node i: of a filled gap less what is missing, and what the pressure drives
+      !> Flow through the east face of node i: that of a filled gap less the deficit, and the Poiseuille flow
       real(dp) function through(i)
          integer, intent(in) :: i
 

@@ -37,8 +37,8 @@ module ehl_poiseuille
       procedure :: across
    end type poiseuille_t
 
-   !> What a line system along X takes from a block of a row; nodes are numbered from 1. Zero where the row has a border
-   !> node, which has no equation.
+   !> Coefficients of a line system along X for a block of a row; nodes are numbered from 1. Zero at border nodes, which have no
+   !> equation.
    type :: line_terms_t
       !> Right-hand side less the term
       real(dp) :: rest(block_size) = 0.0_dp
@@ -100,7 +100,7 @@ contains
       end associate
    end subroutine apply_row
 
-   !> What a line system takes from row j, in columns `first` to `last`: nodes are numbered from 1 at `first`. Border
+   !> Coefficients of a line system for row j, in columns `first` to `last`: nodes are numbered from 1 at `first`. Border
    !> nodes have a coupling to the east only.
    pure subroutine line_row(self, p, flow, rhs, j, first, last, terms)
       class(poiseuille_t), intent(in) :: self
@@ -281,7 +281,7 @@ contains
       end do
    end subroutine integrate
 
-   !> What a change of the pressure in row j does in the term along X, in size: the conductance of the node alone
+   !> Magnitude of the change of the term along X by a change of the pressure in row j, with the conductance of the node alone
    pure subroutine flow_row(self, flow, j, change, values)
       class(poiseuille_t), intent(in) :: self
       class(flow_t), intent(in) :: flow
@@ -301,7 +301,7 @@ contains
       end do
    end subroutine flow_row
 
-   !> What the pressure drives through the east face of node (i, j), as the term has it, per width
+   !> Poiseuille flow through the east face of node (i, j), as discretised in the term, per width
    pure real(dp) function through_east(self, p, flow, i, j)
       class(poiseuille_t), intent(in) :: self
       real(dp), contiguous, intent(in) :: p(:, :)
@@ -324,7 +324,7 @@ contains
       end associate
    end function across
 
-   !> What flows away from a node per pressure there, with the same conductance around; a factor of eps along X
+   !> Flow away from a node per pressure there, for equal conductances around it; a factor of eps along X
    pure real(dp) function flow_rate(self)
       class(poiseuille_t), intent(in) :: self
       flow_rate = 2.0_dp/self%grid%hx**2

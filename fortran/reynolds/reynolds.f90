@@ -5,8 +5,8 @@
 !>
 !>    d/dX (eps_x dP/dX) + d/dY (eps_y dP/dY) - d(rho H)/dX - d(rho H)/dT = 0
 !>
-!> and P = 0 elsewhere, where the left-hand side is not positive: P >= 0 and nothing flows out of a cavity, or what does is
-!> what arrives there (supply.f90). P is given on the border: 0, or that of a flooded contact (far_field.f90). eps_x and
+!> and P = 0 elsewhere, where the left-hand side is not positive: P >= 0 and nothing flows out of a cavity, or all the
+!> oil that flows into it does (supply.f90). P is given on the border: 0, or that of a flooded contact (far_field.f90). eps_x and
 !> eps_y are the conductances (flow.f90), for a Newtonian lubricant both rho H^3/(eta lambda_bar); rho and eta depend on P
 !> (physics/lubricant.f90), H on all of P.
 !>
@@ -39,8 +39,8 @@
 !>    iint P dX dY = load,   discrete: sum over the nodes of P hx hy = load
 !>
 !> (twice for nodes that have a mirror image). On the finest grid the load is that of the contact, 2 pi/3 for a ball on a
-!> flat, less what is sustained beyond the border (far_field.f90). On a coarser one it is the finer one's error on top of what
-!> the restricted pressure sustains.
+!> flat, less what is sustained beyond the border (far_field.f90). On a coarser one it is the sum of the
+!> restricted pressure plus the finer one's error.
 module ehl_reynolds
    use ehl_flow, only: dir_x
    use ehl_kernel, only: coefficient
@@ -75,7 +75,7 @@ contains
       real(dp), contiguous, intent(out) :: values(:)
       !> Which nodes pass on all oil that they receive (supply.f90)
       logical, contiguous, intent(out), optional :: passing(:)
-      !> What is missing in the flow, over hx, and at nodes (supply.f90)
+      !> Deficit of the flow, over hx, and of the content of nodes (supply.f90)
       real(dp), contiguous, intent(out), optional :: missing(:), short(:)
       integer :: nx
 
@@ -153,8 +153,8 @@ contains
       call level%boundary%set_lift(merge(0.0_dp, rms, level%wedge%squeeze > 0.0_dp))
    end subroutine update_residual
 
-   !> Residual (rms) as far as it concerns the film: each with the share that the deflection by the node's own pressure
-   !> has in what answers it, the rest being the Poiseuille term. In the far inlet, where eps/h^2 is 1e8, a residual of 1
+   !> Residual (rms) as far as it affects the film: each is weighted by the share of the deflection by the node's own pressure in
+   !> the diagonal, the rest of which is the Poiseuille term. In the far inlet, where eps/h^2 is 1e8, a residual of 1
    !> is a pressure of 1e-9. Needs the residual of the present state.
    real(dp) function film_residual(level)
       type(level_t), intent(in) :: level
@@ -177,7 +177,7 @@ contains
       end associate
    end function film_residual
 
-   !> Bring film and coefficients up to date with the pressure
+   !> Update film and coefficients for the present pressure
    subroutine refresh(level)
       type(level_t), intent(inout) :: level
       call update_film(level)
@@ -250,16 +250,16 @@ contains
       load_excess = pressure_sum(level)/level%load - 1.0_dp
    end function load_excess
 
-   !> Load of a coarse level: what the fine pressure lacks, and what the restricted pressure sustains
+   !> Load of a coarse level: the missing load of the fine level, plus the load of the restricted pressure
    subroutine pass_load_on(fine, coarse)
       type(level_t), intent(in) :: fine
       type(level_t), intent(inout) :: coarse
       coarse%load = missing_load(fine) + pressure_sum(coarse)
    end subroutine pass_load_on
 
-   !> Take a small relative error of the force balance away by scaling the pressure within the border, of lines that above the
-   !> pressure of the border, but where nodes yield; H00 keeps the mean film under it. Film and coefficients are up to date before
-   !> and after.
+   !> Correct a small relative error of the force balance by scaling the pressure within the border, of lines the part above
+   !> the pressure of the border, except where nodes yield; H00 keeps the mean film under it. Film and coefficients are up to
+   !> date before and after.
    subroutine balance_load(level)
       type(level_t), intent(inout) :: level
       real(dp) :: factor, border, deflection(level%grid%ny), after(level%grid%nx)
@@ -284,7 +284,7 @@ contains
       call refresh(level)
    end subroutine balance_load
 
-   !> What of the load is not scaled: the pressure at the border, of lines up to that of the border, and where nodes yield
+   !> Part of the load that is not scaled: the pressure at the border, of lines up to that of the border, and where nodes yield
    pure real(dp) function fixed_load(level, border)
       type(level_t), intent(in) :: level
       !> Pressure that is not scaled

@@ -8,8 +8,7 @@
 !>    B = (eta/eta0) b0/H,   b0 = eta0 |u1 - u2|/(a^2/R) over the stress of the law,
 !>    S = s0 H grad P,       s0 = p_h a/R over the stress of the law,
 !>
-!> grad P by central differences; each node with the factors that it needs (physics/factor_rows.f90), or those that it had
-!> (physics/cached_factors.f90).
+!> grad P by central differences; factors by physics/factor_rows.f90, or from the cache (physics/cached_factors.f90).
 module ehl_shear_thinning_flow
    use ehl_flow, only: dir_x, flow_t
    use ehl_factor_rows, only: factor_rows_t
@@ -20,7 +19,7 @@ module ehl_shear_thinning_flow
    private
    public :: shear_thinning_flow_t, new_shear_thinning_flow
 
-   !> Place of what concerns the flow along Y
+   !> Index of the flow along Y
    integer, parameter :: dir_y = 2
 
    type, extends(flow_t) :: shear_thinning_flow_t
@@ -55,7 +54,7 @@ contains
       flow%depends_on_gradient = .true.
    end function new_shear_thinning_flow
 
-   !> Another viscosity and another sliding speed
+   !> Change the viscosity and the sliding speed
    pure subroutine rescale(self, inverse_speed, stress)
       class(shear_thinning_flow_t), intent(inout) :: self
       real(dp), intent(in) :: inverse_speed
@@ -67,7 +66,7 @@ contains
       self%cached%follows = stress > 0.0_dp
    end subroutine rescale
 
-   !> Let the lubricant thin as if the stress of its law were 1/share times as large
+   !> Weaken shear thinning as if the stress of the law were 1/share times as large
    subroutine soften(self, share)
       class(shear_thinning_flow_t), intent(inout) :: self
       real(dp), intent(in) :: share

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> An inlet with little oil: a layer arrives on the surfaces that is thinner than the gap. Where it does not fill the gap P = 0, and
+!> Starved inlet: the surfaces bring a layer of oil that is thinner than the gap. Where it does not fill the gap P = 0, and
 !> the oil is transported along X; what flows there from filled nodes is carried along. With the flow C <= G through the east face
 !> of a node, G that of a filled gap (docs/theory/starvation.md):
 !>
@@ -15,9 +15,10 @@
 !>
 !>    rhs(i) - N(i) = s d(i) + missing(i),     rhs: of earlier times,     missing(i) = (U/hx) f(i)
 !>
-!> where U (G - f) flows through the east face: the content rho H - d, of second order upstream as G is, f = (3 d(i) - d(i-1))/2. So
-!> a node takes d >= 0 in place of C <= G, and the film begins at a face between two nodes, not at a node. What that changes goes
-!> with the square of the mesh size; steps begin with the steady contact in their own discretisation (solve/transient_duty.f90).
+!> where U (G - f) flows through the east face: the content rho H - d, of second order upstream as G is, f = (3 d(i) - d(i-1))/2.
+!> So the condition of a node is d >= 0 in place of C <= G, and the film begins at a face between two nodes, not at a node. The
+!> difference goes with the square of the mesh size; steps begin with the steady contact in their own discretisation
+!> (solve/transient_duty.f90).
 !>
 !> No oil is gained or lost. Every level has one; without setup it is inactive and changes nothing.
 module ehl_supply
@@ -35,9 +36,9 @@ module ehl_supply
       real(dp), private :: hx = 0.0_dp, speed = 1.0_dp
       !> Factor of the squeeze term; 0: steady
       real(dp), private :: squeeze = 0.0_dp
-      !> About what share of what its equation lacks flows on from a node; 1: all, in steady motion
+      !> Approximate share of the deficit of a node's equation that flows on from it; 1: all, in steady motion
       real(dp) :: share = 1.0_dp
-      !> rho H that arrives, by row
+      !> rho H of the layer, by row
       real(dp), allocatable :: layer(:)
       !> Of a line: last node upstream of the film where it is fixed (solve/meniscus.f90), and the mass defect downstream of it;
       !> 0: the node follows from the pressure
@@ -83,7 +84,7 @@ contains
       self%share = speed/self%hx/(squeeze/1.5_dp + speed/self%hx)
    end subroutine set_step
 
-   !> Take from row j of the operator of filled nodes what is missing upstream
+   !> Subtract the deficit upstream from row j of the operator of filled nodes
    pure subroutine transport_row(self, cavitated, mass_content, rhs, j, values, passing, missing, short)
       class(supply_t), intent(in) :: self
       !> Which nodes have P = 0, rho H, and the right-hand side; shape (nx)
@@ -92,9 +93,9 @@ contains
       integer, intent(in) :: j
       !> Shape (nx), in columns 2 to nx-1
       real(dp), contiguous, intent(inout) :: values(:)
-      !> Whether a node passes on all that it receives, so that nothing flows back from the next one; shape (nx)
+      !> Whether a node passes on all oil that it receives, so that nothing flows back from the next one; shape (nx)
       logical, contiguous, intent(out), optional :: passing(:)
-      !> What is missing in the flow through the east face of a node, over hx; how much oil the node is short of; shape (nx)
+      !> Deficit of the flow through the east face of a node, over hx, and of the oil at the node; shape (nx)
       real(dp), contiguous, intent(out), optional :: missing(:), short(:)
       real(dp) :: lack, flow, deficit, before, u
       logical :: lacks, steps

@@ -16,7 +16,7 @@ module ehl_wedge
    integer, parameter :: old_times = 2
    !> Upstream nodes of the implicit part
    integer, parameter :: wedge_reach = 2
-   !> Upstream nodes that line systems include of it; what lies further upstream would be in their residual alone
+   !> Upstream nodes of it in line systems; those further upstream are in their residual alone
    integer, parameter :: line_reach = 2
 
    !> m is the mass content rho H of a row, shape (nx)
@@ -121,7 +121,7 @@ contains
       end associate
    end subroutine line_row
 
-   !> Last node of a row beyond `from` (at least 2) where the right-hand side and the implicit part alone ask for
+   !> Last node of a row beyond `from` (at least 2) where the right-hand side and the implicit part alone require
    !> pressure; `from` if there is none
    pure integer function last_active(self, m, rhs, from) result(i)
       class(wedge_t), intent(in) :: self
@@ -140,9 +140,9 @@ contains
    pure function weights(self, i, passing, share) result(c)
       class(wedge_t), intent(in) :: self
       integer, intent(in) :: i
-      !> Whether the node before it passes on what it receives (supply.f90): what comes from there is no flow of a filled gap
+      !> Whether the upstream node passes on all oil that it receives (supply.f90), so that its flow is not that of a filled gap
       logical, intent(in), optional :: passing
-      !> Share of what that node lacks that flows on
+      !> Share of the deficit of that node that flows on
       real(dp), intent(in), optional :: share
       real(dp) :: c(0:wedge_reach)
 

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The folder DIR.checkpoint beside the results DIR: what it takes to go on with a transient run that was stopped.
+!> The folder DIR.checkpoint beside the results DIR: the data to resume a transient run that was stopped.
 !> It holds the case, the surface if it came from Python, and the last two states.
 module ehl_checkpoint_folder
    use ehl_case, only: case_t
@@ -56,7 +56,7 @@ contains
       folder = full_path(results)//suffix//"/"
    end function checkpoint_path
 
-   !> What a run with these results left to go on with: its case file, and its surfaces [m] (of size 0 when
+   !> Data to resume the run with these results: its case file, and its surfaces [m] (of size 0 when
    !> the case has all of them)
    subroutine find_checkpoint(results, path, heights, second_heights, status)
       character(len=*), intent(in) :: results
@@ -79,16 +79,15 @@ contains
       if (file_exists(folder//second_file)) call read_npy(folder//second_file, second_heights, status)
    end subroutine find_checkpoint
 
-   !> Take the folder of the results until `release`; make that of a transient run, unless the case wants none; refuse one with
-   !> anything else in it. States
-   !> of an earlier run are backed up, unless this one resumes from them: they are kept under the name that
-   !> the note gives.
+   !> Lock the folder of the results until `release`; make that of a transient run, unless the case has no checkpoints; refuse one
+   !> with anything else in it. States of an earlier run are backed up under the name that the note gives, unless this run resumes
+   !> from them.
    subroutine open_folder(self, results, input, solver, resumed, heights, second_heights, note, status)
       class(checkpoint_folder_t), intent(inout) :: self
       character(len=*), intent(in) :: results
       type(case_t), intent(in) :: input
       type(solver_t), intent(in) :: solver
-      !> Results of the run whose states are gone on with; empty: none
+      !> Results of the run that is resumed; empty: none
       character(len=*), intent(in) :: resumed
       !> Heights of the maps of both surfaces [m] that did not come from their files; of size 0: none
       real(dp), intent(in) :: heights(:, :), second_heights(:, :)
@@ -102,7 +101,7 @@ contains
       if (status%failed()) return
       if (.not. solver%run%plan%has_steps() .or. input%output%checkpoint_interval <= 0.0_dp) return
       place = checkpoint_path(results)
-      call check_ours(place, status)
+      call check_state_folder(place, status)
       if (status%failed()) return
       call remove_left_over(place(:len(place) - 1), ".partial", "", is_left_over)
       same = .false.
@@ -158,7 +157,7 @@ contains
       self%since = start_clock()
    end subroutine save_solver
 
-   !> Whether there is a state to go on with
+   !> Whether there is a state to resume from
    logical function has_state(self)
       class(checkpoint_folder_t), intent(in) :: self
       has_state = .false.
@@ -192,7 +191,7 @@ contains
    end function holds_state
 
    !> Refuse a folder that is there and holds anything but the state of a run
-   subroutine check_ours(folder, status)
+   subroutine check_state_folder(folder, status)
       character(len=*), intent(in) :: folder
       type(status_t), intent(inout) :: status
       type(name_t), allocatable :: names(:)
@@ -203,7 +202,7 @@ contains
       whole = list_folder(folder, names)
       if (whole .and. size(names) > 0) whole = holds_text(folder//case_file, mark)
       do k = 1, size(names)
-         if (whole .and. is_file_of_ours(names(k)%text)) cycle
+         if (whole .and. is_state_file(names(k)%text)) cycle
          call status%fail(ehl_bad_input, folder(:len(folder) - 1)//": error: holds '"//names(k)%text// &
                           "', which is not of the state of a run"//newline// &
                           "expected: another folder for the results, or output.checkpoint_interval = 0")
@@ -212,25 +211,25 @@ contains
       if (.not. whole) call status%fail(ehl_bad_input, folder(:len(folder) - 1)// &
                                         ": error: this is no folder that can be read"//newline// &
                                         "expected: another folder for the results")
-   end subroutine check_ours
+   end subroutine check_state_folder
 
    !> Whether a file of the folder has such a name, whole or half written
-   logical function is_file_of_ours(name)
+   logical function is_state_file(name)
       character(len=*), intent(in) :: name
       integer :: last
 
       last = index(name//" ", ".new ") - 1
       if (last < 1) last = len(name)
-      is_file_of_ours = any(files == name(:last)) .or. index(name, frame_file) == 1
-   end function is_file_of_ours
+      is_state_file = any(files == name(:last)) .or. index(name, frame_file) == 1
+   end function is_state_file
 
-   !> The same of what a killed process has left
+   !> The same for files that a killed process has left
    logical function is_left_over(name, list)
       character(len=*), intent(in) :: name, list
 
       associate (unused => list)
       end associate
-      is_left_over = is_file_of_ours(name)
+      is_left_over = is_state_file(name)
    end function is_left_over
 
    !> Keep the folder of an earlier run under another name
@@ -241,7 +240,7 @@ contains
       character(len=:), allocatable :: backup
 
       backup = folder(:len(folder) - 1)//".previous"
-      call check_ours(backup//"/", status)
+      call check_state_folder(backup//"/", status)
       if (status%failed()) return
       call remove_files(backup//"/")
       if (rename_path(folder(:len(folder) - 1), backup)) then
@@ -269,7 +268,7 @@ contains
       if (.not. rename_path(path//".new", path)) call status%fail(ehl_file, path//": error: cannot write")
    end subroutine put
 
-   !> Remove our files of a folder, also those half written, and the folder if nothing else is in it
+   !> Remove the files of a state from a folder, also those half written, and the folder if nothing else is in it
    subroutine remove_files(folder)
       character(len=*), intent(in) :: folder
       type(name_t), allocatable :: names(:)
@@ -278,9 +277,9 @@ contains
 
       gone = list_folder(folder, names)
       do k = 1, size(names)
-         if (names(k)%text /= case_file .and. is_file_of_ours(names(k)%text)) gone = remove_file(folder//names(k)%text)
+         if (names(k)%text /= case_file .and. is_state_file(names(k)%text)) gone = remove_file(folder//names(k)%text)
       end do
-      ! last: a folder with it can be gone on with
+      ! last: a folder with it can be resumed from
       gone = remove_file(folder//case_file)
       gone = remove_folder(folder(:len(folder) - 1))
    end subroutine remove_files

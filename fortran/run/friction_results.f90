@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Absolute friction of a run, where it means something, and the heat of it
+!> Absolute friction of a run, where it is defined, and its frictional heat
 module ehl_friction_results
    use ehl_boundary_film, only: same_film
    use ehl_contact, only: contact_t
@@ -121,7 +121,7 @@ contains
    end subroutine read_off
 
    !> iint H/2 dP/dX, the moment of the pressure flow on each surface, which resists the rolling [p_h a^3]; a long inlet
-   !> has a good part of it (Biboulet & Houpert 2010)
+   !> makes a large part of it (Biboulet & Houpert 2010)
    pure real(dp) function rolling_moment(grid, p, h)
       type(grid_t), intent(in) :: grid
       real(dp), intent(in) :: p(:, :), h(:, :)

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What a run reports on its way: one line about the state, how much is done, the time left
+!> Progress of a run: one line about the state, the work that is done, the time left
 module ehl_progress
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_contact_run, only: contact_run_t, phase_stationary, phase_steps
@@ -17,7 +17,7 @@ contains
    !> One line about the state, with the time left of a transient run
    function progress_line(run, outcome, done) result(text)
       class(contact_run_t), intent(in) :: run
-      !> How it stands, and whether all has ended
+      !> Its status, and whether all has ended
       integer, intent(in) :: outcome
       logical, intent(in) :: done
       character(len=:), allocatable :: text
@@ -69,8 +69,8 @@ contains
       end if
    end function state_line
 
-   !> How much of a transient run is done, in time steps of the finest grid, those on the coarser grid by their cost; and how
-   !> much there is until its earliest and its latest end. All are 0 before the first step. The run on the coarser grid comes
+   !> Work of a transient run that is done, in time steps of the finest grid, those on the coarser grid by their cost; and the
+   !> work until its earliest and its latest end. All are 0 before the first step. The run on the coarser grid comes
    !> first: until its first step it is taken to have half as many steps as the other run to its earliest end.
    pure subroutine work_of(run, done, earliest, latest)
       class(contact_run_t), intent(in) :: run
@@ -109,7 +109,7 @@ contains
       end_after = max(end_after, real(run%transient%step, dp))
    end function end_after
 
-   !> The time left in words
+   !> The time left as text
    function time_left(run) result(text)
       class(contact_run_t), intent(in) :: run
       character(len=:), allocatable :: text

@@ -13,12 +13,12 @@ module ehl_report
    use ehl_wedge, only: wedge_narrow
    implicit none (type, external)
    private
-   public :: report_friction, report_passage, report_stationary, report_scene, report_transient, report_waves
+   public :: report_friction, report_passage, report_stationary, report_problem, report_transient, report_waves
 
 contains
 
    !> Operating point, grid and means
-   subroutine report_scene(record, run)
+   subroutine report_problem(record, run)
       type(record_t), intent(inout) :: record
       type(contact_run_t), intent(in) :: run
 
@@ -46,7 +46,7 @@ contains
          call record%set("deflection", plan%engine)
          call record%set("threads", plan%threads)
       end associate
-   end subroutine report_scene
+   end subroutine report_problem
 
    !> The transient run: results null unless it converged
    subroutine report_transient(record, run, good, known, mean, change)
@@ -74,7 +74,7 @@ contains
                range = t%mean%extremes()
             end if
             if (surfaces%pass_once()) then
-               ! a passage has an end, and no wave to compare amplitudes of
+               ! a passage has an end, and no amplitude ratio
                change = 0.0_dp
             else
                ratio = t%mean%amplitude_ratio()
@@ -157,7 +157,7 @@ contains
       if (plan%scales%has_size()) call record%set("h_min_rough_m p_max_rough_Pa", values*[plan%scales%film, plan%scales%pressure])
    end subroutine report_rough_extremes
 
-   !> The roughness, smooth film over it, and what of it the grid resolves
+   !> The roughness, the smooth film over it, and the share of it that the grid resolves
    subroutine report_waves(record, run)
       type(record_t), intent(inout) :: record
       type(contact_run_t), intent(in) :: run

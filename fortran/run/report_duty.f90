@@ -11,7 +11,7 @@ module ehl_report_duty
 
 contains
 
-   !> Extremes over the table, of a periodic one over the last period; null unless the run came to its end. Behind the results of
+   !> Extremes over the table, of a periodic one over the last period; null unless the run reached its end. After the results of
    !> the smooth contact, whose errors of films in the same proportion are those of the grid.
    subroutine report_duty(record, run, converged)
       type(record_t), intent(inout) :: record
@@ -23,7 +23,7 @@ contains
          columns(8) = [character(len=16) :: "h_c_m", "h_c_m", "h_min_m", "h_min_m", "p_max_Pa", "mu", "power_W", "flash_K"], &
          units(8) = [character(len=3) :: "_m", "_m", "_m", "_m", "_Pa", "", "_W", "_K"]
       real(dp), parameter :: signs(8) = [-1.0_dp, 1.0_dp, -1.0_dp, 1.0_dp, 1.0_dp, 1.0_dp, 1.0_dp, 1.0_dp]
-      !> Smooth results whose errors theirs are in proportion to
+      !> Smooth results, to which the relative grid errors of the extremes are equal
       character(len=*), parameter :: smooth(8) = [character(len=5) :: "H_c", "H_c", "H_min", "H_min", "P_max", "F", "F", "F"]
       !> Column of `errors` with that of the time steps
       integer, parameter :: by_steps(8) = [1, 1, 2, 2, 4, 3, 3, 3]

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Where a run without a result ended, and what may help: the numbers that pyehl makes a sentence of
+!> Where a run without a result ended, and data for suggestions: numbers for a sentence of pyehl
 module ehl_report_end
    use ehl_contact_run, only: contact_run_t, phase_stationary, phase_steps
    use ehl_kinds, only: dp
@@ -17,7 +17,7 @@ module ehl_report_end
 
 contains
 
-   !> Nothing of a run that has a result, or is not at its end
+   !> No entries for a run that has a result, or has not ended
    subroutine report_end(record, run, coarse)
       type(record_t), intent(inout) :: record
       type(contact_run_t), intent(in) :: run
@@ -30,7 +30,7 @@ contains
       if (present(coarse)) call report_place(record, coarse, "coarser_end_")
       associate (plan => run%plan)
          call record%set_code("end_help", merge(why_no_solution(plan%contact, plan%point, plan%finest), reason_small_domain, &
-                                                plan%domain_cost(1) < 1.0_dp))
+                                                plan%domain_error(1) < 1.0_dp))
          call record%set_detail("surfaces_repeat", merge(1.0_dp, 0.0_dp, &
                                                          plan%surfaces%move() .and. .not. plan%surfaces%pass_once()))
          call record%set_detail("boundary_film_given", merge(1.0_dp, 0.0_dp, plan%lubricant%boundary_film > 0.0_dp))
@@ -45,7 +45,7 @@ contains
       call record%set_detail("enough_wave_nodes", real(enough_nodes, dp))
    end subroutine report_end
 
-   !> Where a run stands: its phase, time of the step or share of the roughness, grid, residual (rms) and cycles
+   !> Position of a run: its phase, time of the step or share of the roughness, grid, residual (rms) and cycles
    subroutine report_place(record, run, prefix)
       type(record_t), intent(inout) :: record
       type(contact_run_t), intent(in) :: run
@@ -73,7 +73,7 @@ contains
       call record%set_detail(prefix//"points_y", real(run%grid%full_ny(), dp))
    end subroutine report_place
 
-   !> Nodes that all waves but a little of the variance have at least; no more than enough
+   !> Nodes per wavelength of the shortest waves, a small share of the variance excepted; at most the number that is enough
    integer function nodes_of_waves(run) result(nodes)
       type(contact_run_t), intent(in) :: run
       integer :: middle, over

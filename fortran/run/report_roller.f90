@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What a roller has beside other contacts: where pressure and film are extreme, and the pressure at its ends
+!> Additional results of a roller: positions of extreme pressure and film, and the pressure at its ends
 module ehl_report_roller
    use ehl_contact_run, only: contact_run_t
    use ehl_kinds, only: dp, not_known
@@ -15,7 +15,7 @@ module ehl_report_roller
 
 contains
 
-   !> Results null unless there is a solution. What no grid has a limit of has no error.
+   !> Results null unless there is a solution. A quantity without a limit has no error.
    subroutine report_roller(record, run, good)
       type(record_t), intent(inout) :: record
       type(contact_run_t), intent(in) :: run

@@ -1,9 +1,9 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Results of the smooth contact by name, each with the error that its grids and its domain leave
+!> Results of the smooth contact by name, each with its errors by grid and domain
 module ehl_report_smooth
    use ehl_contact_results, only: contact_results_t
    use ehl_film_formula, only: starved_share
-   use ehl_grid_error, only: lone_grid_errors
+   use ehl_grid_error, only: single_grid_errors
    use ehl_kinds, only: dp, not_known, pi
    use ehl_level_result, only: extrapolated, limit_error, share_error, stated_errors
    use ehl_plan, only: plan_t
@@ -15,8 +15,8 @@ module ehl_report_smooth
    private
    public :: report_smooth, touches_for_grid
 
-   !> What a domain of twice the size would add to F, int 2/r^2 dA = 4 pi ln 2 over a gap of r^2/2 and the viscosity of
-   !> the inlet. It counts for lubricants whose viscosity hardly increases with pressure.
+   !> Increase of F by a domain of twice the size, int 2/r^2 dA = 4 pi ln 2 over a gap of r^2/2 and the viscosity of
+   !> the inlet. It matters for lubricants whose viscosity hardly increases with pressure.
    real(dp), parameter :: friction_beyond = 4.0_dp*pi*log(2.0_dp)
    !> The same of a line from an inlet at 2.5 and an outlet at 1.5 on: int 2/X^2 dX over as much again on either side
    real(dp), parameter :: line_friction_beyond = 1.0_dp/2.5_dp + 1.0_dp/1.5_dp
@@ -54,19 +54,19 @@ contains
          error = stated_errors(m, smooth%results, n, plan%inlet) + smooth%results(n)%algebraic
          limit = extrapolated(smooth%results, n)
       else if (good) then
-         ! one grid alone: what such grids have been found to miss
-         error = lone_grid_errors(plan%contact, plan%point, plan%finest%hx, m%films())
+         ! one grid alone: a-priori errors
+         error = single_grid_errors(plan%contact, plan%point, plan%finest%hx, m%films())
          if (m%touching%load_share > 0.0_dp) error = max(error, plan%inlet%film_errors(m, smooth%results(n)%mesh))
       end if
       domain = not_known
-      where (plan%domain_cost < 1.0_dp) domain = values(:2)*plan%domain_cost/(1.0_dp - plan%domain_cost)
+      where (plan%domain_error < 1.0_dp) domain = values(:2)*plan%domain_error/(1.0_dp - plan%domain_error)
       call record%set("H_c H_min P_max F", values)
       do k = 1, 2
          name = trim(films(k))
          call record%set(name//"_extrapolated "//name//"_error "//name//"_error_grid "//name//"_error_domain", &
                          [limit(k), error(k) + domain(k), error(k), domain(k)])
          why = reason_none
-         if (good .and. .not. plan%domain_cost(k) < 1.0_dp) why = reason_small_domain
+         if (good .and. .not. plan%domain_error(k) < 1.0_dp) why = reason_small_domain
          if (good .and. touches_for_grid(plan, smooth, n)) why = reason_inlet
          if (k == 1 .and. .not. good) why = why_no_solution(plan%contact, plan%point, plan%finest)
          call record%set_code(name//"_error_note", why)
@@ -125,13 +125,13 @@ contains
             note = reason_no_limit
          end if
       end if
-      if (.not. plan%domain_cost(1) < 1.0_dp) then
+      if (.not. plan%domain_error(1) < 1.0_dp) then
          known = .false.
          if (good) note = reason_small_domain
       end if
       known(2) = known(2) .and. knows_friction(plan, smooth, n)
       associate (m => smooth%results(n)%m)
-         error = error + [m%pressure_maximum, m%friction]*plan%domain_cost(1) &
+         error = error + [m%pressure_maximum, m%friction]*plan%domain_error(1) &
                  + [0.0_dp, merge(line_friction_beyond, friction_beyond, plan%contact%is_line())]
          ! the load that may or may not be at the boundary film
          if (n > 1) error(2) = error(2) + plan%lubricant%boundary_stress*m%load*share_error(smooth%results, n, plan%inlet)

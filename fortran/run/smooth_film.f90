@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Central film of the smooth contact, extrapolated: what the amplitude of a wave is a share of
+!> Central film of the smooth contact, extrapolated: the reference of surface.amplitude_over_film
 module ehl_smooth_film
    use ehl_case, only: case_t
    use ehl_contact_run, only: contact_run_t

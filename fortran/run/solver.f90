@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> A case on its way: plan, smooth contact, rough contact, the same on the next coarser grid, results. Both drivers call
-!> nothing else.
+!> Solver of a case: plan, smooth contact, rough contact, the same on the next coarser grid, results. Both drivers use
+!> this interface alone.
 module ehl_solver
    use ehl_case, only: case_t
    use ehl_write_case, only: write_case
@@ -63,7 +63,7 @@ module ehl_solver
          class(solver_t), intent(inout) :: self
       end subroutine begin_coarse
 
-      !> The run on the next coarser grid to its end. That it fails is no failure of this one.
+      !> Complete the run on the next coarser grid. Its failure is not one of this run.
       module subroutine solve_coarse(self, observer, leave)
          class(solver_t), intent(inout) :: self
          class(observer_t), intent(inout) :: observer
@@ -75,7 +75,7 @@ module ehl_solver
    interface
       !> All results but fields, by name; dimensionless but for the SI values. Only a converged run has
       !> results: otherwise they are null, and the last iterate stands under names that begin with "last_".
-      !> Reasons and what their words need are codes and numbers.
+      !> Reasons are codes with numbers.
       module function results(self) result(record)
          class(solver_t), intent(in) :: self
          type(record_t) :: record
@@ -198,26 +198,26 @@ contains
       call self%run%plan%surfaces%take_film(film)
    end subroutine set_amplitude
 
-   !> How the run stands; a stationary surface has not ended before its error is known
+   !> Status of the run; a run with a stationary surface ends when its error is known
    pure integer function outcome(self)
       class(solver_t), intent(in) :: self
       outcome = self%run%outcome
       if (outcome == outcome_converged .and. allocated(self%coarse)) outcome = outcome_running
    end function outcome
 
-   !> Whether the run has ended, well or not
+   !> Whether the run has ended, with or without a solution
    pure logical function done(self)
       class(solver_t), intent(in) :: self
       done = self%outcome() /= outcome_running
    end function done
 
-   !> Whether the run has ended well
+   !> Whether the run has converged
    pure logical function converged(self)
       class(solver_t), intent(in) :: self
       converged = self%outcome() == outcome_converged
    end function converged
 
-   !> End the run here. A coarser run stays: it is where the run ended, and its state may have to be saved.
+   !> Interrupt the run. A coarser run is kept: its state may have to be saved.
    subroutine interrupt(self)
       class(solver_t), intent(inout) :: self
 
@@ -236,8 +236,8 @@ contains
       end if
    end function progress
 
-   !> How much of a transient run is done, in time steps of the finest grid, those on the coarser grid by their cost;
-   !> and how much there is until its earliest and its latest end. All are 0 before the first step.
+   !> Work of a transient run that is done, in time steps of the finest grid, those on the coarser grid by their cost;
+   !> and the work until its earliest and its latest end. All are 0 before the first step.
    subroutine work(self, done, earliest, latest)
       class(solver_t), intent(in) :: self
       real(dp), intent(out) :: done, earliest, latest
@@ -249,8 +249,8 @@ contains
       end if
    end subroutine work
 
-   !> The grid that fields refer to: the finest one of the plan; with a wanted error, which ends on a grid that is not
-   !> known before, the finest one so far
+   !> The grid that fields refer to: the finest one of the plan; with grid.target_error, whose last grid is not known in
+   !> advance, the finest one so far
    pure function finest(self) result(grid)
       class(solver_t), intent(in) :: self
       type(grid_t) :: grid
@@ -269,7 +269,7 @@ contains
       call self%run%save(folder, status)
    end subroutine save_state
 
-   !> After start and before the first advance: go on from the newest state in a folder (its name ends in '/').
+   !> After start and before the first advance: resume from the newest state in a folder (its name ends in '/').
    !> The smooth contact is solved again, to the same bits, before the first time step.
    subroutine resume(self, folder, note, status)
       class(solver_t), intent(inout) :: self

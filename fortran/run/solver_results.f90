@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Results of a run
 submodule (ehl_solver) ehl_solver_results
-   use ehl_domain, only: ratio_cost
+   use ehl_domain, only: ratio_error
    use ehl_friction_results, only: find_friction, friction_results_t
    use ehl_kinds, only: not_known
    use ehl_level_result, only: film_errors, spike_grows
@@ -9,7 +9,7 @@ submodule (ehl_solver) ehl_solver_results
    use ehl_reason, only: reason_coarser_status, reason_few_positions, reason_moving_alone, reason_no_ratio, reason_none, &
                          reason_not_predicted, reason_not_wanted, reason_not_yet, reason_nothing_carried, reason_prediction, &
                          reason_pressures, reason_small_domain, reason_small_grid, reason_steps
-   use ehl_report, only: report_friction, report_passage, report_stationary, report_scene, report_transient, report_waves
+   use ehl_report, only: report_friction, report_passage, report_stationary, report_problem, report_transient, report_waves
    use ehl_report_duty, only: report_duty
    use ehl_report_end, only: report_end
    use ehl_report_roller, only: report_roller
@@ -18,7 +18,7 @@ submodule (ehl_solver) ehl_solver_results
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    implicit none (type, external)
 
-   !> Shares of a variance below this one are rounding
+   !> Smaller shares of a variance are rounding errors
    real(dp), parameter :: rounding = 1.0e-14_dp
    !> Largest change of mu_ratio from grid to grid, over mu_ratio, that shows a limit; and largest increase with a single
    !> wave or feature, which is the same on both grids: what increases more are peaks of pressure that no grid yet resolves
@@ -49,7 +49,7 @@ contains
       call record%set("converged", converged)
       ! the smooth results are good as soon as the rough contact has begun
       good = rough .or. self%run%smooth%solved .or. self%run%outcome == outcome_target_missed
-      call report_scene(record, self%run)
+      call report_problem(record, self%run)
       call report_smooth(record, self%run%plan, self%run%smooth, self%run%level(), good)
       call report_roller(record, self%run, good)
       ratio = not_known
@@ -75,7 +75,7 @@ contains
       call record%set("bytes", real(self%run%hierarchy%bytes(), dp) + self%run%plan%surfaces%bytes())
    end procedure results
 
-   !> What the time steps began with
+   !> Start of the time steps
    subroutine report_start(self, record)
       type(solver_t), intent(in) :: self
       type(record_t), intent(inout) :: record
@@ -119,7 +119,7 @@ contains
       call record%set("mu_ratio_extrapolated", limit)
       call record%set("mu_ratio_unresolved", waves(2))
       parts(4) = waves(1)
-      associate (surfaces => self%run%plan%surfaces, mean => self%run%transient%mean, cost => self%run%plan%domain_cost(1))
+      associate (surfaces => self%run%plan%surfaces, mean => self%run%transient%mean, cost => self%run%plan%domain_error(1))
          if (surfaces%mismatch > 0.0_dp .and. ieee_is_finite(ratio)) then
             parts(3) = merge(mean%window_error(), not_known, surfaces%meets)
             why(3) = reason_few_positions
@@ -127,7 +127,7 @@ contains
             call record%set_detail("whole_periods", real(surfaces%whole, dp))
          end if
          if (cost < 1.0_dp) then
-            parts(5) = ratio_cost(cost, ratio)
+            parts(5) = ratio_error(cost, ratio)
          else if (ieee_is_finite(ratio)) then
             why(5) = reason_small_domain
          end if
@@ -167,11 +167,11 @@ contains
          if (.not. results(n - 1)%solved) return
          error = film_errors(results(n)%m, results(n - 1)%m, results(n)%mesh, self%run%plan%inlet)/results(n)%m%films()
       end associate
-      grid_error = max(grid_error, ratio_cost(error(1), ratio))
+      grid_error = max(grid_error, ratio_error(error(1), ratio))
    end function grid_error
 
-   !> What is known of the waves that the grid leaves out, and of those that it does not resolve: their parts of mu_ratio, or
-   !> why not. Only tiles have waves that are left out: what there is of a single wave or a feature is on the grid.
+   !> Parts of mu_ratio by the waves that the grid leaves out, and by those that it does not resolve, or why they are not known.
+   !> Only tiles have waves that are left out: a single wave or a feature is entirely on the grid.
    subroutine waves_of(self, waves, why)
       type(solver_t), intent(in) :: self
       real(dp), intent(out) :: waves(2)

@@ -18,16 +18,16 @@ module ehl_checkpoint
    private
    public :: checkpoint_t, coarser, coarser_t, frame_file, state_files
 
-   !> The newest state and the one before it; what names of frames begin with; behind a prefix the states of the run on
+   !> Files of the newest state and of the one before it; prefix of the names of frames; prefix of the states of the run on
    !> the coarser grid
    character(len=*), parameter :: state_files(2) = ["checkpoint.a", "checkpoint.b"], frame_file = "checkpoint.frame-", &
       coarser = "coarser-"
-   !> What a state begins with: behind `family` stands the number of the layout
+   !> First bytes of a state: `family` and the number of the layout
    character(len=*), parameter :: family = "ehl checkpoint v", magic = family//"16"
-   !> What a file can be; otherwise the step of its state
+   !> Codes of a file; otherwise the step of its state
    integer, parameter :: missing = -1, damaged = -2, other_version = -3
 
-   !> What stands behind that
+   !> Head of a state after these bytes
    type :: head_t
       integer :: step = 0, frames = 0
       !> The case
@@ -134,7 +134,7 @@ contains
    subroutine find_state(self, prefix, text, note, status)
       class(checkpoint_t), intent(inout) :: self
       character(len=*), intent(in) :: prefix, text
-      !> What a person should know: the step, and whether a damaged file was passed over
+      !> Message for the user: the step, and whether a damaged file was skipped
       character(len=:), allocatable, intent(out) :: note
       type(status_t), intent(inout) :: status
       integer :: k, state
@@ -163,8 +163,8 @@ contains
                           first_difference(self%head%text, text))
       end if
       if (status%failed()) return
-      note = "going on after step "//to_text(self%head%step)//" with the state in "//self%path
-      if (self%newest < missing) note = note//"; "//state_files(1)//" is damaged and was passed over"
+      note = "resuming after step "//to_text(self%head%step)//" with the state in "//self%path
+      if (self%newest < missing) note = note//"; "//state_files(1)//" is damaged and was skipped"
       self%newest = max(self%newest, missing)
       self%prefix = prefix
       self%frames = self%head%frames
@@ -230,7 +230,7 @@ contains
       end do
    end subroutine read_state
 
-   !> Step of the state in a file if all of it is there as it was written, else what is wrong
+   !> Step of the state in a file if it is complete and unchanged, else the code of its fault
    integer function what_is(prefix, name, head)
       character(len=*), intent(in) :: prefix, name
       type(head_t), intent(out) :: head
@@ -261,7 +261,7 @@ contains
       if (stat == 0) what_is = head%step
    end function what_is
 
-   !> What a state begins with
+   !> Read the head of a state
    subroutine read_head(lun, head, stat)
       integer, intent(in) :: lun
       type(head_t), intent(out) :: head
@@ -291,13 +291,13 @@ contains
       if (stat /= 0) text = ""
    end subroutine read_text
 
-   !> The run goes on from a state: what it saves from here on is its own
+   !> The run has resumed: states that it saves from here on are its own
    subroutine end_resuming(self)
       class(checkpoint_t), intent(inout) :: self
       if (allocated(self%path)) deallocate (self%path)
    end subroutine end_resuming
 
-   !> The run begins anew: no state and no frame so far is of it
+   !> The run starts from the beginning: earlier states and frames are not part of it
    subroutine forget(self)
       class(checkpoint_t), intent(inout) :: self
       logical :: gone

@@ -8,7 +8,7 @@ submodule (ehl_contact_run) ehl_contact_duty
    use ehl_wall_heat, only: heat_source
    implicit none (type, external)
 
-   !> Error of p_max by its second difference, and what of it is left a step later (docs/evidence/duty)
+   !> Error of p_max by its second difference, and its decay per step (docs/evidence/duty)
    real(dp), parameter :: by_difference = 2.0_dp, left = 0.8_dp
 
 contains
@@ -33,8 +33,8 @@ contains
       end associate
    end procedure duty_row
 
-   !> Relative error of the maximum pressure that time steps leave: that of the films, or what BDF2 misses of the squeeze of a thick
-   !> film, whose pressure answers to that at once: by the second difference of p_max, as it falls with the steps after
+   !> Relative error of the maximum pressure by time steps: that of the films, or the error of BDF2 in the squeeze of a thick film,
+   !> whose pressure follows at once: by the second difference of p_max, which decays in later steps
    real(dp) function pressure_error(self, time, pressure) result(error)
       class(contact_run_t), intent(in) :: self
       real(dp), intent(in) :: time, pressure
@@ -66,7 +66,7 @@ contains
    end subroutine find_minimum
 
    !> Coefficient of friction, its power, and the flash temperature of walls that have come to a steady state. Not known where the
-   !> lubricant is taken for Newtonian beyond the stress at which oils are.
+   !> Newtonian stress exceeds that at which oils are Newtonian.
    subroutine find_friction(self, level, mu, power, flash)
       class(contact_run_t), intent(in) :: self
       type(level_t), intent(in) :: level

@@ -6,7 +6,7 @@ submodule (ehl_contact_run) ehl_contact_heat
    use ehl_status, only: ehl_no_memory
    implicit none (type, external)
 
-   !> Steps in a period after which it is computed: what the heat takes from the friction changes slowly
+   !> Steps in a period after which it is computed: the reduction of friction by heat changes slowly
    integer, parameter :: samples = 32
 
 contains

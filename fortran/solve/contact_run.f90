@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> A planned contact on its way: smooth, then with the rough surface, stationary or in time steps. What there is of it after every
-!> cycle and step, and how one phase follows another; the phases themselves are ehl_fmg, ehl_stationary_rough, ehl_transient.
+!> Run of a planned contact: smooth, then with the rough surface, stationary or in time steps. Its state after every cycle and
+!> step, and the order of the phases; the phases themselves are ehl_fmg, ehl_stationary_rough, ehl_transient.
 module ehl_contact_run
    use ehl_checkpoint, only: checkpoint_t, coarser_t
    use ehl_frames, only: frames_t
@@ -36,7 +36,7 @@ module ehl_contact_run
 
    type :: contact_run_t
       type(plan_t) :: plan
-      !> How it stands, and what is being solved
+      !> Status, and the present phase
       integer :: outcome = outcome_running, phase = phase_smooth
       !> Finest grid reached so far
       type(grid_t) :: grid
@@ -73,7 +73,7 @@ module ehl_contact_run
       procedure :: record_step
       procedure :: next_phase
       procedure :: is_filling
-      procedure :: begin_again
+      procedure :: restart_behind_front
       procedure :: is_rough
       procedure :: level
       procedure :: mu_ratio
@@ -105,12 +105,12 @@ module ehl_contact_run
       end subroutine begin_steps
 
       !> Where the first steps from a prediction fail: all of them again behind a front
-      module subroutine begin_again(self, outcome, status)
+      module subroutine restart_behind_front(self, outcome, status)
          class(contact_run_t), intent(inout) :: self
          !> How they failed
          integer, intent(in) :: outcome
          type(status_t), intent(inout) :: status
-      end subroutine begin_again
+      end subroutine restart_behind_front
    end interface
 
    ! in contact_heat.f90
@@ -176,7 +176,7 @@ contains
       call self%history%init(columns)
    end subroutine begin_history
 
-   !> After a cycle of the smooth contact on level n
+   !> Record a cycle of the smooth contact on level n
    subroutine record_cycle(self, n, outcome, status)
       class(contact_run_t), intent(inout) :: self
       integer, intent(in) :: n
@@ -199,7 +199,7 @@ contains
       end associate
    end subroutine record_cycle
 
-   !> After a cycle with a share of the stationary roughness; where something moves, too, it is only on the way to time steps
+   !> Record a cycle with a share of the stationary roughness; with moving roughness, too, it only leads to the time steps
    subroutine record_share(self, outcome, seconds, status)
       class(contact_run_t), intent(inout) :: self
       !> Of the contact with all of the roughness
@@ -223,7 +223,7 @@ contains
       end associate
    end subroutine record_share
 
-   !> After a time step that is solved
+   !> Record a time step that is solved
    subroutine record_step(self, status)
       class(contact_run_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
@@ -254,7 +254,7 @@ contains
       end associate
    end subroutine record_step
 
-   !> What is being solved is solved: let the roughness in, first what is stationary of it, then what moves
+   !> The present phase is solved: add the roughness, first the stationary one, then the moving one
    subroutine next_phase(self, status)
       class(contact_run_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
@@ -302,7 +302,7 @@ contains
       is_filling = self%transient%mean%transit > 0.0_dp .and. self%transient%mean%n < self%transient%mean%filled
    end function is_filling
 
-   !> Whether the roughness is in
+   !> Whether the contact is rough in the present phase
    pure logical function is_rough(self)
       class(contact_run_t), intent(in) :: self
       is_rough = self%phase /= phase_smooth

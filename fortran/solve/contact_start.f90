@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What time steps begin with: the smooth contact before a front, a prediction, or a state that was kept
+!> Start of the time steps: the smooth contact before a front, a prediction, or a saved state
 submodule (ehl_contact_run) ehl_contact_start
    use ehl_grid_error, only: relative_errors
    use ehl_level_result, only: friction_error
@@ -18,7 +18,7 @@ contains
       errors = 0.0_dp
       if (self%plan%line) errors = relative_errors(self%plan%contact, self%plan%point, self%grid%hx)
       associate (plan => self%plan, transient => self%transient, n => self%smooth%n, m => self%smooth%results(self%smooth%n)%m)
-         ! where a feature passes once, the maximum pressure and the minimum film are asked for, not the mean friction alone
+         ! where a feature passes once, maximum pressure and minimum film are results, not the mean friction alone
          call transient%accuracy%set(self%grid%hx, plan%accuracy, m%friction_newtonian, &
                                      merge(0.0_dp, friction_error(self%smooth%results, n, errors(1)), &
                                            plan%surfaces%pass_once() .or. plan%duty%active))
@@ -55,7 +55,7 @@ contains
       if (.not. done) self%fallback_reason = "the film would be negative"
    end subroutine begin_filled
 
-   module procedure begin_again
+   module procedure restart_behind_front
       call self%checkpoint%forget()
       self%fallback_reason = "the first steps from it ended with '"//trim(outcome_names(outcome))//"'"
       associate (level => self%hierarchy%levels(self%smooth%n))
@@ -68,9 +68,9 @@ contains
       call self%begin_history()
       call begin_steps(self, status)
       self%outcome = outcome_running
-   end procedure begin_again
+   end procedure restart_behind_front
 
-   !> The state that was kept takes the place of the start of the transient run
+   !> Start the transient run from the saved state
    subroutine take_state(self, status)
       class(contact_run_t), intent(inout) :: self
       type(status_t), intent(inout) :: status

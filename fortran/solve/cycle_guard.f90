@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Cycles that are taken back, damped and accelerated (docs/theory/coarse-grids.md)
+!> Cycles that are undone, damped and accelerated (docs/theory/coarse-grids.md)
 submodule (ehl_smooth_contact) ehl_cycle_guard
    use ehl_cycle, only: max_damping
    use ehl_outcome, only: outcome_diverged, outcome_negative_film

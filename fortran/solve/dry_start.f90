@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> First approximation of a contact whose dry pressure has no formula: that pressure on a grid, by conjugate gradients on the
-!> nodes that touch (Polonsky & Keer 1999, Wear 231, 206), which keep the load and let nodes go and come
+!> nodes that touch (Polonsky & Keer 1999, Wear 231, 206), with the load as a constraint and an active set
 module ehl_dry_start
    use ehl_cycle, only: refine
    use ehl_grid, only: grid_t

@@ -15,7 +15,7 @@ module ehl_fmg
 contains
 
    !> Levels from the coarsest on, cycles on each until its algebraic error is a share of its discretisation error. The observer
-   !> may leave after any cycle; another call goes on there.
+   !> may leave after any cycle; another call continues there.
    subroutine full_multigrid(run, observer, leave, status)
       type(contact_run_t), intent(inout) :: run
       class(observer_t), intent(inout) :: observer

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> A state of the contact on its way to its tolerance: one multigrid cycle and what it leaves. What is solved (a level of the
-!> smooth contact, a share of a stationary roughness, a time step) extends iteration_t by its own estimate of the error.
+!> Iteration of a state to its tolerance: one multigrid cycle and its evaluation. The problems (a level of the smooth contact, a
+!> share of a stationary roughness, a time step) extend iteration_t by their estimate of the error.
 module ehl_iteration
    use ehl_anderson, only: anderson_t
    use ehl_contact_results, only: contact_results_t, load_tolerance, measure
@@ -39,7 +39,7 @@ module ehl_iteration
 
 contains
 
-   !> Make a cycle and evaluate the state that it leaves
+   !> Make a cycle and evaluate the state after it
    subroutine iterate(self, hierarchy)
       class(iteration_t), intent(inout) :: self
       type(hierarchy_t), intent(inout) :: hierarchy
@@ -54,7 +54,7 @@ contains
       end associate
    end subroutine iterate
 
-   !> Take what is wrong with the load away by scaling the pressure, and evaluate the state anew
+   !> Correct the error of the load by scaling the pressure, and evaluate the state again
    subroutine balance(self, hierarchy)
       class(iteration_t), intent(inout) :: self
       type(hierarchy_t), intent(inout) :: hierarchy
@@ -83,7 +83,7 @@ contains
       end if
    end subroutine evaluate
 
-   !> What is wrong with a state that is no solution whatever its residual; outcome_running: nothing
+   !> Status of a state that is no solution whatever its residual; outcome_running: no such failure
    pure integer function failure_status(self)
       class(iteration_t), intent(in) :: self
 
@@ -91,7 +91,7 @@ contains
       if (.not. self%m%finite) failure_status = outcome_diverged
    end function failure_status
 
-   !> How the state stands after a cycle; outcome_running: another one is needed
+   !> Status after a cycle; outcome_running: another one is needed
    pure integer function verdict(self, converged)
       class(iteration_t), intent(in) :: self
       !> Whether it meets its tolerances

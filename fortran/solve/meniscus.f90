@@ -14,7 +14,7 @@ module ehl_meniscus
    private
    public :: meniscus_t
 
-   !> A flow is known when its change in a cycle is that share of what it is off, and after so many cycles
+   !> A flow is known when its change in a cycle is this share of its deviation, and after so many cycles
    real(dp), parameter :: settled_share = 0.1_dp
    integer, parameter :: fewest_cycles = 3
    !> Largest s over (G(k) - layer)/hx: the film at the meniscus changes with s
@@ -40,7 +40,7 @@ module ehl_meniscus
       procedure :: begin
       procedure :: hold
       procedure :: follow
-      procedure, private :: search_anew
+      procedure, private :: restart_search
       procedure, private :: search_node
       procedure, private :: search_share
       procedure, private :: pin
@@ -55,11 +55,11 @@ contains
 
       self%active = .true.
       self%node = merge(2*self%node - merge(0, 1, self%share > 0.5_dp), 1, from_coarser)
-      call self%search_anew()
+      call self%restart_search()
    end subroutine begin
 
-   !> Nothing is known but the node to begin with
-   pure subroutine search_anew(self)
+   !> Restart the search from a node
+   pure subroutine restart_search(self)
       class(meniscus_t), intent(inout) :: self
 
       self%share = 0.0_dp
@@ -67,7 +67,7 @@ contains
       self%high = 0
       self%step = 1
       self%cycles = 0
-   end subroutine search_anew
+   end subroutine restart_search
 
    !> Keep the meniscus at its node
    subroutine hold(self, level)
@@ -155,7 +155,7 @@ contains
       if (self%stayed == 3 - side) self%over(3 - side) = 0.5_dp*self%over(3 - side)
       self%stayed = 3 - side
       if (self%shares(2) - self%shares(1) <= same) then
-         call self%search_anew()
+         call self%restart_search()
          return
       end if
       self%share = (self%shares(1)*self%over(2) - self%shares(2)*self%over(1))/(self%over(2) - self%over(1))

@@ -1,13 +1,13 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Observer of the loops: called after every cycle of a steady contact and after every time step whether to leave. A loop that was
-!> left goes on where it was when it is called again.
+!> left continues where it was when it is called again.
 module ehl_observer
    use ehl_contact_run, only: contact_run_t
    implicit none (type, external)
    private
    public :: observer_t, single_step_t
 
-   !> Sees nothing, and stays to the end
+   !> Default observer: never leaves
    type :: observer_t
    contains
       procedure :: watch
@@ -21,7 +21,7 @@ module ehl_observer
 
 contains
 
-   !> To the end
+   !> Never leave
    subroutine watch(self, run, leave)
       class(observer_t), intent(inout) :: self
       !> As the cycle or step has left it; its state may be saved
@@ -33,7 +33,7 @@ contains
       leave = .false.
    end subroutine watch
 
-   !> One is enough
+   !> Leave after one
    subroutine watch_one(self, run, leave)
       class(single_step_t), intent(inout) :: self
       type(contact_run_t), intent(inout) :: run

@@ -16,7 +16,7 @@ module ehl_stationary_rough
 contains
 
    !> Cycles with a share of the roughness until all of it is in: first none, the smooth contact to the accuracy of the friction,
-   !> then all, or where that has no solution half of what is left. The observer may leave after any cycle; another call goes on
+   !> then all, or where that has no solution half of what is left. The observer may leave after any cycle; another call continues
    !> there.
    subroutine solve_stationary(run, observer, leave, status)
       type(contact_run_t), intent(inout) :: run

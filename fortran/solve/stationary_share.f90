@@ -23,12 +23,12 @@ module ehl_stationary_share
    !> Relative algebraic error of a friction integral, as a share of the accuracy asked for; of a share of the roughness
    !> that is only on the way to the whole of it
    real(dp), parameter :: friction_tolerance = 1.0e-3_dp, share_tolerance = 3.0e-2_dp
-   !> Relative errors of the force balance that may be taken away by scaling the pressure, at a boundary film
+   !> Relative errors of the force balance that scaling of the pressure may correct, at a boundary film
    real(dp), parameter :: small_load_error = 1.0e-5_dp
    !> At a boundary film lubricant that is left between touching nodes goes on by some three nodes a cycle, through half of
    !> the nodes along X at most: so many cycles for each of these, at least, are a share's
    real(dp), parameter :: cycles_a_node = 0.5_dp
-   !> Error of the load after some cycles that no share of the roughness there comes back from
+   !> Error of the load after some cycles from which no share of the roughness there converges
    real(dp), parameter :: lost_load = 1.0_dp
    integer, parameter :: lost_after = 10
    !> Smallest part of the roughness that is tried
@@ -129,8 +129,8 @@ contains
       self%change = change
    end subroutine estimate_error
 
-   !> Whether a small error of the load may be taken away: nodes that lift off and touch again from cycle to cycle leave one. Away
-   !> from a boundary film the load is left to the cycles.
+   !> Whether a small error of the load may be corrected: nodes that lift off and touch again from cycle to cycle leave one.
+   !> Without a boundary film the load is left to the cycles.
    pure logical function may_scale_load(self)
       class(stationary_t), intent(in) :: self
       may_scale_load = self%m%touching%load_share > 0.0_dp .and. self%residual <= residual_tolerance .and. &
@@ -149,7 +149,7 @@ contains
                   .and. self%residual <= residual_tolerance .and. self%cycles > 1 .and. self%m%holds
    end function converged
 
-   !> Whether the load at a boundary film is so wrong that no share of the roughness comes back from it
+   !> Whether the load at a boundary film is so wrong that no share of the roughness converges from it
    pure logical function lost(self, level)
       class(stationary_t), intent(in) :: self
       type(level_t), intent(in) :: level
@@ -169,11 +169,11 @@ contains
       self%due = self%share < 1.0_dp
    end subroutine accept
 
-   !> The present share was too much: begin a smaller one, if there is one
+   !> The present share was too large: start a smaller one, if there is one
    subroutine reject(self, level, outcome)
       class(stationary_t), intent(inout) :: self
       type(level_t), intent(inout) :: level
-      !> Why it was too much; outcome_running: a smaller one is begun
+      !> Why it failed; outcome_running: a smaller one is started
       integer, intent(inout) :: outcome
 
       self%share_step = 0.5_dp*min(self%share_step, self%share - self%share_done)

@@ -16,7 +16,7 @@ module ehl_stopping_criterion
 
 contains
 
-   !> How a transient run stands after a step that converged. One that ends after so many steps is converged only if it
+   !> Status of a transient run after a step that converged. One that ends by its number of steps is converged only if it
    !> has settled by then.
    integer function transient_outcome(plan, transient) result(outcome)
       type(plan_t), intent(in) :: plan

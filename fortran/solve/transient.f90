@@ -18,7 +18,7 @@ module ehl_transient
 
 contains
 
-   !> Time steps until the mean friction has settled. The observer may leave after any step; another call goes on there.
+   !> Time steps until the mean friction has settled. The observer may leave after any step; another call continues there.
    subroutine solve_transient(run, observer, leave, status)
       type(contact_run_t), intent(inout) :: run
       class(observer_t), intent(inout) :: observer
@@ -36,7 +36,7 @@ contains
          if (outcome == outcome_converged) then
             call run%record_step(status)
          else if (run%is_filling()) then
-            call run%begin_again(outcome, status)
+            call run%restart_behind_front(outcome, status)
          else
             run%outcome = outcome
          end if
@@ -47,7 +47,7 @@ contains
    end subroutine solve_transient
 
    !> One time step. Under a duty it is cut where it has no solution, or its error is too large. Where there is none the last
-   !> good state stands.
+   !> good state remains.
    subroutine time_step(transient, hierarchy, surfaces, outcome, status)
       type(transient_t), intent(inout) :: transient
       type(hierarchy_t), intent(inout) :: hierarchy

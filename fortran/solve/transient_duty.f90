@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What a duty asks of a time step: its length, what has changed by its end, the way the lubricant flows, its error
+!> A time step under a duty: its length, the conditions at its end, the direction of the flow, its error
 submodule (ehl_transient_state) ehl_transient_duty
    use ehl_contact_results, only: central_row
    use ehl_level, only: gap
@@ -17,7 +17,7 @@ contains
 
       associate (level => hierarchy%levels(self%n))
          self%time_step = self%duty_steps%next(self%duty, self%time, level%grid%hx, surfaces%rough())
-         ! nothing to solve up to a row of the table until which nothing moves
+         ! nothing to solve up to the row of the table where the motion starts
          associate (row => self%duty%next_knot(self%time))
             if (self%duty%rests(row(1))) self%time_step = row(1) - self%time
          end associate

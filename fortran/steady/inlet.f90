@@ -1,14 +1,14 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What a grid resolves of the inlet of a contact that touches.
+!> Resolution of the inlet of a contact with solid contact at a boundary film.
 !>
-!> Bodies that touch have the film of the boundary film on every grid that is too coarse for the inlet: two such grids agree
-!> and say nothing of their error. It is that of the film that the inlet would make. In the inlet of a Hertz contact the gap
+!> Bodies that touch have the film of the boundary film on every grid that is too coarse for the inlet: two such grids agree,
+!> which does not show their error. That is the error of the film that the inlet would make. In the inlet of a Hertz contact the gap
 !> opens as xi^(3/2) (Greenwood 1972), so that pressure builds up over a length of H^(2/3), and the wedge term of second order
 !> misses a share of that film of
 !>
 !>    e = c (h/H^(2/3))^2,   h the mesh size [a], H the central film by formula [a^2/R].
 !>
-!> With c = 1.3 it covers what the campaign in docs/evidence/inlet has found; the other numbers are from there, too.
+!> With c = 1.3 it covers the campaign in docs/evidence/inlet; the other numbers are from there, too.
 module ehl_inlet
    use ehl_contact_results, only: contact_results_t
    use ehl_kinds, only: dp
@@ -22,7 +22,7 @@ module ehl_inlet
    !> Load share, and its part of the friction, up to which it hardly matters whether the grid is the reason: films grow as
    !> grids become finer, and no share is wrong by more than itself
    real(dp), parameter :: small_share = 0.05_dp, small_friction = 0.1_dp
-   !> What the formula may be off; minimum film of a smooth contact over the central one
+   !> Error of the formula; minimum film of a smooth contact over the central one
    real(dp), parameter :: formula_error = 0.15_dp, min_over_central = 0.3_dp
    !> Relative change of the load share by a relative change of the film; error of what is left of the load, at the edge of a
    !> contact that touches nearly everywhere
@@ -57,7 +57,7 @@ contains
       missed = factor*h**2/self%film**(4.0_dp/3.0_dp)
    end function missed
 
-   !> Whether the boundary film is thicker than what the inlet makes, whatever the grid
+   !> Whether the boundary film is thicker than the film by the inlet, whatever the grid
    pure logical function is_dry(self)
       class(inlet_t), intent(in) :: self
       is_dry = self%boundary_film >= (1.0_dp + formula_error)*self%film
@@ -89,13 +89,13 @@ contains
       end associate
    end function resolves
 
-   !> Mesh size that does
+   !> Mesh size that resolves it
    pure real(dp) function resolving_mesh(self)
       class(inlet_t), intent(in) :: self
       resolving_mesh = sqrt(resolved_share/factor)*self%film**(2.0_dp/3.0_dp)
    end function resolving_mesh
 
-   !> Errors of H_c and H_min of a contact that touches: what the grid misses of the film, but no more than up to the film by
+   !> Errors of H_c and H_min of a contact that touches: the grid error of the film, but no more than the distance to the film by
    !> formula. Else 0.
    pure function film_errors(self, m, h) result(errors)
       class(inlet_t), intent(in) :: self
@@ -137,7 +137,7 @@ contains
          if (.not. self%film > 0.0_dp .or. .not. share > 0.0_dp .or. self%is_dry()) return
          steepness = share*(1.0_dp - share)
          if (share > mostly_touching) steepness = 0.25_dp
-         ! no share is off by more than what it can be
+         ! no share is wrong by more than its range
          share_left = min(share_by_residual*steepness*residual/m%film_central, max(share, 1.0_dp - share))
       end associate
    end function share_left

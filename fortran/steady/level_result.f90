@@ -25,8 +25,8 @@ module ehl_level_result
    end type level_result_t
 
    !> Largest discretisation error over the film that is taken to be of order 2, which two grids cannot show (Roache 1994,
-   !> whose factor for order 1 is 3 times that of order 2). At errors of 8 and 15 % on 513 nodes contacts were found to miss
-   !> 1.1 times what order 2 makes of them (kappa = 1, M = 5233, L = 4.4; kappa = 6.6, M by R_x = 76543, L = 5.4)
+   !> whose factor for order 1 is 3 times that of order 2). At errors of 8 and 15 % on 513 nodes the true errors
+   !> of contacts were 1.1 times those by order 2 (kappa = 1, M = 5233, L = 4.4; kappa = 6.6, M by R_x = 76543, L = 5.4)
    real(dp), parameter :: leading = 0.05_dp
    !> Safety factors of the errors of H_c (Roache 1994) and of H_min, which is the least of the nodes and converges less evenly:
    !> 1.25 covers 95 % of lines, 1.5 covers 97 % (docs/evidence/machines)
@@ -45,7 +45,7 @@ contains
    !> Discretisation errors of H_c and H_min on level n as they are stated: by the order from 1 to 2 that three grids show, or
    !> that an error above `leading` leaves to two, times a safety factor. The difference of H_min, whose node changes, may be
    !> small by chance: no less than what the one before becomes by order 2. Where the bodies touch the third grid counts if it
-   !> resolves the inlet, and the errors are no less than what the fine grid misses of the inlet.
+   !> resolves the inlet, and the errors are no less than that of the fine grid in the inlet.
    pure function stated_errors(fine, results, n, inlet) result(errors)
       !> Results on level n, and what is known of the coarser ones
       type(contact_results_t), intent(in) :: fine
@@ -69,7 +69,7 @@ contains
    end function stated_errors
 
    !> Discretisation errors of H_c and H_min by the results on two grids, order 2; where the bodies touch on either no less
-   !> than what the fine one misses of the inlet
+   !> than the error of the fine one in the inlet
    pure function film_errors(fine, coarse, mesh, inlet) result(errors)
       type(contact_results_t), intent(in) :: fine, coarse
       !> Mesh size of the fine grid
@@ -116,7 +116,7 @@ contains
    pure real(dp) function friction_error(results, n, otherwise)
       type(level_result_t), intent(in) :: results(:)
       integer, intent(in) :: n
-      !> What it is where no coarser level has a solution
+      !> Its value where no coarser level has a solution
       real(dp), intent(in) :: otherwise
 
       friction_error = otherwise

@@ -15,13 +15,13 @@ module ehl_level_tolerance
    real(dp), parameter :: min_error = 2.0e-5_dp
    !> Algebraic error of the load share of a boundary film, which ends a level where the films have ended moving
    real(dp), parameter :: share_tolerance = 1.0e-3_dp
-   !> What the residual may leave of it, by share_left, over the algebraic error wanted: mostly less than a fifth of that is left
+   !> Error of it by the residual (share_left), over the allowed algebraic error: mostly less than a fifth of that is left
    !> (docs/evidence/inlet)
    real(dp), parameter :: cover = 5.0_dp
    !> Largest residual (rms, as far as it concerns the film; the wedge term is of order 1 in the inlet) of a converged
    !> solution
    real(dp), parameter :: residual_tolerance = 2.0e-3_dp
-   !> Relative algebraic error wanted on the first grid, where no discretisation error is known yet; and where two finer grids
+   !> Allowed relative algebraic error on the first grid, where no discretisation error is known yet; and where two finer grids
    !> follow: the first one then gives a guess, and enters no result
    real(dp), parameter :: start_tolerance = 1.0e-3_dp, guess_tolerance = 3.0e-2_dp
 
@@ -49,7 +49,7 @@ contains
       is_end = n == options%levels .or. options%target_error > 0.0_dp
    end function is_end
 
-   !> Whether the algebraic errors are what the grid deserves, and on a level where the solution may end the residual, too
+   !> Whether the algebraic errors are small enough for the grid, and on a level where the solution may end the residual, too
    pure logical function accurate(options, results, n, m, residual, more)
       type(steady_options_t), intent(in) :: options
       type(level_result_t), intent(in) :: results(:)
@@ -84,7 +84,7 @@ contains
       rests_on_boundary_film = m%touching%load_share > mostly_touching .and. m%touching%supply <= much_mass_defect
    end function rests_on_boundary_film
 
-   !> Algebraic errors of H_c and H_min that the present level deserves
+   !> Algebraic errors of H_c and H_min that are small enough for the present level
    pure function wanted(options, results, n, m)
       type(steady_options_t), intent(in) :: options
       type(level_result_t), intent(in) :: results(:)

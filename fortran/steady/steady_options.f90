@@ -21,22 +21,22 @@ module ehl_steady_options
       type(cycle_options_t) :: cycle, second_cycle
       !> First level whose cycles may spare pressure spikes
       integer :: spares_from = 1
-      !> Algebraic error wanted as a share of the discretisation error
+      !> Allowed algebraic error as a share of the discretisation error
       real(dp) :: accuracy = 0.1_dp
-      !> Relative error of H_c wanted; 0: none, solve on the finest grid
+      !> Target of the relative error of H_c; 0: none, solve on the finest grid
       real(dp) :: target_error = 0.0_dp
       !> Whether the border has the pressure of a flooded contact, else 0
       logical :: flooded = .false.
-      !> rho H of the layer that arrives; 0: as much oil as the gap holds
+      !> rho H of the oil layer; 0: a filled gap
       real(dp) :: layer = 0.0_dp
-      !> Passages, each with what the one before it leaves, and the share of what is missing that returns between them
+      !> Passages, each with the layer that the one before it leaves, and the share of the deficit that is replenished between them
       integer :: passages = 1
       real(dp) :: replenishment = 0.0_dp
-      !> Whether what fails on the finest level may restart with damped cycles
+      !> Whether a failure on the finest level may restart with damped cycles
       logical :: may_restart = .false.
       !> Whether cycles that end in no state of the contact are taken back from the beginning on, and not only after all else
       logical :: guarded = .false.
-      !> What touching makes of the errors
+      !> Errors by the inlet where bodies touch
       type(inlet_t) :: inlet
       !> Whether the contact is a circle and its flow Newtonian
       logical :: newtonian_circle = .true.

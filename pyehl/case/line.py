@@ -54,7 +54,7 @@ def check_keys(draft: Draft) -> None:
     if s.lubricant.thermal_friction == "always" and abs(s.contact.slide_to_roll) >= 2.0:
         what = (
             "lubricant.thermal_friction = 'always' with a wall at rest under an infinite line, "
-            "which warms for ever"
+            "whose temperature has no limit"
         )
         expected = "'auto' or 'never', or a slide_to_roll between -2 and 2"
         draft.refuse("lubricant.thermal_friction", what, expected)

@@ -89,7 +89,7 @@ def execute(args: argparse.Namespace) -> int:
     words["force"] = args.force
     if args.resume is not None:
         if args.resume == "":
-            raise InputError("pyehl run: error: the folder behind --resume has no name")
+            raise InputError("pyehl run: error: the folder after --resume has no name")
         case = None if args.case is None else Case(args.case, args.overrides)
         done = resume(
             args.resume,

@@ -226,7 +226,7 @@ def test_error_in_the_coarser_run_does_not_end_the_run(tmp_path: Path):
         assert "next coarser grid" in solver.progress
         assert solver.save_state(at_once=True)
     with Solver(case) as solver:
-        assert "going on after step" in solver.resume(tmp_path / "out")
+        assert "resuming after step" in solver.resume(tmp_path / "out")
         for path in (tmp_path / "out.checkpoint").glob("*coarse*"):
             path.unlink()
         assert solver.run()

@@ -67,7 +67,7 @@ def killed_and_resumed(case: pyehl.Case, folder: Path, advances: int) -> dict[st
         if not solver.save_state(at_once=True):
             return None
     with pyehl.Solver(case) as solver:
-        assert "going on after step" in solver.resume(folder)
+        assert "resuming after step" in solver.resume(folder)
         return ended(solver)
 
 
