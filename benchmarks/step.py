@@ -85,7 +85,7 @@ CASES = (
     Problem("strip", "whole", LINE + LONG_WAVE + WHOLE, "long-wave"),
     Problem("strip", "half", LINE + LONG_WAVE, "long-wave"),
 )
-# Those that are measured unless others are asked for
+# Cases that are measured by default
 USUAL = ("wave", "fractal")
 
 COLUMNS = columns(
@@ -99,7 +99,7 @@ RUN_COLUMNS = columns(
 
 
 def meaning(scheme: str, front: float, steps: int) -> str:
-    """Tell what the columns are, for the arguments of :func:`step_rows`."""
+    """Describe the columns, for the arguments of :func:`step_rows`."""
     return (
         f"scheme '{scheme}'; seconds, cycles: of a step, mean of {steps} after the front of the "
         f"roughness has come to X = {front:g};\nunits: of one scipy.fft deflection at that grid; "
@@ -125,10 +125,10 @@ def _case(problem: Problem, points: int, scheme: str, *options: str) -> Case:
 def _fill(solver: Solver, case: Case, front: float) -> None:
     """Advance until the front of the roughness is at X = front."""
     settings = case.resolve()["surface"]
-    wanted = (front - float(settings["x_start"])) / float(settings["velocity_ratio"])
+    end = (front - float(settings["x_start"])) / float(settings["velocity_ratio"])
     while not solver.done:
         solver.advance()
-        if float(solver.summary.get("T", -1.0)) >= wanted:
+        if float(solver.summary.get("T", -1.0)) >= end:
             return
     raise EhlError(f"the run ended before it could be timed: {solver.progress}")
 
@@ -151,17 +151,17 @@ def step_rows(
     for points in grids:
         pressure, h, _, _ = hertz(points)
         deflect = partial(ScipyDeflection(points, points, h, h).apply, pressure)
-        mine: list[Row] = []
+        of_grid: list[Row] = []
         units: list[float] = []
         for problem in problems:
             say(f"{points} {problem.name} {problem.domain}")
-            mine += _scene_rows(problem, points, threads, (scheme, front, steps), deflect, units)
+            of_grid += _rows_of(problem, points, threads, (scheme, front, steps), deflect, units)
         unit = statistics.median(units)
-        rows += [row | {"unit_seconds": unit, "units": row["seconds"] / unit} for row in mine]
+        rows += [row | {"unit_seconds": unit, "units": row["seconds"] / unit} for row in of_grid]
     return rows
 
 
-def _scene_rows(
+def _rows_of(
     problem: Problem,
     points: int,
     threads: Sequence[int],

@@ -113,5 +113,5 @@ def __getattr__(name: str) -> Any:  # noqa: ANN401 (a module, class or function)
 
 
 def __dir__() -> list[str]:
-    """Name what there is to use, also what is not imported yet."""
+    """List the public names, also those that are not imported yet."""
     return sorted({*__all__, *(name for name in globals() if name.startswith("__"))})

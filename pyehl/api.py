@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What people type: subcommands as functions, each in one call."""
+"""The subcommands as functions, each in one call."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ TOUCHING, APART = 1.0, 3.0
 WELL_KNOWN = 0.05
 # Correlation of two surfaces above which they are no pair of independent ones
 ALIKE = 0.5
-# Status of a prediction whose film is known, and whose pressures are beyond the model
+# Status of a prediction whose film is known and whose pressures are outside of the model
 BEYOND = "beyond linear response"
 RESULTS = ("converged", "predicted", "target missed", BEYOND)
 # Flash temperature [K] above which an oil is thinner than computed, where its heat is left out
@@ -30,7 +30,7 @@ HOT = 10.0
 SLENDER_CONTACT, SLENDER_FILM, MEAN_STRAIN = 0.1, 0.01, 0.2
 # Share of the flow that the boundary film may give (as fortran/reynolds/touching.f90)
 MUCH_MASS_DEFECT = 0.1
-# How the reason begins for which a grid makes bodies touch
+# Beginning of the reason why bodies touch because of the grid
 NO_INLET = "the grid does not resolve the inlet"
 
 
@@ -42,8 +42,8 @@ class Assessment:
     ----------
     text
         'no result', 'film breakdown', 'beyond the solids', 'unresolved inlet', 'mixed film',
-        'yielding solids', 'thin film', 'unresolved waves' or 'full film', the reason, and what else
-        there is to know.
+        'yielding solids', 'thin film', 'unresolved waves' or 'full film', the reason, and further
+        remarks.
     confidence
         'holds', 'with care' or 'no result'.
     """
@@ -179,7 +179,7 @@ def _waves(s: Summary) -> list[str]:
 
 
 def _starvation(s: Summary) -> str:
-    """Inlet that is short of oil as the case has it, beside what formulas say."""
+    """Starvation by the case, beside that by formulas."""
     share = s.number("starvation")
     if not math.isfinite(share):
         return ""
@@ -193,7 +193,7 @@ def _starvation(s: Summary) -> str:
 
 
 def _errors(s: Summary) -> list[str]:
-    """Errors that are large or not known, and a point outside of what a model was measured on."""
+    """Errors that are large or not known, and a contact outside of the range of a model."""
     result = []
     for name in ("H_c", "H_min", "mu_ratio"):
         value = s.number(name)
@@ -205,7 +205,7 @@ def _errors(s: Summary) -> list[str]:
         if not math.isfinite(share):
             result.append(f"the error of {word} is not known")
         elif share > WELL_KNOWN:
-            result.append(f"{word} is known to {percent(share)} only")
+            result.append(f"{word} is uncertain by {percent(share)}")
     note = s.text("pressure_viscosity_note")
     if "estimate" in note:
         result.append("alpha is an estimate (-17 to +12 % of the film)")
@@ -221,11 +221,13 @@ def _heat(s: Summary) -> list[str]:
     rise = s.number("flash_temperature_K")
     if not _finite_above(rise, HOT) or s.known("temperature_rise_max_K"):
         return []
-    return [f"the surfaces warm by {rounded(rise)} K, and the oil of the model does not"]
+    return [
+        f"the flash temperature rise is {rounded(rise)} K, which the oil of the model does not have"
+    ]
 
 
 def _two_alike(s: Summary) -> list[str]:
-    """Two surfaces that move together and are much the same."""
+    """Two surfaces that move together and are similar."""
     correlation = s.number("surface_correlation")
     if not _finite_above(abs(correlation), ALIKE):
         return []
@@ -265,7 +267,7 @@ def _slenderness(s: Summary) -> list[str]:
 
 
 def _minimum_film(s: Summary) -> str:
-    """Give the minimum film in words."""
+    """Give the minimum film as text."""
     film, ratio = _h_min(s), s.number("lambda_ratio")
     if s.known("h_min_rough_m"):
         return f"the minimum film over the roughness is {rounded(film * 1e9)} nm"

@@ -31,7 +31,7 @@ SUBCOMMANDS = {
     "bearing": "film of every contact of a rolling bearing, and its torque",
     "gear": "film along the path of contact of a gear pair, and its loss",
     "stress": "stress below the surface under a result, smooth or rough",
-    "response": "measure what the contact makes of small waves of roughness",
+    "response": "measure the response of the contact to small waves of roughness",
     "surface": "write the surface of a case as a height map",
     "film": "film formulas side by side for a case",
     "lubricants": "oils by name: constants, ranges, sources",
@@ -65,7 +65,7 @@ def make_parser(chosen: str) -> argparse.ArgumentParser:
 
 
 class _Terminal(logging.Handler):
-    """Says what takes seconds and has no bar, on standard error as it is at the time."""
+    """Prints messages of long steps without a progress bar on standard error."""
 
     def emit(self, record: logging.LogRecord) -> None:
         print(record.getMessage(), file=sys.stderr)

@@ -14,12 +14,12 @@ NM, GPA = 1e9, 1e-9
 
 @dataclass(frozen=True, slots=True)
 class Conclusion:
-    """What a solution or a prediction ends with.
+    """The last lines of a solution or a prediction.
 
     Attributes
     ----------
     lines
-        What was found, by name, and behind it the assessment.
+        Results by name, then the assessment.
     assessment
         A word and the reason for it.
     confidence
@@ -60,13 +60,13 @@ RESUMPTION = {
 
 
 def resumption(status: str, results: str) -> str:
-    """Say how a run with this status can go on; '' where it would end the same way."""
+    """Say how to resume a run with this status; '' where it would end the same way."""
     way = RESUMPTION.get(status)
     return f"{way}: pyehl run --resume {results}" if way else ""
 
 
 def _of(s: Summary, source: str, error: str) -> str:
-    """Say what the error of a value is of; '' where it is not known."""
+    """Name the source of the error of a value; '' where it is not known."""
     return f" ({source})" if s.known(error) else ""
 
 
@@ -170,9 +170,9 @@ def _friction(s: Summary) -> dict[str, str]:
 
 
 def _heat(s: Summary) -> dict[str, str]:
-    """Increases of temperature."""
+    """Temperature rises of film and surfaces."""
     film, surfaces = "temperature_rise_max_K", "flash_temperature_K"
-    parts = [f"film {fixed(s.number(film), 1)} K"] if s.known(film) else []
+    parts = [f"temperature rise of the film {fixed(s.number(film), 1)} K"] if s.known(film) else []
     if s.known(surfaces):
-        parts.append(f"surfaces {fixed(s.number(surfaces), 1)} K (flash temperature)")
-    return {"heat": f"{', '.join(parts)} warmer"} if parts else {}
+        parts.append(f"flash temperature rise {fixed(s.number(surfaces), 1)} K")
+    return {"heat": ", ".join(parts)} if parts else {}

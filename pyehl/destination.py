@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Where results go: what a command may replace, and how a result gets to its place.
+"""Destinations of results: what a command may replace, and how a result is put in place.
 
 A folder takes a result of one kind if it is empty, or holds an earlier result of this kind and
 nothing else; the rule, its messages and the exchange in one step are those of the library, the same
@@ -32,7 +32,7 @@ NEAR = 64 * 1024
 
 
 def mark(command: str) -> str:
-    """Give what a file states of itself that a command made."""
+    """Give the mark in the metadata of a file that a command made."""
     return f"pyehl {command}: replaced when made again"
 
 
@@ -194,7 +194,7 @@ def write_json(path: AnyPath, values: Mapping[str, object], *, allow_nan: bool =
 
 
 def finite(value: object) -> object:
-    """Return the value with null for what JSON cannot say."""
+    """Return the value with null for what JSON cannot represent."""
     if isinstance(value, float) and not math.isfinite(value):
         return None
     if isinstance(value, list):

@@ -52,7 +52,7 @@ class NotConverged(EhlError, RuntimeError):  # noqa: N818 (the name of a status)
     Attributes
     ----------
     results
-        What there was at the end, as an xarray Dataset.
+        The state at the end, as an xarray Dataset.
 
     Examples
     --------
@@ -123,7 +123,7 @@ def did_you_mean(word: str, known: Iterable[str]) -> str:
 
 @contextmanager
 def named(name: str) -> Iterator[None]:
-    """Put the name of the case file, if there is one, before what is wrong with the case."""
+    """Put the name of the case file, if there is one, before an error of the case."""
     try:
         yield
     except InputError as error:

@@ -16,7 +16,7 @@ try:
     _extension = import_module(f"pyehl._core{suffix()}")
 except ImportError as error:  # pragma: no cover
     raise ExtensionError(
-        "the compiled part of pyehl is not here. Install the package (pip install .) and run "
+        "the compiled part of pyehl is missing. Install the package (pip install .) and run "
         "outside of the source folder, or use 'python -P'."
     ) from error
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Arguments of callers, checked where they come in: a wrong type is reported as bad input."""
+"""Arguments of callers, checked at the interface: a wrong type is reported as bad input."""
 
 import math
 import os
@@ -21,7 +21,7 @@ Value = float | int | bool | str
 
 EXPECTED = "texts group.key=value or dicts of values by group.key, or by group and key"
 TYPED = "--set "
-"""Begins an option that was given in a shell, so that messages repeat what a person typed."""
+"""Begins an option that was given in a shell, so that messages repeat what the user typed."""
 # Kinds of numbers that can be heights: floats, and whole numbers with and without a sign
 REAL = "fiu"
 OTHER_KINDS = {
@@ -36,7 +36,7 @@ OTHER_KINDS = {
 
 
 def check_kind(value: object, kinds: type | tuple[type, ...], name: str, expected: str) -> None:
-    """Refuse an argument that is of none of some kinds.
+    """Refuse an argument that is of none of the `kinds`.
 
     InputError with the value, what was expected, and what there is.
     """
@@ -79,11 +79,11 @@ def text_file(path: str | os.PathLike[str], expected: str = "") -> str:
 def text_of(value: Any, name: str) -> bytes:  # noqa: ANN401
     """Give a text as the library takes it.
 
-    InputError if it is none, or not all of it is characters.
+    InputError if it is no text, or part of it cannot be encoded.
     """
     check_kind(value, str, name, "a text")
     try:
-        # what a terminal handed over and is no UTF-8 goes back as it came
+        # bytes of a terminal that are no UTF-8 are passed on unchanged
         return bytes(value.encode(errors="surrogateescape"))
     except UnicodeEncodeError as error:
         raise InputError(f"{name} = {reprlib.repr(value)}: no text: {error.reason}") from None

@@ -215,7 +215,7 @@ class SolverHandle:
 
     @property
     def work(self) -> Work:
-        """How much of a transient run is done, and how much there is."""
+        """Work of a transient run that is done and that is left."""
         return Work(*self._call(ehl.work))
 
     @property
@@ -293,7 +293,7 @@ def _sorted(lines: list[str], kinds: list[int], values: list[float]) -> Results:
 
 
 def take_prediction(solver: SolverHandle, left_out: float, unresolved: float) -> None:
-    """Take what is predicted of the waves that the grid leaves out, for the error of mu_ratio.
+    """Take the prediction for the waves that the grid leaves out, for the error of mu_ratio.
 
     Parameters
     ----------
@@ -309,7 +309,7 @@ def take_prediction(solver: SolverHandle, left_out: float, unresolved: float) ->
 def start_fronts(solver: SolverHandle) -> Array:
     """Positions of the fronts [a] at which `take_start` is to give a pressure.
 
-    Shape (4, surfaces); of no surface where it is not asked for, as mostly.
+    Shape (4, surfaces); of no surface where none is needed, as mostly.
     """
     fronts, n = solver._call(predicted.start_fronts)
     return np.asarray(fronts[:, :n])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Lengths as text, in the unit that a person reads: 600 nm, not 0.0006 mm."""
+"""Lengths as text, in a readable unit: 600 nm, not 0.0006 mm."""
 
 UNITS = {"nm": 1e9, "um": 1e6, "mm": 1e3}
 

@@ -31,7 +31,7 @@ def values(resolved: str) -> dict[str, dict[str, Any]]:
 
 
 def given(resolved: str, *, comments: bool = True) -> str:
-    """Give what was given of a resolved case: the text without defaults and what follows.
+    """Give the text of a resolved case without defaults and derived values.
 
     Read again it is the same case. `comments`: with the meaning of each key.
     """

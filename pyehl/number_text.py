@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Numbers as the lines of a run show them."""
+"""Numbers as text in the lines of a run."""
 
 import math
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The plan of a run in words: what will be solved and how, with a table of the levels."""
+"""The plan of a run as text: what will be solved and how, with a table of the levels."""
 
 import math
 from collections.abc import Iterator
@@ -38,7 +38,7 @@ def plan_text(plan: Results, settings: Settings) -> str:
 
 
 def making_text(pixels: int) -> str:
-    """Say what it takes to make a fractal surface; '' where it is done in no time."""
+    """State memory and time to make a fractal surface; '' where both are small."""
     count = float(pixels) ** 2
     if PIXEL_SECONDS * count < 1.0:
         return ""
@@ -88,7 +88,7 @@ def _lubricant(v: Values, settings: Settings) -> Iterator[str]:
 
 
 def _friction(v: Values, settings: Settings) -> Iterator[str]:
-    """Sliding and shear law, boundary film, and the heat of the inlet where it counts."""
+    """Sliding and shear law, boundary film, and the heat of the inlet where it is significant."""
     flow = "the flow obeys it, too" if v["thins_flow"] else "the flow is Newtonian"
     speed = abs(v["slide_to_roll"]) * v["mean_velocity"]
     shown = f" ({power(speed, 3)} m/s)" if v["mean_velocity"] > 0.0 else ""
@@ -120,7 +120,7 @@ def _friction(v: Values, settings: Settings) -> Iterator[str]:
 
 
 def _surfaces(v: Values, settings: Settings) -> Iterator[str]:
-    """Describe the surfaces, their time steps, and what of them the grid resolves."""
+    """Describe the surfaces, their time steps, and the waves that the grid resolves."""
     count = v["surfaces"]
     if not count:
         yield (
@@ -161,7 +161,7 @@ def _duty(v: Values, settings: Settings) -> Iterator[str]:
         yield f"{INDENT}the steady contact is the solution at all times"
     if v["duty_begin"] < 0.0:
         yield (
-            f"{INDENT}from {power(v['duty_begin'], 3)} s on the contact goes over from the case to "
+            f"{INDENT}from {power(v['duty_begin'], 3)} s on the contact changes from the case to "
             "the first time"
         )
     turns = [*duty.get("mean_velocity", ()), 0.0]
@@ -203,7 +203,7 @@ def _surface(v: Values, s: Values, settings: Settings) -> str:
 
 
 def _common_period(v: Values) -> str:
-    """Say when both surfaces are where they began."""
+    """State the common period of both surfaces."""
     if not v["meets"]:
         return few_positions(v["repeats"], v["whole_periods"])
     period = f"{fixed(v['period'], 4)} a/u"
@@ -217,7 +217,7 @@ def _common_period(v: Values) -> str:
 
 
 def _time(v: Values) -> Iterator[str]:
-    """Tell the steps in time, and their end."""
+    """Describe the time steps, and the end of the run."""
     mesh = fixed(v["mesh_x"], 6)
     yield f"time       {SCHEMES[v['narrow_scheme']]}, step = mesh size = {mesh}"
     if v["predicted_start"]:
@@ -295,9 +295,9 @@ def _domain(v: Values) -> Iterator[str]:
     yield f"domain     {inlet} <= X <= {outlet}{sides}; {error}"
     pressure = "the pressure of a fully flooded contact" if v["flooded"] else "P = 0"
     if v["starved"]:
-        pressure += ", where the oil is meant to begin"
+        pressure += ", the position of the meniscus"
         if v["layer"] > 0.0:
-            pressure = f"P = 0; a layer of {digits(v['layer'])} a^2/R arrives"
+            pressure = f"P = 0; an oil layer of {digits(v['layer'])} a^2/R"
     half = "the whole of it is solved"
     if v["mirror"]:
         half = "symmetric in Y: the half Y >= 0 is solved"
@@ -345,7 +345,7 @@ def _need(v: Values) -> Iterator[str]:
     if v["boundary_film"] > 0.0 and not v["surfaces"]:
         text += ", up to thirty times as long with solid contact"
     if v["target_error"] > 0.0:
-        text += ", if it comes to the finest grid"
+        text += ", if it reaches the finest grid"
     if v.get("move") and not v["steps"] and not v["duty"]:
         text += ", if it ends as early as it can"
     yield text

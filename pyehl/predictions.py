@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is predicted for a run: what it begins with, and what its grid does not resolve."""
+"""Predictions for a run: its start, and the waves that its grid does not resolve."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class Predictions:
-    """The predictions for a run, each made once and when it is asked for.
+    """The predictions for a run, each made once and on demand.
 
     The package of the prediction is loaded then.
 
@@ -44,14 +44,14 @@ class Predictions:
         self._resolved = self._passed = False
 
     def begin(self, solver: SolverHandle) -> None:
-        """Hand a solver the start that it needs; mostly it needs none."""
+        """Pass a solver the predicted start, if it needs one."""
         if start_fronts(solver).size:
             from pyehl.prediction.simulation import transfer  # noqa: PLC0415
 
             transfer(solver, self._case.resolve(), self._tiles, whole=self._whole)
 
     def _resolution_once(self) -> Resolution | str | None:
-        """Predict what the grid does not resolve; text: why there is no prediction."""
+        """Predict the part that the grid does not resolve; text: why there is no prediction."""
         if not self._resolved:
             from pyehl.prediction.simulation import resolution  # noqa: PLC0415
 
@@ -66,14 +66,14 @@ class Predictions:
         return self._resolution
 
     def lines(self) -> list[str]:
-        """Lines of the plan: what the grid does not resolve."""
+        """Lines of the plan on the part that the grid does not resolve."""
         result = self._resolution_once()
         if isinstance(result, str):
             return [f"predicted   no mu_r/mu_s: {result}"]
         return result.report() if result else []
 
     def transfer(self, solver: SolverHandle) -> None:
-        """Pass to a solver what is predicted, if the error of its mu_ratio depends on it."""
+        """Pass the prediction to a solver, if the error of its mu_ratio depends on it."""
         found_so_far = {} if self._passed else results_of(solver).values
         if found_so_far.get("mu_ratio") is None or not found_so_far["variance_unresolved"]:
             return

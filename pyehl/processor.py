@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Which build of the compiled parts this processor runs.
+"""Choice of the build of the compiled parts for this processor.
 
 An installation from source has one build, for the machine that compiled it. A wheel has two:
 one for every x86-64 processor, and one (suffix ``_v3``) for those with the instructions x86-64-v3

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Words for the codes of the compiled library: why a number is not known, and what friction is.
+"""Texts for the codes of the compiled library: why a number is not known, and what friction is.
 
 The codes are those of ``fortran/base/reason.f90``.
 """
@@ -21,7 +21,7 @@ OF_ROUGH = (
     "mu has the heat of the rough contact, and mu_smooth with its own is left out: "
     "mu_isothermal = mu_ratio mu_smooth_isothermal"
 )
-"""Why there is no mu_smooth beside the mu of a rough contact where the heat counts."""
+"""Why there is no mu_smooth beside the mu of a rough contact with heat."""
 NOT_CONVERGED = "the temperature is not converged"
 REASONS = {
     1: "there is no solution",
@@ -58,7 +58,7 @@ REASONS = {
     32: "isothermal: lubricant.thermal_friction is 'never'",
     33: "isothermal: the viscosity by temperature is not known "
     "(lubricant.temperature_viscosity, or the viscosities of a data sheet)",
-    34: "isothermal: there is no sliding that makes heat",
+    34: "isothermal: there is no frictional heat without sliding",
     35: "isothermal: the Newtonian stress is above lubricant.eyring_stress, its heat is not "
     "computed",
     36: "isothermal: by estimate a rise of {rise} K changes it by less than 0.1 %",
@@ -80,16 +80,16 @@ SMOOTH, AT_REST, STEPS = 1, 2, 3
 
 @dataclass(frozen=True, slots=True)
 class Results:
-    """What the library found.
+    """Results of the library.
 
     Attributes
     ----------
     values
         Results and words by name; None for a number that does not exist.
     codes
-        Reasons by the name that their words have in the summary.
+        Reasons by the name of their text in the summary.
     details
-        What the words need besides.
+        Numbers in these texts.
     """
 
     values: dict[str, Any]
@@ -123,7 +123,7 @@ def few_positions(repeats: float, whole: float) -> str:
 
 
 def alpha_note(settings: Settings) -> str:
-    """Say where a pressure-viscosity coefficient is from that was not given; '' where it was."""
+    """State the source of a pressure-viscosity coefficient that was not given; '' where it was."""
     s = settings["lubricant"]
     origin, alpha = s.get("alpha_origin", "given"), power(s["pressure_viscosity"], 3)
     if origin == "estimated":
@@ -143,7 +143,7 @@ def alpha_note(settings: Settings) -> str:
 
 
 def law_note(settings: Settings, hertz_pressure: float) -> str:
-    """Say of a law with constants of an oil what it gives, and where it was measured; '' of others.
+    """State viscosity, alpha and measured range of a law with constants of an oil; '' for others.
 
     `hertz_pressure` [Pa]: whether the range of the measurements reaches it.
     """
@@ -172,12 +172,12 @@ def law_note(settings: Settings, hertz_pressure: float) -> str:
 
 
 def summary_of(results: Results, settings: Settings, no_prediction: str = "") -> dict[str, Any]:
-    """Give the summary of a run but its assessment.
+    """Give the summary of a run without its assessment.
 
     Parameters
     ----------
     results
-        What the library found.
+        Results of the library.
     settings
         The resolved case.
     no_prediction
@@ -256,7 +256,7 @@ def _why_no_result(results: Results, settings: Settings, words: Mapping[int, str
     elif status == "interrupted":
         if "coarser_end_phase" in d:
             place = f"the run for the grid error: {_place(d, 'coarser_end_')}"
-        resumes = "; --resume goes on from there" if phase == STEPS else ""
+        resumes = "; --resume continues from there" if phase == STEPS else ""
         text = f"stopped from outside in {place}{resumes}"
     elif status == "not settled":
         text = _of_mean(d, settings["time"])
@@ -303,7 +303,7 @@ def _of_negative_film(
 
 
 def _place(d: Values, prefix: str) -> str:
-    """Say where a run stands: the smooth contact, a share of the roughness at rest, a time step."""
+    """Name the phase of a run: smooth contact, a share of the roughness at rest, a time step."""
     at = d[f"{prefix}at"]
     text = {
         SMOOTH: "the smooth contact",

@@ -33,7 +33,7 @@ SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 @contextmanager
 def signals_to(take: Callable[[int, FrameType | None], None]) -> Iterator[None]:
-    """Give SIGINT and SIGTERM to a function.
+    """Handle SIGINT and SIGTERM by a function.
 
     Signals belong to the main thread: another one is not stopped.
     """
@@ -62,7 +62,7 @@ class StopRequest:
 
 
 def _silent(_: object) -> None:
-    """Drop the progress of a run."""
+    """Ignore the progress of a run."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What stands in ``summary.json`` and in the attributes of results: name, unit, meaning, kinds.
+"""Entries of ``summary.json`` and attributes of results: name, unit, meaning, kinds.
 
 Names that end in a unit (``_m``, ``_Pa``, ...) are in that unit (`moes_m` is the Moes load M);
 capital letters are Hertz units. Kinds: ``solution`` (``ehl``, ``pyehl run``), ``prediction``

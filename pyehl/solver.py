@@ -47,7 +47,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """Where a solver is after a cycle (steady contact) or a time step (transient run).
+    """State of a solver after a cycle (steady contact) or a time step (transient run).
 
     Attributes
     ----------
@@ -186,7 +186,7 @@ class Solver(SolverHandle):
         Parameters
         ----------
         predict
-            Also predict what of the friction hangs on waves that the grid does not resolve; this
+            Also predict the part of the friction by waves that the grid does not resolve; this
             solves the smooth contact.
         """
         return "\n".join([self._plan_text(), *self._lines(predict=predict)])
@@ -216,7 +216,7 @@ class Solver(SolverHandle):
         return str(conclude(self.summary))
 
     def resumption(self, results: str | os.PathLike[str]) -> str:
-        """Describe how a run that was to write into a folder can go on; '' if it cannot."""
+        """Describe how to resume a run for a result folder; '' if that is impossible."""
         return resumption(self.summary["status"], os.fspath(results))
 
     def dataset(self) -> xarray.Dataset:
@@ -259,7 +259,7 @@ class Solver(SolverHandle):
             self._fill(fresh)
 
     def _fill(self, folder: Path) -> None:
-        """Write all files into an empty folder, with what the library does not know."""
+        """Write all files into an empty folder, with the entries that pyehl adds."""
         self._predictions.transfer(self)
         self._write(folder)
         lines = [self._plan_text(), *self._lines()]

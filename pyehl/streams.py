@@ -6,5 +6,5 @@ import sys
 
 
 def mute() -> None:
-    """Send standard output nowhere: what is still in its buffer must not raise at the end."""
+    """Discard standard output, so that its buffer does not raise an error at the end."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

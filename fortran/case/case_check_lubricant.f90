@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Laws of the lubricant of a complete case: constants they need, pressures they reach, contacts they can serve
+!> Laws of the lubricant of a complete case: required constants, range of pressures, contacts that they apply to
 module ehl_case_check_lubricant
    use ehl_case, only: case_t, word_length
    use ehl_case_defaults, only: inlet
@@ -67,7 +67,7 @@ contains
       end subroutine need_density
    end subroutine check_constants
 
-   !> All else
+   !> All checks of a complete case
    subroutine check_lubricant(source, input, scales, point, status)
       type(case_source_t), intent(in) :: source
       type(case_t), intent(in) :: input

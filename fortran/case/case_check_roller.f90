@@ -17,11 +17,11 @@ module ehl_case_check_roller
       "chamfer_length", "chamfer_drop", "profile_file", "profile_y", "profile_drop", "misalignment", "profile_2", &
       "crown_radius_2", "log_amplitude_2", "chamfer_length_2", "chamfer_drop_2", "profile_file_2", "profile_y_2", &
       "profile_drop_2"]
-   !> What the keys of each body end with
+   !> Endings of the keys of each body
    character(len=2), parameter :: of_body(2) = ["  ", "_2"]
    character(len=15), parameter :: other_keys(9) = [character(len=15) :: "moes_m", "moes_l", "radius_ratio", "radius_x", &
       "radius_y", "angle", "load_per_length", "moes_m_line", "moes_l_line"]
-   !> Keys of the profiles, each with its word
+   !> Value of contact.profile and the keys that belong to it
    character(len=14), parameter :: of_profile(2, 6) = reshape([character(len=14) :: "crown", "crown_radius", &
       "logarithmic", "log_amplitude", "chamfer", "chamfer_length", "chamfer", "chamfer_drop", &
       "file", "profile_y", "file", "profile_drop"], [2, 6])
@@ -32,7 +32,7 @@ module ehl_case_check_roller
 
 contains
 
-   !> Before a case is complete
+   !> Checks of a case whose defaults are not set yet
    subroutine check_roller(source, input, status)
       type(case_source_t), intent(in) :: source
       type(case_t), intent(in) :: input
@@ -50,27 +50,27 @@ contains
       if (.not. input%contact%length > 0.0_dp) call source%refuse("contact.length", shape//" without contact.length", &
                                                                   "the length of the roller [m]", status)
       call check_profile(source, input, status)
-      call smooth_alone("surface.kind", has_no_height(input%surface), "'smooth' surfaces")
-      call smooth_alone("second_surface.kind", has_no_height(input%second_surface), "'smooth' surfaces")
-      call smooth_alone("inlet.position", .not. max(input%inlet%position, input%inlet%position_hertz, input%inlet%film, &
+      call require("surface.kind", has_no_height(input%surface), "'smooth' surfaces")
+      call require("second_surface.kind", has_no_height(input%second_surface), "'smooth' surfaces")
+      call require("inlet.position", .not. max(input%inlet%position, input%inlet%position_hertz, input%inlet%film, &
                                                     input%inlet%film_hertz) > 0.0_dp, "a flooded inlet")
-      call smooth_alone("lubricant.boundary_film", .not. input%lubricant%boundary_film > 0.0_dp, "a full film")
-      call smooth_alone("grid.border", .not. (source%given("grid.border") .and. input%grid%border == "flooded"), &
+      call require("lubricant.boundary_film", .not. input%lubricant%boundary_film > 0.0_dp, "a full film")
+      call require("grid.border", .not. (source%given("grid.border") .and. input%grid%border == "flooded"), &
                         "'zero': the flow around the ends beyond the border is not known; the default domain is so long "// &
-                        "that P = 0 there costs little")
-      call smooth_alone("grid.y_extent", .not. source%given("grid.y_extent"), "none: half the length")
-      call smooth_alone("solver.coarsening", input%solver%coarsening /= "alcouffe", "'auto' or 'classical'")
+                        "that P = 0 there has a small error")
+      call require("grid.y_extent", .not. source%given("grid.y_extent"), "none: half the length")
+      call require("solver.coarsening", input%solver%coarsening /= "alcouffe", "'auto' or 'classical'")
 
    contains
 
-      subroutine smooth_alone(name, good, expected)
+      subroutine require(name, good, expected)
          character(len=*), intent(in) :: name, expected
          logical, intent(in) :: good
          if (.not. good) call source%refuse(name, name//" with "//shape, expected, status)
-      end subroutine smooth_alone
+      end subroutine require
    end subroutine check_roller
 
-   !> No shorter than a line contact is, no longer than a grid of it may be
+   !> The length must be that of a line contact, and short enough for a grid
    subroutine check_length(source, input, scales, status)
       type(case_source_t), intent(in) :: source
       type(case_t), intent(in) :: input
@@ -156,7 +156,7 @@ contains
 
       good = size(one%y) >= 2 .and. size(one%y) == size(one%table)
       if (good) good = all(one%y(2:) > one%y(:size(one%y) - 1))
-      ! a rounding of the ends is none
+      ! rounding errors of the ends are allowed
       if (good) good = one%y(1) <= -0.499999_dp*length .and. one%y(size(one%y)) >= 0.499999_dp*length
       if (.not. good) call source%refuse("contact.profile_y"//ending, "contact.profile_y"//ending// &
                                          " does not cover the roller", &

@@ -18,15 +18,15 @@ module ehl_read_case
    private
    public :: read_case, read_case_file, read_lubricant
 
-   !> Largest case file; anything longer is not one
+   !> Largest size of a case file [bytes]
    integer, parameter :: largest_file = 1000000
-   !> What pyehl makes of an oil, a data sheet, two bodies or a finish, and no routine here
+   !> Keys that pyehl derives from an oil, a data sheet, two bodies or a finish, and no routine of the solver
    character(len=name_length), parameter :: made_by_pyehl(*) = [character(len=name_length) :: "radius_x", "radius_y", &
       "reduced_modulus", "viscosity", "pressure_viscosity", "temperature_viscosity", "viscosity_law", "inlet_law", &
       "alpha_origin", "kind", "table_temperature", "table_pressure", "table_viscosity", &
       "profile_y", "profile_drop", "profile_y_2", "profile_drop_2"], &
       groups_by_pyehl(*) = [character(len=name_length) :: "contact", "lubricant", "surface", "second_surface"]
-   !> Begins an option that a person typed in a shell
+   !> Prefix of an option that the user typed in a shell
    character(len=*), parameter :: typed = "--set "
 
 contains
@@ -53,7 +53,7 @@ contains
       character(len=*), intent(in) :: text
       !> Name of the file it came from, for messages and for relative file names
       character(len=*), intent(in) :: origin
-      !> Options group.key=value that replace values of the text, one a line, behind '--set ' where a person typed them so
+      !> Options group.key=value that replace values of the text, one a line, behind '--set ' where the user typed them so
       character(len=*), intent(in) :: options
       type(case_t), intent(out) :: input
       type(status_t), intent(inout) :: status
@@ -121,8 +121,8 @@ contains
       piece%option = option
    end function option_piece
 
-   !> Drop marked values that are what follows from the others: so an option on a resolved case does the same as on the case
-   !> that it was made of. A value that was changed, or that pyehl alone can make, counts as given.
+   !> Drop marked values that are equal to those derived from the others: so an option on a resolved case does the same as on
+   !> the case that it was made of. A value that was changed, or that pyehl alone can make, counts as given.
    subroutine drop_marked(source)
       type(case_source_t), intent(inout) :: source
       type(case_source_t) :: given

@@ -163,7 +163,7 @@ contains
       !> Response of rho H at nodes i, i-1, i-2 to unit changes at their columns -2..2
       real(dp) :: s(line_width, -nr:nr, 0:2)
       real(dp) :: c(0:line_reach), c_first(0:line_reach), c_interior(0:line_reach)
-      real(dp) :: pivot(line_width), a(line_width), changes(line_width), asked(line_width), apart(2)
+      real(dp) :: pivot(line_width), a(line_width), changes(line_width), required(line_width), apart(2)
       real(dp) :: east, west, re, rw, pe, pw, t, d, active, em4, em3, em2, em1, e0, e1, e2
       integer :: i, l, now, last, former
       logical :: uneven
@@ -202,10 +202,10 @@ contains
             ! inactive nodes do not change; the loop below would not vectorise around this
             changes = merge(0.0_dp, 1.0_dp, g(:, f_p, i) <= cavity_pressure)
             changes = merge(changes, 1.0_dp, g(:, f_residual, i) >= 0.0_dp)
-            asked = changes*g(:, f_residual, i)
+            required = changes*g(:, f_residual, i)
             if (any_touches) then
                where (touching(:, i) > 0.0_dp .and. changes > 0.0_dp)
-                  asked = -g(:, f_residual, i)/(level%boundary%rate*s(:, 0, now))
+                  required = -g(:, f_residual, i)/(level%boundary%rate*s(:, 0, now))
                   changes = 0.0_dp
                end where
             end if
@@ -218,7 +218,7 @@ contains
                pe = g(l, f_p, i + 1) - g(l, f_p, i)
                pw = g(l, f_p, i - 1) - g(l, f_p, i)
                active = changes(l)
-               d = asked(l)
+               d = required(l)
                em4 = -active*c(2)*s(l, -2, former)
                em3 = -active*(c(1)*s(l, -2, last) + c(2)*s(l, -1, former))
                em2 = -active*(shares(1)*west*g(l, f_dipole, i - 2) + c(0)*s(l, -2, now) + c(1)*s(l, -1, last) &
@@ -236,7 +236,6 @@ contains
                em2 = em2 - em4*upper(l, 2, i - 4) - em3*upper(l, 1, i - 3)
                em1 = em1 - em3*upper(l, 2, i - 3) - em2*upper(l, 1, i - 2)
                e0 = e0 - em2*upper(l, 2, i - 2) - em1*upper(l, 1, i - 1)
-               ! without a pivot the node keeps its pressure in this sweep
                t = 1.0_dp/e0
                pivot(l) = e0
                upper(l, 1, i) = (e1 - em1*upper(l, 2, i - 1))*t

@@ -17,7 +17,7 @@ module ehl_relaxation
    private
    public :: relax, usual_log_change
 
-   !> Largest conductance/mesh-size^2 of a distributive node's neighbourhood, and that of a lubricant that thins. The
+   !> Largest conductance/mesh-size^2 of a distributive node's neighbourhood, and that of a shear-thinning lubricant. The
    !> conductance across counts: lines along X include what is along them, and only their coupling to other lines limits a change
    !> that is smooth across them.
    real(dp), parameter :: switch = 0.1_dp, switch_thinning = 0.25_dp

@@ -41,7 +41,7 @@ contains
    !> The film by a run of the smooth contact alone on as many nodes as that takes [a^2/R]
    real(dp) function film_by_finer_grids(rough, surfaces, status) result(film)
       type(case_t), intent(in) :: rough
-      !> Those that need it
+      !> The rough surfaces, one of which has amplitude_over_film
       type(moving_surfaces_t), intent(in) :: surfaces
       type(status_t), intent(inout) :: status
       type(contact_run_t), allocatable :: run

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Observer of the loops: called after every cycle of a steady contact and after every time step whether to leave. A loop that was
-!> left continues where it was when it is called again.
+!> Observer of the loops, called after every cycle of a steady contact and after every time step: it decides whether the loop is
+!> left. A loop that was left continues where it was when it is called again.
 module ehl_observer
    use ehl_contact_run, only: contact_run_t
    implicit none (type, external)
@@ -24,7 +24,7 @@ contains
    !> Never leave
    subroutine watch(self, run, leave)
       class(observer_t), intent(inout) :: self
-      !> As the cycle or step has left it; its state may be saved
+      !> After the cycle or step; its state may be saved
       type(contact_run_t), intent(inout) :: run
       logical, intent(out) :: leave
 

@@ -258,8 +258,8 @@ contains
       may_scale_load = is_end(self%options, self%n) .and. error <= self%rule%small_load_error
       if (may_scale_load) may_scale_load = accurate(self%options, self%results, self%n, self%m, self%residual, &
                                                     self%cycles < self%max_cycles)
-      if (may_scale_load) may_scale_load = film_per_load*error <= &
-                                           self%rule%share_of_load*minval(wanted(self%options, self%results, self%n, self%m))
+      if (may_scale_load) may_scale_load = film_per_load*error <= self%rule%share_of_load* &
+                                           minval(allowed_errors(self%options, self%results, self%n, self%m))
    end function may_scale_load
 
    !> Whether the load of a roller drifts away in cycles that leave the rest solved: what coarse grids change at its ends and the

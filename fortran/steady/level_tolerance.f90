@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> How exactly a level of the smooth contact is solved: a share of its discretisation error. Of level n with the present results m;
-!> those of the coarser levels are in `results`.
+!> Tolerances of a level of the smooth contact: shares of its discretisation error. The present results of level n are m; those of
+!> the coarser levels are in `results`.
 module ehl_level_tolerance
    use ehl_contact_results, only: contact_results_t
    use ehl_kinds, only: dp
@@ -9,11 +9,11 @@ module ehl_level_tolerance
    use ehl_touching, only: mostly_touching, much_mass_defect
    implicit none (type, external)
    private
-   public :: accurate, counts_share, has_coarser, has_target, is_end, residual_tolerance, wanted
+   public :: accurate, counts_share, has_coarser, has_target, is_end, residual_tolerance, allowed_errors
 
    !> Relative discretisation errors below this are not trusted, as two levels may agree by chance
    real(dp), parameter :: min_error = 2.0e-5_dp
-   !> Algebraic error of the load share of a boundary film, which ends a level where the films have ended moving
+   !> Algebraic error of the load share of a boundary film at which a level ends once the films have converged
    real(dp), parameter :: share_tolerance = 1.0e-3_dp
    !> Error of it by the residual (share_left), over the allowed algebraic error: mostly less than a fifth of that is left
    !> (docs/evidence/inlet)
@@ -56,12 +56,12 @@ contains
       integer, intent(in) :: n
       type(contact_results_t), intent(in) :: m
       real(dp), intent(in) :: residual
-      !> Whether another cycle may be made: what only the residual leaves open of a load share, and all cycles have not made small,
-      !> is in the error that is stated
+      !> Whether another cycle may be made: after the last one the error of a load share by the residual does not count, as it is in
+      !> the stated error
       logical, intent(in) :: more
       real(dp) :: left
 
-      accurate = all(results(n)%algebraic <= wanted(options, results, n, m)) .and. &
+      accurate = all(results(n)%algebraic <= allowed_errors(options, results, n, m)) .and. &
                  (residual <= residual_tolerance .or. .not. is_end(options, n))
       if (.not. (accurate .and. counts_share(options, m))) return
       left = 0.0_dp
@@ -78,31 +78,31 @@ contains
                                                 m%touching%supply <= much_mass_defect)
    end function counts_share
 
-   !> Whether a boundary film supports most of the load; where it would have to give much contact is not well posed
+   !> Whether a boundary film supports most of the load; the contact is not well posed where the film would have to supply much oil
    pure logical function rests_on_boundary_film(m)
       type(contact_results_t), intent(in) :: m
       rests_on_boundary_film = m%touching%load_share > mostly_touching .and. m%touching%supply <= much_mass_defect
    end function rests_on_boundary_film
 
    !> Algebraic errors of H_c and H_min that are small enough for the present level
-   pure function wanted(options, results, n, m)
+   pure function allowed_errors(options, results, n, m)
       type(steady_options_t), intent(in) :: options
       type(level_result_t), intent(in) :: results(:)
       integer, intent(in) :: n
       type(contact_results_t), intent(in) :: m
-      real(dp) :: wanted(2), values(2), least
+      real(dp) :: allowed_errors(2), values(2), least
 
       least = merge(start_tolerance, min_error, rests_on_boundary_film(m))
       values = m%films()
       if (has_coarser(results, n)) then
-         wanted = options%accuracy*max(film_errors(m, results(n - 1)%m, results(n)%mesh, options%inlet), least*values)
+         allowed_errors = options%accuracy*max(film_errors(m, results(n - 1)%m, results(n)%mesh, options%inlet), least*values)
       else
-         wanted = start_tolerance*values
-         if (n == options%levels) wanted = options%accuracy*wanted
-         if (n < options%levels - 1 .and. .not. is_end(options, n)) wanted = guess_tolerance*values
+         allowed_errors = start_tolerance*values
+         if (n == options%levels) allowed_errors = options%accuracy*allowed_errors
+         if (n < options%levels - 1 .and. .not. is_end(options, n)) allowed_errors = guess_tolerance*values
       end if
-      if (is_end(options, n)) wanted = min(wanted, max_error*values)
-   end function wanted
+      if (is_end(options, n)) allowed_errors = min(allowed_errors, max_error*values)
+   end function allowed_errors
 
    !> Whether the level begins from a coarser one
    pure logical function has_coarser(results, n)

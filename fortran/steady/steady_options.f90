@@ -19,7 +19,7 @@ module ehl_steady_options
       integer :: levels = 0, start = 0, max_cycles = 0
       !> Cycles of a level, and the second one where it began from a coarser level
       type(cycle_options_t) :: cycle, second_cycle
-      !> First level whose cycles may spare pressure spikes
+      !> First level whose cycles may leave sharp pressure spikes to the sweeps
       integer :: spares_from = 1
       !> Allowed algebraic error as a share of the discretisation error
       real(dp) :: accuracy = 0.1_dp
@@ -46,22 +46,22 @@ module ehl_steady_options
 
    !> When a level ends
    type :: end_rule_t
-      !> Relative error of the force balance that may be taken away by scaling the pressure; share of the algebraic error
-      !> wanted that it may take
+      !> Relative error of the force balance that scaling the pressure may remove; its largest share of the allowed algebraic
+      !> error
       real(dp) :: small_load_error, share_of_load
       !> Whether the reduction per cycle is no more than that of the residual, and the error counts that of the load
       logical :: bounded
-      !> Least reduction per cycle that an estimate takes, whatever change and residual show
+      !> Least reduction per cycle in an estimate, even if change and residual fall faster
       real(dp) :: min_reduction = 0.3_dp
    end type end_rule_t
 
-   !> Flows that thin and ellipses often meet the accuracy in the second cycle but for the load, or for a change that was tiny
-   !> by chance; the rule of Newtonian circles, which seldom do, would take them to 1/500 of the algebraic error wanted
+   !> Shear-thinning flows and ellipses often reach the accuracy in the second cycle but for the load, or for a change that was
+   !> small by chance; the rule of Newtonian circles, which seldom do, would reduce it to 1/500 of the allowed algebraic error
    type(end_rule_t), parameter :: rule_of_circles = end_rule_t(3.0e-6_dp, 0.1_dp, .false.), &
                                   rule_of_others = end_rule_t(1.0e-5_dp, 0.25_dp, .true.), &
                                   !> Where change and residual both fall faster than by 0.2, the next change is 0.15 to 0.25 of the
                                   !> last one
                                   rule_of_ellipses = end_rule_t(1.0e-5_dp, 0.25_dp, .true., 0.2_dp), &
-                                  !> What coarse grids leave to the ends of a roller they change the load by little
+                                  !> The error at the ends of a roller on coarse grids changes the load by little
                                   rule_of_rollers = end_rule_t(1.0e-4_dp, 0.25_dp, .true.)
 end module ehl_steady_options

@@ -80,7 +80,7 @@ contains
       end associate
    end subroutine apply
 
-   !> Give plans back
+   !> Release the plans
    subroutine clear(self)
       class(chirp_t), intent(inout) :: self
       call drop_plan(self%forward)

@@ -10,7 +10,7 @@ module ehl_feature
 
    !> Half of a feature over its width: beyond it less than 3e-4 of its height is left
    real(dp), parameter :: reach_over_width = 0.6_dp
-   !> Square of the distance over the width beyond which nothing is left: 10^(-10 s^2) is below the rounding
+   !> Square of the distance over the width beyond which the height is 0: 10^(-10 s^2) is below the rounding
    real(dp), parameter :: vanished = 1.6_dp
    !> Distance of the features of a strip: at least, and over their size along Y
    real(dp), parameter :: min_spacing = 4.0_dp, apart = 4.0_dp
@@ -62,7 +62,7 @@ contains
       self%length = length
       if (.not. self%is_line .and. .not. length > 0.0_dp) self%length = width
       self%turn = cosine_sine(angle)
-      ! a round one looks the same from everywhere
+      ! a round one does not depend on the angle
       if (.not. self%is_line .and. .not. abs(self%length - width) > 0.0_dp) self%turn = [1.0_dp, 0.0_dp]
       self%y_start = y_start
       self%velocity_ratio = velocity_ratio
@@ -84,7 +84,7 @@ contains
       if (.not. abs(modulo(rest, 90.0_dp)) > 0.0_dp) turn = anint(turn)
    end function cosine_sine
 
-   !> Half of the length along the motion that it takes up; of a line as far as it meets the contact
+   !> Half of its length along the motion; of a line the part within the contact
    pure real(dp) function reach_of(self) result(reach)
       type(feature_t), intent(in) :: self
       real(dp) :: half, endless
@@ -113,7 +113,7 @@ contains
       time = max(out, in + 2.0_dp*x_filled)
    end function passage_time
 
-   !> Let it repeat along Y, on a strip of a line contact: after a distance, or 0 for one at which its neighbours hardly count
+   !> Repeat it along Y, on a strip of a line contact: after a distance, or 0 for one at which its neighbours hardly matter
    pure subroutine repeat_along_y(self, distance)
       class(feature_t), intent(inout) :: self
       real(dp), intent(in) :: distance
@@ -129,7 +129,7 @@ contains
       is_endless_across = self%is_line .and. .not. self%length > 0.0_dp .and. .not. abs(self%turn(2)) > 0.0_dp
    end function is_endless_across
 
-   !> Length along Y that it takes up; 0: it has no end there
+   !> Length along Y; 0: it has no end there
    pure real(dp) function size_y(self)
       class(feature_t), intent(in) :: self
 

@@ -14,7 +14,7 @@ module ehl_fractal
    private
    public :: fractal_t, make_fractal
 
-   !> What a fractal surface is
+   !> Parameters of a fractal surface
    type :: fractal_t
       !> Size of the tile along X and Y [m]
       real(dp) :: length_x = 1.0_dp, length_y = 1.0_dp

@@ -59,7 +59,7 @@ contains
       if (.not. self%wavelength_y < endless) rms_height = sqrt(2.0_dp)*rms_height
    end function rms_height
 
-   !> Of two equal waves by their distance along X; others have nothing in common
+   !> Of two equal waves by their distance along X; 0 for different waves
    pure function correlation(self, other) result(both)
       class(harmonic_t), intent(in) :: self
       class(surface_t), intent(in) :: other

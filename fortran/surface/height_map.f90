@@ -20,8 +20,8 @@ module ehl_height_map
 
    !> The tile is refined along X to so many points for each of its pixels by its Fourier series, and between these
    !> points a polynomial of degree 5 is used: its error is 2e-5 of the amplitude of the shortest wave (two pixels),
-   !> and falls with the sixth power of the wavelength. Where the grid resolves fewer waves, so many pixels are enough
-   !> as resolve them.
+   !> and falls with the sixth power of the wavelength. Where the grid resolves fewer waves, the pixels that resolve
+   !> them are enough.
    integer, parameter :: refinement = 8
    integer, parameter :: points = 6
 
@@ -82,7 +82,7 @@ contains
       if (allocated(self%refined)) deallocate (self%refined)
    end subroutine setup
 
-   !> Give the waves to a surface of the same kind that is needed later, on another grid: one copy in memory
+   !> Transfer the waves to a surface of the same kind on another grid, which needs them later: one copy in memory
    subroutine transfer(self, other)
       class(height_map_t), intent(inout) :: self
       class(surface_t), allocatable, intent(out) :: other
@@ -99,7 +99,7 @@ contains
       end select
    end subroutine transfer
 
-   !> Take the waves back
+   !> Transfer the waves back
    subroutine reclaim(self, other)
       class(height_map_t), intent(inout) :: self
       class(surface_t), intent(inout) :: other
@@ -117,14 +117,14 @@ contains
       real(dp), intent(in) :: nodes
       logical, intent(in) :: more
       integer :: most(2)
-      !> So that rounding does not decide
+      !> Margin for rounding errors
       real(dp), parameter :: slack = 1.0e-9_dp
 
       most = int(min(self%waves%length/self%meshes(grid)/nodes*(1.0_dp + merge(-slack, slack, more)), &
                      0.5_dp*self%waves%pixels))
    end function resolved_waves
 
-   !> Of two tiles of one size
+   !> Correlation of two tiles of one size
    pure function correlation(self, other) result(both)
       class(height_map_t), intent(in) :: self
       class(surface_t), intent(in) :: other
@@ -134,7 +134,7 @@ contains
       select type (other)
       class is (height_map_t)
          if (any(abs(self%waves%length - other%waves%length) > 1.0e-9_dp*self%waves%length)) return
-         if (.not. (self%waves%are_here() .and. other%waves%are_here())) return
+         if (.not. (self%waves%are_present() .and. other%waves%are_present())) return
          both = self%waves%correlation(other%waves, other%x_start - self%x_start)
       end select
    end function correlation
@@ -146,7 +146,7 @@ contains
       real(dp), intent(in) :: nodes
 
       unresolved = 0.0_dp
-      if (.not. self%variance > 0.0_dp .or. .not. self%waves%are_here()) return
+      if (.not. self%variance > 0.0_dp .or. .not. self%waves%are_present()) return
       unresolved = max(0.0_dp, 1.0_dp - self%waves%variance(self%resolved_waves(grid, nodes, .not. nodes > aliased_below)) &
                        /self%variance)
    end function unresolved
@@ -155,7 +155,7 @@ contains
    pure real(dp) function bytes(self)
       class(height_map_t), intent(in) :: self
       bytes = 0.0_dp
-      if (self%waves%are_here()) bytes = self%waves%bytes()
+      if (self%waves%are_present()) bytes = self%waves%bytes()
       if (allocated(self%refined)) bytes = bytes + 8.0_dp*size(self%refined, 1)*real(size(self%refined, 2), dp)
    end function bytes
 
@@ -168,7 +168,7 @@ contains
       if (most < self%waves%pixels(1)/2) refined_points = min(refined_points, good_size(refinement*(2*most + 1)))
    end function refined_points
 
-   !> Its waves, the refined heights and, meanwhile, the waves of the rows
+   !> Bytes of the waves, the refined heights and, during `prepare`, the waves of the rows
    pure real(dp) function bytes_on(self, grid)
       class(height_map_t), intent(in) :: self
       type(grid_t), intent(in) :: grid
@@ -219,7 +219,7 @@ contains
    end subroutine prepare
 
    !> Roughness at the nodes, at time T; the same shift for every row, so that the
-   !> weights of the interpolation are found once
+   !> weights of the interpolation are computed once
    subroutine height(self, grid, time, rr)
       class(height_map_t), intent(inout) :: self
       type(grid_t), intent(in) :: grid

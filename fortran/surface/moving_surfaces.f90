@@ -7,17 +7,17 @@ module ehl_moving_surfaces
    private
    public :: moving_surfaces_t
 
-   !> Difference of periods, as a part of one, and of velocity ratios that is none
+   !> Difference of periods, as a part of one, and of velocity ratios below which they are equal
    real(dp), parameter :: same = 1.0e-9_dp
    !> Where there is no common period: part of a period by which surfaces should miss their start, and may at the most
    real(dp), parameter :: near = 0.02_dp, farthest = 0.25_dp
    !> Least number of positions in which they meet, those of both: n periods of one and m of the other, without a common
    !> factor, take the mean of all products of their waves but those of order n + m
    integer, parameter :: fewest = 5
-   !> Longest common period that is looked for to be named
+   !> Longest common period that is searched for a message
    integer, parameter :: max_named = 10000
 
-   !> All that a run asks of the surfaces
+   !> Motion of all surfaces of a run
    type, extends(rough_surfaces_t) :: moving_surfaces_t
       !> Time in which the friction repeats, see find_period; of what passes once the time of the passage
       real(dp) :: period = 0.0_dp
@@ -127,7 +127,7 @@ contains
       end do
    end function time_filled
 
-   !> Time from a time on until friction belongs to a mean; negative when that was before
+   !> Time from a given time until the friction is part of a mean; negative if that was earlier
    pure real(dp) function time_to_mean(self, time)
       class(moving_surfaces_t), intent(in) :: self
       real(dp), intent(in) :: time
@@ -151,7 +151,7 @@ contains
       end_of_passage = self%time_to_mean(0.0_dp) + self%period
    end function end_of_passage
 
-   !> Whether a surface rules the mean: it moves, and it passes once if anything does
+   !> Whether a surface determines the mean: it moves, and it passes once if any surface does
    pure logical function counts(self, k)
       type(moving_surfaces_t), intent(in) :: self
       integer, intent(in) :: k
@@ -218,7 +218,7 @@ contains
    end function common
 
    !> A number of the longest period after which all are nearly where they began, and have met in several positions: with 4
-   !> periods to 4 of nearly the same length they have hardly moved against each other
+   !> periods to 4 of nearly the same length their relative motion is small
    pure subroutine find_near(self, periods, most)
       class(moving_surfaces_t), intent(inout) :: self
       real(dp), intent(in) :: periods(:)

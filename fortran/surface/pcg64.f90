@@ -29,7 +29,7 @@ module ehl_pcg64
 
 contains
 
-   !> Begin with a seed: an integer that is not negative as 32-bit words, the lowest first
+   !> Seed the generator: a non-negative integer as 32-bit words, the lowest first
    pure subroutine seed(self, words)
       class(pcg64_t), intent(inout) :: self
       integer(int32), intent(in) :: words(:)
@@ -137,7 +137,7 @@ contains
       answer = ieor(answer, ishft(answer, -16))
    end subroutine hash
 
-   !> Two words made one
+   !> Mix two words into one
    pure integer(ik) function mixed(x, y)
       integer(ik), intent(in) :: x, y
 

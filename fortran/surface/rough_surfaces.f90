@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The rough surfaces of a contact: the sum of their heights, what a grid resolves of them, what they are together
+!> The rough surfaces of a contact: the sum of their heights, its share on a grid, composite roughness
 module ehl_rough_surfaces
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
@@ -9,7 +9,7 @@ module ehl_rough_surfaces
    private
    public :: rough_surfaces_t
 
-   !> Difference of velocity ratios that is none
+   !> Difference below which velocity ratios are equal
    real(dp), parameter :: same = 1.0e-9_dp
 
    !> One of them
@@ -23,7 +23,7 @@ module ehl_rough_surfaces
       real(dp) :: amplitude_over_film = 0.0_dp
    end type member_t
 
-   !> Any number of rough surfaces; none: the contact is smooth. Their heights add up.
+   !> A number of rough surfaces, whose heights are added; none: the contact is smooth
    type :: rough_surfaces_t
       type(member_t), allocatable :: of(:)
       !> Shares of the variance: in waves that the grid would alias, which are left out; in waves with fewer than eight
@@ -195,7 +195,7 @@ contains
       end do
    end function max_unresolved
 
-   !> Get ready for a grid: once, before heights are asked for
+   !> Prepare for a grid: once, before heights are computed
    subroutine prepare(self, grid, status)
       class(rough_surfaces_t), intent(inout) :: self
       type(grid_t), intent(in) :: grid
@@ -211,10 +211,10 @@ contains
       if (stat /= 0) call status%fail(ehl_no_memory, "no memory for the heights of several surfaces")
    end subroutine prepare
 
-   !> Surfaces like these for another grid; what these have been prepared for stays
+   !> Copies of the surfaces for another grid; these remain prepared for theirs
    subroutine transfer(self, other)
       class(rough_surfaces_t), intent(inout) :: self
-      !> Has none yet
+      !> Empty before the call
       class(rough_surfaces_t), intent(inout) :: other
       class(surface_t), allocatable :: surface
       integer :: k
@@ -225,7 +225,7 @@ contains
       end do
    end subroutine transfer
 
-   !> Take back what was handed over to others that are no longer needed
+   !> Take back the data that was transferred to surfaces that are no longer needed
    subroutine reclaim(self, other)
       class(rough_surfaces_t), intent(inout) :: self, other
       integer :: k
@@ -260,7 +260,7 @@ contains
 
    contains
 
-      !> Time at which a surface is where it is
+      !> Time that corresponds to the position of a surface
       pure real(dp) function time_of(k)
          integer, intent(in) :: k
          time_of = time
@@ -307,8 +307,8 @@ contains
       end do
    end subroutine take_film
 
-   !> Root mean square of the composite heights [a^2/R]; 0 where it is not known, or means nothing. Surfaces that do not
-   !> move together have nothing in common in the mean.
+   !> Root mean square of the composite heights [a^2/R]; 0 where it is not known or not defined. Surfaces that do not
+   !> move together are uncorrelated in the mean.
    pure real(dp) function rms_height(self)
       class(rough_surfaces_t), intent(in) :: self
       integer :: k

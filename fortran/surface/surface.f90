@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Roughness of one surface, carried along or at rest: what every kind offers
+!> Roughness of one surface, moving or at rest: interface of all kinds
 module ehl_surface
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
@@ -11,7 +11,7 @@ module ehl_surface
    !> A wave with so many nodes a period or fewer is another wave on the grid: it must be left out. One with at least
    !> so many is resolved.
    real(dp), parameter :: aliased_below = 2.0_dp, resolved_from = 8.0_dp
-   !> Where the film is thick the roughness rides on it and changes nothing: it matters from this X on
+   !> Where the film is thick the roughness has no effect: it matters from this X on
    real(dp), parameter :: x_matters = -1.25_dp
    !> The roughness fills the contact when its front has passed this X
    real(dp), parameter :: x_filled = 1.05_dp
@@ -28,7 +28,7 @@ module ehl_surface
       real(dp) :: period = 0.0_dp
       !> Length over which the front fades [a]
       real(dp) :: front_length = 0.0_dp
-      !> Whether it passes the contact once, and `period` is its way from where it matters until it has left
+      !> Whether it passes the contact once; `period` is then its way from where it matters until it has left
       logical :: passes_once = .false.
       !> Whether RR(X, -Y) = RR(X, Y), to the bit: half the domain is enough
       logical :: even_in_y = .true.
@@ -91,7 +91,7 @@ module ehl_surface
 
 contains
 
-   !> Get ready for a grid: once, before heights are computed
+   !> Prepare for a grid: once, before heights are computed
    subroutine prepare(self, grid, status)
       class(surface_t), intent(inout) :: self
       type(grid_t), intent(in) :: grid
@@ -101,7 +101,7 @@ contains
       end associate
    end subroutine prepare
 
-   !> A surface like this one for another grid; what this one has been prepared for stays
+   !> A copy of this surface for another grid; this one remains prepared for its grid
    subroutine transfer(self, other)
       class(surface_t), intent(inout) :: self
       class(surface_t), allocatable, intent(out) :: other
@@ -109,7 +109,7 @@ contains
       allocate (other, source=self)
    end subroutine transfer
 
-   !> Take back what was handed over to a surface that is no longer needed
+   !> Take back the data that was transferred to a surface that is no longer needed
    subroutine reclaim(self, other)
       class(surface_t), intent(inout) :: self, other
 
@@ -125,20 +125,20 @@ contains
       bytes = 0.0_dp
    end function bytes
 
-   !> Root mean square of the heights [a^2/R]; 0 where it is not known, or means nothing
+   !> Root mean square of the heights [a^2/R]; 0 where it is not known or not defined
    pure real(dp) function rms_height(self)
       class(surface_t), intent(in) :: self
       rms_height = sqrt(self%variance)
    end function rms_height
 
-   !> Root mean square of the gradient of the heights [a/R]; 0 where it is not known, or means nothing
+   !> Root mean square of the gradient of the heights [a/R]; 0 where it is not known or not defined
    pure real(dp) function rms_slope(self)
       class(surface_t), intent(in) :: self
       rms_slope = self%slope
    end function rms_slope
 
    !> Correlation of its heights and of its gradients with those of another surface that moves with it; 0 where it is
-   !> not known, or where the two have nothing in common
+   !> not known, or for uncorrelated surfaces
    pure function correlation(self, other) result(both)
       class(surface_t), intent(in) :: self
       class(surface_t), intent(in) :: other
@@ -191,7 +191,7 @@ contains
       time_near = (x_matters - 0.5_dp*self%front_length - self%x_start)/self%velocity_ratio
    end function time_near
 
-   !> Time from a time on until friction belongs to a mean: roughness fills the contact, what passes once comes near it
+   !> Time from a given time until the friction is part of a mean: roughness fills the contact, a feature comes near it
    pure real(dp) function time_to_mean(self, time)
       class(surface_t), intent(in) :: self
       real(dp), intent(in) :: time

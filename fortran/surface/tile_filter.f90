@@ -9,7 +9,7 @@ module ehl_tile_filter
    private
    public :: filter_t, filter_spectrum, filter_heights
 
-   !> What a filter lets pass. Lengths in any unit, the same for all.
+   !> Cut-offs of a filter. Lengths in any unit, the same for all.
    type :: filter_t
       !> Shortest and longest wavelength 2 pi/|q| that is left; 0: no limit
       real(dp) :: shortest = 0.0_dp, longest = 0.0_dp

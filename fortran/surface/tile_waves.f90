@@ -31,7 +31,7 @@ module ehl_tile_waves
       procedure :: correlation
       procedure :: column
       procedure :: transfer_to
-      procedure :: are_here
+      procedure :: are_present
       procedure :: bytes
    end type tile_waves_t
 
@@ -233,7 +233,7 @@ contains
       turned = cmplx(cos(pi*modulo(t, 2.0_dp)), sin(pi*modulo(t, 2.0_dp)), c_double_complex)
    end function turned
 
-   !> Give them away
+   !> Transfer them to another tile
    subroutine transfer_to(self, other)
       class(tile_waves_t), intent(inout) :: self
       type(tile_waves_t), intent(inout) :: other
@@ -246,13 +246,13 @@ contains
       call move_alloc(self%cosines, other%cosines)
    end subroutine transfer_to
 
-   !> Whether they have not been given away
-   pure logical function are_here(self)
+   !> Whether they have not been transferred
+   pure logical function are_present(self)
       class(tile_waves_t), intent(in) :: self
-      are_here = allocated(self%spectrum) .or. allocated(self%cosines)
-   end function are_here
+      are_present = allocated(self%spectrum) .or. allocated(self%cosines)
+   end function are_present
 
-   !> Bytes in use, or, once they have been given away, that were
+   !> Bytes in use, or, after a transfer, those before it
    pure real(dp) function bytes(self)
       class(tile_waves_t), intent(in) :: self
 

@@ -2,7 +2,7 @@
 !> Film and pressure waves of a rough tile at the points of a contact: the inner loop of the prediction.
 !>
 !> Driven waves move with the tile; free waves are read between the points of a finer table, at places that
-!> slip gives, along lines or line by line. The first dimension of a tile and of a sum: loss of film and gain of pressure.
+!> follow from slip, along lines or line by line. The first dimension of a tile and of a sum: loss of film and gain of pressure.
 module ehl_wave_sum
    use, intrinsic :: iso_fortran_env, only: int32, real32, real64
    implicit none (type, external)

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Whole solutions on small grids, smooth and in time: with run-time checks and traps they pass every line
+!> Whole solutions on small grids, smooth and in time: with run-time checks and traps they execute every line
 !> of the solver
 module test_solver
    use, intrinsic :: ieee_arithmetic, only: ieee_get_halting_mode, ieee_invalid, ieee_is_nan, ieee_quiet_nan, &
@@ -50,7 +50,7 @@ contains
       call steps_converge("narrow")
       call steps_converge("paper")
       call threads_change_nothing()
-      call sleeping_nodes_do_not_change()
+      call inactive_nodes_do_not_change()
       call nan_is_no_cavitation()
    end subroutine run_solver
 
@@ -112,7 +112,7 @@ contains
       call is_close(minval(h), 0.29094_dp, 0.002_dp*0.29094_dp, "H_min")
       call solve(moderate//"&solver deflection = 'fft' / ", fft)
       call get(fft, "H", h_fft)
-      ! the accuracy asked of mlmi on this grid is 2.5e-4 of the largest deflection
+      ! the required accuracy of mlmi on this grid is 2.5e-4 of the largest deflection
       call is_close(maxval(abs(h_fft - h)), 0.0_dp, 1.0e-4_dp, "mlmi against fft")
    end subroutine smooth_against_reference
 
@@ -165,12 +165,12 @@ contains
    end subroutine threads_change_nothing
 
    !> Lines solved as far as last_active and to their end: the same bits, and no change behind it
-   subroutine sleeping_nodes_do_not_change()
+   subroutine inactive_nodes_do_not_change()
       type(level_t) :: level
       type(workspace_t) :: space
       type(status_t) :: status
       real(dp), allocatable :: short(:, :), long(:, :)
-      integer :: rows(line_width), i, j, k, l, furthest, asleep
+      integer :: rows(line_width), i, j, k, l, furthest, inactive
 
       call some_level(65, level, space, status)
       do j = 2, level%grid%ny - 1
@@ -182,20 +182,20 @@ contains
          end do
       end do
       call update_coefficients(level)
-      asleep = 0
+      inactive = 0
       do k = 2, level%grid%ny - line_width, line_width
          rows = [(k + l - 1, l=1, line_width)]
          furthest = maxval([(last_active(level, rows(l)), l=1, line_width)])
-         asleep = asleep + level%grid%nx - 1 - furthest
+         inactive = inactive + level%grid%nx - 1 - furthest
          call solve_lines(level, space%dipole, space%shares, space%near, space%near_dipole, rows, furthest, space%lines(1))
          short = space%lines(1)%change
          call solve_lines(level, space%dipole, space%shares, space%near, space%near_dipole, rows, level%grid%nx - 1, space%lines(1))
          long = space%lines(1)%change
-         call is_true(.not. any(abs(long(:, 2:furthest) - short(:, 2:furthest)) > 0.0_dp), "lines that are awake")
-         call is_true(.not. any(abs(long(:, furthest + 1:level%grid%nx - 1)) > 0.0_dp), "sleeping nodes stay")
+         call is_true(.not. any(abs(long(:, 2:furthest) - short(:, 2:furthest)) > 0.0_dp), "active nodes")
+         call is_true(.not. any(abs(long(:, furthest + 1:level%grid%nx - 1)) > 0.0_dp), "inactive nodes stay")
       end do
-      call is_true(asleep > 0, "some nodes sleep")
-   end subroutine sleeping_nodes_do_not_change
+      call is_true(inactive > 0, "some nodes are inactive")
+   end subroutine inactive_nodes_do_not_change
 
    !> What is not a number stays so in a sweep: it must not look like a cavitated node
    subroutine nan_is_no_cavitation()

@@ -12,15 +12,15 @@ module ehl_duty
    integer, parameter :: duty_load = 1, duty_u1 = 2, duty_u2 = 3, duty_radius_x = 4, duty_radius_y = 5, duty_viscosity = 6, &
                          duty_layer = 7
    integer, parameter :: quantities = 7
-   !> Before the table begins: time in which all goes over from the case to its first row, and in which the film does
+   !> Before the table: time in which all quantities change from the case to its first row, and in which the film follows
    !> [a/u of the first row]
    real(dp), parameter :: ramp = 2.0_dp, settling = 4.0_dp
    !> Mean velocity of the first row over that of the case below which the film does not follow
    real(dp), parameter :: at_rest = 0.05_dp
-   !> Difference from the case that is none
+   !> Relative difference below which a value is that of the case
    real(dp), parameter :: same = 1.0e-12_dp
 
-   !> What holds at a time, over the values of the case; speeds over the mean velocity of the case
+   !> Conditions at a time, over the values of the case; speeds over the mean velocity of the case
    type :: duty_state_t
       real(dp) :: load = 1.0_dp, speeds(2) = 1.0_dp, viscosity = 1.0_dp, layer = 1.0_dp
       !> Curvatures along the motion and across it
@@ -40,11 +40,11 @@ module ehl_duty
       real(dp), allocatable :: time(:), values(:, :)
       logical :: cubic = .false., periodic = .false.
       integer :: periods = 1
-      !> Time step over that by the mesh, error of films by steps that is asked for (0: none)
+      !> Time step over that by the mesh, target of the error of films by steps (0: none)
       real(dp) :: step_share = 1.0_dp, target_error = 0.0_dp
       !> [Pa] Newtonian stress of eta0 and H = 1 that slides with the mean velocity of the case
       real(dp) :: stress = 0.0_dp
-      !> Layer of rho H that arrives in the case; 0: the inlet is full
+      !> Oil layer rho H of the case; 0: the inlet is flooded
       real(dp) :: layer = 0.0_dp
       !> [s] a/u
       real(dp) :: time_scale = 0.0_dp
@@ -76,7 +76,7 @@ contains
       mean_velocity = 0.5_dp*(self%speeds(1) + self%speeds(2))
    end function mean_velocity
 
-   !> Slopes and ways, when times and values are there
+   !> Compute slopes and ways from times and values
    pure subroutine setup(self)
       class(duty_t), intent(inout) :: self
       integer :: n, k
@@ -119,7 +119,7 @@ contains
       if (k > 1 .and. k <= n) self%rest_ends = self%time(k - 1)
    end subroutine setup
 
-   !> Whether all has been as in the case until a time, at which it is so, too
+   !> Whether all quantities are those of the case up to and at a time
    pure logical function rests(self, time)
       class(duty_t), intent(in) :: self
       real(dp), intent(in) :: time
@@ -185,7 +185,7 @@ contains
       way = self%way(k, :) + part(self, k, time - self%time(k))
    end subroutine raw
 
-   !> What holds at a time; before the table all goes over from the case to its first row
+   !> Conditions at a time; before the table they change from the case to its first row
    pure function at(self, time) result(state)
       class(duty_t), intent(in) :: self
       real(dp), intent(in) :: time
@@ -265,7 +265,7 @@ contains
       steps_expected = (self%end_time() - time)*self%fastest()/(self%step_share*mesh)
    end function steps_expected
 
-   !> Time of the next row behind a time, and of the one behind that; far away behind the last one
+   !> Time of the next row after a given time, and of the one after that; a very late one after the last
    pure function next_knot(self, time) result(knots)
       class(duty_t), intent(in) :: self
       real(dp), intent(in) :: time

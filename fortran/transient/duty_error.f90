@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Error of the film that time steps under a duty leave: what each one adds at a node, carried on with the flow
+!> Error of the film by the time steps under a duty: the error that each adds at a node, convected with the flow
 !> (docs/theory/duty.md)
 module ehl_duty_error
    use ehl_kinds, only: dp
@@ -8,7 +8,7 @@ module ehl_duty_error
    private
    public :: duty_error_t
 
-   !> Ahead of so many half widths of the contact the flow evens out what a step leaves
+   !> Upstream of so many half widths of the contact the pressure flow evens out the error of a step
    real(dp), parameter :: ahead = 1.25_dp
    !> Films before a step that its error is known by
    integer, parameter :: films_before = 3
@@ -29,7 +29,7 @@ contains
    subroutine start(self, film, active, status)
       class(duty_error_t), intent(inout) :: self
       real(dp), intent(in) :: film(:, :)
-      !> Without a duty there is nothing to keep
+      !> Without a duty nothing is stored
       logical, intent(in) :: active
       type(status_t), intent(inout) :: status
       integer :: n(2), stat
@@ -44,7 +44,7 @@ contains
       end if
    end subroutine start
 
-   !> What makes of the films after a step and before it the error that the step adds: the third difference, which BDF2 leaves out
+   !> Factors of the films after a step and before it in the error that the step adds: the third difference, which BDF2 leaves out
    pure function factors_of(steps) result(factors)
       !> The step, and those before it
       real(dp), intent(in) :: steps(films_before)
@@ -83,7 +83,7 @@ contains
       worst = maxval(added(self, film, factors_of(steps), j)/film, mask=abs(x) <= size)
    end function worst
 
-   !> A step is taken: errors move on with the flow, towards larger X, and its own come to them
+   !> Accept a step: errors move with the flow, towards larger X, and its own are added
    subroutine add(self, x, film, steps, way, size)
       class(duty_error_t), intent(inout) :: self
       real(dp), intent(in) :: x(:), film(:, :), steps(films_before)
@@ -109,7 +109,7 @@ contains
       end do
    end subroutine add
 
-   !> Largest error in a row up to a node: it may come there earlier or later than the flow of the mean velocity has it
+   !> Largest error in a row up to a node, which it may reach earlier or later than with the mean velocity
    pure real(dp) function upstream(self, i, j)
       class(duty_error_t), intent(in) :: self
       integer, intent(in) :: i, j

@@ -7,7 +7,7 @@ module ehl_duty_steps
    private
    public :: duty_steps_t, kept_numbers
 
-   !> A step is no longer than that by the mesh and the largest speed over this share
+   !> Longest step: that by the mesh and the largest speed over this share
    real(dp), parameter :: slowest = 0.1_dp
    !> Largest change of load, curvature, viscosity, layer (of the larger value) and of mean velocity (of the largest) in a step
    real(dp), parameter :: max_change = 0.1_dp
@@ -15,14 +15,14 @@ module ehl_duty_steps
    real(dp), parameter :: growth = 1.5_dp
    !> Steps that do not converge are cut by half so many times, those that miss the error so many
    integer, parameter :: max_cuts = 8, max_for_error = 5
-   !> Share of the error asked for that a step may leave, however short it is: less is lost in that of the residual and in the
-   !> nodes that the minimum film goes from one to the other of
+   !> Share of the target error that a step may have, however short it is: smaller errors are below those of the residual and of
+   !> the minimum film, which jumps from node to node
    real(dp), parameter :: min_share = 0.05_dp
    !> Time in which the film passes the contact [a/u]: errors of its steps add up
    real(dp), parameter :: transit = 2.0_dp
-   !> Where an error is asked for steps may be so many times as long as by the mesh
+   !> With a target error steps may be so many times as long as by the mesh
    real(dp), parameter :: longest = 4.0_dp
-   !> Numbers that a kept state has of it
+   !> Numbers of it in a saved state
    integer, parameter :: kept_numbers = 5
 
    type :: duty_steps_t
@@ -76,7 +76,7 @@ contains
          end if
       end do
       step = step*0.5_dp**self%cuts
-      ! a row of the table is met, unless rows are as near as steps
+      ! a step ends at a row of the table, unless rows are as close as steps
       knots = duty%next_knot(time)
       if (knots(2) - knots(1) > step .or. knots(1) > duty%end_time() - 1.0e-9_dp*duty%length()) then
          associate (left => knots(1) - time)
@@ -117,7 +117,7 @@ contains
       if (self%steps(1) > 0.0_dp) ratio = step/self%steps(1)
    end function ratio
 
-   !> Judge the error that a step adds: not good where more was asked for, and the step can be cut
+   !> Assess the error that a step adds: not good if it exceeds the target and the step can be cut
    subroutine judge(self, duty, step, speed, error, good)
       class(duty_steps_t), intent(inout) :: self
       type(duty_t), intent(in) :: duty
@@ -144,7 +144,7 @@ contains
       where (.not. steps > 0.0_dp) steps = step
    end function before
 
-   !> The step is taken
+   !> Accept the step
    pure subroutine keep(self, step)
       class(duty_steps_t), intent(inout) :: self
       real(dp), intent(in) :: step
@@ -161,14 +161,14 @@ contains
       if (cut) self%cuts = self%cuts + 1
    end function cut
 
-   !> All of it as numbers
+   !> Store the state as numbers
    pure function pack_numbers(self) result(numbers)
       class(duty_steps_t), intent(in) :: self
       real(dp) :: numbers(kept_numbers)
       numbers = [self%steps, self%wanted, real(self%cuts, dp)]
    end function pack_numbers
 
-   !> And back
+   !> Restore the state from numbers
    pure subroutine unpack_numbers(self, numbers)
       class(duty_steps_t), intent(inout) :: self
       real(dp), intent(in) :: numbers(kept_numbers)

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Extremes of pressure and film while something passes the contact, with where and when
+!> Extremes of pressure and film during a passage, with position and time
 module ehl_extremes
    use ehl_kinds, only: dp
    use ehl_level, only: gap, level_t
@@ -21,7 +21,7 @@ module ehl_extremes
 
 contains
 
-   !> Look at the state after a time step; the first of equal values counts
+   !> Update the extremes by the state after a time step; the first of equal values counts
    subroutine see(self, level, p_smooth, h_smooth, time)
       class(extremes_t), intent(inout) :: self
       type(level_t), intent(in) :: level

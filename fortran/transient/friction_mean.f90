@@ -14,11 +14,11 @@ module ehl_friction_mean
    real(dp), parameter :: lags(*) = [0.25_dp, 0.5_dp, 0.75_dp, 1.0_dp]
    real(dp), parameter :: longest_lag = 0.5_dp
    !> The mean is that of one period. Where it has not settled after so many of them it is that of all periods but the
-   !> first ones, in which what is left of the start dies out: pressure peaks of single nodes carry the friction there,
-   !> and since a period is no whole number of steps, each one meets other phases of them
+   !> first ones, in which the effect of the start decays: pressure peaks of single nodes determine the friction then, and
+   !> since a period is no whole number of steps, each period samples other phases of them
    real(dp), parameter :: several = 20.0_dp
    integer, parameter :: start_up = 2
-   !> Periods of the slowest surface after which a mean that has not settled is given up; the slowest known one settled
+   !> Periods of the slowest surface after which a run whose mean has not settled is stopped; the slowest known one settled
    !> after 21
    integer, parameter :: automatic_periods = 36
 
@@ -31,7 +31,7 @@ module ehl_friction_mean
       real(dp) :: mismatch = 0.0_dp
       !> Longest time between means that are compared, in periods
       real(dp) :: lag = longest_lag
-      !> Time after which nothing is left of what the run began with; 0: it does not count
+      !> Time after which the start has no effect; 0: not considered
       real(dp) :: transit = 0.0_dp
       !> Steps before the roughness fills the contact: they belong to no mean
       integer :: filled = 0
@@ -176,8 +176,8 @@ contains
       mean = integral(self%values(:self%n), last - length, last)/length
    end function mean
 
-   !> Integral of the polygon through values between two positions in steps, the first value at 1. What lies outside has
-   !> no part in it, be it ever so large.
+   !> Integral of the polygon through values between two positions in steps, the first value at 1. Values outside
+   !> have no effect, however large.
    pure real(dp) function integral(values, from, to)
       real(dp), intent(in) :: values(:), from, to
       integer :: first, last
@@ -240,7 +240,7 @@ contains
       end do
    end function change
 
-   !> Error of the mean by the end of the run: its change, as often as it is still to come until nothing is left of the start
+   !> Error of the mean by the end of the run: its change, as often as it can recur until the start has no effect
    pure real(dp) function uncertainty(self)
       class(friction_mean_t), intent(in) :: self
       uncertainty = self%change()*max(1.0_dp, (self%transit + self%window() - self%n*self%time_step)/(self%lag*self%period))
@@ -263,8 +263,8 @@ contains
       settled = self%change() <= tolerance*scale + self%window_error()
    end function settled
 
-   !> Error of a mean over a time that is no common period of two surfaces. What it takes the mean of worst is a product of
-   !> waves with one period in that time, of which it holds 1 - m or 1 + m, m being the mismatch. At most
+   !> Error of a mean over a time that is no common period of two surfaces. The worst case is a product of waves
+   !> with one period in that time, of which it holds 1 - m or 1 + m, m being the mismatch. At most
    !> sin(pi m)/(pi (1 - m)) of the amplitude is left, which is less than m times the range for m up to a quarter.
    pure real(dp) function window_error(self)
       class(friction_mean_t), intent(in) :: self

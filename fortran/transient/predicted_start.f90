@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Where time steps begin with the contact full of roughness: what the roughness is predicted to add to the pressure.
-!> Whether that is right is decided by the steps: a film that is wrong leaves the contact with the mean velocity.
+!> Predicted start: time steps begin with the contact full of roughness, with a predicted pressure increase by it. The steps
+!> correct its errors: a wrong film leaves the contact with the mean velocity.
 module ehl_predicted_start
    use ehl_friction_mean, only: periods_compared
    use ehl_grid, only: grid_t
@@ -12,8 +12,8 @@ module ehl_predicted_start
 
    !> The times, in steps before the start: the last three of this run and of the one on the next coarser grid
    integer, parameter :: steps_ago(4) = [0, 1, 2, 4]
-   !> Time after which the friction may belong to a mean, when the film of the start has come from X = -1 to 0.5, behind
-   !> which little friction is made; time between means that are compared then; time after which it has left the contact [a/u]
+   !> Time after which the friction may belong to a mean, when the film of the start has come from X = -1 to 0.5, beyond
+   !> which there is little friction; time between means that are compared then; time after which it has left the contact [a/u]
    real(dp), parameter :: first_mean = 1.5_dp, start_lag = 0.125_dp, transit = 2.0_dp
 
    type :: predicted_start_t
@@ -50,7 +50,8 @@ contains
       steps_needed = (max(0.0_dp, surfaces%time_to_mean(from)) + time)/time_step
    end function steps_needed
 
-   !> Time at which roughness has filled the domain, and did at the times before; a whole number of steps of the next coarser grid
+   !> Time at which the roughness fills the domain, as it does at the earlier times of `steps_ago`; a whole number of steps of
+   !> the next coarser grid
    pure real(dp) function start_time(surfaces, grid)
       class(moving_surfaces_t), intent(in) :: surfaces
       type(grid_t), intent(in) :: grid
@@ -72,7 +73,7 @@ contains
       end do
    end function start_fronts
 
-   !> Take the pressure at these times
+   !> Set the pressure at the times of `steps_ago`
    subroutine take(self, surfaces, grid, pressure)
       class(predicted_start_t), intent(inout) :: self
       class(moving_surfaces_t), intent(in) :: surfaces

@@ -1,8 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> First approximation of the pressure of a time step: a weighted mean of several extrapolations in time. Each node
 !> weighs them by how right they were around it in the step before, judged by what their errors do in the equation:
-!> where the lubricant flows, a small rough error is a large residual. That of first order is for nodes where what a
-!> step has left unsolved is larger than what changes from step to step: of it the second order makes twice as much.
+!> where the lubricant flows, a small rough error is a large residual. That of first order is for nodes where
+!> the algebraic error of a step is larger than the change from step to step: the second order would double it.
 !> The weights must not change steeply from node to node: between candidates that differ they would make a rough
 !> pressure.
 module ehl_predictor
@@ -15,7 +15,7 @@ module ehl_predictor
 
    !> Errors are compared over squares of (2 reach + 1)^2 nodes
    integer, parameter :: reach = 2
-   !> Errors that are nothing
+   !> Negligible errors
    real(dp), parameter :: min_error = 1.0e-60_dp
 
    type :: predictor_t
@@ -80,7 +80,7 @@ contains
       !$omp end parallel do
    end subroutine predict
 
-   !> See which candidate was right, now that the step is solved
+   !> Update the weights of the candidates by their errors in the solved step
    subroutine learn(self, before, level)
       class(predictor_t), intent(inout) :: self
       !> Pressures of the three steps before that of the level
@@ -137,7 +137,7 @@ contains
       end do
    end subroutine extrapolate
 
-   !> What errors of row j weigh: squared, by the deflection they cause (of the order of the error, in the squeeze term)
+   !> Weighted squared errors of row j: by the deflection they cause (of the order of the error, in the squeeze term)
    !> and by the flow along X they cause
    pure subroutine weigh(level, j, error, weight)
       type(level_t), intent(in) :: level

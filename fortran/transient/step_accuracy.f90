@@ -1,8 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> How exactly time steps are solved: so that what is left unsolved changes mu_r/mu_s by less than a share of its grid
-!> error. Both are measured in the run, with the friction of a Newtonian lubricant whatever its shear law: that
-!> friction feels a wrong pressure most. Where the flow thins, pressure and film are those of the law; the friction of the
-!> law itself is not asked: it may hardly differ from the smooth one where pressures still do. Steps that go on after their
+!> Accuracy of the time steps: their algebraic error changes mu_r/mu_s by less than a share of its grid error. Both are
+!> measured in the run, with the friction of a Newtonian lubricant whatever its shear law: that friction is the most
+!> sensitive to the pressure. Where the flow thins, pressure and film are those of the law; the friction of the
+!> law itself is not used: it may hardly differ from the smooth one where pressures still do. Steps that go on after their
 !> first cycle show by how much mu_r/mu_s would have been wrong with the residual after it. The grid error of mu_r/mu_s is
 !> taken to be at least a share of its rise over 1, that of the smooth friction on this grid being the measure; see
 !> docs/design.md.
@@ -18,15 +18,15 @@ module ehl_step_accuracy
    real(dp), parameter :: rise_before = 0.3_dp
    !> Steps over which that distance is taken (rms, fading)
    real(dp), parameter :: memory = 64.0_dp
-   !> Every so many steps one makes a cycle more, to measure
+   !> Interval of steps with an additional cycle, to measure
    integer, parameter :: measured_steps = 30
-   !> What an earlier step has shown counts by this factor less with every one that shows anew
+   !> Factor by which the weight of an earlier measurement decreases with every new one
    real(dp), parameter :: fading = 0.9_dp
    !> Largest tolerance, in strict ones
    real(dp), parameter :: loosest = 40.0_dp
 
    type :: step_accuracy_t
-      !> Residual (rms) that serves every case
+      !> Residual (rms) that is small enough for every case
       real(dp) :: strict = 0.0_dp
       !> Newtonian friction of the smooth contact on the same grid
       real(dp) :: friction_smooth = 1.0_dp
@@ -58,7 +58,7 @@ contains
    !> For a run
    pure subroutine set(self, mesh, accuracy, friction_smooth, friction_error)
       class(step_accuracy_t), intent(inout) :: self
-      !> Mesh size; algebraic error wanted as a share of the grid error
+      !> Mesh size; allowed algebraic error as a share of the grid error
       real(dp), intent(in) :: mesh, accuracy
       !> Newtonian friction of the smooth contact, and its relative grid error; 0: that is not known
       real(dp), intent(in) :: friction_smooth, friction_error

@@ -10,18 +10,18 @@ module ehl_step_policy
    public :: attempt_predicted, attempt_last, attempt_limited, attempt_damped
    public :: step_ends, step_goes_on, step_begins_again, damped_sweep, whole_correction
 
-   !> Attempts at a step, in this order: from the predicted pressure; from the pressure of the last step, its sweeps
-   !> trusted less; the same, trusted even less; the same, changes of sweeps and of coarse grids damped. The next one is made
+   !> Attempts at a step, in this order: from the predicted pressure; from the pressure of the last step, with
+   !> limited sweeps; the same, limited further; the same, changes of sweeps and of coarse grids damped. The next one is made
    !> when the residual does not fall.
    integer, parameter :: attempt_predicted = 1, attempt_last = 2, attempt_limited = 3, attempt_damped = 4
    !> Largest change of the logarithm of a node's conductance in a sweep, by attempt
    real(dp), parameter :: max_log_change(4) = usual_log_change/[1.0_dp, 3.0_dp, 9.0_dp, 9.0_dp]
-   !> Shares of the changes of a sweep and of a coarse grid that the damped attempt makes. Sweeps that throw a peak
-   !> from node to node, and coarse grids that overshoot it, make cycles that return to where they were.
+   !> Shares of the changes of a sweep and of a coarse grid that the damped attempt makes. Sweeps in which a peak
+   !> jumps from node to node, and coarse grids that overshoot it, lead to cycles that repeat states.
    real(dp), parameter :: damped_sweep = 0.3_dp, damped_correction = 0.5_dp
-   !> That of a coarse grid in a wide contact that is squeezed, where the finest level alone is damped
+   !> Share of a coarse grid's change in a wide contact under squeeze motion, where the finest level alone is damped
    real(dp), parameter :: whole_correction = 0.8_dp
-   !> Cycles in which the residual must halve, by attempt; the last one is not given up before so many times the
+   !> Cycles in which the residual must halve, by attempt; the last one is not ended before so many times the
    !> usual number of cycles, at which it begins at the latest
    integer, parameter :: patience(3) = [4, 8, 8], damped_cycles = 10
    !> A cycle that leaves more than this share of the residual is slow, unless another such cycle will do

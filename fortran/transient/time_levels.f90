@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What a time step takes from the ones before it, and leaves to the next
+!> Data that a time step takes from the earlier ones and passes to the next
 module ehl_time_levels
    use ehl_contact, only: contact_t
    use ehl_flow, only: dir_x
@@ -11,8 +11,8 @@ module ehl_time_levels
    private
    public :: set_geometry, set_history, keep, mirror
 
-   !> A residual is answered partly by the squeeze of the film, partly by the Poiseuille flow. Half of it is passed on to
-   !> the next step where the flow is so many times the squeeze.
+   !> A residual changes partly the squeeze of the film, partly the Poiseuille flow. Half of it is passed on to the next step
+   !> where the flow is so many times the squeeze.
    real(dp), parameter :: flows_away = 1.0e4_dp
 
 contains
@@ -42,7 +42,7 @@ contains
       !$omp end parallel do
    end subroutine set_geometry
 
-   !> A field of a motion the other way
+   !> Mirror image of a field, for the reversed motion
    subroutine mirror(values)
       real(dp), contiguous, intent(inout) :: values(:, :)
       integer :: j
@@ -67,11 +67,10 @@ contains
       !$omp end parallel do
    end subroutine set_history
 
-   !> The present fields become the last ones. The mass content kept is not rho H but the one that what flowed in and out
-   !> leaves: the two differ by the residual of the step, which the next step makes up for, so that what steps leave
-   !> unsolved does not add up as it is carried through the contact. In the inlet nothing adds up: flow evens it out within
-   !> the step, and what sweeps leave there from line to line would only be noise in the next steps. Where oil does not fill the
-   !> gap it is what there is.
+   !> The present fields become the last ones. The stored mass content is not rho H but the one by the balance of the flow: the
+   !> two differ by the residual of the step, which the next step corrects, so that residuals do not accumulate while they are
+   !> convected through the contact. In the inlet nothing accumulates: the pressure flow evens it out within the step, and
+   !> residuals of sweeps would only be noise in the next steps. Where oil does not fill the gap its content is stored.
    subroutine keep(level, mass_content, p_before)
       type(level_t), intent(in) :: level
       !> Mass content of the last two steps and pressure of the last three, the latest first

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is computed for a position: the film on a grid, the prediction, a curve."""
+"""Results for a position of the controls: the film on a grid, the prediction, a curve."""
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -20,8 +20,8 @@ from pyehl.types import Array
 COARSE, FINE = 129, (257, 513)
 """Nodes a side while a control moves, and when it rests."""
 DELAY = 0.12
-"""A control that has not been changed for so long rests [s]: a hand that drags a slider changes it
-more often, and a finer film may still come within 0.4 s."""
+"""A control that has not been changed for so long is at rest [s]: a dragged slider changes more
+often, and a finer film may still come within 0.4 s."""
 CURVES = {"mean velocity": "velocity", "slide-to-roll ratio": "slide_to_roll"}
 
 
@@ -72,7 +72,7 @@ def film(
     wanted: Callable[[], bool],
     known: Mapping[int, Film] | None = None,
 ) -> Film | None:
-    """Solve the smooth contact; None if it is not wanted any more.
+    """Solve the smooth contact; None if the result is outdated.
 
     `known` are films on some grids: one of the same contact is given at once, and the formulas do
     not depend on the grid. InputError if the case is not acceptable.
@@ -148,7 +148,7 @@ def curve(
     wanted: Callable[[], bool],
     points: int = COARSE,
 ) -> Iterator[list[CurvePoint]]:
-    """Compute a curve over a control; yields all points so far, until it is not wanted any more."""
+    """Compute a curve over a control; yields all points so far, until the curve is outdated."""
     result: list[CurvePoint] = []
     for value in values:
         made = _curve_point(position.turned(over, value), value, wanted, points)

@@ -18,7 +18,7 @@ class Changes:
     Attributes
     ----------
     source
-        Carries the changes; it has to be in the document.
+        Transmits the changes; it has to be in the document.
     """
 
     def __init__(self) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a page gives to save: the report, and the figures in a width of a journal."""
+"""Downloads of a page: the report, and the figures in a width of a journal."""
 
 import io
 import tempfile

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Fields as what a page draws: colours, levels, lines, in mm, nm and GPa."""
+"""Fields in the form that a page draws: colours, levels, lines, in mm, nm and GPa."""
 
 import math
 from typing import NamedTuple

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The pictures of the page, and how answers get into them."""
+"""The pictures of the page, and how results are drawn in them."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -34,7 +34,7 @@ HINTS = {
     "rough_hint": "The surface is smooth, or its prediction is not there yet.",
     "curve_hint": "A button computes nine points, which takes some seconds.",
 }
-"""What stands in place of pictures that have nothing to show."""
+"""Texts in place of pictures without data."""
 
 
 def _figure(title: str, x: str, y: str, **more: Any) -> Any:  # noqa: ANN401 (Bokeh has no types)
@@ -156,7 +156,7 @@ class Pictures:
     def _friction(self) -> tuple[Any, Any]:
         """Draw what octaves add, and the ratio over the passage."""
         bands = _figure(
-            "what octaves of wavelengths add", "wavelength [µm]", "increase of μ_r/μ_s",
+            "contributions of octaves of wavelengths", "wavelength [µm]", "increase of μ_r/μ_s",
             x_axis_type="log", height=260, x_range=Range1d(1, 1000), y_range=Range1d(0, 1),
         )  # fmt: skip
         bands.quad(

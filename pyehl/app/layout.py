@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Where things are on the page, and their words."""
+"""Layout of the page, and its texts."""
 
 import base64
 from collections.abc import Callable, Mapping, Sequence
@@ -78,8 +78,8 @@ document.querySelectorAll('.picture').forEach((part, k) => part.hidden = k !== t
 """
 
 
-class _Hears(Protocol):
-    """What the page does when something happens."""
+class _Handlers(Protocol):
+    """Handlers of the page for events."""
 
     def turned(self, name: str, value: Value) -> None: ...
     def open_case(self, name: str, data: bytes) -> None: ...
@@ -99,9 +99,9 @@ def _table(rows: Sequence[tuple[str, str]]) -> str:
 
 
 class Layout:
-    """All that is on the page but the pictures, by name."""
+    """All elements of the page but the pictures, by name."""
 
-    def __init__(self, hears: _Hears, pictures: Pictures, start: Position) -> None:
+    def __init__(self, hears: _Handlers, pictures: Pictures, start: Position) -> None:
         self.controls = {
             control.name: ControlWidget(control, start.values[control.name], hears.turned)
             for group in GROUPS.values()
@@ -152,7 +152,7 @@ class Layout:
 
     def _file(
         self,
-        hears: _Hears,
+        hears: _Handlers,
         widget: Any,  # noqa: ANN401
         take: Callable[[str, bytes], None],
     ) -> Callable[[str, object, object], None]:
@@ -182,7 +182,7 @@ class Layout:
         self.show_controls(start.values)
         return column(*parts, width=WIDTH + 20)
 
-    def _curves(self, hears: _Hears) -> Any:  # noqa: ANN401
+    def _curves(self, hears: _Handlers) -> Any:  # noqa: ANN401
         buttons = []
         for name in CURVES:
             button = Button(label=f"curve over {name}", name=f"curve_{CURVES[name]}")
@@ -190,7 +190,7 @@ class Layout:
             buttons.append(button)
         return row(*buttons)
 
-    def _right(self, hears: _Hears) -> Any:  # noqa: ANN401
+    def _right(self, hears: _Handlers) -> Any:  # noqa: ANN401
         copy, save = Button(label="Copy", name="copy"), Button(label="Save", name="save")
         copy.js_on_click(CustomJS(args={"area": self.case}, code=COPY))
         save.js_on_click(CustomJS(args={"area": self.case}, code=SAVE_TEXT))

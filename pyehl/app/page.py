@@ -28,7 +28,7 @@ from pyehl.errors import EhlError, InputError
 POINTS = FINE[-1]
 CURVE_POINTS = 9
 REPORT = "report.html"
-PARCELS = (REPORT, "figures.zip")
+DOWNLOADS = (REPORT, "figures.zip")
 NO_MAP = "there is no height map yet: expected an upload; the contact is smooth until then"
 
 
@@ -53,7 +53,7 @@ class Page:
         self.curves = Worker(partial(self.later, self._drawn), "pyehl-curve")
         self.parcels = {
             name: Worker(partial(self.later, partial(self._fetched, name)), "pyehl-parcel")
-            for name in PARCELS
+            for name in DOWNLOADS
         }
         self._making: list[str] = []
         document.title = "pyehl"
@@ -226,7 +226,7 @@ class Page:
         self.curves.submit(job)
 
     def fetch(self, what: str) -> None:
-        """Make a file to save, one of `PARCELS`."""
+        """Make a file to download, one of `DOWNLOADS`."""
         here, layout = self.position, self.layout
         suffix, width = layout.figure_format.value, float(layout.figure_width.value) * 1e-3
 

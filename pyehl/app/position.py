@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Where the controls stand, and the case that belongs to it."""
+"""Position of the controls, and its case."""
 
 import math
 from collections.abc import Mapping
@@ -288,5 +288,5 @@ def _oil(lubricant: Mapping[str, Any]) -> dict[str, Value]:
 
 
 def _tidy(value: float) -> float:
-    """Leave out what a change of the unit adds to the digits."""
+    """Remove the rounding errors of a change of the unit."""
     return float(f"{value:.12g}")

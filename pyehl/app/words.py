@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the page shows: numbers with errors, formulas beside them, Python lines."""
+"""Texts of the page: numbers with errors, formulas beside them, Python lines."""
 
 import json
 import math
@@ -18,7 +18,7 @@ TOUCHING, THICK = 1.0, 3.0
 
 
 def status_line(result: Film) -> str:
-    """Say what the numbers are of."""
+    """Describe the solution that is shown."""
     grid = _grid(result)
     if not result.converged:
         return f"No solution on {grid} nodes: the status is '{result.summary['status']}'."

@@ -2,7 +2,7 @@
 """One thread that computes for one page: the newest job alone, never two at a time.
 
 Each job gets a number, larger than those before it: its generation. What a job reports has it, so
-that who shows answers can leave out one that is older than the one shown.
+that an answer older than the one shown can be ignored.
 """
 
 from __future__ import annotations
@@ -18,18 +18,18 @@ GRACE = 0.4
 
 
 class JobContext:
-    """What a job is called with: whether it is still wanted, and where to report."""
+    """Context of a job: whether it is still needed, and where to report."""
 
     def __init__(self, worker: Worker, generation: int) -> None:
         self._worker, self.generation = worker, generation
         self._began = time.monotonic()
 
     def newest(self) -> bool:
-        """Whether no newer job was handed in."""
+        """Whether no newer job was submitted."""
         return self._worker.generation == self.generation
 
     def wanted(self) -> bool:
-        """Whether an answer is still of use: the job is the newest, or began just now."""
+        """Whether an answer is still useful: the job is the newest, or has just begun."""
         if self._worker.closed:
             return False
         return self.newest() or time.monotonic() - self._began < GRACE
@@ -40,7 +40,7 @@ class JobContext:
         return self._worker.wait(self.generation, max(0.0, left))
 
     def answer_with(self, answer: Any) -> None:  # noqa: ANN401 (of any kind)
-        """Hand over an answer."""
+        """Deliver an answer."""
         if not self._worker.closed:
             self._worker.deliver(self.generation, answer)
 
@@ -49,7 +49,7 @@ Job = Callable[[JobContext], None]
 
 
 class Worker:
-    """A thread with room for one job, the newest; what it replaces is forgotten.
+    """A thread with a queue of one job, the newest, which replaces an older one.
 
     `deliver` is called in this thread with the generation and an answer; a job that raises is
     answered with the exception.
@@ -65,7 +65,7 @@ class Worker:
         self._thread.start()
 
     def submit(self, job: Job) -> int:
-        """Hand in a job in place of one that waits; returns its generation."""
+        """Submit a job in place of one that waits; returns its generation."""
         with self._changed:
             self.generation += 1
             self._job = job

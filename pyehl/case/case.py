@@ -23,7 +23,7 @@ from pyehl.types import Settings
 def resolve(
     text: str, origin: str, options: Option | Iterable[Option] = (), *, from_file: bool = False
 ) -> str:
-    """Resolve a case: check it, and spell out every value of it as namelist text.
+    """Resolve a case: check it, and write every value of it as namelist text.
 
     The text of a file called `origin`, for messages and for names of maps, or `from_file` that
     file itself; `options` replace values. InputError with file, line and column, what was
@@ -40,7 +40,7 @@ def resolve(
 
 @dataclass(frozen=True, slots=True, repr=False, init=False)
 class Case:
-    """A case that can be solved: checked, with every value spelled out.
+    """A case that can be solved: checked, with every value.
 
     Options are everywhere the same: dicts ``{"grid": {"points": 65}}`` or ``{"grid.points": 65}``,
     or texts ``"grid.points=65"``; a whole number may be a float, as 65.0.
@@ -58,7 +58,7 @@ class Case:
     Attributes
     ----------
     text
-        Resolved namelist text: every value spelled out, names of maps made absolute.
+        Resolved namelist text with every value, names of maps made absolute.
 
     Raises
     ------

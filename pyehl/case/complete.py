@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What depends on several keys: defaults that follow from other keys, and contradictions."""
+"""Checks and defaults that depend on several keys of a case."""
 
 from collections.abc import Callable
 from contextlib import suppress
@@ -20,7 +20,7 @@ def check_time(draft: Draft) -> None:
 
 
 def check_no_machine(draft: Draft) -> None:
-    """Refuse a machine element where one contact is wanted."""
+    """Refuse a machine element where one contact is required."""
     for kind in MACHINES:
         if name := draft.first_given(key.name for key in GROUPS[kind]):
             command = "gear" if kind == "spur_gear" else "bearing"
@@ -79,7 +79,7 @@ STEPS: tuple[Step, ...] = (
 def complete(draft: Draft, *, strict: bool = True) -> None:
     """Complete a case whose keys are all good by themselves, and check it.
 
-    Without `strict` whatever follows is given as far as it does, and nothing is refused.
+    Without `strict` all values that can be derived are, and nothing is refused.
     """
     if strict:
         for step in STEPS:

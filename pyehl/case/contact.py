@@ -19,11 +19,11 @@ SI = (
     "radius_x",
     "radius_y",
 )
-# Least M of a contact that can be meant; largest M of a round contact with the same equations
-LEAST_M, MOST_M = 0.1, 1e5
-# Least p_h/E' of a contact that can be meant: 0.1 MPa between steel bodies
+# Minimum M of a plausible contact; maximum M of a round contact with the same equations
+MIN_M, MAX_M = 0.1, 1e5
+# Minimum p_h/E' of a plausible contact: 0.1 MPa between steel bodies
 MIN_STRAIN = 4e-7
-# Difference of velocity ratios that is none
+# Difference below which velocity ratios are equal
 ROUNDING = 1e-9
 # Keys that make the operating point, and powers of ten around their defaults that are common;
 # the radii of bodies around that of the ball
@@ -64,11 +64,11 @@ def check_kind(draft: Draft) -> None:
 
 def is_light(moes_m: float, pressure: float, modulus: float) -> bool:
     """Whether a contact is loaded less than the solver takes it; p_h and reduced modulus [Pa]."""
-    return moes_m < LEAST_M or pressure < MIN_STRAIN * modulus
+    return moes_m < MIN_M or pressure < MIN_STRAIN * modulus
 
 
 def check_operating_point(draft: Draft) -> None:
-    """Refuse SI values of a contact that cannot exist; a slip of units mostly makes one."""
+    """Refuse implausible SI values of a contact, which mistakes in the units mostly make."""
     c, oil = draft.settings.contact, draft.settings.lubricant
     point = physics.point(draft.settings)
     too_large = (
@@ -77,7 +77,7 @@ def check_operating_point(draft: Draft) -> None:
     )
     if not c.si:
         moes_m, moes_l = ("moes_m_line", "moes_l_line") if c.is_line else ("moes_m", "moes_l")
-        if point.round_m > MOST_M:
+        if point.round_m > MAX_M:
             draft.refuse(f"contact.{moes_m}", too_large, f"a {moes_m} that makes it 1e5 at most")
         if oil.pressure_viscosity <= 0.0 < point.moes_l:
             expected = f"{moes_l} = 0.0, or a pressure_viscosity above 0"
@@ -94,10 +94,10 @@ def check_operating_point(draft: Draft) -> None:
     elif point.length > c.radius_x:
         what = f"the Hertz radius {short(point.length)} m exceeds that of the ball"
         expected = "a contact much smaller than the ball"
-    elif point.moes_m < LEAST_M:
+    elif point.moes_m < MIN_M:
         what = f"the Moes parameter M is {short(point.moes_m)}"
-        expected = f"M of {LEAST_M:g} at least"
-    elif point.round_m > MOST_M:
+        expected = f"M of {MIN_M:g} at least"
+    elif point.round_m > MAX_M:
         what, expected = too_large, "an M between 0.1 and 1e5"
     elif point.moes_l > 100.0:
         what = f"the Moes parameter L is {short(point.moes_l)}"
@@ -127,7 +127,7 @@ def _most_unusual(draft: Draft) -> str:
 
 
 def complete_kinematics(draft: Draft) -> None:
-    """Of slide-to-roll ratio and velocities of the surfaces find the others from one.
+    """Complete slide-to-roll ratio and velocities of the surfaces from the one that is given.
 
     Body 1 moves at 1 + SRR/2, body 2 at 1 - SRR/2 times the mean velocity.
     """
@@ -183,7 +183,7 @@ def _sliding(side: float, ratio: float) -> float:
     return round(side * (ratio - 1.0) * 2e12) / 1e12
 
 
-# Relative difference of values that is none
+# Relative difference below which values are equal
 ROUNDING_OF_RADII = 1e-6
 RIVALS = ("radius_x", "radius_y", "reduced_modulus", "radius", "moes_m", "moes_l", "radius_ratio")
 RIVALS_OF_LINE = ("radius", "reduced_modulus", "moes_m_line", "moes_l_line")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The duty of a contact: a file of what changes with time, and what that asks of the domain.
+"""The duty of a contact: a file of quantities over time, and the domain that it needs.
 
 A file is comma-separated: a line of names with units, then a line for each time. Lines that are
 blank or begin with '#' are skipped.
@@ -24,7 +24,7 @@ MIN_TIMES = 2
 MIN_LOAD = 1e-3
 """Minimum load over that of the case."""
 SAME = 1e-9
-"""Difference of the ends of a period, and of a domain, that is none."""
+"""Relative difference below which the ends of a period, or of a domain, are equal."""
 Table = dict[str, tuple[float, ...]]
 
 SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6}
@@ -43,7 +43,7 @@ UNITS = {
     "inlet_film": METRES | {"nm": 1e-9},
     "temperature": {"degC": 1.0},
 }
-"""Units of each column, by what makes them SI units."""
+"""Units of each column, with factors to SI units."""
 HEADER = (
     "a line of names with units, as 'time [s], load [N], mean_velocity [m/s]', of "
     f"{', '.join(UNITS)}"
@@ -52,7 +52,7 @@ NAME = re.compile(r"(\w+?)\s*(?:\[([^\]]*)\])?")
 
 
 def complete(draft: Draft) -> None:
-    """Take the values of a file, unless it is gone and a resolved case holds them."""
+    """Take the values of a file, unless it is missing and a resolved case holds them."""
     duty = draft.settings.duty
     if not duty.file:
         return
@@ -167,7 +167,7 @@ def _values(draft: Draft, lists: Table) -> Iterator[tuple[str, str, str]]:
 
 
 def _check_beside(draft: Draft) -> None:
-    """Refuse keys of other groups that say something else."""
+    """Refuse keys of other groups that contradict the duty."""
     grid = draft.settings.grid
     if draft.is_given("grid", "border") and grid.border == "flooded":
         expected = "'zero': the pressure at a border that the duty moves is not known"
@@ -196,10 +196,10 @@ def check_domain(draft: Draft) -> None:
 
 
 def refuse_duty(settings: Mapping[str, object]) -> None:
-    """Refuse a resolved case with a duty where a steady contact is wanted."""
+    """Refuse a resolved case with a duty where a steady contact is required."""
     if settings.get("duty"):
         raise InputError(
-            "duty.time: a steady contact is wanted here, and the case has a duty\n"
+            "duty.time: a steady contact is required here, and the case has a duty\n"
             "expected: a case without &duty, or 'pyehl run'"
         )
 
@@ -258,7 +258,7 @@ def _check_time(source: Source, first: int, line: str, values: dict[str, list[fl
 
 
 def _header(source: Source, first: int, line: str, *, is_line: bool) -> list[tuple[str, float]]:
-    """Names of the columns, and what makes their units SI units."""
+    """Names of the columns, and factors to SI units."""
     columns: list[tuple[str, float]] = []
 
     def refuse(what: str, expected: str) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""An inlet that is meant to be short of oil: where the oil begins, or the layer that arrives."""
+"""A starved inlet: position of the meniscus, or thickness of the oil layer."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -13,7 +13,7 @@ from pyehl.errors import InputError
 KEYS = ("position", "position_hertz", "film", "film_hertz")
 NAMES = tuple(f"inlet.{key}" for key in KEYS)
 ROUNDING = 1e-6
-"""Relative difference of values that is none."""
+"""Relative difference below which values are equal."""
 
 
 def complete(draft: Draft) -> None:
@@ -82,6 +82,6 @@ def _agree(draft: Draft, one: str, other: str, value: float, follows: float) -> 
 
 
 def refuse_inlet(settings: Mapping[str, Any], what: str, expected: str) -> None:
-    """Refuse a resolved case whose inlet is short of oil where a flooded one is wanted."""
+    """Refuse a resolved case with a starved inlet where a flooded one is required."""
     if settings.get("inlet"):
         raise InputError(f"&inlet: {what}\nexpected: {expected}")

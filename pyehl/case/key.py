@@ -42,7 +42,7 @@ def real_text(value: float) -> str:
 
 
 def quoted(text: str) -> str:
-    """Give a text between single quotes, inner quotes doubled as a namelist wants them."""
+    """Give a text between single quotes, inner quotes doubled as in a namelist."""
     return "'" + text.replace("'", "''") + "'"
 
 
@@ -130,7 +130,7 @@ class Key:
 
     @cached_property
     def expected(self) -> str:
-        """What kind of value the key takes, in words, with its range."""
+        """Description of the values that the key takes, with its range."""
         if self.kind in ("real", "whole"):
             kind = "a number" if self.kind == "real" else "a whole number"
             unit = f" (unit {self.unit}, not written)" if self.unit != "-" else ""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a line contact has in place of the keys of a point, and what it does not have."""
+"""Keys of a line contact in place of those of a point, and keys that it does not have."""
 
 from pyehl.case.settings import Draft
 

@@ -14,7 +14,7 @@ from pyehl.case.writer import group_text
 from pyehl.errors import InputError
 from pyehl.theory.heat import thermal_loading, thermal_reduction
 
-# Relative difference of values that is none
+# Relative difference below which values are equal
 ROUNDING = 1e-6
 # Maximum pressure at which a law must have a viscosity, over the Hertz pressure; in so many steps
 BEYOND_HERTZ, STEPS = 1.5, 300
@@ -182,7 +182,7 @@ def complete(draft: Draft) -> None:
 def _check_roelands(draft: Draft) -> None:
     """Refuse an exponent that no liquid has, at the key that it is from."""
     oil = draft.settings.lubricant
-    # without alpha the law has nothing to say
+    # without alpha the viscosity is constant
     if oil.pressure_viscosity <= 0.0 or MIN_Z <= oil.roelands_z <= MAX_Z:
         return
     # a small one mostly has its reason in alpha, a large one in the viscosity
@@ -320,7 +320,7 @@ def complete_viscosity(draft: Draft) -> None:
 
 
 def _check_use_of_sheet(draft: Draft) -> None:
-    """Refuse keys that mean nothing without the viscosities of a data sheet."""
+    """Refuse keys that have no meaning without the viscosities of a data sheet."""
     oil = draft.settings.lubricant
     for key in ("temperature", "density_15", "thermal_expansion"):
         # temperature and expansion serve laws of viscosity and density under temperature as well

@@ -17,7 +17,7 @@ from pyehl.case.writer import case_text
 from pyehl.errors import InputError
 from pyehl.given import Option, options_of, path_of
 
-# What the machine gives of each contact, and no key
+# Quantities of each contact that follow from the machine, and are no keys of its file
 FOLLOWS = (
     *(f"contact.{key}" for key in ("moes_m", "moes_l", "radius_ratio", "load", "mean_velocity")),
     *(f"contact.{key}" for key in ("shape", *LINE_KEYS)),
@@ -25,7 +25,7 @@ FOLLOWS = (
     *(f"contact.{key}" for key in ("angle", "slide_to_roll")),
     *(f"bodies.radius_{key}" for key in ("x1", "y1", "x2", "y2")),
 )
-# And what of the machine some of them follow from
+# Keys of the machine that some of them follow from
 LOADS = ("radial_load", "axial_load", "torque")
 CAUSES = {
     "load": LOADS,

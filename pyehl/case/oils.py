@@ -30,13 +30,13 @@ class Constant:
 
 @dataclass(frozen=True, slots=True)
 class OilConstants:
-    """What is known of an oil: ``lubricant.name`` of a case."""
+    """Constants of an oil: ``lubricant.name`` of a case."""
 
     name: str
     viscosity_law: str
     title: str
     source: str
-    range: str  # of the measurements behind the constants, in words
+    range: str  # of the measurements behind the constants, as text
     constants: tuple[Constant, ...]
 
 
@@ -122,7 +122,7 @@ COLUMNS = {
     "temperature_degC": (-100.0, 500.0),
     "viscosity_Pa_s": (1e-6, 1e15),
 }
-# Highest pressure [Pa] that is as good as none: it changes the viscosity by some 2 %
+# Highest pressure [Pa] that counts as ambient: it changes the viscosity by some 2 %
 AMBIENT = 1e6
 HEADER = "a line with the names pressure_Pa, temperature_degC and viscosity_Pa_s"
 

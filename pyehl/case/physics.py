@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the completion of a case takes from the solver, so that it is written once."""
+"""Functions of the solver that complete a case."""
 
 import math
 from collections.abc import Sequence

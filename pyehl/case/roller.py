@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What belongs to a roller of finite length: its profile, and what it does not have."""
+"""Keys of a roller of finite length: its profile, and keys that it does not have."""
 
 import math
 from collections.abc import Iterator
@@ -13,7 +13,7 @@ from pyehl.case.source import Source, read_text
 SHAPE = "contact.shape = 'roller'"
 NO_FLOODED_BORDER = (
     "'zero': the flow around the ends beyond the border is not known; the default domain is so "
-    "long that P = 0 there costs little"
+    "long that P = 0 there has a small error"
 )
 COLUMNS = "y", "drop"
 TABLE = "profile_file: lines 'y, drop' in m, y rising from -length/2 to length/2"
@@ -52,7 +52,7 @@ def unused(contact: Contact) -> Iterator[str]:
 
 
 def complete(draft: Draft) -> None:
-    """Read the table of a profile, unless it is gone and a resolved case holds it."""
+    """Read the table of a profile, unless it is missing and a resolved case holds it."""
     c = draft.settings.contact
     for end in BODIES:
         key = f"profile_file{end}"
@@ -82,7 +82,7 @@ def _read_table(name: str) -> tuple[tuple[float, ...], ...]:
 
 
 def check_keys(draft: Draft) -> None:
-    """Refuse what is missing of a roller, keys of other shapes, and what it does not have."""
+    """Refuse a roller with missing keys, with keys of other shapes, or with what it cannot have."""
     s, c = draft.settings, draft.settings.contact
     if not c.is_roller:
         name = draft.first_given(f"contact.{key}" for key in KEYS)
@@ -116,7 +116,7 @@ def check_keys(draft: Draft) -> None:
 
 
 def check_length(draft: Draft) -> None:
-    """Refuse a roller that is no line contact, or whose grid would be endless."""
+    """Refuse a roller that is too short for a line contact, or too long for a grid."""
     c = draft.settings.contact
     if not c.is_roller:
         return

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The groups of a case with their values and keys, and a case on its way to be complete."""
+"""The groups of a case with their values and keys, and a case that is being completed."""
 
 import os
 from collections.abc import Iterable, Iterator
@@ -91,7 +91,7 @@ class Draft:
     given
         Places of the keys that were given, by ``group.key``.
     may_be_light
-        Whether a hardly loaded contact is no slip of units: one of many of a machine.
+        Whether a very low load is plausible, as of one of many contacts of a machine.
     """
 
     settings: Settings
@@ -125,12 +125,12 @@ class Draft:
         place = self.given[one]
         self.sources[place.source].refuse(place.first, place.name_end, what, expected)
 
-    def check_range(self, name: str, value: float, culprit: str, origin: str) -> None:
-        """Refuse a value that was not set and that its range does not allow, at its culprit."""
+    def check_range(self, name: str, value: float, origin_key: str, origin: str) -> None:
+        """Refuse a derived value outside of its range, at the key that it follows from."""
         key = KEYS[name]
         if not key.allows(value):
             what = f"{name} = {short(value)} follows from {origin}"
-            self.refuse(culprit, what, key.expected)
+            self.refuse(origin_key, what, key.expected)
 
     def absolute(self, name: str, path: str) -> str:
         """Make the name of a file absolute.

@@ -90,7 +90,7 @@ class Source:
         return self.text.count("\n", 0, position) + 1
 
     def check_characters(self) -> None:
-        """Refuse control characters, which have no place in a text."""
+        """Refuse control characters."""
         if (match := NO_TEXT.search(self.text)) is not None:
             code = ord(match[0])
             what = f"this is not a text file (byte {code})"

@@ -43,7 +43,7 @@ FINISHES = {
 
 
 def complete(draft: Draft) -> None:
-    """Find what follows from other keys."""
+    """Complete values that follow from other keys."""
     first, second = draft.settings.surface, draft.settings.second_surface
     for group, surface in zip(GROUPS, (first, second), strict=True):
         _complete_pattern(draft, group, surface)
@@ -59,7 +59,7 @@ def complete(draft: Draft) -> None:
 
 
 def complete_finish(draft: Draft) -> None:
-    """Find what finishes stand for: cells and domain depend on whether surfaces are smooth."""
+    """Complete finishes first: cells and domain depend on whether surfaces are smooth."""
     for group in GROUPS:
         _complete_finish(draft, group, getattr(draft.settings, group))
 

@@ -10,7 +10,7 @@ from pyehl.case.source import ATOM, OPEN_STRING, STRING, Piece, Source
 
 
 class BadValue(Exception):  # noqa: N818
-    """What is wrong with a value, and how far behind its beginning."""
+    """Problem of a value, and its offset in the text."""
 
     def __init__(self, problem: str, behind: int = 0) -> None:
         super().__init__(problem)
@@ -52,7 +52,7 @@ def value_of(key: Key, value: Piece, *, is_option: bool) -> Value:
         return _number(key, value, is_option=is_option)
     if key.kind == "truth":
         if value.kind == STRING:
-            raise BadValue("text where a truth value is wanted")
+            raise BadValue("text where a truth value is expected")
         truth = TRUTHS.get(value.text.lower())
         if truth is None:
             raise BadValue("not a truth value")
@@ -84,7 +84,7 @@ def _numbers(key: Key, piece: Piece) -> tuple[float, ...]:
 def _number(key: Key, piece: Piece, *, is_option: bool) -> float | int:
     text = piece.text
     if piece.kind == STRING:
-        raise BadValue("text where a number is wanted")
+        raise BadValue("text where a number is expected")
     match = NUMBER.match(text)
     if match is None or match.end() < len(text):
         if "," in text:

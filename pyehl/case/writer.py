@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A resolved case as namelist text that reads back as the same case, every value spelled out."""
+"""A resolved case as namelist text with every value, which reads back as the same case."""
 
 from collections.abc import Collection, Iterator, Mapping
 from functools import cache
@@ -12,7 +12,7 @@ OPTIONAL = (
     *("name", "table", "inlet_law"),
     *("table_temperature", "table_pressure", "table_viscosity"),
 )
-"""Keys of the lubricant that are written where they say something."""
+"""Keys of the lubricant that are written where they have an effect."""
 LINE_ALONE = ("shape", "load_per_length", "moes_m_line", "moes_l_line")
 POINT_ALONE = ("load", "moes_m", "moes_l", "radius_ratio", "angle")
 """Keys of a line, and keys that a line does not have."""
@@ -89,7 +89,7 @@ def _default_line(key: Key) -> str:
 
 
 def _unwritten(settings: Settings, group: str) -> frozenset[str]:
-    """Keys of a group that have no value, or whose rival does."""
+    """Keys of a group that have no value, or that are excluded by another key."""
     if group == "contact":
         return frozenset(_of_contact(settings))
     if group in ("bodies", "inlet"):

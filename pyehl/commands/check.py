@@ -14,7 +14,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--resolved",
         metavar="FILE.nml",
-        help="write the case that ehl reads instead, every value spelled out, and surfaces that "
+        help="write the case that ehl reads instead, with every value, and surfaces that "
         "have to be prepared as .npy beside it; print the files",
     )
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""``pyehl info``: what a report of a fault needs."""
+"""``pyehl info``: versions and machine, for a report of a fault."""
 
 import argparse
 import os

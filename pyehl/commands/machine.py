@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What ``pyehl bearing`` and ``pyehl gear`` share."""
+"""Common part of ``pyehl bearing`` and ``pyehl gear``."""
 
 import argparse
 import json

@@ -69,7 +69,7 @@ def _surface(name: str, tile: Topography) -> str:
 
 
 def _deformed(values: Mapping[str, Any]) -> list[str]:
-    """Say what becomes of the surface."""
+    """Describe the deformed surface."""
     unit = lengths.unit_of(values["rms_deformed_m"])
     surface = [f"rms {_with_error(values, 'rms_deformed_m', lengths.UNITS[unit])} {unit}"]
     for words, name in (("pressure rms", "p_rise_rms_Pa"), ("maximum increase", "p_rise_max_Pa")):

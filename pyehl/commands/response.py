@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""``pyehl response``: what the contact of a case makes of small waves of roughness."""
+"""``pyehl response``: response of the contact of a case to small waves of roughness."""
 
 import argparse
 import time

@@ -22,8 +22,8 @@ LOG = logging.getLogger(__name__)
 PROGRESS_INTERVAL = 2.0
 
 
-class _Voice:
-    """Prints lines; when the terminal or file is lost on the way the run goes on without a word."""
+class _Printer:
+    """Prints lines; when the terminal or file is lost during a run it continues silently."""
 
     def __init__(self) -> None:
         self.lines = 0
@@ -64,7 +64,7 @@ def _display(say: Callable[[str], None]) -> Callable[[Solver], None]:
     return show
 
 
-def _status(outcome: Outcome, say: _Voice) -> int:
+def _status(outcome: Outcome, say: _Printer) -> int:
     if outcome.converged:
         return EXIT_FAILED if say.lost else EXIT_OK
     return EXIT_INTERRUPTED if outcome.interrupted else EXIT_FAILED
@@ -84,7 +84,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def execute(args: argparse.Namespace) -> int:
-    say = _Voice()
+    say = _Printer()
     words: dict[str, Any] = {} if args.quiet else {"say": say, "advanced": _display(say)}
     words["force"] = args.force
     if args.resume is not None:

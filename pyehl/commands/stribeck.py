@@ -67,7 +67,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--boundary-friction",
         type=float,
         metavar="MU",
-        help="add what an empirical law gives for thin films, where asperities have this friction",
+        help="add friction by an empirical law for thin films, with this friction of asperities",
     )
     parser.add_argument(
         "--load-share",
@@ -166,7 +166,7 @@ def draw(
 
 
 def _conditions(plan: CurvePlan) -> str:
-    """Give what is not varied of load, speed, slip and viscosity."""
+    """Give those of load, speed, slip and viscosity that are not varied."""
     settings = plan.points[0].settings
     result = [
         f"{sign} = {settings[group][key]:.4g}{unit}"

@@ -115,14 +115,14 @@ def execute(args: argparse.Namespace) -> int:
 
 
 def print_spectrum(surface: Mapping[str, Any]) -> None:
-    """Print the parameters that the profile of the group ``surface`` gives."""
+    """Print the parameters of the spectrum of a profile."""
     ridges = surface["profile"] == "ridges"
     result = fit(profile_of(surface), str(surface["detrend"]), ridges=ridges)
     print("\n".join(result.report()))
 
 
 def _lines(surface: Topography) -> list[str]:
-    """Describe what the surface is, and how it was prepared."""
+    """Describe the surface, and how it was prepared."""
     if surface.preparation is None:
         lines = [f"surface    {surface.origin}"]
     else:

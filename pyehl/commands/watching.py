@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What subcommands that run many cases share: arguments, and what they print meanwhile."""
+"""Common part of subcommands that run many cases: arguments, and progress."""
 
 import argparse
 import sys
@@ -68,7 +68,7 @@ class Terminal(Watcher):
             self._bar = Bar(self._remaining.total)
 
     def finished(self, rows: Sequence[tuple[int, Row]]) -> None:
-        """Show how far it is."""
+        """Show the progress."""
         self._failed += sum(row.get("status") == FAILED for _, row in rows)
         self._remaining.remove(rows)
         if self._bar is not None:
@@ -89,7 +89,7 @@ class Terminal(Watcher):
 
 
 def add_worker_arguments(parser: argparse.ArgumentParser, *, required: bool = True) -> None:
-    """Arguments of all subcommands that run many cases; whether they want a folder."""
+    """Arguments of all subcommands that run many cases; `required`: a folder has to be given."""
     parser.add_argument(
         "-o", "--output", metavar="DIR", required=required, help="folder of the study"
     )

@@ -54,7 +54,7 @@ class FilmThickness:
 
 
 def left_out(settings: Settings, lubricant: Lubricant) -> list[str]:
-    """Say which keys of a resolved case the formulas do not know though the film hangs on them."""
+    """List keys of a resolved case that change the film and are not in the formulas."""
     result = []
     grid, boundary = (
         settings.get("grid", {}),
@@ -79,7 +79,7 @@ def left_out(settings: Settings, lubricant: Lubricant) -> list[str]:
 
 
 def _inlet(settings: Settings) -> tuple[float, float]:
-    """Where the oil begins [a] and the layer that arrives [a^2/R], by an inlet short of it."""
+    """Position of the meniscus [a] and oil layer [a^2/R] of a starved inlet."""
     inlet = settings.get("inlet", {})
     return float(inlet.get("position_hertz", 0.0)), float(inlet.get("film_hertz", 0.0))
 
@@ -146,7 +146,7 @@ def _rough_groups(settings: Settings) -> list[Mapping[str, Any]]:
 def _films(
     settings: Settings, operating: AnyContact, lubricant: Lubricant
 ) -> list[film.FilmEstimate]:
-    """Films by the formulas, and by those of starvation; none of an ellipse that is turned."""
+    """Films by the formulas, and by those of starvation; none for a turned ellipse."""
     position, layer = _inlet(settings)
     if isinstance(operating, LineContact):
         films = line_contact.estimates(operating, lubricant)
@@ -209,7 +209,7 @@ def _of_surfaces(
 
 
 def _record(formula: film.FilmEstimate, scale: float) -> dict[str, Any]:
-    """Return what a formula gives, with films in metres and over a scale [m]."""
+    """Return the films by a formula, in metres and over a scale [m]."""
     h_c, h_min = (h if math.isfinite(h) else None for h in (formula.h_c, formula.h_min))
     return {
         "name": formula.name,
@@ -227,7 +227,7 @@ def _record(formula: film.FilmEstimate, scale: float) -> dict[str, Any]:
 
 
 def _heat(v: Mapping[str, Any]) -> list[str]:
-    """Return what shear heating of the inlet does, in one line or none."""
+    """Return the effect of shear heating of the inlet, in one line or none."""
     if v["thermal_reduction"] == 1.0:
         return []
     return [
@@ -245,7 +245,7 @@ def _of_shape(v: Mapping[str, Any]) -> tuple[str, str, str]:
 
 
 def _cell(value: float | None, width: int, digits: int) -> str:
-    """Write a film so wide, with the digits of its column unless these are noughts."""
+    """Write a film in a field of a width, with the digits of its column unless these are zeros."""
     if value is None:
         return f"{'-':>{width}}"
     if value >= 10.0 ** (width - digits - 2):

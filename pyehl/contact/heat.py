@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The heat of sliding in a contact: temperatures, and what they make of friction."""
+"""Frictional heat in a contact: temperatures, and their effect on friction."""
 
 import math
 from collections.abc import Sequence

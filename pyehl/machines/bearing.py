@@ -23,14 +23,14 @@ from pyehl.machines.equilibrium import (
 from pyehl.theory.ellipse import Ellipse, ellipse
 
 RINGS = {"inner": 1.0, "outer": -1.0}
-"""And the sign of the curvature of their raceways."""
+"""Rings, and the sign of the curvature of their raceways."""
 # Maximum pressure at the static rating of bearings (ISO 76) [Pa]
 STATIC = {BALL: 4.2e9, ROLLER: 4.0e9}
 # Largest contact angle without load [deg]
 STEEPEST = 60.0
 # Share by which the axial load of a tapered bearing exceeds that of a single loaded roller
 APART = 1e-3
-# Share of the largest load below which a contact may be lighter than the solver takes it
+# Share of the largest load below which a contact may be below the minimum load of the solver
 LIGHT = 0.5
 # Of bearing steel [kg/m^3]
 DENSITY = 7800.0
@@ -49,7 +49,7 @@ class Bearing:
     ring
         Its equilibrium.
     contacts
-        Those that carry load.
+        The loaded ones.
     places
         Of each of them the number of the element, azimuth and contact angle [deg], and the ring.
     facts

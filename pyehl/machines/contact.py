@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""One contact of a machine element: what the machine makes of it, and its film by formulas."""
+"""One contact of a machine element: its conditions by the machine, and its film by formulas."""
 
 import math
 from collections.abc import Mapping
@@ -30,12 +30,12 @@ LONGEST = 30.0
 
 @dataclass(frozen=True, slots=True)
 class Contact:
-    """A contact, by what its machine makes of it.
+    """A contact, with its conditions by the machine.
 
     Attributes
     ----------
     place
-        Where it is, in words.
+        Its position, as text.
     load
         [N].
     mean_velocity, slide_to_roll
@@ -48,7 +48,7 @@ class Contact:
     spin
         Angular velocity of one body against the other about the normal [rad/s].
     may_be_light
-        Whether a hardly loaded contact is no slip of units: others of the machine carry its load.
+        Whether a very low load is plausible: others of the machine carry the load.
     """
 
     place: str
@@ -146,7 +146,7 @@ class Film:
     regime
         As :func:`pyehl.theory.moes_film.regime` names it.
     outside
-        What is outside of the range of a formula that gives them, in words; '' if nothing is.
+        Numbers outside of the range of a formula that gives them, as text; '' if there are none.
     wide
         The case of `point`, of a line.
     """
@@ -181,7 +181,7 @@ class Film:
 
     @property
     def is_solvable(self) -> bool:
-        """Whether the solver takes it: no ellipse too long for it, and load enough."""
+        """Whether the solver can solve it: the ellipse is not too long, the load not too low."""
         modulus = self.settings["contact"]["reduced_modulus"]
         long = self.line is None and self.ellipticity > LONGEST
         return not (long or is_light(self.moes[0], self.hertz_pressure, modulus))

@@ -19,8 +19,8 @@ NODES, ROWS, GAUSS = 129, 9, 40
 def traction(film: Film) -> tuple[float, float]:
     """Coefficient of friction of sliding [-] and flash temperature [K] (Tian & Kennedy).
 
-    On p_h sqrt(1 - r^2) and a film h_c everywhere, with the heat where the case has it. NaN without
-    sliding along the motion, and mu for a Newtonian stress that is unphysical.
+    On p_h sqrt(1 - r^2) and a uniform film h_c, with the heat where the case includes it. NaN
+    without sliding along the motion, and mu for a Newtonian stress that is unphysical.
     """
     point, oil, h_c = film.point, film.lubricant, film.h_c
     if point.slide_to_roll == 0.0:
@@ -40,7 +40,7 @@ def traction(film: Film) -> tuple[float, float]:
 
 
 def _heat(film: Film, h_c: float) -> Heat:
-    """Give what the heat of sliding makes of the friction, on such a pressure and film."""
+    """Give the effect of frictional heat on such a pressure and film."""
     rows = 2 if film.line else ROWS
     across = 0.0 if film.line else film.point.ellipse.ellipticity
     x = np.linspace(-1.0, 1.0, NODES)
@@ -77,9 +77,9 @@ def groove_sliding(film: Film, h_c: float) -> float:
     """Power of sliding in the groove of a ball that rolls freely, and spins [W].
 
     Heathcote's sliding: the common surface of ball and groove is curved across the motion, so that
-    they move alike on two lines alone, where the traction of the rest is balanced. Isothermal, on
-    the Hertz pressure and a film h_c [m] everywhere. NaN for a Newtonian oil, whose stress would be
-    unphysical.
+    both have the same velocity on two lines alone, and the tractions between them balance.
+    Isothermal, on the Hertz pressure and a film h_c [m] everywhere. NaN for a Newtonian oil, whose
+    stress would be unphysical.
     """
     point, oil, contact = film.point, film.lubricant, film.contact
     if oil.shear.law == "newtonian":

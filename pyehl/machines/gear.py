@@ -15,7 +15,7 @@ from pyehl.machines.contact import LONGEST, Contact
 from pyehl.theory.ellipse import ellipse
 from pyehl.types import Array
 
-# Backlash that is none, and tip thickness of a pointed tooth, over the module
+# Backlash that counts as zero, and tip thickness of a pointed tooth, over the module
 NOTHING = 1e-3
 TURN = 2.0 * math.pi / 60.0
 # R_x/R_y below which an ellipse is far longer than `LONGEST`
@@ -113,7 +113,7 @@ def _inverse_involute(value: float) -> float:
 
 
 def mesh_of(machine: Machine) -> Mesh:
-    """Give the geometry of a pair; InputError at the key at which it cannot be made or mesh."""
+    """Give the geometry of a pair; InputError at the key that prevents the gears from meshing."""
     v = machine.values
     machine.wants("teeth_1", "teeth_2", "module", "face_width")
     teeth, shifts = (v.teeth_1, v.teeth_2), (v.profile_shift_1, v.profile_shift_2)
@@ -216,7 +216,7 @@ def stations(mesh: Mesh, count: int) -> Array:
 
 
 def gear_pair(machine: Machine) -> GearPair:
-    """Give the contacts of a pair along its path of contact; InputError at the key that fits not.
+    """Give the contacts of a pair along its path of contact; InputError at an invalid key.
 
     With crowning a contact is an ellipse; without, or where the ellipse is longer than the face
     width, a line of the face width.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The duty of a pair of teeth: what its contact sees from the begin of its path to the end."""
+"""The duty of a pair of teeth: the conditions of its contact along the path of contact."""
 
 from collections.abc import Sequence
 from pathlib import Path

@@ -47,7 +47,7 @@ AnyCase = str | os.PathLike[str] | EllipsisType
 
 
 class Prepared:
-    """A machine element whose contacts are known, before any of them is solved.
+    """A machine element with its contacts, before any of them is solved.
 
     Attributes
     ----------
@@ -93,7 +93,7 @@ class Prepared:
             self.number.append(numbers[one.text])
 
     def identity(self) -> dict[str, Any]:
-        """Give what makes this study another one than others, as values of JSON."""
+        """Give the identity of this study, as values of JSON."""
         texts = [task.text for task in self.tasks.tasks]
         files = {name: None for text in texts for name in files_of(namelist.values(text))}
         return {
@@ -105,7 +105,7 @@ class Prepared:
         }
 
     def result(self, rows: Mapping[int, Row]) -> MachineResult:
-        """Give the result, from what was found of the tasks so far."""
+        """Give the result, from the tasks finished so far."""
         missing: Row = {"status": "not run", "message": "the study was interrupted"}
         sigma = sigma_of(self.films[0])
         table = table_of(
@@ -128,7 +128,7 @@ def perform(
     watcher: Watcher | None = None,
     **how: Any,  # noqa: ANN401 (as of `gather`)
 ) -> tuple[MachineResult, Outcome]:
-    """Do what is missing of a machine element, and write its folder.
+    """Run the missing contacts of a machine element, and write its folder.
 
     InputError if it holds another one or something else; FileError if it cannot be written.
     """

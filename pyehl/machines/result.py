@@ -66,14 +66,14 @@ FOUND = (
     *("h_c_m", "h_c_error_m", "h_min_m", "h_min_error_m", "mu", "mu_ratio", "h_min_rough_m"),
     "flash_temperature_K",
 )
-"""Columns that a solution or a prediction gives under the same names."""
+"""Columns of a solution or a prediction with the same names."""
 OPTIONAL = ("length_m", "lambda_ratio", *FOUND[4:])
 """Columns that are left out where no contact has a value."""
 LEFT_OUT = {
     "bearing": "cage, seals, churning, flanges, hysteresis of steel, centrifugal loads, tilting",
     "gear": "churning, bearings, seals, tip relief, dynamic loads, deflection of the teeth",
 }
-"""What the sums do not have."""
+"""Losses that the sums leave out."""
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -87,7 +87,7 @@ class MachineResult:
     table
         A row for each contact, `COLUMNS` as far as they have a value.
     summary
-        Numbers of the whole, with units in their names; ``left_out``: what they do not have.
+        Numbers of the whole, with units in their names; ``left_out``: losses that are left out.
     """
 
     kind: str
@@ -135,7 +135,7 @@ def sigma_of(film: Film) -> float:
 
 
 def row_of(film: Film, sigma: float, done: Row | None, place: Mapping[str, Any]) -> dict[str, Any]:
-    """Give the row of a contact; `done` is what a study found of it, None: by formulas."""
+    """Give the row of a contact; `done` is its row in a study, None: by formulas."""
     contact = film.contact
     row: dict[str, Any] = {
         **place,
@@ -151,7 +151,7 @@ def row_of(film: Film, sigma: float, done: Row | None, place: Mapping[str, Any])
         "moes_m": film.moes[0],
         "moes_l": film.moes[1],
         "regime": film.regime,
-        # until something is found
+        # until there is a result
         **dict.fromkeys(("h_c_m", "h_min_m", "mu"), math.nan),
     }
     if done is None:

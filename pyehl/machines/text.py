@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What ``pyehl bearing`` and ``pyehl gear`` print."""
+"""Text of ``pyehl bearing`` and ``pyehl gear``."""
 
 import math
 from collections.abc import Iterable, Mapping
@@ -78,7 +78,7 @@ def cells(kind: str, table: pd.DataFrame) -> dict[str, list[str]]:
 
 
 def notes_of(table: pd.DataFrame, summary: Mapping[str, Any]) -> list[str]:
-    """Say what else to know, what is left out last."""
+    """Give the notes, with omitted losses last."""
     notes = _together(str(note) for note in table["note"] if isinstance(note, str) and note)
     result = [*notes[:NOTES], *([f"and {len(notes) - NOTES} more"] if len(notes) > NOTES else [])]
     result = [f"note       {note}" for note in result]
@@ -92,7 +92,7 @@ def notes_of(table: pd.DataFrame, summary: Mapping[str, Any]) -> list[str]:
 
 
 def sums(table: pd.DataFrame, summary: Mapping[str, Any]) -> dict[str, str]:
-    """Give the sums of a machine element as text, by what they are."""
+    """Give the sums of a machine element as text, by their labels."""
     result = {}
     for name, (label, factor, form, unit) in SUMS.items():
         value = summary.get(name)
@@ -108,7 +108,7 @@ def sums(table: pd.DataFrame, summary: Mapping[str, Any]) -> dict[str, str]:
 
 
 def _together(notes: Iterable[str]) -> list[str]:
-    """Say once of each formula outside of which ranges it is."""
+    """List once for each formula the ranges that are exceeded."""
     result: dict[str, dict[str, None]] = {}
     for note in notes:
         for part in note.split("; "):

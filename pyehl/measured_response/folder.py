@@ -73,7 +73,7 @@ def response(
     second: bool = False,
     progress: Callable[[str, int, int], object] | None = None,
 ) -> xr.Dataset:
-    """Measure what the contact of a case makes of small waves of roughness; takes minutes.
+    """Measure the response of a contact to small waves of roughness; takes minutes.
 
     Parameters
     ----------
@@ -173,7 +173,7 @@ def _write(case: Case, result: Mapping[str, Mapping[str, Any]], place: Destinati
 def _summary(
     result: Mapping[str, Mapping[str, Any]], difference: Array, values: xr.Dataset
 ) -> dict[str, Any]:
-    """Give what ``summary.json`` holds; `values` has the conditions."""
+    """Give the content of ``summary.json``; `values` has the conditions."""
     tiers = [
         {
             "name": name,
@@ -257,7 +257,7 @@ def dataset(
     """Give all waves of a measurement, the longest first.
 
     `tiers` are as :func:`pyehl.measured_response.measurement.measure` returns them; `zone` is the
-    smooth contact that the shipped response goes through, `moes` M and L of the circular contact
+    smooth contact of the shipped response, `moes` M and L of the circular contact
     with the same inlet. Over wave (m,), and over wave and X
     (m, 3) at the STATIONS; each variable has units.
     """

@@ -31,7 +31,7 @@ from pyehl.types import Settings
 # Angles of the crests to those across the motion, one wave after the other [deg]
 DIRECTIONS = (0, 45, 80, 26, 0, 63, 15, 75, 0, 56, 35, 70, 0, 45, 62, 20)
 NODES = 8
-"""Least number of nodes a wavelength."""
+"""Minimum number of nodes a wavelength."""
 Progress = Callable[[str, int, int], object]
 
 
@@ -78,7 +78,7 @@ def tier_waves(tier: Tier) -> WaveSet:
 
 
 def _identity(settings: Settings, velocity_ratio: float, tier: Tier) -> str:
-    """Describe what a tier depends on, as text."""
+    """Describe the inputs of a tier, as text."""
     o = OperatingPoint.from_settings(settings)
     shape = [] if o.radius_ratio == 1.0 else [o.radius_ratio]
     values = {
@@ -136,10 +136,11 @@ def measure(
     folder are not run again; one after the other has all processors. `progress` is called with the
     name of a tier, its steps done and its steps in all.
 
-    By the name of the tier what :class:`pyehl.measured_response.superposition.Superposition` has,
-    with tile [a], along, across, phase [rad] and seconds. InputError if the velocity ratio is not
-    positive, or the folder holds something else; FileError if it cannot be made; EhlError if a tier
-    fails: those that have ended stay.
+    Returns by the name of the tier the arrays of
+    :class:`pyehl.measured_response.superposition.Superposition`, with tile [a], along, across,
+    phase [rad] and seconds. InputError if the velocity ratio is not positive, or the folder holds
+    something else; FileError if it cannot be made; EhlError if a tier fails: those that have
+    ended stay.
     """
     settings = case.resolve()
     why = turned(settings)
@@ -165,7 +166,7 @@ def measure(
             with np.load(path, allow_pickle=False) as stored:
                 result[tier.name] = {name: stored[name] for name in stored.files}
     except KeyboardInterrupt as stop:
-        kept = f"kept in {folder}: {', '.join(result)}; the same command goes on from there"
+        kept = f"kept in {folder}: {', '.join(result)}; the same command resumes from there"
         raise KeyboardInterrupt(kept if result else "no run has ended: nothing is kept") from stop
     finally:
         if new and not any(folder.iterdir()):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a contact makes of many small waves of roughness, from one transient run.
+"""The response of a contact to many small waves of roughness, from one transient run.
 
-Waves of small amplitude do not feel each other, so that one surface can hold many of them. Each has
+Waves of small amplitude do not interact, so that one surface can hold many of them. Each has
 its own number of wavelengths n along the tile, hence its own frequency U k at a fixed place; when
 the front and the free wave have passed, film and pressure on the line Y = 0 are fitted by the
 cosines and sines of all frequencies over one period of the tile. The waves are even in Y,
@@ -29,11 +29,11 @@ from pyehl.types import Array, Complex, Settings
 SLOPE = 1.2e-3
 """Amplitude of a wave times its wavenumber [a/R]: small enough for the response to be linear."""
 REACH = 1.0
-"""The response is found for |X| up to here [a]."""
+"""The response is measured for |X| up to here [a]."""
 ACCURACY = 0.02
 # Pixels per shortest wave; the solver interpolates a map by its Fourier series
 PIXELS = 4
-# Way of the slowest wave [a] from the place where the run begins until the contact is in order
+# Way of the slowest wave [a] from the place where the run begins until the start has no effect
 FILLING = 2.3
 FRONT = -2.5
 

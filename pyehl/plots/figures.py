@@ -162,7 +162,7 @@ def _deformed(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
 
 
 def _once(axes: list[Axes], outline: Outline) -> None:
-    """Leave out what two maps of a contact have in common."""
+    """Remove labels that two maps of a contact share."""
     if outline.slender:
         no_numbers_below(axes[0])
     else:
@@ -214,7 +214,7 @@ def _extremes(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
 
 
 def _duty(data: xr.Dataset, title: str) -> Figure:
-    """Films over time, beside them those of steady contacts, and below what changes."""
+    """Films over time, with those of steady contacts, and below the conditions."""
     figure = rows([0.55, 0.3], title)
     upper, lower = figure.axes
     history, solved = (
@@ -246,7 +246,7 @@ def prediction_figures(
 def prediction_pictures(
     about: Mapping[str, Any], arrays: Mapping[str, Array], tables: Mapping[str, Mapping[str, Array]]
 ) -> dict[str, Callable[[], Figure]]:
-    """Give what draws each figure of a prediction, by the names of their files."""
+    """Give functions that draw the figures of a prediction, by the names of their files."""
     title = headline(about)
     result: dict[str, Callable[[], Figure]] = {}
     for prefix in ("", "second_") if "second_surface" in about else ("",):
@@ -306,7 +306,7 @@ def _tile(about: Mapping[str, Any], arrays: Mapping[str, Array], prefix: str) ->
 
 
 def _flattened(about: Mapping[str, Any], tile: Topography) -> Array:
-    """Return what pressure [Pa] flattens of a tile [m]: it over E'|q|/4 of the half-space."""
+    """Return the flattening of a tile [m] by a pressure [Pa]: the latter over E'|q|/4."""
     kernel_ratio = ellipse(about.get("radius_ratio", 1.0)).kernel_ratio
     stiff = stiffness(np.hypot(*wavenumbers(tile)) * about["hertz_radius_m"]) / kernel_ratio
     # the mean is not flattened

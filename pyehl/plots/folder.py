@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The pictures of a result, and as files."""
+"""The pictures of a result, as figures and as files."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ PREDICTED = {"surface": "m", "deformed": "m", "delta_p": "Pa"}
 
 
 class Predicted(Protocol):
-    """What `pyehl.predict` gives."""
+    """A result of `pyehl.predict`."""
 
     @property
     def data(self) -> xr.Dataset:

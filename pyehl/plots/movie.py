@@ -27,7 +27,7 @@ MIN_SECONDS, MOST_SECONDS = 0.02, 10.0
 
 
 def _pace(data: xr.Dataset, seconds: float, *, si: bool) -> str:
-    """Say how long a frame is shown, and what time of the contact it stands for."""
+    """State how long a frame is shown, and the time in the contact between frames."""
     times = data["T"].values
     between = float(np.median(np.diff(times))) if times.size > 1 else 0.0
     text = f"{between:.3g} a/u"
@@ -59,7 +59,7 @@ def movie(
         )
     if data.attrs.get("shape") == "line":
         raise InputError(
-            "contact.shape = 'line': a movie is of maps, and a line has none\n"
+            "contact.shape = 'line': a movie shows maps, which a line does not have\n"
             "expected: 'pyehl plot' of its result"
         )
     if not (math.isfinite(seconds) and MIN_SECONDS <= seconds <= MOST_SECONDS):
@@ -67,7 +67,7 @@ def movie(
             f"frame_seconds = {seconds:g}: expected {MIN_SECONDS:g} ... {MOST_SECONDS:g} s"
         )
     if suffix == "mp4" and not animation.writers.is_available("ffmpeg"):
-        raise InputError("an MP4 needs the program ffmpeg, which is not here\nexpected: GIF")
+        raise InputError("an MP4 needs the program ffmpeg, which is not installed\nexpected: GIF")
     # a GIF has whole hundredths
     seconds = round(100.0 * seconds) / 100.0 if suffix == "gif" else seconds
     scales = scales_of(data, units)
@@ -120,7 +120,7 @@ def movie(
     with new_file(path) as partial:
         moving.save(partial, writer=writer, dpi=DPI)
         if suffix == "gif":
-            # what follows the end of a GIF is passed over
+            # bytes after the end of a GIF are ignored
             with partial.open("ab") as stream:
                 stream.write(mark("plot").encode())
     return path

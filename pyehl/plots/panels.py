@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Panels side by side, or below one another, and the conditions that a picture is of."""
+"""Panels side by side, or below one another, and the conditions of a picture."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any

@@ -55,7 +55,7 @@ def _lag(t: Complex) -> Array:
 
 
 def _turned(waves: Mapping[str, Array], lines: Mapping[float, tuple[Array, Complex]]) -> Array:
-    """Lags of the measured waves [deg], by so many full turns that they come near the lines."""
+    """Lags of the measured waves [deg], shifted by full turns to be near the lines."""
     # the drift of a wave goes with the cosine of its direction
     directions = sorted(lines, reverse=True)
     cosines = np.cos(np.radians(directions))

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pictures of Stribeck curves and of traction curves.
 
-Friction over what was varied, with Lambda above, and contact at a boundary film below it; friction
+Friction over the varied key, with Lambda above, and contact at a boundary film below it; friction
 and temperature over the slide-to-roll ratio.
 """
 
@@ -48,10 +48,11 @@ class Points:
 def draw_stribeck(
     curves: Sequence[Curve], conditions: str, measured: Points | None = None, law: str = ""
 ) -> Figure:
-    """Draw friction over what was varied, a coefficient or a ratio mu_r/mu_s.
+    """Draw friction over the varied key, a coefficient or a ratio mu_r/mu_s.
 
-    `conditions` go into the metadata of a file, with what an empirical `law` is. Measured friction
-    is laid over, and over a ratio the curve of Zhang et al. 2019. Of one curve Lambda stands above.
+    `conditions` go into the metadata of a file, with a description of an empirical `law`. Measured
+    friction is drawn over it, and over a ratio the curve of Zhang et al. 2019. A single curve has
+    Lambda on an axis above.
     """
     absolute, key = curves[0].absolute, curves[0].key
     # none of two surfaces without full simulations
@@ -90,7 +91,7 @@ def draw_stribeck(
 
 
 def _named(curve: Curve) -> str:
-    """Name of a curve in words; '' for the only one."""
+    """Label of a curve; '' for the only one."""
     name = curve.label
     for key, words in LABELS.items():
         name = name.replace(key, words)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The picture of a study: results over what was varied first, a line for each other value."""
+"""The picture of a study: results over the first varied key, a line for each other value."""
 
 from collections.abc import Sequence
 from typing import NamedTuple

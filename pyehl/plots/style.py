@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What all pictures share: the style sheet, sizes, colours, units, letters.
+"""Common parts of all pictures: the style sheet, sizes, colours, units, letters.
 
 Figures are drawn for print: letters of 8 points, one column or one page wide, no titles. Maps are
 colour-blind safe; lengths are in mm, films in nm or um, pressures in GPa when scales are given,
@@ -74,7 +74,7 @@ THIN = 1e-6
 
 @dataclass(frozen=True, slots=True)
 class Scales:
-    """What turns Hertz units into SI: a [m], p_h [Pa], a^2/R_x [m]."""
+    """Scales from Hertz units to SI: a [m], p_h [Pa], a^2/R_x [m]."""
 
     radius: float
     pressure: float
@@ -138,7 +138,7 @@ def axes_or_new(ax: Axes | None, width: float, height: float) -> Axes:
 
 
 def not_known(ax: Axes) -> None:
-    """Say so in axes that have nothing to show."""
+    """Write 'not known' in empty axes."""
     ax.set(xticks=[], yticks=[])
     ax.text(0.5, 0.5, "not known", ha="center", va="center", transform=ax.transAxes)
 
@@ -169,7 +169,7 @@ def colour_bar(
 
 
 def legend_below(figure: Figure, *axes: Axes) -> None:
-    """Say below the panels what is drawn in some of them, each thing once."""
+    """Put one legend for several axes below the panels."""
     named = [ax.get_legend_handles_labels() for ax in axes]
     unique = {label: handle for result in named for handle, label in zip(*result, strict=True)}
     if unique:
@@ -249,7 +249,7 @@ def contact_heights(
 
 
 def place_labels(ax: Axes, x: str, y: str, outline: Outline) -> None:
-    """Label the axes of a map with what is along and across the motion, and its direction."""
+    """Label the axes of a map along and across the motion, and mark its direction."""
     if outline.turned:
         ax.set(xlabel=y, ylabel=x)
         name = ax.get_title(loc="left")
@@ -272,7 +272,7 @@ def extent_of(
 def save(figure: Figure, path: str | Path, dpi: int = DPI, command: str = "plot") -> Path:
     """Write a figure as PNG (or what the suffix names), whole or not at all; returns the path.
 
-    Its metadata say whose picture it is (`command`), and its conditions, the label of the figure.
+    Its metadata name the command and the conditions, the label of the figure.
     FileError if it cannot be written.
     """
     path = Path(path)

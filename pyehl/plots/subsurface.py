@@ -35,7 +35,7 @@ def section(data: xr.Dataset, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     data
-        What `pyehl.stress` gives.
+        A result of `pyehl.stress`.
     ax
         Where to draw; None: a new figure.
     """

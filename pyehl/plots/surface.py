@@ -72,17 +72,17 @@ def spectrum_map(topography: Topography, *, ax: Axes | None = None) -> Axes:
 def spectrum_line(
     topography: Topography, deformed: Array, flattened: Array, *, ax: Axes | None = None
 ) -> Axes:
-    """Radially averaged spectrum C_iso [m^4] of a tile, and what a contact makes of its waves.
+    """Radially averaged spectrum C_iso [m^4] of a tile, and the response of a contact to its waves.
 
-    On a second axis abs(T), the share of a wave that stays in the contact, and abs(1 - T), the
-    share that takes pressure.
+    On a second axis abs(T), the share of a wave that remains in the contact, and abs(1 - T), the
+    share that pressure flattens.
 
     Parameters
     ----------
     topography
         The tile.
     deformed, flattened
-        Deformed roughness and what is flattened of it [m], as the tile.
+        Deformed roughness and its flattened part [m], as the tile.
     """
     ax = style.axes_or_new(ax, 3.8, 3.0)
     q, c_iso = psd_isotropic(topography)
@@ -128,7 +128,7 @@ def roughness(
     hertz_radius
         a [m], of an ellipse the semi-axis along the motion.
     name
-        What the field is called in the title, which also gives its rms.
+        Name of the field in the title, which also gives its rms.
     bar
         Whether it has a colour bar.
     ellipticity
@@ -220,7 +220,7 @@ def passage(
 
 
 def octaves(bands: Sequence[tuple[float, float, float]], *, ax: Axes | None = None) -> Axes:
-    """Draw what each octave of wavelengths adds to mu_r/mu_s, and the increase over the cut-off.
+    """Draw the contribution of each octave to mu_r/mu_s, and the increase over the cut-off.
 
     Parameters
     ----------
@@ -253,7 +253,7 @@ def octaves(bands: Sequence[tuple[float, float, float]], *, ax: Axes | None = No
 def before_and_after(
     surface: Topography, conditions: tuple[float, float, float, str] | None = None
 ) -> Figure:
-    """Draw a surface as it was and as it is, and its isotropic spectrum.
+    """Draw a surface before and after preparation, and its isotropic spectrum.
 
     With conditions, which are a [m], M, L and the wavelength convention, the amplitude reduction
     A_d/A_i is drawn over the spectrum, for waves along x.
@@ -268,7 +268,7 @@ def before_and_after(
         scan = made.scan
         size = scan.length_x, scan.length_y
         _map(axes[0], scan.heights - np.nanmean(scan.heights), size, "as measured")
-        # as if it were a tile, its holes closed by what is next to them
+        # as if it were a tile, its holes filled with neighbouring values
         z = nearest(scan.heights)
         raw = Topography(z - z.mean(), size)
         nx, ny = made.prepared.shape

@@ -34,7 +34,7 @@ def eq_16(summary: Mapping[str, Any], settings: Settings) -> float | None:
     Returns
     -------
     float or None
-        None when the run is none that the equation is for: a circular contact, one rough surface,
+        None unless the equation applies to the run: a circular contact, one rough surface,
         equal wavelengths along X and Y, inside the range of the fit.
     """
     surface = settings["surface"]
@@ -91,7 +91,7 @@ def friction_history(
         ax.plot([end - period, end], [mean, mean], color=style.VERMILLION, lw=2.0, label=label)
     ax.set_xlim(float(time[0]), end)
     low, high = min(1.0, float(ratio.min())), max(float(ratio.max()), formula or 1.0)
-    # above the lines is room for what they are
+    # space for the legend above the lines
     ax.set(ylim=(low - 0.05 * (high - low), high + 0.3 * (high - low)))
     ax.set(xlabel=r"$\bar t = t\,\bar u/a$")
     ax.ticklabel_format(axis="y", useOffset=False)
@@ -154,7 +154,7 @@ def extremes_history(
 def quasi_static(history: Mapping[str, Array], settings: Settings, film: float) -> Array | None:
     """Central film [m] of steady contacts at the times of a duty, (n,).
 
-    By the film formula, times what makes it the solved `film` [m] of the case; NaN where the
+    By the film formula, scaled to the solved `film` [m] of the case; NaN where the
     lubricant is at rest; None where the radius across the motion changes, which is not in the
     history, or a layer of oil arrives.
     """
@@ -218,14 +218,14 @@ def duty_history(
             at, film = solved["t_s"] * 1e3, solved[name] * nm
             ax.plot(at, film, "o", ms=3.5, mfc="none", color=colour, label=label, clip_on=False)
     ax.set(xlim=(0.0, float(time[-1])), ylabel="h [nm]")
-    # above the lines is room for what they are
+    # space for the legend above the lines
     ax.set_ylim(0.0, (1.18 if solved is None else 1.3) * ax.get_ylim()[1])
     ax.legend(loc="upper center", ncols=3 if solved is None else 2)
     return ax
 
 
 def duty_itself(history: Mapping[str, Array], *, ax: Axes | None = None) -> Axes:
-    """Load, mean velocity, radius, viscosity, layer of oil over the case's; what changes."""
+    """Those of load, mean velocity, radius, viscosity, oil layer that change, over the case's."""
     ax = style.axes_or_new(ax, 5.4, 1.6)
     time = history["t_s"] * 1e3
     labels = {"load": "load", "speed": "velocity", "radius_x": "radius", "viscosity": "viscosity"}
@@ -275,7 +275,7 @@ def roughness(
     top
         Largest height of the scale, in Hertz units; 0: that of the field.
     name
-        What the field is called in the title, which also gives its rms.
+        Name of the field in the title, which also gives its rms.
     bar
         Whether it has a colour bar.
     outline

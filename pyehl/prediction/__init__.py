@@ -2,7 +2,7 @@
 """Relative friction of a rough EHL contact from the spectrum of its surface.
 
 Zhang, Biboulet, Venner & Lubrecht 2019 (doi 10.1016/j.triboint.2019.01.028), section 3. Each
-Fourier component of the roughness rr is reduced in the contact to rr_d, which costs a pressure
+Fourier component of the roughness rr is reduced in the contact to rr_d, which needs a pressure
 delta p. Friction is the integral of the shear stress at p_s + delta p in a film h_s - rr_d
 (eqs 13, 14). :mod:`pyehl.prediction.model` begins with a table of the equations and the functions
 that hold them; :func:`pyehl.prediction.predict.predict` predicts a resolved case.
@@ -28,21 +28,20 @@ Readings of the paper
   is 2 sqrt 2 pi/wavelength. Read with wavelength = 2 pi/|q| it is E'|q|/(2 sqrt 2), 41 % too stiff
   (``stiffness="paper"``).
 
-What happens where the model ends
----------------------------------
-* p_s + delta p <= 0: the lubricant cavitates, as P >= 0 demands in the full problem: pressure zero
+Limits of the model
+-------------------
+* p_s + delta p <= 0: the lubricant cavitates, as P >= 0 requires in the full problem: pressure zero
   and viscosity eta0, and by the response less pressure around, so that the load stays. The points
-  are counted (`cavitated_share`) and the share of friction at stake is bounded
+  are counted (`cavitated_share`) and the share of friction that depends on this is bounded
   (`cavitated_friction`); near the edge of the contact p_s vanishes, so a few are normal.
 * A loss of film rr_d of more than 1.6 h_s by the response, of more than h_s in the model of the
-  paper: there is no full film and the model has nothing to say: status ``"film breakdown"``, no
-  ratio.
+  paper: there is no full film, which the model needs: status ``"film breakdown"``, no ratio.
 * mu_r/mu_s above 10: status ``"beyond linear response"``, no ratio; the message names a cut-off of
   the spectrum that brings it into the range in which the model was compared.
 * A viscosity that overflows, or roughness that carries the whole load: status ``"overflow"``,
   ``"load lost"``, no ratio.
 
-A passage is one track of a surface. Ridges along the motion stay in their place of the contact
+A passage is one track of a surface. Ridges along the motion stay in one position across the contact
 during a passage: a track under a ridge has more friction, one under a valley less, and the mean
 over the tracks is a property of the spectrum. The absolute friction coefficient of a Newtonian
 lubricant at these pressures has no meaning.

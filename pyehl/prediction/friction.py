@@ -23,11 +23,11 @@ from pyehl.theory.lubricant import Lubricant
 from pyehl.types import Array
 
 BEYOND = "beyond linear response"
-"""Status where the ratio is beyond the model."""
+"""Status where the ratio is outside of the model."""
 STATUSES = ("predicted", "film breakdown", BEYOND, "load lost", "overflow")
 """All statuses of a prediction; every one but the first is one without a ratio."""
 TRACKS = 8
-"""Tracks over which mean and spread are taken unless asked for otherwise."""
+"""Default number of tracks for mean and spread."""
 
 MAX_RATIO = 10.0
 """Largest mu_r/mu_s that is reported."""
@@ -56,8 +56,8 @@ class RoughFriction:
     mu_ratio: float
     mu_ratio_min: float
     mu_ratio_max: float
-    # What half as many positions would miss at the others, relative to the mean: an upper estimate
-    # of what the positions leave undecided. NaN for an odd number of them
+    # Error of half as many positions at the others, relative to the mean: an upper estimate of the
+    # error by the positions. NaN for an odd number of them
     position_error: float
     # (n,) how far each tile has moved [m], equally spaced over its length. Of two rough surfaces
     # over their common period; in the order of a lattice where there is none
@@ -72,13 +72,13 @@ class RoughFriction:
     increase_rms: float
     increase_max: float
     pressure_max: float  # maximum pressure over the passage within INNER [Pa]
-    # Mean share of the contact with less film than psd.film_limit [-], and what the error of the
-    # film makes of it; NaN without a limit
+    # Mean share of the contact with less film than psd.film_limit [-], and its error by that of the
+    # film; NaN without a limit
     below_limit: float
     below_limit_error: float
     cavitated_share: float  # mean share of the contact where p_s + delta p <= 0 [-]
     cavitated_friction: float  # bound of the share of the friction that comes from there [-]
-    # Greatest |integral of delta p|/w over the passage [-], before any load balance
+    # Maximum |integral of delta p|/w over the passage [-], before any load balance
     load_error: float
     # Mean share of the contact where the film has ended, in the positions [-]
     ended: float
@@ -97,7 +97,7 @@ class RoughFriction:
 
 
 def meaning(lubricant: Lubricant, operating: AnyContact) -> str:
-    """Say what mu_r/mu_s is."""
+    """Describe mu_r/mu_s."""
     stress = STRESS_NOTE + ("" if lubricant.shear.in_flow else NEWTONIAN_FLOW_NOTE)
     note = stress if thins(lubricant, operating) else NEWTONIAN_NOTE
     return note + lubricant.beyond(operating.hertz_pressure)
@@ -108,7 +108,7 @@ def outcome(
 ) -> tuple[str, str]:
     """Give status and message of a passage by mu_r/mu_s at its positions (n,).
 
-    `load_balance`: what the roughness carries is taken off the smooth contact.
+    `load_balance`: the load on the roughness is subtracted from the smooth contact.
     """
     if contact.minimum_film <= 0.0:
         return "film breakdown", too_high(-contact.minimum_film * contact.operating.film_scale)
@@ -124,7 +124,7 @@ def outcome(
 
 
 def too_high(height: float) -> str:
-    """Say that the deformed roughness is higher than the film sustains, by a height [m]."""
+    """Report that the deformed roughness is higher than the film sustains, by a height [m]."""
     much = f"{height * 1e9:.3g} nm"
     return f"the deformed roughness is {much} higher than the film sustains: no full film"
 
@@ -148,7 +148,7 @@ def unknown(*names: str) -> dict[str, Any]:
 # beside that of the smooth contact by the rms height of the deformed roughness
 RMS_DEFORMED_ERROR, INCREASE_RMS_ERROR, INCREASE_ERROR = 0.13, 0.05, 0.15
 ROUGH_FILM_ERROR = 0.35
-# Slip from which on that of the film is twice as large
+# Slip above which that of the film is twice as large
 MUCH_SLIP = 0.2
 
 
@@ -241,7 +241,7 @@ def deformed_surfaces(rows: Sequence[Mapping[str, Any]]) -> dict[str, float | No
 
 
 class Outcome(NamedTuple):
-    """Friction over a passage, mean and spread over tracks (NaN: none), and what bands add."""
+    """Friction over a passage, mean and spread over tracks (NaN: none), contributions of bands."""
 
     friction: RoughFriction
     tracks: tuple[float, float] = (math.nan, math.nan)
@@ -251,7 +251,7 @@ class Outcome(NamedTuple):
 def run(
     model: Model, tracks: int = TRACKS, *, brief: bool = False, waves: Components | None = None
 ) -> Outcome:
-    """Friction over the passage, mean and spread over the tracks, and what each band adds.
+    """Friction over the passage, mean and spread over the tracks, and contribution of each band.
 
     `brief`: of the bands the shortest alone. No tracks: NaN for mean and spread. `waves`: if they
     were made.
@@ -352,7 +352,7 @@ def below(model: Model, waves: Components, limits: Sequence[float]) -> float:
 def _result(
     model: Model, contact: RoughContact | HertzContact, waves: Components, passage: Passage
 ) -> RoughFriction:
-    """Put together what a contact has met in a passage."""
+    """Collect the results of a passage."""
     ratios, visited = passage.ratios, max(1, contact.count * contact.points)
     low, share, high = contact.shares() if contact.levels else (math.nan,) * 3
     status, message = outcome(contact, ratios, load_balance=model.options.load_balance)
@@ -387,7 +387,7 @@ def _result(
 
 
 def _bands(model: Model, waves: Components, total: float, *, brief: bool) -> list[Band]:
-    """Return what each octave, or the last one alone, adds when it joins all longer ones."""
+    """Return the contribution of each octave, or of the last one alone, to that of longer waves."""
     parts = [
         (w.spectrum.q, w.spectrum.power, np.abs(w.at_centre()), np.abs(w.pressure_at_centre()))
         for w in waves

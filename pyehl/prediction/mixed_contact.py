@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Contact at a boundary film: where deformed roughness would come nearer than that film.
+"""Contact at a boundary film, where the film of the response would be thinner than that film.
 
 The film of the response, at one position of the tile after another, must not be thinner than the
 boundary film (``lubricant.boundary_film``; under pressure it is compressed as the lubricant is). A
@@ -7,13 +7,13 @@ pressure p_c of contact lifts it. It bends the surfaces as if the roughness r we
 K being the stiffness of the half-space, and the fluid flattens that as it does any roughness. So
 the loss of film falls by T p_c/K and the pressure grows by T p_c, T by the response for waves that
 move with the lubricant as the films of touching nodes do. For waves as long as the contact T is
-near zero: the load that solid contact carries there the fluid no longer does, and the mean film
-remains that of the inlet.
+near zero: solid contact then takes load from the fluid, and the mean film remains that of the
+inlet.
 
-It is thicker where contact would otherwise carry more than the load, and by what the boundary film
-gives. A column of lubricant that a peak has passed has the film of the boundary film at least. So
-that gives each its largest deficit on the way through the contact, on which peaks that slip
-pass it one after the other, and all films are thicker by the mean s of that:
+It is thicker where contact would otherwise sustain more than the load, and by the mass defect of
+the boundary film. A column of lubricant that a peak has passed has the film of the boundary film at
+least. So its mass defect is the largest deficit on the way through the contact, on which peaks
+that slip pass it one after the other, and all films are thicker by the mean s of that:
 
     s = < max(0, h_b - h_min - s) >,   h_min the minimum film of the column on its way.
 
@@ -46,12 +46,12 @@ HOLD = 0.01
 """Bodies touch where the film exceeds the boundary film by less than this share, as in the solver
 (``fortran/reynolds/boundary_film.f90``)."""
 OPEN = 1.0
-"""Film outside of the contact [a^2/R]: any, since there is no pressure to make heat."""
+"""Film outside of the contact [a^2/R]: any value, since there is no heat without pressure."""
 MIN_LEFT = 0.02
-"""Of waves that the fluid flattens nearly whole, as much is taken to be left: half and twice of it
-change no digit of the contact in docs/howto/mixed.md."""
-GIVEN_TO = 1e-4
-"""Error of the film that the boundary film gives, over its thickness: far below HOLD."""
+"""Minimum amplitude ratio of waves, some of which the fluid flattens nearly completely: half and
+twice of it change no digit of the contact in docs/howto/mixed.md."""
+DEFECT_TOLERANCE = 1e-4
+"""Error of the film by the mass defect, over the boundary film: far below HOLD."""
 SHARE, FARTHEST = 1e-3, 1.0
 """Error of the load share of a smooth contact, and the largest film over its minimum film, in the
 search for the film that has it."""
@@ -62,7 +62,7 @@ in docs/howto/mixed.md by 2 and 4 % of itself, a tenth of its error."""
 
 @dataclass(slots=True)
 class Level:
-    """What the positions have where all films are thicker by a length [a^2/R]."""
+    """Results of the positions with all films thicker by a length [a^2/R]."""
 
     thicker: float
     minimum: float = math.inf  # film [a^2/R]
@@ -102,33 +102,33 @@ class MixedContact:
         self.rubbing = friction * o.hertz_pressure / unit if known else math.nan
         # films that were scaled to the extrapolated central film are off at the sides
         self.film = self.rough.film + missing(model.contact, self.rough.film, self.rough.lowest)
-        self.way = self._way()
+        self.slip_path = self._slip_path()
         self.load = float(self.rough.pressure.sum(where=self.rough.inside))
         self.whole_load = o.load / (o.hertz_pressure * self.rough.area)
         self._bend(self._around(grid))
         # pressure, film and where bodies touch at each position, of the film itself
         self.solutions: dict[int, tuple[Array, Array, Mask]] = {}
 
-    def _way(self) -> Indices:
+    def _slip_path(self) -> Indices:
         """Points by which peaks have slipped past a column since the inlet (m, n)."""
         rough = self.rough
         way = slipped(rough.x[:, np.newaxis], rough.across, self.velocity_ratio, bent=True)
         return np.rint(way / (self.stride * self.tile.pixel[0])).astype(int)
 
-    def _given(self, deficit: Array) -> float:
-        """Film that the boundary film gives [a^2/R], by its deficit at each point (m, n)."""
+    def _mass_defect(self, deficit: Array) -> float:
+        """Film by the mass defect of the boundary film [a^2/R], from the deficit (m, n)."""
         most = deficit.copy()
         direction = 1 if self.velocity_ratio > 1.0 else -1
-        for step in range(1, int(np.abs(self.way).max()) + 1):
+        for step in range(1, int(np.abs(self.slip_path).max()) + 1):
             # peaks that are faster than the lubricant are ahead of where they met it
             met = np.full_like(deficit, -np.inf)
             ahead, here = slice(step, None), slice(None, -step)
             met[here if direction > 0 else ahead] = deficit[ahead if direction > 0 else here]
-            passed = np.abs(self.way) >= step
+            passed = np.abs(self.slip_path) >= step
             most[passed] = np.maximum(most, met)[passed]
         of_all = most[self.rough.inside]
         low, high = 0.0, max(0.0, float(of_all.max()))
-        while high - low > GIVEN_TO * self.boundary:
+        while high - low > DEFECT_TOLERANCE * self.boundary:
             middle = 0.5 * (low + high)
             enough = float(np.maximum(of_all - middle, 0.0).mean()) <= middle
             low, high = (low, middle) if enough else (middle, high)
@@ -151,7 +151,7 @@ class MixedContact:
         return Spectrum.of(heights, lengths[0], lengths[1])
 
     def _bend(self, around: Spectrum) -> None:
-        """Find what pressures of contact make of film and pressure."""
+        """Find the response of film and pressure to contact pressures."""
         slow = replace(self.model.surfaces[0], velocity_ratio=1.0)
         (transfer,) = replace(self.model, surfaces=(slow,)).transfers([around])
         left = np.maximum(np.abs(transfer.at_centre(around, 1.0)), MIN_LEFT)
@@ -167,7 +167,7 @@ class MixedContact:
         return self.boundary / self.model.lubricant.density_ratio(p)
 
     def add(self, shift: int, levels: list[Level]) -> bool:
-        """Add what a position has to levels; False: it is not solved."""
+        """Add a position to levels; False: it is not solved."""
         rough, held = self.rough, None
         change = rough.change((shift, 0)).astype(float)
         for level in levels:
@@ -188,13 +188,13 @@ class MixedContact:
     ) -> tuple[Lifted | None, tuple[Array, Array, Mask]]:
         """Pressure, film and where bodies touch (m, n), by loss of film and increase of pressure.
 
-        `change` (m, n, 2) where films are thicker by a length; also what holds the film off the
-        boundary film, None: it is not solved, from what did so in a similar state.
+        `change` (m, n, 2) where films are thicker by a length; also the contact pressure;
+        None: it is not solved. It starts from that of a similar state.
         """
         linear = self.rough.pressure + change[..., 1]
         floor = self._floor(linear)
         loss = change[..., 0] - thicker
-        loss -= self._given(floor - self.film * film_left(loss / self.film))
+        loss -= self._mass_defect(floor - self.film * film_left(loss / self.film))
         sustained = self.film * loss_at(floor / self.film)
         gap = np.where(self.rough.inside, sustained - loss, np.inf)
         held = lifted(gap, self.lifting, self.boundary, self.load, held)
@@ -219,7 +219,7 @@ class MixedContact:
             left = self._share(result[0], result[2]) - share
             if abs(left) <= SHARE:
                 return off
-            if high - low < GIVEN_TO * self.boundary:
+            if high - low < DEFECT_TOLERANCE * self.boundary:
                 return off if -farthest < low < high < farthest else math.nan
             low, high = (off, high) if left > 0.0 else (low, off)
             off = 0.5 * (low + high)
@@ -252,7 +252,7 @@ class MixedContact:
         heat_of = HeatOf(settings, self.model.lubricant, self.rough.x, self.rough.y)
         result = [self.solutions[int(step)] for step in steps]
         inside = self.rough.inside
-        # what is outside of the points of friction makes no heat
+        # there is no heat outside of the points of friction
         return mean_heat(
             [heat_of(np.where(inside, p, 0.0), np.where(inside, h, OPEN), t) for p, h, t in result],
             [self._stress(*state) for state in result],

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Partial film: its means over the passage of a tile, their errors, and what is not known.
+"""Partial film: means over the passage of a tile, their errors, and reasons of missing values.
 
 Each position is solved by :mod:`pyehl.prediction.mixed_contact`. Compared with the full simulation
 in docs/evidence/partial.
@@ -24,7 +24,7 @@ from pyehl.types import Array, Settings
 
 POSITIONS = 16
 """Positions of the tile over its passage: 32 and 64 change the load share in docs/howto/mixed.md by
-0.2 % of itself. What every second one changes is in the errors."""
+0.2 % of itself. The change by every second one is part of the errors."""
 TEMPERATURE_POSITIONS = 4
 """Of these, in which the temperature is computed: 8 and 16 change mu of such contacts by 0.03 %."""
 TOUCHING_FILM_ERROR = 0.45
@@ -53,7 +53,7 @@ NO_FRICTION = (
 class MixedFilm:
     """A partial film over the passage of a tile: means, but of the film, and errors; NaN: none."""
 
-    note: str = ""  # why an error or all numbers are not there
+    note: str = ""  # why an error or all numbers are missing
     load_share: float = math.nan  # share of the load where bodies touch [-]
     load_share_error: float = math.nan
     area_share: float = math.nan  # their area there over that of the dry contact [-]
@@ -67,8 +67,8 @@ class MixedFilm:
     mu_smooth: float = math.nan
     shift: Array = field(default_factory=lambda: np.zeros(0))  # of the tile (n,) [m]
     passage: Array = field(default_factory=lambda: np.zeros(0))  # (n,) friction there
-    lost: bool = False  # whether bodies touch, and no number of that is known
-    heat: Heat | None = None  # what the heat makes of friction where bodies touch
+    lost: bool = False  # whether bodies touch, and no result of that is known
+    heat: Heat | None = None  # effect of the heat on friction where bodies touch
 
     @property
     def touches(self) -> bool:
@@ -81,13 +81,13 @@ class MixedFilm:
         return self.touches and not math.isfinite(self.friction)
 
     def unknown(self, note: str) -> MixedFilm:
-        """Give the same where its numbers are not known, and why: none where bodies may touch."""
+        """Remove its numbers for a reason: all where bodies may touch."""
         if self.load_share == 0.0 == self.load_share_error:
             return self
         return MixedFilm(note, mu_smooth=self.mu_smooth, lost=self.lost or self.touches)
 
     def without_errors(self, note: str) -> MixedFilm:
-        """Give the same where no error is known, and why."""
+        """Remove its errors for a reason."""
         errors = ("load_share_error", "area_share_error", "film_min_error", "friction_error")
         return replace(self, note=self.note or note, **unknown(*errors))
 
@@ -132,7 +132,7 @@ def partial_film(
     points = WAVE_POINTS / _shortest(wave.spectrum, power)
     within = min(max(points, CONTACT_POINTS[0]), CONTACT_POINTS[1])
     contact = MixedContact(model, waves, grid, within, boundary, friction)
-    # what the smooth film may be off, where that is more: bodies touch at its minimum
+    # the error of the smooth film, where that is more: bodies touch at its minimum
     of_smooth = np.nan_to_num(model.contact.minimum_film_error)
     margin = max(TOUCHING_FILM_ERROR * math.sqrt(float(power.sum())), float(of_smooth))
     off = (
@@ -187,7 +187,7 @@ def _shortest(spectrum: Spectrum, power: Array) -> float:
 
 
 def with_contact(result: Outcome, mixed: MixedFilm) -> tuple[Outcome, MixedFilm]:
-    """Friction where bodies touch, by that of a full film, and the partial film as it is known.
+    """Friction where bodies touch, from that of a full film, and known parts of the partial film.
 
     A prediction without contact, or whose contact is not known, stays as it is.
     """
@@ -224,7 +224,7 @@ def with_contact(result: Outcome, mixed: MixedFilm) -> tuple[Outcome, MixedFilm]
 
 
 def _lost(friction: RoughFriction, mixed: MixedFilm) -> RoughFriction:
-    """No friction of a full film where bodies touch, and how much is not known."""
+    """Remove the friction of a full film where bodies touch to an unknown extent."""
     message = f"the bodies touch at the boundary film, and nothing of that is known: {mixed.note}"
     if friction.status != "predicted":
         message = f"{friction.message}; {message}"

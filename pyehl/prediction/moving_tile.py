@@ -55,7 +55,7 @@ def long_waves(spectrum: Spectrum, largest: float) -> tuple[Indices, Indices]:
 
 
 class Edge:
-    """What the edge of the contact does to the pressure of the long waves of a tile.
+    """Effect of the edge of the contact on the pressure of the long waves of a tile.
 
     `coefficients` (n, m) of the polynomials [p_h] for the waves of the tile with wavenumbers
     qx >= 0, qy (m,) [1/a]: of :func:`pyehl.theory.disc.monomials` (n = 28) in a circle, of
@@ -82,9 +82,9 @@ class Edge:
         velocity_ratio: float,
         shape: Ellipse | StripEdge,
     ) -> Edge:
-        """Of a tile that moves, by what is left of its components."""
+        """Make it for a moving tile, from its deformed components."""
         flattened = 1.0 - transfer.at_centre(spectrum, velocity_ratio)
-        # by how much less on lines beside the centre line of an ellipse (lines, ...)
+        # change on lines beside the centre line of an ellipse (lines, ...)
         beside = transfer.beside(spectrum.qx, velocity_ratio)
         if isinstance(shape, StripEdge):
             i, j = long_waves(spectrum, shape.largest)
@@ -220,7 +220,7 @@ class WaveTiles:
 
         on_stations: list[Complex] = []
         on_lines: list[Complex] = []
-        if transfer.pressed:
+        if transfer.line_pressure:
             on_stations, on_lines = transfer.free_pressures(qx, qy, velocity_ratio)
 
         driven = [(t, k * (1 - t)) for t in (t.astype(np.complex64) for t in transfer.driven)]
@@ -263,7 +263,7 @@ of which the viscosity is hardly raised. 0.95 and 1.05 change mu_r/mu_s of Table
 
 @dataclass(frozen=True)
 class Component:
-    """The waves of one surface: its spectrum, and what the contact makes of it."""
+    """The waves of one surface: its spectrum, and the response of the contact to it."""
 
     spectrum: Spectrum
     transfer: Transfer
@@ -299,7 +299,7 @@ def two_lines(y: Array) -> tuple[NDArray[np.int32], Single]:
 
 
 def slipped(x: Array, y: Array, velocity_ratio: float, *, bent: bool) -> Array:
-    """Way of the roughness past the free wave since the inlet made that [a].
+    """Displacement of the roughness past the free wave since the inlet [a].
 
     At places X [a] and Y [semi-axis].
     """
@@ -345,7 +345,7 @@ class PixelTile:
         place = (self.x[:, np.newaxis] + way) / self.pixel[0] * REFINEMENT
         self.free_rows = np.floor(place).astype(np.int32)
         self.between = (place - self.free_rows).astype(np.float32)
-        # free waves beside the centre line on the track that was met last
+        # free waves beside the centre line on the last track
         self.beside: dict[int, Single | None] = {}
 
     def add(self, contact: RoughContact, position: Position, total: Single) -> None:
@@ -363,7 +363,7 @@ class PixelTile:
         contact.add_free(waves, self.beside[track], places, columns, shift * REFINEMENT, total)
 
     def at_edge(self, position: Position) -> tuple[Array, Array]:
-        """Give what the edge does in a position, see :meth:`Edge.at`."""
+        """Effect of the edge in a position, see :meth:`Edge.at`."""
         return self.wave.edge.at(position[0] * self.pixel[0], position[1] * self.pixel[1])
 
 
@@ -407,5 +407,5 @@ class LineTile:
         contact.add_free(self.waves, self.beside, free, self.columns, 0, total)
 
     def at_edge(self, position: Position) -> tuple[Array, Array]:
-        """Give what the edge does in a position, see :meth:`Edge.at`."""
+        """Effect of the edge in a position, see :meth:`Edge.at`."""
         return self.edge.at(position[self.number], self.track)

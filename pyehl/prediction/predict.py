@@ -49,7 +49,7 @@ from pyehl.theory.lubricant import Lubricant
 from pyehl.types import Settings
 
 LENGTHS = (30e-6, 100e-6, 0.0)
-"""Wavelengths of roll-offs that are tried [m]; 0: none, waves as long as the tile."""
+"""Alternative wavelengths of roll-offs [m]; 0: none, waves as long as the tile."""
 
 
 def spectrum_assumed(group: Mapping[str, Any]) -> bool:
@@ -124,7 +124,7 @@ PER_PIXEL = 1.5e-5
 PER_POINT = 1e-4
 """And per point of the contact."""
 REPORTED = 10.0
-"""Seconds from which on they are reported."""
+"""Seconds above which they are reported."""
 BRIEF = 0.36
 """Share of the time that a prediction without tracks and bands takes, as those with other spectra
 are that stand beside one with a finish: 0.3 to 0.4 with cases/finish.nml and a gear flank."""
@@ -148,7 +148,7 @@ def seconds_of(tile: Topography, operating: AnyContact) -> float:
 def report_cost(
     tile: Topography, operating: AnyContact, group: str = "surface", beside: int = 0
 ) -> None:
-    """Describe what a large tile takes, and which part of its map is enough.
+    """Describe the time for a large tile, and which part of its map is enough.
 
     `other_spectra` is the number of brief predictions of other spectra.
     """
@@ -207,7 +207,7 @@ def _time(seconds: float) -> str:
 
 
 MAX_TRACKS = 10_000
-"""The mean over as many is known to a hundredth of the spread."""
+"""The error of the mean over as many is a hundredth of the spread."""
 
 
 @blas.one_thread()
@@ -256,7 +256,7 @@ def predict(
     sustained = sustained_by(model)
     below, together = _below(model, outcome.friction, sustained)
     if outcome.friction.status == "predicted" and below.deepest <= 0.0:
-        # the positions of the passage have missed it
+        # no position of the passage has shown it
         outcome = Outcome(broken(outcome.friction, below.deepest))
     ended = outcome.friction.status == "film breakdown"
     mixed = mixed_film(model, waves or [], settings, films)
@@ -331,7 +331,7 @@ def _below(
 def _spike_removal(
     settings: Mapping[str, Mapping[str, Any]], model: Model
 ) -> Callable[[float], surfaces.Topography] | None:
-    """Give what removes the spikes of one map beyond a threshold."""
+    """Give a function that removes the spikes of one map beyond a threshold."""
     if len(model.surfaces) > 1:
         return None
     (one,) = model.surfaces
@@ -343,8 +343,8 @@ def _options(settings: Mapping[str, Mapping[str, Any]], tracks: int) -> ModelOpt
     """How the model is read; InputError where nothing is predicted of the case."""
     if not 1 <= tracks <= MAX_TRACKS:
         raise InputError(
-            f"tracks = {tracks}: expected 1 to {MAX_TRACKS}; the mean over {MAX_TRACKS} is known "
-            "to a hundredth of the spread"
+            f"tracks = {tracks}: expected 1 to {MAX_TRACKS}; the mean over {MAX_TRACKS} has an "
+            "error of a hundredth of the spread"
         )
     why = unpredictable(settings)
     if why:
@@ -353,13 +353,13 @@ def _options(settings: Mapping[str, Mapping[str, Any]], tracks: int) -> ModelOpt
     as_by_default = ModelOptions(positions=options.positions, film_limit=options.film_limit)
     if contact_of(settings).radius_ratio != 1.0 and options != as_by_default:
         raise InputError(
-            "psd: the model of the paper, and what is between it and the response, is for circular "
+            "psd: the model of the paper, and mixtures of it with the response, are for circular "
             "contacts\nexpected: contact.radius, or the group psd as by default"
         )
     if options.as_in_paper and len(surfaces.rough_groups(settings)) > 1:
         raise InputError(
             "two rough surfaces: the model of the paper (psd.reduction = 'amplitude' with "
-            "psd.smooth = 'hertz') knows one\nexpected: psd.reduction = 'response'"
+            "psd.smooth = 'hertz') is for one\nexpected: psd.reduction = 'response'"
         )
     if not options.as_in_paper and (options.load_balance or options.stiffness == "paper"):
         raise InputError(

@@ -33,8 +33,8 @@ EXTREMES = 32
 many they differ by 1 % at most (docs/evidence/thinning)."""
 
 MOST_PASSAGES = 12
-"""Passages of a tile in a common period that is followed: products of waves that have a mean over
-a longer one are of that order."""
+"""Maximum number of passages of a tile in a common period that is used: products of waves with a
+mean over a longer one are of that order."""
 LATTICES = (9, 13, 19, 27)
 """m of the lattices of a mean over all positions, the next one where one is not enough: each has
 about twice as many positions as the one before."""
@@ -52,7 +52,7 @@ class Passage:
 
     shifts: tuple[Array, ...]  # how far each tile has moved (n,) [m]
     ratios: Array  # (n,)
-    # What half of the positions would miss of the mean, relative to it; NaN: not known
+    # Error of the mean over half of the positions, relative to it; NaN: not known
     undecided: float
     periodic: bool = True  # whether the positions follow each other and return to the first
 
@@ -101,10 +101,10 @@ class TilePositions:
 
     @staticmethod
     def _undecided(ratios: Array) -> float:
-        """Return what half of the positions would have missed at the others, relative to the mean.
+        """Return the error of half of the positions at the others, relative to the mean.
 
         The interpolant through every second value against the values between: an upper estimate of
-        what all of them leave undecided, since the interpolant converges faster than any power. NaN
+        the error by all of them, since the interpolant converges faster than any power. NaN
         for an odd number.
         """
         if ratios.size % 2:
@@ -206,9 +206,9 @@ class RelativePositions:
 
 
 def _undecided(ratios: Array) -> float:
-    """Return what every second position would miss of the mean, relative to it.
+    """Return the error of the mean over every second position, relative to it.
 
-    An upper estimate of what all of them leave undecided. NaN where there are not twice as many.
+    An upper estimate of the error by all of them. NaN where there are not twice as many.
     """
     if ratios.size % 2:
         return math.nan

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the contact makes of every component of a tile: the response over its spectrum.
+"""The response of the contact to every component of a tile.
 
 Units: lengths along the surface by a, heights by a^2/R, pressures by p_h.
 
@@ -21,13 +21,13 @@ point; s^2 is the variance of P1 and
 For Gaussian P1 the mean of P2 exp(b P1), and with it the friction, is then that of the convolution
 for every b.
 
-What the inlet makes of second order was not derived but measured, in the fields of simulations
-(docs/evidence/fields). It is convected at the mean velocity, as it does the free
-wave: a pressure INLET_PRESSURE P0^2, P0 the pressure of first order that the waves would have
-where they are if they had not slipped since the inlet. With slip P0 is less and less like P1: only
-its part along P1^2, (<P0 P1>/s^2)^2 INLET_PRESSURE, is added to gamma. And the film regains
-INLET_FILM t1^2/H of its loss t1. So it is nearly H exp(-t1/H), which it follows where the loss is
-most of the film, too (docs/evidence/thin_film): :func:`film_left`.
+The second-order contribution of the inlet was not derived but measured, in the fields of
+simulations (docs/evidence/fields). It is convected at the mean velocity, as the free wave is: a
+pressure INLET_PRESSURE P0^2, P0 the pressure of first order that the waves would have where they
+are if they had not slipped since the inlet. With slip P0 is less and less like P1: only its part
+along P1^2, (<P0 P1>/s^2)^2 INLET_PRESSURE, is added to gamma. And the film regains INLET_FILM
+t1^2/H of its loss t1. So it is nearly H exp(-t1/H), which it follows where the loss is most of the
+film, too (docs/evidence/thin_film): :func:`film_left`.
 
 Of two rough surfaces P1 holds the waves of both, and the sum the pairs of one wave of
 each, too: they meet in all positions, so that no product of two has a mean.
@@ -47,7 +47,7 @@ from pyehl.theory.transport import (
     LINES,
     Zone,
     free_stiffness,
-    pressed,
+    line_pressure,
     stiffness,
     transport,
     wave_pressure,
@@ -55,17 +55,17 @@ from pyehl.theory.transport import (
 from pyehl.types import Array, Complex, Indices
 
 INLET_PRESSURE = 0.5
-"""Pressure of second order that the inlet makes, over the square of that of first order [1/p_h]."""
+"""Pressure of second order by the inlet, over the square of that of first order [1/p_h]."""
 INLET_FILM = 0.4
-"""Film of second order that the inlet makes, over the square of the loss of first order, both over
-the smooth film [-]."""
+"""Film of second order by the inlet, over the square of the loss of first order, both over the
+smooth film [-]."""
 
 FILM_ENDS = 1.6
 """Loss of first order over the smooth film at which no full film is predicted [-]: films hold at
 1.2 and 1.35, and fine grids have none at 1.8 (docs/evidence/thin_film)."""
 
 # Loss over the film up to which the film of second order is taken; beyond it falls as an
-# exponential that goes on from there
+# exponential that continues from there
 QUADRATIC = 0.6
 _LEFT = 1.0 - QUADRATIC + INLET_FILM * QUADRATIC**2
 _RATE = (1.0 - 2.0 * INLET_FILM * QUADRATIC) / _LEFT
@@ -76,7 +76,7 @@ COARSER = 2
 
 
 def film_left(loss: Array) -> Array:
-    """Film over the smooth one that a loss of first order, over the smooth film, leaves [-]."""
+    """Film over the smooth one after a loss of first order, over the smooth film [-]."""
     near = np.minimum(loss, QUADRATIC)
     left = np.asarray(1.0 - near + INLET_FILM * np.square(near))
     # few points lose so much
@@ -161,7 +161,7 @@ def _lines(zone: Zone) -> Array:
 
 
 STATIONS = np.array([-0.5, 0.0, 0.5])
-"""Where the waves are made, along the motion [a]; between them they are interpolated. Two more, at
+"""Stations along the motion at which waves are computed [a], interpolated in between. Two more, at
 -0.25 and 0.25, change mu_r/mu_s of Table 1 by 0.06 % and, at a velocity ratio of 1.2, by 0.2 %."""
 MIDDLE = 1
 """The one of them at X = 0."""
@@ -182,7 +182,7 @@ REPETITIONS = 3
 
 
 def _is_bent(spectrum: Spectrum, velocity_ratio: float) -> bool:
-    """Whether slip bends the free waves of a tile so much that it must be followed line by line.
+    """Whether slip bends the free waves of a tile so much that every line is computed.
 
     The inlet is curved: off the centre line the free wave has slipped less. Where the phase of the
     shortest wave differs little over the lines that friction comes from, it is interpolated.
@@ -191,13 +191,13 @@ def _is_bent(spectrum: Spectrum, velocity_ratio: float) -> bool:
 
 
 def _bend(kx: Array, slip: float) -> Complex:
-    """Phase that slip loses by the curved inlet on LINES: (lines, ...)."""
+    """Phase of the free waves by slip after the curved inlet on LINES: (lines, ...)."""
     behind = np.sqrt(1.0 - np.square(LINES)) - 1.0
     return np.asarray(np.exp(1j * slip * np.multiply.outer(behind, kx)))
 
 
 def leaking_at_amplitude(zone: Zone, variance: float) -> Zone:
-    """Return a contact that leaks as waves of finite pressure do, for their friction.
+    """Return a contact in which waves of finite pressure leak, for their friction.
 
     The leak is div(rho H^3/(eta lambda) grad P): it is slow where the waves raise the pressure and
     the viscosity, and most of the friction arises there. For a Gaussian delta P of `variance` s^2
@@ -214,7 +214,7 @@ def leaking_at_amplitude(zone: Zone, variance: float) -> Zone:
 
 
 class _Entering:
-    """The waves of a tile as the inlet makes them, on the table of the tile."""
+    """The waves of a tile at the inlet, on the table of the tile."""
 
     def __init__(
         self, spectrum: Spectrum, velocity_ratio: float, zone: Zone, moes: tuple[float, float]
@@ -242,7 +242,7 @@ class _Entering:
         return float(self.table.gathered(self._power) @ np.square(np.abs(pressure)))
 
     def at_stations(self, zone: Zone, mesh: float) -> _AtStations:
-        """Give what becomes of them where they leak as in a zone."""
+        """Transport them to the stations of a zone in which they leak."""
         kx, ky, inlet = self.table.kx, self.table.ky, self._inlet[self._axis]
         stations = transport(zone, kx, ky, self.ratio, STATIONS, mesh)
         turned = [np.exp(1j * kx * self._slip * (x + 1.0)) for x in STATIONS]
@@ -254,19 +254,21 @@ class _Entering:
             for (d, f), t in zip(stations, turned, strict=True)
         ]
         beside = stations[MIDDLE][1] * (self._inlet - inlet)
-        pressed_by: Sequence[Complex] = ()
+        pressure_parts: Sequence[Complex] = ()
         if zone.ellipticity != 1.0 and np.isfinite(zone.ellipticity):
             bend = _bend(kx, self._slip) if self.bent else 1.0
-            pressed_by = list(pressed(beside * bend, kx, ky, self.ratio, zone.ellipticity) / bend)
+            pressure_parts = list(
+                line_pressure(beside * bend, kx, ky, self.ratio, zone.ellipticity) / bend
+            )
         result = self.table.spread(
             driven=[driven for driven, _ in stations],
             free=[free * inlet for _, free in stations],
             off_centre=list(np.delete(beside, self._axis, 0)),
-            pressed=pressed_by,
+            line_pressure=pressure_parts,
         )
         # the table has k_Y > 0; a wave with -k_Y is on a line what one with k_Y is on its mirror
         # image
-        for name in ("off_centre", "pressed"):
+        for name in ("off_centre", "line_pressure"):
             lines = result[name]
             result[name] = [
                 np.where(self._negative, other, one)
@@ -303,8 +305,8 @@ class Transfer:
     # The pressure of second order; None where the waves move with the roughness as they are
     second: SecondOrder | None = None
     # Of an ellipse, the pressure that is released where `off_centre` is [p_h R/a^2], of a
-    # half-space under a circle: on each of LINES (:func:`pyehl.theory.transport.pressed`)
-    pressed: Sequence[Complex] = ()
+    # half-space under a circle: on each of LINES (:func:`pyehl.theory.transport.line_pressure`)
+    line_pressure: Sequence[Complex] = ()
     stiffening: float = 1.0  # stiffness over that of the half-space under a circle
     ellipticity: float = 1.0  # of the contact
 
@@ -340,7 +342,7 @@ class Transfer:
                 driven=result.parts["driven"],
                 free=result.parts["free"],
                 off_centre=result.parts["off_centre"],
-                pressed=result.parts["pressed"],
+                line_pressure=result.parts["line_pressure"],
                 bent=waves.bent,
                 second=second,
                 stiffening=zone.stiffness,
@@ -367,7 +369,7 @@ class Transfer:
             driven=cut(self.driven),
             free=cut(self.free),
             off_centre=cut(self.off_centre),
-            pressed=cut(self.pressed),
+            line_pressure=cut(self.line_pressure),
         )
 
     def gain(self, qx: Array, qy: Array, central_film: float) -> Array:
@@ -376,7 +378,7 @@ class Transfer:
         The factor that was measured on circles is for what is calculated on ellipses; a line has no
         sides.
         """
-        if self.pressed or np.isinf(self.ellipticity):
+        if self.line_pressure or np.isinf(self.ellipticity):
             return np.full(np.broadcast_shapes(qx.shape, qy.shape), self.stiffening)
         return self.stiffening * edge_gain(qx, qy, self.stiffening * central_film)
 
@@ -387,13 +389,13 @@ class Transfer:
 
         At the stations, and what is added on each of LINES but the centre line.
         """
-        k_free, axis = free_stiffness(qx, qy, velocity_ratio), self.pressed[AXIS]
-        lines = [p - axis for i, p in enumerate(self.pressed) if i != AXIS]
+        k_free, axis = free_stiffness(qx, qy, velocity_ratio), self.line_pressure[AXIS]
+        lines = [p - axis for i, p in enumerate(self.line_pressure) if i != AXIS]
         return [k_free * t + axis for t in self.free], lines
 
     def beside(self, qx: Array, velocity_ratio: float) -> Complex | None:
         """Change of T at X = 0 on LINES (lines, ...) of an ellipse; None of a circle."""
-        if not self.pressed:
+        if not self.line_pressure:
             return None
         slip = velocity_ratio - 1.0
         kx = np.broadcast_to(qx[:, np.newaxis], self.off_centre[0].shape)

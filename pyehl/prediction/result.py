@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A prediction with all that went into it, and its result folder."""
+"""A prediction with its inputs, and its result folder."""
 
 from __future__ import annotations
 
@@ -119,7 +119,7 @@ def draw(prediction: Prediction, folder: str | os.PathLike[str]) -> None:
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Prediction:
-    """A prediction with all that went into it.
+    """A prediction with its inputs.
 
     Attributes
     ----------
@@ -132,7 +132,7 @@ class Prediction:
         are reported.
     outcome
         Friction over the passage with delta p and deformed roughness, mean and spread over tracks,
-        and what each octave of wavelengths adds.
+        and contribution of each octave of wavelengths.
     below
         Where the film ends, and on which share of the contact.
     seconds
@@ -148,7 +148,7 @@ class Prediction:
     mixed
         Contact at a boundary film; None: the case has none.
     heat
-        What the heat of sliding makes of friction; None: nothing.
+        Effect of the frictional heat on friction; None: no effect.
     beside
         The same with other spectra, where Ra or a finish is given.
 
@@ -218,7 +218,7 @@ class Prediction:
 
     @property
     def bands(self) -> Sequence[Band]:
-        """What each octave of wavelengths adds."""
+        """Contribution of each octave of wavelengths."""
         return self.outcome.bands
 
     @property
@@ -233,7 +233,7 @@ class Prediction:
 
     @property
     def film_source(self) -> str:
-        """Where h_c is from, in words."""
+        """Source of h_c as text."""
         return self.films.source
 
     @property
@@ -252,7 +252,7 @@ class Prediction:
 
     @property
     def note(self) -> str:
-        """What `mu_ratio` is."""
+        """Description of `mu_ratio`."""
         return meaning(self.lubricant, self.operating)
 
     @property
@@ -267,7 +267,7 @@ class Prediction:
 
     @property
     def outside_range(self) -> list[str]:
-        """What of the case lies outside the range in which the response was measured; mostly []."""
+        """Numbers of the case outside the range in which the response was measured; mostly []."""
         return self.model.outside_range()
 
     @property
@@ -345,5 +345,5 @@ class Prediction:
 
     @property
     def summary(self) -> dict[str, Any]:
-        """What ``summary.json`` holds; None for a number that does not exist."""
+        """Content of ``summary.json``; None for a number that does not exist."""
         return summary_of(self)

@@ -45,7 +45,7 @@ OUTER = 0.7
 inside it is level. 0.6 and 0.8 change mu_r/mu_s by 0.06 % at the most at M = 1000 and L = 10, by
 0.2 % at M = 200."""
 RINGS = np.array([0.0, 0.4, OUTER])
-"""Inner radii of the rings in which the pressure carries what the waves leave [semi-axes]: two more
+"""Inner radii of the rings in which the pressure is balanced with the waves [semi-axes]: two more
 or less change mu_r/mu_s by less than 1e-5 where no ring loses its load."""
 
 
@@ -210,7 +210,7 @@ class RoughContact(ShearedContact):
         )
 
     def add_edge(self, total: Single, *edges: tuple[Array, Array]) -> None:
-        """Add what the edge does to the pressure (:meth:`Edge.at`), keep how far it is moved."""
+        """Add the effect of the edge on the pressure (:meth:`Edge.at`), store its displacement."""
         # a surface without long waves has none
         coefficients = np.zeros(max(result.size for result, _ in edges))
         self.moved[:] = 0.0
@@ -291,7 +291,7 @@ class RoughContact(ShearedContact):
         """Friction over that of the smooth contact, film and pressure changed by (m, n, 2).
 
         `smooth`: its film in this position (m, n). NaN where the film is not positive, or a ring of
-        the contact would have to pull.
+        the contact would need tension.
         """
         # of the points of the contact alone
         smooth = smooth.take(self.places)
@@ -307,28 +307,28 @@ class RoughContact(ShearedContact):
             self.minimum_film = min(self.minimum_film, sustained)
             return math.nan
         self.minimum_film = min(self.minimum_film, float(film.min(initial=math.inf)))
-        pulling = np.flatnonzero(pressure <= 0.0)
-        self.cavitated += pulling.size
+        tensile = np.flatnonzero(pressure <= 0.0)
+        self.cavitated += tensile.size
         whole = film + missing(self.contact, smooth, self.lowest)
         self.minimum = min(self.minimum, float(whole.min(initial=math.inf)))
         self.meet(gain, pressure, whole, self.inner, self.near)
-        if pulling.size:
-            carried = np.bincount(self.rings, pressure, len(RINGS))
-            pulls = np.bincount(self.rings[pulling], pressure[pulling], len(RINGS))
-            if (carried < 0.0).any():
+        if tensile.size:
+            load = np.bincount(self.rings, pressure, len(RINGS))
+            tension = np.bincount(self.rings[tensile], pressure[tensile], len(RINGS))
+            if (load < 0.0).any():
                 self.lost = True
                 return math.nan
-            pressure[pulling] = 0.0
-            # what cannot pull leaves less to carry for what is around
-            pushes = carried - pulls
-            share = np.divide(carried, pushes, out=np.ones_like(carried), where=pushes > 0.0)
+            pressure[tensile] = 0.0
+            # the rest of a ring carries its load without the tension
+            compression = load - tension
+            share = np.divide(load, compression, out=np.ones_like(load), where=compression > 0.0)
             pressure *= share[self.rings]
         with np.errstate(over="ignore"):
             return float(self.stress(pressure, film).sum()) / self.smooth
 
 
 def missing(contact: SmoothContact, film: Array, minimum: float) -> Array | float:
-    """Correct films H_s [a^2/R] of a smooth contact to those extrapolated: what is to be added.
+    """Correction of films H_s [a^2/R] of a smooth contact to those extrapolated, to be added.
 
     They are scaled to the extrapolated central film; the minimum film needs more than that, on the
     grid of the smooth contact, whose `minimum` film it is. In between it is linear in the film.

@@ -28,7 +28,7 @@ MIN_SAMPLES = 128
 
 @dataclass(frozen=True, slots=True)
 class Response:
-    """What a loaded contact makes of a rough tile, before it is anywhere in the contact."""
+    """Response of a loaded contact to a rough tile, with the properties of its centre."""
 
     pressure: Array  # delta p (nx, ny) [Pa], mean zero
     deformed: Array  # deformed roughness rr_d (nx, ny) [m], mean zero, peaks thin the film
@@ -40,9 +40,9 @@ def thins(lubricant: Lubricant, operating: AnyContact) -> bool:
 
 
 class ShearedContact:
-    """Points of a contact, the shear stress integrals over them, and what was met so far."""
+    """Points of a contact, the shear stress integrals over them, and extremes so far."""
 
-    minimum_film: float  # minimum film, by which its end is known
+    minimum_film: float  # minimum film, whose sign shows film breakdown
     smooth: float  # sum of the stress of the smooth contact over the points, as `stress`
     points: int  # within the contact
     area: float  # that one of them stands for [m^2]
@@ -54,7 +54,7 @@ class ShearedContact:
         self.count = 0  # positions
         self.ended = 0  # points where the film has ended
         self.imbalance = 0.0  # largest share of the load that delta p carries or takes off [-]
-        self.lost = False  # whether the roughness takes more pressure than there is
+        self.lost = False  # whether the roughness reduces the pressure by more than there is
         self.max_increase = -math.inf  # of the pressure over the smooth contact within INNER
         self.max_pressure = -math.inf  # within INNER
         self.squared_increase = 0.0  # sum over the positions of its mean square within NEAR
@@ -80,7 +80,7 @@ class ShearedContact:
             self.below[i] += np.count_nonzero(film < level)
 
     def min_film(self) -> float:
-        """Minimum film that was met, as reported."""
+        """Minimum film so far, as reported."""
         return self.minimum_film
 
     def increase_rms(self) -> float:

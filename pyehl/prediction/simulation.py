@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is predicted for a run: what its grid does not resolve, and a start for its time steps.
+"""Predictions for a run: the waves that its grid does not resolve, and a start for its time steps.
 
 The start is the pressure that a rough surface adds where it fills the contact: the waves of
 :mod:`pyehl.prediction.response` that the grid of the run resolves, on its nodes. Units: lengths by
@@ -45,7 +45,7 @@ NODES = 8
 ON_GRID = 2
 """Nodes that a wave needs to be on the grid at all."""
 TOLERANCE = 0.01
-"""Share of mu_r/mu_s that may hang on waves that are not resolved, without a warning."""
+"""Share of mu_r/mu_s by waves that are not resolved, above which there is a warning."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +65,7 @@ class Resolution:
         return abs(self.unresolved) > TOLERANCE * self.mu_ratio
 
     def __str__(self) -> str:
-        """Say it in a line."""
+        """Describe it in a line."""
         increase, part = self.mu_ratio - 1.0, self.unresolved
         return (
             f"predicted   mu_r/mu_s {self.mu_ratio:.3f}; of the increase {increase:+.3f}, "
@@ -122,7 +122,7 @@ def resolution(case: Case, tiles: Mapping[str, Topography] | None = None) -> Res
     if not operating.ellipse.is_line:
         # the cells of a strip are nearly square
         mesh = max(mesh, 2.0 * float(grid["y_extent"]) / (int(grid["points_y"]) - 1))
-    # of two surfaces one may be a share of the film; else that is not asked for
+    # the amplitude of one of two surfaces may be a share of the film; else that is not needed
     film = formula_film(operating, lubricant) if len(groups) > 1 else 0.0
     result = [_tile(settings, group, (tiles or {}).get(group), operating, film) for group in groups]
     shortest = NODES * mesh * operating.hertz_radius
@@ -227,7 +227,7 @@ def transfer(
 ) -> None:
     """Give a solver the pressure that it starts from, or report why there is none.
 
-    The solver then lets the roughness in behind a front. `whole`: none of `tiles`, by group, is
+    The solver then starts with roughness behind a front. `whole`: none of `tiles`, by group, is
     only a part of the surface.
     """
     try:
@@ -317,7 +317,7 @@ class _GridWaves:
 
         driven = [k * (1.0 - t) for t in transfer.driven]
         free, off = ([-k_free * t for t in part] for part in (transfer.free, transfer.off_centre))
-        if transfer.pressed:
+        if transfer.line_pressure:
             pressures = transfer.free_pressures(qx, qy, ratio)
             free, off = ([-gain * p for p in part] for part in pressures)
         self.driven, self.free, self.free_off = (

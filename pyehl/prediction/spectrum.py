@@ -22,7 +22,7 @@ from pyehl.types import Array, Complex, Indices, Mask
 FIRST_POSITIONS = 8
 """Fewest positions of a tile in a passage, and those of a mean over a few."""
 MAX_POSITIONS = 4096
-"""Most positions of a passage, as the schema of cases has it."""
+"""Most positions of a passage, as in the range of psd.positions."""
 WORKING_PIXELS = 48
 """Pixels per semi-axis below which a coarse map is interpolated."""
 
@@ -49,7 +49,7 @@ class Spectrum:
         return cls(values, qx, qy, (nx, ny))
 
     def __post_init__(self) -> None:
-        """Keep |q|, which all that follows needs."""
+        """Compute |q| once."""
         q = np.hypot(self.qx[:, np.newaxis], self.qy[np.newaxis, :])
         object.__setattr__(self, "q", q)
 
@@ -234,7 +234,7 @@ class WaveTable:
         self._mirror = np.minimum(np.arange(ny), ny - np.arange(ny))
 
     def gathered(self, power: Array, times: int = 1) -> Array:
-        """Sum what the components of a tile have, at the places of a coarse table, (l,).
+        """Sum the powers of the components of a tile at the places of a coarse table, (l,).
 
         Weighted as for a linear interpolation between them. `times`: how often every second
         wavenumber and direction is left out.
@@ -293,7 +293,7 @@ ROUNDING = 1e-9
 # Share of the largest mean square that counts for none: rounding leaves its square, 1e-32
 NOTHING = 1e-20
 
-# Attributes of a band, and what they are called in results
+# Attributes of a band, and their names in results
 BAND_COLUMNS = {
     "longest": "longest_m",
     "shortest": "shortest_m",
@@ -306,7 +306,7 @@ BAND_COLUMNS = {
 
 @dataclass(frozen=True, slots=True)
 class Band:
-    """What a band of wavelengths adds."""
+    """Contribution of a band of wavelengths."""
 
     # The band of wavelengths 2 pi/|q| [m]
     longest: float
@@ -314,7 +314,7 @@ class Band:
     rms_height: float  # of the undeformed roughness in the band [m]
     rms_deformed: float  # of the deformed roughness in the band [m]
     rms_pressure: float  # of delta p in the band [Pa]
-    # How much mu_r/mu_s grows when this band joins all the longer ones [-]; NaN where the model
+    # Increase of mu_r/mu_s when this band is added to all the longer ones [-]; NaN where the model
     # does not hold
     increase: float
 
@@ -344,7 +344,7 @@ def joining(
     *,
     brief: bool,
 ) -> list[Band]:
-    """Return what each octave, or the last one alone (`brief`), adds when it joins the longer ones.
+    """Return the contribution of each octave, or of the last one (`brief`), to that of longer ones.
 
     Of waves, arrays of the same shape: |q| [1/a], mean square height [a^4/R^2], |T| [-], pressure
     over roughness [p_h R/a^2]. `below` gives mu_r/mu_s of the waves with |q| below a limit [1/a],
@@ -378,14 +378,14 @@ def joining(
 
 
 def cutoff_error(bands: Sequence[Band]) -> float:
-    """Return what the last octave of wavelengths adds to mu_r/mu_s [-], by its modulus.
+    """Return the contribution of the last octave of wavelengths to mu_r/mu_s [-], by its modulus.
 
-    This depends on the cut-off: a measure of what waves shorter than those of the map would
-    add. NaN without bands.
+    This depends on the cut-off: a measure of the contribution of waves shorter than those of the
+    map. NaN without bands.
     """
     return abs(bands[-1].increase) if bands else math.nan
 
 
 def records(bands: Sequence[Band]) -> list[dict[str, float]]:
-    """Give bands as results have them: names with units and values."""
+    """Give bands as in results: names with units and values."""
     return [{name: getattr(band, key) for key, name in BAND_COLUMNS.items()} for band in bands]

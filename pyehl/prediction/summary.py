@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 
 SECOND = "second_"
-"""Before the names of what belongs to the second surface."""
+"""Prefix of the names of the second surface."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,7 +55,7 @@ def arrays(tile: Topography, response: Response, prefix: str = "") -> dict[str, 
 
 
 def statistics(tile: Topography, response: Response, prefix: str = "") -> dict[str, Any]:
-    """Numbers of a surface that a summary holds."""
+    """Numbers of a surface for a summary."""
     made = tile.preparation
     result = {
         "surface": tile.origin,
@@ -77,9 +77,9 @@ def second_summary(
     velocity_ratio: float,
     together: Topography | None,
 ) -> dict[str, Any]:
-    """Return what a summary holds of the second of two surfaces, and of both.
+    """Return the entries of a summary for the second of two surfaces, and for both.
 
-    `together`: their sum where they move so.
+    `together`: their sum where they move together.
     """
     slopes = [_slope(tile) for tile in tiles]
     return {
@@ -92,7 +92,7 @@ def second_summary(
 
 
 def findings_of(tiles: Sequence[Topography]) -> str | None:
-    """Name what the maps have that is no roughness; None if there is nothing."""
+    """Name findings on the maps other than roughness; None if there are none."""
     kinds = [
         finding.kind
         for tile in tiles

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reports of results: one HTML page each, which needs neither network nor pyehl."""
+"""Reports of results: one HTML page each, readable without network or pyehl."""

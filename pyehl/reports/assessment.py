@@ -35,7 +35,7 @@ class Assessment(NamedTuple):
 
 
 def numbers_of(summary: Values) -> dict[str, str]:
-    """Give names and values of what was found; nothing where there is no result."""
+    """Give names and values of the results; nothing where there is no result."""
     conclusion = conclude(summary)
     if conclusion.confidence == "no result":
         return {}
@@ -81,9 +81,9 @@ def assess(summary: Values) -> Assessment:
     word, _, why = _signs(conclusion.assessment).partition(": ")
     hint = ""
     if summary.get("film_breakdown"):
-        hint = " No number is a result. What leaves a full film is listed below."
+        hint = " No number is a result. Remedies for a full film are listed below."
     return Assessment(
-        word.replace("no result", "no result").capitalize(),
+        word.capitalize(),
         f"{why[:1].upper()}{why[1:]}.{hint}",
         KINDS[conclusion.confidence],
     )

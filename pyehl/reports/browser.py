@@ -51,7 +51,7 @@ def write_pdf(page: Path, path: Path) -> Path:
         if done.returncode != 0 or not partial.is_file():
             message = done.stderr.decode(errors="replace").strip().splitlines()[-1:]
             raise EhlError(f"{path}: {program} did not print: {' '.join(message)}")
-        # a comment behind the end, by which it is known as ours
+        # a comment after the end, which marks the file as one of pyehl
         with partial.open("ab") as stream:
             stream.write(f"%{mark('report')}\n".encode())
     return path

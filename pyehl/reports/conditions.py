@@ -56,7 +56,7 @@ def conditions(settings: Settings) -> dict[str, str]:
 
 
 def surface_words(group: Mapping[str, Any]) -> str:
-    """Say in a few words what the surface of a group is."""
+    """Describe the surface of a group in a few words."""
     kind = str(group["kind"])
     if kind == "fractal":
         words = (

@@ -31,7 +31,7 @@ from pyehl.results import load, settings_of
 from pyehl.schema import QUANTITIES
 from pyehl.studies.journal import NAME, read_header
 
-# A page is to stay below this many bytes: its pictures are drawn with fewer dots where need be
+# Maximum size of a page [bytes]: its pictures are drawn with fewer dots where necessary
 MAX_BYTES = 2_000_000
 # Keys that name a file
 FILES = ("file", "table")
@@ -44,9 +44,9 @@ PICTURES = {
     "rough_and_smooth": "Pressure and film of the rough contact beside those of the smooth one",
     "friction": "μ_r/μ_s over the time of the run",
     "extremes": "Maximum pressure and minimum film over the time of the run",
-    "surface_spectrum": "The surface, its spectrum, and what is left of it in the contact",
+    "surface_spectrum": "The surface, its spectrum, and its deformed spectrum",
     "roughness": "Roughness before and in the contact",
-    "passage": "μ_r/μ_s over the passage of the surface, and what each octave of wavelengths adds",
+    "passage": "μ_r/μ_s over the passage of the surface, and contributions of octaves",
 }
 CITATION = (
     "pyehl {version}: elastohydrodynamically lubricated point and line contacts with rough "
@@ -210,7 +210,7 @@ def _files(folder: Path) -> set[str]:
 
 
 def _nameless(value: object, files: set[str]) -> object:
-    """Leave out of a text where files lie on this machine, however they are quoted in it."""
+    """Remove the folders of files on this machine from a text, however they are quoted in it."""
     if type(value) is not str:
         return value
     # the longest first: one may be the beginning of another
@@ -226,7 +226,7 @@ def _text(path: Path) -> str:
 
 
 def _pictures(data: Any, summary: Mapping[str, Any], dpi: int) -> list[Block]:  # noqa: ANN401
-    """Draw the pictures of a Dataset, each with its words."""
+    """Draw the pictures of a Dataset, each with its caption."""
     if summary["kind"] == "solution" and "P" not in data:
         return [page.paragraph("There are no pictures: the case has output.fields = .false.")]
     parts = [page.heading("Pictures")]

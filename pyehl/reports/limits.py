@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Which of the limits of the model apply to a result, and what it warns of itself."""
+"""Limits of the model that apply to a result, and its warnings."""
 
 from pyehl.surfaces import FEATURES, rough_groups
 from pyehl.theory.line_contact import LineContact, scaling_contact
@@ -23,7 +23,7 @@ NOTES = {
 
 
 def limits(settings: Settings, summary: Values) -> list[str]:
-    """Say which limits of the model apply to a result, a sentence or two each."""
+    """List the limits of the model that apply to a result, a sentence or two each."""
     point = scaling_contact(settings)
     law, flow = settings["lubricant"]["shear_law"], settings["lubricant"]["flow"]
     rough = rough_groups(settings)
@@ -54,7 +54,7 @@ def limits(settings: Settings, summary: Values) -> list[str]:
         "border"
     ] != "flooded":
         result.append(
-            "At the border of the domain P = 0, which takes a little of the film; what it takes is "
+            "At the border of the domain P = 0, which makes the film slightly thinner; this is "
             "part of the stated error."
         )
     if point.hertz_pressure > HIGH_PRESSURE:
@@ -63,8 +63,8 @@ def limits(settings: Settings, summary: Values) -> list[str]:
         )
     if isinstance(point, LineContact):
         result.append(
-            "The line is infinitely long: nothing is known of the ends of a roller, of its "
-            "profile or of misalignment."
+            "The line is infinitely long: ends of a roller, its profile and misalignment are not "
+            "included."
         )
     if rough:
         result.append(
@@ -82,7 +82,7 @@ def limits(settings: Settings, summary: Values) -> list[str]:
 
 
 def _contact(settings: Settings, summary: Values) -> str:
-    """Say what is known of solid contact: shares of a study are the largest of its cases."""
+    """Describe solid contact: shares of a study are the largest of its cases."""
     share = summary.get("contact_load_share")
     boundary = float(settings["lubricant"]["boundary_film"])
     broken = summary.get("status") in ("film breakdown", "negative film")
@@ -111,7 +111,7 @@ def unheated(summary: Values) -> float | None:
 
 
 def warnings(summary: Values) -> list[str]:
-    """Give what a summary states of what is not known or to be taken with care."""
+    """Give the statements of a summary on missing and uncertain results."""
     result = [
         f"{words}: {summary[name]}."
         for name, words in NOTES.items()

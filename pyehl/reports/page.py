@@ -71,7 +71,7 @@ def picture(png: bytes, alternative: str, caption: str) -> Block:
 def render(
     title: str, parts: Iterable[Part], command: str, hide: Callable[[Any], Any] | None = None
 ) -> str:
-    """Give a whole page, which states which command made it; `hide` is applied to what it shows."""
+    """Give a whole page with a mark of its command; `hide` is applied to its content."""
     from jinja2 import Environment  # noqa: PLC0415 (it takes long to import)
 
     text = resources.files("pyehl").joinpath("reports", "page.html").read_text(encoding="utf-8")

@@ -23,7 +23,7 @@ PICTURES = {
 
 
 def stress_of(folder: Path, case: str, given: str | Path | bool | None) -> xr.Dataset | None:
-    """Give the stress below a result; None where there is none and none is asked for.
+    """Give the stress below a result; None where there is none and none is requested.
 
     Parameters
     ----------

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Files of rigs that measure film thickness and friction, and results beside them."""
+"""Files of rigs that measure film thickness and friction, and comparison with results."""

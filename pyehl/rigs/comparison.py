@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Results of a study beside what a rig measured."""
+"""Comparison of a study with measurements of a rig."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def deviations(curve: Curve, places: Array, values: Array) -> list[Deviation]:
     Parameters
     ----------
     curve
-        What was measured.
+        The measurements.
     places, values
         The computed curve (n,), in the units of the measured one; interpolated in logarithms where
         both are positive, else linearly.

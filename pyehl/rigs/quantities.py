@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a column of a rig file holds, by its name, and its unit."""
+"""Quantities of the columns of a rig file, by their names, and their units."""
 
 from __future__ import annotations
 

@@ -2,7 +2,7 @@
 """Readers of rig files: PCS Instruments EHD and MTM, and plain tables with units.
 
 A reader takes the lines of a file and gives steps, each a table. To add a format, write a function
-and add it to `READERS`. How the files of PCS look is known from the public examples of the package
+and add it to `READERS`. The format of PCS follows the public examples of the package
 `tribology` of M. Ploss (files of an EHD261 and an MTM311).
 """
 
@@ -37,7 +37,7 @@ class Step:
 
 @dataclass(frozen=True, slots=True)
 class RigFile:
-    """What a rig measured: `format` states which reader took the file."""
+    """Measurements of a rig: `format` names the reader of the file."""
 
     name: str
     format: str
@@ -59,12 +59,12 @@ def read_rig(path: str | os.PathLike[str]) -> RigFile:
     Returns
     -------
     RigFile
-        Steps that have something measured: film thickness or friction.
+        Steps with measurements of film thickness or friction.
 
     Raises
     ------
     InputError
-        If the file is none of these, or has nothing measured; with the columns that were found.
+        If the file is none of these, or has no measurements; with the columns of the file.
     """
     name = os.fspath(path)
     lines = _text(path).splitlines()
@@ -91,7 +91,7 @@ def read_rig(path: str | os.PathLike[str]) -> RigFile:
 
 
 def is_rig(path: str | os.PathLike[str]) -> bool:
-    """Tell whether a file is that of a rig, or a table with units in its line of names."""
+    """Whether a file is that of a rig, or a table with units in its line of names."""
     lines = [line for line in _text(path).splitlines() if line.strip() and line[0] != "#"]
     if not lines:
         return False
@@ -194,4 +194,4 @@ READERS: tuple[tuple[str, Callable[[Lines], bool], Callable[[str, Lines], Iterat
     ("PCS", lambda lines: bool(lines and PCS.match(lines[0])), _pcs),
     ("table", lambda lines: any(line.strip() for line in lines), _table),
 )
-"""Name, whether a file is of it, and reader of each format; the first that fits reads."""
+"""Name, test and reader of each format; the first whose test succeeds is used."""

@@ -14,7 +14,7 @@ from pyehl.types import Array
 
 # Conditions that differ less, relatively, are the same if they are far nearer than the next ones
 SAME, NEARER = 0.03, 0.25
-# Repeats whose own scatter is used; that of fewer is too uncertain, and all are taken together
+# Minimum number of repeats whose own scatter is used; else the scatter of all is used
 MANY = 5
 
 
@@ -49,7 +49,7 @@ def varied(steps: Sequence[Step]) -> Quantity | None:
 
 
 def averaged(steps: Sequence[Step], quantity: Quantity, over: Quantity) -> Curve:
-    """Average what was measured of a quantity over a condition.
+    """Average the measurements of a quantity over a condition.
 
     The error of a mean is that of its repeats, or of all repeats as a share of their means, over
     the root of their number. Without repeats it is what the file states.

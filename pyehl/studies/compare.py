@@ -59,7 +59,7 @@ class ReferenceTable:
     """A table of references."""
 
     name: str  # of the file
-    notes: tuple[str, ...]  # its comment lines, which say where the values are from
+    notes: tuple[str, ...]  # its comment lines, which name the sources of the values
     # Names of the columns
     keys: tuple[str, ...]
     values: tuple[str, ...]
@@ -160,7 +160,7 @@ class Deviation:
     """A result beside a reference value."""
 
     line: int  # of the table of references
-    case: str  # keys of the row, in words
+    case: str  # keys of the row, as text
     name: str  # of the result
     expected: Expected  # reference value and tolerance
     value: float | None  # the result; None where there is none
@@ -217,7 +217,7 @@ class Results:
     def key(self, row: Values, name: str) -> object:
         """Give the value of a key for a row; None where the case does not have it.
 
-        InputError if nothing is known of the key.
+        InputError if the key is not known.
         """
         if name in row:
             return row[name]

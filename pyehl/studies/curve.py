@@ -72,7 +72,7 @@ def kept_pattern(
 ) -> Pattern:
     """Give the pattern of the rough surface of a case; of two that of both together.
 
-    A surface that knows nothing of the contact is made once.
+    A surface that does not depend on the contact is made once.
     """
     result = []
     for group in surfaces.rough_groups(settings):
@@ -117,9 +117,9 @@ CONTACT_EHL = {
 }
 """And results of its full simulation."""
 EMPIRICAL = ("asperity_load_share_empirical", "mu_empirical")
-"""More columns where an empirical law of a thin film is asked for."""
+"""More columns with the empirical law of a thin film."""
 CONCLUSION = "conclusion"
-"""In the rows, and in no file: the last lines of a point."""
+"""The last lines of a point: in the rows, and in no file."""
 NOT_DONE: Values = {"status": FAILED, "message": "not done"}
 
 
@@ -132,7 +132,7 @@ def units_of(plan: CurvePlan) -> dict[str, str]:
 
 
 def curve_table(plan: CurvePlan, rows: Mapping[int, Values]) -> pd.DataFrame:
-    """Give what is varied and the columns of a curve at all points, in the order of the table.
+    """Give the varied keys and the columns of a curve at all points, in the order of the table.
 
     Names and units are those of `units_of`, behind them `WORDS` and `CONCLUSION`; None for a number
     that does not exist.
@@ -200,7 +200,7 @@ def _row(
     if smooth["status"] == "converged" and smooth["H_c_extrapolated"] is None:
         n = int(point.settings["grid"]["points"])
         notes.append(
-            f"film of {n} x {n} nodes, not extrapolated: grid.points = {2 * n - 1} may do better"
+            f"film of {n} x {n} nodes, not extrapolated: grid.points = {2 * n - 1} may help"
         )
     if values["mu_smooth"] is None and smooth.get("F_error_note", "").startswith(NO_INLET):
         notes.append(f"smooth contact: {smooth['F_error_note']}")
@@ -222,7 +222,7 @@ def _conclude(settings: Settings, values: Values) -> Conclusion:
     note = "" if values["mu_ratio_model_error"] is not None else message
     law = settings["lubricant"]["shear_law"]
     more = {"status": status, "message": message, "mu_ratio_error_note": note, "shear_law": law}
-    # the ratio of smooth surfaces is no finding
+    # the ratio of smooth surfaces is 1 by definition
     left_out = () if values["surfaces"] else ("mu_ratio",)
     return conclude({k: v for k, v in values.items() if k not in left_out} | more)
 
@@ -348,13 +348,13 @@ def _spread(numbers: Iterable[float]) -> float | None:
 
 
 def _over(result: Sequence[Values], name: str, over_all: Callable[..., Any]) -> Any:  # noqa: ANN401
-    """Give a function of the values of several surfaces; None where one of them has none."""
+    """Apply a function to the values of several surfaces; None where one of them has none."""
     numbers = [row.get(name) for row in result]
     return None if None in numbers else over_all(numbers)
 
 
 def no_coefficient(settings: Settings) -> str:
-    """Say why a friction coefficient of a resolved case would have no meaning; '' if it has one."""
+    """State why a friction coefficient of a resolved case has no meaning; '' if it has one."""
     operating, lubricant = contact_of(settings), Lubricant.from_settings(settings)
     film = formula_film(operating, lubricant)
     result = absolute_friction(operating, lubricant, film=film, mu_smooth=1.0, mu_ratio=1.0)

@@ -32,7 +32,7 @@ KEYS = {
     "temperature": "lubricant.temperature",
     "slide-to-roll": "contact.slide_to_roll",
 }
-"""What a curve may go over, by the option of the command."""
+"""Keys that a curve may vary, by the option of the command."""
 MAX_SURFACES = 1000
 
 
@@ -56,10 +56,10 @@ class CurvePlan:
     points: tuple[CurvePoint, ...]  # points in the order of the table
     tasks: tuple[Task, ...]  # all tasks
     surfaces: int  # surfaces at each point
-    load_share: LoadShare | None = None  # the empirical law of a thin film, if it is asked for
+    load_share: LoadShare | None = None  # the empirical law of a thin film, if requested
 
     def identity(self) -> dict[str, Any]:
-        """Give what makes this curve another one than others, as values of JSON."""
+        """Give the identity of this curve, as values of JSON."""
         full = [p.point.number for p in self.points if p.full is not None]
         files = {name: None for p in self.points for name in files_of(p.settings)}
         first = (*self.points[0].predictions, self.points[0].smooth)[0]
@@ -99,8 +99,9 @@ def plan_curve(
 
     Every value of an axis, keys of `KEYS`, meets those of the others. The passage of the surface
     is solved in full at `ehl` points, spread over the curve; at each point there are `seeds`
-    surfaces, of the seed of the case and those that follow. `load_share` adds what an empirical law
-    gives for thin films. InputError names a case that is not acceptable, or if there are too many.
+    surfaces, of the seed of the case and those that follow. `load_share` adds friction by an
+    empirical law for thin films. InputError names a case that is not acceptable, or if there are
+    too many.
     """
     study = make(case, axes, options=options, run="predict")
     size = study.size
@@ -109,7 +110,7 @@ def plan_curve(
     if not 1 <= seeds <= MAX_SURFACES:
         raise InputError(
             f"surfaces = {seeds}: expected 1 to {MAX_SURFACES}; the spread of {MAX_SURFACES} is "
-            "known to 2 %"
+            "uncertain by 2 %"
         )
     count = size * (1 + seeds) + ehl
     if count > MAX_CASES:
@@ -148,7 +149,7 @@ def plan_curve(
 
 
 def _check_share(settings: Settings) -> None:
-    """Refuse what the empirical law of a thin film does not cover."""
+    """Refuse cases that the empirical law of a thin film does not cover."""
     if not surfaces.rough_groups(settings):
         raise InputError(
             "boundary friction: surface.kind = 'smooth' has no Lambda\nexpected: a rough surface"
@@ -161,7 +162,7 @@ def _check_share(settings: Settings) -> None:
 
 
 def _check(settings: Settings, seeds: int, ehl: int) -> None:
-    """Refuse what no curve can be made of."""
+    """Refuse cases without a curve."""
     groups = surfaces.rough_groups(settings)
     why = unpredictable(settings) if groups else turned(settings)
     if why:

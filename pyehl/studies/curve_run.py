@@ -94,7 +94,7 @@ def last_lines(plan: CurvePlan, table: pd.DataFrame) -> str:
 
 
 def deviation(curve: Curve, measured: Measured) -> list[str]:
-    """Report how far a curve is from measured friction."""
+    """Report the deviation of a curve from measured friction."""
     lines = []
     for name in (measured.ordinate, "mu_empirical"):
         if name not in curve.table:
@@ -119,7 +119,7 @@ FILES = (CSV, NETCDF, PICTURE)
 
 
 def curve_axes(vary: Mapping[str, Any]) -> list[Axis]:
-    """Give what a curve goes over, from values by key.
+    """Give the axes of a curve, from values by key.
 
     InputError if there is nothing, a curve does not go over it, or values are no numbers.
     """
@@ -133,7 +133,7 @@ def curve_axes(vary: Mapping[str, Any]) -> list[Axis]:
 
 
 def expected_keys() -> str:
-    """Say what a curve may go over, as the end of a message."""
+    """List the keys that a curve may vary, as the end of a message."""
     return f"\nexpected: values of at least one of {', '.join(KEYS.values())}"
 
 
@@ -145,7 +145,7 @@ def perform(
     force: bool = False,
     **how: Any,  # noqa: ANN401 (as of `gather`)
 ) -> tuple[Outcome, pd.DataFrame]:
-    """Run what is missing of a curve; returns its table, too.
+    """Run the missing tasks of a curve; returns its table, too.
 
     A folder gets the journal, ``stribeck.csv`` and ``stribeck.nc``; `inputs` are files that must
     not be replaced. InputError if the folder holds another curve or something else, or is in use;
@@ -171,7 +171,7 @@ def perform(
 
 
 def dataset(plan: CurvePlan, result: pd.DataFrame) -> xr.Dataset:
-    """Give a curve as a Dataset whose dimensions are what was varied."""
+    """Give a curve as a Dataset whose dimensions are the varied keys."""
     attributes, ended = {"title": "Stribeck curve of pyehl"}, {}
     if len(plan.study.keys) == 1 and (ends := curves_of(plan, result)[0].lift_off):
         speeds = {"transition_speed_m_s": ends.speed, "transition_speed_error_m_s": ends.error}
@@ -214,8 +214,8 @@ def stribeck(
     surfaces
         Surfaces at each point: of the seed of the case and those that follow.
     boundary_friction
-        Coefficient of friction of the asperities [-]: adds what an empirical law has for thin films
-        (``mu_empirical``); None: no number where the film ends.
+        Coefficient of friction of the asperities [-]: adds friction by an empirical law for thin
+        films (``mu_empirical``); None: no number where the film ends.
     load_share
         B and C of that law: exp(-B (h_c/sigma)^C) of the load is on asperities.
     output
@@ -231,8 +231,8 @@ def stribeck(
     Returns
     -------
     xarray.Dataset
-        Its dimensions are what the curve goes over, named as by `sweep`; columns as in
-        ``stribeck.csv`` with units, NaN where there is no number; ``status`` states what holds at
+        Its dimensions are the varied keys, named as by `sweep`; columns as in
+        ``stribeck.csv`` with units, NaN where there is no number; ``status`` at
         each point.
 
     Raises

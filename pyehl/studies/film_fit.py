@@ -132,7 +132,7 @@ def fit_coefficient(settings: Settings, measured: Measured, points: int) -> Fit:
             break
         if abs(result.x[0] - table.middle) <= math.log(SPAN):
             break
-        # the table does not reach there: once more, from where the film alone leads
+        # the table does not reach there: repeat it around the coefficient by the film alone
         share = float(np.exp(np.mean(np.log(films / table.films(speeds, math.exp(table.middle))))))
         guess = math.exp(table.middle) * share ** (1.0 / POWER)
     else:
@@ -159,7 +159,7 @@ def fit_coefficient(settings: Settings, measured: Measured, points: int) -> Fit:
 
 
 def _base(settings: Settings, points: int) -> dict[str, dict[str, object]]:
-    """Give what the contacts share; what a case gave in place of the coefficient is left out."""
+    """Give the common values of the contacts, without those that the coefficient replaces."""
     groups = smooth_base(settings, points)
     groups["lubricant"] = {
         key: value
@@ -309,7 +309,7 @@ def fit_lubricant(
 def _measured(
     path: str, settings: Settings, law: str, between: tuple[float, float] | None
 ) -> tuple[Measured, list[str]]:
-    """Read the curve that a law is fitted to, and what of the file is left out."""
+    """Read the curve that a law is fitted to, and list omitted parts of the file."""
     left_out: list[str] = []
     if law == OF_FILM or is_rig(path):
         quantity, over = (FILM, SPEED) if law == OF_FILM else (FRICTION, SLIP)

@@ -20,7 +20,7 @@ from pyehl.types import Row
 
 NAME = "journal.sqlite"
 FILES = (NAME, f"{NAME}-wal", f"{NAME}-journal")
-"""With what SQLite leaves beside it after a kill, and needs to complete the last transaction."""
+"""Its files: SQLite needs those that a kill has left to complete the last transaction."""
 MARKS = {"application_id": 0x7965686C, "user_version": 1}
 """In the head of the file: a journal of pyehl ('yehl' in ASCII), and its version."""
 OTHER = "expected: another folder"
@@ -29,7 +29,7 @@ MAX_LISTED = 12
 
 
 def read_header(folder: str | os.PathLike[str]) -> Row | None:
-    """Give what the study in a folder is; None where there is no journal that can be read."""
+    """Give the identity of the study in a folder; None where no journal can be read."""
     result = _unlocked(Path(folder) / NAME, "study")
     return None if result is None else dict(json.loads(result))
 
@@ -46,7 +46,7 @@ def _unlocked(path: Path, name: str) -> str | None:
 
 
 def difference(old: Mapping[str, Any], new: Mapping[str, Any]) -> list[str]:
-    """List in words where two studies differ; empty when they do not."""
+    """List the differences of two studies as text; empty when there are none."""
     lines = []
     for name in dict.fromkeys([*old, *new]):
         a, b = old.get(name), new.get(name)
@@ -109,7 +109,7 @@ class Journal:
         self.folder = Path(folder)
         self.path = self.folder / NAME
         self.rows: dict[int, Row] = {}
-        # a journal may appear at any instant: whose it is, is checked when it is locked
+        # a journal may appear at any instant: its study is checked when it is locked
         if not self.path.exists():
             place = place or Destination(folder, "study", (NAME,))
             replace(place, kept=FILES).check(resumes=True)

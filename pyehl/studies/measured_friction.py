@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Measured friction, to lay over a Stribeck curve, and the CSV tables that users write."""
+"""Measured friction for comparison with a Stribeck curve, and CSV tables of users."""
 
 import csv
 import math

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The plan of a study: its cases resolved and checked, how long, and what is shared.
+"""The plan of a study: its cases resolved and checked, their time, and shared work.
 
 Estimates are of one thread of the machine that they were measured on, good to a factor of two or
-so: what matters is that long cases begin first, and that the order of magnitude is known before a
+so: they let long cases begin first, and show the order of magnitude before a
 study runs. They are corrected by the cases that are finished.
 """
 
@@ -37,7 +37,7 @@ from pyehl.types import Row, Settings
 PREDICTION, PREDICTION_PIXEL = 0.1, 1.4e-6
 """Seconds of a prediction, and per pixel of its tile, without the smooth contact under it."""
 FULL = 2.8
-"""How many times as long one with tracks and bands takes."""
+"""Time of one with tracks and bands over that without."""
 PAIR, THINS, WIDER = 3.5, 2.0, 1.2
 """How many times as long two rough surfaces take as both alone, and a flow that thins; power of
 b/a, or of a/b, with which it grows."""
@@ -142,7 +142,7 @@ def _time_to_settle(surface: Mapping[str, Any], settings: Settings) -> float:
 
 
 def duration(seconds: float) -> str:
-    """Give a time in words: '8 s', '3 min', '2.5 h'."""
+    """Give a time as text: '8 s', '3 min', '2.5 h'."""
     if seconds < 0.95:
         return f"{seconds:.1g} s"
     if seconds < 90.0:
@@ -151,7 +151,7 @@ def duration(seconds: float) -> str:
 
 
 class Remaining:
-    """The time that the tasks of a study still take, corrected by what the finished ones took."""
+    """The time of the remaining tasks of a study, corrected by that of the finished ones."""
 
     def __init__(self, tasks: Sequence[Task], workers: int) -> None:
         self._tasks = {task.number: task for task in tasks}
@@ -175,7 +175,7 @@ class Remaining:
         return sum(self._left.values())
 
     def remove(self, rows: Sequence[tuple[int, Row]]) -> None:
-        """Take finished tasks out."""
+        """Remove finished tasks."""
         for number, row in rows:
             task = self._tasks.pop(number)
             self._left[task.run] -= task.seconds
@@ -198,7 +198,7 @@ class Remaining:
 
 
 def wall_seconds(seconds: Sequence[float], jobs: int, repeat: float = 1.0) -> float:
-    """Wall time [s] of tasks in `jobs` worker processes beside what else the machine does now.
+    """Wall time [s] of tasks in `jobs` worker processes under the present load of the machine.
 
     Each of the `seconds` stands for `repeat` tasks.
     """
@@ -212,7 +212,7 @@ MAX_CHECKED, PATIENCE = 5000, 5.0
 """Maximum number of cases that a plan without a run checks, and seconds that it takes for them."""
 CASE_BYTES = 12_000
 """Memory of a case that waits, most of it its resolved text."""
-# What may make a case that can be read one that cannot be solved
+# Groups that may make a readable case one that cannot be solved
 GROUPS = ("grid", *surfaces.GROUPS, "time", "solver")
 
 
@@ -238,7 +238,7 @@ class TaskList:
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """Cases of a study, checked, with what is known before they run."""
+    """Cases of a study, checked, with estimates of their run."""
 
     study: Study
     # Its cases in the order of the table; of a large study that is not to run, some of them
@@ -248,7 +248,7 @@ class Plan:
     check_seconds: float  # time that the checks took [s]
 
     def identity(self) -> dict[str, Any]:
-        """Give what makes this study another one than others, as values of JSON."""
+        """Give the identity of this study, as values of JSON."""
         return self.study.identity(self.tasks[0].text, self.files)
 
     def text(self, jobs: int, done: Sequence[int] = ()) -> str:

@@ -2,8 +2,8 @@
 """Worker processes, of this machine or of a dask scheduler: tasks to rows, as they are finished.
 
 On this machine each worker is an executor of loky of its own: a worker that crashes or is killed
-takes its own tasks with it alone. A task whose worker of dask is lost goes to another one: dask
-does that, and gives a task up when several workers were lost with it
+loses its own tasks alone. A task whose worker of dask is lost goes to another one: dask
+does that, and abandons a task when several workers were lost with it
 (``distributed.scheduler.allowed-failures``).
 """
 
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 # A worker gets so many tasks at once, as long as they take less than this together [s]
 MAX_TASKS, SHORT = 64, 0.1
-# How often a task may end its worker before it has failed
+# Number of workers that a task may end before it has failed
 TRIES = 2
 ENVIRONMENT = {
     "OMP_NUM_THREADS": "1",
@@ -51,7 +51,7 @@ def processors() -> int:
 
 
 def check_jobs(jobs: int) -> None:
-    """Refuse what is no number of worker processes."""
+    """Refuse an invalid number of worker processes."""
     check_kind(jobs, int, "jobs", "a number of worker processes")
     if jobs < 0:
         raise InputError(f"jobs = {jobs}: expected a number of worker processes")
@@ -91,7 +91,7 @@ class Queue:
 
 
 def group_of(task: Task) -> str:
-    """Name what a task shares with others."""
+    """Name the group of tasks that share work."""
     return task.shares or str(task.number)
 
 
@@ -101,7 +101,7 @@ def _begin(parent: int) -> None:
     # what a library prints goes to standard error
     os.dup2(2, 1)
     threading.Thread(target=_end_without, args=(parent,), daemon=True).start()
-    # its caller waits for the end of a spare one, which has nothing to put in order
+    # end at once: the parent waits for an idle worker, which has nothing to clean up
     atexit.register(os._exit, 0)
 
 
@@ -151,7 +151,7 @@ def rows(tasks: Sequence[Task], jobs: int) -> Generator[list[tuple[int, Row]]]:
                         raise InternalError("the worker processes end before they begin") from error
                     executors[k].shutdown(kill_workers=True)
                     executors[k] = _executor()
-                    # of several tasks the one that did it is found when each is given alone
+                    # each of several tasks is then given alone, which shows the faulty one
                     died.update(t.number for t in some if len(some) == 1)
                     lost = [t for t in some if died[t.number] >= TRIES]
                     finished += [(t.number, _failed(error)) for t in lost]
@@ -180,8 +180,8 @@ os.register_at_fork(after_in_child=_spares.clear)
 def _keep(executor: ProcessPoolExecutor) -> None:
     """Keep an executor for the next study, for a time.
 
-    Its own time limit would not do: it does not notice the death of a worker that it starts after
-    the first one has gone.
+    Its own time limit is not used: it does not notice the death of a worker that it starts after
+    the end of the first one.
     """
 
     def end() -> None:
@@ -233,8 +233,8 @@ def _failed(error: BaseException) -> Row:
 def cluster_rows(tasks: Sequence[Task], address: str) -> Generator[list[tuple[int, Row]]]:
     """Do tasks with the workers of a scheduler; yields what has been finished, some at a time.
 
-    When the caller stops early, what has not begun is taken back. InputError if dask.distributed
-    is not installed; EhlError if the scheduler does not answer.
+    When the caller stops early, tasks that have not begun are cancelled. InputError if
+    dask.distributed is not installed; EhlError if the scheduler does not answer.
     """
     try:
         from distributed import Client, as_completed  # noqa: PLC0415 (an optional extra)
@@ -260,7 +260,7 @@ def cluster_rows(tasks: Sequence[Task], address: str) -> Generator[list[tuple[in
 
 
 def _row(future: Any, result: Any) -> Row:  # noqa: ANN401 (types of an optional extra)
-    """Give the row of a future of dask; what dask gave up is a row too."""
+    """Give the row of a future of dask, also of a task that dask abandoned."""
     if future.status == "finished":
         row: Row = result
         return row

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Steady contacts at instants of a duty, to set beside its films."""
+"""Steady contacts at instants of a duty, for comparison with its films."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ from pyehl.theory.line_contact import scaling_contact
 from pyehl.types import Array, Settings
 
 VALUES = ("h_c_m", "h_c_error_m", "h_min_m", "h_min_error_m", "p_max_Pa")
-"""What is kept of each contact."""
+"""Results of each contact."""
 ENDS = ("x_inlet", "x_outlet", "y_extent")
 RADII = ("radius", "radius_x", "radius_y")
 SLOWEST = 1e-6
-"""Least mean velocity over that of the case that makes a steady film."""
+"""Minimum mean velocity of a steady film over that of the case."""
 
 
 def quasi_static(
@@ -33,7 +33,8 @@ def quasi_static(
     """Solve the steady, smooth contact at instants of a duty.
 
     Each has the load, speeds, radii, viscosity and layer of oil of an instant, on the grid of the
-    duty: the same nodes in metres, P = 0 at the border. A motion the other way is its mirror image.
+    duty: the same nodes in metres, P = 0 at the border. A reversed motion is solved as its mirror
+    image.
 
     Parameters
     ----------
@@ -69,7 +70,7 @@ def quasi_static(
     data = results if isinstance(results, xr.Dataset) else load(path_of(results, "results"))
     if "history_t_s" not in data:
         raise InputError(
-            "results without a duty: they change with time nowhere\n"
+            "results without a duty: nothing changes with time\n"
             "expected: what solve or load gives for a case with &duty"
         )
     settings = settings_of(data)

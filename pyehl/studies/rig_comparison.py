@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A study beside what a rig measured under the same conditions."""
+"""Comparison of a study with measurements of a rig under the same conditions."""
 
 from __future__ import annotations
 

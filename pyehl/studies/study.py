@@ -113,7 +113,7 @@ def _spaced(text: str) -> list[Value]:
         raise ValueError("a number is not finite")
     if geometric and not (start > 0.0 and stop > 0.0):
         raise ValueError("geometric spacing needs two positive numbers")
-    # round off what the last digits of a power miss: 0.1 and not 0.10000000000000002
+    # round off the rounding error of a power: 0.1 and not 0.10000000000000002
     spaced = [
         float(f"{v:.12g}") for v in (np.geomspace if geometric else np.linspace)(start, stop, count)
     ]
@@ -146,7 +146,7 @@ def _word(word: str) -> Value:
 
 
 RUNS = ("solve", "predict", "film")
-"""What may be done with each case."""
+"""Kinds of runs of a case."""
 MAX_CASES = 1_000_000
 RESULTS = frozenset(quantity.name for quantity in QUANTITIES)
 ECHOED = frozenset(
@@ -154,7 +154,7 @@ ECHOED = frozenset(
     "contact.slide_to_roll surface.seed surface.velocity_ratio".split()
 )
 """Keys whose results of the same name are their values."""
-# Keys, their types, and these in words
+# Keys, their types, and descriptions of these
 KEYS: dict[str, tuple[Any, str]] = {
     "case": (str, "a text"),
     "run": (str, "a text"),
@@ -174,13 +174,13 @@ class Point:
     values: dict[str, Value]  # what is varied, by key
 
     def __str__(self) -> str:
-        """Give what is varied, in one line."""
+        """Give the varied values, in one line."""
         return ", ".join(option(key, value) for key, value in self.values.items())
 
 
 @dataclass(frozen=True, slots=True)
 class Study:
-    """A case and what is varied in it."""
+    """A case and its varied keys."""
 
     case: Case | str  # a case, or the path of a case file
     options: tuple[str, ...]  # that hold for all cases
@@ -212,7 +212,7 @@ class Study:
 
     @property
     def names(self) -> dict[str, str]:
-        """Names in a Dataset of what is varied, by key.
+        """Names of the varied keys in a Dataset.
 
         What is behind the dot; with the group before it where two keys, or a key and a result that
         need not be its value, are called so.
@@ -262,7 +262,7 @@ class Study:
 
     @contextmanager
     def named(self, point: Point) -> Iterator[None]:
-        """Put a case before what is wrong with it, which is InputError then."""
+        """Put the case before its error, which is InputError then."""
         try:
             yield
         except EhlError as error:
@@ -270,7 +270,7 @@ class Study:
             raise InputError(f"{name}:\n{error}") from error
 
     def identity(self, first: str, files: Collection[str]) -> dict[str, Any]:
-        """Give what makes this study another one than others, as values of JSON.
+        """Give the identity of this study, as values of JSON.
 
         `first` is the first case, resolved; `files` are the height maps and tables of all cases,
         InputError if one cannot be read.
@@ -311,7 +311,7 @@ def make(
     outputs: Sequence[str] = (),
     origin: str = "",
 ) -> Study:
-    """Put a study together.
+    """Make a study.
 
     `zipped`: True, all keys move together; else lists of the keys that do. `outputs` are the
     results wanted in the table, none: all numbers. `origin` is where the study stands, for

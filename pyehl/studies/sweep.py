@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Run a study: many cases, one table (CSV, xarray Dataset); what is finished is kept."""
+"""Run a study: many cases, one table (CSV, xarray Dataset); finished cases are kept."""
 
 import os
 import signal
@@ -36,7 +36,7 @@ TABLE_INTERVAL = 30.0
 
 
 class Watcher:
-    """What a driver does when a study reports something; this one does nothing."""
+    """Callbacks of a study; these do nothing."""
 
     def began(self, tasks: Sequence[Task], done: Sequence[int], workers: int) -> None:
         """Take all tasks, the numbers of those done, and of the workers (0: not known)."""
@@ -47,7 +47,7 @@ class Watcher:
 
 @dataclass(slots=True)
 class Outcome:
-    """How a study ended."""
+    """Outcome of a study."""
 
     rows: dict[int, Row]  # results by the number of the task
     ran: int = 0  # tasks that were done now
@@ -73,7 +73,7 @@ def gather(
 ) -> Outcome:
     """Do the tasks that are not in the journal of a folder.
 
-    `identity` is what makes them another study than others; `place` is the folder with the names
+    `identity` distinguishes them from other studies; `place` is the folder with the names
     of its files, None: nothing is kept on disk. `jobs` worker processes do the tasks (0: as many
     as processors), or those of a dask scheduler; `retry`: those that failed are done again. `write`
     writes tables of the rows, at intervals and at the end. InputError if the folder holds another
@@ -115,13 +115,13 @@ def gather(
     return outcome
 
 
-# Words that are always in the table; other words only where they are asked for
+# Words that are always in the table; other words only where they are requested
 TEXTS = ("status", "message")
 WORDS = ("flags", "outside_range", "assessment")
 
 
 def columns(study: Study, rows: Mapping[int, Values]) -> list[str]:
-    """Names of the results in the table, behind what was varied."""
+    """Names of the results in the table, after the varied keys."""
     if study.outputs:
         result: Iterable[str] = study.outputs
     else:
@@ -136,7 +136,7 @@ def columns(study: Study, rows: Mapping[int, Values]) -> list[str]:
 
 
 def results(study: Study, points: Iterable[Point], rows: Mapping[int, Values]) -> pd.DataFrame:
-    """Give what was varied and the results of all finished cases."""
+    """Give the varied values and the results of all finished cases."""
     names = columns(study, rows)
     result = (
         [*point.values.values(), *map(rows[point.number].get, names)]
@@ -152,7 +152,7 @@ def write_csv(path: Path, table: pd.DataFrame) -> None:
 
 
 def dataset(study: Study, points: Sequence[Point], rows: Mapping[int, Values]) -> xr.Dataset:
-    """Give the results over what was varied."""
+    """Give the results over the varied keys."""
     table = results(study, points, {number: rows.get(number, {}) for number in range(study.size)})
     films = ("h_c_m_", "h_min_m_")
     units = {name: "m" if name.startswith(films) else unit_of(name) for name in table}
@@ -168,7 +168,7 @@ def over(
     attributes: Mapping[str, str],
     kind: type | None = None,
 ) -> xr.Dataset:
-    """Give a table of all cases as a Dataset over what was varied.
+    """Give a table of all cases as a Dataset over the varied keys.
 
     Dimensions have the names of `Study.names`, and their keys as attributes; keys that move
     together are coordinates of the dimension of the first of them, of a `kind` if it is given.
@@ -209,7 +209,7 @@ def perform(
     force: bool = False,
     **how: Any,  # noqa: ANN401 (as of `gather`)
 ) -> Outcome:
-    """Run what is missing of a study.
+    """Run the missing cases of a study.
 
     A folder gets the journal, ``results.csv`` and ``results.nc``. InputError if it holds another
     study or something else, or is in use; FileError if it cannot be written.
@@ -256,7 +256,7 @@ def sweep(
     run
         'solve', 'predict' or 'film'.
     outputs
-        Names of results wanted; none: all numbers and ``assessment``. Mean and
+        Names of results; none: all numbers and ``assessment``. Mean and
         spread over the tracks of a prediction, which take twice the time, are made only where they
         are named.
     output
@@ -272,7 +272,7 @@ def sweep(
     Returns
     -------
     xarray.Dataset
-        Its dimensions are what was varied, `load` of ``contact.load``; its attribute ``key`` is the
+        Its dimensions are the varied keys, `load` of ``contact.load``; the attribute ``key`` is the
         key, and its group is in its name where another key or a result is called so,
         `grid_points`. Results by their names in ``summary.json`` (units as there), ``status``,
         ``seconds`` and ``message``; NaN where there is no number.

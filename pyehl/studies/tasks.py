@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a worker does: one case of a study, to a row of its table; names of the results.
+"""Work of a worker process: one case of a study gives a row of its table; names of the results.
 
-Nothing that a case does ends a worker: whatever goes wrong is the status and the message of a row.
+No failure of a case ends a worker: it is the status and the message of a row.
 """
 
 import json
@@ -31,9 +31,9 @@ from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Row
 
 LAST = ("status", "seconds", "message")
-"""Columns that every table has, behind all others."""
+"""Last columns of every table."""
 TRACKS = ("tracks", "mu_ratio_tracks", "mu_ratio_tracks_spread")
-"""Results of a prediction that are made only where they are asked for."""
+"""Results of a prediction that are made only where they are requested."""
 
 KINDS = {"solve": "solution", "predict": "prediction", "film": "film"}
 NOT_IN_A_TABLE = frozenset(
@@ -63,7 +63,7 @@ def known(run: str) -> list[str]:
 
 
 def checked(outputs: Sequence[str], run: str, origin: str = "") -> tuple[str, ...]:
-    """Give the names asked for, each once.
+    """Give the requested names, each once.
 
     InputError for one that no table has, with the nearest; `origin` states where it stands.
     """
@@ -84,7 +84,7 @@ INSIDE, OUTSIDE = "inside all ranges", "outside the range of a formula"
 RESULTS = frozenset({"converged", "predicted", INSIDE, OUTSIDE})
 """Statuses of cases that have a result."""
 FINDINGS = RESULTS | {"film breakdown", BEYOND}
-"""Statuses of finished cases: with a result, or with what keeps the case from one."""
+"""Statuses of finished cases: with a result, or with a physical reason why there is none."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,9 +102,9 @@ class Task:
 
 
 def why_none(row: Mapping[str, Any]) -> str:
-    """Say in words why a case has no result; '' for one that has.
+    """State why a case has no result; '' for one that has.
 
-    A film breakdown is a finding, and yet no result: there is no ratio.
+    Film breakdown is a valid outcome without a result: there is no ratio.
     """
     if row["status"] in RESULTS:
         return ""

@@ -98,7 +98,7 @@ CANDIDATES = 64
 
 @dataclass(frozen=True, slots=True)
 class Cycle:
-    """Material points that may have the largest amplitude at one depth, and what they meet.
+    """Material points that may have the largest amplitude at one depth, and their stress cycles.
 
     Stresses in the unit of the history.
     """
@@ -202,7 +202,7 @@ def smallest_sphere(path: Array) -> tuple[Array, Array]:
     """Centre (6, points) and radius (points,) of the smallest spheres around paths.
 
     Paths are (6, times, points). By steps of falling length towards the farthest point (Badoiu &
-    Clarkson 2003); the radius is the distance of the farthest point from the centre found, so that
+    Clarkson 2003); the radius is the distance of the farthest point from that centre, so that
     it is an upper bound.
     """
     centre = 0.5 * (path.max(axis=1) + path.min(axis=1))
@@ -250,7 +250,7 @@ CRITERIA = ("dang-van", "crossland")
 
 @dataclass(frozen=True, slots=True)
 class Fatigue:
-    """A criterion with the limits in torsion and bending [Pa]; InputError where it has no sense."""
+    """A criterion with the limits in torsion and bending [Pa]; InputError if they do not fit."""
 
     criterion: str
     torsion_limit: float

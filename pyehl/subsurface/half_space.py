@@ -16,8 +16,8 @@ lt, tz     0                   0                              i e, -e
 =========  ==================  =============================  ==============
 
 Tension is positive. The transform makes the load periodic. The stress of its images changes slowly
-over the contact, so that a coarse grid gives it, to be taken off: as the difference between two
-cells, the second one `FAR` times as large.
+over the contact, so that it is computed on a coarse grid and subtracted: as the difference between
+two cells, the second one `FAR` times as large.
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ class _Waves:
         return cls(cell, k, c, s, cc, ss)
 
     def by_pressure(self, depth: float, nu: float) -> list[Array | Complex]:
-        """Stress of a pressure of 1 by wave, by `COMPONENTS`."""
+        """Stress of each wave of a unit pressure, by `COMPONENTS`."""
         kz, c, s, cc, ss = self.k * depth, self.c, self.s, self.cc, self.ss
         e = np.exp(-kz)
         return [
@@ -81,7 +81,7 @@ class _Waves:
         ]
 
     def by_traction(self, depth: float, nu: float) -> list[Array | Complex]:
-        """Stress of a traction of 1 along x: its parts are c along k and -s across it."""
+        """Stress of a unit traction along x: its parts are c along k and -s across it."""
         kz, c, s, cc, ss = self.k * depth, self.c, self.s, self.cc, self.ss
         e = np.exp(-kz)
         return [
@@ -230,7 +230,7 @@ class ImagesAt:
         return np.asarray(to_x @ result @ to_y.T)
 
     def left(self, pressure: Array, traction: Array | None) -> float:
-        """Bound of the stress of images that is not taken off.
+        """Bound of the stress of images that is not subtracted.
 
         Those of the far cell are `FAR` times as far away.
         """
@@ -260,7 +260,7 @@ class Layer:
         return stress
 
     def error(self, pressure: Array, traction: Array | None = None) -> float:
-        """Bound of what the periodic cell changes in `under` [Pa]; 0 for a periodic load."""
+        """Bound of the error of `under` by the periodic cell [Pa]; 0 for a periodic load."""
         return self.images.left(pressure, traction) if self.images else 0.0
 
 

@@ -39,7 +39,7 @@ STEP, FLAT = 0.1, 0.85
 
 @dataclass(frozen=True, slots=True)
 class Load:
-    """What acts on the surface of the body at an instant."""
+    """Load on the surface of the body at an instant."""
 
     time: float  # [a/u]; NaN of a smooth contact
     pressure: Array  # (nx, ny) [p_h]
@@ -48,7 +48,7 @@ class Load:
 
 @dataclass(frozen=True, slots=True)
 class Loads:
-    """The loads of a result, and what they act on."""
+    """The loads of a result, and the body that they act on."""
 
     x: Array  # (nx,) [a]
     y: Array  # (ny,) [a]
@@ -89,7 +89,7 @@ class Loads:
             yield Load(float(time), pressure, self.traction(pressure, film, True))
 
     def contact(self, share: float = 1.0) -> Mask:
-        """Tell which nodes (nx, ny) lie in the dry contact, or within a share of its semi-axes."""
+        """Nodes (nx, ny) in the dry contact, or within a share of its semi-axes."""
         across = self.y / self.semi_axis_y
         return np.hypot(self.x[:, np.newaxis], across[np.newaxis, :]) <= share
 
@@ -101,7 +101,7 @@ def _steps(x: Array, y: Array) -> tuple[float, float]:
 
 
 def steep_edge(traction: Array | None) -> bool:
-    """Tell whether a traction (nx, ny) ends in a step along x, or at the border of the grid.
+    """Whether a traction (nx, ny) ends in a step along x, or at the border of the grid.
 
     Then the stress along x is not finite at the surface (Johnson 1985, chapter 2.5). A traction
     that falls to 0 like the root of the distance loses 30 % from the second node to the last one, a
@@ -156,12 +156,12 @@ def friction_of(
 ) -> tuple[float, float, str]:
     """Give the coefficients of friction of the smooth and of the rough contact, and a note.
 
-    The second one is over what the isothermal law gives. NaN: without friction.
+    The second one is over that by the isothermal law. NaN: without friction.
     """
     if friction == "none" or (friction != "run" and friction == 0.0):
-        return math.nan, math.nan, "without friction, as asked for"
+        return math.nan, math.nan, "without friction, as requested"
     if friction != "run":
-        return float(friction), 1.0, f"traction is {friction:g} times the pressure, as asked for"
+        return float(friction), 1.0, f"traction is {friction:g} times the pressure, as requested"
     if lubricant is None:
         return math.nan, math.nan, "without friction: the case has Moes numbers and no oil"
     if operating.sliding_speed == 0.0:

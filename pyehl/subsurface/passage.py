@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Stress below the surface under a result: one depth after the other, over all instants.
 
-The depths follow from the waves that a distribution of pressure has; near the surface roughness
-decides over the stress.
+The depths follow from the waves of a distribution of pressure; near the surface roughness
+determines the stress.
 """
 
 from __future__ import annotations
@@ -88,7 +88,7 @@ class Peak:
 
 @dataclass(slots=True)
 class Row:
-    """What is found at one depth; stresses in p_h."""
+    """Results at one depth; stresses in p_h."""
 
     depth: float  # [a]
     shear: Peak = field(default_factory=Peak)
@@ -100,7 +100,7 @@ class Row:
     section: Array | None = None  # principal shear on y = 0 (nx,), largest over time
     cycle: Cycle | None = None  # of the material points; None where no whole passage is known
     fatigue: float = math.nan  # largest equivalent stress of the criterion
-    error: float = 0.0  # of what the periodic cell changes, bound
+    error: float = 0.0  # bound of the error by the periodic cell
 
 
 def row_of(
@@ -150,7 +150,7 @@ class Profile:
 
     @property
     def rows(self) -> list[Row]:
-        """Those of the contact that was asked for."""
+        """Rows of the rough contact, or of the smooth one where there is no other."""
         return self.rough or self.smooth
 
 
@@ -226,7 +226,7 @@ def in_layer(rows: list[Row], name: str, depth: float) -> float:
 
 
 def share_above(rows: list[Row], depth: float) -> float:
-    """Share of the volume under the dry contact, down to a depth [a], above the value asked for."""
+    """Share of the volume under the dry contact, down to a depth [a], above the given value."""
     z = np.array([row.depth for row in rows])
     share = np.array([row.above for row in rows])
     grid = np.union1d(z[z < depth], [depth])
@@ -246,16 +246,16 @@ Scalar = tuple[str, float, str, str]
 def near_surface(
     result: Profile, depth: float | None, above: float | None, *, predicted: bool
 ) -> list[Scalar]:
-    """Largest shear in the layer, and the share of its volume above the one asked for.
+    """Largest shear in the layer, and the share of its volume above a given one.
 
     Parameters
     ----------
-    found
+    result
         Stress over depth [p_h].
     depth
         Of the layer [a]; None: `NEAR` times the depth of the largest smooth shear.
     above
-        Whether a share was asked for, the shear of which `Row.above` is the share.
+        Whether a shear was given, of which `Row.above` is the share.
     predicted
         Whether the rough contact is predicted: then with errors.
 

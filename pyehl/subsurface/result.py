@@ -387,7 +387,7 @@ def _add_peak(
 def _add_life(
     data: xr.Dataset, summary: xr.Dataset, contamination: float | None, bearing: str
 ) -> None:
-    """Add kappa and a_ISO by Lambda; InputError if a_ISO is asked for without one."""
+    """Add kappa and a_ISO by Lambda; InputError if a_ISO is requested without one."""
     ratio = float(summary["lambda_ratio"]) if "lambda_ratio" in summary else math.nan
     if not math.isfinite(ratio):
         if contamination is not None:

@@ -26,12 +26,12 @@ DECAY = 0.2
 ANGLES = 180
 
 BLOCK = 2**16
-"""Points of a map that are looked at together."""
+"""Points of a map that are processed at a time."""
 
 
 @dataclass(frozen=True, slots=True)
 class Extent:
-    """How rough a map is, in three numbers."""
+    """Roughness of a map in three numbers."""
 
     rms: float  # of the heights about their mean [m]
     peak: float  # largest distance of a height from the mean [m]
@@ -104,8 +104,8 @@ def texture_aspect_ratio(heights: Array, pixel: tuple[float, float]) -> float:
     """Str of ISO 25178-2: shortest over longest distance at which the autocorrelation is 0.2.
 
     The autocorrelation is that of the map about its mean, each lag over the points that overlap,
-    up to half of the map. A direction in which it never falls to 0.2 counts with the length to
-    which it is known, so that the Str of a perfect lay is a bound and not zero. Heights (nx, ny)
+    up to half of the map. A direction in which it never falls to 0.2 enters with the largest
+    lag, so that the Str of a perfect lay is an upper bound and not zero. Heights (nx, ny)
     [m], none missing; pixel size along x and y [m].
     """
     nx, ny = heights.shape

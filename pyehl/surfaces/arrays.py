@@ -20,8 +20,8 @@ Sizes = tuple[float | None, float | None]
 UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
 """Metres in the units of `surface.height_unit` and `surface.lateral_unit`."""
 
-# Metres in the units that headers name; a micro sign is two characters of Unicode, and in a file of
-# another encoding it is none
+# Metres in the units that headers name. Unicode has two characters for a micro sign; in a file of
+# another encoding it may be unreadable
 _SPELT = {
     r"nm|nanomet(?:er|re)s?|ナノメートル": 1e-9,
     r"[uµμ\ufffd]m|microns?|micromet(?:er|re)s?|mikrometer|マイクロメートル": 1e-6,
@@ -39,7 +39,7 @@ _WHOLE = {re.compile(spelt, re.IGNORECASE): metres for spelt, metres in _SPELT.i
 def unit_of(text: str) -> float | None:
     """Metres in a unit of length as headers spell it; None for another word."""
     word = text.strip().strip("()[]")
-    # Mm and MM are no megametres in the header of an instrument
+    # Mm and MM in the header of an instrument are millimetres
     result = (metres for spelt, metres in _WHOLE.items() if spelt.fullmatch(word))
     return next(result, None)
 
@@ -57,12 +57,12 @@ class Found:
     size_in_metres: bool = True
     # Whether the unit of the size must be given, and is not that of the heights by default
     ask_lateral_unit: bool = False
-    # Whether it is an array, with no word about how it came about
+    # Whether it is an array, without information on its origin
     is_array: bool = False
     is_periodic: bool = False
     channel: str = ""
     notes: list[str] = field(default_factory=list)
-    # Why there is no size, where it is not that the file has none
+    # Reason for a missing size, if other than that the file has none
     no_size: str = ""
 
 
@@ -74,7 +74,7 @@ _MARKS = {
     codecs.BOM_UTF16_LE: "utf-16",
     codecs.BOM_UTF16_BE: "utf-16",
 }
-# Characters of control that text has: tabs, ends of lines and pages, and the end of a DOS file
+# Control characters of a text: tabs, ends of lines and pages, and the end of a DOS file
 _CONTROL = set(b"\t\n\v\f\r\x1a")
 
 
@@ -108,8 +108,8 @@ def lines_of(path: Path, encoding: str) -> Iterator[tuple[int, str]]:
 
 
 WORKING_COPIES, PREDICTION_COPIES = 12, 28
-"""Arrays of the size of the map that its preparation holds at once, and of the size of a made tile
-that a prediction does, spectra included."""
+"""Arrays of the size of the map that its preparation holds at once, and of the size of a generated
+tile that a prediction holds at once, spectra included."""
 LARGE = 1e9
 """Bytes from which on the need is reported."""
 
@@ -122,12 +122,12 @@ def check_pixels(
     tiles: int = 1,
     *,
     copies: int = WORKING_COPIES,
-    way: str = "a part of the map, in a file of its own",
+    remedy: str = "a part of the map, in a file of its own",
 ) -> None:
-    """Refuse a surface that the memory that is free cannot hold while it is worked on.
+    """Refuse a surface whose processing needs more than the free memory.
 
     A map (nx, ny), called `origin`, of which a tile has `tiles` times as many pixels (4:
-    mirrored), and so many copies are held at once; `way`: what would do. NoMemoryError with
+    mirrored), and so many copies are held at once; `remedy`: what needs less. NoMemoryError with
     the bytes needed and free.
     """
     need = 8.0 * pixels[0] * pixels[1] * tiles * copies
@@ -136,7 +136,7 @@ def check_pixels(
     try:
         library.check_memory(what, need)
     except NoMemoryError as error:
-        raise NoMemoryError(f"{error}\nexpected: {way}") from None
+        raise NoMemoryError(f"{error}\nexpected: {remedy}") from None
     if need > LARGE:
         _LOG.info("%s takes up to %.1f GB of memory", what, need / 1e9)
 
@@ -144,7 +144,7 @@ def check_pixels(
 def read_npy(path: Path) -> Array:
     """Heights (nx, ny) of a `.npy` file, in the numbers of the file.
 
-    InputError if it is no matrix of real numbers, or its header lies.
+    InputError if it is no matrix of real numbers, or its header is wrong.
     """
     raw = mapped(path)
     if raw.ndim != 2 or raw.size == 0:

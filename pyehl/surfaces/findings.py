@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a prepared scan has that is no roughness: form, offset lines, stitching steps, dust.
+"""What is not roughness in a prepared scan: form, offset lines, stitching steps, dust.
 
-Nothing is taken off here. A finding names what it is, how large, where, and the key of a case that
-takes it off, where there is one. Every limit lies far beyond what self-affine surfaces with or
-without a lay show.
+Nothing is removed here. A finding states kind, size and place, and the key of a case that removes
+it, if there is one. Every limit lies far beyond the values of self-affine surfaces with or without
+a lay.
 """
 
 import math
@@ -19,16 +19,16 @@ from pyehl.surfaces.map_steps import DEGREES, MAD_TO_SIGMA, level
 from pyehl.types import Array, Mask
 
 SAMPLES = 512
-"""Points of a line, at the most, that its offset is found by."""
+"""Most points of a line from which its offset is estimated."""
 
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """One thing that is no roughness."""
+    """A feature of a map that is not roughness."""
 
     kind: str  # 'form', 'line offsets', 'stitching step', 'dust', 'spikes'
     text: str  # what it is, how large and where
-    remedy: str  # option of a case that takes it off, 'surface.key=value'; '' if there is none
+    remedy: str  # option of a case that removes it, 'surface.key=value'; '' if there is none
     # Where it is on the map (x_min, x_max, y_min, y_max) [m]; empty: everywhere
     places: tuple[tuple[float, float, float, float], ...] = ()
 
@@ -65,24 +65,24 @@ def line_steps(z: Array, axis: int, parts: int = 1) -> tuple[Array, float]:
 
 
 STEP, BROAD, ABOVE, FEW = 12.0, 6.0, 3.0, 4
-"""A stitching step is so many times as high as the median step between two lines, as their rms but
-for the largest few, and as the rms step between two points."""
+"""Least height of a stitching step over the median step between two lines, over the rms of these
+steps without the `FEW` largest, and over the rms step between two points."""
 PARTS = 4
 """Parts of a line that may have a stitching step each: stitched fields meet in corners."""
 DUST = 8.0
-"""Dust stands out so many standard deviations, by the median."""
+"""Least height of dust above the median [standard deviations]."""
 HIGH = 6.0
-"""And its top so many above what is around it, by all that is no dust."""
+"""Least height of its top above its surroundings [standard deviations of the map without dust]."""
 SPIKE = 12.0
-"""The same of spikes, which are few pixels and can be so by chance."""
+"""The same for spikes, whose few pixels may be as high by chance."""
 REMEDY = {"dust": "surface.outliers=6", "spikes": "surface.outliers=8"}
-"""Take off what of these stands out of its neighbourhood."""
+"""Options that remove those of them that stand out of their neighbourhood."""
 MIN_DUST, MOST_DUST = 5, 0.02
-"""Pixels of a speck of dust at the least; fewer are spikes. Share of the map at the most."""
+"""Least pixels of a speck of dust (fewer are spikes), and its largest share of the map."""
 BLOCK = 32
-"""Pixels per side of the squares whose median dust is compared with."""
+"""Pixels per side of the squares with whose median dust is compared."""
 MOST_NAMED = 3
-"""Steps and specks that are named one by one."""
+"""Steps and specks that are reported one by one."""
 
 
 def stitching(
@@ -128,7 +128,7 @@ def _rms_step(z: Array, axis: int) -> float:
 
 
 def _top(values: Array) -> float:
-    """Value that one of a hundred exceeds by its modulus: dust and steps of a part do not count."""
+    """99th percentile of the modulus, on which dust and steps of a part have no effect."""
     return float(np.quantile(np.abs(values), 0.99))
 
 
@@ -167,7 +167,7 @@ def dust_points(z: Array, limit: float) -> Mask:
 
 @dataclass(frozen=True, slots=True)
 class _Speck:
-    """Pixels that touch each other and stand out."""
+    """A group of adjacent raised pixels."""
 
     height: float  # above what is around it [m]
     box: tuple[slice, slice]
@@ -231,7 +231,7 @@ def _named(
     pixel: tuple[float, float],
     corner: tuple[float, float],
 ) -> Finding:
-    """Describe of specks, the highest first."""
+    """Give the finding of specks of a kind, the highest first."""
     first = specks[0]
     x, y = (
         c + 0.5 * (b.start + b.stop) * p for c, b, p in zip(corner, first.box, pixel, strict=True)
@@ -255,16 +255,16 @@ def _named(
 
 
 MOST_FORM = 0.5
-"""Share of the variance in a polynomial of degree 2 from which on it is named."""
+"""Share of the variance in a polynomial of degree 2 from which on it is reported."""
 FOLD = 0.5
-"""Change of the slope from edge to edge, as a share of that of the form: less is a wave."""
+"""Change of the slope from edge to edge over that of the form: below it the map is a wave."""
 ALIKE = 2.0
-"""Most by which the form of half a map differs from that of all of it."""
+"""Largest ratio of the form of half a map to that of the whole."""
 LINE_OFFSETS = 0.5
 """Median step to the next line over the scatter of the steps along the lines, from which on lines
 are offset. Of isotropic surfaces of 128 points it is 0.1 to 0.2."""
 INDEPENDENT = -0.25
-"""Correlation of a step with the next one below which lines are offset each by itself: -0.5 for
+"""Correlation of a step with the next one below which lines are offset independently: -0.5 for
 independent offsets, 0.5 for the lay of a ground surface (Hurst exponent 0.8), -0.24 for 0.3."""
 
 
@@ -278,7 +278,7 @@ def find(
 ) -> tuple[Finding, ...]:
     """Find what a map (nx, ny) [m], none missing, has besides roughness.
 
-    Pixel size along x and y [m]; `taken`: the form that was taken off; `periodic`: the map counts
+    Pixel size along x and y [m]; `taken`: the form that was removed; `periodic`: the map counts
     as a tile that can be repeated; `corner`: where it lies on the map as read [m].
     """
     result = [
@@ -335,7 +335,7 @@ def _coarse(z: Array) -> Array:
 
 
 def _even(z: Array, form: Array, what: str) -> bool:
-    """Whether both halves of a map have the form of the whole, as a long wave has not."""
+    """Whether both halves of a map have the form of the whole, unlike those of a long wave."""
     degree = DEGREES[what]
     for axis in (0, 1):
         across, bare = z.mean(axis=1 - axis), form.mean(axis=1 - axis)
@@ -351,7 +351,7 @@ def _even(z: Array, form: Array, what: str) -> bool:
 
 
 def _folds(z: Array, form: Array) -> bool:
-    """Whether a map that is repeated has an edge where its form ends, as a wave has not."""
+    """Whether a repeated map has an edge where its form ends, unlike a wave."""
     for axis in (0, 1):
         across, bare = z.mean(axis=1 - axis), form.mean(axis=1 - axis)
         n = across.size
@@ -380,7 +380,7 @@ def _radii(form: Array, size: tuple[float, float]) -> str:
         mid = line.size // 2
         step = size[axis] / line.size
         bend = float(line[mid + 1] - 2.0 * line[mid] + line[mid - 1]) / step**2
-        if abs(bend) > 1e-4:  # a radius of 10 km is none
+        if abs(bend) > 1e-4:  # a radius above 10 km is no curvature
             words.append(f"{_radius(-1.0 / bend)} along {name}")
     return f": radius {', '.join(words)}" if words else ""
 
@@ -394,7 +394,7 @@ def _percent(share: float) -> str:
 
 
 def _lines(z: Array, axis: int) -> Finding | None:
-    """Lines that lie at heights of their own: of a scan along the other axis."""
+    """Offsets in height of the lines along the other axis, one scan each."""
     (steps,), scatter = line_steps(z, axis)
     size = float(np.sqrt(np.mean(np.square(steps))))
     if steps.size < 8 or not size > LINE_OFFSETS * scatter or not size > 0.0:

@@ -33,9 +33,9 @@ FEWER = "fewer pixels: surface.pixels"
 # Least pixels per wavelength, and per Hertz radius, of a sampled harmonic pattern
 HARMONIC_PIXELS = 32
 RADIUS_PIXELS = 64
-# Fractal tiles and maps up to so many pixels are kept, a few of them
+# Largest tiles and maps of which a few are cached [pixels]
 KEPT_PIXELS = 2**20
-# What a map is read by, and what a fractal tile follows from
+# Keys by which a map is read, and those that determine a fractal tile
 SCAN = "file length_x length_y channel height_unit lateral_unit profile pixels seed".split()
 FRACTAL = (
     "pixels length_x length_y rms_height hurst rolloff_wavenumber lay_ratio seed modulus".split()
@@ -45,7 +45,7 @@ FRACTAL = (
 def rough_groups(settings: Settings) -> list[str]:
     """Name the groups of a resolved case that describe a rough surface.
 
-    A wave or feature of no height beside another surface is none, as for the solver.
+    A wave or feature of zero height beside another surface is left out, as in the solver.
     """
     rough = [name for name in GROUPS if settings.get(name, {}).get("kind", "smooth") != "smooth"]
     heights = ("amplitude", "amplitude_over_film", "height_m")
@@ -100,13 +100,13 @@ def whole(settings: Settings, operating: Contact, film: float) -> Topography:
         shares = (float(surface["wavelength_x"]), float(surface["wavelength_y"]))
         transverse = isinstance(operating, LineContact) and shares[1] >= TRANSVERSE
         if transverse:
-            # what does not vary along a line repeats there as one likes
+            # a surface that is constant along a line may have any period there
             shares = shares[0], shares[0]
-        # a long wave is sampled as finely as the contact needs, not only as it needs itself
+        # a long wave is sampled as finely as the contact requires, too
         pixels = tuple(2 * math.ceil(max(HARMONIC_PIXELS, RADIUS_PIXELS * s) / 2) for s in shares)
         name = f"a wave of {shares[0]:g} x {shares[1]:g} a"
         size = (pixels[0], pixels[1])
-        check_pixels(name, size, copies=PREDICTION_COPIES, way="shorter waves")
+        check_pixels(name, size, copies=PREDICTION_COPIES, remedy="shorter waves")
         tile = harmonic(
             harmonic_amplitude(settings, operating, film),
             shares[0] * operating.hertz_radius,
@@ -124,7 +124,7 @@ def whole(settings: Settings, operating: Contact, film: float) -> Topography:
 
 
 def _map(surface: Mapping[str, Any]) -> Topography:
-    """Tile of a map; that of a file of a usual size is kept for as long as the file is the same."""
+    """Tile of a map; that of a file of a usual size is cached until the file changes."""
     options = Options.from_settings(surface)
     try:
         state = Path(str(surface["file"])).stat()
@@ -141,12 +141,12 @@ def _map(surface: Mapping[str, Any]) -> Topography:
 def _kept_map(
     place: tuple[tuple[str, Any], ...], changed: int, size: int, options: Options
 ) -> Topography:
-    """Tile of a map by where it is, the state of its file and what is done to it."""
+    """Tile of a map, cached by the path and state of its file and its preparation."""
     return _read_only(tile_of(scan_of(dict(place)), options))
 
 
 def _read_only(made: Topography) -> Topography:
-    """Refuse changes of what several cases share."""
+    """Make the heights read-only: several cases share them."""
     made.heights.flags.writeable = False
     return made
 
@@ -159,9 +159,9 @@ def _kept_fractal(*values: Any) -> Topography:  # noqa: ANN401
 def _fractal(surface: Mapping[str, Any]) -> Topography:
     pixels = int(surface["pixels"])
     check_pixels(
-        f"surface.pixels = {pixels}", (pixels, pixels), copies=PREDICTION_COPIES, way=FEWER
+        f"surface.pixels = {pixels}", (pixels, pixels), copies=PREDICTION_COPIES, remedy=FEWER
     )
-    # all but the whole number and the words at both ends
+    # all but the pixels at one end, the seed and the modulus at the other
     numbers = {name: float(surface[name]) for name in FRACTAL[1:-2]}
     seed, modulus = int(surface["seed"]), str(surface["modulus"])
     return _read_only(fractal(pixels, **numbers, seed=seed, modulus=modulus))
@@ -189,7 +189,7 @@ def scan_of(surface: Mapping[str, Any]) -> Scan:
 def profile_of(surface: Mapping[str, Any]) -> Profile:
     """Read the profile of the group ``surface``; a length of 0 is that of the file."""
     s = Keys.of(surface)
-    # m is not typed for a profile of micrometres
+    # m is the default of the key: no profile has heights in m
     unit = s.height_unit if s.height_unit != "m" else None
     return read_profile(s.file, s.length_x or None, unit)
 
@@ -220,7 +220,7 @@ def finished(tile: Topography, surface: Mapping[str, Any]) -> Topography:
 
 
 def without_spikes(surface: Topography, threshold: float, group: Mapping[str, Any]) -> Topography:
-    """Make the tile of a map anew, with a threshold of `surface.outliers` (`spikes.prominence`).
+    """Prepare the tile of a map again with a threshold of `surface.outliers` (`spikes.prominence`).
 
     InputError if it was not prepared from a map, or cannot be.
     """

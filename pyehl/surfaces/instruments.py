@@ -18,11 +18,11 @@ INSTALL = "pip install 'pyehl[surfaces]', or pip install SurfaceTopography"
 ELSE = "; save the heights in m as .npy or text, and give surface.length_x and surface.length_y"
 HEAD = 512
 """Bytes that identify the format of a file."""
-# Formats without a mark at their beginning: they would take any file of the right length
+# Formats without a mark at their beginning: their readers accept any file of the right length
 UNMARKED = {"nms": ".nms", "hgt": ".hgt"}
 # Formats of plain text, which is read here line by line, see pyehl.surfaces.text_map
 TEXT = {"asc", "xyz"}
-# Files that a package is known to take for damaged, by their suffix
+# Files that a package reports as damaged though they are not, by their suffix
 VARIANTS: dict[str, Callable[[bytes], bytes | None]] = {".x3p": plain_x3p, ".tmd": plain_tmd}
 # A library that tries formats logs each failure; without a handler that ends on the terminal
 for _name in ("tifffile", "SurfaceTopography"):

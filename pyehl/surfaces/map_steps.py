@@ -23,10 +23,11 @@ from pyehl.types import Array, Mask
 MIN_PIXELS = 4
 
 LINES = 64
-"""Lines of a map that are worked on together."""
+"""Lines of a map that are processed at a time."""
 
 MARGIN = 12
-"""Pixels around a map that repeat its edge: splines forget by a factor of 3.7 a pixel."""
+"""Pixels around a map that repeat its edge, whose effect on splines falls by a factor of 3.7 a
+pixel."""
 
 
 def cropped(
@@ -64,8 +65,8 @@ def rotated(
     What pointed along x points in the direction `angle` [degrees] afterwards: a lay along x turned
     by 90 degrees lies across the motion. Quarter turns move pixels and change nothing else; any
     other angle interpolates (cubic splines) and keeps the largest upright rectangle inside the
-    turned map, so that nothing is made up at its corners. Its pixels [m] are then square, the
-    smaller of the two sizes.
+    turned map, so that no heights from outside the map are needed. Its pixels [m] are then square,
+    the smaller of the two sizes.
     """
     quarters = round(angle / 90.0)
     if abs(angle - 90.0 * quarters) < 1e-9:
@@ -79,7 +80,7 @@ def rotated(
         raise InputError(f"surface.rotate = {angle:g}: no rectangle of 4 x 4 pixels is left inside")
     y = (np.arange(ny) - 0.5 * (ny - 1)) * step
     c, s = math.cos(math.radians(angle)), math.sin(math.radians(angle))
-    # the margin takes what the splines feel of the end of the map
+    # the effect of the end of the map on the splines decays within the margin
     splines = np.pad(heights, MARGIN, mode="edge")
     scipy.ndimage.spline_filter(splines, order=3, output=splines, mode="mirror")
     turned = np.empty((nx, ny))
@@ -109,7 +110,7 @@ def _inside(width: float, height: float, angle: float) -> tuple[float, float]:
 
 
 DEGREES = {"centre": 0, "tilt": 1, "curvature": 2}
-"""Total degree of the polynomial in x and y that each word takes off."""
+"""Total degree of the polynomial in x and y that each value of detrend removes."""
 
 
 def _factors(heights: Array, degree: int, valid: Mask | None) -> tuple[Array, Array, Array]:
@@ -147,9 +148,9 @@ def _factors(heights: Array, degree: int, valid: Mask | None) -> tuple[Array, Ar
 def align_lines(heights: Array, along: str) -> None:
     """Put the lines of a scan along x or y level with each other, in place.
 
-    The median of what each line is above the plane of the map becomes 0. Points that are NaN stay
-    so. What the surface itself has in its line medians goes with the offsets: waves across the
-    lines that are as long as a line.
+    The median height of each line above the plane of the map becomes 0. Points that are NaN stay
+    so. The part of the surface itself in its line medians is removed with the offsets: waves across
+    the lines that are as long as a line.
     """
     axis = "xy".index(along)
     flat = heights.copy()
@@ -167,7 +168,7 @@ def level(heights: Array, what: str, valid: Mask | None = None) -> None:
     A least-squares polynomial over the points that count (`valid`; default: all that are numbers);
     missing points stay missing. InputError if too few points are left to determine the polynomial.
     """
-    # the large parts go first, so that rounding is that of what remains
+    # the large parts are removed first, so that the rounding error is that of the remainder
     for degree in sorted({0, DEGREES[what]}):
         x, coefficient, y = _factors(heights, degree, valid)
         lines = coefficient @ y.T
@@ -178,7 +179,7 @@ def level(heights: Array, what: str, valid: Mask | None = None) -> None:
 
 
 RIM = 0.1
-"""Share of each side over which 'window' brings the heights down."""
+"""Share of each side over which 'window' tapers the heights."""
 
 
 def mirrored(heights: Array) -> Array:
@@ -211,9 +212,9 @@ def unmirrored(i: int, j: int, shape: tuple[int, int]) -> tuple[int, int]:
 
 
 def windowed(heights: Array) -> Array:
-    """Map brought down to its mean along its margin by a raised cosine over a tenth of each side.
+    """Map tapered to its mean along its margin by a raised cosine over a tenth of each side.
 
-    Inside nothing changes; the margin loses roughness, so that the rms falls.
+    The inner part does not change; the margin loses roughness, so that the rms falls.
     """
     half = heights.shape[1] // 2
     mean = float(heights.mean())
@@ -226,7 +227,7 @@ def windowed(heights: Array) -> Array:
 
 
 def margin(shape: tuple[int, int]) -> int:
-    """Points (nx, ny) of a map that `windowed` brings down."""
+    """Points (nx, ny) of a map that `windowed` tapers."""
     inside = [int(np.count_nonzero(_taper(n) == 1.0)) for n in shape]
     return shape[0] * shape[1] - inside[0] * inside[1]
 
@@ -240,7 +241,7 @@ def _taper(n: int) -> Array:
 def jump(heights: Array) -> float:
     """Rms step across the seams of a tile over the rms step between neighbours inside.
 
-    About 1 for a periodic surface, many for a map that is none.
+    About 1 for a periodic surface, far more for a map that is not periodic.
     """
     ratios = []
     for axis in (0, 1):
@@ -258,19 +259,19 @@ def jump(heights: Array) -> float:
 
 
 MAX_MISSING = 0.1
-"""Largest share of a map that may be filled: beyond it the friction is that of the filling."""
+"""Largest share of a map that may be filled: beyond it the interpolated heights determine the
+friction."""
 
 GOOD_BLOCKS, GOOD_PART, MIN_PART = 48, 0.02, 0.1
-"""Blocks per side by which a good part of a map is looked for, the share that may be missing in it,
-and the smallest share of the map that is taken."""
+"""Blocks per side in the search for a good part of a map, the share that may be missing in it, and
+its least share of the map."""
 SHOWN_COLUMNS, SHOWN_ROWS = 48, 20
-"""Letters that show where points are missing."""
+"""Most columns and lines of the sketch of missing points."""
 
 DIRECT_POINTS = 50_000
 TOLERANCE = 1e-10
 WINDOW = 5
 """Pixels per side of the median that a point is compared with."""
-"""Lines of a map that are looked at together."""
 MAD_TO_SIGMA = 1.482602218505602
 """Standard deviation of a normal distribution over its median absolute deviation."""
 
@@ -293,7 +294,7 @@ def filled(
     if share > MAX_MISSING:
         raise InputError(
             f"{count} of {heights.size} heights are missing ({100 * share:.1f} %), more than "
-            f"{100 * MAX_MISSING:.0f} %: what the friction would be is what the filling is; "
+            f"{100 * MAX_MISSING:.0f} %: the friction would depend on the interpolated heights; "
             "measure again, or take a part of the map by surface.crop_x_min and so on"
             f"{_where(missing, pixel, corner)}"
         )
@@ -425,7 +426,7 @@ def prominence(heights: Array) -> Array:
         np.abs(z[first : first + LINES] - median, out=above[first : first + LINES])
     del z
     spread = MAD_TO_SIGMA * float(np.median(above[~missing], overwrite_input=True))
-    # what is left of a plane is rounding
+    # the remainder of a plane is rounding error
     if not spread > 1e-12 * largest:
         raise InputError(
             "surface.outliers: half of the map or more is flat to the last digit, so that there "

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Two rough surfaces: their sum where they move together, and what they have in common."""
+"""Two rough surfaces: their sum where they move together, and their correlation."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -12,16 +12,16 @@ import numpy as np
 from pyehl.surfaces.tile import MAX_PIXELS, Topography, resampled, shifted
 
 SAME = 1e-9
-"""Relative difference of two lengths or times that is none."""
+"""Relative difference below which two lengths or times count as equal."""
 MOST_TILES = 12
-"""Tiles beside each other, along one way, that are added to those of the other surface, as many as
-passages of a common period (:data:`pyehl.prediction.relative_positions.MOST_PASSAGES`)."""
+"""Most tiles of a surface along an axis in a tile of the sum, as many as passages of a common
+period (:data:`pyehl.prediction.relative_positions.MOST_PASSAGES`)."""
 
 
 def composite_rms(tiles: Sequence[Topography], together: Topography | None = None) -> float:
     """Rms height [m] of one or two surfaces: of their sum where they move `together`.
 
-    Else that of surfaces that have nothing in common, as in the mean over all positions.
+    Else that of uncorrelated surfaces, as in the mean over all positions.
     """
     if together is None and len(tiles) == 1:
         return tiles[0].rms_height
@@ -49,10 +49,10 @@ def sum_of(
 
 
 def merged(first: Topography, second: Topography, ahead: float) -> Topography | None:
-    """Return a tile with the heights of two, the second one ahead by a way [m] along the motion.
+    """Return a tile with the heights of two, the second one `ahead` [m] along the motion.
 
-    It holds whole tiles of both. None: not so few of both are as long, or they have too many
-    pixels.
+    It holds whole tiles of both. None if more than `MOST_TILES` of one are needed, or it has too
+    many pixels.
     """
     if ahead != 0.0:
         second = shifted(second, ahead)
@@ -74,6 +74,6 @@ def merged(first: Topography, second: Topography, ahead: float) -> Topography | 
 
 
 def _repeated(tile: Topography, times: Sequence[int]) -> Topography:
-    """Return so many of a tile beside each other along x and y."""
+    """Repeat a tile along x and y."""
     size = tile.length_x * times[0], tile.length_y * times[1]
     return replace(tile, heights=np.tile(tile.heights, times), size=size)

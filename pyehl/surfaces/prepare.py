@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """From a map as measured to a tile that can pass through a contact, one recorded step at a time.
 
-The order is fixed: crop, sign, outliers, align_lines, fill, detrend, rotate, edges. Spikes go
-before the plane is fitted, which they would tilt, and holes before the map is turned; the edges are
-joined last. What the levelled map has besides roughness is in the record, see
+The order is fixed: crop, sign, outliers, align_lines, fill, detrend, rotate, edges. Spikes
+are removed before the plane is fitted, which they would tilt, and holes filled before the map is
+turned; the edges are joined last. What the levelled map has besides roughness is in the record, see
 :mod:`pyehl.surfaces.findings`.
 What 'auto' means depends on what the file is, see :func:`pyehl.surfaces.working_map.defaults`.
 """
@@ -41,7 +41,7 @@ JUMP = 3.0
 
 @dataclass(frozen=True, slots=True)
 class Preparation:
-    """How a tile came about."""
+    """How a tile was made."""
 
     scan: Scan = field(repr=False)
     options: Options  # what was done, every 'auto' resolved
@@ -91,7 +91,7 @@ def prepare(scan: Scan, options: Options = NEUTRAL) -> Preparation:
 
 
 def consume(scan: Scan, options: Options = NEUTRAL) -> tuple[Array, Record]:
-    """Make a tile [m] of a map in its own memory, with its record: the heights of `scan` are lost.
+    """Make a tile [m] of a map in the memory of `scan`, whose heights are lost, with its record.
 
     A map that is mirrored is left as it is, (nx, ny): its mirror images take four times its
     memory. InputError as :func:`prepare`.
@@ -113,7 +113,7 @@ def _prepared(
         work.do("crop", ", ".join(f"{v:g}" for v in options.crop),
                 map_steps.cropped(work.z, work.pixel, options.crop))  # fmt: skip
     tiles = 4 if keep and options.edges == "mirror" else 1
-    check_pixels(scan.origin, work.z.shape, tiles, way=SMALLER)
+    check_pixels(scan.origin, work.z.shape, tiles, remedy=SMALLER)
     if options.sign < 0:
         work.do("sign", "-1", -work.z)
     complete = bool(np.isfinite(work.z).all())
@@ -121,7 +121,7 @@ def _prepared(
     if options.outliers > 0.0:
         _report(scan, "outliers")
         spiky = map_steps.prominence(work.z) > options.outliers
-        # a median of 5 x 5 points does not see specks of half as many
+        # a median of 5 x 5 points does not show specks of half as many points
         spiky |= dust_points(map_steps.levelled(work.z), options.outliers)
         valid = ~spiky if valid is None else valid & ~spiky
         work.begin()
@@ -193,7 +193,7 @@ def _fill(work: WorkingMap, options: Options, valid: Mask) -> None:
 
 
 def _report(scan: Scan, step: str) -> None:
-    """Describe which step of a large map begins."""
+    """Log which step of a large map begins."""
     if scan.heights.size >= LARGE:
         nx, ny = scan.heights.shape
         LOG.info("%s: %d x %d heights: %s ...", scan.origin, nx, ny, step)

@@ -2,7 +2,7 @@
 """Profiles along a line from the files of stylus instruments.
 
 ISO 5436-2 (Mahr .prf and others: records that end in EOR), and text with one column of heights, or
-columns of places and heights, under lines of words that may name units, spacing or the number of
+columns of places and heights, under lines of text that may name units, spacing or the number of
 points: Mountains, Dektak, Mitutoyo, spreadsheets.
 """
 
@@ -42,7 +42,7 @@ Read = tuple[Array, Array | float | None, tuple[float | None, float | None]]
 
 
 def read_columns(path: Path, lines: Sequence[str]) -> Read:
-    """Columns of numbers under lines of words."""
+    """Columns of numbers under lines of text."""
     comma = _decimal_comma(lines)
     rows = [row_of(line, comma=comma) for line in lines]
     sizes = [len(row) if row else 0 for row in rows]
@@ -153,11 +153,12 @@ def _spacing(head: Sequence[str], *, comma: bool) -> tuple[float | None, float |
 
 
 MOST_LETTERS = 256
-"""Length of a line above which it has more numbers than that."""
+"""Longest line [characters] of a profile, which has few numbers a line."""
 STEEP = 1.0
-"""Rms slope above which the unit of places or heights must be another."""
+"""Rms slope above which the unit of places or heights must be wrong."""
 ROUNDING = 0.5
-"""Largest distance of places from equally spaced ones, over the spacing, that is rounding."""
+"""Largest distance of places from equally spaced ones, over the spacing, that counts as
+rounding."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -167,7 +168,7 @@ class Profile:
     heights: Array  # (n,) [m], equally spaced
     spacing: float  # [m]
     origin: str  # name of the file
-    note: str = ""  # what a person should know of the units
+    note: str = ""  # a remark on the units
 
     @property
     def length(self) -> float:
@@ -180,8 +181,8 @@ def read_profile(
 ) -> Profile:
     """Read a profile; `length` [m] and `height_unit` are needed where the file has none.
 
-    FileError if it cannot be opened; InputError if it is no profile, a unit is missing or cannot
-    be meant.
+    FileError if it cannot be opened; InputError if it is no profile, a unit is missing or
+    implausible.
     """
     path = Path(path)
     try:
@@ -286,7 +287,7 @@ def _finished(
     length: float | None,
     height_unit: str | None,
 ) -> Profile:
-    """Heights in metres, equally spaced; refuse what cannot be meant."""
+    """Heights in metres, equally spaced; refuse implausible units."""
     if z.size < MIN_POINTS:
         raise InputError(f"{path}: {z.size} points: a profile has {MIN_POINTS} or more")
     if not np.isfinite(z).all():

@@ -59,14 +59,14 @@ READY: Mapping[str, Any] = {
 }
 """Options of a tile that is ready: nothing is left to prepare."""
 LARGE_PIXELS, PART_PIXELS = 2**20, 2**18
-"""Pixels of the largest tile that is looked at as a whole, and of a part of a larger one."""
+"""Pixels of the largest tile that is analysed as a whole, and of a part of a larger one."""
 
 
 def in_memory(surface: Surface, group: Mapping[str, Any], name: str = "surface") -> Topography:
     """Give a surface about its mean, of an array with the size in the group of that name.
 
     Missing points of an array, nan or masked, are interpolated as those of a file are.
-    InputError if it is none of heights, or the case does not say its size.
+    InputError if it is no surface of heights, or the case does not say its size.
     """
     if not isinstance(surface, Topography):
         numbers = real_numbers(surface, name)
@@ -149,7 +149,7 @@ def part_of(
 
 
 def given(heights: Array, surface: Mapping[str, Any]) -> Topography:
-    """Tile of heights [m] that stand in for the surface of a case; of a large one a part.
+    """Tile of heights [m] that replace the surface of a case; of a large one a part.
 
     Its size is that of the tile in the group ``surface``, or that of the map.
     """
@@ -165,7 +165,7 @@ def given(heights: Array, surface: Mapping[str, Any]) -> Topography:
 def with_surface(case: Case, surface: Surface, group: str = "surface") -> tuple[Case, Topography]:
     """Give a case with a surface in memory in place of that of a group, and it as a tile.
 
-    InputError if it is none of heights, or the case does not say its size.
+    InputError if it is no surface of heights, or the case does not say its size.
     """
     tile = in_memory(surface, case.resolve().get(group, {}), group)
     return case.with_options(as_map(tile, group)), tile
@@ -191,8 +191,8 @@ def gather(
 ) -> dict[str, SolverSurface]:
     """Make what the solver needs from Python for both surfaces of a resolved case, by group.
 
-    `heights` [m] by group stand in for the surfaces of the case; `tiles` are what they were made
-    of. InputError if a surface that they stand in for is none of heights; else as `for_solver`.
+    `heights` [m] by group replace the surfaces of the case; `tiles` are what they were made
+    of. InputError if a surface that they replace has no heights; else as `for_solver`.
     """
     both: dict[str, SolverSurface] = {}
     for group in GROUPS:
@@ -201,7 +201,7 @@ def gather(
             continue
         if settings.get(group, {}).get("kind") not in ("map", "fractal"):
             raise InputError(
-                "heights are given, and the surface of the case is none of heights\n"
+                "heights are given, and the surface of the case is not one of heights\n"
                 f"expected: {group}.kind = 'map' or 'fractal'"
             )
         made = tiles[group].preparation if group in tiles else None
@@ -222,7 +222,7 @@ def for_solver(settings: Settings, group: str = "surface") -> SolverSurface:
         return SolverSurface()
     surface, s = settings[group], Keys.of(settings[group])
     if s.kind == "fractal" and s.track:
-        # the film is the scale of harmonic patterns alone
+        # only harmonic patterns are scaled by the film
         made = whole({**settings, "surface": surface}, contact_of(settings), film=0.0)
         return SolverSurface(np.asfortranarray(moved(made, surface).heights))
     if s.kind == "fractal":
@@ -283,7 +283,7 @@ def write_resolved(
         x, y = (float(surface[f"tile_{axis}"] or surface[f"length_{axis}"]) for axis in "xy")
         ready = as_map(Topography(made.heights, (x, y)), group)
         ready[f"{group}.file"] = str(tile.absolute())
-        # what the heights have taken in
+        # already applied to the heights
         done = {"finish": "none", "track": 0.0, "ra": 0.0, "rq": 0.0}
         ready |= {f"{group}.{k}": value for k, value in done.items() if surface[k] != value}
         ready[f"{group}.tile_mirrored"] = surface["tile_mirrored"]

@@ -173,7 +173,7 @@ def _entry(text: str) -> _Entry | None:
 
 
 def _sort(entry: _Entry, header: Header, result: dict[tuple[str, int], set[float]]) -> None:
-    """Put an entry where it belongs, by the words of its name."""
+    """Assign an entry by the words of its name."""
     words = entry.words
     if words & _CHANNEL and entry.number is None:
         header.channel = entry.rest
@@ -235,7 +235,7 @@ def _put_unit(entry: _Entry, header: Header, result: dict[tuple[str, int], set[f
 
 
 def _settle(header: Header, result: dict[tuple[str, int], set[float]]) -> None:
-    """Take what is given once."""
+    """Accept values that are given once."""
     for (kind, side), values in list(result.items()):
         if len(values) > 1:
             header.notes.append(f"the header states its {kind} in two ways: neither was taken")

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Periodic tiles of heights: made surfaces, spectra, cut-offs and the Fourier interpolant.
+"""Periodic tiles of heights: generated surfaces, spectra, cut-offs and the Fourier interpolant.
 
 The fractal generator is that of the compiled library, which the program `ehl` uses too: a seed is
 the same surface in both, to the bit. It is written there and not taken from a surface library
-because the seed must give the same surface for as long as the package lives, and because the
+because the seed must give the same surface in all versions of the package, and because the
 modulus of each Fourier component must be selectable, exactly on the power law or random.
 
 Spectra follow Jacobs, Junge & Pastewka 2017 (doi 10.1088/2051-672X/aa51f8):
@@ -42,7 +42,7 @@ class Topography:
     size
         Length of the tile along x and y [m].
     origin
-        Where it came from, in words.
+        Origin, in words.
     seed
         Seed of a generated surface, else None.
     preparation
@@ -126,7 +126,7 @@ class Topography:
 
 
 FEATURES = ("dent", "bump", "ridge", "groove")
-"""Kinds of surfaces that pass the contact once; the solver alone makes them."""
+"""Kinds of surfaces that pass the contact once; only the solver generates them."""
 
 
 def fractal(
@@ -292,7 +292,7 @@ def filtered(
 
 
 LINES = 64
-"""Lines of a tile that are moved together."""
+"""Lines of a tile that are moved at a time."""
 
 
 def _shift_factor(q: Array, distance: float, nyquist: int | None) -> Complex:
@@ -308,7 +308,7 @@ def shifted(topography: Topography, distance_x: float, distance_y: float = 0.0) 
 
     Exact for the trigonometric polynomial through the heights; a shift by whole pixels is the
     cyclic copy to rounding. The Nyquist component is indistinguishable from a standing wave and is
-    multiplied by the cosine of its phase, so it is the one part that a fraction of a pixel dims.
+    multiplied by the cosine of its phase, so that it alone is attenuated by a fraction of a pixel.
     """
     nx, ny = topography.shape
     qx, qy = wavenumbers(topography)

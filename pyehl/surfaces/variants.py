@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 
 ZYGO_MAGIC = ("Zygo XYZ Data File", "Zygo ASCII Data File")
 INVALID = 2147483640
-"""Whole numbers from it on are no phases."""
+"""Integers from this on mark points without a phase."""
 RESOLUTION = {0: 4096, 1: 32768, 2: 131072}
 """Counts of phase in a wave, by PhaseRes."""
 HEADER_LINES = 13
@@ -42,7 +42,7 @@ class ZygoMap:
 
 
 def read_zygo(lines: Iterable[str]) -> ZygoMap:
-    """Read a Zygo text file; ValueError states which line is not what it should be."""
+    """Read a Zygo text file; ValueError states which line is wrong."""
     rest = iter(lines)
     header = [line.strip() for line in islice(rest, HEADER_LINES)]
     if len(header) < HEADER_LINES or not header[0].startswith(ZYGO_MAGIC):
@@ -279,7 +279,7 @@ def _listed(root: ElementTree.Element) -> bytes | None:
         raise ValueError(f"{len(values)} heights in the XML, but its matrix has {expected} points")
     kind = next((e for e in axis if e.tag.rpartition("}")[2] == "DataType"), None)
     if kind is not None:
-        # a missing point is NaN, which whole numbers have not
+        # a missing point is NaN, which integers do not have
         kind.text = "D"
     record.remove(listed)
     link = ElementTree.SubElement(record, _like(listed, "DataLink"))

@@ -48,14 +48,14 @@ NEUTRAL = Options()
 def defaults(options: Options, scan: Scan) -> tuple[Options, dict[str, str]]:
     """Options without 'auto', and the reason for each word.
 
-    A file of an instrument is a map of a part: it lies at an angle that is the stage's and not
-    the surface's, and its edges do not match. An array is taken at its word, as is a file that
-    states that it is periodic: nothing is taken off, and it is repeated. A part of an array, or an
-    array that was turned, is no longer periodic.
+    A file of an instrument is a map of a part: it lies at an angle that is the stage's and not the
+    surface's, and its edges do not match. An array is taken as it is, and so is a file that states
+    that it is periodic: nothing is removed, and it is repeated. A part of an array, or an array
+    that was turned, is no longer periodic.
     """
     why = {"detrend": "given", "edges": "given"}
     tile = scan.is_array or scan.is_periodic
-    what = "an array is taken at its word" if scan.is_array else "the file states it is periodic"
+    what = "an array is taken as it is" if scan.is_array else "the file states it is periodic"
     if options.detrend == "auto":
         options = replace(options, detrend="none" if tile else "tilt")
         why["detrend"] = what if tile else "the tilt of a scan is that of the stage"
@@ -82,14 +82,14 @@ class Step:
     name, value
         Key of ``&surface`` and what it was.
     why
-        Why it was so, in words: 'given', or the reason of the default.
+        Reason for the value, in words: 'given', or the reason of the default.
     changed
         Points that were removed, filled or altered; 0 where all are, evenly.
     before, after
-        How rough the map was and is, without mirror images: each of its heights and each step
-        between two of them occurs four times in the tile.
+        Roughness of the map before and after, without mirror images: each of its heights and each
+        step between two of them occurs four times in the tile.
     note
-        What a person should know besides; mostly empty.
+        Remark; mostly empty.
     """
 
     name: str
@@ -118,9 +118,9 @@ class Step:
 
 @dataclass(frozen=True, slots=True)
 class Record:
-    """What a map was and what became of it, without its heights."""
+    """Record of the preparation of a map, without its heights."""
 
-    # Where it came from
+    # Its origin
     file: str
     channel: str
     is_array: bool  # whether it is an array, and no file of an instrument
@@ -129,7 +129,7 @@ class Record:
     size: tuple[float, float]
     size_from: str
     missing: int  # points without a height
-    note: str  # what a person should know of the file besides; mostly empty
+    note: str  # remark on the file; mostly empty
     # What these keys were, 'auto' resolved
     detrend: str
     edges: str
@@ -227,7 +227,7 @@ class WorkingMap:
         return self.z
 
     def begin(self) -> None:
-        """Note how rough the map is before a step that works in place."""
+        """Note the roughness of the map before a step that works in place."""
         self._last = self._last or areal.extent(self.z, self.pixel)
 
     def do(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Amplitude reduction: how much of a waviness survives in a loaded EHL contact.
+"""Amplitude reduction: how much of a waviness remains in a loaded EHL contact.
 
 Venner & Lubrecht 1999 (Tribology Series 36, 151-162), eq. 6 there, as used by Zhang et al. 2019
 (doi 10.1016/j.triboint.2019.01.028, eq. 10): with the wavelength parameter
@@ -7,7 +7,7 @@ x = f(r) (wavelength/a) sqrt(M/L) the deformed amplitude is A_d/A_i = 1/(1 + 0.1
 where r = wavelength_x/wavelength_y and f = exp(1 - 1/r) for r > 1, else 1. Pure rolling.
 
 The formula was fitted to cos(2 pi x/wavelength_x) cos(2 pi y/wavelength_y) patterns. A Fourier
-component of a rough surface is a plane wave, and three ways to give it a wavelength are offered:
+component of a rough surface is a plane wave, to which a wavelength is given in one of three ways:
 
 ``components`` (default)
     wavelength_x = 2 pi/|q_x| and wavelength_y = 2 pi/|q_y|: the shorter one, with f(r). A cos cos

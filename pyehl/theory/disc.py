@@ -2,14 +2,14 @@
 """Pressure of a wave of roughness on the Hertz disc, in closed form.
 
 A half-space resists a periodic wave of flattening exp(i q x) with the pressure E'|q|/4. A contact
-is a disc, and a wave as long as its radius feels the edge: inside the disc the pressure differs
-from that of the periodic wave by what the pressure outside would have done, and the load that a
-wave carries is balanced by the approach of the bodies.
+is a disc, whose edge affects a wave as long as its radius: the pressure inside the disc differs
+from that of the periodic wave because there is none outside, and the load that a wave carries is
+balanced by the approach of the bodies.
 
 On the unit disc, with z = sqrt(1 - r^2), a pressure Y_lm/z with l - m even deflects the disc into
 Y_lm (Copson 1947; Boersma & Danicki 1993), Y_lm(r, theta) = P_lm(z) cos(m theta). These are
 spherical harmonics on the hemisphere over the disc, so the expansion of a plane wave with a
-wavevector in the plane is the one everybody knows, with spherical Bessel functions; l = 0 alone
+wavevector in the plane is the well-known one, with spherical Bessel functions; l = 0 alone
 carries load and is left out. All lengths are scaled by the Hertz radius a, heights by a^2/R,
 pressures by p_h.
 """
@@ -26,7 +26,7 @@ from pyehl.types import Array, Complex
 DEGREE = 6
 """Degree of the polynomials in x, y of the correction."""
 MAX_WAVENUMBER = 14.0
-"""Largest wavenumber |q| that needs it [1/a]: shorter waves, below 0.45 a, feel no edge."""
+"""Largest wavenumber |q| that needs it [1/a]: the edge does not affect waves below 0.45 a."""
 RADIUS = 0.8
 """Radius within which they are fitted; most of the friction arises there. Nearer to the edge
 the pressure of a disc with a fixed edge is singular and that of a contact is not."""
@@ -34,7 +34,7 @@ the pressure of a disc with a fixed edge is singular and that of a contact is no
 NEXT_TO_EDGE = 1e-5
 """z at which the pressure next to the edge is taken."""
 EDGE_ANGLES = np.linspace(0.0, 2.0 * math.pi, 96, endpoint=False)
-"""Places along the edge at which it is known how far it is moved."""
+"""Places along the edge at which its displacement is computed."""
 
 
 def monomials(x: Array, y: Array, axis: int = -1) -> Array:
@@ -126,9 +126,9 @@ def _next_to_edge() -> list[tuple[range, Array]]:
 
 
 def disc_correction(qx: Array, qy: Array) -> Complex:
-    """Return what a wave on the disc has in pressure beyond the periodic wave, pi/4 |q|.
+    """Return the pressure of a wave on the disc less that of the periodic wave, pi/4 |q|.
 
-    Wavenumbers (m,) [1/a]; (28, m) coefficients of :func:`monomials` [p_h per a^2/R], right to 1.5
+    Wavenumbers (m,) [1/a]; (28, m) coefficients of :func:`monomials` [p_h per a^2/R], to 1.5
     % of the pressure of the wave within 0.75 of the radius, for |q| up to MAX_WAVENUMBER.
     """
     x, y, radial, inverse = _fit()

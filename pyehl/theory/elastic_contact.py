@@ -6,7 +6,7 @@ With the gap g before any pressure of solid contact p, and a linear compliance G
     p >= 0,   g + G p + s >= 0,   one of both 0,   s >= 0,   sum p <= most,   one of both equal:
 
 the nodes with p > 0 are found on the way (Polonsky & Keer 1999, Wear 231, 206); s is a lift of all
-nodes that is there only where p would exceed the load.
+nodes, which is zero unless the sum of p would exceed the load.
 """
 
 import math
@@ -18,8 +18,8 @@ import scipy
 from pyehl.types import Array, Mask
 
 ENOUGH, DEEPEST = 2e-3, 1e-2
-"""Error of the film at touching nodes (rms), and depth below the boundary film elsewhere, over the
-scale that is given, that are small enough: a quarter of both changes the load share in
+"""Tolerances over the given scale: of the rms error of the film at nodes in contact, and of the
+depth below the boundary film elsewhere. A quarter of both changes the load share in
 docs/howto/mixed.md by 0.03 % of itself."""
 MOST_STEPS = 300
 """Of conjugate gradients, before a contact counts as not solved."""
@@ -52,10 +52,10 @@ class Lifted:
 def lifted(
     gap: Array, compliance: Compliance, scale: float, most: float, start: Lifted | None = None
 ) -> Lifted | None:
-    """Find the pressures for a gap (m, n), inf where nothing can touch; None: not solved.
+    """Find the pressures for a gap (m, n), inf where no contact is possible; None: not solved.
 
-    `scale`: a film that an error is small beside; `most`: largest sum of pressures; `start`: what
-    was found for a similar gap.
+    `scale`: film for the tolerances; `most`: largest sum of pressures; `start`: the solution for a
+    similar gap.
     """
     if not (gap < 0.0).any():
         return Lifted(np.zeros_like(gap), np.zeros_like(gap))

@@ -32,7 +32,7 @@ ANGLES = 4096
 
 
 class EllipseEdge:
-    """What the edge of an ellipse does to the pressure of long waves, as polynomials.
+    """Effect of the edge of an ellipse on the pressure of long waves, as polynomials.
 
     Products of Chebyshev polynomials of x/a and y/b. Their degree along the short axis is that of
     the disc, along the long one as much higher as the axis is longer.
@@ -42,7 +42,7 @@ class EllipseEdge:
         self.shape = shape
         kappa = shape.ellipticity
         short = min(1.0, kappa)
-        # largest wavenumber that feels the edge [1/a]
+        # largest wavenumber on which the edge has an effect [1/a]
         self.largest = MAX_WAVENUMBER / short
         degrees = math.ceil(DEGREE / short), math.ceil(DEGREE * kappa / short)
         i, j = np.meshgrid(*(np.arange(n + 1) for n in degrees), indexing="ij")
@@ -72,7 +72,7 @@ class EllipseEdge:
         return np.asarray(along[i] * across[j])
 
     def correction(self, qx: Array, qy: Array) -> Complex:
-        """Return what waves (m,) [1/a] on the ellipse have in pressure beyond the half-space.
+        """Return the pressure of waves (m,) [1/a] on the ellipse less that on the half-space.
 
         Coefficients (n, m) of `functions` [p_h per a^2/R_x].
         """

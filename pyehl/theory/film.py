@@ -38,7 +38,7 @@ DE_VICENTE_RANGE = {"U": (1e-12, 1e-7), **SOFT_RANGE}
 # its exponents do not make one curve over M, as they should: 2 and 6 % a decade of U; on longer
 # ellipses h_min is 10 to 15 % low
 HAMROCK_DOWSON_SOFT_RANGE = {"U": (1e-9, 1e-7), **SOFT_RANGE, "R_x/R_y": (0.8, 1.0)}
-# Of a bound, by which a number made of others may miss it
+# Relative tolerance of a bound, for numbers computed from others
 ROUNDING = 1e-12
 # Conditions over which the asymptotic formula was compared with converged solutions here
 NIJENBANNING_RANGE = {"M": (20.0, 2000.0), "L": (5.0, 15.0), "R_x/R_y": (0.0, 1.0)}
@@ -46,7 +46,7 @@ NIJENBANNING_RANGE = {"M": (20.0, 2000.0), "L": (5.0, 15.0), "R_x/R_y": (0.0, 1.
 
 @dataclass(frozen=True, slots=True)
 class FilmEstimate:
-    """What one formula gives.
+    """Films by one formula.
 
     Attributes
     ----------
@@ -63,7 +63,7 @@ class FilmEstimate:
     outside
         Conditions outside the range of the formula, in words; empty when inside.
     note
-        What is known of its accuracy; empty for an ellipse, where little is.
+        Its accuracy; empty for an ellipse, for which little is known.
     """
 
     name: str
@@ -195,7 +195,7 @@ def estimates(operating: OperatingPoint, lubricant: Lubricant) -> list[FilmEstim
                 applies=_applies(of, here),
                 bounds=bounds,
                 outside=beyond,
-                # what is known of the formulas is of circles
+                # the accuracies are known for circles
                 note=note if circle else "",
             )
         )

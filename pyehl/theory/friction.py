@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Absolute friction: where it means something, and the heat of it."""
+"""Absolute friction: where it is meaningful, and its heat."""
 
 import math
 from typing import Any
@@ -23,12 +23,12 @@ def absolute_friction(
 
     `film` is the central film h_c [m], taken to be the film everywhere in the contact; `mu_smooth`
     the coefficient of the smooth contact at the slide-to-roll ratio, `mu_ratio` friction over that
-    [-], both isothermal; `heat` what the heat makes of the friction of the smooth contact, and is
-    taken to make of that of the rough one, or what it makes of the latter alone: then ``mu_smooth``
-    is not known. ``mu``, ``mu_smooth``, the same isothermal, rises of
-    temperature, ``shear_rate_mean_per_s``, ``shear_stress_max_Pa`` (of the smooth contact),
-    ``flash_temperature_K``, NaN where there is none, and ``mu_note``: why, or the caveat. A
-    Newtonian coefficient is given where the stress stays below the Eyring stress.
+    [-], both isothermal; `heat` its effect on the friction of the smooth contact, taken for the
+    rough one, too, or the effect on that of the rough one: then ``mu_smooth`` is not known. ``mu``,
+    ``mu_smooth``, the same isothermal, rises of temperature, ``shear_rate_mean_per_s``,
+    ``shear_stress_max_Pa`` (of the smooth contact), ``flash_temperature_K``, NaN where there is
+    none, and ``mu_note``: why, or the caveat. A Newtonian coefficient is given where the stress
+    stays below the Eyring stress.
     """
     heat = heat or Heat()
     speed, law = operating.sliding_speed, lubricant.shear

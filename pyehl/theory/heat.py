@@ -14,7 +14,7 @@ NARROW = 0.38
 
 @dataclass(frozen=True, slots=True)
 class Heat:
-    """What the heat of sliding makes of the friction of a contact."""
+    """Effect of the heat of sliding on the friction of a contact."""
 
     ratio: float = 1.0  # friction with it over that without it [-]; NaN: not known
     # Maximum increases of temperature [K]: mean across the film, surfaces of body 1 and of body 2
@@ -56,12 +56,12 @@ def flash_temperature(
 
     Heat in a semi-ellipse over the contact: Tian & Kennedy 1994, J. Tribol. 116, 167, for one
     surface and a circle, 2.32 q a/(k sqrt(pi (1.234 + Pe))), Pe = u a/(2 kappa). On an ellipse
-    1.234 is divided by the square of `potential`, so that a surface at rest is as hot as by its
-    potential; in a narrow one, where heat also flows across the motion, (1.234^m + Pe^m)^(1/m)
-    with m = potential^0.38 takes the place of the sum. The heat is shared so that both become as
-    hot (Blok 1937). Mean heat flux q over the contact [W/m^2], half its length a along the motion
-    [m], speeds of the surfaces through the contact [m/s], k [W/(m K)] and kappa [m^2/s] of the
-    solids; `potential` as :attr:`pyehl.theory.ellipse.Ellipse.potential` [-].
+    1.234 is divided by the square of `potential`, which is exact for a surface at rest; in a narrow
+    one, where heat also flows across the motion, (1.234^m + Pe^m)^(1/m) with m = potential^0.38
+    takes the place of the sum. The heat is shared so that both become equally hot (Blok 1937). Mean
+    heat flux q over the contact [W/m^2], half its length a along the motion [m], speeds of the
+    surfaces through the contact [m/s], k [W/(m K)] and kappa [m^2/s] of the solids; `potential` as
+    :attr:`pyehl.theory.ellipse.Ellipse.potential` [-].
     """
     rest, power = 1.234 / potential**2, min(1.0, potential**NARROW)
     roots = 0.0

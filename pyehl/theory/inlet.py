@@ -3,7 +3,7 @@
 
 Roughness, T, Pi, mu and the units are those of :mod:`pyehl.theory.transport`. That module takes the
 coefficients of the equation to change slowly, which in the inlet they do for short waves only. Here
-it is solved on the nodes of the centre line: with D = d/dX + i k, what flows along the motion is
+it is solved on the nodes of the centre line: with D = d/dX + i k, the flow along the motion is
 
     F = eps D Pi + eps P' ((c - d ln eta/dP) Pi - 3 T/H),   T = 1 - K^-1 * Pi,
 
@@ -34,7 +34,8 @@ Complex = NDArray[np.complex128]
 SPACING, START, END, EDGE = 1.0 / 64.0, -1.6, -0.6, 1.0
 # Of a cell of constant pressure, beside the one with the singularity
 GAUSS = np.polynomial.legendre.leggauss(4)
-# Waves that `passed` solves for, between which it interpolates: |q| [1/a] and direction
+# Waves for which `interpolated_inlet` solves, and between which it interpolates: |q| [1/a] and
+# direction
 WAVENUMBERS = np.geomspace(1.0, 128.0, 24)
 DIRECTIONS = np.linspace(0.0, 0.5 * np.pi, 7)
 # |q| at which half of the transport equation is taken out before [1/a]
@@ -84,7 +85,7 @@ def wave_flattening(zone: Zone, qx: Array, qy: Array, slip: Array, x: Array) -> 
     more = round((EDGE - x[-1]) / h)
     far = h * np.arange(1, n + more)
     k = np.maximum(qx, 1e-9)[:, np.newaxis]
-    # no load per length is made by a wave across a line: any width does
+    # a wave across a line carries no load per length: the width has no effect
     wide = zone.ellipticity if np.isfinite(zone.ellipticity) else 1.0
     strip = np.exp(-np.euler_gamma) / wide
     kappa = np.hypot(qy, strip)[:, np.newaxis]
@@ -118,11 +119,11 @@ def convected_by(n: int, h: float, slip: Array) -> Complex:
     return np.asarray(difference * np.exp(-1j * slip[:, np.newaxis, np.newaxis] * apart))
 
 
-def passed(zone: Zone, qx: ArrayLike, qy: ArrayLike, velocity_ratio: float) -> Complex:
+def interpolated_inlet(zone: Zone, qx: ArrayLike, qy: ArrayLike, velocity_ratio: float) -> Complex:
     """`at_inlet` of waves (m,) [1/a], interpolated.
 
-    What it adds to the share of :func:`pyehl.theory.transport.upstream` that short waves have is
-    smooth over wavenumber and direction. Beyond WAVENUMBERS it is held.
+    Its difference from the share of :func:`pyehl.theory.transport.upstream` that short waves have
+    is smooth over wavenumber and direction. Beyond WAVENUMBERS it is held.
     """
     kx, ky = np.asarray(qx, dtype=float), np.asarray(qy, dtype=float)
     table = _added(pickle.dumps(replace(zone, newtonian=None)), velocity_ratio)
@@ -142,7 +143,7 @@ def _transported(zone: Zone, qx: Array, qy: Array, velocity_ratio: float) -> Com
 
 @lru_cache(maxsize=16)
 def _added(pickled: bytes, velocity_ratio: float) -> Complex:
-    """Return what `passed` adds to `_transported`, by direction and |q|; the last few are kept.
+    """Return `interpolated_inlet` less `_transported`, by direction and |q|; the last few are kept.
 
     Of a zone as bytes: two with the same numbers are the same.
     """

@@ -317,10 +317,10 @@ def formula_film(contact: AnyContact, lubricant: Lubricant) -> float:
 def circle_with_same_inlet(
     operating: AnyContact, lubricant: Lubricant, film: float
 ) -> tuple[float, float]:
-    """M and L [-] of the circular contact whose inlet makes of waves what this one makes of them.
+    """M and L [-] of the circular contact whose inlet has the same effect on waves.
 
     Of equal alpha_bar and, with heights by which the stiffness of waves is the same, of equal
-    central film H_c = `film` [a^2/R_x]: what flows off to the sides of an ellipse acts as a lower
+    central film H_c = `film` [a^2/R_x]: the side flow of an ellipse acts as a lower
     viscosity (docs/evidence/ellipse). Of a circle its own, whatever its film.
     """
     moes_m, moes_l = operating.equivalent_moes

@@ -40,8 +40,8 @@ def default_roelands_z(
     denominator = math.log(positive("viscosity", viscosity, "Pa s")) + 9.67
     if denominator <= 0.0:
         raise InputError(
-            f"viscosity {viscosity!r} Pa s is below exp(-9.67) Pa s, the lowest the Roelands law "
-            "knows; is the unit Pa s?"
+            f"viscosity {viscosity!r} Pa s is below exp(-9.67) Pa s, the lowest of the Roelands "
+            "law; is the unit Pa s?"
         )
     return pressure_viscosity * roelands_p0 / denominator
 

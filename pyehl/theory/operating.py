@@ -286,7 +286,7 @@ class OperatingPoint:
 
         Of equal alpha_bar, and of equal lambda_bar where the stiffness of waves is the same: with
         heights by kernel_ratio a^2/R_x. The dry contact near the edge is then that of the circle.
-        What the sides take off is not in it, but in
+        The side flow is not in it, but in
         :func:`pyehl.theory.line_contact.circle_with_same_inlet`.
         """
         shape = self.ellipse

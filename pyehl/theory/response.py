@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the inlet of a lubricated contact makes of one wave of roughness, to first order.
+"""Response of the inlet of a lubricated contact to one wave of roughness, to first order.
 
 Roughness A Re exp(i(k(X - U T) + k_Y Y)), U its velocity over the mean velocity, thins the film by
 A Re T exp(i(...)): T is the complex ratio of deformed to undeformed amplitude, a function of the
@@ -8,12 +8,12 @@ a^2/R, pressures by p_h, times by a/u; k > 0.
 
 Behind the inlet the film wave follows the transport equation of :mod:`pyehl.theory.transport`.
 
-What the inlet makes is the inlet transfer G = mu/rho at X = -0.8 on the centre line, turned back to
-X = -1. For waves that are short beside the inlet the transport equation itself nearly gives it, B;
-the rest is a fit to the full simulation of this package: G = (1 - w + w B) F, F = 1/(1 + z) but for
-a phase, and a weight w of 1 for short and 0 for long waves. The form has the limits G = B for short
-and 0 for long waves. z is a power law in the wavelength parameter nabla_2 = (wavelength over a)
-sqrt(M/L) to first order (Venner & Lubrecht 1999), and real for ridges along the motion, which do
+The effect of the inlet is the inlet transfer G = mu/rho at X = -0.8 on the centre line, turned back
+to X = -1. For waves that are short beside the inlet the transport equation itself nearly gives it,
+B; the rest is a fit to the full simulation of this package: G = (1 - w + w B) F, F = 1/(1 + z) but
+for a phase, and a weight w of 1 for short and 0 for long waves. The form has the limits G = B for
+short and 0 for long waves. z is a power law in the wavelength parameter nabla_2 = (wavelength over
+a) sqrt(M/L) to first order (Venner & Lubrecht 1999), and real for ridges along the motion, which do
 not move. At low M L the inlet leaks: z has terms in 1/(M L), and |F| changes with slip.
 
 Away from the centre line the inlet is oblique. Along the normal of its edge it is an inlet like
@@ -22,9 +22,9 @@ velocity along the normal makes the film, and the gap is that of the pressure ne
 move along a straight edge changes nothing. Nothing of that is fitted (docs/evidence/response,
 docs/evidence/ellipse).
 
-Where the lubricant thins by shear, or slips by more than the fit knows, G is that of a Newtonian
-lubricant at the nearest velocity ratio of the fit, times the ratio of what the linearised Reynolds
-equation makes of both (:mod:`pyehl.theory.inlet`). Nothing of that is fitted.
+Where the lubricant thins by shear, or slips by more than in the fit, G is that of a Newtonian
+lubricant at the nearest velocity ratio of the fit, times the ratio of the solutions of the
+linearised Reynolds equation for both (:mod:`pyehl.theory.inlet`). Nothing of that is fitted.
 """
 
 import json
@@ -37,7 +37,7 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
-from pyehl.theory.inlet import passed
+from pyehl.theory.inlet import interpolated_inlet
 from pyehl.theory.transport import Zone, upstream
 from pyehl.types import Array, Complex
 
@@ -45,9 +45,9 @@ GAIN = (0.0674, 0.3085, 2.414, 28.44)
 """Constants of `edge_gain`, fitted by docs/evidence/response/gain.py."""
 
 SHORT = 3.0
-"""nabla_2 of the wave for which the transport equation counts half in the inlet; others do as well
-(docs/evidence/response)."""
-# Waves that weigh less are not integrated through the inlet
+"""nabla_2 of the wave for which the transport equation has the weight 1/2 in the inlet; other
+values serve as well (docs/evidence/response)."""
+# Waves of less weight are not integrated through the inlet
 MIN_WEIGHT = 1e-4
 
 
@@ -109,7 +109,7 @@ def inlet_transfer(
     if np.isinf(zone.ellipticity):
         # nothing flows off to the sides: the equation holds as it is
         lines = np.asarray(y, dtype=float)
-        made = passed(zone, qx, qy, velocity_ratio)
+        made = interpolated_inlet(zone, qx, qy, velocity_ratio)
         return np.broadcast_to(made, lines.shape + made.shape).copy()
     # of the Newtonian contact, at the nearest velocity ratio that was fitted
     known, (low, high) = zone.newtonian or zone, fitted_range()["velocity_ratio"]
@@ -119,7 +119,9 @@ def inlet_transfer(
     fits = [inlet_fit(qx, qy, moes, known_ratio, line, zone.ellipticity) for line in lines.flat]
     result = base * np.reshape(fits, lines.shape + base.shape)
     if known is not zone or known_ratio != velocity_ratio:
-        result *= passed(zone, qx, qy, velocity_ratio) / passed(known, qx, qy, known_ratio)
+        result *= interpolated_inlet(zone, qx, qy, velocity_ratio) / interpolated_inlet(
+            known, qx, qy, known_ratio
+        )
     return result
 
 
@@ -131,7 +133,7 @@ def inlet_base(
     velocity_ratio: float,
     spacing: float = 0.0,
 ) -> Complex:
-    """1 - w + w B: what the transport equation gives of G on the centre line [-].
+    """1 - w + w B: the part of G on the centre line by the transport equation [-].
 
     Parameters as of `inlet_transfer`; `spacing` as of :func:`pyehl.theory.transport.transport`.
     """
@@ -152,7 +154,7 @@ def inlet_fit(
     y: float = 0.0,
     ellipticity: float = 1.0,
 ) -> Complex:
-    """F = G/(1 - w + w B): what is fitted of G [-].
+    """F = G/(1 - w + w B): the fitted factor of G [-].
 
     Parameters as of `inlet_transfer`.
     """

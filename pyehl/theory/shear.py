@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Shear stress of the lubricant in the contact, for friction, and flow of those that thin by shear.
+"""Shear stress of the lubricant in the contact, for friction, and shear-thinning flow.
 
 The same laws as in ``fortran/physics/shear.f90``, for the prediction. In a lubricant that thins a
 gradient of pressure drives phi_x times as much along X, the direction of the sliding, and phi_y
@@ -19,7 +19,7 @@ from pyehl.errors import EhlError, InputError
 from pyehl.types import Array, Settings
 
 CODES = {"eyring": 1, "carreau": 2}
-"""Laws that thin a flow, by the numbers that the library has for them."""
+"""Laws of a shear-thinning flow, by their numbers in the library."""
 LAWS = ("newtonian", "eyring", "limiting", "carreau")
 
 
@@ -77,7 +77,7 @@ def sliding_stress(law: str, exponent: float, sliding: ArrayLike) -> Array:
 
 @dataclass(frozen=True, slots=True)
 class ShearLaw:
-    """A shear law, one of :data:`LAWS`, with its parameters; those of others are not looked at.
+    """A shear law, one of :data:`LAWS`, with its parameters; those of other laws are not used.
 
     InputError for an unknown law or a number out of range.
     """
@@ -125,12 +125,12 @@ class ShearLaw:
 
     @property
     def weighs_flow(self) -> bool:
-        """Whether friction grows with the pressure as the flow is slowed by it."""
+        """Whether friction and flow obey the same law."""
         return self.law == "newtonian" or self.in_flow
 
     @property
     def scale(self) -> float:
-        """Stress at which a law that thins flows does so [Pa]."""
+        """Stress at which a law of shear thinning of the flow takes effect [Pa]."""
         return self.eyring_stress if self.law == "eyring" else self.carreau_stress
 
 
@@ -143,8 +143,8 @@ def shear_stress(newtonian: ArrayLike, pressure: ArrayLike, law: ShearLaw) -> Ar
     *High-Pressure Rheology for Quantitative Elastohydrodynamics*); where the flow obeys it,
     tau (1 + (tau/G)^2)^((1 - n)/2n) = tau_N.
 
-    tau_N = eta |u1 - u2|/h [Pa], eta the viscosity at that pressure, of any shape; p [Pa], at
-    which only the limiting law looks, of one that broadcasts with it.
+    tau_N = eta |u1 - u2|/h [Pa], eta the viscosity at that pressure, of any shape; p [Pa],
+    on which only the limiting law depends, broadcasts with it.
     """
     tau = np.asarray(newtonian, dtype=float)
     if law.law == "eyring":

@@ -6,7 +6,7 @@ from pyehl.theory.film import FilmEstimate
 EXPONENTS = (2.0, 5.0)
 """Least and greatest exponent gamma of `layer_reduction` (Chevalier et al. 1998)."""
 EXPONENT = 3.0
-"""In between, as solutions have it (docs/evidence/starvation)."""
+"""In between, as in solutions (docs/evidence/starvation)."""
 # At an ellipticity of 6
 HAMROCK_DOWSON_RANGE = {"ellipticity": (6.0, 6.0)}
 
@@ -82,7 +82,7 @@ def estimate(
 
 
 def line_estimate(layer: float, flooded: float) -> FilmEstimate:
-    """Give the film [m] of a line, which lets all oil through that arrives up to the flooded film.
+    """Give the film [m] of a line: all the oil that arrives, up to the flooded film.
 
     `layer` [m] is that of the oil at its density in the contact.
     """

@@ -31,20 +31,20 @@ ORDERS = math.ceil(MAX_WAVENUMBER) + 12
 
 
 class StripEdge:
-    """What the edges of a strip do to the pressure of long waves.
+    """Effect of the edges of a strip on the pressure of long waves.
 
     As products of polynomials in X and waves across the motion, with wavenumbers |k_Y| (m,) [1/b],
     all of which repeat after a width [b].
     """
 
     largest = MAX_WAVENUMBER
-    """Largest wavenumber that feels an edge [1/b]."""
+    """Largest wavenumber on which an edge has an effect [1/b]."""
 
     def __init__(self, across: Array, width: float) -> None:
         self.across, self.width = np.asarray(across, dtype=float), width
         shortest = 2.0 * math.pi / float(self.across.max(initial=0.0) or 1.0)
         self.places = math.ceil(PER_WAVE * max(1.0, width / shortest))
-        """Intervals along an edge at whose ends it is known how far it is moved."""
+        """Intervals along an edge at whose ends its displacement is computed."""
         self._x = np.asarray(np.linspace(-RADIUS, RADIUS, PLACES), dtype=float)
         basis = chebyshev.chebvander(self._x / RADIUS, DEGREE)
         self._inverse = np.asarray(np.linalg.pinv(basis), dtype=float)
@@ -63,7 +63,7 @@ class StripEdge:
         )
 
     def correction(self, qx: Array, qy: Array) -> Complex:
-        """Return what waves (m,) [1/b] on the strip have in pressure beyond the half-space.
+        """Return the pressure of waves (m,) [1/b] on the strip less that on the half-space.
 
         Coefficients (n, m) of the products of `waves` and `polynomials` [p_h per b^2/R].
         """

@@ -23,7 +23,7 @@ class Curve:
     """One curve of a table."""
 
     label: str  # its name in a legend; '' for the only one
-    key: str  # what it goes over
+    key: str  # the varied key
     table: pd.DataFrame  # its rows
     absolute: bool = False  # whether friction is drawn as a coefficient, else as a ratio
 

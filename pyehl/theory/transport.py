@@ -60,7 +60,7 @@ OUTLET = 0.6
 
 @dataclass(frozen=True, slots=True)
 class Zone:
-    """The smooth contact on its centre line, and what of the lubricant enters a wave."""
+    """The smooth contact on its centre line, and the properties of the lubricant in a wave."""
 
     x: Array  # ascending [a], (n,)
     pressure: Array  # P [p_h]
@@ -118,7 +118,7 @@ def _factors(
 
 
 class Flow:
-    """The smooth contact at places (n,): what the coefficients of the equation are made of."""
+    """The smooth contact at places (n,), for the coefficients of the equation."""
 
     def __init__(self, zone: Zone, places: Array) -> None:
         def at(values: Array) -> Array:
@@ -208,7 +208,7 @@ def free_stiffness(qx: ArrayLike, qy: ArrayLike, velocity_ratio: float) -> Array
 def wave_pressure(
     qx: Array, qy: Array, velocity_ratio: float, driven: Complex, free: Complex
 ) -> Complex:
-    """Pressure over roughness [p_h R/a^2]: what is flattened of it, by the stiffness of each part.
+    """Pressure over roughness [p_h R/a^2]: flattened amplitude times stiffness of each part.
 
     Of a circle. Wavenumbers of the roughness [1/a], U, driven and free parts of T [-].
     """
@@ -306,7 +306,7 @@ def harmonics(amplitudes: Complex) -> tuple[Array, Complex]:
     return np.asarray(k, dtype=np.float64), np.asarray(parts, dtype=np.complex128)
 
 
-def pressed(
+def line_pressure(
     amplitudes: Complex, kx: Array, ky: Array, velocity_ratio: float, ellipticity: float
 ) -> Complex:
     """Pressure on LINES of waves of film whose amplitude changes across the motion.

@@ -88,8 +88,8 @@ def test_last_lines():
     ("more", "words", "confidence"),
     [
         ({}, FULL, HOLDS),
-        ({"H_c_error": 0.002}, f"{FULL}; but H_c is known to 10 % only", WITH_CARE),
-        ({"flash_temperature_K": 40.0}, "but the surfaces warm by 40.0 K", WITH_CARE),
+        ({"H_c_error": 0.002}, f"{FULL}; but H_c is uncertain by 10 %", WITH_CARE),
+        ({"flash_temperature_K": 40.0}, "but the flash temperature rise is 40.0 K", WITH_CARE),
         # the friction has the heat in it then
         ({"flash_temperature_K": 40.0, "temperature_rise_max_K": 60.0}, FULL, HOLDS),
         ({"status": "target missed"}, f"{FULL}; but grid.target_error is missed", WITH_CARE),

@@ -131,7 +131,7 @@ def test_closed_solver_raises():
 
 
 def test_a_number_is_never_used_again(number: int):
-    """Also when its place is."""
+    """Even if its slot is."""
     errors.check(*ehl.close_case(number))
     text = Case.from_text(SMALL).text.encode()
     other, status, message = ehl.open_case(text, b"case", 0, NO_HEIGHTS, 0, NO_HEIGHTS)
@@ -142,7 +142,7 @@ def test_a_number_is_never_used_again(number: int):
     errors.check(*ehl.close_case(other))
 
 
-PLACES = """
+SLOTS = """
 import pytest
 from pyehl import Case, Solver, errors
 
@@ -160,9 +160,9 @@ with Solver(case) as again:
 """
 
 
-def test_places_run_out_and_come_back():
+def test_slots_run_out_and_are_freed():
     """In a process of its own: other tests may have solvers open."""
-    subprocess.run([sys.executable, "-P", "-c", PLACES], check=True)
+    subprocess.run([sys.executable, "-P", "-c", SLOTS], check=True)
 
 
 def test_solvers_in_threads_do_not_disturb_each_other():
@@ -207,7 +207,7 @@ def test_deflection_of_the_hertz_pressure():
 
 
 def test_texts_of_any_length_arrive_whole(monkeypatch: pytest.MonkeyPatch):
-    """The library states how long a list is, and is asked again with that much room."""
+    """The library states the length of a list, and is called again with a buffer of that length."""
     monkeypatch.setattr(handle, "MIN_BYTES", 7)
     monkeypatch.setattr(handle, "MIN_VALUES", 3)
     with Solver(Case.from_text("&grid points = 33 /\n")) as solver:

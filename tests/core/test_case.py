@@ -355,7 +355,7 @@ def test_a_missing_compiled_part_is_one_message():
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert done.returncode == 1
-    assert done.stderr.startswith("pyehl: error: the compiled part of pyehl is not here")
+    assert done.stderr.startswith("pyehl: error: the compiled part of pyehl is missing")
     assert len(done.stderr.splitlines()) == 1
 
 

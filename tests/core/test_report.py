@@ -363,7 +363,7 @@ GOOD = {
     ("changed", "word", "why", "kind"),
     [
         ({}, "Full film", "Smooth surfaces", "pass"),
-        ({"H_c_error": 0.002}, "Full film", "H_c is known to 10 %", "care"),
+        ({"H_c_error": 0.002}, "Full film", "H_c is uncertain by 10 %", "care"),
         ({"H_c_error": None}, "Full film", "the error of H_c is not known", "care"),
         ({"flash_temperature_K": 40.0}, "Full film", "40.0 K", "care"),
         # the friction has it already

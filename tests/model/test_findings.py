@@ -53,7 +53,7 @@ def test_the_form_of_a_ball_is_named_with_its_key(centre):
     made = prepare(scan(z), Options(detrend="curvature"))
     assert made.record.findings == ()
     assert made.prepared.std() == pytest.approx(2e-8, rel=0.1)
-    # an array is taken at its word, and reported
+    # an array is taken as it is, and reported
     kinds = [f.remedy for f in found_in_array(z)]
     assert kinds[0].startswith("surface.detrend=")
 

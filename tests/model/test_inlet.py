@@ -16,7 +16,7 @@ from pyehl.theory.inlet import (
     START,
     at_inlet,
     convected_by,
-    passed,
+    interpolated_inlet,
     wave_flattening,
 )
 from pyehl.theory.lubricant import Lubricant
@@ -116,7 +116,7 @@ def test_waves_between_those_that_are_solved(zone: Zone):
         zone, factors=FlowFactors(2.0 * one, 1.5 * one, 0.3 * one, 0.1 * one, 2.2 * one)
     )
     for contact, ratio in ((zone, 0.5), (zone, 1.5), (thinning, 1.5)):
-        result = passed(contact, qx, qy, ratio)
+        result = interpolated_inlet(contact, qx, qy, ratio)
         np.testing.assert_allclose(result, at_inlet(contact, qx, qy, ratio), atol=0.003)
 
 

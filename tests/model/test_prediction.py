@@ -96,7 +96,7 @@ def test_a_wave_in_the_contact_is_its_transfer():
     assert pressure[:, 7] == pytest.approx(expected, abs=1e-5)
     fine = np.arange(4 * n) * side / (4 * n)
     free = np.real(0.2 * np.exp(1j * (q * fine + 0.6)))
-    # brighter by what linear interpolation between four points a pixel dims
+    # amplified by the loss of linear interpolation between four points a pixel
     assert waves.free[0][:, 5, 0] == pytest.approx(free, abs=2e-3 * 0.2)
     # the free wave has the wavenumber of a surface that is convected at the mean velocity
     assert waves.free[0][:, 5, 1] == pytest.approx(-1.2 * k * free, abs=2e-3 * 0.2 * k)
@@ -111,12 +111,12 @@ def test_real_ratio_that_moves_with_the_roughness(table_1, settings):
     ours = run(passage(contact, tile, **options), tracks=1)[0].mu_ratio
     settings["surface"]["seed"] = 4
     paper = predict(settings).mu_ratio
-    # long waves feel the edge of the contact, which the model of the paper leaves out
+    # the edge of the contact affects long waves, which the model of the paper leaves out
     assert ours == pytest.approx(paper, rel=0.02)
 
 
 def test_slip_turns_the_free_wave(contact, table_1):
-    """One per cent of slip, forward or backward, makes the increase of a Table 1 surface."""
+    """One per cent of slip, forward or backward, causes the increase of a Table 1 surface."""
     tile = table_1(seed=21)
     ratio = {u: run(passage(contact, tile, u), tracks=1)[0].mu_ratio for u in (0.99, 1.0, 1.01)}
     assert ratio[1.0] < 1.0 < min(ratio[0.99], ratio[1.01])
@@ -169,7 +169,7 @@ def test_a_flat_surface_has_no_share_of_short_waves():
     assert Spectrum.of(np.zeros((8, 8)), 1.0, 1.0).share_below(0.5) == 0.0
 
 
-def test_outside_the_range_is_said(settings):
+def test_outside_the_range_is_reported(settings):
     settings["psd"] |= {"reduction": "response", "smooth": "solved"}
     settings["surface"]["velocity_ratio"] = 1.6
     summary = predict(settings).summary
@@ -188,7 +188,7 @@ def test_options_of_the_paper_alone(settings):
 
 
 def test_smooth_contact_from_a_result_folder(tmp_path):
-    """A folder of the smooth contact gives what is solved on the spot; another contact does not."""
+    """A folder of the smooth contact is as good as a new solution; another contact is refused."""
     case = pyehl.Case(CASES / "table1.nml", "surface.kind=smooth", "grid.points=257")
     folder = tmp_path / "smooth"
     pyehl.solve(case, output=folder)
@@ -226,7 +226,7 @@ def test_turned_ellipse_is_no_smooth_contact_of_another(tmp_path):
 
 
 def test_what_a_grid_does_not_resolve():
-    """More friction hangs on unresolved waves on a coarser grid; the parts agree with bands."""
+    """More friction depends on unresolved waves on a coarser grid; the parts agree with bands."""
     result = {}
     for points in (129, 513):
         case = pyehl.Case(CASES / "table1.nml", f"grid.points={points}")
@@ -253,7 +253,7 @@ def test_waves_left_out_are_in_the_error():
 
 
 def test_beyond_the_linear_response(contact, table_1):
-    """Short waves as high as the film: no number, and a cut-off that would bring one."""
+    """Short waves as high as the film: no number, and the cut-off that would give one."""
     rough = table_1(seed=21, rms_height=8e-8, hurst=0.4)
     model = passage(contact, rough, 1.03)
     friction, _, _ = run(model)
@@ -385,7 +385,7 @@ def test_film_that_a_loss_leaves():
     assert loss_at(np.array([0.0, -1.0])) == pytest.approx([np.inf, np.inf])
 
 
-def test_a_ring_that_would_have_to_pull_has_no_load(contact, table_1):
+def test_a_ring_in_tension_has_no_load(contact, table_1):
     one = passage(contact, table_1(seed=21), 1.01)
     points = one.rough_contact(one.components())
     change = np.zeros((*points.film.shape, 2), dtype=np.float32)
@@ -395,8 +395,8 @@ def test_a_ring_that_would_have_to_pull_has_no_load(contact, table_1):
     assert outcome(points, np.array([np.nan]))[0] == "load lost"
 
 
-def test_what_cannot_pull_carries_nothing(contact, table_1, monkeypatch):
-    """Negative pressures carry nothing, and what is around them in their ring carries less."""
+def test_points_in_tension_carry_no_load(contact, table_1, monkeypatch):
+    """Negative pressures carry no load, and the rest of their ring carries less."""
     one = passage(contact, table_1(seed=21), 1.01)
     points = one.rough_contact(one.components())
     result = []
@@ -407,8 +407,8 @@ def test_what_cannot_pull_carries_nothing(contact, table_1, monkeypatch):
 
     monkeypatch.setattr(points, "stress", stress)
     change = np.zeros((*points.film.shape, 2), dtype=np.float32)
-    pulls = points.inside & (points.radius < 0.1)
-    change[..., 1][pulls] = -2.0
+    tensile = points.inside & (points.radius < 0.1)
+    change[..., 1][tensile] = -2.0
     points.sheared(change, points.smooth_film())
     whole = (points.pressure + change[..., 1])[points.inside]
     (left,) = result
@@ -452,15 +452,15 @@ def test_free_waves_beside_the_centre_line(contact, table_1):
     assert result == pytest.approx(expected, abs=1e-6 * np.abs(expected).max())
 
 
-def test_free_waves_swell_where_the_pressure_is_lower(contact, table_1):
+def test_free_waves_are_thicker_where_the_pressure_is_lower(contact, table_1):
     """They have a mass: beside the centre line they are thicker by the ratio of the densities."""
     one = passage(contact, table_1(seed=21), 1.0)
     points = one.rough_contact(one.components())
     middle, off = points.x.size // 2, int(np.argmin(np.abs(points.y - 0.8)))
     density = OIL.density_ratio(points.pressure[middle] * POINT.hertz_pressure)
-    swollen = points.expansion[middle, off]
-    assert swollen == pytest.approx(density[points.y.size // 2] / density[off], rel=1e-3)
-    assert 1.02 < swollen < 1.06
+    thickening = points.expansion[middle, off]
+    assert thickening == pytest.approx(density[points.y.size // 2] / density[off], rel=1e-3)
+    assert 1.02 < thickening < 1.06
 
 
 def test_small_waves_leak_as_such():

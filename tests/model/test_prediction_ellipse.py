@@ -24,7 +24,7 @@ from pyehl.theory.line_contact import circle_with_same_inlet
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import inlet_fit
-from pyehl.theory.transport import LINES, free_stiffness, harmonics, pressed
+from pyehl.theory.transport import LINES, free_stiffness, harmonics, line_pressure
 
 # R_x/R_y of the ellipticities 2 and 0.4
 WIDE, NARROW = 0.351771642284186, 3.998264475680259
@@ -345,9 +345,11 @@ def test_waves_across_the_motion():
     assert np.abs(there - 1.0)[inside].max() < 0.01
     # a hump is stiffer than a wave as high everywhere
     hump = level * (1.0 - np.square(LINES))[:, np.newaxis]
-    here = pressed(level, 0.0 * ky, ky, 1.0, 1e3)[AXIS, 0]
+    here = line_pressure(level, 0.0 * ky, ky, 1.0, 1e3)[AXIS, 0]
     assert here == pytest.approx(free_stiffness(0.0 * ky, ky, 1.0)[0], rel=1e-2)
-    wide, narrow = (pressed(hump, 0.0 * ky, ky, 1.0, kappa)[AXIS, 0].real for kappa in (1e3, 0.3))
+    wide, narrow = (
+        line_pressure(hump, 0.0 * ky, ky, 1.0, kappa)[AXIS, 0].real for kappa in (1e3, 0.3)
+    )
     assert narrow > 1.005 * wide
 
 

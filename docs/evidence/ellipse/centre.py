@@ -10,7 +10,7 @@ from pyehl.prediction.response import AXIS
 from pyehl.theory.ellipse import Ellipse
 from pyehl.theory.ellipse_edge import EllipseEdge
 from pyehl.theory.response import edge_gain, inlet_transfer
-from pyehl.theory.transport import LINES, Zone, harmonics, pressed, transport, wave_pressure
+from pyehl.theory.transport import LINES, Zone, harmonics, line_pressure, transport, wave_pressure
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -40,7 +40,7 @@ def at_centre(
     if shape.radius_ratio == 1.0:
         pressure = pressure * edge_gain(kx, ky, float(np.interp(0.0, zone.x, zone.film)))
     else:
-        pressure = pressure - pressed(beside, kx, ky, ratio, shape.ellipticity)[AXIS]
+        pressure = pressure - line_pressure(beside, kx, ky, ratio, shape.ellipticity)[AXIS]
     pressure = zone.stiffness * pressure
     if edge:
         pressure = pressure + _edge(shape, kx, ky) * (1.0 - driven - carried)

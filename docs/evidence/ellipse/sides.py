@@ -26,7 +26,7 @@ from pyehl.theory.ellipse_edge import EllipseEdge
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import inlet_transfer
-from pyehl.theory.transport import LINES, harmonics, pressed, stiffness, transport
+from pyehl.theory.transport import LINES, harmonics, line_pressure, stiffness, transport
 
 sys.path.insert(0, str(HERE.parent / "response"))
 from ridges import ACCURACY, AMPLITUDE, PIXELS
@@ -74,7 +74,7 @@ def predicted(settings: Mapping[str, Mapping[str, Any]], wavelength: float) -> t
     ((driven, free),) = transport(zone, kx, ky, 1.0, np.zeros(1))
     inlet = inlet_transfer(zone, kx, ky, moes, 1.0, LINES)
     t, beside = driven + free * inlet, free * (inlet - inlet[AXIS])
-    given = stiffness(ky) * (1.0 - t[AXIS]) - pressed(beside, kx, ky, 1.0, zone.ellipticity)
+    given = stiffness(ky) * (1.0 - t[AXIS]) - line_pressure(beside, kx, ky, 1.0, zone.ellipticity)
     edge = EllipseEdge(point.ellipse)
     functions = edge.functions(across, LINES).T
 
