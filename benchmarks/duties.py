@@ -61,7 +61,7 @@ def _scale(rng: np.random.Generator, low: float, high: float) -> float:
 
 
 def contact(rng: np.random.Generator, shape: str) -> dict[str, Any]:
-    """Draw the steady case; the wanted Hertz pressure gives the load."""
+    """Draw the steady case; the load follows from the Hertz pressure."""
     keys: dict[str, Any] = {"mean_velocity": _scale(rng, 0.2, 10.0)}
     keys["slide_to_roll"] = round(float(rng.uniform(0.0, 1.0)), 3)
     radius = _scale(rng, 4e-3, 0.02)

@@ -86,7 +86,7 @@ def draw_outcomes(rows: Sequence[Values], path: Path) -> None:
 
 
 def _legend(figure: Figure, axes: NDArray[Any], columns: int) -> None:
-    """Say below all panels what is in any of them, each thing once."""
+    """Draw one legend below all panels, with each entry once."""
     pairs = [zip(*ax.get_legend_handles_labels(), strict=True) for ax in axes.flat]
     known = {label: handle for part in pairs for handle, label in part}
     figure.legend(known.values(), known.keys(), loc="outside lower center", ncols=columns)

@@ -9,7 +9,7 @@ module ehl_number_text
    private
    public :: amount_buffer, real_buffer, fixed_buffer, rounded_buffer, integer_buffer
 
-   !> Room for any number; how those of so many digits are written
+   !> Length of the text of any number; formats by the number of digits
    integer, parameter :: longest_number = 32
    character(len=*), parameter :: forms(17) = [character(len=11) :: &
                                                "(es32.0e3)", "(es32.1e3)", "(es32.2e3)", "(es32.3e3)", "(es32.4e3)", &
@@ -39,8 +39,8 @@ contains
          text = "0.0"
          return
       end if
-      ! 15 digits, their zeros dropped, are the shortest text that reads back, if any of them does; not so of a number that
-      ! has lost digits to be so small, and rounded up the largest ones would overflow
+      ! 15 digits without trailing zeros are the shortest text that reads back, if they do; not so for subnormal numbers, and
+      ! the largest numbers would overflow if rounded up
       first = merge(15, 1, abs(x) >= tiny(x))
       if (abs(x) > nearly_huge) first = 17
       do n = first, 17

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What is read off a solution with contact at a boundary film (boundary_film.f90)
+!> Results of a solution with contact at a boundary film (boundary_film.f90)
 module ehl_touching
    use ehl_kinds, only: dp
    use ehl_level, only: cavity_pressure, gap_row, level_t
@@ -9,23 +9,23 @@ module ehl_touching
    private
    public :: touching_t, measure_touching, mostly_touching, much_mass_defect, touching_names, known_names, at_depth
 
-   !> Share of the flow that a boundary film would have to give from which on a contact is not the one of the model: a choice
+   !> Mass defect above which the model of the boundary film does not hold: share of the flow that the film would supply (chosen)
    real(dp), parameter :: much_mass_defect = 0.1_dp
 
-   !> Share of the load on a boundary film from which on the films are its: those of the coarser grid say nothing of an error
+   !> Load share above which the films are those of the boundary film, so that a coarser grid does not give their error
    real(dp), parameter :: mostly_touching = 0.5_dp
 
-   !> What `numbers` gives
+   !> Names of the values of `numbers`
    character(len=*), parameter :: touching_names(7) = [character(len=16) :: "load_share", "contact_area", "mass_defect", &
                                                        "hard_load_share", "hard_area", "plastic_depth", "hard_flowing"]
    !> Which of them is the depth
    integer, parameter :: at_depth = 6
 
-   !> Of one state; without a boundary film all of it is 0
+   !> Contact in one state; without a boundary film all values are 0
    type :: touching_t
       !> iint P dX dY where the bodies touch, over that of the contact; their area there [a^2]
       real(dp) :: load_share = 0.0_dp, area = 0.0_dp
-      !> What the boundary film gives at touching nodes, over what flows along with the surfaces through the line X = 0
+      !> Flow that the boundary film supplies at touching nodes, over the flow with the surfaces through the line X = 0
       real(dp) :: supply = 0.0_dp
       !> Share of the load where the solids yield, their area there [a^2], the largest depth by which they yield [a^2/R], and
       !> the part of that share where the film is above the boundary film
@@ -72,7 +72,7 @@ contains
       m%depth = maxval(depth)
    end function measure_touching
 
-   !> How many of the names there are: the last four are about a hardness, and all about a boundary film
+   !> Number of values: the last four belong to a hardness, and all to a boundary film
    pure integer function known_names(lubricant)
       type(lubricant_t), intent(in) :: lubricant
       known_names = merge(size(touching_names), 3, lubricant%boundary_limit > 0.0_dp)

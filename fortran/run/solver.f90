@@ -31,11 +31,11 @@ module ehl_solver
    type :: solver_t
       type(case_t), private :: input
       type(contact_run_t) :: run
-      !> Allocated while it runs; the state that it is to go on from
+      !> Allocated while it runs; the state from which it is resumed
       type(contact_run_t), allocatable, private :: coarse
       type(checkpoint_t), private :: coarse_checkpoint
       !> Whether the caller predicted the parts of mu_ratio in waves that the grid leaves out, and in those that it does
-      !> not resolve, and what was found; NaN: nothing
+      !> not resolve, and these parts; NaN: none
       logical :: knows_waves = .false.
       real(dp) :: predicted_waves(2) = 0.0_dp
    contains
@@ -119,8 +119,8 @@ contains
       if (self%run%plan%has_steps()) self%run%state_text = step_text(input)
    end subroutine start
 
-   !> The smooth contact; with what is stationary of the roughness; all that on the next coarser grid; time steps. The observer may
-   !> leave after any cycle or step; another call goes on there.
+   !> The smooth contact; that with the stationary roughness; both on the next coarser grid; time steps. The observer may leave
+   !> after any cycle or step; another call continues there.
    subroutine solve(self, observer, status)
       class(solver_t), intent(inout) :: self
       class(observer_t), intent(inout) :: observer
@@ -284,7 +284,7 @@ contains
    end subroutine resume
 
    !> The case as text, with the defaults of all keys that change no step: when to stop, threads, what to
-   !> write. A run may go on with others of them.
+   !> write. A run may be resumed with other values of these.
    function step_text(input) result(text)
       type(case_t), intent(in) :: input
       character(len=:), allocatable :: text

@@ -20,11 +20,11 @@ submodule (ehl_solver) ehl_solver_results
 
    !> Smaller shares of a variance are rounding errors
    real(dp), parameter :: rounding = 1.0e-14_dp
-   !> Largest change of mu_ratio from grid to grid, over mu_ratio, that shows a limit; and largest increase with a single
-   !> wave or feature, which is the same on both grids: what increases more are peaks of pressure that no grid yet resolves
+   !> Largest change of mu_ratio from grid to grid, over mu_ratio, with which it has a limit; and its largest increase with a
+   !> single wave or feature, which is the same on both grids: a larger increase is due to pressure peaks that neither resolves
    real(dp), parameter :: max_change = 0.5_dp, max_rise = 0.05_dp
 
-   !> Of the names, units and meanings of results, with `VERSION` of pyehl/schema.py: another one where one of them changes
+   !> Version of the names, units and meanings of results, as `VERSION` of pyehl/schema.py: it changes with any of them
    integer, parameter :: schema_version = 3
 
 contains
@@ -47,7 +47,7 @@ contains
          call report_end(record, self%run)
       end if
       call record%set("converged", converged)
-      ! the smooth results are good as soon as the rough contact has begun
+      ! the smooth results are final as soon as the rough contact has begun
       good = rough .or. self%run%smooth%solved .or. self%run%outcome == outcome_target_missed
       call report_problem(record, self%run)
       call report_smooth(record, self%run%plan, self%run%smooth, self%run%level(), good)
@@ -88,7 +88,7 @@ contains
       end if
    end subroutine report_start
 
-   !> The friction ratio, that in the limit of fine grids, and its error: the sum of its parts, not known where one is not
+   !> The friction ratio, that in the limit of fine grids, and its error: the sum of its parts, not known unless all parts are
    subroutine report_ratio(self, record, ratio, stop_error, why_none)
       type(solver_t), intent(in) :: self
       type(record_t), intent(inout) :: record
@@ -155,7 +155,7 @@ contains
    end function has_limit
 
    !> Error of the friction ratio by its grid: two grids do not show that they have reached order 2, so that of order 1
-   !> (Roache 1994: three times that of order 2); and no less than the error of the smooth film makes of it
+   !> (Roache 1994: three times that of order 2); and at least the effect of the error of the smooth film
    real(dp) function grid_error(self, ratio)
       type(solver_t), intent(in) :: self
       real(dp), intent(in) :: ratio

@@ -38,7 +38,7 @@ contains
    real(dp) function pressure_error(self, time, pressure) result(error)
       class(contact_run_t), intent(in) :: self
       real(dp), intent(in) :: time, pressure
-      !> In the last two rows
+      !> Times and maximum pressures of the last two rows
       real(dp) :: t(2), p(2)
       integer :: k, n
 

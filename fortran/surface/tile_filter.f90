@@ -13,8 +13,8 @@ module ehl_tile_filter
    type :: filter_t
       !> Shortest and longest wavelength 2 pi/|q| that is left; 0: no limit
       real(dp) :: shortest = 0.0_dp, longest = 0.0_dp
-      !> Areal Gaussian filters (ISO 16610-61): half of the amplitude passes at the cut-off. Otherwise all of it up to
-      !> the cut-off, and nothing beyond it.
+      !> Whether the filters are areal Gaussian ones (ISO 16610-61): half of the amplitude passes at the cut-off. Otherwise
+      !> all of it passes up to the cut-off, and nothing beyond it.
       logical :: gaussian = .false.
    contains
       procedure :: transmission

@@ -26,7 +26,7 @@ contains
       integer :: wave
 
       ! measured 0.111 and 0.131 where the classical factor is 0.75 and 0.78; six points a wave, which no
-      ! coarser grid repeats, 0.24 against 0.46
+      ! coarser grid represents, 0.24 against 0.46
       do wave = 4, 8, 4
          call new_problem(p, .false.)
          call cosine(p(levels), real(wave, dp))
@@ -36,7 +36,7 @@ contains
       end do
       call cosine(p(levels), 6.0_dp)
       f = both(p)
-      call is_true(f(1) < 0.27_dp .and. f(0) > f(1), "Alcouffe on a cosine that the coarse grids do not repeat")
+      call is_true(f(1) < 0.27_dp .and. f(0) > f(1), "Alcouffe on a cosine that the coarse grids do not represent")
       ! measured 0.080, 0.549, 0.796, where classical transfers diverge
       call grooves(p(levels))
       f = both(p)
@@ -127,7 +127,7 @@ contains
       associate (t => p(levels)%transfer, n => p(levels - 1)%grid%nx)
          call is_close(maxval(abs(t%along_x(:, 2:n - 2, 2:n - 1) - 0.5_dp)), 0.0_dp, 1.0e-14_dp, "weights along X")
          call is_close(maxval(abs(t%along_y(:, 2:n - 1, 2:n - 2) - 0.5_dp)), 0.0_dp, 1.0e-14_dp, "weights along Y")
-         call is_close(maxval(abs(t%centre(:, 2:n - 2, 2:n - 2) - 0.25_dp)), 0.0_dp, 1.0e-14_dp, "weights amid four")
+         call is_close(maxval(abs(t%centre(:, 2:n - 2, 2:n - 2) - 0.25_dp)), 0.0_dp, 1.0e-14_dp, "weights between four")
          call is_close(maxval(abs(t%along_x(2, 1, 2:n - 1) - 0.5_dp)), 0.0_dp, 1.0e-14_dp, "weights at the border")
       end associate
    end subroutine constant_coefficient_is_bilinear

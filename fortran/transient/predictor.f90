@@ -1,10 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> First approximation of the pressure of a time step: a weighted mean of several extrapolations in time. Each node
-!> weighs them by how right they were around it in the step before, judged by what their errors do in the equation:
-!> where the lubricant flows, a small rough error is a large residual. That of first order is for nodes where
+!> weights them by their errors around it in the previous step, measured by their effect in the equation:
+!> where the lubricant flows, a small rough error is a large residual. The extrapolation of first order is for nodes where
 !> the algebraic error of a step is larger than the change from step to step: the second order would double it.
-!> The weights must not change steeply from node to node: between candidates that differ they would make a rough
-!> pressure.
+!> The weights must not change steeply from node to node: between candidates that differ this would make the
+!> pressure rough.
 module ehl_predictor
    use ehl_kinds, only: dp
    use ehl_level, only: cavitate, level_t, stay_cavitated
@@ -19,8 +19,8 @@ module ehl_predictor
    real(dp), parameter :: min_error = 1.0e-60_dp
 
    type :: predictor_t
-      !> Extrapolations: of second order at the node (what stands), and at the nodes where things were that a surface
-      !> moves along, one for each surface that moves; of first order at the node
+      !> Extrapolations: of second order at the node, for what is stationary, and at the nodes upstream along each moving
+      !> surface, for what moves with it; of first order at the node
       integer, private :: candidates = 3
       !> Weights of the candidates but the first, which has the rest; (nx, ny, candidates - 1)
       real(dp), allocatable :: weights(:, :, :)

@@ -33,7 +33,7 @@ REACH = 1.0
 ACCURACY = 0.02
 # Pixels per shortest wave; the solver interpolates a map by its Fourier series
 PIXELS = 4
-# Way of the slowest wave [a] from the place where the run begins until the start has no effect
+# Distance [a] that the slowest wave moves before the start of the run has no more effect
 FILLING = 2.3
 FRONT = -2.5
 
@@ -82,7 +82,7 @@ class Superposition:
     pressure: Array
     response: Complex  # T, (m, n)
     stiffness: Complex  # pi: pressure [p_h] per roughness [a^2/R], (m, n)
-    # rms of what the fit leaves of the film, over the amplitude of each wave, (m, n)
+    # rms residual of the film in the fit, over the amplitude of each wave, (m, n)
     residual: Array
     spacing: float  # grid spacing [a]
     central_film: float  # H_c of the smooth contact on this grid [a^2/R]
@@ -158,11 +158,11 @@ def superpose(
 ) -> Superposition:
     """Run a tile of waves through the contact of a resolved case.
 
-    The domain is 4 a along the motion, with so many nodes, and reaches a beyond the sides of the
-    contact, on square cells; `velocity_ratio` is positive; `solver`
-    are keys of that group, `slope` is amplitude times wavenumber [a/R], `filling` the way of the
-    slowest wave before the period that is fitted begins [a]; `progress` is called with the steps
-    done and in all. EhlError if the run ends before its time.
+    The domain is 4 a along the motion, with so many nodes, and ends at a distance a from the sides
+    of the contact, on square cells; `velocity_ratio` is positive; `solver` are keys of that group,
+    `slope` is amplitude times wavenumber [a/R], `filling` the distance of the slowest wave before
+    the period that is fitted begins [a]; `progress` is called with the steps done and in all.
+    EhlError if the run ends too early.
     """
     case = transient_case(
         settings, points=points, tile=waves.tile, velocity_ratio=velocity_ratio, solver=solver or {}

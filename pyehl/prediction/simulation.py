@@ -101,9 +101,9 @@ class Resolution:
 def resolution(case: Case, tiles: Mapping[str, Topography] | None = None) -> Resolution | None:
     """Predict what the grid of a case resolves.
 
-    None for surfaces that are no tile of heights on the move, and for those without waves that the
+    None for surfaces other than moving tiles of heights, and for those without waves that the
     grid does not resolve. `tiles` are the surfaces by group on their tracks, of a large one a part,
-    before their spectrum is cut; one that is not there is made by the case, of a large one the
+    before their spectrum is cut; a missing one is made as the case states, of a large one the
     part of :func:`pyehl.surfaces.part_of`. EhlError if the smooth contact has no solution, or the
     prediction gives no ratio; InputError or FileError if a surface is not usable.
     """
@@ -159,7 +159,7 @@ LOG = logging.getLogger(__name__)
 
 # Points per half of the shortest wave along the motion, between which a cubic spline is used
 REFINEMENT = 2
-# A grid resolves waves of more than two nodes: so that rounding does not decide
+# A grid resolves waves of more than two nodes: margin for rounding errors
 BELOW = 1.0 - 1e-9
 # The pressure of the waves fades over this width at the edge of the contact [a]. Half of it and
 # twice change mu_r/mu_s of a wave of 0.5 a in the contact of Table 1 by 0.06 and 0.24 % at most,
@@ -195,10 +195,10 @@ def starting_pressure(
         raise InputError(f"{', '.join(beyond)} outside the range of the prediction")
     fronts = fronts[:, list(model.order)]
     if model.merged is not None:
-        # the tile of both lies as the first in their order does
+        # the tile of both is at the position of the first one
         model, fronts = model.merged, fronts[:, :1]
     waves = model.components()
-    # takes the waves that are not on the grid off the spectra
+    # removes the waves that are not on the grid from the spectra
     on_grid = [_GridWaves(wave, model, x, y) for wave in waves]
     if not math.isfinite(model_error(mean(model, waves))):
         raise InputError("the pressures are beyond a linear response")

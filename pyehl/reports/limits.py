@@ -104,7 +104,7 @@ def _contact(settings: Settings, summary: Values) -> str:
 
 
 def unheated(summary: Values) -> float | None:
-    """Give a high flash temperature [K] that the friction does not have; None if there is none."""
+    """Give a high flash temperature [K] that the friction does not include, else None."""
     heat = summary.get("flash_temperature_K")
     known = summary.get("temperature_rise_max_K") is not None
     return None if heat is None or heat <= HOT or known else float(heat)

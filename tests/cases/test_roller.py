@@ -90,7 +90,7 @@ def test_low_speed_is_the_dry_contact(dry, points, misalignment):
 
 
 def test_difference_vanishes_with_the_speed(dry):
-    """The record: it falls with about the square root of the speed, on both grids."""
+    """As recorded: it falls with about the square root of the speed, on both grids."""
     rows = dry.read()
     for points in (257, 513):
         mine = [row for row in rows if row["points"] == points]
@@ -170,7 +170,7 @@ def test_ends_beside_a_longer_domain(tmp_path, amplitude, near_ends):
     assert float(long.p_max_Pa) == pytest.approx(float(short.p_max_Pa), rel=5e-4)
     difference = abs(float(long.h_min_m) - float(short.h_min_m))
     if near_ends:
-        # within the last hundredth of the length, known as well as the cells there allow
+        # within the last hundredth of the length, as accurate as the cells there allow
         assert abs(float(short.H_min_Y)) > 0.98 * float(short.Y[-1])
         assert difference < float(short.h_min_error_m) + float(long.h_min_error_m)
     else:
@@ -235,7 +235,7 @@ def test_bad_input(contact, words):
         (b"-0.004, 0\n0.004, 0\n", "does not cover the roller"),
     ],
 )
-def test_a_table_that_is_none(tmp_path, lines, words):
+def test_a_bad_table(tmp_path, lines, words):
     """The message names the file and the line."""
     table = tmp_path / "profile.csv"
     table.write_bytes(lines)

@@ -473,7 +473,7 @@ def test_option_replaces_a_value_that_is_not_acceptable(drive, tmp_path: Path):
 @pytest.mark.parametrize("driver", ["ehl", "pyehl"])
 @pytest.mark.parametrize("kind", ["/dev/zero", "/dev/random", "pipe", "large"])
 def test_no_case_file(drive, tmp_path: Path, driver, kind):
-    """Told at once: nothing waits for a pipe, or reads what has no end."""
+    """Reported at once, without waiting for a pipe or reading a device without an end."""
     os.mkfifo(tmp_path / "pipe")
     with (tmp_path / "large").open("wb") as stream:
         stream.truncate(2_000_000)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The prediction against simulated cases: docs/evidence/prediction states what it states."""
+"""The prediction against simulated cases, as published in docs/evidence/prediction."""
 
 import csv
 import math
@@ -73,7 +73,7 @@ def test_load_is_kept_in_rings(evidence, table, monkeypatch):
 
 @pytest.mark.long
 def test_waves_that_a_coarse_grid_leaves_out_are_in_its_error(evidence):
-    """257 x 257 nodes against 513 x 513: the error from two grids does not know these waves."""
+    """257 x 257 nodes against 513 x 513: the error from two grids does not include these waves."""
     compare, folder = evidence
     cases = sys.modules["cases"]
     lines = (folder / "coarse.csv").read_text().splitlines()
@@ -118,7 +118,7 @@ def test_page_of_the_theory_prints_the_bands(root: Path):
 
 
 def test_pressure_of_ridges(root: Path):
-    """docs/evidence/response: by how much it is above K (1 - T), and what the response has."""
+    """docs/evidence/response: its excess over K (1 - T) in the simulation and in the response."""
     folder = root / "docs" / "evidence" / "response"
     heavy, light, lost, gains = [], [], [], []
     with (folder / "ridges.csv").open(newline="", encoding="utf-8") as stream:

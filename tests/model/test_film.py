@@ -31,7 +31,7 @@ def test_nijenbanning_asymptotes():
     assert thick[1] / thick[0] == pytest.approx(2**0.75, rel=2e-3)
 
 
-def test_hamrock_dowson_is_off_by_what_the_page_says():
+def test_error_of_hamrock_dowson_is_the_one_on_the_page():
     row = reference.SMOOTH[0]
     point = OperatingPoint.from_moes(row.moes_m, row.moes_l)
     scale = point.radius / point.film_scale
@@ -87,7 +87,7 @@ def test_columns_of_a_sheet_keep_apart_at_a_very_low_load():
 
 
 def test_ellipses():
-    """What is known of the formulas is of circles; a turned one has its dry contact alone."""
+    """The accuracies are known for circles; of a turned ellipse only the dry contact is given."""
     ellipse = {"contact.load": 50.0, "contact.radius_x": 0.01, "contact.radius_y": 0.03}
     straight, turned = (
         film_formulas.sheet(Case.from_text("", ellipse | {"contact.angle": angle}).resolve())
@@ -103,7 +103,7 @@ def test_ellipses():
     assert page.endswith("the formulas need an axis along the motion")
 
 
-def test_says_what_the_formulas_do_not_know():
+def test_names_keys_without_effect_on_the_formulas():
     reported = {
         "grid.border": "zero",
         "grid.x_inlet": -1.5,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Scans as they come: form, offset lines, stitching steps, dust, missing parts, many contacts."""
+"""Raw scans: form, offset lines, stitching steps, dust, missing parts, many contacts."""
 
 import logging
 
@@ -45,7 +45,7 @@ def ball(centre, radius=0.018):
 
 
 @pytest.mark.parametrize("centre", [(0.5, 0.5), (0.2, 0.9)])
-def test_the_form_of_a_ball_is_named_with_its_key(centre):
+def test_the_form_of_a_ball_is_reported_with_its_key(centre):
     z = rough() + ball(centre)
     (finding,) = found(z)
     assert (finding.kind, finding.remedy) == ("form", "surface.detrend=curvature")
@@ -62,7 +62,7 @@ def found_in_array(z):
     return find(z, (PIXEL, PIXEL), "none", periodic=True)
 
 
-def test_a_tilted_array_is_named():
+def test_a_tilted_array_is_reported():
     (finding,) = found_in_array(rough() + 1e-3 * places()[0])
     assert finding.remedy == "surface.detrend=tilt"
 
@@ -87,7 +87,7 @@ def test_a_single_wave_is_no_form():
 
 @pytest.mark.parametrize("along", ["x", "y"])
 @pytest.mark.parametrize("rms", [1e-8, 1e-7])
-def test_offsets_between_lines_are_named_and_taken_off(along, rms):
+def test_offsets_between_lines_are_reported_and_removed(along, rms):
     offsets = rms * np.random.default_rng(4).normal(size=N)
     clean = rough()
     z = clean + (offsets[np.newaxis, :] if along == "x" else offsets[:, np.newaxis])
@@ -177,7 +177,7 @@ def test_spikes_are_found():
     assert prepare(scan(z), Options(outliers=8.0)).record.findings == ()
 
 
-def test_where_points_are_missing_is_shown_and_a_part_offered():
+def test_missing_points_are_shown_and_a_part_is_proposed():
     z = rough()
     z[:9] = np.nan
     z[50:60, 40:52] = np.nan
@@ -200,7 +200,7 @@ def thin_film(x, y):
 
 
 def test_findings_are_reported_predicted_and_drawn(tmp_path, capsys):
-    """A ball without levelling: no cut of waves is proposed, but the form."""
+    """A ball without levelling: removal of the form is proposed, and no cut-off."""
     path = tmp_path / "ball.npy"
     np.save(path, rough() + ball((0.5, 0.5)))
     size = {"surface.length_x": N * PIXEL, "surface.length_y": N * PIXEL}
@@ -228,7 +228,7 @@ def test_findings_are_reported_predicted_and_drawn(tmp_path, capsys):
     assert (tmp_path / "tile.npy.png").is_file()
 
 
-def test_doubts_about_the_map_stand_in_the_assessment():
+def test_findings_are_in_the_assessment():
     z = rough(rms=5e-9) + 1e-9 * np.random.default_rng(4).normal(size=N)
     case = pyehl.Case.from_text("&surface kind='fractal' /")
     made = prepare(Scan(z, N * PIXEL, N * PIXEL, "lines"))
@@ -237,7 +237,7 @@ def test_doubts_about_the_map_stand_in_the_assessment():
     assert "but the map is not roughness alone: line offsets" in result.summary["assessment"]
 
 
-def test_a_scan_of_many_contacts_says_its_cost_and_offers_a_part(caplog, monkeypatch):
+def test_a_scan_of_many_contacts_reports_its_cost_and_proposes_a_part(caplog, monkeypatch):
     n, size = 1024, 5e-3
     tile = Topography(np.zeros((n, n)), (size, size), "wide")
     point = OperatingPoint()
