@@ -173,13 +173,13 @@ def draw(seed: int, number: int) -> tuple[str, Keys]:
 
 
 def answer(keys: Keys, run: str, **options: Any) -> MachineResult:  # noqa: ANN401 (keys of a case)
-    """Give what the command for it gives."""
+    """Run the command of the machine element."""
     command = pyehl.gear if "spur_gear.teeth_1" in keys else pyehl.bearing
     return command(..., keys, options, run=run, jobs=1)
 
 
 def faults(keys: Keys, result: MachineResult) -> list[str]:
-    """Name what of an answer cannot be."""
+    """Name the impossible values of a result."""
     table, s = result.table, result.summary
     wrong = [
         f"{name} not between {low:g} and {high:g}"

@@ -30,7 +30,7 @@ CHILD = (
     "cli.main); out.write(json.dumps(found))"
 )
 Found = tuple[int, dict[str, int], list[str]]
-"""Trials, how many came to what, and what must not be."""
+"""Number of trials, outcomes by kind, and failures."""
 
 CASE = b"""! a small case
 &contact
@@ -79,7 +79,7 @@ WORDS = (
     *(b"1e-12", b"4097", b"2147483647", b"'/dev/zero'"),
     *(b".true.", b"3*1.0", b"(1)", b"&grid", b"points", b"../../etc/passwd", b"%s%n", b"{}", b"#"),
 )
-# What may be solved in no time
+# Limits of what is solved quickly
 MOST_POINTS, MOST_STEPS = 65, 50
 
 
@@ -189,7 +189,7 @@ def _one(kind: str, folder: Path, label: str, command: Command) -> str:  # noqa:
 
 
 def _small(case: Path) -> bool:
-    """Whether the case can be read and is solved in no time."""
+    """Whether the case can be read and is solved quickly."""
     try:
         settings = Case(case).resolve()
     except EhlError:

@@ -4,7 +4,7 @@
 A contact follows from the seed and its number alone. Of each the smooth contact under its
 prediction is compared with a solution on the same grid, a prediction whose roughness vanishes with
 the same solution, and the prediction with a simulation of the rough contact. The numbers of every
-summary must belong together (`contradictions`).
+summary must be consistent (`contradictions`).
 """
 
 import argparse
@@ -33,7 +33,7 @@ LENGTH = 4.0
 NODES = 8
 """Of the shortest wave."""
 SAME = 1e-9
-"""Relative difference of numbers that are one number."""
+"""Largest relative difference of two values of one quantity."""
 ENDED = 1e-3
 """That of solutions whose cycles ended at another residual."""
 MIN_M, MAX_M = 100.0, 1000.0
@@ -138,7 +138,7 @@ def _known(values: Iterable[Any]) -> list[float]:
 
 
 def contradictions(result: Mapping[str, Any]) -> list[str]:
-    """Say which numbers of a summary do not belong together."""
+    """Describe which numbers of a summary contradict each other."""
     wrong = []
 
     def product(mu: str, smooth: str) -> None:

@@ -3,7 +3,7 @@
 
 Every setting is one run. Seconds are those of the processor; the unit, one scipy.fft deflection at
 the same grid, is measured before each run. The reference of the errors is extrapolated from the two
-finest grids by the narrow scheme; its error bar is what one grid more has changed it by.
+finest grids by the narrow scheme; its error bar is its change by one more grid.
 """
 
 import argparse
@@ -42,7 +42,7 @@ SETTINGS: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("classical", ("solver.coarsening=classical",)),
 )
 LEVELS = (0.03, 0.01, 0.003, 0.001)
-"""Errors that the cheapest setting is looked for."""
+"""Errors for which the cheapest setting is searched."""
 ORDER = 2
 """Of the discretisation, for Richardson extrapolation."""
 
@@ -84,7 +84,7 @@ def work_rows(
     `grids`: nodes per side, where not those of the problem; `full`: with the finest of these, too.
     Of the numbers of threads those after the first are for the default setting alone. Rows have
     `COLUMNS` and `unit_seconds`; `error` is relative to the reference, `bar` the error of that,
-    `estimate` what the run says of its own error.
+    `estimate` the error that the run states.
     """
     rows: list[Row] = []
     for problem in (problem for problem in PROBLEMS if problem.name in problems):

@@ -25,10 +25,10 @@ BEYOND = "beyond linear response"
 RESULTS = ("converged", "predicted", "target missed", BEYOND)
 # Flash temperature [K] above which an oil is thinner than computed, where its heat is left out
 HOT = 10.0
-# Contact radius and film over the radius of curvature from which the theory of small ones is named,
-# and mean strain over the former (Tabor 1951)
+# Contact radius and film over the radius of curvature above which a remark names the theory of
+# small ones, and mean strain over the former (Tabor 1951)
 SLENDER_CONTACT, SLENDER_FILM, MEAN_STRAIN = 0.1, 0.01, 0.2
-# Share of the flow that the boundary film may give (as fortran/reynolds/touching.f90)
+# Share of the flow that the boundary film may supply (as fortran/reynolds/touching.f90)
 MUCH_MASS_DEFECT = 0.1
 # Beginning of the reason why bodies touch because of the grid
 NO_INLET = "the grid does not resolve the inlet"
@@ -131,8 +131,8 @@ def _contact(s: Summary) -> list[str]:
     ]
     if _finite_above(supply, MUCH_MASS_DEFECT):
         result.append(
-            f"the boundary film would have to give {percent(supply)} of the flow, where the model "
-            "ends"
+            f"the boundary film would have to supply {percent(supply)} of the flow, where the model
+            " "ends"
         )
     return result
 
@@ -175,7 +175,7 @@ def _waves(s: Summary) -> list[str]:
         part, what = s.number("variance_unresolved"), "the variance of the surface"
     if not _finite_above(part, WELL_KNOWN):
         return []
-    return [f"unresolved waves: they hold {percent(part)} of {what}, give grid.points more nodes"]
+    return [f"unresolved waves: they hold {percent(part)} of {what}, use a larger grid.points"]
 
 
 def _starvation(s: Summary) -> str:
@@ -183,7 +183,7 @@ def _starvation(s: Summary) -> str:
     share = s.number("starvation")
     if not math.isfinite(share):
         return ""
-    text = f"; starved as the case has it: H_c is {percent(share)} of the flooded film by formula"
+    text = f"; starved as in the case: H_c is {percent(share)} of the flooded film by formula"
     if s.known("starvation_by_formula"):
         name = "Hamrock & Dowson IV" if s.known("inlet_position") else "Chevalier et al."
         if s.text("shape") == "line":

@@ -39,7 +39,7 @@ def conclude(values: Mapping[str, Any]) -> Conclusion:
     """Give the last lines of a solution or a prediction from its summary, and assess it.
 
     Films and pressure with their errors, in nm and GPa where the case has a size, friction, heat,
-    and how far all that can be relied on.
+    and how reliable they are.
     """
     s = Summary(values)
     result = assess(values)

@@ -35,5 +35,5 @@ def waves(longest: float, shortest: float) -> str:
 
 
 def _short(value: float) -> str:
-    """To a whole number, and small ones to two digits."""
+    """Round to a whole number, and small ones to two digits."""
     return f"{value:.0f}" if value >= 10.0 else f"{value:.2g}"

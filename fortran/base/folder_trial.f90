@@ -15,7 +15,7 @@ module ehl_folder_trial
 
 contains
 
-   !> Refuse a folder beside which, or in which, that one cannot be made
+   !> Refuse a folder if `fresh`, beside it or in it, cannot be made
    subroutine try_folder(folder, fresh, status)
       !> As the user wrote it
       character(len=*), intent(in) :: folder, fresh
@@ -26,9 +26,9 @@ contains
                        "long, or the disk is full"//newline//any_other)
    end subroutine try_folder
 
-   !> Refuse a folder that is not there and cannot be made: neither in what is there of its path, nor by the names that are missing
+   !> Refuse a missing folder that cannot be made: no permission in the existing part of its path, or names that are too long
    subroutine try_path(folder, path, more, status)
-      !> As the user wrote it; from the root; what is put behind its name for a while
+      !> As the user wrote it; absolute; suffix of its name while it is written
       character(len=*), intent(in) :: folder, path, more
       type(status_t), intent(inout) :: status
       character(len=:), allocatable :: above, why

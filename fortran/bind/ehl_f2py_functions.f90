@@ -76,7 +76,7 @@ contains
       call reply(status, stat, message)
    end subroutine begin_folder
 
-   !> That folder takes its place
+   !> Move that folder to its place
    subroutine finish_folder(folder, kind, names, inputs, kept, force, fresh, stat, message)
       character(len=*), intent(in) :: folder, kind, names, inputs, kept
       integer(c_int), intent(in) :: force

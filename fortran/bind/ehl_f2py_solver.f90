@@ -108,7 +108,7 @@ contains
       call reply(status, stat, message)
    end subroutine write_files
 
-   !> Go on from the newest state of the run with these results, before the first advance, which gives a note
+   !> Resume from the newest state of the run with these results, before the first advance; returns a note
    subroutine resume(handle, results, note, stat, message)
       integer(c_int), intent(in) :: handle
       character(len=*), intent(in) :: results

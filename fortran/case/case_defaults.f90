@@ -292,7 +292,7 @@ contains
       if (waits(s, other)) s%x_start = min(s%x_start, latest_start(s, other) - s%velocity_ratio*through)
    end subroutine late_start
 
-   !> Whether one is a feature on the move and the other one roughness on the move
+   !> Whether one is a moving feature and the other one moving roughness
    pure logical function waits(s, other)
       type(surface_case_t), intent(in) :: s, other
       waits = is_feature(s%kind) .and. .not. is_feature(other%kind) .and. .not. has_no_height(other) .and. &

@@ -2,8 +2,8 @@
 !> Flow factors (flow_factors.f90) of several nodes side by side, each by the cheapest sufficient formula: 1 where they differ
 !> from it by less than `negligible`, second order in the gradient where that is right to `tolerance`, else through the film.
 !>
-!> The mean stress of the latter begins with that of the former; Newton steps correct it, and the factors take what is left to
-!> first order, an error of its square. Where that is not small enough flow_factors.f90 iterates.
+!> The mean stress through the film begins with that of second order; Newton steps correct it, and the factors are corrected to
+!> first order for the remaining residual, with an error of its square. Where that is not small enough flow_factors.f90 iterates.
 module ehl_factor_rows
    use ehl_flow_factors, only: exact_factors, factors_t, half, min_gradient, upper, weight
    use ehl_kinds, only: dp

@@ -19,7 +19,7 @@ module ehl_thinning
    integer, parameter :: eyring = 1, carreau = 2
    !> Below this stress the Eyring law is summed as a series
    real(dp), parameter :: series_below = 0.5_dp
-   !> Steps of an iteration, and the error before the last one at which it ends: the last leaves its cube
+   !> Most steps of an iteration; error before the last step at which it ends, which leaves the cube of it
    integer, parameter :: max_steps = 50
    real(dp), parameter :: enough = 1.0e-4_dp
    !> Films side by side, at the most
@@ -172,7 +172,7 @@ contains
    end subroutine slide_carreau
 
    !> Relative error of factors of second order in the gradient S at the stress of the sliding alone, at the most, over
-   !> (S^2/(1 + stress^2))^2, Carreau, or S^4, Eyring; measured, and held by test/test_flow.f90
+   !> (S^2/(1 + stress^2))^2, Carreau, or S^4, Eyring; measured, and verified by test/test_flow.f90
    pure real(dp) function second_order_error(self) result(error)
       class(thinning_t), intent(in) :: self
       real(dp) :: m

@@ -33,7 +33,7 @@ module ehl_plan_heat
       type(film_heat_t) :: film
       !> Rise of temperature up to which the viscosity was measured [K]; huge: not known
       real(dp) :: measured_rise = huge(1.0_dp)
-      !> What a coefficient of friction is: with or without it, and why (ehl_reason); rise of temperature by estimate [K]
+      !> Whether a coefficient of friction includes it, and why (ehl_reason); rise of temperature by estimate [K]
       integer :: reason = reason_none
       real(dp) :: estimate = 0.0_dp
    end type heat_plan_t

@@ -36,7 +36,7 @@ module ehl_touching
 
 contains
 
-   !> Read off the present state of a level whose film and coefficients are up to date
+   !> Evaluate the present state of a level whose film and coefficients are up to date
    type(touching_t) function measure_touching(level) result(m)
       type(level_t), intent(in) :: level
       real(dp), dimension(level%grid%ny) :: load, area, given, flow, whole, hard, flowing, depth

@@ -9,8 +9,7 @@ module ehl_report_roller
    private
    public :: report_roller
 
-   !> Pressure at an end from which on it is one that increases with every finer grid: that of bodies that end under load is
-   !> infinite in theory
+   !> Pressure at an end [p_h] above which the end is under load: it is infinite in theory and increases with every finer grid
    real(dp), parameter :: end_pressure = 0.1_dp
 
 contains

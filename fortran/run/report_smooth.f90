@@ -23,7 +23,7 @@ module ehl_report_smooth
 
 contains
 
-   !> The smooth contact: results and errors, null unless they are good
+   !> The smooth contact: results and errors, null unless they are valid
    subroutine report_smooth(record, plan, smooth, n, good)
       type(record_t), intent(inout) :: record
       type(plan_t), intent(in) :: plan

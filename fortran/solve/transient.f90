@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The contact with a rough surface on the move (docs/theory/time-steps.md, docs/theory/transient.md)
+!> The contact with a moving rough surface (docs/theory/time-steps.md, docs/theory/transient.md)
 module ehl_transient
    use ehl_clock, only: clock_t, start_clock
    use ehl_contact_results, only: contact_results_t

@@ -28,7 +28,7 @@ module ehl_surface
       real(dp) :: period = 0.0_dp
       !> Length over which the front fades [a]
       real(dp) :: front_length = 0.0_dp
-      !> Whether it passes the contact once; `period` is then its way from where it matters until it has left
+      !> Whether it passes the contact once; `period` is then the distance from where it matters until it has left
       logical :: passes_once = .false.
       !> Whether RR(X, -Y) = RR(X, Y), to the bit: half the domain is enough
       logical :: even_in_y = .true.

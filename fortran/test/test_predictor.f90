@@ -15,11 +15,11 @@ module test_predictor
 contains
 
    subroutine run_predictor()
-      call predictor_of_what_stands_and_what_moves()
+      call predictor_of_stationary_and_moving_patterns()
    end subroutine run_predictor
 
-   !> Where nothing flows, a pattern that moves is carried along and one that stands goes on as it does, to second order
-   subroutine predictor_of_what_stands_and_what_moves()
+   !> Where nothing flows, a moving pattern is convected and a stationary one extrapolated in time, to second order
+   subroutine predictor_of_stationary_and_moving_patterns()
       type(predictor_t) :: predictor
       type(level_t) :: level
       type(status_t) :: status
@@ -47,7 +47,7 @@ contains
          call predictor%learn(p(:, :, 1:-1:-1), level)
          call predictor%predict(p(:, :, 2:0:-1), level)
          call is_close(maxval(abs(level%p(6:31, :) - p(6:31, :, 3))), 0.0_dp, 1.0e-12_dp, &
-                       merge("pattern that moves ", "pattern that stands", moves))
+                       merge("moving pattern    ", "stationary pattern", moves))
       end do
       ! where the lubricant flows, a smooth error of 0.04 weighs less than a ripple of 0.005, elsewhere more
       do i = 1, 33
@@ -62,5 +62,5 @@ contains
       call predictor%learn(p(:, :, 1:-1:-1), level)
       call is_true(maxval(predictor%weights(6:29, :, 1)) < 0.05_dp, "a ripple in a flow is wrong")
       call is_true(.not. status%failed(), "predictor")
-   end subroutine predictor_of_what_stands_and_what_moves
+   end subroutine predictor_of_stationary_and_moving_patterns
 end module test_predictor

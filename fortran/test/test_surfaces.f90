@@ -146,7 +146,7 @@ contains
       call is_true(over%pass_once() .and. over%period >= once, "no shorter over roughness")
       call is_close(modulo(over%period/(0.7_dp/1.2_dp) + 0.5_dp, 1.0_dp), 0.5_dp, 1.0e-12_dp, "whole periods of it")
       call is_true(over%period - once < 0.7_dp/1.2_dp, "and no more than it takes")
-      call is_close(over%time_to_mean(0.0_dp), alone%time_to_mean(0.0_dp), 0.0_dp, "the dent rules the mean")
+      call is_close(over%time_to_mean(0.0_dp), alone%time_to_mean(0.0_dp), 0.0_dp, "the dent determines the mean")
       call add_dent(two, 0.8_dp, -3.0_dp)
       call add_dent(two, 1.2_dp, -3.0_dp)
       call two%find_period(36)

@@ -55,7 +55,7 @@ contains
       step_tolerance = 8.0e-4_dp*accuracy*(128.0_dp*mesh)
    end function step_tolerance
 
-   !> For a run
+   !> Set up for a run
    pure subroutine set(self, mesh, accuracy, friction_smooth, friction_error)
       class(step_accuracy_t), intent(inout) :: self
       !> Mesh size; allowed algebraic error as a share of the grid error

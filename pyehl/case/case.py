@@ -48,8 +48,8 @@ class Case:
     Parameters
     ----------
     case
-        Path of a case file, or another case; without it the case of all defaults. Text of a case
-        has `from_text`.
+        Path of a case file, or another case; without it the case of all defaults. For the text of a
+        case see `from_text`.
     *options
         Values that replace those of `case`.
     **groups

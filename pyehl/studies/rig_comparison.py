@@ -25,7 +25,7 @@ ABSOLUTE = {TEMPERATURE: 2.0, SLIP: 0.01}
 
 @dataclass(frozen=True, slots=True)
 class Compared:
-    """A measured quantity with the deviations of a study, and steps that it is not about."""
+    """A measured quantity with the deviations of a study, and steps that are left out."""
 
     curve: Curve
     parts: list[Deviation]
@@ -76,7 +76,7 @@ def steps_of(
     rig
         Its file.
     vary
-        Keys that the study goes over.
+        Keys that the study varies.
     here
         Value of a key of the case.
 

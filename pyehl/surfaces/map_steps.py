@@ -2,11 +2,11 @@
 """Steps of a preparation that need nothing but the map: cut, turn, level, fill, join its edges.
 
 A tile is repeated over and over. Where opposite edges of a map do not match, the heights jump, a
-step of infinite slope that the surface does not have, and that breaks the film.
+step of infinite slope that the surface does not have, and at which the film breaks down.
 
 Missing points are filled by the smoothest surface that meets their edges. Spikes stand out of their
 neighbourhood: optical instruments give single pixels or small groups of them that lie micrometres
-off, at steep slopes and specks of dirt, and one of them ends a film.
+off, at steep slopes and specks of dirt, and one of them is enough for film breakdown.
 """
 
 from __future__ import annotations
@@ -163,7 +163,7 @@ def align_lines(heights: Array, along: str) -> None:
 
 
 def level(heights: Array, what: str, valid: Mask | None = None) -> None:
-    """Take the mean (`centre`), plane (`tilt`) or `curvature` off a map in place.
+    """Remove the mean (`centre`), plane (`tilt`) or `curvature` of a map in place.
 
     A least-squares polynomial over the points that count (`valid`; default: all that are numbers);
     missing points stay missing. InputError if too few points are left to determine the polynomial.

@@ -21,7 +21,7 @@ class LoadShare:
     """The empirical law with its constants.
 
     The constants of Aihara are a fit to the partial elastohydrodynamic contacts of Patir & Cheng:
-    below 0.4 GPa, roughness rather along the motion; above Lambda = 2 the film carries nearly all
+    below 0.4 GPa, roughness mostly along the motion; above Lambda = 2 the film carries nearly all
     of the load. InputError for a number out of range.
     """
 

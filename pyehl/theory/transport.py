@@ -5,7 +5,7 @@ Roughness A Re exp(i(k(X - U T) + k_Y Y)), U its velocity over the mean velocity
 A Re T exp(i(...)) and raises the pressure by A Re Pi exp(i(...)). All lengths along the surface are
 scaled by the Hertz radius a, films by a^2/R, pressures by p_h, times by a/u; k > 0.
 
-The half-space makes Pi = K (1 - T) + i K k/|q|^2 T', K = (pi/4)|q|, |q| = hypot(k, k_Y): to first
+The half-space gives Pi = K (1 - T) + i K k/|q|^2 T', K = (pi/4)|q|, |q| = hypot(k, k_Y): to first
 order the stiffness of a wave whose amplitude changes along the motion (`wave_pressure`: of the
 wavenumber k U that it then has). In an elliptical contact K is `Zone.stiffness` times as much.
 The mass that the film wave holds is mu = rho (T - c H Pi), c = d ln rho/dP, and with eps = rho
@@ -16,9 +16,9 @@ H^3/(eta lambda), delta ln eps = g = (c - d ln eta/dP) Pi - 3 T/H the Reynolds e
 
 primes are d/dX; g (rho H)', what the smooth film gains or loses, is left out. The coefficients
 change slowly, so that mu' = a mu + b with a = mu'/mu where no roughness drives. For stiff
-lubricants eps vanishes: mu is made in the inlet and then convected at the mean velocity, a wave of
-wavenumber kU (Greenwood & Morales-Espejel 1994; Hooke 1999 to 2007), beside C/(1 + C), C = K H c,
-which compressibility leaves with the roughness. eps |q|^2 Pi, the leak by viscous flow
+lubricants eps vanishes: mu arises in the inlet and is then convected at the mean velocity, a wave
+of wavenumber kU (Greenwood & Morales-Espejel 1994; Hooke 1999 to 2007), beside C/(1 + C), C = K H
+c, which compressibility leaves with the roughness. eps |q|^2 Pi, the leak by viscous flow
 (Morales-Espejel & Brizmer 2011), matters for short waves and low pressures; the terms behind it,
 what the flow of the smooth contact does to the wave, where it leaks a lot. In the inlet, where eps
 falls by orders of magnitude, the coefficients change slowly for short waves only: `upstream`.
@@ -311,11 +311,12 @@ def line_pressure(
 ) -> Complex:
     """Pressure on LINES of waves of film whose amplitude changes across the motion.
 
-    Of a half-space under a circle, for amplitudes (lines, ...) of free waves that roughness
-    (kx, ky) [1/a] makes. The sides of a narrow contact flatten a wave as long as it is wide more
-    than the middle does. Where the amplitude is a sum of waves across the motion, so is the film,
-    and each has its own stiffness. Beyond the contact it falls to zero; what is there is no film:
-    the edge takes it off (:class:`pyehl.prediction.moving_tile.Edge`). No constant in it is fitted.
+    Of a half-space under a circle, for amplitudes (lines, ...) of free waves that roughness (kx,
+    ky) [1/a] makes. The sides of a narrow contact flatten a wave as long as it is wide more than
+    the middle does. Where the amplitude is a sum of waves across the motion, so is the film, and
+    each has its own stiffness. Beyond the contact it falls to zero; the values there are not those
+    of a film, and are removed by :class:`pyehl.prediction.moving_tile.Edge`. No constant in it is
+    fitted.
     """
     here = free_stiffness(kx, ky, velocity_ratio)
     result = here * amplitudes

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs of the program that several tests look at: each is made once."""
+"""Runs of the program that several tests use: each is made once."""
 
 import csv
 import json

@@ -333,7 +333,7 @@ def test_a_layer_that_would_have_to_give_much(solve):
     done = solve(None, 65, STEEL | MIXED | {"lubricant.boundary_film": 8e-8}, words=True)
     assert done.converged
     assert done["mass_defect"] > 0.1
-    assert "the boundary film would have to give" in done["assessment"]
+    assert "the boundary film would have to supply" in done["assessment"]
     assert "where the model ends" in done["assessment"]
 
 

@@ -228,7 +228,7 @@ def test_the_stated_error_of_time_steps_covers(name):
 
 
 @pytest.mark.parametrize("name", DUTIES)
-def test_the_error_asked_for_is_held(name):
+def test_the_required_error_is_held(name):
     """Against steps of a sixteenth."""
     time, duty = DUTIES[name]
     if len(time) > 8:
@@ -266,7 +266,7 @@ def test_steps_are_longer_where_the_error_allows():
 
 
 def test_an_error_of_the_steps_is_held():
-    """A step in load in a fortieth of a transit asks for shorter steps; the film is the same."""
+    """A step in load in a fortieth of a transit requires shorter steps; the film is the same."""
     duty = {"load": [1.0, 1.0, 1.3, 1.3]}
     time = [0.0, 0.5, 0.55, 2.0]
     usual = run(time, **duty)
@@ -510,7 +510,7 @@ def test_a_roller_takes_an_error_of_its_steps():
         assert next(stated) < 0.6 * next(stated), name
 
 
-def test_a_step_without_a_film_is_told_a_finer_grid():
+def test_a_step_without_a_film_proposes_a_finer_grid():
     """Not a smoother surface, where both are smooth."""
     contact = ROLLER["contact"] | {"load": 600.0, "mean_velocity": 0.5, "crown_radius": 0.3}
     unit = 1e-4

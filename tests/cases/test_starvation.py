@@ -94,7 +94,7 @@ def test_position_is_the_border_and_no_error():
     summary = {name: value.item() for name, value in meant.data_vars.items() if value.ndim == 0}
     result = assess({"status": "converged", **summary})
     assert result.confidence == HOLDS
-    assert "starved as the case has it" in result.text
+    assert "starved as in the case" in result.text
 
 
 def test_passages():

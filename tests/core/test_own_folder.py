@@ -34,7 +34,7 @@ def dead_process() -> int:
 
 @DRIVERS
 def test_second_run_is_refused(drive, drivers, case: Path, driver: str):
-    """It would take the states of the first away."""
+    """It would remove the states of the first."""
     words = [*drivers["ehl"], "case.nml", "-o", "out", "-q", "--set", "grid.points=257"]
     lock = case.parent / "out.lock"
     with subprocess.Popen(words, cwd=case.parent) as first:

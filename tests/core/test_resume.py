@@ -78,7 +78,7 @@ def stop_after_steps(drive, tmp_path: Path, driver: str, steps: int, *words: str
 
 @pytest.fixture(scope="module")
 def unbroken(drivers, tmp_path_factory) -> dict[str, Path]:
-    """Results of runs that was not disturbed, by case text."""
+    """Results of undisturbed runs, by case text."""
     made = {}
     for name, text, driver in (
         ("wave", WAVE.format(points=65, extra=""), "ehl"),
@@ -112,7 +112,7 @@ def unbroken(drivers, tmp_path_factory) -> dict[str, Path]:
         ),
     ],
 )
-def test_only_what_could_end_otherwise_is_offered(
+def test_resumption_is_proposed_only_if_it_may_end_otherwise(
     drive, tmp_path: Path, driver: str, extra: str, options: str, assessment: str, states: str
 ):
     (tmp_path / "case.nml").write_text(WAVE.format(points=65, extra=f"wavelength = 1.0 {extra}"))
@@ -241,7 +241,7 @@ def test_frames_are_written_once(drive, unbroken, tmp_path: Path):
 
 
 @pytest.mark.parametrize("driver", ["ehl", "pyehl"])
-def test_what_cannot_be_resumed_is_said(drive, tmp_path: Path, driver: str):
+def test_what_cannot_be_resumed_is_reported(drive, tmp_path: Path, driver: str):
     def refused(*words: str) -> str:
         before = sorted(tmp_path.rglob("*"))
         done = drive(driver, "--resume", *words)
@@ -286,7 +286,7 @@ def test_changed_surface_is_noticed(drive, tmp_path: Path):
     assert "does not follow" in done.stderr
 
 
-def test_new_run_sets_an_earlier_state_aside(drive, tmp_path: Path):
+def test_new_run_backs_up_an_earlier_state(drive, tmp_path: Path):
     (tmp_path / "case.nml").write_text(WAVE.format(points=33, extra="amplitude = 0.001"))
     stop_after_steps(drive, tmp_path, "ehl", 3)
     state = max((tmp_path / "out.checkpoint").glob("checkpoint.?")).read_bytes()
@@ -296,7 +296,7 @@ def test_new_run_sets_an_earlier_state_aside(drive, tmp_path: Path):
     assert state in [path.read_bytes() for path in previous.iterdir()]
 
 
-def test_no_states_when_none_are_wanted(drive, tmp_path: Path):
+def test_no_states_without_checkpoints(drive, tmp_path: Path):
     (tmp_path / "case.nml").write_text(WAVE.format(points=33, extra="amplitude = 0.001"))
     for driver in ("ehl", "pyehl"):
         words = ["--set", "output.checkpoint_interval=0", "--set", "time.steps=3"]

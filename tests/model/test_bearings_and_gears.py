@@ -183,7 +183,7 @@ def test_elements_at_the_edge_of_the_load_zone():
     w = light["load_N"] / light["length_m"]
     film = 4.9 * 0.3 * light["mean_velocity_m_per_s"] * light["radius_m"] / w
     assert (light["h_min_m"] / film).between(1.0, 1.5).all()
-    # a load that is none on every element is a slip of units
+    # a negligible load on every element is a mistake of units
     with pytest.raises(pyehl.InputError, match="Moes parameter M"):
         bearing(ROLLERS, oil, {"roller_bearing.radial_load": 0.1})
 

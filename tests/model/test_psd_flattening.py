@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a loaded contact makes of a wave: stiffness and amplitude reduction."""
+"""Effect of a loaded contact on a wave: stiffness and amplitude reduction."""
 
 import math
 
@@ -78,7 +78,7 @@ def test_stiffness_by_convolution():
     w -= w.mean()
     fitted = np.sum(p * p) / np.sum(p * w)
     exact = half_space(math.hypot(k, k))
-    # the images beyond the sum leave a smooth kernel that a wave hardly feels
+    # the images beyond the sum leave a smooth kernel that hardly affects a wave
     assert fitted == pytest.approx(exact, rel=5e-3)
     assert w == pytest.approx(p / exact, abs=5e-3 / exact)
 

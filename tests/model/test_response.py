@@ -57,7 +57,7 @@ def test_ridges_along_the_motion_do_not_move(ratio: float):
     none = np.zeros_like(qy)
     t = response(zone(), none, qy, ratio)
     assert np.abs(t.imag).max() < 1e-14
-    # nor do they know how fast the surface is
+    # and are independent of the velocity of the surface
     assert t == pytest.approx(response(zone(), none, qy, 1.0), abs=1e-12)
 
 
@@ -139,7 +139,7 @@ def test_flow_of_the_contact_turns_a_leaking_wave():
         contact = Zone(x, rising * x, 0.03 * same, same, *held)
         turned.append(np.array(transport(contact, qx, 0.0 * qx, 1.0, STATIONS))[:, :, 0].sum(1))
     uniform_film, thinning = turned
-    # both parts together are the roughness itself where nothing pushes
+    # both parts together are the roughness itself where there is no pressure
     assert uniform_film == pytest.approx(1.0, abs=1e-9)
     assert np.abs(thinning - 1.0).min() > 0.01
 

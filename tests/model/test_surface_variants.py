@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Files of instruments that are right and not plain, and headers that lie: the reason is shown."""
+"""Valid files of instruments in unusual forms, and wrong headers: the reason is reported."""
 
 import io
 import re
