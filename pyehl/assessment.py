@@ -131,8 +131,8 @@ def _contact(s: Summary) -> list[str]:
     ]
     if _finite_above(supply, MUCH_MASS_DEFECT):
         result.append(
-            f"the boundary film would have to supply {percent(supply)} of the flow, where the model
-            " "ends"
+            f"the boundary film would have to supply {percent(supply)} of the flow, where the "
+            "model ends"
         )
     return result
 

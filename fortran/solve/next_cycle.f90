@@ -71,7 +71,7 @@ contains
       if (self%damped .or. self%guard%damping > 0) return
       if (self%options%second_cycle%full .eqv. self%options%cycle%full) return
       if (.not. has_coarser(self%results, self%n) .or. self%cycles /= 1) return
-      if (any(wanted(self%options, self%results, self%n, self%m) < light_error*self%m%films())) return
+      if (any(allowed_errors(self%options, self%results, self%n, self%m) < light_error*self%m%films())) return
       options = self%options%second_cycle
       first = self%n == 2
       if (.not. first) first = .not. self%results(self%n - 2)%solved

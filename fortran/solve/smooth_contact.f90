@@ -11,7 +11,7 @@ module ehl_smooth_contact
    use ehl_iteration, only: iteration_t, reduction
    use ehl_kinds, only: dp
    use ehl_level_result, only: level_result_t
-   use ehl_level_tolerance, only: accurate, has_coarser, has_target, is_end, residual_tolerance, wanted
+   use ehl_level_tolerance, only: accurate, has_coarser, has_target, is_end, residual_tolerance, allowed_errors
    use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_running, outcome_target_missed
    use ehl_level, only: level_t
    use ehl_meniscus, only: meniscus_t

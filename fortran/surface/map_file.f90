@@ -35,7 +35,7 @@ contains
       end if
    end subroutine read_map
 
-   !> Refuse a map that would not fit. It needs memory for the heights and their spectrum; FFTW aborts the program when its own allocations fail.
+   !> Refuse a map that would not fit. It needs memory for the heights and their spectrum; FFTW aborts without it.
    subroutine check_heights(what, n, status)
       !> What needs the memory
       character(len=*), intent(in) :: what

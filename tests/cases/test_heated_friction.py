@@ -109,7 +109,7 @@ def test_fields(solve):
 
 
 def test_elliptical_contact(solve):
-    """The rows are computed independently of the shape: a contact wide across the motion and one along it."""
+    """Contacts that are wide across the motion and along it: rows are computed alone."""
     wide = {"contact.radius_x": 0.01, "contact.radius_y": 0.04}
     long = {"contact.radius_x": 0.04, "contact.radius_y": 0.01}
     keys = {key: value for key, value in FAST.items() if key not in ("contact.radius",)}
