@@ -58,7 +58,7 @@ spf | film_scale_m | m | a^2/R
 spf | radius_ratio | - | R_x/R_y of an elliptical contact
 spfr | ellipticity | - | semi-axis of the dry contact across the motion over that along it
 spf | semi_axis_y_m | m | semi-axis of the dry contact across the motion
-sf | angle_deg | deg | by which an elliptical contact is turned counter-clockwise against the motion
+sf | angle_deg | deg | counter-clockwise angle of an elliptical contact from the direction of motion
 pf | si | | whether the case was given in SI units
 f | load_N | N | load w
 f | load_per_length_N_per_m | N/m | load w of a line, per length
@@ -88,27 +88,27 @@ s | H_c_error | a^2/R | estimate of the error of H_c: grid and domain
 s | H_c_error_note | | reason if it is not known
 s | H_c_error_grid | a^2/R | part of it due to the grid and the algebraic error
 s | H_c_error_domain | a^2/R | part of it due to the finite domain, also in H_c_extrapolated
-s | H_c_algebraic_error | a^2/R | part of the error that more cycles would take away
+s | H_c_algebraic_error | a^2/R | part of the error that more cycles would remove
 s | H_min | a^2/R | minimum film
 s | H_min_extrapolated | a^2/R | minimum film extrapolated to fine grids
 s | H_min_error | a^2/R | estimate of the error of H_min
 s | H_min_error_note | | reason if it is not known
 s | H_min_error_grid | a^2/R | part of it due to the grid
 s | H_min_error_domain | a^2/R | part of it due to the finite domain
-s | H_min_algebraic_error | a^2/R | part of the error that more cycles would take away
+s | H_min_algebraic_error | a^2/R | part of the error that more cycles would remove
 s | error_estimate | | where the estimates are from: 'coarser grids' or 'a priori'
 s | P_max | p_h | maximum pressure
-s | P_max_error | p_h | estimate of its error, by three grids
+s | P_max_error | p_h | estimate of its error, from three grids
 s | P_max_error_note | | reason if there is none
 s | P_max_X | a | place of the maximum pressure of a roller
 s | P_max_Y | a | its position
 s | H_min_X | a | place of the minimum film thickness of a roller
 s | H_min_Y | a | its position
-s | P_end | p_h | maximum pressure in the last cells of a roller; above 0.1 H_min has no error
+s | P_end | p_h | maximum pressure in the last cells of a roller; if above 0.1, H_min has no error
 s | cell_at_end | a | length of the last cell of a roller
 s | length | a | length of a roller
 s | F | - | friction integral
-s | F_error | - | estimate of its error, by three grids
+s | F_error | - | estimate of its error, from three grids
 s | F_error_note | | reason if there is none
 s | last_H_c | a^2/R | central film at the end of a run without a solution
 s | last_H_min | a^2/R | minimum film at the end of a run without a solution
@@ -158,7 +158,7 @@ s | H_ratio_min_T | a/u | its time
 s | H_ratio_min_X | a | its position
 s | H_ratio_min_Y | a | its position
 s | rough_cycles | - | cycles of a rough surface at rest
-s | rough_parts | - | parts in which its roughness was raised
+s | rough_parts | - | parts in which its roughness was increased
 s | rough_residual | - | its residual at the end
 s | x_start | a | origin of a rough surface at rest
 s | second_x_start | a | that of the second surface
@@ -168,8 +168,8 @@ sp | mu_ratio_max | - | its maximum
 s | mu_ratio_extrapolated | - | mu_ratio extrapolated to fine grids, where both resolve the surface
 s | mu_ratio_error | - | error of mu_ratio: the sum of its parts; null if one is not known
 sp | mu_ratio_error_note | | reason if the error is not known
-s | mu_ratio_error_grid | - | part of the error from the grid, by two grids
-s | mu_ratio_error_stop | - | part of the error from the end of the run
+s | mu_ratio_error_grid | - | part of the error due to the grid, from two grids
+s | mu_ratio_error_stop | - | part of the error due to the end of the run
 s | mu_ratio_error_window | - | part of it if two surfaces have no common period
 s | mu_ratio_error_domain | - | part of it due to the finite domain
 s | mu_ratio_error_left_out | - | part of the error from waves that are left out, predicted
@@ -181,8 +181,8 @@ p | mu_ratio_tracks_spread | - | standard deviation between the tracks
 f | mu_ratio_eq_16 | - | mu_ratio by eq. 16 of Zhang et al. 2019
 f | theta_2 | - | theta_2 of that equation
 f | theta_2_outside | | quantities outside its range
-sp | mu | - | coefficient of friction of the rough contact, with heat where it counts
-sp | mu_smooth | - | coefficient of friction of the smooth contact, with heat where it counts
+sp | mu | - | coefficient of friction of the rough contact, with heat where it matters
+sp | mu_smooth | - | coefficient of friction of the smooth contact, with heat where it matters
 sp | mu_isothermal | - | mu without heat
 sp | mu_smooth_isothermal | - | mu_smooth without heat
 sp | temperature_rise_max_K | K | maximum temperature rise, mean across the film; rough: at the end

@@ -69,7 +69,7 @@ class Contact:
         0.0,
         "deg",
         "[-90, 90]",
-        "angle by which an elliptical contact is turned counter-clockwise against the motion",
+        "angle by which an elliptical contact is turned counter-clockwise from the motion",
     )
     slide_to_roll: float = real(
         0.02,
@@ -205,14 +205,14 @@ class Grid:
     points: int = whole(
         513,
         "[17, 4097]",
-        "nodes along X, odd; points - 1 halved stays even to 32; default 1025 if 513 misses 5 % "
+        "nodes along X; points - 1 halved stays even down to 32; default 1025 if 513 misses 5 % "
         "of H_c",
     )
     points_y: int = whole(
         0,
         "0 or [9, 40961]",
-        "nodes along Y, halved as often; default points in a round contact, else by the shape of "
-        "the cells",
+        "nodes along Y, which can be halved as often; default points in a round contact, "
+        "else by the shape of the cells",
     )
     x_inlet: float = real(-2.5, "a", "[-1e4, -1.05]", "inlet boundary X; default by M and L")
     x_outlet: float = real(1.5, "a", "[1.05, 1e4]", "outlet boundary X; default by M and L")

@@ -33,7 +33,7 @@ class Lubricant:
         0.0,
         "-",
         "[0, 1e4]",
-        "Roelands exponent, there 1e-3 to 2; default alpha p0/(ln eta0 + 9.67)",
+        "Roelands exponent, with that law 1e-3 to 2; default alpha p0/(ln eta0 + 9.67)",
     )
     roelands_p0: float = real(1.96e8, "Pa", "[1e7, 1e10]", "Roelands reference pressure")
     vogel_viscosity: float = real(

@@ -66,7 +66,7 @@ def test_tutorial(states, cases: Path):
         "docs/tutorial.md",
         say.format(*values),
         f"The roughness adds {percent(100.0 * (ground['mu_ratio'] - 1.0))} to the friction",
-        f"leaves a film of {1e9 * ground['h_min_rough_m']:.0f} nm over it",
+        f"minimum film over it is {1e9 * ground['h_min_rough_m']:.0f} nm",
         f"at Λ = {ground['lambda_ratio']:.2f} a real surface",
         f"which still leaves Λ = {low * honed['lambda_ratio']:.1f}.",
     )

@@ -33,7 +33,7 @@ def test_numbers_of_the_howto_are_of_the_record(
         (row,) = (row for row in rows if row["quantity"] == name)
         low, high = re.findall(r"\d\.\d+", row["reason"].split("fit")[1])
         assert f"{float(row['pyehl']):.3f} (" in item
-        assert f"{low} to {high}) for {row['paper']}" in item
+        assert f"{low} to {high}) compared with {row['paper']}" in item
     (result,) = (f["text"] for f in made["read"]("findings.csv") if f["title"].startswith("Below"))
     above, below = re.findall(r"scatter by ([\d.]+) %", result)
     assert f"{above} % of scatter" in item
