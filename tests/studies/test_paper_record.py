@@ -36,7 +36,7 @@ def test_numbers_of_the_howto_are_of_the_record(
         assert f"{low} to {high}) compared with {row['paper']}" in item
     (result,) = (f["text"] for f in made["read"]("findings.csv") if f["title"].startswith("Below"))
     above, below = re.findall(r"scatter by ([\d.]+) %", result)
-    assert f"{above} % of scatter" in item
+    assert f"scatter of {above} %" in item
     assert f"scatter by {below} %" in item
 
 
