@@ -86,7 +86,7 @@ def notes_of(table: pd.DataFrame, summary: Mapping[str, Any]) -> list[str]:
         result.append("steel      yields: the static limit of bearings is 4.2 GPa (ISO 76)")
     if summary.get("lambda_ratio_min", math.inf) < 1.0 and "h_min_rough_m" not in table:
         result.append(
-            "solids     minimum Lambda below 1: the surfaces touch, which no friction here has"
+            "solids     minimum Lambda below 1: the surfaces touch; solid friction is not included"
         )
     return [*result, f"left out   {summary['left_out']}"]
 

@@ -53,7 +53,7 @@ def second_invariant(s: Array) -> Array:
 
 
 def von_mises(stress: Array) -> Array:
-    """Equivalent stress of von Mises, sqrt(3 J2) [Pa]."""
+    """Von Mises stress, sqrt(3 J2) [Pa]."""
     return np.asarray(np.sqrt(3.0 * second_invariant(deviator(stress))))
 
 
@@ -63,7 +63,7 @@ def octahedral_shear(stress: Array) -> Array:
 
 
 def principal_shear(stress: Array) -> Array:
-    """Largest shear stress, half the difference of the outer principal stresses [Pa]."""
+    """Half the difference between the largest and the smallest principal stress [Pa]."""
     return shear_and_mises(stress)[0]
 
 

@@ -342,7 +342,7 @@ def _dataset(loads: Loads, result: Profile) -> xr.Dataset:
         mises = np.array([row.mises.value for row in rows])
         tension = np.array([row.tension for row in rows])
         add(f"principal_shear{end}", ("Z",), shear, f"largest principal shear stress{of}")
-        add(f"von_mises{end}", ("Z",), mises, f"largest stress of von Mises{of}")
+        add(f"von_mises{end}", ("Z",), mises, f"largest von Mises stress{of}")
         octahedral = math.sqrt(2.0) / 3.0 * mises
         add(f"octahedral_shear{end}", ("Z",), octahedral, f"largest octahedral shear stress{of}")
         add(f"hydrostatic{end}", ("Z",), tension, f"largest hydrostatic stress{of}")

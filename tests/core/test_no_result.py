@@ -101,8 +101,8 @@ def test_film_breakdown_of_a_feature_in_metres():
             ["time.estimate_error=.false."],
             30,
             "interrupted",
-            "stopped from outside in the time step to T = 2.3750 on 65 x 65 nodes; --resume goes "
-            "on from there",
+            "stopped from outside in the time step to T = 2.3750 on 65 x 65 nodes; --resume "
+            "continues from there",
         ),
     ],
 )
