@@ -9,7 +9,7 @@
 !>    correction    P <- P + interpolated (P - bar P) of the coarse level        p_change, h_change
 !>
 !> The right-hand sides of the first two are those of the coarse level while it is solved; the fine level's are left as they are.
-!> Grids may be coarser along X, along Y or along both. Without a boundary film what concerns touching nodes changes nothing.
+!> Grids may be coarser along X, along Y or along both. Without a boundary film the procedures of touching nodes do nothing.
 module ehl_coarse_problem
    use ehl_alcouffe, only: transfer_t
    use ehl_flow, only: dir_x
@@ -33,7 +33,7 @@ module ehl_coarse_problem
    !> Second difference along X of the logarithm of the conductance at which half of a change is left at a spike: of 1, 3 and 10
    !> contacts with L from 17 to 27 take the fewest cycles with 1 and 3
    real(dp), parameter :: sharp = 3.0_dp
-   !> Maximum pressure that a coarse grid may find for a roller, over that which it began from
+   !> Maximum pressure of a coarse grid of a roller, over the pressure from which it began
    real(dp), parameter :: wild = 1.5_dp
 
 contains

@@ -29,7 +29,7 @@ module ehl_cycle
       logical :: full = .false.
       !> Sweeps before and after the coarse-grid correction
       integer :: pre = 2, post = 1
-      !> Residual (rms) of the finest level that needs no more of the sweeps after the correction
+      !> Residual (rms) of the finest level below which further sweeps after the correction are not needed
       real(dp) :: enough = 0.0_dp
       !> Largest change of the logarithm of a node's conductance in a sweep, for time steps and damped cycles
       real(dp) :: max_log_change = usual_log_change

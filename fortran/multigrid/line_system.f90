@@ -123,8 +123,8 @@ contains
       end do
    end subroutine gather
 
-   !> Where the inlet is short of oil (supply.f90): residuals with what is transported, and no flow back to nodes that pass it
-   !> on. The wedge term's factors stay as they are, for there the Poiseuille term is much larger.
+   !> Starved inlet (supply.f90): residuals with the transported oil, and no flow back to nodes that pass on all oil. The wedge
+   !> term's factors do not change, because the Poiseuille term is much larger there.
    pure subroutine carry(level, rows, last, g)
       type(level_t), intent(in) :: level
       integer, intent(in) :: rows(line_width)

@@ -41,7 +41,7 @@ contains
       type(workspace_t), intent(inout) :: space
       !> Largest change of the logarithm of a node's conductance; for time steps, or where it is below `usual_log_change`
       real(dp), intent(in) :: max_log_change
-      !> Share of the changes that is made
+      !> Relaxation factor of all changes
       real(dp), intent(in) :: relaxation_factor
       integer :: colour, block, blocks, first, last, start, me
 

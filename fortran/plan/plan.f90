@@ -30,14 +30,14 @@ module ehl_plan
    private
    public :: plan_t, make_plan
 
-   !> Most time steps until the friction of a rough surface can be known, and where their number is asked for
+   !> Largest number of time steps to the friction of a rough surface: by default, and where the case gives it
    integer, parameter :: max_steps = 100000, max_steps_asked_for = 1000000000
 
-   !> Extent of the dry contact across the motion over that along it from which on it does so on any grid: cycles go to and
-   !> fro between two states there
+   !> Extent of the dry contact across the motion over that along it from which on a restart is allowed on any grid: cycles
+   !> may alternate between two states there
    real(dp), parameter :: wide = 2.0_dp
-   !> What makes coarse grids leave a spike to the sweeps: an extent across the motion over that along it from which on the
-   !> trailing edge moves from column to column in a few rows
+   !> Extent across the motion over that along it from which on coarse grids leave a sharp spike to the sweeps: the trailing
+   !> edge moves from column to column within a few rows
    real(dp), parameter :: oblique = 4.0_dp
 
    !> Plan of the smooth contact, and of everything after it
@@ -221,13 +221,13 @@ contains
 
       call self%surfaces%see(grid)
       if (.not. self%coarse_run) return
-      ! nothing would be left of a surface on the next coarser grid
+      ! the next coarser grid would resolve nothing of a surface
       self%coarse_run = self%surfaces%max_unresolved(grid%coarser(), aliased_below) < 1.0_dp
       self%extrapolates = self%coarse_run .and. .not. self%surfaces%pass_once() .and. &
                           self%surfaces%max_unresolved(grid%coarser(), resolved_from) <= unresolved_most
    end subroutine update_resolved_fraction
 
-   !> Refuse a surface so slow that the friction cannot be known within a sensible number of steps
+   !> Refuse a surface so slow that its friction would need too many steps
    subroutine check_steps(plan, status)
       type(plan_t), intent(in) :: plan
       type(status_t), intent(inout) :: status

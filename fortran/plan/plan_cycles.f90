@@ -6,7 +6,7 @@ submodule (ehl_plan) ehl_plan_cycles
    use ehl_step_policy, only: damped_sweep, whole_correction
    implicit none (type, external)
 
-   !> Extent from which on all steps under a duty take their changes in parts: 7 cycles a step in place of 80
+   !> Extent from which on all steps under a duty are damped: 7 cycles a step instead of 80
    real(dp), parameter :: long = 4.0_dp
 
 contains
@@ -18,7 +18,7 @@ contains
          plan%cycle_letter = input%solver%cycle(1:1)
          plan%step_cycle_letter = plan%cycle_letter
       end if
-      ! sweeps of one row are all but Newton steps
+      ! sweeps of one row are nearly Newton steps
       row = plan%contact%is_line() .and. .not. plan%surfaces%width() > 0.0_dp
       if (row .and. input%solver%cycle == "auto") plan%cycle_letter = "V"
       plan%cycle = cycle_of(plan%cycle_letter)
@@ -26,8 +26,8 @@ contains
       plan%cycle%spare_spikes = has_sharp_spike(plan)
       plan%second_cycle = plan%cycle
       if (plan%cycle%full .and. input%solver%cycle == "auto" .and. .not. (plan%surfaces%rough() .or. plan%touches)) then
-         ! The first leaves so little that is smooth that one visit to the coarser levels will do. Not before rough runs:
-         ! the error of the smooth friction is one of the ratio.
+         ! The first cycle leaves so little smooth error that one visit to the coarser levels is sufficient. Not before rough
+         ! runs: the error of the smooth friction enters the ratio.
          plan%second_cycle = cycle_of("V")
          plan%second_cycle%spare_spikes = plan%cycle%spare_spikes
       end if

@@ -30,13 +30,13 @@ contains
       call find_levels(input%grid%points, merge(input%grid%points, input%grid%points_y, plan%contact%is_line()), plan%levels, &
                        intervals)
       if (plan%contact%is_line()) then
-         ! one row of nodes is solved directly on a finer grid for next to nothing
+         ! the direct solution of one row of nodes costs little on a finer grid
          do while (intervals(1) < merge(coarsest_most, coarsest_of_line, plan%surfaces%width() > 0.0_dp) .and. plan%levels > 1)
             intervals = 2*intervals
             plan%levels = plan%levels - 1
          end do
       end if
-      ! a coarsest grid that does not resolve a thick film corrects it at random
+      ! corrections by a coarsest grid that does not resolve a thick film are wrong
       film = sqrt(2.0_dp*plan%film_expected)
       if (plan%levels > 1 .and. 2*minval(intervals) <= coarsest_most .and. film > thick_film .and. &
           input%grid%x_outlet - input%grid%x_inlet > coarsest_mesh*film*intervals(1)) then

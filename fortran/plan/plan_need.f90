@@ -27,7 +27,7 @@ module ehl_plan_need
    real(dp), parameter :: coarser_bytes = 0.25_dp, coarser_seconds = 0.125_dp
    !> Seconds per stored node of a smooth contact and of a time step or cycle, on one thread of a processor of 2020
    real(dp), parameter :: smooth_seconds = 8.0e-7_dp, step_seconds = 3.0e-7_dp
-   !> Seconds per cube of the unknowns of the coarsest grid, which is solved directly, ten times or so in a smooth contact; on
+   !> Seconds per cube of the unknowns of the coarsest grid, which is solved directly, about ten times in a smooth contact; on
    !> a long grid they take half of the time (0.5 s of 1.1 at kappa = 10 on 257 nodes)
    real(dp), parameter :: direct_seconds = 1.0e-9_dp
    !> Cycles of a stationary rough contact

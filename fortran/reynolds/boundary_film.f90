@@ -4,21 +4,21 @@
 !>
 !>    P >= 0,   N <= 0,   rho H >= H_b,   one of the three an equality at every node:
 !>
-!> cavitated (P = 0), flowing (N = 0) or touching (rho H = H_b). What N lacks at touching nodes is lubricant that the boundary film
-!> gives. It is an amount of lubricant: it yields to pressure as the lubricant does, and passes a zone of touching nodes
-!> without gaining or losing any. With H >= H_b instead it would be squeezed out of the first half of a contact and lift the
+!> cavitated (P = 0), flowing (N = 0) or touching (rho H = H_b). At touching nodes the boundary film
+!> supplies the mass defect of N. H_b is a mass per area: the film is compressed as the lubricant is, and passes a zone of
+!> touching nodes unchanged. With H >= H_b instead it would be squeezed out of the first half of a contact and lift the
 !> second half by rho(P_max).
 !>
 !> A touching node has the equation
 !>
 !>    rate (H_b - rho H) = 0
 !>
-!> with the rate of the wedge term, so that its residual is one of the Reynolds equation where the conductance is nothing. Of
-!> two residuals, rhs - N and rate (rho H - H_b), that one holds which requires more pressure, each with what answers it: the
-!> deflection alone, or the deflection and the Poiseuille term.
+!> with the rate of the wedge term, so that its residual is one of the Reynolds equation where the conductance vanishes. Of
+!> the two residuals rhs - N and rate (rho H - H_b) the one applies that requires more pressure: the first changes with the
+!> deflection and the Poiseuille term, the second with the deflection alone.
 !>
 !> Every level has one, with the solids that may yield (yielding.f90). Without setup, or with H_b = 0, it is inactive: no node
-!> touches, and its procedures change nothing. What sweeps and coarse problems need of it: multigrid/touching_nodes.f90.
+!> touches, and its procedures change nothing. Procedures for sweeps and coarse problems: multigrid/touching_nodes.f90.
 module ehl_boundary_film
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_grid, only: grid_t
@@ -207,7 +207,7 @@ contains
 
       if (.not. self%active) return
       do i = 1, size(h)
-         ! a NaN stays one
+         ! NaN stays NaN
          self%film(i, j) = merge(self%thickness/rho(i), h(i), h(i)*rho(i) < self%thickness)
       end do
       ! by the last update
@@ -378,7 +378,7 @@ contains
       if (self%active) values = values*(1.0_dp - self%touching(first:first + size(values) - 1, j))
    end subroutine without_touching
 
-   !> What a touching node may be lifted by: `residual` is that of a steady problem (rms), or 0
+   !> Largest lift of a touching node: `residual` is that of a steady problem (rms), or 0
    pure subroutine set_lift(self, residual)
       class(boundary_film_t), intent(inout) :: self
       real(dp), intent(in) :: residual

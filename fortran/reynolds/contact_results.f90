@@ -35,7 +35,7 @@ module ehl_contact_results
       logical :: holds = .true.
       !> Where the bodies touch. The friction there is that of the boundary film, or left out where that is not known.
       type(touching_t) :: touching
-      !> Of an inlet that is short of oil
+      !> Of a starved inlet
       type(oil_flow_t) :: oil
    contains
       procedure :: films

@@ -238,7 +238,7 @@ contains
       if (.not. grid%mirror) values(:, 1) = values(:, 2)
    end subroutine end_with_body
 
-   !> Load that the pressure of a level lacks
+   !> Load missing in the pressure of a level
    real(dp) function missing_load(level)
       type(level_t), intent(in) :: level
       missing_load = level%load - pressure_sum(level)

@@ -5,13 +5,13 @@
 !>
 !>    P >= 0,   C <= G,   P (G - C) = 0,   C(i)/hx = C(i-1)/hx + (Poiseuille term at i)
 !>
-!> which is Elrod's and Adams' fill fraction C/G as a complementarity. The flow that is missing, (G - C)/hx, is what the Reynolds
-!> operator N lacks at a node with P = 0, so that it follows from the operator along a row:
+!> which is Elrod's and Adams' fill fraction C/G as a complementarity. The flow that is missing, (G - C)/hx, is the mass
+!> defect of the Reynolds operator N at a node with P = 0, so that it follows from the operator along a row:
 !>
 !>    N(i) <- N(i) - missing(i-1),     missing(i) = -N(i) where P(i) = 0 and N(i) < 0, else 0
 !>
-!> In a time step the oil that is there changes, too. With the mean velocity U, the factor s of the squeeze term and d(i) what rho H
-!> a node lacks, its equation lacks
+!> In a time step the oil at a node changes, too. With the mean velocity U, the factor s of the squeeze term and the deficit d(i) of
+!> rho H, the mass defect of a node is
 !>
 !>    rhs(i) - N(i) = s d(i) + missing(i),     rhs: of earlier times,     missing(i) = (U/hx) f(i)
 !>

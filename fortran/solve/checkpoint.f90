@@ -129,8 +129,8 @@ contains
       done = remove_file(path//".new")
    end subroutine write_state
 
-   !> Look for the newest good state of a case. That there are files and none of them is good, or that the state belongs
-   !> to another case, is an error.
+   !> Find the newest valid state of a case. It is an error if there are files of which none is valid, or if the state
+   !> belongs to another case.
    subroutine find_state(self, prefix, text, note, status)
       class(checkpoint_t), intent(inout) :: self
       character(len=*), intent(in) :: prefix, text
@@ -146,7 +146,7 @@ contains
          if (state >= 0) exit
       end do
       if (self%newest == missing .and. state == missing) return
-      ! with the older one missing, the newest says what is wrong
+      ! without an older state the fault of the newest one is reported
       if (state == missing) then
          state = self%newest
          k = 1
@@ -247,7 +247,7 @@ contains
       read (lun, iostat=stat) version
       if (stat == 0 .and. version /= magic .and. index(version, family) == 1) what_is = other_version
       close (lun)
-      ! what is damaged may have any length
+      ! a damaged file may have any length
       if (what_is == other_version) return
       if (.not. has_checksum(prefix//name)) return
       call open_checksummed(prefix//name, "read", lun, status)

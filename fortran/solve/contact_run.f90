@@ -296,7 +296,7 @@ contains
       end associate
    end subroutine keep_smooth
 
-   !> Whether the steps from a predicted start have not yet come to the mean
+   !> Whether the steps from a predicted start still precede those of the mean
    pure logical function is_filling(self)
       class(contact_run_t), intent(in) :: self
       is_filling = self%transient%mean%transit > 0.0_dp .and. self%transient%mean%n < self%transient%mean%filled

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Cycles that are undone, damped and accelerated (docs/theory/coarse-grids.md)
+!> Rejected, damped and accelerated cycles (docs/theory/coarse-grids.md)
 submodule (ehl_smooth_contact) ehl_cycle_guard
    use ehl_cycle, only: max_damping
    use ehl_outcome, only: outcome_diverged, outcome_negative_film
@@ -7,12 +7,12 @@ submodule (ehl_smooth_contact) ehl_cycle_guard
    use ehl_status, only: ehl_no_memory
    implicit none (type, external)
 
-   !> Cycles after which the changes of a cycle are made larger again, and those in which the residual must halve
+   !> Cycles after which the damping is reduced, and cycles within which the residual must halve
    integer, parameter :: undamped_after = 3, patience = 8
-   !> Cycles of a level that leave more than this share of the residual stall, after so many
+   !> Cycles of a level stall if they leave more than this share of the residual, after so many of them
    real(dp), parameter :: stalled = 0.6_dp
    integer, parameter :: stalls_after = 5
-   !> Residual over that before a cycle from which on it is taken back, above the residual of a solution. Of five hard contacts
+   !> A cycle is rejected if the residual exceeds that of a solution and increases by this factor. Of five hard contacts
    !> with L from 17 to 37 all converge with 1.05 and 1.2; with 2 and 4 one ends at the cycle limit (tests/cases/test_machines.py)
    real(dp), parameter :: max_growth = 1.2_dp
    !> Share of the sliding and of the gradient that a softened flow begins with, and by how much it grows where the residual is
@@ -72,7 +72,7 @@ contains
                return
             end if
             if (guard%damping == max_damping) return
-            ! the same amount again would be tried again and again
+            ! otherwise the same amount would be tried repeatedly
             if (guard%since == 1 .and. guard%was_damped > 0) guard%lasting = guard%was_damped
             guard%damping = max(guard%damping + 1, guard%lasting)
             guard%was_damped = guard%damping

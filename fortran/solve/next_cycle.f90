@@ -1,25 +1,26 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The next cycle of a smooth contact: its kind, how many there may be, and where the film of a starved line begins in it
+!> The next cycle of a smooth contact: its kind, the largest number of cycles, and the meniscus of a starved line
 submodule (ehl_smooth_contact) ehl_next_cycle
    use ehl_cycle, only: cycle_options_t, damped_cycle
    use ehl_level_tolerance, only: counts_share
    implicit none (type, external)
 
-   !> Most cycles of a contact that touches, over those of others: the edge of a touching zone moves by a node in several cycles
+   !> Largest number of cycles of a contact with solid contact, over that of others: the edge of a touching zone moves by a node
+   !> in several cycles
    integer, parameter :: touching_cycles = 3
-   !> The same of a roller: what coarse grids change at its ends the sweeps take back slowly (47 to 89 cycles)
+   !> The same of a roller: sweeps remove the errors of coarse grids at its ends slowly (47 to 89 cycles)
    integer, parameter :: roller_cycles = 4
-   !> The same of one that is short of oil: what flows back from the contact and around it takes some to balance
+   !> The same of a starved contact: the flow back from the contact and around it balances slowly
    integer, parameter :: starved_cycles = 3
-   !> And of a line whose meniscus is held while the flow becomes known: a few for each of its places
+   !> The same of a line with a fixed meniscus: several cycles for each of its positions
    integer, parameter :: held_cycles = 10
-   !> Most cycles of a level in which a softened flow is to become that of the law
+   !> Largest number of cycles of a level within which a softened flow must become that of the law
    integer, parameter :: softened_cycles = 20
-   !> Relative algebraic error that a light cycle can be trusted with: where less is wanted it costs a cycle
+   !> Smallest relative algebraic error that a light cycle reaches: for a smaller one it would cost one more cycle
    real(dp), parameter :: light_error = 3.0e-4_dp
-   !> near_solution of the last try of a wide contact
+   !> near_solution of the last attempt at a wide contact
    real(dp), parameter :: near_spared = 0.5_dp
-   !> Cycles that are few: on a level that began from a coarser one, and from the Hertz pressure
+   !> Few cycles: on a level that began from a coarser one, and from the Hertz pressure
    integer, parameter :: min_cycles = 2, cycles_from_guess = 3
 
 contains
@@ -43,7 +44,7 @@ contains
       if (self%guarded) call keep_state(self, level, status)
    end procedure begin_cycle
 
-   !> Where the flow of a line is known but is not that of its layer its film begins elsewhere
+   !> Move the meniscus of a line if its flow is known and differs from that of its layer
    subroutine follow_meniscus(self, level)
       class(smooth_contact_t), intent(inout) :: self
       type(level_t), intent(inout) :: level
@@ -58,8 +59,8 @@ contains
       call self%mixing%finish()
    end subroutine follow_meniscus
 
-   !> The cycle to make: on a level that began from a coarser one a light one is the second, if what it leaves is good
-   !> enough; with one sweep less at first where the coarser level was solved in few cycles
+   !> Options of the next cycle. On a level that began from a coarser one the second cycle is a light one if its error is
+   !> small enough, with one sweep less before the coarse grids where the coarser level was solved in few cycles
    pure function cycle_to_make(self) result(options)
       class(smooth_contact_t), intent(in) :: self
       type(cycle_options_t) :: options

@@ -22,10 +22,10 @@ module ehl_smooth_contact
    private
    public :: smooth_contact_t
 
-   !> Largest reduction per cycle that is believed of it: where the film is close to the boundary film the edge of a touching
-   !> zone moves by a node in several cycles
+   !> Largest reduction per cycle that its error estimate assumes: where the film is close to the boundary film the edge of a
+   !> touching zone moves by a node in several cycles
    real(dp), parameter :: max_share_reduction = 0.99_dp
-   !> What an error of the load changes the film, per relative error: the deflection by the Hertz pressure differs from its
+   !> Change of the film per relative error of the load: the deflection by the Hertz pressure differs from its
    !> mean under it by 1/5 at the centre and by 3/10 at the edge [a^2/R]
    real(dp), parameter :: film_per_load = 0.3_dp
    !> A residual that no state on the way to a solution has, unless the one before it was nearly as large
@@ -37,19 +37,19 @@ module ehl_smooth_contact
    integer, parameter :: drifts_after = 6
    real(dp), parameter :: small_drift = 1.0e-3_dp
 
-   !> What is known of the cycles of a level, to take back what leaves no state of the contact
+   !> Record of the cycles of a level, to reject those that leave no state of the contact
    type :: guard_t
-      !> Degree of damping of the next cycle, 0: none; the degree of the last cycle that was taken back, and that which stays
+      !> Degree of damping of the next cycle, 0: none; the degree of the last rejected cycle, and the one that is kept
       integer :: damping = 0, was_damped = 0, lasting = 0
       !> Cycles made since the degree was changed
       integer :: since = 0
       !> State before the last cycle
       real(dp), allocatable :: p_before(:, :)
       real(dp) :: h00_before = 0.0_dp
-      !> Share of the sliding and of the gradient that the law of a flow that thins gets, and whether it was once less than 1
+      !> Share of the sliding and of the gradient in the shear-thinning law, and whether it was ever less than 1
       real(dp) :: share = 1.0_dp, share_before = 1.0_dp
       logical :: softened = .false.
-      !> Residual after the last cycle that was not taken back, and some cycles ago
+      !> Residual after the last accepted cycle, and some cycles before it
       real(dp) :: residual_kept = 0.0_dp, residual_then = huge(1.0_dp)
    end type guard_t
 
@@ -61,21 +61,21 @@ module ehl_smooth_contact
       type(steady_options_t), private :: options
       !> When a level ends
       type(end_rule_t), private :: rule = rule_of_circles
-      !> What is at a flooded border
+      !> Pressure at a flooded border
       type(far_field_t), private :: far_field
       !> Whether level n has its first approximation, and whether the last level is solved
       logical :: begun = .false., solved = .false.
       !> Whether the levels are solved again with damped cycles
       logical, private :: damped = .false.
-      !> Whether a cycle that ends in no state of the contact is taken back, and cycles that stall are accelerated
+      !> Whether a cycle that leaves no state of the contact is rejected, and cycles that stall are accelerated
       logical, private :: guarded = .false.
-      !> Whether cycles spare spikes on all levels: the last try of a wide contact
+      !> Whether cycles spare spikes on all levels: the last attempt at a wide contact
       logical, private :: spares = .false.
       type(guard_t), private :: guard
       !> Whether as much oil arrives as the gap holds. A line lets all oil through that arrives, for nothing flows around it:
       !> first it is solved so, and the layer counts where that takes more.
       logical, private :: floods = .false.
-      !> Where the film of a line begins that is short of oil, if cycles that let it go have failed
+      !> Meniscus of a starved line, fixed if cycles with a free one have failed
       type(meniscus_t), private :: meniscus
       !> Passage, that of the last cycle, and its layer in the middle
       integer :: passage = 1, cycle_passage = 1
@@ -118,7 +118,7 @@ module ehl_smooth_contact
          type(status_t), intent(inout) :: status
       end subroutine keep_state
 
-      !> Take a cycle back that has left no state of the contact, and make smaller changes; accelerate cycles that stall
+      !> Reject a cycle that has left no state of the contact, and make smaller changes; accelerate cycles that stall
       module subroutine guard_cycle(self, hierarchy, outcome, status)
          class(smooth_contact_t), intent(inout) :: self
          type(hierarchy_t), intent(inout) :: hierarchy
@@ -130,7 +130,7 @@ module ehl_smooth_contact
 
    ! in next_cycle.f90
    interface
-      !> Before a cycle on level n: the pressure at a flooded border, the kind of cycle, the state to come back to
+      !> Before a cycle on level n: the pressure at a flooded border, the kind of cycle, the state to restore
       module subroutine begin_cycle(self, level, status)
          class(smooth_contact_t), intent(inout) :: self
          type(level_t), intent(inout) :: level
@@ -249,7 +249,7 @@ contains
       self%results(self%n)%algebraic = self%results(self%n)%algebraic + film_per_load*abs(self%m%load_error)
    end subroutine estimate_errors
 
-   !> Whether an error of the load is all that is left, and so small that scaling the pressure costs no accuracy
+   !> Whether only an error of the load remains, so small that scaling the pressure costs no accuracy
    pure logical function may_scale_load(self)
       class(smooth_contact_t), intent(in) :: self
       real(dp) :: error

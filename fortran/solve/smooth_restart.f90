@@ -1,10 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The smooth contact once more: the next passage of a starved one, and levels that had no solution
+!> Restarts of the smooth contact: the next passage of a starved one, and levels without a solution
 submodule (ehl_smooth_contact) ehl_smooth_restart
    use ehl_oil_flow, only: leaving
    implicit none (type, external)
 
-   !> Relative change of the central film from passage to passage that is none
+   !> Relative change of the central film between passages below which the film is steady
    real(dp), parameter :: steady_film = 1.0e-4_dp
 
 contains

@@ -20,8 +20,8 @@ module ehl_stationary_share
    private
    public :: stationary_t
 
-   !> Relative algebraic error of a friction integral, as a share of the accuracy asked for; of a share of the roughness
-   !> that is only on the way to the whole of it
+   !> Relative algebraic error of a friction integral, as a share of the required accuracy; that of an intermediate share of
+   !> the roughness
    real(dp), parameter :: friction_tolerance = 1.0e-3_dp, share_tolerance = 3.0e-2_dp
    !> Relative errors of the force balance that scaling of the pressure may correct, at a boundary film
    real(dp), parameter :: small_load_error = 1.0e-5_dp
@@ -120,7 +120,7 @@ contains
       real(dp) :: change, q
 
       change = abs(self%m%friction - before%friction)/self%m%friction
-      ! without that of the boundary film it is the friction of next to nothing
+      ! without the friction of the boundary film hardly any friction is left
       if (self%by_load_share .and. self%m%touching%load_share > 0.0_dp) then
          change = abs(self%m%touching%load_share - before%touching%load_share)
       end if

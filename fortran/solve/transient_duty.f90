@@ -17,7 +17,7 @@ contains
 
       associate (level => hierarchy%levels(self%n))
          self%time_step = self%duty_steps%next(self%duty, self%time, level%grid%hx, surfaces%rough())
-         ! nothing to solve up to the row of the table where the motion starts
+         ! no step is needed up to the row of the table where the motion starts
          associate (row => self%duty%next_knot(self%time))
             if (self%duty%rests(row(1))) self%time_step = row(1) - self%time
          end associate
@@ -58,7 +58,7 @@ contains
       self%p_before(:, :, 2) = level%p
       self%p_before(:, :, 3) = level%p
       self%h00_before = level%h00
-      ! what the other discretisation changes counts as an error that the flow carries away
+      ! the change by the other discretisation counts as an error, which the flow transports away
       associate (error => self%duty_error)
          error%error = abs(level%h - error%films(:, :, 1))
          error%films = spread(level%h, 3, size(error%films, 3))

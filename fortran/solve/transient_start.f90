@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What time steps begin with: the steady contact, or one full of roughness as it is predicted
+!> Start of time steps: the steady contact, or a prediction with roughness in all of the contact
 submodule (ehl_transient_state) ehl_transient_start
    use ehl_level, only: cavitate
    use ehl_oil_flow, only: content_row
@@ -54,7 +54,7 @@ contains
          self%mass_content(:, :, k) = level%rho*(level%h - self%rr)
       end do
       if (level%supply%active) then
-         ! of a line the film may have been found otherwise
+         ! the film of a line may have been computed in another way
          call level%supply%setup(level%grid%hx, level%grid%ny, duty%layer)
          do k = 1, level%grid%ny
             call content_row(level, k, self%mass_content(:, k, 1))
@@ -67,7 +67,7 @@ contains
       self%h00_before = level%h00
       self%m = measure(level)
       if (duty%active) then
-         ! no mean of what changes
+         ! a duty has no mean
          call self%mean%start(huge(1.0_dp), 1, 0.0_dp, self%time_step, 0.0_dp)
       else
          call self%mean%start(surfaces%period, surfaces%repeats, surfaces%mismatch, self%time_step, &

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The contact with a rough surface on the move: its state after a time step, and what begins, ends and takes back a step
+!> The contact with a moving rough surface: its state after a time step, and the start, the end and the rejection of a step
 !> (the loops: ehl_transient)
 module ehl_transient_state
    use ehl_contact, only: contact_t
@@ -27,7 +27,7 @@ module ehl_transient_state
    private
    public :: transient_t
 
-   !> Relative errors of the force balance that a step may have taken away by scaling its pressure, and those of lines. With the
+   !> Relative errors of the force balance that a step may correct by scaling its pressure, and those of lines. With the
    !> larger one on circles small increases of friction lose their second order (tests/cases/test_two_surfaces.py), and under a
    !> duty what it leaves in the film is no noise about a mean.
    real(dp), parameter :: small_load_error = 1.0e-5_dp, of_lines = 1.0e-4_dp
@@ -45,7 +45,7 @@ module ehl_transient_state
       real(dp) :: friction_smooth = 1.0_dp
       integer :: total_cycles = 0
       type(friction_mean_t) :: mean
-      !> Of what passes once
+      !> Of a feature that passes once
       type(extremes_t) :: extremes
       !> Mass content of the last two steps, see ehl_time_levels, pressure and H00 of the last three, the roughness now
       real(dp), allocatable :: mass_content(:, :, :), p_before(:, :, :), rr(:, :)
@@ -53,7 +53,7 @@ module ehl_transient_state
       !> Sum of 1/H after the last step, to know the film by
       real(dp) :: film_checksum = 0.0_dp
       type(predictor_t) :: predictor
-      !> The duty, the lengths of its steps, what holds at the end of the present one
+      !> The duty, the lengths of its steps, the conditions at the end of the present one
       type(duty_t) :: duty
       type(duty_steps_t) :: duty_steps
       type(duty_error_t) :: duty_error
@@ -116,7 +116,7 @@ module ehl_transient_state
          type(status_t), intent(inout) :: status
       end subroutine fill
 
-      !> Heights of the rough surfaces where their ways have brought them
+      !> Heights of the rough surfaces at their present positions
       module subroutine heights_of(surfaces, level, state, rr)
          class(moving_surfaces_t), intent(inout) :: surfaces
          type(level_t), intent(in) :: level
@@ -152,7 +152,7 @@ module ehl_transient_state
          real(dp) :: growth
       end function growth
 
-      !> Whether the film of a step is as good as asked for
+      !> Whether the film of a step has the required accuracy
       module subroutine judge_duty(self, level, good)
          class(transient_t), intent(inout) :: self
          type(level_t), intent(in) :: level
@@ -191,7 +191,7 @@ contains
       end if
       call set_history(level, self%mass_content)
       tolerance = self%accuracy%tolerance(self%mean%n >= self%mean%filled)
-      ! a shorter step makes less of the same residual
+      ! in a shorter step the same residual has less effect
       if (self%duty%active) tolerance = tolerance*max(1.0_dp, level%grid%hx/self%time_step)
       call self%policy%begin(tolerance, self%accuracy%measures(self%step + 1))
       self%cycles = 0
@@ -231,7 +231,7 @@ contains
       if (self%policy%touching) self%next_cycle%coarsening = coarsening_classical
    end subroutine begin_cycle
 
-   !> Whether a small error of the load is all that is left
+   !> Whether only a small error of the load remains
    pure logical function may_scale_load(self)
       class(transient_t), intent(in) :: self
       may_scale_load = self%residual <= self%policy%tolerance .and. abs(self%m%load_error) <= &
@@ -289,7 +289,7 @@ contains
       type(level_t), intent(inout) :: level
       class(moving_surfaces_t), intent(inout) :: surfaces
       logical, intent(out) :: same
-      !> Rounding of another processor or compiler may pass
+      !> Rounding differences of another processor or compiler are allowed
       real(dp), parameter :: rounding = 1.0e-9_dp
 
       call self%step_back(level, surfaces)
@@ -297,7 +297,7 @@ contains
       same = abs(sum(1.0_dp/level%h) - self%film_checksum) <= rounding*self%film_checksum
    end subroutine restore
 
-   !> The last good state again
+   !> Restore the last accepted state
    subroutine step_back(self, level, surfaces)
       class(transient_t), intent(inout) :: self
       type(level_t), intent(inout) :: level
