@@ -243,7 +243,7 @@ contains
       real(dp), intent(out) :: rr(:, :)
       !> Of those alone that move, or that are at rest; at least one
       logical, intent(in), optional :: moving
-      !> Ways of body 1 and of body 2 so far, in place of the time
+      !> Displacements of body 1 and of body 2, instead of the time
       real(dp), intent(in), optional :: ways(2)
       logical :: wanted(self%count())
       integer :: k, first

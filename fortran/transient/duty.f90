@@ -25,7 +25,7 @@ module ehl_duty
       real(dp) :: load = 1.0_dp, speeds(2) = 1.0_dp, viscosity = 1.0_dp, layer = 1.0_dp
       !> Curvatures along the motion and across it
       real(dp) :: curvatures(2) = 1.0_dp
-      !> Ways of the surfaces since the beginning of the table [a]
+      !> Displacements of the surfaces since the beginning of the table [a]
       real(dp) :: ways(2) = 0.0_dp
    contains
       procedure :: mean_velocity
@@ -50,7 +50,7 @@ module ehl_duty
       real(dp) :: time_scale = 0.0_dp
       !> The case itself
       real(dp) :: reference(quantities) = 1.0_dp
-      !> Change with time at the nodes, for cubic interpolation; ways of the surfaces there
+      !> Change with time at the nodes, for cubic interpolation; displacements of the surfaces there
       real(dp), allocatable, private :: slopes(:, :), way(:, :)
       !> Time until which all is as in the case, from the beginning on; before it: the first row is another state
       real(dp), private :: rest_ends = -1.0_dp
@@ -76,7 +76,7 @@ contains
       mean_velocity = 0.5_dp*(self%speeds(1) + self%speeds(2))
    end function mean_velocity
 
-   !> Compute slopes and ways from times and values
+   !> Compute slopes and displacements from times and values
    pure subroutine setup(self)
       class(duty_t), intent(inout) :: self
       integer :: n, k
@@ -132,7 +132,7 @@ contains
       parabola = ((b - a)/before*behind + (c - b)/behind*before)/(before + behind)
    end function parabola
 
-   !> Ways of the surfaces from node k on in a time
+   !> Displacements of the surfaces from node k on in a time
    pure function part(self, k, time) result(way)
       class(duty_t), intent(in) :: self
       integer, intent(in) :: k
@@ -152,7 +152,7 @@ contains
       end associate
    end function part
 
-   !> Values and ways by the table, at a time within it
+   !> Values and displacements by the table, at a time within it
    pure subroutine raw(self, time, values, way)
       class(duty_t), intent(in) :: self
       real(dp), intent(in) :: time

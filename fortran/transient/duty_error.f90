@@ -87,7 +87,7 @@ contains
    subroutine add(self, x, film, steps, way, size)
       class(duty_error_t), intent(inout) :: self
       real(dp), intent(in) :: x(:), film(:, :), steps(films_before)
-      !> Way of the flow in the step, half width of the contact along X [a]
+      !> Displacement of the flow in the step, half width of the contact along X [a]
       real(dp), intent(in) :: way, size
       real(dp) :: before(1 - (int(way/(x(2) - x(1))) + 1):ubound(x, 1)), part, factors(0:films_before)
       integer :: nx, j, k, nodes
