@@ -199,7 +199,7 @@ def real_numbers(values: Any, what: str) -> Any:  # noqa: ANN401
         result = OTHER_KINDS.get(array.dtype.kind, str(array.dtype))
         raise InputError(
             f"{what}: heights must be real numbers, not {result} ({array.dtype})\n"
-            "expected: a matrix of floats [m], missing points as nan or masked"
+            "expected: a matrix of numbers [m], missing points as nan or masked"
         )
     if np.ma.isMA(array):
         return np.ma.filled(array.astype(float), np.nan)
