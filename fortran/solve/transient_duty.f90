@@ -58,11 +58,7 @@ contains
       self%p_before(:, :, 2) = level%p
       self%p_before(:, :, 3) = level%p
       self%h00_before = level%h00
-      ! the change by the other discretisation counts as an error, which the flow transports away
-      associate (error => self%duty_error)
-         error%error = abs(level%h - error%films(:, :, 1))
-         error%films = spread(level%h, 3, size(error%films, 3))
-      end associate
+      call self%duty_error%settle(level%h)
    end procedure settle
 
    module procedure rests

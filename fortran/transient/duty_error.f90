@@ -18,6 +18,7 @@ module ehl_duty_error
       real(dp), allocatable :: films(:, :, :), error(:, :)
    contains
       procedure :: start
+      procedure :: settle
       procedure :: worst
       procedure :: add
       procedure :: upstream
@@ -43,6 +44,17 @@ contains
          self%films = spread(film, 3, films_before)
       end if
    end subroutine start
+
+   !> The steady film in the discretisation of the steps: its difference from the one before counts as an error, which the flow
+   !> transports away
+   subroutine settle(self, film)
+      class(duty_error_t), intent(inout) :: self
+      !> Shape (nx, ny)
+      real(dp), intent(in) :: film(:, :)
+
+      self%error = abs(film - self%films(:, :, 1))
+      self%films = spread(film, 3, films_before)
+   end subroutine settle
 
    !> Factors of the films after a step and before it in the error that the step adds: the third difference, which BDF2 leaves out
    pure function factors_of(steps) result(factors)
