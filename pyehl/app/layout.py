@@ -101,9 +101,9 @@ def _table(rows: Sequence[tuple[str, str]]) -> str:
 class Layout:
     """All elements of the page but the pictures, by name."""
 
-    def __init__(self, hears: _Handlers, pictures: Pictures, start: Position) -> None:
+    def __init__(self, handlers: _Handlers, pictures: Pictures, start: Position) -> None:
         self.controls = {
-            control.name: ControlWidget(control, start.values[control.name], hears.turned)
+            control.name: ControlWidget(control, start.values[control.name], handlers.turned)
             for group in GROUPS.values()
             for control in group
         }
@@ -131,19 +131,19 @@ class Layout:
         self.figure_format = Select(options=list(FORMATS), value="png", width=80)
         self.figure_width = Select(options=list(WIDTHS.items()), value="0", width=170)
         self.upload = FileInput(accept=MAPS, name="upload", title="height map")
-        self.upload.on_change("value", self._file(hears, self.upload, hears.upload))
+        self.upload.on_change("value", self._file(handlers, self.upload, handlers.upload))
         self.map_box = column(self.upload, self.upload_error, visible=False)
         self.tabs = RadioButtonGroup(labels=[part["title"] for part in PICTURES], active=0)
         self.tabs.js_on_change("active", CustomJS(args={"tabs": self.tabs}, code=SHOW))
         self.roots = {
             "controls": self._left(start),
             "tabs": self.tabs,
-            "curves": self._curves(hears),
+            "curves": self._curves(handlers),
             **pictures.figures,
             "state": column(self.status),
             "film": column(self.numbers),
             "surface": column(self.rough),
-            "files": self._right(hears),
+            "files": self._right(handlers),
         }
         for name, root in self.roots.items():
             root.name = name
@@ -152,7 +152,7 @@ class Layout:
 
     def _file(
         self,
-        hears: _Handlers,
+        handlers: _Handlers,
         widget: Any,  # noqa: ANN401
         take: Callable[[str, bytes], None],
     ) -> Callable[[str, object, object], None]:
@@ -168,7 +168,7 @@ class Layout:
             nonlocal waits
             if not waits:
                 waits = True
-                hears.soon(chosen)
+                handlers.soon(chosen)
 
         widget.on_change("filename", heard)
         return heard
@@ -182,26 +182,26 @@ class Layout:
         self.show_controls(start.values)
         return column(*parts, width=WIDTH + 20)
 
-    def _curves(self, hears: _Handlers) -> Any:  # noqa: ANN401
+    def _curves(self, handlers: _Handlers) -> Any:  # noqa: ANN401
         buttons = []
         for name in CURVES:
             button = Button(label=f"curve over {name}", name=f"curve_{CURVES[name]}")
-            button.on_click(lambda name=name: hears.draw_curve(name))
+            button.on_click(lambda name=name: handlers.draw_curve(name))
             buttons.append(button)
         return row(*buttons)
 
-    def _right(self, hears: _Handlers) -> Any:  # noqa: ANN401
+    def _right(self, handlers: _Handlers) -> Any:  # noqa: ANN401
         copy, save = Button(label="Copy", name="copy"), Button(label="Save", name="save")
         copy.js_on_click(CustomJS(args={"area": self.case}, code=COPY))
         save.js_on_click(CustomJS(args={"area": self.case}, code=SAVE_TEXT))
         opened = FileInput(accept=".nml,.txt", name="open", title="open a case file")
-        opened.on_change("value", self._file(hears, opened, hears.open_case))
+        opened.on_change("value", self._file(handlers, opened, handlers.open_case))
         copy_python = Button(label="Copy", name="copy_python")
         copy_python.js_on_click(CustomJS(args={"area": self.python}, code=COPY))
         report = Button(label="Report", name="fetch_report")
-        report.on_click(lambda: hears.fetch("report.html"))
+        report.on_click(lambda: handlers.fetch("report.html"))
         figures = Button(label="Figures", name="fetch_figures")
-        figures.on_click(lambda: hears.fetch("figures.zip"))
+        figures.on_click(lambda: handlers.fetch("figures.zip"))
         return column(
             self.case, row(copy, save), opened,
             self.open_error, self.python, copy_python,
