@@ -91,7 +91,7 @@ contains
       if (self%coarse .or. .not. self%active) return
       do i = 1, size(after)
          after(i) = merge(before(i), after(i), self%mass(first + i - 1, j) > 0.0_dp)
-         ! a NaN stays one
+         ! NaN stays NaN
          after(i) = merge(self%max_pressure, after(i), after(i) > self%max_pressure)
       end do
    end subroutine limit_pressure

@@ -163,7 +163,7 @@ def test_a_picture_that_fails_is_a_warning(settings, tmp_path, monkeypatch, capl
     assert "passage.png" in files
     assert "surface_spectrum.png" in files
     assert sorted(files) == sorted(p.name for p in (tmp_path / "out").iterdir())
-    # made again the pictures give way with it
+    # a new prediction in the folder replaces the pictures, too
     write(result, place)
     assert not (tmp_path / "out" / "passage.png").exists()
 
