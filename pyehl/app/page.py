@@ -44,15 +44,15 @@ class Page:
         self._pending: tuple[str, bytes] | None = None
         self.pictures = Pictures()
         self.layout = Layout(self, self.pictures, start)
-        self.shown = 0
+        self._shown = 0
         # what is shown of both contacts
         self._rough: Rough | None = None
         self._film: Film | None = None
         self._films: dict[int, Film] = {}
-        self.worker = Worker(partial(self.later, self.answered), "pyehl-page")
-        self.curves = Worker(partial(self.later, self._drawn), "pyehl-curve")
+        self.worker = Worker(partial(self._later, self._answered), "pyehl-page")
+        self.curves = Worker(partial(self._later, self._drawn), "pyehl-curve")
         self.parcels = {
-            name: Worker(partial(self.later, partial(self._fetched, name)), "pyehl-parcel")
+            name: Worker(partial(self._later, partial(self._fetched, name)), "pyehl-parcel")
             for name in DOWNLOADS
         }
         self._making: list[str] = []
@@ -87,7 +87,7 @@ class Page:
         """All threads of the page."""
         return self.worker, self.curves, *self.parcels.values()
 
-    def later(self, show: Any, generation: int, answer: Any) -> None:  # noqa: ANN401
+    def _later(self, show: Any, generation: int, answer: Any) -> None:  # noqa: ANN401
         """Show what a worker reports when the page has time; called in its thread."""
         self.document.add_next_tick_callback(partial(show, generation, answer))
 
@@ -132,14 +132,14 @@ class Page:
         self.layout.show_case(self.position.text(POINTS), words.python_lines(self.position, POINTS))
         self.layout.busy(COARSE)
 
-    def answered(self, generation: int, answer: Film | Rough | Exception) -> None:
+    def _answered(self, generation: int, answer: Film | Rough | Exception) -> None:
         """Show an answer, unless a newer one is there."""
-        if generation < self.shown or self.worker.closed:
+        if generation < self._shown or self.worker.closed:
             return
         if isinstance(answer, Rough) and not self.position.rough:
             # the surface has been turned to smooth since
             return
-        self.shown = generation
+        self._shown = generation
         self.document.hold("combine")
         if isinstance(answer, Film):
             self.pictures.show_film(answer)

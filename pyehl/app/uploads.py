@@ -23,9 +23,9 @@ class Uploads:
     """Height maps by the names that they had."""
 
     def __init__(self) -> None:
-        self.folder = tempfile.TemporaryDirectory(prefix="pyehl-app-")
+        self._folder = tempfile.TemporaryDirectory(prefix="pyehl-app-")
         for place in PLACES:
-            (Path(self.folder.name) / place).mkdir()
+            (Path(self._folder.name) / place).mkdir()
         self.files: dict[str, str] = {}
 
     def add(self, name: str, data: bytes, given: Mapping[str, Any] | None = None) -> str:
@@ -39,7 +39,7 @@ class Uploads:
             raise InputError("the map has no name: expected a file")
         if len(data) > MAX_BYTES:
             raise InputError(f"{base}: {len(data)} bytes; a map of up to {MAX_BYTES} was expected")
-        fresh, path = (Path(self.folder.name) / place / base for place in PLACES)
+        fresh, path = (Path(self._folder.name) / place / base for place in PLACES)
         fresh.write_bytes(data)
         try:
             self.check(str(fresh), given or {})
@@ -64,9 +64,9 @@ class Uploads:
     def nameless(self, text: str) -> str:
         """Leave out where the files lie."""
         for place in PLACES:
-            text = text.replace(f"{self.folder.name}/{place}/", "")
-        return text.replace(self.folder.name, "the page")
+            text = text.replace(f"{self._folder.name}/{place}/", "")
+        return text.replace(self._folder.name, "the page")
 
     def close(self) -> None:
         """Remove all files."""
-        self.folder.cleanup()
+        self._folder.cleanup()

@@ -115,7 +115,7 @@ class Journal:
             replace(place, kept=FILES).check(resumes=True)
         self.folder.mkdir(parents=True, exist_ok=True)
         try:
-            self.base = sqlite3.connect(
+            self._base = sqlite3.connect(
                 self.path, timeout=0.0, isolation_level=None, check_same_thread=False
             )
         except sqlite3.Error as error:
@@ -123,12 +123,12 @@ class Journal:
         try:
             self._open(study)
         except BaseException:
-            self.base.close()
+            self._base.close()
             raise
 
     def _open(self, study: Mapping[str, Any]) -> None:
         """Lock the file; make its tables, or read them."""
-        run = self.base.execute
+        run = self._base.execute
         try:
             run("PRAGMA locking_mode = EXCLUSIVE")
             run("BEGIN EXCLUSIVE")
@@ -182,18 +182,18 @@ class Journal:
         """
         texts = [(number, _json(row)) for number, row in rows]
         try:
-            with self.base:
-                self.base.execute("BEGIN")
-                self.base.executemany("INSERT OR REPLACE INTO rows VALUES (?, ?)", texts)
+            with self._base:
+                self._base.execute("BEGIN")
+                self._base.executemany("INSERT OR REPLACE INTO rows VALUES (?, ?)", texts)
         except sqlite3.Error as error:
             raise FileError(f"{self.path}: cannot write: {error}") from error
         self.rows |= dict(rows)
 
     def read(self) -> dict[int, Row]:
         """Read all finished cases from the file."""
-        result = self.base.execute("SELECT number, row FROM rows")
+        result = self._base.execute("SELECT number, row FROM rows")
         return {number: json.loads(text) for number, text in result}
 
     def close(self) -> None:
         """Close the file, which releases the lock."""
-        self.base.close()
+        self._base.close()

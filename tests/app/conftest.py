@@ -18,9 +18,9 @@ from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.remote.webelement import WebElement
 
+from pyehl.app import server
 from pyehl.app.page import Page
 from pyehl.app.position import Position, from_case
-from pyehl.app.server import make_server
 from pyehl.case import Case
 
 CHROMIUM, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
@@ -62,7 +62,7 @@ class Served:
         def run() -> None:
             loop = asyncio.new_event_loop()
             asyncio.set_event_loop(loop)
-            self._server = make_server(start, "", made=self.pages.append)
+            self._server = server.make_server(start, "", made=self.pages.append)
             self._server.start()
             ready.set()
             self._server.io_loop.start()
@@ -169,7 +169,10 @@ class Tab:
 @pytest.fixture(scope="module")
 def served() -> Iterator[Served]:
     position, _ = from_case(Case())
-    made = Served(position)
+    # a closed tab is gone after 5 s here, and not after 30 s
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(server, "UNUSED", 5_000)
+        made = Served(position)
     yield made
     made.close()
 
