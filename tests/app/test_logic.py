@@ -468,7 +468,7 @@ def test_many_turns_leave_nothing(start):
 def test_contact_without_friction_of_the_layer():
     """Of an opened case that has a boundary film; the page has no control for it."""
     text = """&contact load = 20.0 mean_velocity = 0.3 radius = 0.0127 slide_to_roll = 0.1 /
-    &lubricant shear_law = 'eyring' boundary_film = 1.2e-7 {} /
+    &lubricant shear_law = 'eyring' boundary_film = 1.3e-7 {} /
     &surface kind = 'fractal' rms_height = 3e-8 length_x = 1.2e-4 length_y = 1.2e-4 pixels = 32 /"""
     for friction, known in (("", False), ("boundary_friction = 0.1", True)):
         position, _ = from_case(Case.from_text(text.format(friction)))
@@ -479,7 +479,7 @@ def test_contact_without_friction_of_the_layer():
     # friction of the smooth contact stands twice, each time with its grid
     assert "; smooth 0." in rows["friction μ"]
     assert rows["friction μ"].endswith("solved on 257 x 257 nodes, extrapolated")
-    thick, _ = from_case(Case.from_text(text.format(friction).replace("1.2e-7", "1e-9")))
+    thick, _ = from_case(Case.from_text(text.format(friction).replace("1.3e-7", "1e-9")))
     shown = dict(words.film_rows(answers.film(thick, 65, always)))
     assert shown["friction μ_s, smooth"].endswith("on 65 × 65 nodes")
 

@@ -78,12 +78,12 @@ def test_share_grows_with_the_layer_up_to_dry_contact():
 
 
 @pytest.mark.parametrize(
-    ("velocity", "layer"), [(0.3, 1.2e-7), pytest.param(0.02, 2e-8, marks=pytest.mark.long)]
+    ("velocity", "layer"), [(0.3, 1.3e-7), pytest.param(0.02, 2e-8, marks=pytest.mark.long)]
 )
 def test_smooth_films_are_those_of_a_run_with_the_layer(velocity, layer):
     """Films, pressure and Lambda, as of a run and on a curve; a layer of no contact costs none."""
     values = predicted(layer, velocity=velocity)
-    case = pyehl.Case.from_text(TEXT.format(velocity, layer, 0.1), {"grid.points": 257})
+    case = pyehl.Case.from_text(TEXT.format(velocity, layer, 0.1), {"grid.points": 129})
     run = scalars_of(pyehl.solve(case.with_options({"surface.kind": "smooth"})))
     for name in ("c", "min"):
         error = run[f"H_{name}_error"] * run["film_scale_m"]
@@ -102,7 +102,7 @@ def test_smooth_contact_with_the_layer_that_does_not_converge(monkeypatch):
     monkeypatch.setattr(
         smooth, "_solved_with_boundary_film", lambda *_: (None, "it does not converge")
     )
-    settings = pyehl.Case.from_text(TEXT.format(0.3, 1.2e-7, 0.1)).resolve()
+    settings = pyehl.Case.from_text(TEXT.format(0.3, 1.3e-7, 0.1)).resolve()
     prediction = predict(settings, tracks=1)
     summary = prediction.summary
     names = "h_c_m", "h_min_m", "h_c_error_m", "p_max_Pa", "lambda_ratio", "lambda_ratio_deformed"
@@ -114,7 +114,7 @@ def test_smooth_contact_with_the_layer_that_does_not_converge(monkeypatch):
 
 
 def test_friction_of_the_layer_is_not_known():
-    summary = predicted(1.2e-7, friction=0.0)
+    summary = predicted(1.3e-7, friction=0.0)
     assert summary["contact_load_share"] > 0.0
     assert (summary["mu"], summary["mu_ratio"]) == (None, None)
     assert "lubricant.boundary_friction" in summary["mu_ratio_error_note"]
@@ -156,7 +156,7 @@ def test_picture_of_a_curve_without_friction():
 
 def test_curve_says_why_it_has_no_friction(tmp_path, capsys):
     case = tmp_path / "case.nml"
-    case.write_text(TEXT.format(0.3, 1.2e-7, 0.0) + "&grid points = 65 /\n")
+    case.write_text(TEXT.format(0.3, 1.3e-7, 0.0) + "&grid points = 65 /\n")
     words = ["stribeck", str(case), "--speed", "0.3", "--jobs", "1", "-o"]
     assert cli.main([*words, str(tmp_path / "out")]) == 0
     assert "mu         not reported: the bodies touch, and the friction" in capsys.readouterr().out
@@ -201,7 +201,7 @@ def test_heat_where_bodies_touch():
 )
 def test_friction_of_a_curve_is_its_ratio_times_that_of_the_smooth_contact(heat, surfaces):
     """In every row, or mu_smooth is missing and the row states why."""
-    case = pyehl.Case.from_text(HOT.format(1.2e-7) + "&grid points = 65 /\n")
+    case = pyehl.Case.from_text(HOT.format(1.3e-7) + "&grid points = 65 /\n")
     case = case.with_options({"lubricant.thermal_friction": heat})
     speeds = {"contact.mean_velocity": [0.3, 3.0] if heat == "auto" else [0.3]}
     curve = pyehl.stribeck(case, speeds, surfaces=surfaces, jobs=1)
@@ -237,7 +237,7 @@ def test_smooth_contact_of_a_curve_resolves_its_inlet():
 def test_contact_where_a_full_film_breaks_down(tmp_path, capsys):
     """Numbers of a full film are none then, and neither table nor pictures need them."""
     case = tmp_path / "case.nml"
-    case.write_text(TEXT.format(0.3, 1.2e-7, 0.1).replace("rms_height = 3e-8", "rms_height = 2e-7"))
+    case.write_text(TEXT.format(0.3, 1.3e-7, 0.1).replace("rms_height = 3e-8", "rms_height = 2e-7"))
     assert cli.main(["predict", str(case), "-o", str(tmp_path / "out"), "--tracks", "1"]) == 0
     summary = scalars_of(pyehl.load(tmp_path / "out"))
     assert summary["message"].startswith("partial film")
@@ -300,7 +300,7 @@ def test_no_contact_stays_known_outside_the_range(cases):
 
 
 def test_hardness_is_left_out():
-    text = TEXT.format(0.3, 1.2e-7, 0.1)
+    text = TEXT.format(0.3, 1.3e-7, 0.1)
     hard = text.replace("&contact ", "&contact hardness = 3e9 ", 1)
     assert hard != text
     elastic, left = (summary_of(t) for t in (text, hard))
@@ -310,7 +310,7 @@ def test_hardness_is_left_out():
 
 
 def test_two_surfaces_have_none_and_say_why():
-    text = TEXT.format(0.3, 1.2e-7, 0.1)
+    text = TEXT.format(0.3, 1.3e-7, 0.1)
     second = text[text.index("&surface") :].replace("surface", "second_surface").replace("11", "12")
     summary = summary_of(text + second)
     assert summary["contact_load_share"] is None
