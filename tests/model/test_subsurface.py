@@ -358,7 +358,7 @@ def test_depth_of_0_with_a_singular_edge(power: float, *, singular: bool) -> Non
 
 def test_predicted_contact() -> None:
     """A prediction has the smooth contact under it, and more shear near the surface."""
-    result = pyehl.predict(CASES / "table1.nml", "surface.pixels=128")
+    result = pyehl.predict(CASES / "table1.nml", "surface.pixels=64")
     below = pyehl.stress(result, contamination=0.3)
     assert float(below.principal_shear_max_smooth) == pytest.approx(0.3115, rel=0.01)
     near = float(below.Z.sel(Z=0.01, method="nearest"))
