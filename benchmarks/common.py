@@ -129,7 +129,7 @@ def measure(
 
 
 def header(work: Callable[..., object]) -> dict[str, object]:
-    """Give what a JSON file says of its making."""
+    """Give the origin of a JSON file: script, processor and build."""
     return {"source": mark("bench"), "what": Path(work.__code__.co_filename).stem} | {
         "machine": machine()
     }

@@ -165,11 +165,11 @@ def _rows_of(
     problem: Problem,
     points: int,
     threads: Sequence[int],
-    how: tuple[str, float, int],
+    options: tuple[str, float, int],
     deflect: Callable[[], object],
     units: list[float],
 ) -> list[Row]:
-    scheme, front, steps = how
+    scheme, front, steps = options
     rows: list[Row] = []
     plain = [s for s in CASES if (s.name, s.domain) == (problem.beside, problem.domain)]
     with contextlib.ExitStack() as stack:

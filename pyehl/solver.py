@@ -136,7 +136,7 @@ class Solver(SolverHandle):
         """Start on a case with heights by group in place of its surfaces, made of `tiles`."""
         self._started = time.perf_counter()
         self._case, self._settings = case, case.resolve()
-        # those that were in memory alone
+        # surfaces that were given as arrays
         self._tiles = tiles
         self._preparations: dict[str, Record] = {}
         own = gather(self._settings, heights, tiles)
@@ -147,7 +147,7 @@ class Solver(SolverHandle):
         super().__init__(text, *(made.heights for made in own.values()))
 
     def _take(self, made: Mapping[str, SolverSurface]) -> dict[str, Topography]:
-        """Take how maps became tiles, by group; gives the parts of large ones."""
+        """Store how maps were prepared, by group; return the parts of large maps."""
         self._preparations |= {g: one.preparation for g, one in made.items() if one.preparation}
         return {group: one.part for group, one in made.items() if one.part is not None}
 

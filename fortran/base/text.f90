@@ -83,7 +83,7 @@ contains
       text = integer_buffer(int(i, int64))
    end function integer_to_text
 
-   !> The same for large ones
+   !> Integer of 64 bits without blanks
    pure function long_to_text(i) result(text)
       integer(int64), intent(in) :: i
       character(len=len_trim(integer_buffer(i))) :: text
@@ -113,7 +113,7 @@ contains
       answer = answer // "'"
    end function quoted
 
-   !> ASCII capitals made small
+   !> Text with its ASCII capitals in lower case
    pure function lower_case(text) result(answer)
       character(len=*), intent(in) :: text
       character(len=len(text)) :: answer
@@ -125,18 +125,6 @@ contains
          answer(i:i) = achar(code)
       end do
    end function lower_case
-
-   !> ASCII letter or underscore
-   elemental logical function is_letter(c)
-      character(len=1), intent(in) :: c
-      is_letter = (c >= "a" .and. c <= "z") .or. (c >= "A" .and. c <= "Z") .or. c == "_"
-   end function is_letter
-
-   !> ASCII digit
-   elemental logical function is_digit(c)
-      character(len=1), intent(in) :: c
-      is_digit = c >= "0" .and. c <= "9"
-   end function is_digit
 
    !> The word of the list with the fewest edits from the given one (insertion,
    !> deletion, substitution, swap of neighbours); empty when none is near

@@ -29,7 +29,7 @@ contains
       type(status_t), intent(inout) :: status
       character(len=*), parameter :: one = "one of the two"
       character(len=:), allocatable :: key
-      real(dp) :: least
+      real(dp) :: minimum
 
       key = source%first_given("inlet", [character(len=14) :: "position", "position_hertz", "film", "film_hertz"])
       associate (inlet => input%inlet)
@@ -47,18 +47,18 @@ contains
          if (inlet%film > 0.0_dp) call agree("inlet.film", "inlet.film_hertz", inlet%film/scales%film, inlet%film_hertz)
          if (inlet%position_hertz > 0.0_dp) then
             call agree("inlet.position", "grid.x_inlet", inlet%position_hertz, -input%grid%x_inlet)
-            least = beyond_contact*contact%reach(1)
-            if (inlet%position_hertz < least) call source%refuse(key, key//" is "//short(inlet%position_hertz)// &
+            minimum = beyond_contact*contact%reach(1)
+            if (inlet%position_hertz < minimum) call source%refuse(key, key//" is "//short(inlet%position_hertz)// &
                " a ahead of the centre, and the contact reaches to "//short(contact%reach(1))//" a", &
-               "at least "//short(least)//" a", status)
+               "at least "//short(minimum)//" a", status)
             call source%check_range("inlet.position_hertz", inlet%position_hertz, key, key//" and the contact", status)
          end if
          if (input%grid%border == "flooded") call source%contradict("grid.border", key, "grid.border = 'zero' or none", status)
          if (.not. inlet%film_hertz > 0.0_dp) return
          call source%check_range("inlet.film_hertz", inlet%film_hertz, key, key//" and the contact", status)
-         least = input%lubricant%boundary_film
-         if (inlet%film_hertz*scales%film < least*(1.0_dp - rounding)) call source%refuse(key, key//" = "// &
-            short(inlet%film_hertz*scales%film)//" m is below the boundary film of "//short(least)//" m", &
+         minimum = input%lubricant%boundary_film
+         if (inlet%film_hertz*scales%film < minimum*(1.0_dp - rounding)) call source%refuse(key, key//" = "// &
+            short(inlet%film_hertz*scales%film)//" m is below the boundary film of "//short(minimum)//" m", &
             "a layer above lubricant.boundary_film", status)
          if (input%duty%active() .and. inlet%passages > 1) call source%refuse("inlet.passages", "inlet.passages with a duty", &
             "one of the two: the layer of a duty is duty.inlet_film", status)

@@ -33,8 +33,8 @@ module ehl_coarse_problem
    !> Second difference along X of the logarithm of the conductance at which half of a change is left at a spike: of 1, 3 and 10
    !> contacts with L from 17 to 27 take the fewest cycles with 1 and 3
    real(dp), parameter :: sharp = 3.0_dp
-   !> Maximum pressure of a coarse grid of a roller, over the pressure from which it began
-   real(dp), parameter :: wild = 1.5_dp
+   !> Maximum pressure of a roller on a coarse grid over that at its start, from which on its correction is rejected
+   real(dp), parameter :: max_growth = 1.5_dp
 
 contains
 
@@ -155,7 +155,7 @@ contains
       dependent = coarsening == coarsening_alcouffe .and. all(step == 2)
       ! a coarse grid with an impossible pressure gives no useful correction
       if (coarse%grid%ends) then
-         if (.not. maxval(coarse%p) <= wild*maxval(space%p_start)) then
+         if (.not. maxval(coarse%p) <= max_growth*maxval(space%p_start)) then
             coarse%p = space%p_start
             coarse%h = space%h_start
             coarse%h00 = fine%h00

@@ -214,7 +214,7 @@ contains
    subroutine assemble(self, level)
       class(coarsest_t), intent(inout) :: self
       type(level_t), intent(in) :: level
-      real(dp) :: coupling(max_neighbours), rate(max_neighbours), own, part, excess, comes_back, c(0:wedge_reach)
+      real(dp) :: coupling(max_neighbours), rate(max_neighbours), own, part, excess, returned, c(0:wedge_reach)
       integer :: i, j, k, m, u, nx, at, nb(2, max_neighbours), direction(max_neighbours), neighbours
       real(dp) :: row(level%grid%nx)
       logical :: passing(level%grid%nx, self%first:self%last)
@@ -240,12 +240,12 @@ contains
                cycle
             end if
             own = 0.0_dp
-            comes_back = 1.0_dp
+            returned = 1.0_dp
             call add_poiseuille(i)
-            ! what flows to nodes before it that pass it on comes back from there
+            ! what flows to nodes upstream that pass it on returns from there
             do k = i - 1, 2, -1
                if (.not. passing(k, j)) exit
-               comes_back = level%supply%share*comes_back
+               returned = level%supply%share*returned
                call add_poiseuille(k)
             end do
             c = level%wedge%weights(i, passing(i - 1, j), level%supply%share)
@@ -270,14 +270,14 @@ contains
 
    contains
 
-      !> The Poiseuille term of node (k, j), in the row of node (i, j): what of it comes back
+      !> The Poiseuille term of node (k, j), in the row of node (i, j): the share of it that returns
       subroutine add_poiseuille(k)
          integer, intent(in) :: k
 
          call level%poiseuille%couplings(level%flow, k, j, neighbours, nb, direction, coupling, rate, excess)
-         coupling(:neighbours) = comes_back*coupling(:neighbours)
-         rate(:neighbours) = comes_back*rate(:neighbours)
-         excess = comes_back*excess
+         coupling(:neighbours) = returned*coupling(:neighbours)
+         rate(:neighbours) = returned*rate(:neighbours)
+         excess = returned*excess
          call add_pressure(k, j, -sum(coupling) - excess)
          do m = 1, neighbours
             associate (flow => level%flow, ii => nb(1, m), jj => nb(2, m), d => direction(m))

@@ -35,11 +35,11 @@ module ehl_flow_factors
    !> Steps of the Newton iteration for the mean stress; relative error of B at which it ends: the next step would leave its
    !> square
    integer, parameter :: max_steps = 200
-   real(dp), parameter :: enough = 1.0e-7_dp
-   !> A step is halved where the slope at its end is that of its start times this, the other way round
+   real(dp), parameter :: tolerance = 1.0e-7_dp
+   !> A step is halved where the slope at its end has the opposite sign, and more than this share of the size at its start
    real(dp), parameter :: overshoot = 0.5_dp
-   !> Longest step where the stress is less than that
-   real(dp), parameter :: longest = 4.0_dp
+   !> Maximum step where the stress is smaller than it
+   real(dp), parameter :: max_step = 4.0_dp
    !> Two stresses that are closer than this, or than this share of their sum, have a slope of F in common
    real(dp), parameter :: close = 1.0e-4_dp
    !> A smaller component of S is replaced by this, which changes the factors by its square only, so that their derivatives are
@@ -84,7 +84,7 @@ contains
          ! without sliding the mean stress is 0, by symmetry
          if (.not. b > 0.0_dp) exit
          off = [b, 0.0_dp] - mean*j0 - s*k*dot_product(mean, s)
-         if (all(abs(off) <= enough*b)) then
+         if (all(abs(off) <= tolerance*b)) then
             ! the last step, small as it is
             mean = mean + solve(a, off)
             exit
@@ -97,7 +97,7 @@ contains
             cycle
          end if
          change = solve(a, off)
-         change = change*min(1.0_dp, max(longest, norm2(mean))/norm2(change))
+         change = change*min(1.0_dp, max(max_step, norm2(mean))/norm2(change))
          slope = dot_product(off, change)
          mean = mean + change
       end do
@@ -194,7 +194,7 @@ contains
       x(1) = (v(1) - a(2)*x(2))/a(1)
    end function solve
 
-   !> How the factors change
+   !> Derivatives of the factors
    pure subroutine changes(b, s, a, c, d, r)
       real(dp), intent(in) :: b, s(2), a(3), c(3), d(3)
       type(factors_t), intent(inout) :: r

@@ -244,7 +244,7 @@ contains
          row = [row, numbers(:known_names(self%plan%lubricant))]
          call self%history%append(row, status)
          if (self%plan%surfaces%pass_once() .and. .not. self%plan%duty%active) then
-            call transient%extremes%see(level, self%p_smooth, self%h_smooth, transient%time)
+            call transient%extremes%update(level, self%p_smooth, self%h_smooth, transient%time)
          end if
          self%outcome = transient_outcome(self%plan, transient)
          if (self%plan%heat%counts .and. self%outcome == outcome_converged .and. .not. self%plan%duty%active) then

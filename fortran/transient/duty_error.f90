@@ -10,7 +10,7 @@ module ehl_duty_error
 
    !> Upstream of so many half widths of the contact the pressure flow evens out the error of a step
    real(dp), parameter :: ahead = 1.25_dp
-   !> Films before a step that its error is known by
+   !> Films before a step from which its error is estimated
    integer, parameter :: films_before = 3
 
    type :: duty_error_t
@@ -88,32 +88,32 @@ contains
    end function added
 
    !> Largest error that a step adds within the contact along a row, over the film there
-   pure real(dp) function worst(self, x, film, steps, size, j)
+   pure real(dp) function worst(self, x, film, steps, half_width, j)
       class(duty_error_t), intent(in) :: self
-      real(dp), intent(in) :: x(:), film(:), steps(films_before), size
+      real(dp), intent(in) :: x(:), film(:), steps(films_before), half_width
       integer, intent(in) :: j
-      worst = maxval(added(self, film, factors_of(steps), j)/film, mask=abs(x) <= size)
+      worst = maxval(added(self, film, factors_of(steps), j)/film, mask=abs(x) <= half_width)
    end function worst
 
    !> Accept a step: errors move with the flow, towards larger X, and its own are added
-   subroutine add(self, x, film, steps, way, size)
+   subroutine add(self, x, film, steps, displacement, half_width)
       class(duty_error_t), intent(inout) :: self
       real(dp), intent(in) :: x(:), film(:, :), steps(films_before)
       !> Displacement of the flow in the step, half width of the contact along X [a]
-      real(dp), intent(in) :: way, size
-      real(dp) :: before(1 - (int(way/(x(2) - x(1))) + 1):ubound(x, 1)), part, factors(0:films_before)
+      real(dp), intent(in) :: displacement, half_width
+      real(dp) :: before(1 - (int(displacement/(x(2) - x(1))) + 1):ubound(x, 1)), part, factors(0:films_before)
       integer :: nx, j, k, nodes
 
       nx = ubound(x, 1)
-      nodes = int(way/(x(2) - x(1)))
-      part = way/(x(2) - x(1)) - nodes
+      nodes = int(displacement/(x(2) - x(1)))
+      part = displacement/(x(2) - x(1)) - nodes
       before = 0.0_dp
       factors = factors_of(steps)
       do j = 1, ubound(film, 2)
          before(1:) = self%error(:, j)
          self%error(:, j) = added(self, film(:, j), factors, j) + (1.0_dp - part)*before(1 - nodes:nx - nodes) &
                             + part*before(-nodes:nx - nodes - 1)
-         where (x < -ahead*size) self%error(:, j) = 0.0_dp
+         where (x < -ahead*half_width) self%error(:, j) = 0.0_dp
          do k = films_before, 2, -1
             self%films(:, j, k) = self%films(:, j, k - 1)
          end do

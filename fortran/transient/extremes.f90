@@ -15,14 +15,14 @@ module ehl_extremes
       !> Value [p_h or a^2/R or -], T [a/u], X, Y [a] of each
       real(dp) :: found(4, 4) = spread([-huge(1.0_dp), huge(1.0_dp), -huge(1.0_dp), huge(1.0_dp)], 1, 4)
    contains
-      procedure :: see
+      procedure :: update
       procedure, private :: note
    end type extremes_t
 
 contains
 
    !> Update the extremes by the state after a time step; the first of equal values counts
-   subroutine see(self, level, p_smooth, h_smooth, time)
+   subroutine update(self, level, p_smooth, h_smooth, time)
       class(extremes_t), intent(inout) :: self
       type(level_t), intent(in) :: level
       !> Pressure and film of the smooth contact, (nx, ny)
@@ -33,7 +33,7 @@ contains
       call self%note(level, extreme_film, -1.0_dp, gap(level), time)
       call self%note(level, extreme_rise, 1.0_dp, level%p - p_smooth, time)
       call self%note(level, extreme_ratio, -1.0_dp, gap(level)/h_smooth, time)
-   end subroutine see
+   end subroutine update
 
    !> Keep the largest value (sign 1) or the least (-1), with its place, when it is beyond the one kept
    subroutine note(self, level, which, sign, values, time)

@@ -77,7 +77,7 @@ STEPS: tuple[Step, ...] = (
 
 
 def complete(draft: Draft, *, strict: bool = True) -> None:
-    """Complete a case whose keys are all good by themselves, and check it.
+    """Complete a case whose keys are all valid by themselves, and check it.
 
     Without `strict` all values that can be derived are, and nothing is refused.
     """

@@ -69,7 +69,7 @@ def panels(
             left / width, BELOW / height, 1.0 - right / width, 1.0 - ABOVE / height, between / panel
         )
     figure.subplots(rows, columns, sharey=sharey, squeeze=False)
-    return _told(figure, conditions)
+    return _labelled(figure, conditions)
 
 
 def rows(heights: Sequence[float], conditions: str) -> Figure:
@@ -86,7 +86,7 @@ def rows(heights: Sequence[float], conditions: str) -> Figure:
         high -= wide * height + ABOVE + GAP
         bottom = high + GAP
         figure.add_axes((LEFT / width, bottom / top, wide / width, wide * height / top))
-    return _told(figure, conditions)
+    return _labelled(figure, conditions)
 
 
 def page(count: int) -> float:
@@ -99,7 +99,7 @@ def failed(conditions: str) -> bool:
     return conditions.rpartition(",  ")[2].isupper()
 
 
-def _told(figure: Figure, conditions: str) -> Figure:
+def _labelled(figure: Figure, conditions: str) -> Figure:
     letter(figure.axes)
     if failed(conditions):
         figure.suptitle(conditions.rpartition(",  ")[2].lower(), color=VERMILLION)

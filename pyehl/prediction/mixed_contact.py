@@ -10,16 +10,17 @@ move with the lubricant as the films of touching nodes do. For waves as long as 
 near zero: solid contact then takes load from the fluid, and the mean film remains that of the
 inlet.
 
-It is thicker where contact would otherwise sustain more than the load, and by the mass defect of
-the boundary film. A column of lubricant that a peak has passed has the film of the boundary film at
-least. So its mass defect is the largest deficit on the way through the contact, on which peaks
-that slip pass it one after the other, and all films are thicker by the mean s of that:
+The mean film is thicker where contact would otherwise sustain more than the load, and by the mass
+defect of the boundary film. A column of lubricant that a peak has passed has at least the thickness
+of the boundary film. So its mass defect is the largest deficit on the way through the contact, on
+which peaks that slip pass it one after the other, and all films are thicker by the mean s of that:
 
     s = < max(0, h_b - h_min - s) >,   h_min the minimum film of the column on its way.
 
 Without roughness this is not the solution of the smooth contact: the boundary film makes the film
-of its inlet thinner there. By as much as all films had to be thinner or thicker for the load share
-of that solution they may be wrong, and friction is relative to the smooth contact with those.
+of its inlet thinner there. The change of all films with which this contact has the load share of
+that solution is the error of the films, and friction is relative to the smooth contact with films
+changed so.
 """
 
 from __future__ import annotations
@@ -73,7 +74,7 @@ class Level:
 
 
 class MixedContact:
-    """The points of a contact with a boundary film [m], so many per shorter semi-axis.
+    """A contact with a boundary film [m], with `points` points per shorter semi-axis.
 
     Under one rough surface with heights on a `grid`; `friction` of the boundary film [-], 0: not
     known.

@@ -100,7 +100,7 @@ def is_rig(path: str | os.PathLike[str]) -> bool:
 
 
 def _text(path: str | os.PathLike[str]) -> str:
-    """Text of a file, whose encoding instruments choose: UTF-8, UTF-16, else Windows."""
+    """Text of a file, whose encoding instruments choose: UTF-8, UTF-16, else Windows-1252."""
     name = os.fspath(path)
     try:
         if Path(path).stat().st_size > MAX_BYTES:
@@ -149,9 +149,9 @@ def _table(name: str, lines: Lines) -> Iterator[Step]:
     if not numbers:
         return
     head = lines[numbers[0]]
-    sign = max(";\t,", key=head.count)
-    rows = list(csv.reader([lines[n] for n in numbers], delimiter=sign))
-    if sign == ";" and any("," in cell for row in rows[1:] for cell in row):
+    delimiter = max(";\t,", key=head.count)
+    rows = list(csv.reader([lines[n] for n in numbers], delimiter=delimiter))
+    if delimiter == ";" and any("," in cell for row in rows[1:] for cell in row):
         rows = [rows[0], *([cell.replace(",", ".") for cell in row] for row in rows[1:])]
     for n, row in zip(numbers[1:], rows[1:], strict=True):
         if len(row) != len(rows[0]):
@@ -162,7 +162,7 @@ def _table(name: str, lines: Lines) -> Iterator[Step]:
 def _step(
     name: str, title: str, head: Sequence[str], rows: Sequence[Sequence[str]], line: int
 ) -> Step:
-    """Columns that are known, each in its unit; of a column that stands twice the fuller one."""
+    """Known columns, each in its unit; of two with the same name the one with more values."""
     columns: dict[str, Array] = {}
     left_out: list[str] = []
     for k, cell in enumerate(head):

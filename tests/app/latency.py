@@ -4,8 +4,9 @@
     python tests/app/latency.py [TURNS]
 
 A slider is moved by the page's own JavaScript, and the time is taken until the browser has painted
-the film of that position on 129 x 129 nodes, and on 257 x 257, with the time for which a control
-has to rest in it. Prints the median and the largest of each; exit status 1 if a median is too long.
+the film of that position on 129 x 129 nodes, and on 257 x 257; the latter includes the delay for
+which a control must be at rest. Prints the median and the largest of each; exit status 1 if a
+median is too long.
 """
 
 import statistics

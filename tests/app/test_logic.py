@@ -465,7 +465,7 @@ def test_many_turns_leave_nothing(start):
     assert threading.active_count() <= threads
 
 
-def test_contact_without_friction_of_the_layer():
+def test_contact_without_friction_of_the_boundary_film():
     """Of an opened case that has a boundary film; the page has no control for it."""
     text = """&contact load = 20.0 mean_velocity = 0.3 radius = 0.0127 slide_to_roll = 0.1 /
     &lubricant shear_law = 'eyring' boundary_film = 1.3e-7 {} /

@@ -83,7 +83,7 @@ def test_refused_at_once(command, folder: Path, words: tuple[str, ...], part: st
 
 
 @pytest.mark.parametrize("size", [1_000, 30_000])
-def test_full_disk_is_told_and_leaves_no_folder(folder: Path, size: int):
+def test_full_disk_is_reported_and_leaves_no_folder(folder: Path, size: int):
     """A write that takes a part is no error for gfortran: the length of every file is checked."""
     words = ["run", "case.nml", "-o", "full", "--set", "time.steps=4"]
     done = limited(folder, resource.RLIMIT_FSIZE, size, *words)

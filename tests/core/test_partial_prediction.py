@@ -29,8 +29,8 @@ TEXT = """
 """
 
 
-def predicted(layer: float, friction: float = 0.1, velocity: float = 0.3):
-    text = TEXT.format(velocity, layer, friction if layer else 0.0)
+def predicted(boundary_film: float, friction: float = 0.1, velocity: float = 0.3):
+    text = TEXT.format(velocity, boundary_film, friction if boundary_film else 0.0)
     return summary_of(text)
 
 
@@ -40,8 +40,8 @@ def summary_of(text: str):
     return pyehl.predict(pyehl.Case.from_text(text), tracks=1).summary
 
 
-def test_full_film_is_as_without_a_layer():
-    """With a layer thinner than every film."""
+def test_full_film_is_as_without_a_boundary_film():
+    """With a boundary film thinner than every film."""
     without, held = predicted(0.0), predicted(5e-9)
     assert held["contact_load_share"] == held["contact_area_share"] == 0.0
     more = {"boundary_film", *(name for name in held if name.startswith("contact_"))}
@@ -61,13 +61,13 @@ def test_error_of_the_smooth_film_is_one_of_the_load_share():
 
 
 @pytest.mark.long
-def test_share_grows_with_the_layer_up_to_dry_contact():
-    result = [predicted(layer) for layer in (9e-8, 1.1e-7, 1.3e-7, 4e-7)]
+def test_share_grows_with_the_boundary_film_up_to_dry_contact():
+    result = [predicted(boundary_film) for boundary_film in (9e-8, 1.1e-7, 1.3e-7, 4e-7)]
     shares = [summary["contact_load_share"] for summary in result]
     assert 0.0 < shares[0] < 0.1
     assert (np.diff(shares) > 0.05).all()
     assert shares[-1] == pytest.approx(1.0, abs=0.02)
-    # friction is that of the layer there
+    # friction is that of the boundary film there
     assert result[-1]["mu"] == pytest.approx(0.1, rel=0.05)
     assert all(s["contact_load_share_error"] >= 0.0 for s in result[:-1])
     # of dry contact no film states how it misses that of the smooth one
@@ -78,12 +78,12 @@ def test_share_grows_with_the_layer_up_to_dry_contact():
 
 
 @pytest.mark.parametrize(
-    ("velocity", "layer"), [(0.3, 1.3e-7), pytest.param(0.02, 2e-8, marks=pytest.mark.long)]
+    ("velocity", "boundary_film"), [(0.3, 1.3e-7), pytest.param(0.02, 2e-8, marks=pytest.mark.long)]
 )
-def test_smooth_films_are_those_of_a_run_with_the_layer(velocity, layer):
-    """Films, pressure and Lambda, as of a run and on a curve; a layer of no contact costs none."""
-    values = predicted(layer, velocity=velocity)
-    case = pyehl.Case.from_text(TEXT.format(velocity, layer, 0.1), {"grid.points": 129})
+def test_smooth_films_are_those_of_a_run_with_the_boundary_film(velocity, boundary_film):
+    """Films, pressure and Lambda of a run, a prediction and a curve are the same."""
+    values = predicted(boundary_film, velocity=velocity)
+    case = pyehl.Case.from_text(TEXT.format(velocity, boundary_film, 0.1), {"grid.points": 129})
     run = scalars_of(pyehl.solve(case.with_options({"surface.kind": "smooth"})))
     for name in ("c", "min"):
         error = run[f"H_{name}_error"] * run["film_scale_m"]
@@ -97,7 +97,7 @@ def test_smooth_films_are_those_of_a_run_with_the_layer(velocity, layer):
         assert values[name] == pytest.approx(float(row[name][0]), rel=0.02), name
 
 
-def test_smooth_contact_with_the_layer_that_does_not_converge(monkeypatch):
+def test_smooth_contact_with_the_boundary_film_that_does_not_converge(monkeypatch):
     """No films of another contact in place of its own."""
     monkeypatch.setattr(
         smooth, "_solved_with_boundary_film", lambda *_: (None, "it does not converge")
@@ -113,7 +113,7 @@ def test_smooth_contact_with_the_layer_that_does_not_converge(monkeypatch):
     assert summary["mu"] > 0.0
 
 
-def test_friction_of_the_layer_is_not_known():
+def test_friction_of_the_boundary_film_is_not_known():
     summary = predicted(1.3e-7, friction=0.0)
     assert summary["contact_load_share"] > 0.0
     assert (summary["mu"], summary["mu_ratio"]) == (None, None)
@@ -167,7 +167,7 @@ def test_curve_says_why_it_has_no_friction(tmp_path, capsys):
 HOT = TEXT.format(3.0, "{}", 0.1).replace("&lubricant", "&lubricant temperature_viscosity = 0.04")
 
 
-def test_layer_that_touches_nothing_changes_no_bit_of_friction_with_heat():
+def test_boundary_film_that_touches_nothing_changes_no_bit_of_friction_with_heat():
     without = summary_of(HOT.format(0.0).replace("boundary_friction = 0.1", ""))
     with_boundary_film = summary_of(HOT.format(5e-9))
     for name in without:
@@ -178,15 +178,15 @@ def test_layer_that_touches_nothing_changes_no_bit_of_friction_with_heat():
 
 @pytest.mark.long
 def test_heat_where_bodies_touch():
-    """Friction with heat is that of a full film where contact begins, and that of the layer."""
+    """Friction with heat: that of a full film where contact begins, then of the boundary film."""
     # a load with which M is in the range of the prediction
     text = HOT.replace("load = 20.0", "load = 120.0").replace("= 3e-8", "= 1e-7")
-    touching = [summary_of(text.format(layer)) for layer in (2.6e-7, 3.6e-7)]
+    touching = [summary_of(text.format(boundary_film)) for boundary_film in (2.6e-7, 3.6e-7)]
     full = summary_of(text.format(1e-9))
     reduction = [s["mu"] / s["mu_isothermal"] for s in (full, *touching)]
     assert touching[0]["contact_load_share"] < 0.01 < touching[1]["contact_load_share"]
     assert reduction[1] == pytest.approx(reduction[0], rel=0.02)
-    # the layer does not mind the temperature
+    # friction of the boundary film does not depend on the temperature
     assert reduction[1] < reduction[2]
     for summary in touching:
         assert summary["mu_smooth"] is None
@@ -260,7 +260,7 @@ TABLE1 = {
 
 
 @pytest.mark.parametrize(
-    ("velocity", "layer", "note", "message"),
+    ("velocity", "boundary_film", "note", "message"),
     [
         pytest.param(
             *(0.3, 2e-8, "waves are too short", "full film; the bodies touch at the boundary film"),
@@ -274,10 +274,10 @@ TABLE1 = {
         (0.413, 4e-9, "the film ends between the positions", NOTHING),
     ],
 )
-def test_no_number_of_contact_outside_the_range(cases, velocity, layer, note, message):
+def test_no_number_of_contact_outside_the_range(cases, velocity, boundary_film, note, message):
     """Bodies touch, and how much is not known: a missing value with the reason, and no friction."""
     case = pyehl.Case(cases / "table1.nml", TABLE1)
-    options = {"contact.mean_velocity": velocity, "lubricant.boundary_film": layer}
+    options = {"contact.mean_velocity": velocity, "lubricant.boundary_film": boundary_film}
     summary = pyehl.predict(case.with_options(options), tracks=1).summary
     assert summary["status"] == "film breakdown"
     assert message in summary["message"]
@@ -286,7 +286,7 @@ def test_no_number_of_contact_outside_the_range(cases, velocity, layer, note, me
     names = [name for name in summary if name.startswith("contact_") and "note" not in name]
     names += ["mu_ratio", "mu_ratio_min", "mu", "mu_isothermal", "h_min_rough_m"]
     assert {name: summary[name] for name in names} == dict.fromkeys(names)
-    # which nothing is an error of
+    # there is no film that this would be an error of
     assert summary["h_min_rough_error_m"] is None
 
 
@@ -376,7 +376,7 @@ def test_lift_off_with_its_error():
 
 
 @pytest.mark.long
-def test_curve_with_a_layer():
+def test_curve_with_a_boundary_film():
     case = pyehl.Case.from_text(TEXT.format(0.3, 1e-7, 0.1) + "&grid points = 65 /\n")
     curve = pyehl.stribeck(case, {"contact.mean_velocity": [0.2, 1.2]}, jobs=1)
     assert curve.status.values[0] == "mixed film"

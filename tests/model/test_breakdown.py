@@ -49,7 +49,7 @@ def test_share_of_one_pixel_is_its_chord():
     assert ends(deformed, a, flat(1e-7)) == both
 
 
-def test_film_that_is_thin_at_the_rim():
+def test_film_that_is_thin_at_the_edge():
     """A pixel meets the minimum film of its row."""
     deformed = np.zeros((100, 200))
     deformed[7, 30] = 0.5

@@ -102,7 +102,7 @@ def test_polynomials_meet_the_edge(kappa):
 
 
 def test_circle_is_the_limit_of_ellipses():
-    """A hair beside the circle the other code predicts nearly the same.
+    """At an ellipticity of nearly 1 the code for ellipses predicts what that for circles does.
 
     Its film is that of a formula, and the pressure of oblique waves is calculated, not fitted.
     """

@@ -24,7 +24,7 @@ def test_deflection(x):
     assert float(reference.hertz_deflection(x, 0.0)) == pytest.approx(expected, abs=2e-4)
 
 
-def test_deflection_is_smooth_at_the_rim():
+def test_deflection_is_smooth_at_the_edge():
     inside, outside = reference.hertz_deflection([1 - 1e-9, 1 + 1e-9], 0.0)
     assert inside == pytest.approx(outside, abs=1e-8)
     assert float(reference.hertz_deflection(0.0, 0.0)) == 1.0

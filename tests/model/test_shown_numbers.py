@@ -124,7 +124,7 @@ def test_ellipses_whose_film_was_not_compared(states, cases: Path, name: str, ca
 
 @pytest.mark.long
 def test_limits(states, cases: Path):
-    """Scatter over the scan lines, and the viscosity of a high pressure."""
+    """Scatter over the tracks, and the viscosity at a high pressure."""
     result = pyehl.predict(cases / "table1.nml").summary
     spread = result["mu_ratio_tracks_spread"] / result["mu_ratio_tracks"]
     pressure = OperatingPoint.from_moes(2000.0, 20.0).hertz_pressure
@@ -138,7 +138,7 @@ def test_limits(states, cases: Path):
 
 
 def test_constants_of_the_prediction(states):
-    """Where a film ends, what the inlet makes, what oblique waves take."""
+    """Where a film ends, the film by the inlet, the pressure of oblique waves."""
     ends, film, least = response.FILM_ENDS, response.INLET_FILM, response.QUADRATIC
     states("docs/conventions.md", f"to first order, exceeds {ends:g} times the smooth film")
     states("docs/theory/prediction.md", f"loss of film exceeds {ends:g} times the smooth film")

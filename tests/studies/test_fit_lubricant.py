@@ -118,7 +118,7 @@ def test_bad_data(case: Path, tmp_path: Path, text: str, words: list[str]):
     assert not (tmp_path / "out").exists()
 
 
-def testweights_are_not_dropped():
+def test_weights_are_not_dropped():
     """One error of none refuses a fit; zeros alone stand for errors that are not known."""
     assert (weights(np.zeros(3)) == 1.0).all()
     assert weights(np.array([0.1, 0.2])) == pytest.approx([10.0, 5.0])
