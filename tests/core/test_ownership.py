@@ -1,13 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""No command touches what it did not write, and every result is whole at every instant."""
+"""No command touches what it did not write."""
 
 import json
 import os
-import random
 import shutil
 import subprocess
-import sys
-import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -230,69 +227,6 @@ def test_links_are_kept(call: Call, tmp_path: Path, name: str):
         refused(call(name, "-o", "gone"), "a link to nothing")
 
 
-def without_rights() -> list[str]:
-    """Words before a command that take the rights of the superuser from it."""
-    if os.geteuid() != 0:
-        return []
-    if shutil.which("setpriv") is None:
-        pytest.skip("the superuser may write everywhere")
-    return ["setpriv", "--bounding-set", "-dac_override,-dac_read_search"]
-
-
-def command_of(words: list[str]) -> list[str]:
-    """The command of a process of its own."""
-    if words[0] in SCRIPTS:
-        return [sys.executable, str(SCRIPTS[words[0]].__file__), *words[1:]]
-    return [sys.executable, "-P", "-m", "pyehl", *words]
-
-
-# that folders are made on the way is for `Destination` alone
-@pytest.mark.parametrize(
-    ("name", "deep"),
-    [
-        *(pytest.param(name, False, marks=pytest.mark.long) for name in FOLDERS if name != "run"),
-        *(("run", False), ("ehl", True), ("sweep", True)),
-    ],
-)
-def test_no_permission(ehl: str, tmp_path: Path, name: str, deep: bool):
-    text, words = FOLDERS[name]
-    (tmp_path / "case.nml").write_text(text)
-    (tmp_path / "locked").mkdir()
-    (tmp_path / "locked").chmod(0o555)
-    command = [ehl, *words] if name == "ehl" else command_of(words)
-    place = "locked/deep/out" if deep else "locked"
-    began = time.monotonic()
-    done = subprocess.run(
-        [*without_rights(), *command, "-o", place],
-        cwd=tmp_path, capture_output=True, text=True, check=False,
-    )  # fmt: skip
-    refused(done, place, "no permission to write into")
-    assert "level" not in done.stdout
-    assert time.monotonic() - began < 60.0
-    assert set(tree(tmp_path)) == {"case.nml", "locked"}
-
-
-@pytest.mark.parametrize("name", ["plot", "export", "surface", "smooth"])
-def test_no_permission_for_files(tmp_path: Path, name: str):
-    (tmp_path / "case.nml").write_text(ROUGH)
-    pyehl.solve(pyehl.Case.from_text(SMOOTH), output=tmp_path / "out")
-    (tmp_path / "locked").mkdir()
-    (tmp_path / "locked").chmod(0o555)
-    words = {
-        "plot": ["plot", "out", "-o", "locked"],
-        "export": ["export", "out", "-o", "locked/a.nc"],
-        "surface": ["surface", "case.nml", "-o", "locked/a.npy"],
-        "smooth": ["smooth", "--points", "17", "-o", "locked/a.json"],
-    }[name]
-    done = subprocess.run(
-        [*without_rights(), *command_of(words)],
-        cwd=tmp_path, capture_output=True, text=True, check=False,
-    )  # fmt: skip
-    refused(done, "locked", "no permission to write")
-    assert done.stdout == ""
-    assert not list((tmp_path / "locked").iterdir())
-
-
 COARSE = ("--dpi", "40")
 # Single files: words of the command, and what it writes
 FILES = {
@@ -479,96 +413,3 @@ def test_both_drivers_say_the_same(call: Call, tmp_path: Path):
         reported = [call(name, "-o", *words) for name in ("run", "ehl")]
         assert reported[0].stderr == reported[1].stderr
         assert reported[0].returncode == reported[1].returncode == 2
-
-
-def test_whole_at_every_instant(ehl: str, call: Call, tmp_path: Path):
-    """A reader never misses the result, nor the files of the user, while it is replaced."""
-    assert call("ehl", "-o", "out").returncode == 0
-    foreign(tmp_path / "out")
-    words = [ehl, *FOLDERS["ehl"][1], "-o", "out", "--force"]
-
-    def read(name: str) -> bytes:
-        """Read a file; once more where it went between two names of its path."""
-        try:
-            return (tmp_path / "out" / name).read_bytes()
-        except OSError:
-            return (tmp_path / "out" / name).read_bytes()
-
-    reads = 0
-    for _ in range(25):
-        with subprocess.Popen(words) as process:
-            while process.poll() is None:
-                assert json.loads(read("summary.json"))["status"] == "converged"
-                assert read("notes.txt") == read("sub/a.txt") == b"mine"
-                reads += 1
-        assert process.returncode == 0
-    assert reads > 1000
-
-
-def test_two_at_once(ehl: str, call: Call, tmp_path: Path):
-    """One is refused where they overlap; results get there one after the other, nothing is left."""
-    assert call("ehl", "-o", "out").returncode == 0
-    foreign(tmp_path / "out")
-    words = [ehl, *FOLDERS["ehl"][1], "-o", "out", "--force"]
-    for _ in range(40):
-        pair = [subprocess.Popen(words) for _ in range(2)]
-        assert sorted(process.wait() for process in pair) in ([0, 0], [0, 2])
-        whole(tmp_path / "out")
-        assert (tmp_path / "out" / "notes.txt").read_text() == "mine"
-        assert (tmp_path / "out" / "sub" / "a.txt").read_text() == "mine"
-    assert {path.name for path in tmp_path.iterdir()} == {"case.nml", "out"}
-    assert not (tmp_path / "out" / "sub").is_symlink()
-
-
-def test_killed_at_any_instant(ehl: str, call: Call, tmp_path: Path):
-    """What a kill leaves is whole, with the files of the user, and the next run can go there."""
-    began = time.monotonic()
-    assert call("ehl", "-o", "out").returncode == 0
-    takes = time.monotonic() - began
-    foreign(tmp_path / "out")
-    words = [ehl, *FOLDERS["ehl"][1], "-o", "out", "--force"]
-    chance = random.Random(20190128)
-    killed = 0
-    for _ in range(60):
-        process = subprocess.Popen(words)
-        time.sleep(chance.uniform(0.3, 1.1) * takes)
-        process.kill()
-        killed += process.wait() != 0
-        whole(tmp_path / "out")
-        assert (tmp_path / "out" / "notes.txt").read_text() == "mine"
-        assert (tmp_path / "out" / "sub" / "a.txt").read_text() == "mine"
-    assert killed > 5
-    assert subprocess.run(words, check=False).returncode == 0
-
-
-@pytest.mark.skipif(shutil.which("strace") is None, reason="needs strace")
-@pytest.mark.parametrize("calls", ["renameat2", "unlink", "rmdir", "symlink"])
-def test_killed_between_two_calls(ehl: str, call: Call, tmp_path: Path, calls: str):
-    """At each call that changes a folder."""
-    assert call("ehl", "-o", "out").returncode == 0
-    foreign(tmp_path / "out")
-    for number in range(1, 12):
-        words = ["strace", "-f", "-qq", "-o", os.devnull, f"-etrace={calls}"]
-        words += [f"-einject={calls}:signal=KILL:when={number}", ehl, *FOLDERS["ehl"][1]]
-        done = subprocess.run([*words, "-o", "out", "--force"], capture_output=True, check=False)
-        if done.returncode == 0:
-            break
-        whole(tmp_path / "out")
-        assert (tmp_path / "out" / "notes.txt").read_text() == "mine"
-        assert (tmp_path / "out" / "sub" / "a.txt").read_text() == "mine"
-    assert number > 1
-
-
-@pytest.mark.skipif(shutil.which("strace") is None, reason="needs strace")
-def test_file_system_without_exchange(ehl: str, call: Call, tmp_path: Path):
-    assert call("ehl", "-o", "out").returncode == 0
-    foreign(tmp_path / "out")
-    old = (tmp_path / "out" / "summary.json").stat().st_ino
-    words = ["strace", "-f", "-qq", "-o", os.devnull, "-einject=renameat2:error=EINVAL"]
-    command = [*words, ehl, *FOLDERS["ehl"][1], "-o", "out", "--force"]
-    subprocess.run(command, check=True)
-    assert (tmp_path / "out" / "summary.json").stat().st_ino != old
-    assert not (tmp_path / "out" / "notes.txt").is_symlink()
-    assert not (tmp_path / "out" / "sub").is_symlink()
-    whole(tmp_path / "out")
-    assert {path.name for path in tmp_path.iterdir()} == {"case.nml", "out"}
