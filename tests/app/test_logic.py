@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the page does, without a browser: controls, cases, the worker, words, uploads."""
+"""What the page does, without a browser: controls, cases, words, pictures."""
 
 import resource
 import threading
-import time
 from pathlib import Path
 
 import numpy as np
@@ -16,8 +15,6 @@ from pyehl.app import answers, downloads, drawing, words
 from pyehl.app.controls import CONTROLS, STEPS, Control
 from pyehl.app.figures import TICKS, Pictures
 from pyehl.app.position import Position, from_case
-from pyehl.app.uploads import Uploads
-from pyehl.app.worker import Worker
 from pyehl.case import Case
 from pyehl.errors import InputError
 from pyehl.plots.outline import Outline
@@ -292,116 +289,6 @@ def test_case_file_is_short_and_complete(start):
     assert "!" not in text
     assert Case.from_text(text).resolve() == position.case(257).resolve()
     assert set(namelist.values(text)) == {"contact", "lubricant", "surface", "grid"}
-
-
-def test_worker_does_the_newest_alone():
-    reported: list[tuple[int, object]] = []
-    begun, go = threading.Event(), threading.Event()
-    worker = Worker(lambda generation, answer: reported.append((generation, answer)))
-
-    def first(context):
-        begun.set()
-        assert go.wait(10.0)
-        context.answer_with("first")
-        if context.wait(5.0):
-            context.answer_with("never")
-
-    assert worker.submit(first) == 1
-    assert begun.wait(10.0)
-    worker.submit(lambda context: context.answer_with("overtaken"))
-    last = worker.submit(lambda context: context.answer_with("last"))
-    go.set()
-    end = time.monotonic() + 10.0
-    while len(reported) < 2 and time.monotonic() < end:
-        time.sleep(0.01)
-    worker.close()
-    assert reported == [(1, "first"), (last, "last")]
-    assert not worker.alive
-
-
-def test_worker_tells_what_is_raised_and_goes_on():
-    reported: list[object] = []
-    worker = Worker(lambda generation, answer: reported.append(answer))
-    done = threading.Event()
-
-    def bad(context):
-        raise InputError("no")
-
-    worker.submit(bad)
-    time.sleep(0.1)
-    worker.submit(lambda context: done.set())
-    assert done.wait(10.0)
-    worker.close()
-    assert [str(answer) for answer in reported] == ["no"]
-
-
-def test_closed_worker_stops_a_solver(start):
-    """A tab that is closed does not compute on."""
-    worker = Worker(lambda generation, answer: None)
-    began = threading.Event()
-
-    def job(context):
-        began.set()
-        while context.wanted():
-            answers.film(start, 65, context.wanted)
-
-    worker.submit(job)
-    assert began.wait(10.0)
-    worker.close()
-    assert not worker.alive
-
-
-def test_upload_is_read_and_refused_in_the_words_of_the_reader(tmp_path):
-    uploads = Uploads()
-    heights = tmp_path / "ground.npy"
-    np.save(heights, 1e-8 * np.random.default_rng(1).normal(size=(32, 32)))
-    with pytest.raises(InputError) as refused:
-        uploads.add("ground.npy", heights.read_bytes())
-    with pytest.raises(pyehl.InputError) as theirs:
-        pyehl.surfaces.read_scan(heights)
-    assert str(refused.value) == str(theirs.value).replace(f"{tmp_path}/", "")
-    size = {"length_x": 1e-4, "length_y": 1e-4}
-    path = uploads.add("../../ground.npy", heights.read_bytes(), size)
-    assert Path(path).name == "ground.npy"
-    assert uploads.nameless(f"in {path}") == "in ground.npy"
-    with pytest.raises(InputError, match=r"bad\.npy"):
-        uploads.add("bad.npy", b"\x93NUMPY nonsense", size)
-    # a bad file leaves the good one of its name
-    with pytest.raises(InputError, match=r"^ground\.npy"):
-        uploads.add("ground.npy", b"\x93NUMPY nonsense", size)
-    assert Path(path).read_bytes() == heights.read_bytes()
-    assert sorted(uploads.files) == ["ground.npy"]
-    assert [p.name for p in Path(path).parents[1].rglob("*.npy")] == ["ground.npy"]
-    uploads.close()
-    assert not Path(path).exists()
-
-
-def test_what_a_case_says_of_its_map_is_heard(tmp_path):
-    """Text in nanometres is read as the case states, not as metres."""
-    uploads = Uploads()
-    text = (
-        "&surface kind = 'map' file = 'm.txt' length_x = 1e-4 length_y = 2e-4 height_unit = 'nm' /"
-    )
-    np.savetxt(tmp_path / "m.txt", np.random.default_rng(1).normal(size=(16, 16)))
-    data = (tmp_path / "m.txt").read_bytes()
-    stated = {"length_x": 1e-4, "length_y": 1e-4, "height_unit": "nm"}
-    uploads.add("m.txt", data, stated)
-    position, _ = from_case(
-        Case.from_text(text.replace("m.txt", uploads.files["m.txt"])), uploads.files
-    )
-    assert position.map_message() == {"length_x": 1e-4, "length_y": 2e-4, "height_unit": "nm"}
-    uploads.check(position.file, position.map_message())
-    uploads.close()
-
-
-def test_case_may_not_name_a_file_of_the_machine(tmp_path):
-    np.save(tmp_path / "secret.npy", np.zeros((8, 8)))
-    text = f"&surface kind = 'map' file = '{tmp_path}/secret.npy' length_x = 1e-4 length_y = 1e-4 /"
-    with pytest.raises(InputError, match=r"'secret\.npy': expected an upload"):
-        from_case(Case.from_text(text), {})
-    position, _ = from_case(Case.from_text(text))
-    assert str(tmp_path) not in position.text(65)
-    assert str(tmp_path) not in words.python_lines(position, 65)
 
 
 def test_downloads(start):

@@ -39,7 +39,7 @@ KEY = "contact.mean_velocity"
 def run(*words: str, expect: int = 0) -> tuple[str, str]:
     reported, complaint = io.StringIO(), io.StringIO()
     with redirect_stdout(reported), redirect_stderr(complaint):
-        status = main(["stribeck", *words])
+        status = main(["stribeck", "--jobs", "1", *words])
     assert status == expect, reported.getvalue() + complaint.getvalue()
     return reported.getvalue(), complaint.getvalue()
 

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The thread of a page: the newest job alone, exceptions, its end."""
+
+import threading
+import time
+
+from pyehl.app import answers
+from pyehl.app.position import from_case
+from pyehl.app.worker import Worker
+from pyehl.case import Case
+from pyehl.errors import InputError
+
+
+def test_worker_does_the_newest_alone():
+    reported: list[tuple[int, object]] = []
+    begun, go = threading.Event(), threading.Event()
+    worker = Worker(lambda generation, answer: reported.append((generation, answer)))
+
+    def first(context):
+        begun.set()
+        assert go.wait(10.0)
+        context.answer_with("first")
+        if context.wait(5.0):
+            context.answer_with("never")
+
+    assert worker.submit(first) == 1
+    assert begun.wait(10.0)
+    worker.submit(lambda context: context.answer_with("overtaken"))
+    last = worker.submit(lambda context: context.answer_with("last"))
+    go.set()
+    end = time.monotonic() + 10.0
+    while len(reported) < 2 and time.monotonic() < end:
+        time.sleep(0.01)
+    worker.close()
+    assert reported == [(1, "first"), (last, "last")]
+    assert not worker.alive
+
+
+def test_worker_reports_an_exception_and_continues():
+    reported: list[object] = []
+    worker = Worker(lambda generation, answer: reported.append(answer))
+    done = threading.Event()
+
+    def bad(context):
+        raise InputError("no")
+
+    worker.submit(bad)
+    time.sleep(0.1)
+    worker.submit(lambda context: done.set())
+    assert done.wait(10.0)
+    worker.close()
+    assert [str(answer) for answer in reported] == ["no"]
+
+
+def test_closed_worker_stops_a_solver():
+    """A tab that is closed does not compute on."""
+    start, _ = from_case(Case())
+    worker = Worker(lambda generation, answer: None)
+    began = threading.Event()
+
+    def job(context):
+        began.set()
+        while context.wanted():
+            answers.film(start, 65, context.wanted)
+
+    worker.submit(job)
+    assert began.wait(10.0)
+    worker.close()
+    assert not worker.alive
