@@ -28,7 +28,7 @@ mu_r/mu_s, tracks, bands                :func:`friction.run`
 p_s, h_s: the smooth contact            :func:`pyehl.contact.smooth.solve_contact`
 contact at a boundary film              :func:`mixed_lubrication.partial_film`
 heat of sliding                         :func:`pyehl.contact.smooth.heat_of`
-where the film ends, and a cut-off      :func:`breakdown.below_zero`, :func:`breakdown.advise`
+where the film ends, and a cut-off      :func:`breakdown.below_zero`, :func:`advice.advise`
 with which it would not
 errors                                  :func:`model.model_error`
 ======================================= ==========================================================

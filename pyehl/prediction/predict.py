@@ -28,15 +28,8 @@ from pyehl.contact.smooth import (
     with_boundary_film,
 )
 from pyehl.errors import InputError
-from pyehl.prediction.breakdown import (
-    BelowZero,
-    Sustained,
-    advise,
-    below_zero,
-    of_model,
-    sustained_by,
-    ways_into_range,
-)
+from pyehl.prediction.advice import advise, ways_into_range
+from pyehl.prediction.breakdown import BelowZero, Sustained, below_zero, of_model, sustained_by
 from pyehl.prediction.friction import BEYOND, TRACKS, Outcome, RoughFriction, broken, run
 from pyehl.prediction.mixed_lubrication import mixed_film, with_contact
 from pyehl.prediction.model import PIXEL_POINTS, Model, ModelOptions, RoughSurface, unpredictable

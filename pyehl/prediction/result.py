@@ -18,7 +18,8 @@ from pyehl import display, namelist
 from pyehl.arrays import write_csv
 from pyehl.contact.smooth import SmoothContact
 from pyehl.destination import Destination, write_json
-from pyehl.prediction.breakdown import Advice, BelowZero
+from pyehl.prediction.advice import Advice
+from pyehl.prediction.breakdown import BelowZero
 from pyehl.prediction.friction import (
     TRACKS,
     Outcome,

@@ -14,7 +14,7 @@ import scipy.ndimage
 import pyehl
 from pyehl.contact.smooth import hertz_contact, read_contact, solve_contact, zone_of
 from pyehl.prediction import model, moving_tile, response, rough_contact
-from pyehl.prediction.breakdown import ways_into_range
+from pyehl.prediction.advice import ways_into_range
 from pyehl.prediction.friction import outcome, run
 from pyehl.prediction.model import KNOWN_RATIO, Model, ModelOptions
 from pyehl.prediction.moving_tile import WaveTiles
