@@ -52,9 +52,10 @@ module ehl_domain
    !> Around an ellipse the deflection extends further, by kappa k_b over that of a round contact: maximum of this factor of
    !> the error with a flooded border, and its power with P = 0, where it is larger for a narrow contact, too
    real(dp), parameter :: max_wide = 4.0_dp, wide_power = 0.4_dp
-   !> Sides of a wide contact in terms of its half width, and length s of a film above which they are further out: sides half
-   !> as far again change H_c by 0.01 % and H_min by up to 0.13 % (docs/evidence/machines)
-   real(dp), parameter :: beyond_ends = 1.3_dp, thick_at_ends = 0.95_dp
+   !> Sides of a wide contact in terms of its half width, and length s of a film above which they are further out; with a flooded
+   !> border at most one half length along the motion beyond its ends, but at least `least_beyond` half widths: sides half as far
+   !> again change H_c by 0.01 % and H_min by up to 0.13 % (docs/evidence/machines)
+   real(dp), parameter :: beyond_ends = 1.3_dp, thick_at_ends = 0.95_dp, least_beyond = 1.08_dp
    !> Sides of a narrow contact in terms of the length over which its gap opens across the motion (side_scale); the errors of
    !> H_c and H_min at twice that, with a flooded border and with P = 0, and their decay with the distance: upper limits of 21
    !> random contacts with either border (docs/evidence/machines/narrow_sides.csv)
@@ -111,22 +112,25 @@ contains
          width = unit*ceiling(wanted/unit)
          domain = domain_t(-0.625_dp*width, 0.375_dp*width, 0.5_dp*width*sides_over_round(contact))
       end do
-      domain%side = min(domain%side, side_of_wide(contact, point), side_of_narrow(contact, point))
+      domain%side = min(domain%side, side_of_wide(contact, point, flooded), side_of_narrow(contact, point))
    end function needed_domain
 
    !> Distance of the sides of a wide contact from the centre. Its ends are as far from one another as it is wide, and the
    !> domain beyond an end affects the film there alone.
-   pure real(dp) function side_of_wide(contact, point) result(side)
+   pure real(dp) function side_of_wide(contact, point, flooded) result(side)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point
-      real(dp) :: wide, length
+      logical, intent(in) :: flooded
+      real(dp) :: wide, length, beyond
 
       wide = elongation(contact)
       side = huge(side)
       if (.not. wide > 1.0_dp) return
       ! in terms of the half length along the motion, where the bodies have the radius of this curvature
       length = sqrt(2.0_dp*contact%film_formula(point%moes_m, point%moes_l)*contact%radius)/contact%reach(1)
-      side = contact%reach(2)*(beyond_ends + (2.0_dp - beyond_ends)/wide**2)*max(1.0_dp, length/thick_at_ends)
+      beyond = beyond_ends + (2.0_dp - beyond_ends)/wide**2
+      if (flooded) beyond = min(beyond, max(least_beyond, 1.0_dp + 1.0_dp/wide))
+      side = contact%reach(2)*beyond*max(1.0_dp, length/thick_at_ends)
    end function side_of_wide
 
    !> Distance of the sides of a narrow contact from the centre: short in terms of its length along the motion, because the gap
