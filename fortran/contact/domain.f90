@@ -54,7 +54,7 @@ module ehl_domain
    real(dp), parameter :: max_wide = 4.0_dp, wide_power = 0.4_dp
    !> Sides of a wide contact in terms of its half width, and length s of a film above which they are further out; with a flooded
    !> border at most one half length along the motion beyond its ends, but at least `least_beyond` half widths: sides half as far
-   !> again change H_c by 0.01 % and H_min by up to 0.13 % (docs/evidence/machines)
+   !> again change H_c by 0.02 % and H_min by up to 0.13 % (docs/evidence/machines)
    real(dp), parameter :: beyond_ends = 1.3_dp, thick_at_ends = 0.95_dp, least_beyond = 1.08_dp
    !> Sides of a narrow contact in terms of the length over which its gap opens across the motion (side_scale); the errors of
    !> H_c and H_min at twice that, with a flooded border and with P = 0, and their decay with the distance: upper limits of 21
