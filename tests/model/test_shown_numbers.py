@@ -118,7 +118,7 @@ def test_ellipses_whose_film_was_not_compared(states, cases: Path, name: str, ca
     assert FILM_ELLIPTICITY < kappa < ELLIPTICITY[1]
     states(
         f"docs/howto/{name}.md",
-        f"up to an ellipticity of {FILM_ELLIPTICITY:g} only, and this contact has {kappa:.1f}.",
+        f"only up to an ellipticity of {FILM_ELLIPTICITY:g}; this contact has {kappa:.1f}.",
     )
 
 
