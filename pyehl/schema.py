@@ -189,7 +189,7 @@ sp | temperature_rise_max_K | K | maximum temperature rise, mean across the film
 sp | temperature_rise_wall_1_max_K | K | the same of the surface of body 1
 sp | temperature_rise_wall_2_max_K | K | the same of the surface of body 2
 sp | boundary_film | a^2/R | boundary film at ambient pressure
-sp | contact_load_share | - | share of the load on solid contact: a mean, as mu_ratio
+sp | contact_load_share | - | load share of solid contact: a mean, as mu_ratio, or over a duty
 sp | contact_load_share_error | - | its error: the sum of its parts; of a prediction by the film
 s | contact_load_share_error_grid | - | part of it due to the grid, from two grids
 s | contact_load_share_error_stop | - | part of it due to the end of a mean over time, or of cycles
@@ -252,6 +252,9 @@ s | duty_power_max_error_W | W | estimate of its error
 s | duty_flash_max_K | K | maximum flash temperature, of walls in a steady state
 s | duty_flash_max_t_s | s | its time
 s | duty_flash_max_error_K | K | estimate of its error
+s | duty_load_share_max | - | maximum share of the load on solid contact
+s | duty_load_share_max_t_s | s | its time
+s | duty_load_share_max_error | - | estimate of its error
 s | duty_period_change | - | relative change of the mean central film from the last period but one
 s | duty_begin_s | s | time at which the run begins
 s | duty_end_s | s | time at which it ends

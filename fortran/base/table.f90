@@ -25,6 +25,7 @@ module ehl_table
    contains
       procedure :: init
       procedure :: append
+      procedure :: add_column
       procedure :: n_rows
       procedure :: n_columns
       procedure :: column
@@ -71,6 +72,20 @@ contains
       self%rows = self%rows + 1
       self%values(:, self%rows) = values
    end subroutine append
+
+   !> Add a column behind the others; values(:) has one number per row
+   subroutine add_column(self, name, values)
+      class(table_t), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      real(dp), intent(in) :: values(:)
+      real(dp), allocatable :: wider(:, :)
+
+      allocate (wider(self%n_columns() + 1, size(self%values, 2)))
+      wider(:self%n_columns(), :self%rows) = self%values(:, :self%rows)
+      wider(self%n_columns() + 1, :self%rows) = values
+      call move_alloc(wider, self%values)
+      self%names = [character(len=column_name_length) :: self%names, name]
+   end subroutine add_column
 
    !> Number of rows
    pure integer function n_rows(self)

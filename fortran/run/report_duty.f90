@@ -5,59 +5,60 @@ module ehl_report_duty
    use ehl_contact_run, only: contact_run_t
    use ehl_kinds, only: dp, not_known
    use ehl_record, only: record_t
+   use ehl_report_smooth, only: report_smooth
+   use ehl_table, only: table_t
    implicit none (type, external)
    private
-   public :: report_duty
+   public :: duty_history, duty_mean, report_duty
+
+   !> Quantities of which a duty has extremes: columns of the history, their units, the columns of their errors, those with the
+   !> relative errors by time steps, and the smooth results to which their relative grid errors are equal
+   character(len=*), parameter :: quantities(6) = [character(len=5) :: "h_c", "h_min", "p_max", "mu", "power", "flash"], &
+      units(6) = [character(len=3) :: "_m", "_m", "_Pa", "", "_W", "_K"], &
+      by_steps(6) = [character(len=14) :: "c_step_error", "min_step_error", "p_step_error", spread("mu_step_error", 1, 3)], &
+      smooth(6) = [character(len=5) :: "H_c", "H_min", "P_max", spread("F", 1, 3)]
 
 contains
 
-   !> Extremes over the table, of a periodic one over the last period; null unless the run reached its end. After the results of
-   !> the smooth contact, whose errors of films in the same proportion are those of the grid.
+   !> History of a contact under a duty with the errors of its quantities: grid and domain as of the case, and time steps
+   subroutine duty_history(run, history)
+      type(contact_run_t), intent(in) :: run
+      type(table_t), intent(out) :: history
+      type(record_t) :: steady
+      real(dp), allocatable :: values(:), steps(:)
+      real(dp) :: grid
+      integer :: k
+
+      history = run%history
+      call report_smooth(steady, run%plan, run%smooth, run%level(), .true.)
+      do k = 1, size(quantities)
+         values = history%column(trim(quantities(k))//units(k))
+         steps = history%column(by_steps(k))
+         grid = steady%number(trim(smooth(k))//"_error")/steady%number(trim(smooth(k)))
+         call history%add_column(trim(quantities(k))//"_error"//units(k), abs(values)*(steps + grid))
+      end do
+   end subroutine duty_history
+
+   !> Extremes over the table, of a periodic one over the last period; null unless the run reached its end
    subroutine report_duty(record, run, converged)
       type(record_t), intent(inout) :: record
       type(contact_run_t), intent(in) :: run
       logical, intent(in) :: converged
-      !> Names of extremes, columns they are of, 1 for a largest and -1 for a least value
-      character(len=*), parameter :: names(8) = [character(len=16) :: "duty_h_c_min", "duty_h_c_max", "duty_h_min_min", &
-         "duty_h_min_max", "duty_p_max", "duty_mu_max", "duty_power_max", "duty_flash_max"], &
-         columns(8) = [character(len=16) :: "h_c_m", "h_c_m", "h_min_m", "h_min_m", "p_max_Pa", "mu", "power_W", "flash_K"], &
-         units(8) = [character(len=3) :: "_m", "_m", "_m", "_m", "_Pa", "", "_W", "_K"]
-      real(dp), parameter :: signs(8) = [-1.0_dp, 1.0_dp, -1.0_dp, 1.0_dp, 1.0_dp, 1.0_dp, 1.0_dp, 1.0_dp]
-      !> Smooth results, to which the relative grid errors of the extremes are equal
-      character(len=*), parameter :: smooth(8) = [character(len=5) :: "H_c", "H_c", "H_min", "H_min", "P_max", "F", "F", "F"]
-      !> Column of `errors` with that of the time steps
-      integer, parameter :: by_steps(8) = [1, 1, 2, 2, 4, 3, 3, 3]
-      real(dp), allocatable :: time(:), values(:), errors(:, :)
+      type(table_t) :: history
+      real(dp), allocatable :: time(:), values(:)
       logical, allocatable :: counts(:)
-      real(dp) :: found, at, error
-      integer :: k, i
+      real(dp) :: found
+      integer :: k
 
+      call duty_history(run, history)
       associate (duty => run%plan%duty, t => run%transient)
-         allocate (time, source=run%history%column("t_s"))
-         allocate (counts(size(time)), source=time >= from(1)*(1.0_dp - 1.0e-9_dp))
-         allocate (errors(size(time), 4))
-         errors(:, 1) = run%history%column("c_step_error")
-         errors(:, 2) = run%history%column("min_step_error")
-         ! friction follows the film
-         errors(:, 3) = max(errors(:, 1), errors(:, 2))
-         errors(:, 4) = run%history%column("p_step_error")
-         do k = 1, size(names)
-            values = run%history%column(trim(columns(k)))
-            found = not_known
-            at = not_known
-            error = not_known
-            ! not known at one instant: the extreme is not known
-            if (converged .and. any(counts) .and. all(.not. (ieee_is_nan(values) .and. counts))) then
-               i = maxloc(signs(k)*values, dim=1, mask=counts)
-               found = values(i)
-               at = time(i)
-               error = found*(errors(i, by_steps(k)) + record%number(trim(smooth(k))//"_error") &
-                              /record%number(trim(smooth(k))))
-            end if
-            call record%set(trim(names(k))//trim(units(k)), found)
-            call record%set(trim(names(k))//"_t_s", at)
-            call record%set(trim(names(k))//"_error"//trim(units(k)), error)
+         allocate (time, source=history%column("t_s"))
+         allocate (counts(size(time)), source=time >= begin(run, 1)*(1.0_dp - 1.0e-9_dp))
+         do k = 1, size(quantities)
+            if (k <= 2) call report_extreme("_min", trim(quantities(k)), trim(units(k)), -1.0_dp)
+            call report_extreme(merge("    ", "_max", quantities(k) == "p_max"), trim(quantities(k)), trim(units(k)), 1.0_dp)
          end do
+         if (run%plan%lubricant%boundary_film > 0.0_dp) call report_extreme("_max", "load_share", "", 1.0_dp)
          found = not_known
          if (converged .and. duty%periodic .and. duty%periods > 1) then
             found = change()
@@ -72,42 +73,82 @@ contains
 
    contains
 
-      !> Where the last of so many periods begins [s]
-      pure real(dp) function from(periods)
-         integer, intent(in) :: periods
+      !> The extreme of a quantity with its time and error
+      subroutine report_extreme(which, name, unit, direction)
+         !> "_min", "_max" or blank, if it is part of the name
+         character(len=*), intent(in) :: which, name, unit
+         !> 1 for a maximum, -1 for a minimum
+         real(dp), intent(in) :: direction
+         real(dp) :: extreme(3)
+         integer :: i
 
-         from = 0.0_dp
-         associate (duty => run%plan%duty)
-            if (duty%periodic) from = max(0.0_dp, (duty%end_time() - periods*duty%length())*duty%time_scale)
+         values = history%column(name//unit)
+         extreme = not_known
+         ! not known at one instant: the extreme is not known
+         if (converged .and. any(counts) .and. all(.not. (ieee_is_nan(values) .and. counts))) then
+            i = maxloc(direction*values, dim=1, mask=counts)
+            extreme = [values(i), time(i), history%entry_of(name//"_error"//unit, i)]
+         end if
+         associate (title => "duty_"//name//trim(which))
+            call record%set(title//unit//" "//title//"_t_s "//title//"_error"//unit, extreme)
          end associate
-      end function from
+      end subroutine report_extreme
 
       !> Change of the mean central film from the last period but one to the last, relative
       real(dp) function change()
          real(dp) :: means(2)
          integer :: n
 
-         values = run%history%column("h_c_m")
-         do n = 1, 2
-            means(n) = mean(from(n), from(n) + run%plan%duty%length()*run%plan%duty%time_scale)
-         end do
+         associate (period => run%plan%duty%length()*run%plan%duty%time_scale)
+            do n = 1, 2
+               means(n) = mean(history, "h_c_m", begin(run, n), begin(run, n) + period)
+            end do
+         end associate
          change = abs(means(1)/means(2) - 1.0_dp)
       end function change
-
-      !> Mean over a time, by trapezia
-      pure real(dp) function mean(first, last)
-         real(dp), intent(in) :: first, last
-         real(dp) :: whole
-         integer :: n
-
-         mean = 0.0_dp
-         whole = 0.0_dp
-         do n = 2, size(time)
-            if (time(n - 1) < first*(1.0_dp - 1.0e-9_dp) .or. time(n) > last*(1.0_dp + 1.0e-9_dp)) cycle
-            mean = mean + 0.5_dp*(values(n) + values(n - 1))*(time(n) - time(n - 1))
-            whole = whole + time(n) - time(n - 1)
-         end do
-         mean = mean/whole
-      end function mean
    end subroutine report_duty
+
+   !> Mean of a column of the history over the duty, of a periodic one over its last period
+   real(dp) function duty_mean(run, column)
+      type(contact_run_t), intent(in) :: run
+      character(len=*), intent(in) :: column
+
+      duty_mean = mean(run%history, column, begin(run, 1), 0.5_dp*huge(1.0_dp))
+   end function duty_mean
+
+   !> Where the last of so many periods begins [s]
+   pure real(dp) function begin(run, periods)
+      type(contact_run_t), intent(in) :: run
+      integer, intent(in) :: periods
+
+      begin = 0.0_dp
+      associate (duty => run%plan%duty)
+         if (duty%periodic) begin = max(0.0_dp, (duty%end_time() - periods*duty%length())*duty%time_scale)
+      end associate
+   end function begin
+
+   !> Mean of a column over the times from first to last [s], by trapezia; the last row where there is one only
+   real(dp) function mean(history, column, first, last)
+      type(table_t), intent(in) :: history
+      character(len=*), intent(in) :: column
+      real(dp), intent(in) :: first, last
+      real(dp), allocatable :: time(:), values(:)
+      real(dp) :: whole
+      integer :: n
+
+      allocate (time, source=history%column("t_s"))
+      allocate (values, source=history%column(column))
+      mean = 0.0_dp
+      whole = 0.0_dp
+      do n = 2, size(time)
+         if (time(n - 1) < first*(1.0_dp - 1.0e-9_dp) .or. time(n) > last*(1.0_dp + 1.0e-9_dp)) cycle
+         mean = mean + 0.5_dp*(values(n) + values(n - 1))*(time(n) - time(n - 1))
+         whole = whole + time(n) - time(n - 1)
+      end do
+      if (whole > 0.0_dp) then
+         mean = mean/whole
+      else
+         mean = values(size(values))
+      end if
+   end function mean
 end module ehl_report_duty

@@ -8,6 +8,7 @@ module ehl_report_touching
    use ehl_outcome, only: outcome_converged
    use ehl_plan, only: plan_t
    use ehl_record, only: record_t
+   use ehl_report_duty, only: duty_mean
    use ehl_reason, only: reason_boundary_friction, reason_coarser_inlet, reason_coarser_none, reason_inlet, &
                          reason_much_mass_defect, reason_no_solution, reason_none
    use ehl_report_smooth, only: touches_for_grid
@@ -51,13 +52,14 @@ contains
          ! of order 1, as the edge of a touching zone lies between two nodes
          error = abs(numbers(1) - coarser)
          why = why_no_grid_error
-      else if (good) then
+      else if (good .and. (converged .or. run%phase /= phase_steps)) then
          numbers = touching_of(run)
          associate (results => run%smooth%results)
             stop_error = max(results(n)%share_algebraic, run%plan%inlet%share_left(results(n)%m, results(n)%residual))
             if (n > 1) then
                if (results(n - 1)%solved) coarser = results(n - 1)%m%touching%load_share
                error = share_error(results, n, run%plan%inlet)
+               if (run%phase == phase_steps) error = max(error, duty_mean(run, "load_share_error"))
             end if
          end associate
       end if
@@ -114,7 +116,13 @@ contains
       real(dp) :: numbers(size(touching_names))
       integer :: k, first
 
-      if (run%phase == phase_steps) then
+      if (run%phase == phase_steps .and. run%plan%duty%active) then
+         numbers = 0.0_dp
+         do k = 1, known_names(run%plan%lubricant)
+            numbers(k) = duty_mean(run, trim(touching_names(k)))
+            if (k == at_depth) numbers(k) = maxval(run%history%column(touching_names(k)))
+         end do
+      else if (run%phase == phase_steps) then
          first = run%transient%mean%first_of_mean()
          numbers = 0.0_dp
          do k = 1, known_names(run%plan%lubricant)

@@ -2,13 +2,16 @@
 !> The files of a result, the same for both drivers
 module ehl_result_folder
    use ehl_case, only: case_t
+   use ehl_contact_run, only: phase_steps
    use ehl_files, only: remove_file, remove_folder
    use ehl_folders, only: list_folder, name_t
    use ehl_kinds, only: dp
    use ehl_npy, only: write_npy
    use ehl_record, only: record_t
+   use ehl_report_duty, only: duty_history
    use ehl_solver, only: field_length, solver_t
    use ehl_status, only: ehl_no_memory, status_t
+   use ehl_table, only: table_t
    use ehl_text, only: newline
    use ehl_version, only: version
    use ehl_whole_file, only: write_text
@@ -55,6 +58,7 @@ contains
       type(solver_t), intent(inout) :: solver
       type(status_t), intent(inout) :: status
       real(dp), intent(in), optional :: wall_seconds
+      type(table_t) :: history
       type(record_t) :: summary
       type(name_t), allocatable :: names(:)
       character(len=field_length), allocatable :: files(:)
@@ -62,7 +66,11 @@ contains
       integer :: k
 
       call write_text(folder // "case.nml", input%text, status)
-      if (.not. status%failed()) call solver%run%history%write_csv(folder // "history.csv", status)
+      if (.not. status%failed()) then
+         history = solver%run%history
+         if (solver%run%plan%duty%active .and. solver%run%phase == phase_steps) call duty_history(solver%run, history)
+         call history%write_csv(folder // "history.csv", status)
+      end if
       if (.not. status%failed() .and. input%output%fields) call write_fields(folder, solver, status)
       if (status%failed() .or. .not. present(wall_seconds)) return
       summary = solver%results()

@@ -3,20 +3,24 @@
 submodule (ehl_contact_run) ehl_contact_duty
    use ehl_duty, only: duty_state_t
    use ehl_heat, only: flash_temperature
+   use ehl_inlet, only: inlet_t, share_by_film
    use ehl_kinds, only: not_known
    use ehl_level, only: level_t
    use ehl_wall_heat, only: heat_source
    implicit none (type, external)
 
-   !> Error of p_max by its second difference, and its decay per step (docs/evidence/duty)
+   !> Error of a quantity by its second difference, and its decay per step (docs/evidence/duty)
    real(dp), parameter :: by_difference = 2.0_dp, left = 0.8_dp
+   !> Power of the speed in the film that the inlet makes (Moes)
+   real(dp), parameter :: film_by_speed = 0.67_dp
 
 contains
 
    module procedure duty_names
       names = [character(len=16) :: "step", "T", "t_s", "speed", "slide", "load", "radius_x", "radius_y", "viscosity", &
                "H_c", "H_min", "X_min", "Y_min", "P_max", "h_c_m", "h_min_m", "p_max_Pa", "mu", "power_W", "flash_K", &
-               "load_error", "cycles", "residual", "c_step_error", "min_step_error", "p_step_error"]
+               "load_error", "cycles", "residual", "c_step_error", "min_step_error", "p_step_error", &
+               "mu_step_error"]
    end procedure duty_names
 
    module procedure duty_row
@@ -29,31 +33,73 @@ contains
                 t%now%speeds(1) - t%now%speeds(2), t%now%load, 1.0_dp/t%now%curvatures, t%now%viscosity, m%films(), &
                 place, m%pressure_maximum, m%films()*scales%film, m%pressure_maximum*scales%pressure, mu, power, flash, &
                 m%load_error, t%cycles, t%residual, t%film_errors, &
-                pressure_error(self, t%time*t%duty%time_scale, m%pressure_maximum*scales%pressure)]
+                pressure_error(self, m%pressure_maximum*scales%pressure), friction_error(self)]
       end associate
    end procedure duty_row
 
-   !> Relative error of the maximum pressure by time steps: that of the films, or the error of BDF2 in the squeeze of a thick film,
-   !> whose pressure follows at once: by the second difference of p_max, which decays in later steps
-   real(dp) function pressure_error(self, time, pressure) result(error)
+   !> By film: of the inlet, whose film falls with the speed, and of the time steps; or of BDF2 in a share that changes at once
+   module procedure duty_share_error
+      type(inlet_t) :: inlet
+
+      associate (t => self%transient, share => self%transient%m%touching%load_share)
+         inlet = self%plan%inlet
+         inlet%film = inlet%film*abs(t%now%mean_velocity())**film_by_speed
+         duty_share_error = max(inlet%share_error(t%m, self%grid%hx) + share*min(1.0_dp, share_by_film*maxval(t%film_errors)), &
+                                remaining(self, "load_share_error"), squeeze_error(self, "load_share", share))
+      end associate
+   end procedure duty_share_error
+
+   !> Relative error of the maximum pressure by time steps: that of the films, or of the squeeze of a thick film
+   real(dp) function pressure_error(self, pressure)
       class(contact_run_t), intent(in) :: self
-      real(dp), intent(in) :: time, pressure
-      !> Times and maximum pressures of the last two rows
-      real(dp) :: t(2), p(2)
+      real(dp), intent(in) :: pressure
+
+      pressure_error = max(maxval(self%transient%film_errors), remaining(self, "p_step_error"), &
+                           squeeze_error(self, "p_max_Pa", pressure)/pressure)
+   end function pressure_error
+
+   !> Relative error of the friction by time steps: it follows the film and the load at the boundary film
+   real(dp) function friction_error(self)
+      class(contact_run_t), intent(in) :: self
+
+      friction_error = maxval(self%transient%film_errors)
+      associate (stress => self%plan%lubricant%boundary_stress, m => self%transient%m)
+         if (stress > 0.0_dp) friction_error = friction_error + duty_share_error(self)*stress*m%load/m%friction
+      end associate
+   end function friction_error
+
+   !> What is left of the error in the row before
+   real(dp) function remaining(self, column)
+      class(contact_run_t), intent(in) :: self
+      character(len=*), intent(in) :: column
+
+      remaining = 0.0_dp
+      associate (n => self%history%n_rows())
+         if (n > 1) remaining = left*self%history%entry_of(column, n)
+      end associate
+   end function remaining
+
+   !> Error of BDF2 in the squeeze, which changes a quantity at once: by its second difference
+   real(dp) function squeeze_error(self, column, now) result(error)
+      class(contact_run_t), intent(in) :: self
+      character(len=*), intent(in) :: column
+      real(dp), intent(in) :: now
+      !> Times and values of the last two rows, and the present time
+      real(dp) :: t(2), x(2), time
       integer :: k, n
 
-      error = maxval(self%transient%film_errors)
+      error = 0.0_dp
       n = self%history%n_rows()
       if (n < 2) return
+      time = self%transient%time*self%transient%duty%time_scale
       do k = 1, 2
          t(k) = self%history%entry_of("t_s", n - 2 + k)
-         p(k) = self%history%entry_of("p_max_Pa", n - 2 + k)
+         x(k) = self%history%entry_of(column, n - 2 + k)
       end do
-      associate (slope => (pressure - p(2))/(time - t(2)), slope_before => (p(2) - p(1))/(t(2) - t(1)))
-         error = max(error, left*self%history%entry_of("p_step_error", n), &
-                     by_difference*(time - t(2))**2*abs(slope - slope_before)/(time - t(1))/pressure)
+      associate (slope => (now - x(2))/(time - t(2)), slope_before => (x(2) - x(1))/(t(2) - t(1)))
+         error = by_difference*(time - t(2))**2*abs(slope - slope_before)/(time - t(1))
       end associate
-   end function pressure_error
+   end function squeeze_error
 
    !> Place of the minimum film [a]
    subroutine find_minimum(level, place)

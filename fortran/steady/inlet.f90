@@ -15,7 +15,7 @@ module ehl_inlet
    use ehl_touching, only: mostly_touching
    implicit none (type, external)
    private
-   public :: inlet_t
+   public :: inlet_t, share_by_film
 
    !> c, and the largest e of a grid that determines which part of the load is at the boundary film
    real(dp), parameter :: factor = 1.3_dp, resolved_share = 0.12_dp

@@ -72,6 +72,8 @@ SOLUTIONS = {
     "line by Moes numbers": "&contact shape = 'line' moes_m_line = 5.0 /\n&grid points = 129 /\n",
     "duty": SI + "&duty periodic = .true.\n   time = 0.0, 1e-6, 2e-6\n"
     "   load = 20.0, 19.0, 20.0\n/\n",
+    "duty with a boundary film": f"{SI}&lubricant boundary_film = 1e-8 /\n"
+    "&duty time = 0.0, 1e-6\n   load = 20.0, 19.0\n/\n",
     "wave": SI + WAVE.format(""),
     "mean that has not settled": f"{MOES}{WAVE.format('')}&time max_periods = 1 /\n",
     "at rest": SI + WAVE.format("velocity_ratio = 0.0"),
