@@ -8,11 +8,11 @@ blank or begin with '#' are skipped.
 import math
 import os
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
 
 from pyehl.case import physics
-from pyehl.case.groups import DUTY_LISTS
+from pyehl.case.groups import DUTY_LISTS, Duty
 from pyehl.case.key import to_text
 from pyehl.case.names import did_you_mean
 from pyehl.case.settings import GROUPS, Draft, Settings
@@ -144,10 +144,11 @@ def _values(draft: Draft, lists: Table) -> Iterator[tuple[str, str, str]]:
     least = MIN_LOAD * (contact.load_per_length if contact.is_line else contact.load)
     if duty.load and min(duty.load) < least:
         expected = f"at least {to_text(least)}, {MIN_LOAD} of that of the case"
-        yield "load", f"a load of {to_text(min(duty.load))}", expected
+        yield "load", f"a load of {to_text(min(duty.load))}{_where(duty, duty.load)}", expected
     for key in ("radius_x", "radius_y", "viscosity", "inlet_film"):
         if min(lists.get(key, (1.0,))) <= 0.0:
-            yield key, f"duty.{key} of {to_text(min(lists[key]))}", "positive numbers"
+            what = f"duty.{key} of {to_text(min(lists[key]))}{_where(duty, lists[key])}"
+            yield key, what, "positive numbers"
     if duty.inlet_film:
         if not max(draft.settings.inlet.film, draft.settings.inlet.film_hertz) > 0.0:
             what = "duty.inlet_film without inlet.film"
@@ -156,7 +157,7 @@ def _values(draft: Draft, lists: Table) -> Iterator[tuple[str, str, str]]:
         if min(duty.inlet_film) < boundary:
             what = (
                 f"duty.inlet_film of {to_text(min(duty.inlet_film))} m below the boundary film of "
-                f"{to_text(boundary)} m"
+                f"{to_text(boundary)} m{_where(duty, duty.inlet_film)}"
             )
             yield "inlet_film", what, "layers above lubricant.boundary_film"
     if contact.is_cylinder and duty.radius_y:
@@ -164,6 +165,19 @@ def _values(draft: Draft, lists: Table) -> Iterator[tuple[str, str, str]]:
     if contact.angle != 0.0 and (duty.radius_x or duty.radius_y):
         key = "radius_x" if duty.radius_x else "radius_y"
         yield key, "radii that change in a turned contact", "contact.angle = 0.0"
+
+
+def _where(duty: Duty, values: Sequence[float]) -> str:
+    """Say where the minimum of values is: its time, and its line where there is a file."""
+    row = min(range(len(values)), key=values.__getitem__)
+    if row >= len(duty.time):
+        return ""
+    where = f" at {to_text(duty.time[row])} s"
+    if os.path.isfile(duty.file):
+        source = Source(duty.file, read_text(duty.file, HEADER).replace("\r", " ") + "\n")
+        first = list(source.rows())[1 + row][0]
+        where += f", line {source.line(first)} of {duty.file}"
+    return where
 
 
 def _check_beside(draft: Draft) -> None:
