@@ -15,7 +15,7 @@ from matplotlib.ticker import MaxNLocator
 from pyehl import namelist
 from pyehl.plots import contact, surface, transient
 from pyehl.plots.outline import Outline
-from pyehl.plots.panels import headline, no_numbers_below, no_second_label, panels, rows
+from pyehl.plots.panels import MARGIN, headline, no_numbers_below, no_second_label, panels, rows
 from pyehl.plots.style import (
     BLUE,
     THIN,
@@ -215,7 +215,7 @@ def _extremes(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
 
 def _duty(data: xr.Dataset, title: str) -> Figure:
     """Films over time, with those of steady contacts, and below the conditions."""
-    figure = rows([0.55, 0.3], title)
+    figure = rows([0.47, 0.26], title, MARGIN)
     upper, lower = figure.axes
     history, solved = (
         {str(n).removeprefix(table): data[n].values for n in data if str(n).startswith(table)}

@@ -14,6 +14,8 @@ from pyehl.plots.style import new_figure as laid_out
 BELOW, ABOVE = 0.42, 0.22
 # Beside and between panels below one another [in]
 LEFT, RIGHT, GAP = 0.6, 0.8, 0.12
+# At the right of panels without a colour bar [in]
+MARGIN = 0.12
 # Panels narrower than this are put below one another [in]
 MIN_PANEL = 2.0
 
@@ -72,13 +74,13 @@ def panels(
     return _labelled(figure, conditions)
 
 
-def rows(heights: Sequence[float], conditions: str) -> Figure:
+def rows(heights: Sequence[float], conditions: str, right: float = RIGHT) -> Figure:
     """Make a figure with panels below one another, of a given height over their width.
 
-    All are equally wide, with room for a colour bar at the right.
+    All are equally wide, with room at the right [in], unless given that of a colour bar.
     """
     width = page(2)
-    wide = width - LEFT - RIGHT
+    wide = width - LEFT - right
     high = BELOW + sum(wide * height + ABOVE + GAP for height in heights)
     top = high + (0.2 if failed(conditions) else 0.0)
     figure = Picture(figsize=(width, top))
