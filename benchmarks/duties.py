@@ -208,6 +208,20 @@ def step_errors(result: xr.Dataset, half: xr.Dataset) -> tuple[float, float]:
     return float(np.mean(holds)), worst
 
 
+def shares_covered(result: xr.Dataset, half: xr.Dataset) -> dict[str, float]:
+    """Share of instants at which stated errors cover that of the steps: friction, load share."""
+    shares = {}
+    for name, error in (("mu", "mu_step_error"), ("load_share", "load_share_error")):
+        if f"history_{name}" not in result or not np.isfinite(result[f"history_{name}"]).all():
+            continue
+        values, stated = (result[f"history_{n}"].values for n in (name, error))
+        other = np.interp(result.history_t_s, half.history_t_s, half[f"history_{name}"])
+        difference = np.abs(other - values) * 4.0 / 3.0
+        tolerance = TOLERANCE * np.abs(values).max()
+        shares[f"{name}_covered"] = float(np.mean(difference <= stated + tolerance))
+    return shares
+
+
 def extremes(result: xr.Dataset, fine: xr.Dataset) -> dict[str, float]:
     """Differences of extremes to those on twice the nodes, over their stated errors."""
     ratios = {}
@@ -233,6 +247,7 @@ def one_duty(values: dict[str, Any]) -> Row:
     row["half_status"] = half.attrs["status"]
     if row["half_status"] == "converged":
         row["steps_covered"], row["worst_steps"] = step_errors(result, half)
+        row |= shares_covered(result, half)
     if values.get("contact.shape") == "roller":
         # on twice the nodes it takes ten times as long as all others
         return row

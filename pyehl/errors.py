@@ -45,6 +45,10 @@ class ClosedError(EhlError, ValueError):
 class NoMemoryError(EhlError, MemoryError):
     """An allocation failed, or too many solvers are open."""
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        # dask makes exceptions with an __init__ of their own, as MemoryError's, without arguments
+        return type(self), self.args, self.__dict__
+
 
 class NotConverged(EhlError, RuntimeError):  # noqa: N818 (the name of a status)
     """A run ended without a solution.

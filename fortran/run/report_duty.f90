@@ -11,12 +11,9 @@ module ehl_report_duty
    private
    public :: duty_history, duty_mean, report_duty
 
-   !> Quantities of which a duty has extremes: columns of the history, their units, the columns of their errors, those with the
-   !> relative errors by time steps, and the smooth results to which their relative grid errors are equal
+   !> Quantities of which a duty has extremes: columns of the history, and their units
    character(len=*), parameter :: quantities(6) = [character(len=5) :: "h_c", "h_min", "p_max", "mu", "power", "flash"], &
-      units(6) = [character(len=3) :: "_m", "_m", "_Pa", "", "_W", "_K"], &
-      by_steps(6) = [character(len=14) :: "c_step_error", "min_step_error", "p_step_error", spread("mu_step_error", 1, 3)], &
-      smooth(6) = [character(len=5) :: "H_c", "H_min", "P_max", spread("F", 1, 3)]
+      units(6) = [character(len=3) :: "_m", "_m", "_Pa", "", "_W", "_K"]
 
 contains
 
@@ -25,18 +22,39 @@ contains
       type(contact_run_t), intent(in) :: run
       type(table_t), intent(out) :: history
       type(record_t) :: steady
-      real(dp), allocatable :: values(:), steps(:)
-      real(dp) :: grid
+      !> Columns with the relative errors by time steps, and the smooth results of which the grid errors are
+      character(len=*), parameter :: by_steps(3) = [character(len=14) :: "c_step_error", "min_step_error", "p_step_error"], &
+         smooth(3) = [character(len=5) :: "H_c", "H_min", "P_max"]
+      real(dp), allocatable :: values(:), steps(:), power(:)
       integer :: k
 
       history = run%history
       call report_smooth(steady, run%plan, run%smooth, run%level(), .true.)
-      do k = 1, size(quantities)
-         values = history%column(trim(quantities(k))//units(k))
-         steps = history%column(by_steps(k))
-         grid = steady%number(trim(smooth(k))//"_error")/steady%number(trim(smooth(k)))
-         call history%add_column(trim(quantities(k))//"_error"//units(k), abs(values)*(steps + grid))
+      do k = 1, size(smooth)
+         allocate (values, source=history%column(trim(quantities(k))//units(k)))
+         allocate (steps, source=history%column(by_steps(k)))
+         call history%add_column(trim(quantities(k))//"_error"//units(k), values*(steps + relative(trim(smooth(k)))))
+         deallocate (values, steps)
       end do
+      allocate (values, source=abs(history%column("mu"))*relative("F") + history%column("mu_step_error"))
+      call history%add_column("mu_error", values)
+      associate (s => run%plan%sliding)
+         values = values*(s%load*s%mean_velocity)*history%column("load")*abs(history%column("slide"))
+      end associate
+      call history%add_column("power_error_W", values)
+      ! proportional to the power
+      allocate (power, source=history%column("power_W"))
+      where (abs(power) > 0.0_dp) values = values/power
+      call history%add_column("flash_error_K", values*history%column("flash_K"))
+
+   contains
+
+      !> Relative error of a result of the smooth contact
+      real(dp) function relative(name)
+         character(len=*), intent(in) :: name
+
+         relative = steady%number(name//"_error")/steady%number(name)
+      end function relative
    end subroutine duty_history
 
    !> Extremes over the table, of a periodic one over the last period; null unless the run reached its end

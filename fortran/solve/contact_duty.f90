@@ -11,6 +11,8 @@ submodule (ehl_contact_run) ehl_contact_duty
 
    !> Error of a quantity by its second difference, and its decay per step (docs/evidence/duty)
    real(dp), parameter :: by_difference = 2.0_dp, left = 0.8_dp
+   !> Relative error of the friction over that of the pressure (ibid.)
+   real(dp), parameter :: by_pressure = 2.0_dp
    !> Power of the speed in the film that the inlet makes (Moes)
    real(dp), parameter :: film_by_speed = 0.67_dp
 
@@ -24,16 +26,17 @@ contains
    end procedure duty_names
 
    module procedure duty_row
-      real(dp) :: place(2), mu, power, flash
+      real(dp) :: place(2), mu, power, flash, p_error
 
       associate (t => self%transient, m => self%transient%m, scales => self%plan%scales)
+         p_error = pressure_error(self, m%pressure_maximum*scales%pressure)
          call find_minimum(level, place)
          call find_friction(self, level, mu, power, flash)
          row = [real(dp) :: t%step, t%time, t%time*t%duty%time_scale, t%now%mean_velocity(), &
                 t%now%speeds(1) - t%now%speeds(2), t%now%load, 1.0_dp/t%now%curvatures, t%now%viscosity, m%films(), &
                 place, m%pressure_maximum, m%films()*scales%film, m%pressure_maximum*scales%pressure, mu, power, flash, &
                 m%load_error, t%cycles, t%residual, t%film_errors, &
-                pressure_error(self, m%pressure_maximum*scales%pressure), friction_error(self)]
+                p_error, friction_error(self, mu, p_error)]
       end associate
    end procedure duty_row
 
@@ -58,14 +61,19 @@ contains
                            squeeze_error(self, "p_max_Pa", pressure)/pressure)
    end function pressure_error
 
-   !> Relative error of the friction by time steps: it follows the film and the load at the boundary film
-   real(dp) function friction_error(self)
+   !> Error of the coefficient of friction by time steps: it follows the pressure, to which viscosity is sensitive, and the load
+   !> at the boundary film, and changes at once in the squeeze
+   real(dp) function friction_error(self, mu, pressure)
       class(contact_run_t), intent(in) :: self
+      real(dp), intent(in) :: mu
+      !> Relative error of the maximum pressure, at least that of the films
+      real(dp), intent(in) :: pressure
 
-      friction_error = maxval(self%transient%film_errors)
+      friction_error = abs(mu)*by_pressure*pressure
       associate (stress => self%plan%lubricant%boundary_stress, m => self%transient%m)
-         if (stress > 0.0_dp) friction_error = friction_error + duty_share_error(self)*stress*m%load/m%friction
+         if (stress > 0.0_dp) friction_error = friction_error + duty_share_error(self)*abs(mu)*stress*m%load/m%friction
       end associate
+      friction_error = max(friction_error, remaining(self, "mu_step_error"), squeeze_error(self, "mu", mu))
    end function friction_error
 
    !> What is left of the error in the row before

@@ -6,7 +6,7 @@ one whose key was changed, with what each value is ('given', 'default' or 'deriv
 refused one the message. Of each key it has a case that takes it, and a refusal where there is one.
 Since then messages list only keys that people give, a gap that does not open names the key that was
 given, numbers are shown as people write them, and the keys ADDED are written too. &inlet starves a
-contact, and the sides of a narrow one follow from its width.
+contact, and the sides of a narrow or a wide one follow from its width.
 """
 
 import json
