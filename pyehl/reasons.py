@@ -72,6 +72,8 @@ REASONS = {
     46: VANISHING + ", and rolling_moment_N resists the rolling",
 }
 HOTTER = "; the film is hotter than the temperatures at which the viscosity was measured"
+ISO_AMPLITUDE = 3.5e-4
+"""Amplitude of the logarithmic profile over the diameter of a roller (ISO/TS 16281)."""
 PARTS = ("grid", "stop", "window", "left_out", "domain")
 """Parts of the error of the friction ratio."""
 SMOOTH, AT_REST, STEPS = 1, 2, 3
@@ -237,8 +239,12 @@ def _why_no_result(results: Results, settings: Settings, words: Mapping[int, str
     if phase == SMOOTH and settings.get("inlet", {}).get("film_hertz", 0.0) > 0.0:
         help_ += ", or inlet.position in place of inlet.film"
     if settings["contact"].get("shape") == "roller":
-        rows = 2 * int(d["finest_rows"]) - 1
-        help_ += f", shorter cells along it (grid.points_y = {rows}) or a profile that drops more"
+        cells = f"shorter cells along it (grid.points_y = {2 * int(d['finest_rows']) - 1})"
+        deeper = f"give a profile that drops more ({_steeper(settings['contact'])})"
+        if status == "negative film" and phase == SMOOTH and not results.codes["end_help"]:
+            help_ = f"{deeper}, or {cells}"
+        else:
+            help_ += f", {cells} or a profile that drops more"
     if status == "negative film":
         rough = any(
             settings.get(group, {}).get("kind", "smooth") != "smooth"
@@ -261,6 +267,18 @@ def _why_no_result(results: Results, settings: Settings, words: Mapping[int, str
     elif status == "not settled":
         text = _of_mean(d, settings["time"])
     return text
+
+
+def _steeper(contact: Values) -> str:
+    """Give the keys of a logarithmic profile of twice the amplitude: of its own, or of ISO's."""
+    for end in ("", "_2"):
+        if contact[f"profile{end}"] == "logarithmic":
+            key = f"log_amplitude{end}"
+            return f"contact.{key} = {power(2.0 * contact[key], 1)}"
+    amplitude = power(2.0 * ISO_AMPLITUDE * 2.0 * contact["radius"], 1)
+    text = f"contact.profile = 'logarithmic', contact.log_amplitude = {amplitude}"
+    own = contact["profile"]
+    return text if own == "none" else f"{text} in place of '{own}' and its keys"
 
 
 def _of_mean(d: Values, time: Values) -> str:

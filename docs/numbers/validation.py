@@ -42,6 +42,24 @@ def second_solver() -> Values:
     return locals()
 
 
+def line_meshes() -> Values:
+    """Limits of the minimum film of a line: of two meshes by order 2, of three by their order."""
+    films: dict[str, dict[int, float]] = {"pyehl": {}, "newton": {}}
+    for row in read("validation/line.csv"):
+        films[row["solver"]][int(row["intervals"])] = float(row["H_min"])
+
+    def limits(solver: str, finest: int) -> tuple[float, float]:
+        coarse, half, fine = (films[solver][finest // part] for part in (4, 2, 1))
+        ratio = (half - coarse) / (fine - half)
+        return fine + (fine - half) / 3.0, fine + (fine - half) / (ratio - 1.0)
+
+    ours, newton = limits("pyehl", 4096), limits("newton", 2048)
+    coarse = limits("newton", 440)[1]
+    low = 100.0 * (1.0 - coarse / ours[1])
+    assert max(*ours, *newton) < 1.002 * min(*ours, *newton)
+    return locals()
+
+
 def film_formulas() -> Values:
     """Ratios of films by formula to ours: spans, and the largest deviations."""
     every = read("validation/formulas.csv")

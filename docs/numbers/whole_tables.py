@@ -21,7 +21,8 @@ def machines() -> Values:
 def rollers() -> Values:
     """Profiles of a roller, and random rollers."""
     make = script("rollers/make.py")
-    result = {name: "\n".join(getattr(make, name)()) for name in ("table", "random", "by_seed")}
+    names = ("table", "random", "by_seed", "remedies")
+    result = {name: "\n".join(getattr(make, name)()) for name in names}
     return result | {"dry": "\n".join(script("rollers/dry.py").table())}
 
 

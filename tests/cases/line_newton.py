@@ -12,8 +12,9 @@ import numpy as np
 ALPHA, Z, P0 = 2.2e-8, 0.68, 1.96e8
 # M, L of a line, H_c at X = 0 and H_min [b^2/R]: limits of three meshes of another one-dimensional
 # solver within 0.1 %, on -4 <= X <= 1.5 with P = 0 at both ends, Roelands with the constants above,
-# Dowson-Higginson. H_min of the last row is by `solve`: the other solver has 0.01196, `solve`
-# 0.01213 and the library 0.0121
+# Dowson-Higginson. H_min of the last row is by `solve` on finer meshes, with a limit of 0.01214 to
+# 0.01215 as the library has (docs/evidence/validation/line.csv); the other solver has 0.01196, as
+# `solve` has on 110, 220 and 440 intervals
 FILMS = (
     (3, 5, 0.5401, 0.4306),
     (5, 5, 0.3005, 0.2422),

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A run without an answer states why, where it ended and what to do, in one line."""
 
+import re
 from typing import Any
 
 import pytest
@@ -111,6 +112,48 @@ def test_other_ends(options: list[str], stop: int | None, status: str, words: st
     assert result["status"] == status
     assert result["assessment"] == f"no result: the status is '{status}': {result['message']}"
     assert result["message"].endswith(words)
+
+
+@pytest.mark.parametrize(
+    ("contact", "viscosity", "rows"),
+    [
+        (
+            "length = 9.644e-3 radius = 4.803e-3 load = 5654.0 mean_velocity = 3.13 "
+            "profile = 'logarithmic' log_amplitude = 2.584e-6",
+            0.0116,
+            (769, 1537),
+        ),
+        (
+            "length = 0.0104 radius = 9.581e-3 load = 6073.0 mean_velocity = 0.4115 "
+            "profile = 'chamfer' chamfer_length = 1.138e-3 chamfer_drop = 1.666e-5 "
+            "misalignment = 2.784e-4",
+            0.009753,
+            (577, 1153),
+        ),
+    ],
+)
+def test_roller_names_a_profile_with_a_solution(
+    contact: str, viscosity: float, rows: tuple[int, int]
+):
+    text = (
+        f"&contact shape = 'roller' {contact} /\n"
+        f"&lubricant viscosity = {viscosity} /\n&grid points = 257 /\n"
+    )
+    message = end(text)["message"]
+    before, after = message.split("(", 1)
+    keys, after = after.split(")", 1)
+    assert before == (
+        f"the smooth contact on 257 x {rows[0]} nodes has no positive film: give a profile that "
+        "drops more "
+    )
+    assert after == f", or shorter cells along it (grid.points_y = {rows[1]})"
+    keys, *old = keys.split(" in place of ")
+    options = [key.replace(" ", "") for key in keys.split(", ")]
+    if old:
+        assert old == ["'chamfer' and its keys"]
+        text = re.sub(r"profile = .*(?= misalignment)", "", text)
+    with Solver(Case.from_text(text, options)) as solver:
+        assert solver.run()
 
 
 def test_an_answer_has_no_message():

@@ -9,6 +9,7 @@ are of seeds 2, 31, 32, 33 and 34, and of seed 35 with --count 20.
 import csv
 import json
 import math
+import re
 from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
@@ -32,6 +33,15 @@ PROFILES: dict[str, dict[str, float]] = {
     "chamfer": {"chamfer_length": 1e-3, "chamfer_drop": 1.25e-5},
 }
 POINTS = 513
+REMEDIES = {
+    "`log_amplitude` twice as large": "logarithmic deeper",
+    "logarithmic in place of another, twice the amplitude of ISO/TS 16281": ".* logarithmic",
+    "crown or chamfer with twice the drop": "(crown|chamfer) deeper",
+    "half the misalignment": ".* half",
+    "cells half as long along Y": ".* 257x.*",
+    "cells half as long along X": ".* 513x.*",
+}
+"""Remedies, by what profile and remedy of remedies.csv match."""
 SEEDS = (1, 2, 31, 32, 33, 34, 35)
 
 
@@ -97,6 +107,20 @@ def by_seed() -> list[str]:
         rows = _record(seed)
         good = sum(row["status"] == "converged" for row in rows)
         lines.append(f"- Seed {seed}: {good} of {len(rows)} have a solution.")
+    return lines
+
+
+def remedies() -> list[str]:
+    """Give how many rollers have a solution with a remedy."""
+    with (HERE / "remedies.csv").open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    lines = ["| remedy | rollers | with a solution | negative film | above 90 s |"]
+    lines.append("|---|---|---|---|---|")
+    for text, test in REMEDIES.items():
+        mine = [r["status"] for r in rows if re.fullmatch(test, f"{r['profile']} {r['remedy']}")]
+        counts = [mine.count(status) for status in ("converged", "negative film", "time limit")]
+        assert sum(counts) == len(mine)
+        lines.append(f"| {text} | {len(mine)} | " + " | ".join(map(str, counts)) + " |")
     return lines
 
 
