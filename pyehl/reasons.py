@@ -235,16 +235,18 @@ def _why_no_result(results: Results, settings: Settings, words: Mapping[int, str
         return ""
     place, phase = _place(d, "end_"), d["end_phase"]
     help_ = words.get(results.codes["end_help"], "") if phase == SMOOTH else ""
-    help_ = help_ or f"give a finer grid (grid.points = {2 * int(d['finest_points']) - 1})"
-    if phase == SMOOTH and settings.get("inlet", {}).get("film_hertz", 0.0) > 0.0:
-        help_ += ", or inlet.position in place of inlet.film"
+    finer = help_ or f"give a finer grid (grid.points = {2 * int(d['finest_points']) - 1})"
+    of_inlet = phase == SMOOTH and settings.get("inlet", {}).get("film_hertz", 0.0) > 0.0
+    inlet = ", or inlet.position in place of inlet.film" if of_inlet else ""
     if settings["contact"].get("shape") == "roller":
-        cells = f"shorter cells along it (grid.points_y = {2 * int(d['finest_rows']) - 1})"
-        deeper = f"give a profile that drops more ({_steeper(settings['contact'])})"
-        if status == "negative film" and phase == SMOOTH and not results.codes["end_help"]:
-            help_ = f"{deeper}, or {cells}"
+        cells = f"shorter cells along the roller (grid.points_y = {2 * int(d['finest_rows']) - 1})"
+        if status == "negative film" and phase == SMOOTH and not help_:
+            deeper = f"give a profile that drops more ({_steeper(settings['contact'])})"
+            help_ = f"{deeper}, or {cells}{inlet}"
         else:
-            help_ += f", {cells} or a profile that drops more"
+            help_ = f"{finer}{inlet}, {cells} or a profile that drops more"
+    else:
+        help_ = finer + inlet
     if status == "negative film":
         rough = any(
             settings.get(group, {}).get("kind", "smooth") != "smooth"

@@ -146,7 +146,7 @@ def test_roller_names_a_profile_with_a_solution(
         f"the smooth contact on 257 x {rows[0]} nodes has no positive film: give a profile that "
         "drops more "
     )
-    assert after == f", or shorter cells along it (grid.points_y = {rows[1]})"
+    assert after == f", or shorter cells along the roller (grid.points_y = {rows[1]})"
     keys, *old = keys.split(" in place of ")
     options = [key.replace(" ", "") for key in keys.split(", ")]
     if old:
