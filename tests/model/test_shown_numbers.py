@@ -41,7 +41,8 @@ def test_smooth_contact_of_the_readme(states, cases: Path):
     film = 1e9 * result["h_c_m"] / result["H_c"] * result["H_c_extrapolated"]
     states(
         "README.md",
-        f"is {1e9 * result['h_c_m']:.1f} nm on this grid and {film:.1f} nm extrapolated",
+        f"is {1e9 * result['h_c_m']:.1f} nm on this grid and, in the table, {film:.1f} nm "
+        "extrapolated",
     )
 
 
