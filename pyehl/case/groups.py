@@ -118,9 +118,9 @@ class Contact:
     chamfer_length_2: float = real(0.0, "m", "0 or [1e-7, 1]", "chamfer_length of body 2")
     chamfer_drop_2: float = real(0.0, "m", "0 or [1e-9, 1]", "chamfer_drop of body 2")
     profile_file_2: str = path("profile_file of body 2")
-    profile_y: tuple[float, ...] = numbers("m", "places of profile_file; not for input")
+    profile_y: tuple[float, ...] = numbers("m", "positions in profile_file; not for input")
     profile_drop: tuple[float, ...] = numbers("m", "drops of profile_file; not for input")
-    profile_y_2: tuple[float, ...] = numbers("m", "places of profile_file_2; not for input")
+    profile_y_2: tuple[float, ...] = numbers("m", "positions in profile_file_2; not for input")
     profile_drop_2: tuple[float, ...] = numbers("m", "drops of profile_file_2; not for input")
     si: bool = True
     """Whether load, mean_velocity, radius and reduced_modulus hold, else moes_m and moes_l."""
@@ -275,7 +275,7 @@ class Duty:
     periodic: bool = truth(False, "the last time is the first one of the next period")
     periods: int = whole(3, "[1, 1000]", "periods to run; results are of the last one")
     time_step: float = real(
-        1.0, "-", "[0.01, 4]", "time step over that in which the faster surface passes a mesh size"
+        1.0, "-", "[0.01, 4]", "time step over the time in which the faster surface moves a mesh size"
     )
     target_error: float = real(
         0.0,
