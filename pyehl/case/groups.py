@@ -275,7 +275,10 @@ class Duty:
     periodic: bool = truth(False, "the last time is the first one of the next period")
     periods: int = whole(3, "[1, 1000]", "periods to run; results are of the last one")
     time_step: float = real(
-        1.0, "-", "[0.01, 4]", "time step over the time in which the faster surface moves a mesh size"
+        1.0,
+        "-",
+        "[0.01, 4]",
+        "time step over the time in which the faster surface moves a mesh size",
     )
     target_error: float = real(
         0.0,
