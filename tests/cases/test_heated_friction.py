@@ -44,15 +44,16 @@ def test_as_another_program_on_the_fields(solve, root):
     assert "temperature" in done["mu_note"]
     text = (root / "docs/theory/temperature.md").read_text(encoding="utf-8")
     for stated in (
-        f"| {done['mu']:.4f}; isothermal {done['mu_isothermal']:.4f} |",
+        f"isothermal μ | {done['mu']:.4f}; {done['mu_isothermal']:.4f} |",
         f"| {done['temperature_rise_max_K']:.1f} K; {np.mean(walls):.1f} K |",
-        f"Tian & Kennedy at that friction: {done['flash_temperature_K']:.1f} K",
+        f"Kennedy 1994 with μ = {done['mu']:.4f}: {done['flash_temperature_K']:.1f} K",
     ):
         assert stated in text
     heat = done["mu"] * done["hertz_pressure_Pa"] * 0.3 * 5.0
     assert heat == pytest.approx(1e8, rel=0.2)
     share = round(100.0 * (1.0 - done["mu"] / done["mu_isothermal"]), -1)
-    say = f"is {done['temperature_rise_max_K']:.0f} K, and friction is {share:.0f} % lower"
+    warmer = f"up to {done['temperature_rise_max_K']:.0f} K warmer than the inlet"
+    say = f"{warmer}, and friction is {share:.0f} % lower"
     assert say in (root / "docs/theory/temperature.md").read_text(encoding="utf-8")
 
 
@@ -61,7 +62,7 @@ def test_traction_rises_and_falls(solve, root, srr, mu):
     done = solve(None, 257, FAST | {"contact.slide_to_roll": srr})
     assert done["mu"] == pytest.approx(mu, abs=6e-4)
     text = (root / "docs/theory/temperature.md").read_text(encoding="utf-8")
-    (row,) = re.findall(r"ratios 0.03 and 1 \| (.*?) \|", text)
+    (row,) = re.findall(r"ratios 0.03; 1: μ with heat \| (.*?) \|", text)
     assert f"{done['mu']:.4f}" in row
 
 
