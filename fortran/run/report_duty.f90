@@ -25,16 +25,22 @@ contains
       !> Columns with the relative errors by time steps, and the smooth results of which the grid errors are
       character(len=*), parameter :: by_steps(3) = [character(len=14) :: "c_step_error", "min_step_error", "p_step_error"], &
          smooth(3) = [character(len=5) :: "H_c", "H_min", "P_max"]
-      real(dp), allocatable :: values(:), steps(:), power(:)
+      real(dp), allocatable :: values(:), steps(:), grid(:), power(:), radius(:), size_now(:)
       integer :: k
 
       history = run%history
       call report_smooth(steady, run%plan, run%smooth, run%level(), .true.)
+      allocate (radius, source=history%column("radius_x"))
+      ! (a over that of the case)^(2/3)
+      allocate (size_now, source=(radius*history%column("load"))**merge(1.0_dp/3.0_dp, 2.0_dp/9.0_dp, run%plan%contact%is_line()))
       do k = 1, size(smooth)
          allocate (values, source=history%column(trim(quantities(k))//units(k)))
          allocate (steps, source=history%column(by_steps(k)))
-         call history%add_column(trim(quantities(k))//"_error"//units(k), values*(steps + relative(trim(smooth(k)))))
-         deallocate (values, steps)
+         allocate (grid(size(values)), source=relative(trim(smooth(k))))
+         ! the error by the inlet is proportional to h^2/H^(4/3) (inlet.f90) in terms of the present size of the contact
+         if (k <= 2) grid = grid*max(1.0_dp, (steady%number(trim(quantities(k))//"_m")/(values*radius))**(4.0_dp/3.0_dp)*size_now)
+         call history%add_column(trim(quantities(k))//"_error"//units(k), values*(steps + grid))
+         deallocate (values, steps, grid)
       end do
       allocate (values, source=abs(history%column("mu"))*relative("F") + history%column("mu_step_error"))
       call history%add_column("mu_error", values)
