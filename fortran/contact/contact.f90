@@ -28,6 +28,7 @@ module ehl_contact
       procedure :: is_even
       procedure :: is_line
       procedure :: is_roller
+      procedure :: growth
       procedure :: scales
       procedure :: moes_load
       procedure :: operating
@@ -66,6 +67,14 @@ contains
       end associate
       is_roller = .false.
    end function is_roller
+
+   !> Half width of the dry contact along X over that of the case, at a load and a curvature over those of the case
+   elemental real(dp) function growth(self, load, curvature)
+      class(contact_t), intent(in) :: self
+      real(dp), intent(in) :: load, curvature
+
+      growth = (load/curvature)**(1.0_dp/merge(2.0_dp, 3.0_dp, self%is_line() .or. self%is_roller()))
+   end function growth
 
    !> The scales of the contact in SI units
    pure function scales(self, load, radius, reduced_modulus)

@@ -31,14 +31,14 @@ contains
       history = run%history
       call report_smooth(steady, run%plan, run%smooth, run%level(), .true.)
       allocate (radius, source=history%column("radius_x"))
-      ! (a over that of the case)^(2/3)
-      allocate (size_now, source=(radius*history%column("load"))**merge(1.0_dp/3.0_dp, 2.0_dp/9.0_dp, run%plan%contact%is_line()))
+      allocate (size_now, source=run%plan%contact%growth(history%column("load"), 1.0_dp/radius))
       do k = 1, size(smooth)
          allocate (values, source=history%column(trim(quantities(k))//units(k)))
          allocate (steps, source=history%column(by_steps(k)))
          allocate (grid(size(values)), source=relative(trim(smooth(k))))
          ! the error by the inlet is proportional to h^2/H^(4/3) (inlet.f90) in terms of the present size of the contact
-         if (k <= 2) grid = grid*max(1.0_dp, (steady%number(trim(quantities(k))//"_m")/(values*radius))**(4.0_dp/3.0_dp)*size_now)
+         if (k <= 2) grid = grid*max(1.0_dp, (steady%number(trim(quantities(k))//"_m")/(values*radius))**(4.0_dp/3.0_dp) &
+                                     *size_now**(2.0_dp/3.0_dp))
          call history%add_column(trim(quantities(k))//"_error"//units(k), values*(steps + grid))
          deallocate (values, steps, grid)
       end do

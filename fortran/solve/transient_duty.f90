@@ -76,8 +76,7 @@ contains
    end procedure judge_duty
 
    module procedure growth
-      growth = (self%now%load/self%now%curvatures(1)) &
-               **(1.0_dp/merge(2.0_dp, 3.0_dp, self%contact%is_line() .or. self%contact%is_roller()))
+      growth = self%contact%growth(self%now%load, self%now%curvatures(1))
    end procedure growth
 
    !> Half width of the dry contact along X now [a]
