@@ -11,9 +11,9 @@ submodule (ehl_contact_run) ehl_contact_duty
 
    !> Error of a quantity by its second difference, and its decay per step (docs/evidence/duty)
    real(dp), parameter :: by_difference = 2.0_dp, left = 0.8_dp
-   !> Relative error of the friction over that of the pressure (ibid.)
+   !> Relative error of the friction over that of the pressure (docs/evidence/duty, random duties)
    real(dp), parameter :: by_pressure = 2.0_dp
-   !> Power of the speed in the film that the inlet makes (Moes)
+   !> Power of the speed in the central film (Hamrock & Dowson 1977)
    real(dp), parameter :: film_by_speed = 0.67_dp
 
 contains
@@ -23,34 +23,40 @@ contains
                "H_c", "H_min", "X_min", "Y_min", "P_max", "h_c_m", "h_min_m", "p_max_Pa", "mu", "power_W", "flash_K", &
                "load_error", "cycles", "residual", "c_step_error", "min_step_error", "p_step_error", &
                "mu_step_error"]
+      if (self%plan%lubricant%boundary_film > 0.0_dp) names = [character(len=16) :: names, "load_share_error"]
    end procedure duty_names
 
    module procedure duty_row
-      real(dp) :: place(2), mu, power, flash, p_error
+      real(dp) :: place(2), mu, power, flash, p_error, share_error
 
       associate (t => self%transient, m => self%transient%m, scales => self%plan%scales)
          p_error = pressure_error(self, m%pressure_maximum*scales%pressure)
+         share_error = 0.0_dp
+         if (self%plan%lubricant%boundary_film > 0.0_dp) share_error = load_share_error(self)
          call find_minimum(level, place)
          call find_friction(self, level, mu, power, flash)
          row = [real(dp) :: t%step, t%time, t%time*t%duty%time_scale, t%now%mean_velocity(), &
                 t%now%speeds(1) - t%now%speeds(2), t%now%load, 1.0_dp/t%now%curvatures, t%now%viscosity, m%films(), &
                 place, m%pressure_maximum, m%films()*scales%film, m%pressure_maximum*scales%pressure, mu, power, flash, &
                 m%load_error, t%cycles, t%residual, t%film_errors, &
-                p_error, friction_error(self, mu, p_error)]
+                p_error, friction_error(self, mu, p_error, share_error)]
+         if (self%plan%lubricant%boundary_film > 0.0_dp) row = [row, share_error]
       end associate
    end procedure duty_row
 
-   !> By film: of the inlet, whose film falls with the speed, and of the time steps; or of BDF2 in a share that changes at once
-   module procedure duty_share_error
+   !> Error of the load share at the boundary film by that of the film: of the inlet, whose film falls with the speed, and of the
+   !> time steps; or of BDF2 in a share that changes at once
+   real(dp) function load_share_error(self) result(error)
+      class(contact_run_t), intent(in) :: self
       type(inlet_t) :: inlet
 
       associate (t => self%transient, share => self%transient%m%touching%load_share)
          inlet = self%plan%inlet
          inlet%film = inlet%film*abs(t%now%mean_velocity())**film_by_speed
-         duty_share_error = max(inlet%share_error(t%m, self%grid%hx) + share*min(1.0_dp, share_by_film*maxval(t%film_errors)), &
-                                remaining(self, "load_share_error"), squeeze_error(self, "load_share", share))
+         error = max(inlet%share_error(t%m, self%grid%hx) + share*min(1.0_dp, share_by_film*maxval(t%film_errors)), &
+                     remaining(self, "load_share_error"), squeeze_error(self, "load_share", share))
       end associate
-   end procedure duty_share_error
+   end function load_share_error
 
    !> Relative error of the maximum pressure by time steps: that of the films, or of the squeeze of a thick film
    real(dp) function pressure_error(self, pressure)
@@ -63,15 +69,15 @@ contains
 
    !> Error of the coefficient of friction by time steps: it follows the pressure, to which viscosity is sensitive, and the load
    !> at the boundary film, and changes at once in the squeeze
-   real(dp) function friction_error(self, mu, pressure)
+   real(dp) function friction_error(self, mu, pressure, share)
       class(contact_run_t), intent(in) :: self
       real(dp), intent(in) :: mu
-      !> Relative error of the maximum pressure, at least that of the films
-      real(dp), intent(in) :: pressure
+      !> Relative error of the maximum pressure, at least that of the films, and error of the load share
+      real(dp), intent(in) :: pressure, share
 
       friction_error = abs(mu)*by_pressure*pressure
       associate (stress => self%plan%lubricant%boundary_stress, m => self%transient%m)
-         if (stress > 0.0_dp) friction_error = friction_error + duty_share_error(self)*abs(mu)*stress*m%load/m%friction
+         if (stress > 0.0_dp) friction_error = friction_error + share*abs(mu)*stress*m%load/m%friction
       end associate
       friction_error = max(friction_error, remaining(self, "mu_step_error"), squeeze_error(self, "mu", mu))
    end function friction_error

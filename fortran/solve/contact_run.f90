@@ -84,7 +84,8 @@ module ehl_contact_run
    ! in contact_duty.f90
    interface
       !> Columns of the history of a contact under a duty
-      module subroutine duty_names(names)
+      module subroutine duty_names(self, names)
+         class(contact_run_t), intent(in) :: self
          character(len=16), allocatable, intent(out) :: names(:)
       end subroutine duty_names
 
@@ -94,11 +95,6 @@ module ehl_contact_run
          type(level_t), intent(in) :: level
          real(dp), allocatable, intent(out) :: row(:)
       end subroutine duty_row
-
-      !> Error of the load share at the boundary film after a step
-      module real(dp) function duty_share_error(self)
-         class(contact_run_t), intent(in) :: self
-      end function duty_share_error
    end interface
 
    ! in contact_start.f90
@@ -164,10 +160,9 @@ contains
       character(len=16), allocatable :: columns(:)
 
       if (self%plan%duty%active) then
-         call duty_names(columns)
+         call duty_names(self, columns)
          if (self%plan%layer > 0.0_dp) columns = [character(len=16) :: columns, oil_names]
          columns = [character(len=16) :: columns, touching_names(:known_names(self%plan%lubricant))]
-         if (self%plan%lubricant%boundary_film > 0.0_dp) columns = [character(len=16) :: columns, "load_share_error"]
       else if (self%plan%surfaces%rest()) then
          columns = [character(len=16) :: "cycle", "share", "mu_ratio", "H_c", "H_min", "P_max", "load_error", "residual"]
       else if (self%plan%surfaces%move()) then
@@ -248,7 +243,6 @@ contains
          end if
          numbers = m%touching%numbers()
          row = [row, numbers(:known_names(self%plan%lubricant))]
-         if (self%plan%duty%active .and. self%plan%lubricant%boundary_film > 0.0_dp) row = [row, duty_share_error(self)]
          call self%history%append(row, status)
          if (self%plan%surfaces%pass_once() .and. .not. self%plan%duty%active) then
             call transient%extremes%update(level, self%p_smooth, self%h_smooth, transient%time)
