@@ -9,8 +9,8 @@ module ehl_deflection
    private
    public :: deflection_t
 
-   !> Elastic deflection W = k_b iint P dX' dY' / r on one grid, P piecewise constant on
-   !> cells of hx x hy centred at the nodes; on a strip with its repetitions, whose mean over Y is -2 k_b int P ln|X - X'| dX'.
+   !> Elastic deflection W = k_b iint P dX' dY' / r on one grid, P piecewise constant on cells of hx x hy
+   !> centred at the nodes; a strip includes its periodic images, and its mean over Y is -2 k_b int P ln|X - X'| dX'.
    !> P is scaled by the Hertz pressure, W by a^2/R.
    type, abstract :: deflection_t
    contains

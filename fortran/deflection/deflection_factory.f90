@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Makes a deflection engine by its name
+!> Creates a deflection engine by its name
 module ehl_deflection_factory
    use ehl_status, only: status_t, ehl_bad_input
    use ehl_deflection, only: deflection_t
@@ -11,21 +11,21 @@ module ehl_deflection_factory
    private
    public :: new_deflection, deflection_engines
 
-   !> The engines' names
+   !> Names of the engines
    character(len=*), parameter :: deflection_engines(*) = [character(len=6) :: &
       "mlmi", "fft"]
 
-   !> Nodes of a row up to which a sum costs less than an FFT with its plans
+   !> Number of nodes of a row up to which direct summation costs less than an FFT with its plans
    integer, parameter :: short = 1025
 
 contains
 
-   !> Engine by its name, to be set up for a grid
+   !> Create an engine by its name; it is not set up for a grid yet
    subroutine new_deflection(engine, deflection, status, grid)
       character(len=*), intent(in) :: engine
       class(deflection_t), allocatable, intent(out) :: deflection
       type(status_t), intent(inout) :: status
-      !> The grid: a short row needs no engine
+      !> The grid: for a short row the deflection is summed directly, whatever the engine
       type(grid_t), intent(in), optional :: grid
 
       if (present(grid)) then

@@ -2,13 +2,13 @@
 !> Deflection by zero-padded real FFTs: exact to rounding
 !>
 !> The sum over n nodes a side is a circular convolution of length 2(n-1): the offsets -(n-1)
-!> and n-1 fall together there, but the kernel is even, so nothing is lost whatever P is on
-!> the border. The kernel's transform is real. The padding is never transformed in X: rows
-!> 1..ny go to spectra, then a few columns at a time are gathered, padded, transformed along
+!> and n-1 coincide, but the kernel is even, so the result is exact for any P on
+!> the border. The kernel's transform is real. Padded rows are never transformed in X: rows
+!> 1..ny are transformed to spectra, then a few columns at a time are gathered, padded, transformed along
 !> Y, multiplied and transformed back while they are in the cache, and only the rows needed
 !> are transformed back in X. Rows of zero pressure are skipped. On a folded grid columns are completed by
-!> their mirror image; FFTW's cosine transforms took three times as long as that. A strip repeats along Y by itself: its columns
-!> are not padded, and one row has none.
+!> their mirror image; FFTW's cosine transforms took three times as long. A strip is periodic along Y: its columns
+!> are not padded, and a strip of one row is not transformed along Y.
 module ehl_fft
    use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr, c_associated, c_f_pointer, &
       c_int, c_size_t, c_double_complex
@@ -36,7 +36,7 @@ module ehl_fft
    type, extends(deflection_t) :: fft_deflection_t
       private
       integer :: nx = 0, ny = 0, threads = 1
-      !> Padded lengths, and complex numbers in the spectrum of a row
+      !> Padded lengths, and number of complex values in the spectrum of a row
       integer :: lx = 0, ly = 0, nk = 0
       logical :: mirror = .false.
       type(c_ptr) :: row_forward = c_null_ptr, row_backward = c_null_ptr
@@ -45,9 +45,9 @@ module ehl_fft
       real(dp), pointer, contiguous :: kernel(:, :) => null()
       !> Spectra of the rows: (nk, ny)
       complex(zp), pointer, contiguous :: spectrum(:, :) => null()
-      !> One padded row for each thread: (lx, threads)
+      !> One padded row per thread: (lx, threads)
       real(dp), pointer, contiguous :: row(:, :) => null()
-      !> Two blocks of padded columns for each thread: (ly*side_by_side, 2, threads)
+      !> Two blocks of padded columns per thread: (ly*side_by_side, 2, threads)
       complex(zp), pointer, contiguous :: columns(:, :, :) => null()
       type(c_ptr) :: storage(4) = c_null_ptr
       integer(int64) :: allocated_bytes = 0
@@ -60,7 +60,7 @@ module ehl_fft
 
 contains
 
-   !> Prepare for a grid; the accuracy is that of rounding
+   !> Prepare for a grid; exact to rounding, whatever `accuracy`
    subroutine setup(self, grid, factor, accuracy, threads, status)
       class(fft_deflection_t), intent(inout) :: self
       type(grid_t), intent(in) :: grid
@@ -123,7 +123,7 @@ contains
                            self%row_backward, self%spectrum, self%row, w)
    end subroutine apply
 
-   !> Rows first..last of p, padded, to spectra
+   !> Transform rows first..last of p, padded, to spectra
    subroutine rows_to_spectra(nx, ny, lx, nk, first, last, threads, plan, p, row, spectrum)
       integer, intent(in) :: nx, ny, lx, nk, first, last, threads
       type(c_ptr), intent(in) :: plan
@@ -146,7 +146,7 @@ contains
       !$omp end parallel
    end subroutine rows_to_spectra
 
-   !> Spectra of rows first..last in, spectra of the deflection of all rows out
+   !> Convolve along Y: in, spectra of rows first..last; out, spectra of the deflection of all rows
    subroutine convolve_columns(ny, ly, nk, first, last, mirror, threads, forward, backward, &
                                kernel, spectrum, columns)
       integer, intent(in) :: ny, ly, nk, first, last, threads
@@ -197,7 +197,7 @@ contains
       !$omp end parallel
    end subroutine convolve_columns
 
-   !> Spectra back to the deflection; they are destroyed
+   !> Transform the spectra back to the deflection; overwrites the spectra
    subroutine spectra_to_rows(nx, ny, lx, nk, threads, plan, spectrum, row, w)
       integer, intent(in) :: nx, ny, lx, nk, threads
       type(c_ptr), intent(in) :: plan
@@ -252,7 +252,7 @@ contains
       call c_f_pointer(self%storage(4), self%columns, [self%ly*side_by_side, 2, self%threads])
    end subroutine reserve
 
-   !> The four one-dimensional plans; with the planner locked only
+   !> Make the four one-dimensional plans; the caller must have locked the planner
    subroutine make_plans(self)
       type(fft_deflection_t), intent(inout) :: self
       integer(c_int) :: length(1)

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Influence coefficients of the elastic half-space: the deflection at a node caused by a unit
-!> pressure on one cell of hx x hy (Love 1929; Venner & Lubrecht 2000, eq. 5.4). The factor k_b in front of the integral of
-!> 1/r is that of the contact, whose size the lengths are scaled by.
+!> pressure on one cell of hx x hy (Love 1929; Venner & Lubrecht 2000, eq. 5.4). The contact sets the factor k_b of the
+!> integral of 1/r, because its size scales the lengths.
 module ehl_kernel
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
@@ -9,9 +9,9 @@ module ehl_kernel
    private
    public :: coefficient, fill_grid_kernel, fill_kernel, kernel_coefficient
 
-   !> Cells further away than this many mesh sizes are integrated by Gauss points: the exact
-   !> formula is a second difference and loses (r/h)^2 in accuracy there, the quadrature
-   !> is off by less than 4e-4 (h/r)^6 = 4e-13
+   !> Cells further away than this many mesh sizes are integrated by Gauss quadrature: the exact
+   !> formula is a second difference, whose rounding error increases as (r/h)^2, and the error of the
+   !> quadrature is less than 4e-4 (h/r)^6 = 4e-13
    real(dp), parameter :: far = 32.0_dp
    !> Three-point Gauss-Legendre rule on [-1/2, 1/2]
    real(dp), parameter :: node = 0.387298334620741688517926539978239961_dp
@@ -19,8 +19,8 @@ module ehl_kernel
 
 contains
 
-   !> Deflection at a node of a grid by a unit pressure on the cell di columns and dj rows away, which is one of the whole plane,
-   !> or of a strip with its repetitions
+   !> Deflection at a node by a unit pressure on the cell di columns and dj rows away; on a strip by that cell and its
+   !> periodic images
    pure real(dp) function coefficient(grid, factor, di, dj)
       type(grid_t), intent(in) :: grid
       real(dp), intent(in) :: factor
@@ -35,7 +35,7 @@ contains
       end if
    end function coefficient
 
-   !> Table of these: k(1 + di, 1 + dj), for all that the array has room for
+   !> Fill the array k(1 + di, 1 + dj) with these coefficients
    pure subroutine fill_grid_kernel(grid, factor, k)
       type(grid_t), intent(in) :: grid
       real(dp), intent(in) :: factor
@@ -57,8 +57,8 @@ contains
       end if
    end subroutine fill_grid_kernel
 
-   !> Of a strip with one row: -2 k_b int ln|X - X'| dX' over a cell, as the difference of its ends or, where that loses
-   !> (x/h)^2 in accuracy, by three Gauss points
+   !> Coefficient of a strip with one row: -2 k_b int ln|X - X'| dX' over a cell, by its antiderivative or, far away, where the
+   !> rounding error of that increases as (x/h)^2, by three Gauss points
    elemental real(dp) function row_coefficient(grid, factor, di)
       type(grid_t), intent(in) :: grid
       real(dp), intent(in) :: factor
@@ -76,7 +76,7 @@ contains
       row_coefficient = -2.0_dp*factor*row_coefficient
    end function row_coefficient
 
-   !> Of a strip with several rows
+   !> Coefficient of a strip with several rows
    pure real(dp) function strip_coefficient(grid, factor, di, dj)
       type(grid_t), intent(in) :: grid
       real(dp), intent(in) :: factor
@@ -87,9 +87,9 @@ contains
       strip_coefficient = around(modulo(dj, grid%full_ny()))
    end function strip_coefficient
 
-   !> Coefficients of all rows of a strip by their distance: those of a cell and its repetitions, whose sum over the rows is the
-   !> logarithm. Repetitions that are far away: midpoint rule backwards, sum f(m) = int f dm + f'(m)/24 at the end between
-   !> two; what does not vary over the rows is left to the logarithm.
+   !> Coefficients of all rows of a strip by their distance: each is the sum over a cell and its periodic images; the sum of all
+   !> rows is the logarithm of row_coefficient, which fixes their mean. Far images are summed by the inverse midpoint rule,
+   !> sum f(m) = int f dm + f'/24 at the ends, without terms that are constant over the rows.
    pure function strip_column(grid, factor, di) result(around)
       type(grid_t), intent(in) :: grid
       real(dp), intent(in) :: factor
@@ -103,7 +103,7 @@ contains
          width = rows*hy
          x = abs(di)*hx
          do j = 0, rows - 1
-            ! the nearest repetition, so that either side is the same to the bit
+            ! the nearest image, so that both sides are equal to the bit
             near = min(j, rows - j)
             y = near*hy
             around(j) = 0.0_dp
@@ -143,8 +143,7 @@ contains
       end if
    end function kernel_coefficient
 
-   !> Table of coefficients: k(1 + di, 1 + dj) belongs to the offset (di*step(1), dj*step(2)), for all that the array has
-   !> room for
+   !> Fill the array k with coefficients: k(1 + di, 1 + dj) belongs to the offset (di*step(1), dj*step(2))
    pure subroutine fill_kernel(k, factor, hx, hy, step)
       real(dp), contiguous, intent(out) :: k(:, :)
       real(dp), intent(in) :: factor, hx, hy
@@ -159,7 +158,7 @@ contains
             if (is_far(x, y, hx, hy)) exit
             k(first_far, j) = by_corners(factor, x, y, hx, hy)
          end do
-         ! a loop of its own, which the compiler vectorises
+         ! a separate loop, which the compiler vectorises
          do i = first_far, size(k, 1)
             x = (i - 1)*step(1)*hx
             k(i, j) = by_gauss(factor, x, y, hx, hy)

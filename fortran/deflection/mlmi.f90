@@ -2,17 +2,16 @@
 !> Deflection by multilevel multi-integration (Brandt & Lubrecht 1990, J. Comput. Phys. 90;
 !> Venner & Lubrecht 2000, Multi-level methods in lubrication, chapter 5)
 !>
-!> Where the kernel is smooth, the sum over many small cells is one over fewer, larger ones:
-!> sources go to the grid of every second node along one axis, and on to the next along the
-!> other axis (mlmi_down.f90), down to at most 17 nodes a side, where the sum is done as it stands (sum_directly). The
-!> deflection comes back up by interpolation; near the sources, where the kernel is not
-!> smooth, it is corrected on every grid (mlmi_up.f90). Transfers use 2t points, and grids reach far enough
-!> beyond the domain for them to keep their order at the border.
+!> Where the kernel is smooth, a sum over many small cells can be replaced by one over fewer, larger cells:
+!> anterpolation transfers the sources to the grid of every second node along one axis, then along the
+!> other (mlmi_down.f90), until at most 17 nodes a side are left, where the sum is evaluated directly (sum_directly). The
+!> deflection is interpolated back to the finer grids and corrected on a patch around each node, where the kernel is not
+!> smooth (mlmi_up.f90). Transfers use 2t points, and grids extend beyond the domain so that transfers keep their order
+!> at the border.
 !>
-!> Sizes of transfers and corrections follow from the accuracy required, relative to the largest W, for max W about
-!> max P as in a contact of the Hertz radius. Corrections left out add up to 2.5 times the accuracy on the finest grid,
-!> in magnitude, and their effect to 2^(-1/2) times that on each next one: these are cheaper. They do not all have the
-!> same sign. Measurements: docs/design.md.
+!> Transfer order and patch size follow from the accuracy required, relative to the largest W, for max W about max P as in a
+!> contact of the Hertz radius. Neglected corrections add up, in magnitude, to 2.5 times the accuracy on the finest grid, and
+!> to 2^(-1/2) times that on each coarser one, where corrections cost less; their signs differ. Measurements: docs/design.md.
 ! Rows are passed by their first element
 ! allow(assumed-size)
 module ehl_mlmi
@@ -32,19 +31,19 @@ module ehl_mlmi
 
    !> Grids are halved until they have no more nodes a side than this
    integer, parameter :: max_coarsest = 17
-   !> Grids with fewer nodes are left to one thread
+   !> Grids with fewer nodes use one thread
    integer, parameter :: small = 1024
-   !> Operations for a node on its grid, roughly; on the coarsest as many as there are nodes
+   !> Approximate number of operations per node; on the coarsest grid it is the number of nodes
    integer, parameter :: operations = 16
-   !> More halvings than any grid that fits into memory has
+   !> Upper limit of the number of coarsenings of any grid that fits into memory
    integer, parameter :: max_stages = 64
    !> Range of accuracies in which the estimate of the error holds
    real(dp), parameter :: coarse_limit = 2.0e-4_dp, fine_limit = 1.0e-10_dp
-   !> Accuracy from which on corrections are left out in proportion to it: that of meshes above a quarter of a, which only
-   !> thick films have. By the limit above a patch would be wider than `reach` there.
+   !> Accuracy above which the tolerance of neglected corrections is proportional to it rather than to coarse_limit: that of mesh
+   !> sizes above a/4, which only thick films have. With coarse_limit a patch would be wider than `reach` there.
    real(dp), parameter :: loose = 2.4e-3_dp
-   !> Corrections left out on the finest grid, in units of the accuracy, and their ratio from
-   !> one grid to the next, the kernel and the sources being those of that grid
+   !> Neglected corrections on the finest grid, in units of the accuracy, and their ratio from
+   !> one grid to the next, with the kernel and the sources of each grid
    real(dp), parameter :: truncation = 2.5_dp, ratio = 0.5_dp**1.5_dp
 
    !> Multilevel multi-integration
@@ -55,7 +54,7 @@ module ehl_mlmi
       real(dp), allocatable :: omega(:)
       !> The grids, finest first
       type(stage_t), allocatable :: stages(:)
-      !> Local corrections of each but the coarsest
+      !> Local corrections of all grids but the coarsest
       type(stencil_t), allocatable :: stencils(:)
       !> Row buffers of the threads: (elements, buffers, threads)
       real(dp), allocatable :: work(:, :, :)
@@ -67,7 +66,7 @@ module ehl_mlmi
 
 contains
 
-   !> Prepare for a grid; accuracies from 1e-10 on are possible, and from 2e-4 on the same
+   !> Prepare for a grid; the accuracy must be at least 1e-10, and above 2e-4 the transfers do not change
    subroutine setup(self, grid, factor, accuracy, threads, status)
       class(mlmi_deflection_t), intent(inout) :: self
       type(grid_t), intent(in) :: grid
@@ -123,7 +122,7 @@ contains
       self%work = 0.0_dp
    end subroutine setup
 
-   !> Half the points of the transfers that reach an accuracy soonest
+   !> Half the number of points of the transfers that reach an accuracy in the least time
    pure integer function half_points(accuracy)
       real(dp), intent(in) :: accuracy
       real(dp), parameter :: limit(*) = [1.0e-4_dp, 1.0e-6_dp, 1.0e-7_dp, 1.0e-8_dp, 1.0e-9_dp]
@@ -131,7 +130,7 @@ contains
       half_points = 3 + count(accuracy < 0.999_dp*limit)
    end function half_points
 
-   !> Number of halvings that lead to the coarsest grid
+   !> Number of coarsenings down to the coarsest grid
    pure integer function count_halvings(grid)
       type(grid_t), intent(in) :: grid
       integer :: step(2), axis
@@ -146,8 +145,8 @@ contains
       end do
    end function count_halvings
 
-   !> Axis to halve next on the grid of every step-th node: the one with the finer mesh, of
-   !> those that still have many nodes; 0 if neither has
+   !> Axis to coarsen next on the grid of every step-th node: of the axes with more than `max_coarsest` nodes the one
+   !> with the finer mesh; 0 if neither has more
    pure integer function next_axis(grid, step)
       type(grid_t), intent(in) :: grid
       integer, intent(in) :: step(2)
@@ -161,14 +160,14 @@ contains
       end if
    end function next_axis
 
-   !> The accuracy is out of reach
+   !> Report that the accuracy cannot be reached
    subroutine refuse(accuracy, status)
       real(dp), intent(in) :: accuracy
       type(status_t), intent(inout) :: status
 
       call status%fail(ehl_bad_input, "deflection by 'mlmi' to a relative accuracy of " &
-                       //fixed(accuracy, "es9.2")//" was asked for, at least " &
-                       //fixed(fine_limit, "es9.2")//" was expected; 'fft' is exact to rounding")
+      //fixed(accuracy, "es9.2")//" was requested, at least " &
+      //fixed(fine_limit, "es9.2")//" was expected; 'fft' is exact to rounding")
    end subroutine refuse
 
    !> W = K P
@@ -213,7 +212,7 @@ contains
       end do
    end function bytes
 
-   !> Make this the coarsest grid low:high, of every step-th node
+   !> Set up the coarsest grid low:high, of every step-th node
    subroutine set_coarsest(stage, low, high, mirror, step, factor, hx, hy, status)
       type(stage_t), intent(inout) :: stage
       integer, intent(in) :: low(2), high(2), step(2)
@@ -261,7 +260,7 @@ contains
       !$omp end parallel
    end subroutine sum_directly
 
-   !> One row of it: source rows at the same distance are added first. Sums are taken for a
+   !> Row j of the deflection of the coarsest grid: source rows at the same distance are added first. Sums are taken for a
    !> multiple of eight columns, so that the compiler's vector loop has no remainder.
    subroutine sum_row(stage, j, s, sums, w)
       type(stage_t), intent(in) :: stage

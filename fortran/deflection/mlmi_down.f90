@@ -1,9 +1,9 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Multilevel multi-integration, the way down: the grids, and sources from each to the next coarser one.
+!> Multilevel multi-integration, from fine to coarse: the grids, and the anterpolation of sources to the next coarser grid.
 !>
-!> Nodes are numbered from 0. Grids reach beyond the domain by as many nodes as the transfers
+!> Nodes are numbered from 0. Grids extend beyond the domain by the number of nodes that transfers
 !> need to keep their order at the border. On a folded grid row -j is row j. A stage that
-!> halves X keeps its sources split into even and odd columns, so that loops are contiguous.
+!> is coarsened along X stores even and odd columns of its sources separately, so that loops are contiguous.
 ! Rows are passed by their first element
 ! allow(assumed-size)
 module ehl_mlmi_down
@@ -16,25 +16,25 @@ module ehl_mlmi_down
    private
    public :: descend, no_memory, rows_near, sources_near, stage_t, stored_row, take
 
-   !> What is reported where memory does not suffice
+   !> Message if an allocation fails
    character(len=*), parameter :: no_memory = "no memory for the mlmi deflection"
-   !> Most pairs of rows that a transfer can have
+   !> Maximum number of pairs of rows in a transfer
    integer, parameter :: max_pairs = 16
-   !> No grid has a node this far out: first and last of a row without sources
+   !> Larger than any node number: marks the first and the last source of a row without sources
    integer, parameter :: nowhere = 2**29
 
-   !> One grid and, unless it is the coarsest, the step to the next
+   !> One grid and, unless it is the coarsest, the coarsening to the next
    type :: stage_t
-      !> Axis that is halved next: 1 X, 2 Y, 0 on the coarsest grid
+      !> Axis that is coarsened next: 1 X, 2 Y, 0 on the coarsest grid
       integer :: axis = 0
       logical :: mirror = .false.
       !> Node ranges (X, Y) of this grid and of the next, nodes beyond the domain included
       integer :: low(2) = 0, high(2) = 0, coarse_low(2) = 0, coarse_high(2) = 0
-      !> Zero columns kept at both ends of a row of sources
+      !> Number of zero columns at both ends of a row of sources
       integer :: margin = 0
-      !> Sources: columns low(1)-margin:high(1)+margin, or even and odd columns for themselves,
+      !> Sources: columns low(1)-margin:high(1)+margin, or even and odd columns separately,
       !> coarse_low(1)-margin:coarse_high(1)+margin, column 2i in even(i) and 2i+1 in odd(i).
-      !> Row high(2)+1 is empty and stands for all rows outside.
+      !> Row high(2)+1 is zero and represents all rows outside.
       real(dp), allocatable :: source(:, :), even(:, :), odd(:, :)
       !> Columns of the first and the last source in each row
       integer, allocatable :: first(:), last(:)
@@ -48,8 +48,8 @@ module ehl_mlmi_down
 
 contains
 
-   !> Make this the grid low:high, halved along an axis with 2t-point transfers;
-   !> correction_reach: so many nodes away may a source be that corrects the deflection of a node
+   !> Set up the grid low:high, coarsened along an axis with 2t-point transfers;
+   !> correction_reach: largest distance in nodes at which a source corrects the deflection of a node
    subroutine halve(self, low, high, axis, mirror, t, correction_reach, status)
       class(stage_t), intent(inout) :: self
       integer, intent(in) :: low(2), high(2), axis, t, correction_reach
@@ -76,7 +76,7 @@ contains
       if (stat /= 0) call status%fail(ehl_no_memory, no_memory)
    end subroutine halve
 
-   !> Sources, all zero
+   !> Allocate the sources, all zero
    subroutine reserve_sources(self, stat)
       class(stage_t), intent(inout) :: self
       integer, intent(out) :: stat
@@ -117,7 +117,7 @@ contains
       if (allocated(self%first)) bytes = bytes + 8*size(self%first, kind=int64)
    end function bytes
 
-   !> The pressure p (nx, ny) becomes the sources of the finest grid
+   !> Set the sources of the finest grid to the pressure p (nx, ny)
    subroutine take(stage, threads, p, work)
       type(stage_t), intent(inout) :: stage
       integer, intent(in) :: threads
@@ -135,7 +135,7 @@ contains
          call find_sources(p(:, j), first, last)
          if (stage%axis == 1 .and. mod(n, 2) == 1 .and. &
              max(last, stage%last(j)) == n - 1) then
-            ! the last column has no odd one beside it
+            ! the last, even column has no odd neighbour
             work(1:n, 1, me) = p(:, j)
             work(n + 1, 1, me) = 0.0_dp
             call put(stage, j, first, last, 0, work(:, 1, me))
@@ -147,7 +147,7 @@ contains
       !$omp end parallel
    end subroutine take
 
-   !> First and last element that is not zero (a NaN is not); nowhere if there is none
+   !> First and last element that is not zero (a NaN counts as nonzero); `nowhere` if there is none
    pure subroutine find_sources(a, first, last)
       real(dp), contiguous, intent(in) :: a(0:)
       integer, intent(out) :: first, last
@@ -162,7 +162,7 @@ contains
       last = -nowhere
    end subroutine find_sources
 
-   !> Sources of the next grid
+   !> Compute the sources of the next coarser grid
    subroutine descend(fine, coarse, omega, threads, work)
       type(stage_t), intent(in) :: fine
       type(stage_t), intent(inout) :: coarse
@@ -187,7 +187,7 @@ contains
       !$omp end parallel
    end subroutine descend
 
-   !> One row of sources, halved in X
+   !> Anterpolate one row of sources along X
    subroutine descend_row_x(fine, coarse, j, omega, sums)
       type(stage_t), intent(in) :: fine
       type(stage_t), intent(inout) :: coarse
@@ -211,7 +211,7 @@ contains
       call put(coarse, j, first, last, a, sums)
    end subroutine descend_row_x
 
-   !> One row of sources, halved in Y
+   !> Anterpolate to one row of sources along Y
    subroutine descend_row_y(fine, coarse, j, omega, sums)
       type(stage_t), intent(in) :: fine
       type(stage_t), intent(inout) :: coarse
@@ -233,8 +233,8 @@ contains
       call put(coarse, j, first, last, a, sums)
    end subroutine descend_row_y
 
-   !> Columns of the new sources first..last and of those that row j has, from an even to an
-   !> odd one; a > b if there are none
+   !> Range a..b, from an even to an odd column, of the new sources first..last and the old sources of row j; a > b if there
+   !> are none
    pure subroutine columns_to_write(stage, j, first, last, a, b)
       type(stage_t), intent(in) :: stage
       integer, intent(in) :: j, first, last
@@ -247,7 +247,7 @@ contains
       b = 2*shifta(b, 1) + 1
    end subroutine columns_to_write
 
-   !> Where row j is stored
+   !> Index at which row j is stored
    pure integer function stored_row(stage, j)
       type(stage_t), intent(in) :: stage
       integer, intent(in) :: j
@@ -267,7 +267,7 @@ contains
 
       first = nowhere
       last = -nowhere
-      ! rows outside have no sources, mirror images the same as the rows j + 1 .. j + reach
+      ! rows outside have no sources; mirror images have those of the rows j + 1 .. j + reach
       do k = max(j - reach, stage%low(2)), min(j + reach, stage%high(2))
          first = min(first, stage%first(k))
          last = max(last, stage%last(k))
@@ -275,8 +275,8 @@ contains
    end subroutine sources_near
 
    !> Pairs of rows at distances start, start + 2, ... from row j, as offsets of column a - 1
-   !> in the array of sources. Pairs without sources are left out; place says which of the
-   !> pairs are there. Row j has no partner.
+   !> in the array of sources. Pairs without sources are omitted; `place` contains the indices of the
+   !> others. Row j itself is paired with the zero row.
    pure subroutine rows_near(stage, j, start, pairs, a, count, upper, lower, place)
       type(stage_t), intent(in) :: stage
       integer, intent(in) :: j, start, pairs, a
@@ -300,9 +300,9 @@ contains
       end do
    end subroutine rows_near
 
-   !> Store row j of the sources, of which those outside first..last are zero; row(k) belongs
-   !> to column start - 1 + k. What the row held before is overwritten, so row must hold the
-   !> columns of the old sources too, from an even to an odd one.
+   !> Store row j of the sources, which are zero outside first..last; row(k) belongs
+   !> to column start - 1 + k. The old sources are overwritten, so `row` must include
+   !> their columns too, from an even to an odd one.
    subroutine put(stage, j, first, last, start, row)
       type(stage_t), intent(inout) :: stage
       integer, intent(in) :: j, first, last, start

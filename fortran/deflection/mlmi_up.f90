@@ -1,14 +1,13 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Multilevel multi-integration, the way up: transfer weights, local corrections, and the deflection of ever finer grids,
-!> interpolated and corrected where there are sources
+!> Multilevel multi-integration, from coarse to fine: transfer weights, local corrections, and the interpolation and correction
+!> of the deflection on finer grids
 !>
 !> A kernel value midway between coarse points is interpolated from the 2t nearest ones,
 !>    K(d) = sum over k = 1..t of omega(k)*(K(d + 2k-1) + K(d - (2k-1))) + c(d),
-!> along one axis. The remainder c falls off like the 2t-th derivative of 1/r, and is kept
-!> where it matters: the largest values, until the sum of the magnitudes left out is within
-!> the tolerance. What is left out is added up, for odd and even d along the axis apart, and
-!> spread over the values kept: the truncation then hardly affects a smooth pressure (the
-!> error for the Hertz pressure falls to a half or a seventh).
+!> along one axis. The correction c decays like the 2t-th derivative of 1/r. The largest values are kept (the patch), such
+!> that the sum of the magnitudes of the neglected ones is within the tolerance. The sum of the neglected values,
+!> for odd and even d along the axis separately, is spread over the kept values, so that the truncation hardly affects a
+!> smooth pressure (the error for the Hertz pressure decreases to a half or a seventh).
 ! Rows are passed by their first element
 ! allow(assumed-size)
 module ehl_mlmi_up
@@ -23,17 +22,17 @@ module ehl_mlmi_up
 
    !> Maximum distance of a correction from its source, in mesh sizes
    integer, parameter :: reach = 48
-   !> Fewest values, those at offsets along >= 0 counted, that are kept at an offset across
+   !> Minimum number of values at offsets along >= 0 for an offset across to be kept
    integer, parameter :: min_values = 3
-   !> Most pairs of rows that it can have
+   !> Maximum number of pairs of rows in a correction
    integer, parameter :: max_pairs = reach + 2
 
-   !> Local corrections of one halving, even in both offsets. "Along" is the axis that is
-   !> halved, "across" the other one.
+   !> Local corrections of one coarsening, even in both offsets. "Along" is the axis that is
+   !> coarsened, "across" the other one.
    type :: stencil_t
       !> Largest offset across
       integer :: width = 0
-      !> For each offset across 0..width: how many pairs of odd (1, 3, ...) and of even
+      !> For each offset across 0..width: number of pairs of odd (1, 3, ...) and of even
       !> (2, 4, ...) offsets along
       integer, allocatable :: n_odd(:), n_even(:)
       !> odd(k, across): at 2k-1 along, k >= 1; even(k, across): at 2k along, k >= 0
@@ -64,9 +63,9 @@ contains
    end function transfer_weights
 
    !> Corrections for the kernel K(d) = kernel_coefficient(factor, step(1)*di, step(2)*dj, hx, hy),
-   !> halved along an axis (1: X, 2: Y), on a grid where no two nodes are further apart than
-   !> extent (X, Y). The tolerance is in units of K; it is not met if even all corrections
-   !> within reach leave out more.
+   !> coarsened along an axis (1: X, 2: Y), on a grid where no two nodes are further apart than
+   !> extent (X, Y). The tolerance is in units of K; it is not met if the corrections beyond
+   !> `reach` exceed it.
    subroutine make(self, axis, step, extent, factor, hx, hy, omega, tolerance, met)
       class(stencil_t), intent(inout) :: self
       integer, intent(in) :: axis, step(2), extent(2)
@@ -98,7 +97,7 @@ contains
          end do
       end do
 
-      ! the largest threshold that leaves out no more than the tolerance
+      ! the largest threshold for which the neglected values are within the tolerance
       high = maxval(abs(c))
       low = 1.0e-20_dp*high
       do trial = 1, 20
@@ -129,8 +128,8 @@ contains
       end do
    end subroutine make
 
-   !> The selected values and those nearer to the axis across: for every offset across all
-   !> even and all odd offsets along up to the largest selected, as the loops need them. A few
+   !> Extend the wanted values to what the loops need: for every offset across all
+   !> even and all odd offsets along up to the largest wanted one. A few
    !> values at a large offset across do not justify the sum over two more rows.
    pure subroutine choose(wanted, kept)
       logical, intent(in) :: wanted(0:, 0:)
@@ -145,12 +144,12 @@ contains
                                     - 1):2, b) = .true.
          end do
       end do
-      ! the middle of every row, and one value of each kind, to carry what is left out
+      ! the middle of every row, and one value of each parity to receive the neglected sum
       kept(0, 0:max(0, width)) = .true.
       kept(1, 0) = .true.
    end subroutine choose
 
-   !> Room for the values kept
+   !> Allocate the kept values
    subroutine fit(self, kept)
       class(stencil_t), intent(inout) :: self
       logical, intent(in) :: kept(0:, 0:)
@@ -173,13 +172,13 @@ contains
       length = max(2*maxval(self%n_odd) - 1, 2*maxval(self%n_even))
    end function length
 
-   !> Nodes of the next grid that a correction reaches over along the axis, or of this one across it
+   !> Reach of a correction: along the axis in nodes of the next grid, across it in nodes of this one
    pure integer function correction_reach(self)
       class(stencil_t), intent(in) :: self
       correction_reach = max(self%length()/2 + 1, self%width)
    end function correction_reach
 
-   !> Deflection w of a grid from that of the next coarser one, which is used up
+   !> Deflection w of a grid from that of the next coarser one, which is overwritten
    subroutine ascend(stage, stencil, omega, threads, work, w)
       type(stage_t), intent(inout) :: stage
       type(stencil_t), intent(in) :: stencil
@@ -201,7 +200,7 @@ contains
          end do
          !$omp end do
       else
-         ! even rows are corrected, odd ones interpolated from them and corrected
+         ! even rows are corrected, odd rows are interpolated from them and corrected
          !$omp do schedule(dynamic, 8)
          do j = stage%coarse_low(2), stage%coarse_high(2)
             call correct_row_y(stage, stencil, 2*j, work(:, :, me), stage%coarse(:, j))
@@ -218,7 +217,7 @@ contains
       !$omp end parallel
    end subroutine ascend
 
-   !> One row of a grid halved in X: even columns are corrected, odd ones interpolated from them and
+   !> One row of a grid coarsened along X: even columns are corrected, odd columns are interpolated from them and
    !> corrected. The buffers start at the same column as the sources.
    subroutine ascend_row_x(stage, stencil, j, omega, odd, s_even, s_odd, even, w)
       type(stage_t), intent(in) :: stage
@@ -255,7 +254,7 @@ contains
             end if
          end do
       end if
-      ! pairs of an even and an odd column lie in a..b, single ones may lie beside them
+      ! pairs of an even and an odd column lie in a..b; single columns may lie next to them
       a = -shifta(-stage%low(1), 1)
       b = shifta(stage%high(1) - 1, 1)
       if (2*a > stage%low(1)) then
@@ -268,7 +267,7 @@ contains
       if (2*b + 2 <= stage%high(1)) w(2*b + 2) = even(b + 1)
    end subroutine ascend_row_x
 
-   !> Corrections from sources at distance d across, columns a..b of the half grids
+   !> Corrections from sources at distance d across, columns a..b of the even and odd grids
    subroutine correct_row_x(stage, stencil, d, a, b, s_even, s_odd, even, odd)
       type(stage_t), intent(in) :: stage
       type(stencil_t), intent(in) :: stencil
@@ -284,7 +283,7 @@ contains
       call add_centred(n, stencil%n_even(d), stencil%even(:, d), s_odd, column, odd)
    end subroutine correct_row_x
 
-   !> Odd row j from the even ones around it
+   !> Interpolate odd row j from the even rows around it
    subroutine interpolate_row(stage, j, omega, w)
       type(stage_t), intent(in) :: stage
       integer, intent(in) :: j
@@ -304,8 +303,8 @@ contains
       call add_row_pairs(size(w), size(omega), omega, stage%coarse, upper, lower, w)
    end subroutine interpolate_row
 
-   !> Corrections of row j of a grid halved in Y: rows at the same distance are added, then
-   !> weighted and summed for each column offset, and shifted by that offset at last
+   !> Corrections of row j of a grid coarsened along Y: rows at the same distance are added, then
+   !> weighted and summed for each column offset, and finally shifted by that offset
    subroutine correct_row_y(stage, stencil, j, sums, w)
       type(stage_t), intent(in) :: stage
       type(stencil_t), intent(in) :: stencil

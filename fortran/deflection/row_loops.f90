@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Weighted sums of rows, the inner loops of multilevel multi-integration: they take several terms in one sweep over a row, so that
-!> sums stay in registers, and run over contiguous memory.
+!> Weighted sums of rows, the inner loops of multilevel multi-integration: they add several terms in one pass over a row, so that
+!> sums stay in registers and memory access is contiguous.
 ! Rows are passed by their first element
 ! allow(assumed-size)
 module ehl_row_loops
@@ -12,7 +12,7 @@ module ehl_row_loops
 contains
 
    !> y(i) = y(i) + sum over k = 1..m of c(k)*(a(right+i-1 + k-1) + a(left+i-1 - (k-1))):
-   !> pairs within one row, ever further apart
+   !> pairs within one row at increasing distance
    pure subroutine add_pairs(n, m, c, a, right, left, y)
       integer, intent(in) :: n, m, right, left
       real(dp), intent(in) :: c(*), a(*)
@@ -51,7 +51,7 @@ contains
       end select
    end subroutine add_pairs
 
-   !> y(i) = y(i) + sum over k = 1..m of c(k)*(u(upper(k)+i) + u(lower(k)+i)), u being many rows
+   !> y(i) = y(i) + sum over k = 1..m of c(k)*(u(upper(k)+i) + u(lower(k)+i)), where u contains many rows
    pure subroutine add_row_pairs(n, m, c, u, upper, lower, y)
       integer, intent(in) :: n, m, upper(m), lower(m)
       real(dp), intent(in) :: c(m), u(*)
@@ -81,8 +81,8 @@ contains
       end if
    end subroutine add_row_pairs
 
-   !> The same row pairs added to three rows y with weights c1, c2 and c3; to the first two
-   !> only if not three
+   !> The same sum for three rows y with weights c1, c2 and c3; for the first two
+   !> only unless `three`
    pure subroutine add_row_pairs_to_three(n, m, c1, c2, c3, u, upper, lower, three, y1, y2, y3)
       integer, intent(in) :: n, m, upper(m), lower(m)
       real(dp), intent(in) :: c1(m), c2(m), c3(m), u(*)
@@ -127,7 +127,7 @@ contains
       end do
    end subroutine add_row_pairs_to_three
 
-   !> The same around a middle: y(i) = y(i) + c(0)*a(middle+i-1)
+   !> Sum around a middle column: y(i) = y(i) + c(0)*a(middle+i-1)
    !> + sum over k = 1..m of c(k)*(a(middle+i-1 + k) + a(middle+i-1 - k))
    pure subroutine add_centred(n, m, c, a, middle, y)
       integer, intent(in) :: n, m, middle

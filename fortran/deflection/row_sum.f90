@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Deflection of a grid of one row by the sum itself: up to some thousand nodes it costs less than the plans of an FFT
+!> Deflection of a grid of one row by direct summation, which up to about a thousand nodes costs less than the plans of an FFT
 module ehl_row_sum
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_deflection, only: deflection_t
@@ -11,12 +11,12 @@ module ehl_row_sum
    private
    public :: row_sum_t
 
-   !> Nodes whose pressure is taken at a time
+   !> Number of nodes whose pressures are added in one pass
    integer, parameter :: together = 4
 
    type, extends(deflection_t) :: row_sum_t
       private
-      !> Kernel by the distance in nodes, on either side
+      !> Kernel by the signed distance in nodes
       real(dp), allocatable :: kernel(:)
       integer :: nx = 0
    contains
@@ -27,7 +27,7 @@ module ehl_row_sum
 
 contains
 
-   !> Prepare for a grid; the accuracy is that of rounding
+   !> Prepare for a grid; exact to rounding, whatever `accuracy`
    subroutine setup(self, grid, factor, accuracy, threads, status)
       class(row_sum_t), intent(inout) :: self
       type(grid_t), intent(in) :: grid
@@ -67,7 +67,7 @@ contains
       end do
    end subroutine apply
 
-   !> Add the deflection by the pressure of some adjacent nodes: kernel(i) is that of the first of them at node i
+   !> Add the deflection by the pressures p of adjacent nodes; kernel(i): deflection at node i by the first of them
    pure subroutine add(n, p, kernel, w)
       integer, intent(in) :: n
       real(dp), intent(in) :: p(:), kernel(2 - together:n)

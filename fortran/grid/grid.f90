@@ -1,16 +1,16 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> A uniform grid over the contact: whole, folded at the symmetry line Y = 0, or a strip that repeats along Y, whole or folded at
-!> Y = 0 and at half its width. One row is a strip on which nothing varies along Y.
+!> A uniform grid over the contact: whole, folded at the symmetry line Y = 0, or a strip that is periodic along Y, whole or folded
+!> at Y = 0 and at half its width. A single row is a strip without variation along Y.
 module ehl_grid
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
    public :: grid_t, new_grid, new_strip, find_levels, coarsest_most, long_x
 
-   !> Fewest and most intervals per side of the coarsest grid, which is solved directly
+   !> Minimum and maximum number of intervals per side of the coarsest grid, which is solved directly
    integer, parameter :: coarsest_fewest = 16, coarsest_most = 32
 
-   !> Cells that are so many times as long along X as along Y, or more, are coarsened along Y alone (ehl_hierarchy)
+   !> Grids with hx/hy of at least this are coarsened along Y alone (ehl_hierarchy)
    real(dp), parameter :: long_x = 1.6_dp
 
    !> Uniform node-centred grid; fields on it are real(dp) arrays of shape (nx, ny), X first.
@@ -22,11 +22,11 @@ module ehl_grid
       real(dp) :: x0 = 0.0_dp, y0 = 0.0_dp
       !> Mesh sizes
       real(dp) :: hx = 0.0_dp, hy = 0.0_dp
-      !> Only Y >= 0 is stored: row 1 lies on Y = 0 and the field continues as its mirror image
+      !> Folded: only Y >= 0 is stored, row 1 lies on Y = 0, and Y < 0 is the mirror image
       logical :: mirror = .false.
-      !> The field repeats along Y: row 1 follows on row ny, or on a folded strip row ny - 1; integrals are means over Y
+      !> Strip, periodic along Y: row ny is followed by row 1, or on a folded strip by row ny - 1; integrals are means over Y
       logical :: periodic = .false.
-      !> The bodies end at the border rows (of a roller): there is no film there
+      !> The bodies (of a roller) end at the border rows, where there is no film
       logical :: ends = .false.
    contains
       procedure :: x => x_of
@@ -76,7 +76,7 @@ contains
       end if
    end function new_grid
 
-   !> Grid of nx x ny nodes over a strip of a width that repeats along Y, with a row at Y = 0; one row has square cells. With
+   !> Grid of nx x ny nodes over a strip of this width, periodic along Y, with a row at Y = 0; one row has square cells. With
    !> mirror ny is even, and only the ny/2 + 1 rows from Y = 0 to half the width are stored.
    pure function new_strip(nx, ny, x_inlet, x_outlet, width, mirror) result(grid)
       integer, intent(in) :: nx, ny
@@ -98,8 +98,8 @@ contains
       grid%y0 = 0.0_dp
    end function new_strip
 
-   !> Levels that a grid of nx x ny nodes has, and intervals of the sides of the coarsest one; no levels where halving
-   !> does not end at even numbers, that of the shorter side at `coarsest_most` or less
+   !> Number of levels of a grid of nx x ny nodes, and intervals of the sides of the coarsest one; 0 levels if halving the
+   !> intervals does not lead to even numbers of which the smaller is at most `coarsest_most`
    pure subroutine find_levels(nx, ny, levels, intervals)
       integer, intent(in) :: nx, ny
       integer, intent(out) :: levels, intervals(2)
@@ -157,7 +157,7 @@ contains
                     self%mirror, ends=self%ends)
    end function coarsened
 
-   !> A strip over the same domain as another; ny: rows of the whole strip
+   !> A strip over the domain of another one; ny: rows of the whole strip
    pure function strip_like(other, nx, ny, hx) result(grid)
       class(grid_t), intent(in) :: other
       integer, intent(in) :: nx, ny
@@ -189,8 +189,8 @@ contains
                     ends=self%ends)
    end function finer
 
-   !> Area that row j stands for in a sum over the whole contact, per node:
-   !> hx*hy, twice that for rows that have a mirror image; of a strip as a mean over Y
+   !> Area weight of a node of row j in a sum over the whole contact:
+   !> hx*hy, twice that for rows that have a mirror image; on a strip for a mean over Y
    elemental real(dp) function weight(self, j)
       class(grid_t), intent(in) :: self
       integer, intent(in) :: j
@@ -199,7 +199,7 @@ contains
       weight = self%images(j)*weight
    end function weight
 
-   !> Area of a node's cell in row j; of its half in the rows where a grid is folded
+   !> Area of a node's cell in row j; half of it in the rows where a grid is folded
    elemental real(dp) function cell(self, j)
       class(grid_t), intent(in) :: self
       integer, intent(in) :: j
@@ -221,38 +221,38 @@ contains
       north = merge(merge(self%ny - 1, 1, self%mirror), j + 1, self%periodic .and. j == self%ny)
    end function north
 
-   !> How many rows of the whole domain row j stands for
+   !> Number of rows of the whole domain that row j represents
    elemental integer function images(self, j)
       class(grid_t), intent(in) :: self
       integer, intent(in) :: j
       images = merge(2, 1, self%mirror .and. j > 1 .and. .not. (self%periodic .and. j == self%ny))
    end function images
 
-   !> First row that is no border row
+   !> First row that is not a border row
    pure integer function first_inner(self)
       class(grid_t), intent(in) :: self
       first_inner = merge(1, 2, self%mirror .or. self%periodic)
    end function first_inner
 
-   !> Last one
+   !> Last row that is not a border row
    pure integer function last_inner(self)
       class(grid_t), intent(in) :: self
       last_inner = merge(self%ny, self%ny - 1, self%periodic)
    end function last_inner
 
-   !> Whether nothing varies along Y
+   !> Whether the grid is a single row
    pure logical function is_row(self)
       class(grid_t), intent(in) :: self
       is_row = self%ny == 1
    end function is_row
 
-   !> Rows of the whole domain that are no border rows
+   !> Number of rows of the whole domain that are not border rows
    pure integer function inner_rows(self)
       class(grid_t), intent(in) :: self
       inner_rows = self%full_ny() - merge(0, 2, self%periodic)
    end function inner_rows
 
-   !> Whether row j is a border, where P is given
+   !> Whether row j is a border row, where P is given
    elemental logical function is_border(self, j)
       class(grid_t), intent(in) :: self
       integer, intent(in) :: j
@@ -271,7 +271,7 @@ contains
       rows_below = merge(self%ny - 1, 0, self%mirror)
    end function rows_below
 
-   !> The stored row that is row j, which may be outside; of none: j
+   !> Index of the stored row for row j, which may be outside the grid; j itself if there is none
    elemental integer function stored_row(self, j)
       class(grid_t), intent(in) :: self
       integer, intent(in) :: j
@@ -285,7 +285,7 @@ contains
       end if
    end function stored_row
 
-   !> A stored field on the whole domain, values(nx, full_ny)
+   !> Expand a stored field to the whole domain, values(nx, full_ny)
    pure subroutine unfold(self, stored, values)
       class(grid_t), intent(in) :: self
       real(dp), intent(in) :: stored(:, :)

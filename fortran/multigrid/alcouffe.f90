@@ -12,18 +12,18 @@ module ehl_alcouffe
    private
    public :: transfer_t
 
-   !> Weights of interpolation. A fine node between two coarse ones is interpolated from these two,
-   !> one amid four coarse ones from the four. Nodes that are not free take no part.
+   !> Weights of interpolation. A fine node between two coarse nodes is interpolated from these two, a fine node at the
+   !> centre of a coarse cell from its four corners. Nodes that are not free are excluded.
    type :: transfer_t
-      !> Coarse columns and rows, and rows of fine nodes between them: on a strip as many, for the one above the last coarse row
-      !> lies below the first one
+      !> Coarse columns and rows, and rows of fine nodes between coarse rows: ny - 1, but ny on a periodic strip, whose last coarse
+      !> row is followed by the first one
       integer :: nx = 0, ny = 0, between = 0
-      !> Weights of the nodes between coarse (i, j) and (i+1, j): of the left one, of the right one
+      !> Weights of the left and the right coarse node for the node between coarse (i, j) and (i+1, j)
       real(dp), allocatable :: along_x(:, :, :)
-      !> Weights of the nodes between coarse (i, j) and (i, j+1): of the lower one, of the upper one
+      !> Weights of the lower and the upper coarse node for the node between coarse (i, j) and (i, j+1)
       real(dp), allocatable :: along_y(:, :, :)
-      !> Weights of the nodes amid coarse (i, j) and (i+1, j+1): of south-west, south-east,
-      !> north-west, north-east
+      !> Weights of the south-west, south-east, north-west and north-east coarse node for the node at the centre of the coarse
+      !> cell between (i, j) and (i+1, j+1)
       real(dp), allocatable :: centre(:, :, :)
       !> 1 where a coarse node is free, else 0
       real(dp), allocatable :: free(:, :)
@@ -41,7 +41,7 @@ module ehl_alcouffe
 
 contains
 
-   !> Allocate; threads: OpenMP threads to use on grids large enough for them
+   !> Allocate the weights; threads: number of OpenMP threads, used if `parallel`
    subroutine setup(self, coarse, threads, parallel, status)
       class(transfer_t), intent(inout) :: self
       type(grid_t), intent(in) :: coarse
@@ -70,22 +70,22 @@ contains
       north = modulo(j, max(self%ny, 1)) + 1
    end function north
 
-   !> The row below it; 0 below the first one, but on a strip
+   !> The row below a coarse row j; 0 below the first row unless the grid is a periodic strip
    elemental integer function south(self, j)
       class(transfer_t), intent(in) :: self
       integer, intent(in) :: j
       south = merge(self%ny, j - 1, j == 1 .and. self%between == self%ny)
    end function south
 
-   !> Weights for the operator of the fine grid: couplings as shares of their sum. Couplings to nodes that
-   !> are not free and the excess take their shares and give nothing. No differences are formed: rounding
-   !> would make the weights wrong where one coupling is much larger than the others.
+   !> Weights for the operator of the fine grid: each coupling over the sum of all couplings and the excess; couplings to nodes
+   !> that are not free count in the sum only. No differences are formed: where one coupling is much larger than the others,
+   !> rounding errors would spoil the weights.
    subroutine find_weights(self, a, free, dependent)
       class(transfer_t), intent(inout) :: self
       type(nine_point_t), intent(in) :: a
       !> Fine nodes that may change: 1, else 0. Border nodes are not free.
       real(dp), intent(in) :: free(:, :)
-      !> Fine nodes where the operator decides: 1; elsewhere 0: interpolation is bilinear
+      !> 1 at fine nodes with operator-dependent interpolation, 0 where interpolation is bilinear
       real(dp), intent(in) :: dependent(:, :)
       integer :: i, j
 
@@ -156,7 +156,7 @@ contains
          w = w*[free(i, j - 1), free(i, a%grid%north(j))]
       end function weights_y
 
-      !> A fine node amid four coarse ones, from its own equation
+      !> A fine node at the centre of a coarse cell, from its own equation
       pure function weights_centre(ic, jc) result(w)
          integer, intent(in) :: ic, jc
          real(dp) :: w(4)
@@ -183,7 +183,7 @@ contains
    end subroutine find_weights
 
    !> Row j of the transpose of interpolation applied to fine values, in coarse columns 2 to nx-1;
-   !> j is no border row
+   !> j is not a border row
    pure subroutine restrict_row(self, fine, j, values, half_cells)
       class(transfer_t), intent(in) :: self
       !> Shape of the fine grid
@@ -191,7 +191,8 @@ contains
       integer, intent(in) :: j
       !> Shape (nx)
       real(dp), intent(inout) :: values(:)
-      !> Factor of the values of the fine rows of half cells, the first and the last of a folded grid; not given: it is in them
+      !> Factor of the values of the first and the last fine row of a folded grid, which have half cells; absent: the values
+      !> include it
       real(dp), intent(in), optional :: half_cells
       real(dp) :: own
       integer :: i, k, l, below, south

@@ -1,11 +1,11 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Anderson acceleration of multigrid cycles that stall or alternate between states (Anderson 1965; Walker & Ni 2011, as
-!> Brune, Knepley, Smith & Tu 2015 use it over nonlinear multigrid): with the state u = (P, H00) before a cycle, G(u) after it
+!> Anderson acceleration of multigrid cycles that stall or alternate between states (Anderson 1965; Walker & Ni 2011; for
+!> nonlinear multigrid Brune, Knepley, Smith & Tu 2015): with the state u = (P, H00) before a cycle, G(u) after it
 !> and f = G(u) - u, the next state is
 !>
 !>    G(u_k) - sum over j of g_j (G(u_j+1) - G(u_j)),   g = argmin |f_k - sum over j of g_j (f_j+1 - f_j)|,
 !>
-!> where j runs over the last few cycles. A mixed state that has the larger residual is dropped, and the history with it.
+!> where j runs over the last few cycles. A mixed state with a larger residual than G(u_k) is rejected, and the history deleted.
 module ehl_anderson
    use ehl_dense_lu, only: back_substitute, factor
    use ehl_kinds, only: dp
@@ -16,15 +16,15 @@ module ehl_anderson
    private
    public :: anderson_t
 
-   !> Differences that are kept
+   !> Number of stored differences
    integer, parameter :: depth = 4
-   !> Share of the diagonal of the normal equations that keeps them regular
-   real(dp), parameter :: regular = 1.0e-12_dp
+   !> Relative increase of the diagonal that keeps the normal equations regular
+   real(dp), parameter :: regularisation = 1.0e-12_dp
 
    type :: anderson_t
       !> Whether cycles are mixed
       logical :: on = .false.
-      !> Cycles that the history is made of
+      !> Number of cycles in the history
       integer, private :: made = 0
       !> State before the cycle, f and G(u) of the last cycle, and their differences, (nx, ny, :) and (:)
       real(dp), allocatable, private :: before(:, :), f(:, :), g(:, :), df(:, :, :), dg(:, :, :)
@@ -38,7 +38,7 @@ module ehl_anderson
 
 contains
 
-   !> Mix from the next cycle on
+   !> Start mixing with the next cycle
    subroutine begin(self, level, status)
       class(anderson_t), intent(inout) :: self
       type(level_t), intent(in) :: level
@@ -57,7 +57,7 @@ contains
       self%made = 0
    end subroutine begin
 
-   !> Nothing is mixed from now on
+   !> Stop mixing
    subroutine finish(self)
       class(anderson_t), intent(inout) :: self
 
@@ -65,7 +65,7 @@ contains
       self%on = .false.
    end subroutine finish
 
-   !> The state before a cycle
+   !> Store the state before a cycle
    subroutine remember(self, level)
       class(anderson_t), intent(inout) :: self
       type(level_t), intent(in) :: level
@@ -74,7 +74,7 @@ contains
       self%h00_before = level%h00
    end subroutine remember
 
-   !> Mix the state after a cycle with those before. Film, coefficients and residual are up to date before and after.
+   !> Mix the state after a cycle with earlier ones. Film, coefficients and residual are up to date before and after.
    subroutine mix(self, level, residual)
       class(anderson_t), intent(inout) :: self
       type(level_t), intent(inout) :: level
@@ -138,7 +138,7 @@ contains
          weights(k) = sum(self%df(:, :, k)*self%f)
       end do
       do k = 1, columns
-         a(k, k) = a(k, k)*(1.0_dp + regular) + tiny(1.0_dp)
+         a(k, k) = a(k, k)*(1.0_dp + regularisation) + tiny(1.0_dp)
       end do
       call factor(a, pivot)
       call back_substitute(a, pivot, weights)

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The full approximation scheme (Brandt 1977; Venner & Lubrecht 2000, ch. 2 and 6): the problem of the next coarser level, and
-!> its correction. With I full weighting, N the Reynolds operator, K the deflection, and what begins with a bar restricted:
+!> its correction. With I full weighting, N the Reynolds operator, K the deflection, and bar for restricted fields:
 !>
 !>    start         bar P = I P,   bar H = I H                                   p_start, h_start
 !>    film          H - H00 - K P = bar H - H00 - K bar P                        film_rhs
@@ -8,7 +8,7 @@
 !>    load          sum P = sum bar P + (load - sum P of the fine level)         pass_load_on
 !>    correction    P <- P + interpolated (P - bar P) of the coarse level        p_change, h_change
 !>
-!> The right-hand sides of the first two are those of the coarse level while it is solved; the fine level's are left as they are.
+!> The coarse level stores the right-hand sides of film and Reynolds equation; the fine level's do not change.
 !> Grids may be coarser along X, along Y or along both. Without a boundary film the procedures of touching nodes do nothing.
 module ehl_coarse_problem
    use ehl_alcouffe, only: transfer_t
@@ -26,19 +26,19 @@ module ehl_coarse_problem
    !> Bilinear transfers and rediscretised coarse operators, or operator-dependent transfers and
    !> Galerkin operators for the Poiseuille term
    integer, parameter :: coarsening_classical = 1, coarsening_alcouffe = 2
-   !> Slack of a coarse node that neither requires pressure nor refuses it (the wedge term is of order 1)
+   !> Slack added at cavitated coarse nodes (the wedge term is of order 1)
    real(dp), parameter :: min_slack = 1.0e-8_dp
-   !> Right-hand side of nodes that are to stay cavitated on a coarse level: they never require pressure
+   !> Right-hand side of nodes that stay cavitated on a coarse level: they never require pressure
    real(dp), parameter :: never = 1.0e30_dp
-   !> Second difference along X of the logarithm of the conductance at which half of a change is left at a spike: of 1, 3 and 10
-   !> contacts with L from 17 to 27 take the fewest cycles with 1 and 3
+   !> Second difference of the logarithm of the conductance along X at which the correction of a spike is halved. Of 1, 3 and 10,
+   !> the values 1 and 3 give the fewest cycles in contacts with L from 17 to 27.
    real(dp), parameter :: sharp = 3.0_dp
-   !> Maximum pressure of a roller on a coarse grid over that at its start, from which on its correction is rejected
+   !> The correction of a roller is rejected if the maximum pressure of the coarse grid exceeds this multiple of its start value
    real(dp), parameter :: max_growth = 1.5_dp
 
 contains
 
-   !> Coarse problem whose solution corrects the fine one. Needs the residual of the fine level.
+   !> Set up the coarse problem whose solution corrects the fine level. Needs the residual of the fine level.
    subroutine restrict_problem(fine, coarse, space, coarsening, kind_of_coarsening)
       type(level_t), intent(inout) :: fine, coarse
       !> Of the coarse level
@@ -58,7 +58,7 @@ contains
       call pass_load_on(fine, coarse)
    end subroutine restrict_problem
 
-   !> What the coarse level starts from: pressure, film, and which nodes are cavitated or touch
+   !> Restrict the state of the fine level: pressure, film, and which nodes are cavitated or touch
    subroutine restrict_state(fine, coarse, space, step)
       type(level_t), intent(in) :: fine
       type(level_t), intent(inout) :: coarse
@@ -70,7 +70,7 @@ contains
       !$omp num_threads(coarse%threads) if(coarse%parallel) schedule(static)
       do j = 1, coarse%grid%ny
          call weight_row(coarse%grid, step, fine%p, j, coarse%p(:, j))
-         ! a cavitated node stays so
+         ! a cavitated node stays cavitated
          call stay_cavitated(fine%p(::step(1), step(2)*(j - 1) + 1), coarse%p(:, j))
          space%p_start(:, j) = coarse%p(:, j)
          call weight_row(coarse%grid, step, fine%h, j, coarse%h(:, j))
@@ -96,8 +96,8 @@ contains
       !$omp end parallel do
    end subroutine set_film_rhs
 
-   !> Right-hand side of the Reynolds equation of the coarse level: its operator on what it starts from, and the residual, by
-   !> full weighting or, if the coarse level has a Galerkin operator, by the transpose of interpolation
+   !> Right-hand side of the Reynolds equation of the coarse level: its operator applied to the restricted state plus the residual,
+   !> restricted by full weighting or, if the coarse level has a Galerkin operator, by the transpose of interpolation
    subroutine set_reynolds_rhs(fine, coarse, step, transfer)
       type(level_t), intent(inout) :: fine, coarse
       integer, intent(in) :: step(2)
@@ -111,7 +111,7 @@ contains
       do j = coarse%grid%first_inner(), coarse%grid%last_inner()
          call reynolds_operator(coarse, j, operator_row)
          if (coarse%poiseuille%frozen) then
-            ! integrated over the cells, which are half ones where a grid is folded
+            ! integrated over the cells; the border rows of a folded grid have half cells
             call transfer%restrict_row(fine%residual, j, residual, half_cells=fine%grid%cell(1)/fine%grid%cell(2))
             residual(2:coarse%grid%nx - 1) = residual(2:coarse%grid%nx - 1)*fine%grid%cell(2)/coarse%grid%cell(j)
          else
@@ -124,7 +124,7 @@ contains
             if (coarse%poiseuille%frozen .or. coarse%supply%active) then
                coarse%rhs(i, j) = never
             else
-               ! keep the slack of cavitated regions, and where there is none set a small one: else rounding
+               ! keep the slack of cavitated regions, and where there is none set a small one: otherwise rounding
                ! would decide which nodes stay cavitated
                coarse%rhs(i, j) = max(coarse%rhs(i, j), fine%rhs(step(1)*(i - 1) + 1, step(2)*(j - 1) + 1)) &
                                  + min_slack
@@ -134,18 +134,18 @@ contains
       !$omp end parallel do
    end subroutine set_reynolds_rhs
 
-   !> Add the coarse change of the pressure where the fine one is positive, interpolated bilinearly or as the transfer
-   !> has it. The coarse change of the film, interpolated bilinearly, serves the sweeps that follow. This ends the coarse
-   !> problem: the coarse level may be a finest one next.
+   !> Add the interpolated coarse change of the pressure where the fine pressure is positive; interpolation is bilinear or that of
+   !> the transfer. The coarse change of the film, interpolated bilinearly, updates the film for the next sweeps. The coarse level
+   !> is then free to be the finest level of another cycle.
    subroutine correct(fine, coarse, space, transfer, coarsening, relaxation_factor, spare_spikes)
       type(level_t), intent(inout) :: fine, coarse
       !> Of the coarse level
       type(workspace_t), intent(inout) :: space
       type(transfer_t), intent(in) :: transfer
       integer, intent(in) :: coarsening
-      !> Share of the change that is made
+      !> Factor of the coarse-grid correction
       real(dp), intent(in) :: relaxation_factor
-      !> Whether sharp pressure spikes are left to the sweeps
+      !> Whether the correction is reduced at sharp pressure spikes, which sweeps resolve
       logical, intent(in) :: spare_spikes
       real(dp) :: row(fine%grid%nx)
       integer :: j, nx, step(2)
@@ -153,7 +153,7 @@ contains
 
       step = mesh_ratio(fine%grid, coarse%grid)
       dependent = coarsening == coarsening_alcouffe .and. all(step == 2)
-      ! a coarse grid with an impossible pressure gives no useful correction
+      ! a diverged coarse grid gives no useful correction
       if (coarse%grid%ends) then
          if (.not. maxval(coarse%p) <= max_growth*maxval(space%p_start)) then
             coarse%p = space%p_start
@@ -183,7 +183,7 @@ contains
       !$omp num_threads(fine%threads) if(fine%parallel) schedule(static)
       do j = 1, fine%grid%ny
          call interpolate_row(coarse%grid, step, space%h_change, j, row)
-         ! a film that comes of pressures which nodes do not take on does not determine whether they yield
+         ! yielding nodes keep their pressure: the film change of the coarse pressure does not apply there
          call fine%boundary%yielding%set(j, 0.0_dp, row)
          fine%h(:, j) = fine%h(:, j) + row
          if (fine%grid%is_border(j)) cycle
@@ -201,8 +201,8 @@ contains
       !$omp end parallel do
    end subroutine correct
 
-   !> Make the change of a row small at a pressure spike that the coarse grid does not resolve: behind the inlet, where the
-   !> logarithm of the conductance bends by more than `sharp` from node to node. A coarse grid has that spike at another position.
+   !> Reduce the change of a row at a pressure spike that the coarse grid does not resolve: downstream of the inlet, where the
+   !> second difference of the logarithm of the conductance exceeds `sharp`. A coarse grid has that spike at another position.
    pure subroutine weaken_at_spikes(p, eps, change)
       real(dp), contiguous, intent(in) :: p(:), eps(:)
       real(dp), contiguous, intent(inout) :: change(:)
@@ -211,7 +211,7 @@ contains
 
       bend = 0.0_dp
       do i = 2, size(p) - 1
-         ! where pressure increases along the motion it is the inlet, which the coarse grids are needed for
+         ! where the pressure increases along X it is the inlet, which needs the correction by coarse grids
          if (p(i + 1) < p(i) .and. min(p(i - 1), p(i + 1)) > cavity_pressure) then
             bend(i) = abs(log(max(eps(i - 1), tiny(1.0_dp))) - 2.0_dp*log(max(eps(i), tiny(1.0_dp))) &
                           + log(max(eps(i + 1), tiny(1.0_dp))))
@@ -222,8 +222,8 @@ contains
       end do
    end subroutine weaken_at_spikes
 
-   !> Make the change of a row small where a roller's contact ends along Y within a cell or two of a coarse grid: where the
-   !> logarithm of the conductance bends across the rows by more than `sharp`
+   !> Reduce the change of a row where a roller's contact ends along Y within a cell or two of a coarse grid: where the
+   !> second difference of the logarithm of the conductance along Y exceeds `sharp`
    pure subroutine weaken_at_ends(fine, j, change)
       type(level_t), intent(in) :: fine
       integer, intent(in) :: j
@@ -248,7 +248,7 @@ contains
       step = fine%intervals()/coarse%intervals()
    end function mesh_ratio
 
-   !> Coarse row j by full weighting along the axes that are halved, on the border by injection
+   !> Coarse row j by full weighting along the axes that are coarsened, on the border by injection
    pure subroutine weight_row(coarse, step, fine, j, values)
       type(grid_t), intent(in) :: coarse
       integer, intent(in) :: step(2)

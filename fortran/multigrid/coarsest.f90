@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Newton solution of the coarsest level, force balance included: the only place where H00 changes
+!> Newton solution of the coarsest level with the force balance, the only equation that changes H00 within a cycle
 module ehl_coarsest
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_dense_lu, only: back_substitute, factor
@@ -18,7 +18,7 @@ module ehl_coarsest
    !> Required reduction of the residual, and the maximum number of Newton steps
    real(dp), parameter :: reduction = 0.05_dp
    integer, parameter :: max_steps = 12
-   !> Factors are kept while a step with them reduces the residual to this share
+   !> Old LU factors are used as long as a step reduces the residual by this factor
    real(dp), parameter :: slow = 0.3_dp
    integer, parameter :: max_halvings = 12
 
@@ -34,7 +34,7 @@ module ehl_coarsest
       !> Right-hand side and solution of a Newton step, and the state before it
       real(dp), allocatable :: residual(:), direction(:), p_before(:, :)
       real(dp) :: h00_before = 0.0_dp
-      !> Nodes held at zero pressure, now and in the step being made
+      !> Nodes that are cavitated, and nodes that the present step holds at zero pressure
       logical, allocatable :: cavitated(:), held(:)
       !> Whether lu holds a factorisation
       logical :: factored = .false.
@@ -104,8 +104,8 @@ contains
    end function unknown
 
    !> Newton iteration with an active set of cavitated nodes, from the level's present state until
-   !> the residual has fallen to `reduction` of its start, or for `max_steps` steps. The
-   !> factors are kept from step to step and from call to call while they are good enough.
+   !> the residual is reduced by the factor `reduction`, for at most `max_steps` steps. The LU
+   !> factors are used again in later steps and calls as long as they reduce the residual enough.
    subroutine solve(self, level)
       class(coarsest_t), intent(inout) :: self
       type(level_t), intent(inout) :: level
@@ -135,13 +135,13 @@ contains
             call refresh(level)
             call self%find_residual(level, norm)
             self%factored = .false.
-            ! nor are new ones: the matrix is singular, or holds a NaN
+            ! new factors do not help either: the matrix is singular, or contains a NaN
             if (fresh) exit
          end if
       end do
    end subroutine solve
 
-   !> Step along the direction; with fresh factors it is halved until the film is positive
+   !> Make a Newton step; with fresh factors it is halved until the film is positive
    subroutine move(self, level, fresh, norm)
       class(coarsest_t), intent(inout) :: self
       type(level_t), intent(inout) :: level
@@ -202,7 +202,7 @@ contains
             else
                self%cavitated(u) = .false.
             end if
-            ! over the whole contact, so that half a domain is solved as the whole one
+            ! weighted as in the whole contact, so that half a domain has the same norm as the whole one
             norm = norm + weight*self%residual(u)**2
          end do
       end do
@@ -210,7 +210,7 @@ contains
       norm = sqrt(norm/((level%grid%nx - 2)*level%grid%inner_rows()) + self%residual(self%n + 1)**2)
    end subroutine find_residual
 
-   !> Jacobian of the residual's operator, factored
+   !> Assemble and factor the Jacobian
    subroutine assemble(self, level)
       class(coarsest_t), intent(inout) :: self
       type(level_t), intent(in) :: level
@@ -242,13 +242,13 @@ contains
             own = 0.0_dp
             returned = 1.0_dp
             call add_poiseuille(i)
-            ! what flows to nodes upstream that pass it on returns from there
+            ! oil that flows back to upstream nodes which pass all of it on returns from there
             do k = i - 1, 2, -1
                if (.not. passing(k, j)) exit
-               returned = level%supply%share*returned
+               returned = level%supply%passed_fraction*returned
                call add_poiseuille(k)
             end do
-            c = level%wedge%weights(i, passing(i - 1, j), level%supply%share)
+            c = level%wedge%weights(i, passing(i - 1, j), level%supply%passed_fraction)
             call add_film(i, j, own - c(0)*level%rho(i, j))
             call add_pressure(i, j, -c(0)*level%h_drho_dp(i, j))
             do m = 1, ubound(c, 1)
@@ -270,7 +270,7 @@ contains
 
    contains
 
-      !> The Poiseuille term of node (k, j), in the row of node (i, j): the share of it that returns
+      !> Add the returning fraction of the Poiseuille term of node (k, j) to the row of node (i, j)
       subroutine add_poiseuille(k)
          integer, intent(in) :: k
 

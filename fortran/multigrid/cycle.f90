@@ -14,31 +14,31 @@ module ehl_cycle
    public :: cycle_options_t, damped_cycle, finest_cycle, max_damping, prolong_solution, refine
    public :: coarsening_classical, coarsening_alcouffe
 
-   !> Damped cycles by degree: largest change of the logarithm of a node's conductance, relaxation factors of a sweep and of the
-   !> correction by a coarse grid. The first degree makes all of the correction, which sets the mean film and the load.
-   !> Where the pressure spike is a few nodes wide (L = 25 on 513 x 513 nodes) F cycles make it oscillate; docs/design.md.
+   !> Degrees of damping: largest change of the logarithm of a node's conductance, relaxation factors of a sweep and of the
+   !> coarse-grid correction. The first degree applies the full correction, which sets the mean film and the load.
+   !> Where the pressure spike is a few nodes wide (L = 25 on 513 x 513 nodes) F cycles make it oscillate (docs/design.md).
    integer, parameter :: max_damping = 4, usual_damping = 2
    real(dp), parameter :: damped_log_change(max_damping) = usual_log_change/[1.0_dp, 3.0_dp, 3.0_dp, 9.0_dp], &
                           damped_sweep(max_damping) = [0.6_dp, 0.6_dp, 0.3_dp, 0.15_dp], &
                           damped_correction(max_damping) = [1.0_dp, 0.6_dp, 0.5_dp, 0.25_dp]
 
-   !> How a cycle is made
+   !> Options of a cycle
    type :: cycle_options_t
-      !> Coarse cycles per cycle: 1 = V, 2 = W; an F cycle follows its first coarse F cycle by a V cycle
+      !> Coarse cycles per cycle: 1 = V, 2 = W; full: F cycle, which is a coarse F cycle followed by a coarse V cycle
       integer :: gamma = 2
       logical :: full = .false.
       !> Sweeps before and after the coarse-grid correction
       integer :: pre = 2, post = 1
-      !> Residual (rms) of the finest level below which further sweeps after the correction are not needed
+      !> Residual (rms) of the finest level below which the remaining sweeps after the correction are skipped
       real(dp) :: enough = 0.0_dp
       !> Largest change of the logarithm of a node's conductance in a sweep, for time steps and damped cycles
       real(dp) :: max_log_change = usual_log_change
-      !> Relaxation factors of a sweep and of the correction by a coarse grid
+      !> Relaxation factors of a sweep and of the coarse-grid correction
       real(dp) :: relaxation_factor = 1.0_dp, correction_factor = 1.0_dp
-      !> Whether these apply to the finest level alone: where each level took a share of a coarser one's correction, hardly
-      !> anything of the mean film and the load, which the coarsest grid determines, would reach the fine grids
+      !> Whether these apply to the finest level alone. A factor on every level would multiply: hardly any of the change of mean
+      !> film and load, which the coarsest grid determines, would reach the finest grid.
       logical :: finest_only = .false.
-      !> Whether coarse grids leave sharp pressure spikes to the sweeps
+      !> Whether the coarse-grid correction is reduced at sharp pressure spikes
       logical :: spare_spikes = .false.
       !> Kind of transfers and coarse operators
       integer :: coarsening = coarsening_classical
@@ -46,8 +46,7 @@ module ehl_cycle
 
 contains
 
-   !> A damped W cycle, with relaxation factors of sweeps and coarse grids that fall with every degree, for states on which another
-   !> cycle failed
+   !> A W cycle with the given degree of damping, for states on which another cycle failed
    pure function damped_cycle(options, degree) result(damped)
       type(cycle_options_t), intent(in) :: options
       integer, intent(in), optional :: degree
@@ -133,7 +132,7 @@ contains
       call update_coefficients(grids%levels(n))
    end subroutine visit_coarser
 
-   !> Relax level n so many times
+   !> Relax level n `times` times
    subroutine sweep(grids, n, times, options)
       type(hierarchy_t), intent(inout) :: grids
       integer, intent(in) :: n, times

@@ -12,8 +12,8 @@ module ehl_galerkin
    private
    public :: build_galerkin, coarsening_t, galerkin_product, product_work_t
 
-   !> Interpolation follows the operator where conductance/mesh-size^2 in the neighbourhood is above this;
-   !> elsewhere the deflection matters, which is not in the operator, and interpolation is bilinear
+   !> Interpolation depends on the operator where conductance/mesh-size^2 in the neighbourhood is above this; elsewhere
+   !> the deflection, which is not part of the operator, matters and interpolation is bilinear
    real(dp), parameter :: dependent_from = 10.0_dp
 
    !> Contributions of the cells above a coarse row to the next row's couplings, shape (0:nx, ny)
@@ -23,10 +23,10 @@ module ehl_galerkin
       procedure :: setup => setup_work
    end type product_work_t
 
-   !> Between a grid and the next coarser one: the transfer and what it is made from. Nothing is allocated before setup.
+   !> Transfer between a grid and the next coarser one, and its input. Nothing is allocated before setup.
    type :: coarsening_t
       type(transfer_t) :: transfer
-      !> Operator of the fine grid unless that is a product itself; 1 at free nodes, 1 where the operator decides
+      !> Operator of the fine grid unless that is a product itself; 1 at free nodes; 1 where interpolation depends on the operator
       type(nine_point_t) :: a
       real(dp), allocatable :: free(:, :), dependent(:, :)
       type(product_work_t) :: work
@@ -78,7 +78,7 @@ contains
    !>
    !> Taken as an energy, a coupling o between two fine nodes is o (u_1 - u_2)^2 and an excess s is
    !> s u^2, where u = sum of weights times coarse values. Each of them lies inside one coarse
-   !> cell, on one coarse edge or at one coarse node, and these are taken one by one.
+   !> cell, on one coarse edge or at one coarse node, and adds to the couplings there.
    subroutine galerkin_product(fine, transfer, work, coarse)
       type(nine_point_t), intent(in) :: fine
       type(transfer_t), intent(in) :: transfer
@@ -142,7 +142,7 @@ contains
       integer, intent(in) :: j
       !> Row j is changed
       type(nine_point_t), intent(inout) :: coarse
-      !> What is due to row j+1, shape (0:nx)
+      !> Contributions to row j+1, shape (0:nx)
       real(dp), intent(out) :: above_east(0:), above_excess(0:)
       real(dp), dimension(4) :: c, e, n, s, w, corner, excess
       !> Couplings of a cell's corners: sw-se, sw-nw, sw-ne, se-nw, se-ne, nw-ne
@@ -218,8 +218,8 @@ contains
       excess = excess + t*((d(1) + d(2)) + (d(3) + d(4)))
    end subroutine add_cell
 
-   !> Transfer from the fine operator, and the Poiseuille operator of the coarse level. It stays as it is
-   !> while the coarse level is solved: made to follow P and H of that level, it diverges in the contact.
+   !> Transfer from the fine operator, and the Poiseuille operator of the coarse level. That operator is frozen
+   !> while the coarse level is solved: updated with P and H of that level, the cycle diverges in the contact.
    subroutine build_galerkin(fine, coarse, coarsening)
       type(level_t), intent(in) :: fine
       type(level_t), intent(inout) :: coarse

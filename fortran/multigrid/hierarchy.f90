@@ -1,11 +1,11 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The grids of a multigrid solution: first those that full multigrid solves one after the other, coarsest first, each half as
-!> fine along both axes as the next; then those that these are corrected on.
+!> The grids of a multigrid solution: first those that full multigrid solves one after the other, coarsest first, each with
+!> twice the mesh size of the next along both axes; then the coarse grids of their correction cycles.
 !>
-!> A sweep reduces what changes from cell to cell along an axis only where the cells are not much longer along it than across
+!> A sweep reduces errors that oscillate along an axis only where the cells are not much longer along it than across
 !> it (docs/theory/relaxation.md). So a grid of long cells is coarsened along their short side alone until they are nearly
-!> square, and from there on along both axes. The grid at the end is solved directly: it is coarsened along Y alone for as
-!> long as it has many unknowns.
+!> square, and then along both axes. The coarsest grid is solved directly: it is coarsened along Y alone as long as it has
+!> too many unknowns.
 module ehl_hierarchy
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_coarsest, only: coarsest_t
@@ -22,11 +22,11 @@ module ehl_hierarchy
    private
    public :: hierarchy_t
 
-   !> Nodes of a grid from which several threads are faster, measured on two shared cores; see docs/design.md
+   !> Number of nodes of a grid above which several threads are faster, measured on two shared cores; see docs/design.md
    integer, parameter :: parallel_from = 60000
-   !> Cells that are so many times as long along Y as along X, or more, are coarsened along X alone
+   !> Grids with hy/hx of at least this are coarsened along X alone
    real(dp), parameter :: long_y = 3.0_dp
-   !> Most unknowns of a grid that is solved directly, and fewest intervals along Y
+   !> Maximum number of unknowns of a grid that is solved directly, and minimum number of intervals along Y
    integer, parameter :: max_unknowns = 250, min_rows = 8
 
    type :: hierarchy_t
@@ -34,14 +34,14 @@ module ehl_hierarchy
       type(workspace_t), allocatable :: workspaces(:)
       !> Operator-dependent coarsening from each level to the next coarser one; set up when first used
       type(coarsening_t), allocatable :: coarsenings(:)
-      !> The level that each is corrected on; 0: it is solved directly
+      !> The coarse level that corrects each level; 0: the level is solved directly
       integer, allocatable :: below(:)
-      !> Direct solutions of these
+      !> Direct solvers of the latter
       type(coarsest_t), allocatable :: coarsest(:)
       !> Levels of full multigrid that have been set up
       integer :: ready = 0
       character(len=:), allocatable :: engine
-      !> Most threads
+      !> Maximum number of threads
       integer :: threads = 1
    contains
       procedure :: setup
@@ -57,10 +57,10 @@ module ehl_hierarchy
 
 contains
 
-   !> Levels from the coarsest grid on; only the coarsest one gets its arrays yet
+   !> Define all levels; only the arrays of the coarsest one are allocated yet
    subroutine setup(self, coarsest, n, lubricant, speed_parameter, kernel_factor, engine, threads, status)
       class(hierarchy_t), intent(inout) :: self
-      !> Coarsest grid, and how many levels there are to be at the most
+      !> Coarsest grid, and maximum number of levels
       type(grid_t), intent(in) :: coarsest
       integer, intent(in) :: n
       type(lubricant_t), intent(in) :: lubricant
@@ -95,7 +95,7 @@ contains
       call self%grow(1, status)
    end subroutine setup
 
-   !> Set up the levels of full multigrid as far as level n, and what they are corrected on
+   !> Set up the levels of full multigrid up to level n, and the coarse grids that correct them
    subroutine grow(self, n, status)
       class(hierarchy_t), intent(inout) :: self
       integer, intent(in) :: n
@@ -109,7 +109,7 @@ contains
       end do
    end subroutine grow
 
-   !> Set up a level and those below it, unless that has been done
+   !> Set up a level and those below it unless they are set up
    recursive subroutine set_up(self, k, status)
       class(hierarchy_t), intent(inout) :: self
       integer, intent(in) :: k
@@ -132,7 +132,7 @@ contains
       end associate
    end subroutine set_up
 
-   !> Set the oil layer rho H at the inlet; 0: a filled gap
+   !> Set the oil layer rho H at the inlet; 0: flooded inlet
    subroutine supply(self, layer)
       class(hierarchy_t), intent(inout) :: self
       real(dp), intent(in) :: layer
@@ -160,7 +160,7 @@ contains
       end do
    end subroutine prepare_steps
 
-   !> Allocate what Alcouffe coarsening needs, unless that has been done
+   !> Allocate what Alcouffe coarsening needs unless it is allocated
    subroutine prepare_coarsening(self, status)
       class(hierarchy_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
@@ -177,7 +177,7 @@ contains
       end do
    end subroutine prepare_coarsening
 
-   !> Number of threads on a grid: all, or one where synchronisation takes longer than several save
+   !> Number of threads on a grid: all, or one where synchronisation costs more than parallel loops save
    pure integer function threads_that_pay(grid, threads)
       type(grid_t), intent(in) :: grid
       integer, intent(in) :: threads
@@ -191,18 +191,18 @@ contains
       deflection_accuracy = 2.2e-5_dp*(128.0_dp*max(grid%hx, grid%hy))**1.35_dp
    end function deflection_accuracy
 
-   !> Weaken shear thinning on all grids, as if the stress of the law were 1/share times as large
-   subroutine soften(self, share)
+   !> Weaken shear thinning on all grids, as if the stress of the law were 1/fraction times as large
+   subroutine soften(self, fraction)
       class(hierarchy_t), intent(inout) :: self
-      real(dp), intent(in) :: share
+      real(dp), intent(in) :: fraction
       integer :: k
 
       do k = 1, size(self%levels)
-         if (allocated(self%levels(k)%p)) call self%levels(k)%flow%soften(share)
+         if (allocated(self%levels(k)%p)) call self%levels(k)%flow%soften(fraction)
       end do
    end subroutine soften
 
-   !> Reset the data that a cycle leaves for the next one beyond the fields of its finest level
+   !> Reset the data, other than the fields of the finest level, that a cycle passes to the next one
    subroutine forget(self)
       class(hierarchy_t), intent(inout) :: self
       integer :: k
@@ -226,8 +226,7 @@ contains
       end do
    end function bytes
 
-   !> The first n grids are those of full multigrid, coarsest first. below(k) is the grid that grid k is corrected on, 0 where
-   !> it is solved directly.
+   !> The first n grids are those of full multigrid, coarsest first. Grid below(k) corrects grid k; 0: grid k is solved directly.
    pure subroutine find_coarse_grids(coarsest, n, grids, below)
       type(grid_t), intent(in) :: coarsest
       integer, intent(in) :: n
@@ -244,7 +243,7 @@ contains
       below = 0
       fewest = coarsest%nx - 1
       k = 0
-      ! the list grows while it is walked through
+      ! the loop itself extends the list
       do while (k < size(grids))
          k = k + 1
          step = next_step(grids(k), fewest)
@@ -260,10 +259,10 @@ contains
       end do
    end subroutine find_coarse_grids
 
-   !> What the mesh sizes are multiplied by on the next coarser grid; 1 and 1 where there is none
+   !> Ratio of the mesh sizes of the next coarser grid to those of this one; 1 and 1 where there is none
    pure function next_step(grid, min_columns) result(step)
       type(grid_t), intent(in) :: grid
-      !> Fewest intervals along X
+      !> Minimum number of intervals along X
       integer, intent(in) :: min_columns
       integer :: step(2), intervals(2)
       logical :: possible(2)

@@ -1,8 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Line systems of the Reynolds equation (reynolds.f90) along X: the changes d(i) of the pressure of a row that its
-!> linearised equation requires while the other rows stay. A node with D(i) = 1 changes distributively: the share -q of its
-!> change goes to each neighbour along X, -b to each across it (workspace.f90; 1/4 on square cells), else D(i) = 0. With
-!> r(i) the residual,
+!> Line systems of the Reynolds equation (reynolds.f90) along X: the changes d(i) of the pressure of a row that solve its
+!> linearised equation with the other rows fixed. A node with D(i) = 1 changes distributively: each neighbour along X changes
+!> by -q d(i), each neighbour along Y by -b d(i) (workspace.f90; 1/4 on square cells); otherwise D(i) = 0. With r(i) the
+!> residual,
 !>
 !>    em4 d(i-4) + em3 d(i-3) + em2 d(i-2) + em1 d(i-1) + e0 d(i) + e1 d(i+1) + e2 d(i+2) = r(i)
 !>
@@ -18,10 +18,10 @@
 !>    s(i, l) = d(rho H)(i)/d d(i+l) = rho(i) K(l) + [H d rho/dP](i) (1 if l = 0, -q D(i+l) if |l| = 1, else 0)
 !>    g(i)    = (1 - D(i)) d eps(i)/dP
 !>
-!> e, w: couplings to the east and to the west, o: less the sum of those to other rows, e', w', o': their change with the
-!> conductance (poiseuille.f90, line_terms_t); a: the mean of all four over that of e and w, 1 where the lubricant flows
-!> alike along and across; c: wedge.f90; K(l): deflection at a distance of l nodes by the change of one,
-!> nothing beyond |l| = 2. An inactive node (level.f90) has d(i) = 0. A touching node (boundary_film.f90)
+!> e, w: couplings to the east and to the west, o: minus the sum of those to other rows, e', w', o': their change with the
+!> conductance (poiseuille.f90, line_terms_t); a: the mean of all four over the mean of e and w, 1 where the conductances
+!> along X and Y are equal; c: wedge.f90; K(l): deflection at a distance of l nodes by a unit change, neglected
+!> beyond |l| = 2. An inactive node (level.f90) has d(i) = 0. A touching node (boundary_film.f90)
 !> is not coupled to its line: rate s(i, 0) d(i) = -r(i).
 !>
 !> The systems are assembled and eliminated in one pass along X for `line_width` lines side by side.
@@ -38,7 +38,7 @@ module ehl_line_system
    public :: last_active, solve_lines
 
    integer, parameter :: nr = near_reach
-   !> Smallest pivot that counts: those of nodes that may change are of the order of the wedge term's factor
+   !> Smaller pivots count as zero; those of nodes that may change are of the order of the wedge term's factor
    real(dp), parameter :: min_pivot = 1.0e-100_dp
    !> Data of a node: pressure, density, H d rho/dP, the change of the conductance with pressure, 1 if
    !> distributive, the residual; and of the Poiseuille term, see line_terms_t
@@ -49,14 +49,14 @@ contains
 
    !> Changes of pressure on the lines rows(1), rows(2), ...: work%change(line, node) solves the
    !> linearised equation along X
-   subroutine solve_lines(level, dipole, shares, near, near_dipole, rows, last, work)
+   subroutine solve_lines(level, dipole, weights, near, near_dipole, rows, last, work)
       type(level_t), intent(in) :: level
       !> 1 where a node changes distributively, else 0, shape (nx, ny)
       real(dp), contiguous, intent(in) :: dipole(:, :)
-      !> Shares of a distributive change for the adjacent nodes along X and along Y; kernel near the source: itself, and
-      !> for the distributive change
-      real(dp), intent(in) :: shares(2), near(-nr:nr), near_dipole(-nr:nr)
-      !> Rows of the grid; unused places repeat a row
+      !> Weights of a distributive change for the adjacent nodes along X and along Y; kernel near the source: of a point change, and
+      !> of a distributive change
+      real(dp), intent(in) :: weights(2), near(-nr:nr), near_dipole(-nr:nr)
+      !> Rows of the grid; unused elements repeat a row
       integer, intent(in) :: rows(line_width)
       !> Last node that may change, see last_active; changes of the nodes behind it are not set
       integer, intent(in) :: last
@@ -67,13 +67,13 @@ contains
       if (level%supply%active) call carry(level, rows, last, work%fields)
       call level%boundary%line_residuals(rows, last, level%rhs, level%mass_content, work%fields(:, f_residual, 1:last), &
                                          work%touching, any_touches)
-      call eliminate(level, shares, near, near_dipole - near, last, work%fields, work%touching, any_touches, work%upper, &
+      call eliminate(level, weights, near, near_dipole - near, last, work%fields, work%touching, any_touches, work%upper, &
                      work%change)
       call substitute(last, work%upper, work%change)
    end subroutine solve_lines
 
-   !> Last node of row j that has pressure, or beside it a node that has, or requires it; those behind it stay as
-   !> they are
+   !> Last node of row j that has pressure, has a neighbour with pressure, or requires pressure; the nodes downstream of it do
+   !> not change
    pure integer function last_active(level, j) result(i)
       type(level_t), intent(in) :: level
       integer, intent(in) :: j
@@ -104,7 +104,7 @@ contains
             j = rows(l)
             call level%poiseuille%line_row(level%p, level%flow, level%rhs(:, j), j, first, last, terms)
             call level%wedge%line_row(level%mass_content(:, j), first, last, terms%rest)
-            ! stores scattered by vector instructions are slower than single ones
+            ! scatter stores of vector instructions are slower than scalar stores
             !GCC$ novector
             do i = first, last
                k = i - first + 1
@@ -124,7 +124,7 @@ contains
    end subroutine gather
 
    !> Starved inlet (supply.f90): residuals with the transported oil, and no flow back to nodes that pass on all oil. The wedge
-   !> term's factors do not change, because the Poiseuille term is much larger there.
+   !> term's factors stay those of a flooded inlet: the Poiseuille term is much larger there.
    pure subroutine carry(level, rows, last, g)
       type(level_t), intent(in) :: level
       integer, intent(in) :: rows(line_width)
@@ -140,18 +140,18 @@ contains
          g(l, f_residual, 2:last) = level%rhs(2:last, rows(l)) - row(2:last)
          do i = 1, last - 1
             if (.not. passing(i)) cycle
-            g(l, f_east, i) = (1.0_dp - level%supply%share)*g(l, f_east, i)
-            g(l, f_east_rate, i) = (1.0_dp - level%supply%share)*g(l, f_east_rate, i)
+            g(l, f_east, i) = (1.0_dp - level%supply%passed_fraction)*g(l, f_east, i)
+            g(l, f_east_rate, i) = (1.0_dp - level%supply%passed_fraction)*g(l, f_east_rate, i)
          end do
       end do
    end subroutine carry
 
    !> Row i of a line couples the changes at nodes i-4 ... i+2; it is eliminated with the rows before
-   !> it as soon as it is made, so that only the upper two diagonals are kept. The coefficients: see above.
-   pure subroutine eliminate(level, shares, near, delta, furthest, g, touching, any_touches, upper, change)
+   !> it as soon as it is assembled, so that only the upper two diagonals are stored. Coefficients: see above.
+   pure subroutine eliminate(level, weights, near, delta, furthest, g, touching, any_touches, upper, change)
       type(level_t), intent(in) :: level
-      !> Shares of a distributive change; kernel near the source, and what a distributive change adds to it
-      real(dp), intent(in) :: shares(2), near(-nr:nr), delta(-nr:nr)
+      !> Weights of a distributive change; kernel near the source, and the addition to it by a distributive change
+      real(dp), intent(in) :: weights(2), near(-nr:nr), delta(-nr:nr)
       !> Last node
       integer, intent(in) :: furthest
       real(dp), intent(in) :: g(line_width, line_fields, -1:level%grid%nx + 2)
@@ -169,8 +169,8 @@ contains
       logical :: uneven
 
       uneven = level%flow%dir_y > dir_x
-      ! nothing where cells are square
-      apart = shares - 0.25_dp
+      ! zero where cells are square
+      apart = weights - 0.25_dp
       call level%wedge%line_weights(c_first, c_interior)
       upper(:, :, -3:1) = 0.0_dp
       change(:, -3:1) = 0.0_dp
@@ -182,7 +182,7 @@ contains
       do i = 1, furthest
          !$omp simd private(t)
          do l = 1, line_width
-            t = shares(1)*g(l, f_h_drho_dp, i)
+            t = weights(1)*g(l, f_h_drho_dp, i)
             s(l, -2, now) = g(l, f_rho, i)*(near(-2) + g(l, f_dipole, i - 2)*delta(-2))
             s(l, -1, now) = g(l, f_rho, i)*(near(-1) + g(l, f_dipole, i - 1)*delta(-1)) - g(l, f_dipole, i - 1)*t
             s(l, 0, now) = g(l, f_rho, i)*(near(0) + g(l, f_dipole, i)*delta(0)) + g(l, f_h_drho_dp, i)
@@ -199,7 +199,7 @@ contains
                   a = 1.0_dp
                end where
             end if
-            ! inactive nodes do not change; the loop below would not vectorise around this
+            ! inactive nodes do not change; a condition in the loop below would prevent its vectorisation
             changes = merge(0.0_dp, 1.0_dp, g(:, f_p, i) <= cavity_pressure)
             changes = merge(changes, 1.0_dp, g(:, f_residual, i) >= 0.0_dp)
             required = changes*g(:, f_residual, i)
@@ -221,7 +221,7 @@ contains
                d = required(l)
                em4 = -active*c(2)*s(l, -2, former)
                em3 = -active*(c(1)*s(l, -2, last) + c(2)*s(l, -1, former))
-               em2 = -active*(shares(1)*west*g(l, f_dipole, i - 2) + c(0)*s(l, -2, now) + c(1)*s(l, -1, last) &
+               em2 = -active*(weights(1)*west*g(l, f_dipole, i - 2) + c(0)*s(l, -2, now) + c(1)*s(l, -1, last) &
                               + c(2)*s(l, 0, former))
                em1 = active*(west*(1.0_dp + a(l)*g(l, f_dipole, i - 1)) + rw*g(l, f_gain, i - 1)*pw &
                              - c(0)*s(l, -1, now) - c(1)*s(l, 0, last) - c(2)*s(l, 1, former))
@@ -231,7 +231,7 @@ contains
                       + ((1.0_dp - active) + active*g(l, f_dipole, i)*(apart(2)*g(l, f_other, i) - apart(1)*(east + west)))
                e1 = active*(east*(1.0_dp + a(l)*g(l, f_dipole, i + 1)) + re*g(l, f_gain, i + 1)*pe &
                             - c(0)*s(l, 1, now) - c(1)*s(l, 2, last))
-               e2 = -active*(shares(1)*east*g(l, f_dipole, i + 2) + c(0)*s(l, 2, now))
+               e2 = -active*(weights(1)*east*g(l, f_dipole, i + 2) + c(0)*s(l, 2, now))
                em3 = em3 - em4*upper(l, 1, i - 4)
                em2 = em2 - em4*upper(l, 2, i - 4) - em3*upper(l, 1, i - 3)
                em1 = em1 - em3*upper(l, 2, i - 3) - em2*upper(l, 1, i - 2)

@@ -1,10 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Hybrid line relaxation along X (Venner & Lubrecht 2000, ch. 6): lines of alternating colour
-!> are solved for changes of pressure. Where the Poiseuille term matters, a change concerns its
-!> own node (Gauss-Seidel). Where it is negligible, a change is a dipole: -1/4 of it goes to each
-!> of the four neighbours, so that the deflection it causes stays local (distributive Jacobi).
+!> are solved for changes of pressure. Where the Poiseuille term matters, a change applies to its
+!> own node alone (Gauss-Seidel). Where it is negligible, a change is a dipole: each of the four
+!> neighbours changes by -1/4 of it, so that its deflection is local (distributive Jacobi).
 !>
-!> Where the values of the constants come from: docs/design.md.
+!> Sources of the constants: docs/design.md.
 module ehl_relaxation
    use ehl_kinds, only: dp
    use ehl_flow, only: dir_x
@@ -17,20 +17,20 @@ module ehl_relaxation
    private
    public :: relax, usual_log_change
 
-   !> Largest conductance/mesh-size^2 of a distributive node's neighbourhood, and that of a shear-thinning lubricant. The
-   !> conductance across counts: lines along X include what is along them, and only their coupling to other lines limits a change
-   !> that is smooth across them.
+   !> Largest conductance/mesh-size^2 in the neighbourhood of a distributive node, for a Newtonian and a shear-thinning lubricant.
+   !> The conductance along Y counts: lines include the coupling along X, and only the coupling to other lines limits a change
+   !> that is smooth along Y.
    real(dp), parameter :: switch = 0.1_dp, switch_thinning = 0.25_dp
-   !> Under-relaxation of distributive changes, and of Gauss-Seidel changes where the wedge and
-   !> the Poiseuille term compete; the latter tends to 1 where conductance/mesh-size^2 passes `strong`
+   !> Relaxation factors of distributive changes, and of Gauss-Seidel changes where the wedge and the Poiseuille term are of
+   !> similar size; the latter tends to 1 where conductance/mesh-size^2 is well above `strong`
    real(dp), parameter :: omega_dipole = 0.7_dp, omega_line = 0.5_dp, strong = 10.0_dp
-   !> The latter between soft bodies: where the viscosity hardly increases the two terms compete in all of the contact, not at its
-   !> edge alone, and smooth changes there overshoot (L = 0.5, M = 2000: 4 cycles, not converged in 30 with 0.5)
+   !> The latter of soft contacts: where the viscosity hardly increases the two terms are similar in all of the contact, not only
+   !> at its edge, and smooth changes overshoot (L = 0.5, M = 2000: 4 cycles, not converged in 30 with 0.5)
    real(dp), parameter :: omega_soft = 0.25_dp
-   !> The same in time steps, where the smooth part of changes is removed
+   !> The latter in time steps, where the smooth part of changes is removed
    real(dp), parameter :: omega_step = 0.8_dp
-   !> Largest change of the logarithm of a node's conductance in a sweep of a time step, to begin with: beyond it the
-   !> linearised line has no meaning
+   !> Default limit of the change of the logarithm of a node's conductance in a sweep of a time step: the linearised line system
+   !> does not hold for larger changes
    real(dp), parameter :: usual_log_change = 3.0_dp
 
 contains
@@ -39,7 +39,7 @@ contains
    subroutine relax(level, space, max_log_change, relaxation_factor)
       type(level_t), intent(inout) :: level
       type(workspace_t), intent(inout) :: space
-      !> Largest change of the logarithm of a node's conductance; for time steps, or where it is below `usual_log_change`
+      !> Largest change of the logarithm of a node's conductance; applied in time steps, or if it is below `usual_log_change`
       real(dp), intent(in) :: max_log_change
       !> Relaxation factor of all changes
       real(dp), intent(in) :: relaxation_factor
@@ -50,7 +50,7 @@ contains
       call mark_dipoles(level, space, first, last)
       if (level%wedge%squeeze > 0.0_dp) call find_smoothing_weights(level, space, first, last)
       do colour = 0, 1
-         ! the line Y = 0 belongs to the first colour, on half and on whole domains alike
+         ! the line Y = 0 has the first colour on half and on whole domains
          start = first + colour
          if (.not. level%grid%mirror .and. mod((level%grid%ny + 1)/2, 2) == 1) start = first + 1 - colour
          if (start > last) cycle
@@ -94,7 +94,7 @@ contains
    end subroutine mark_dipoles
 
    !> Solve the lines j0, j0+2, ... (at most `line_width`, up to row `last`): Gauss-Seidel changes are
-   !> applied at once, distributive ones are kept for the end of the sweep
+   !> applied at once, distributive ones at the end of the sweep
    subroutine relax_lines(level, space, j0, last, max_log_change, relaxation_factor, thread)
       type(level_t), intent(inout) :: level
       type(workspace_t), intent(inout) :: space
@@ -112,7 +112,7 @@ contains
       time_step = level%wedge%squeeze > 0.0_dp
       ! a Galerkin operator does not change with the pressure
       limited = (time_step .or. max_log_change < usual_log_change) .and. .not. level%poiseuille%frozen
-      ! across the motion the conductance changes the most with pressure
+      ! the conductance along Y changes most with pressure
       across = level%flow%dir_y
       omega = merge(omega_step, merge(omega_soft, omega_line, level%soft), time_step)
       omega_far = merge(omega_step, omega_dipole, time_step)
@@ -121,7 +121,7 @@ contains
          do l = 1, lines
             furthest = max(furthest, last_active(level, rows(l)))
          end do
-         call solve_lines(level, space%dipole, space%shares, space%near, space%near_dipole, rows, furthest, work)
+         call solve_lines(level, space%dipole, space%dipole_weights, space%near, space%near_dipole, rows, furthest, work)
          do l = 1, lines
             j = rows(l)
             space%change(furthest + 1:, j) = 0.0_dp
@@ -149,9 +149,9 @@ contains
       end associate
    end subroutine relax_lines
 
-   !> Make changes of pressure smaller where the logarithm of the conductance would change by more than `max_log_change`
+   !> Limit changes of pressure where the logarithm of the conductance would change by more than `max_log_change`
    pure subroutine limit_changes(slope, max_log_change, change)
-      !> Change of that logarithm with the pressure, shape as that of the changes
+   !> Derivative of that logarithm with respect to P, same shape as the changes
       real(dp), contiguous, intent(in) :: slope(:)
       real(dp), intent(in) :: max_log_change
       real(dp), contiguous, intent(inout) :: change(:)
@@ -174,7 +174,7 @@ contains
       !$omp parallel do default(none) shared(level, space, first, last, nx) private(after) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = first, last
-         call apply_row(space%shares, space%change(:, level%grid%south(j)), space%change(:, j), &
+         call apply_row(space%dipole_weights, space%change(:, level%grid%south(j)), space%change(:, j), &
                         space%change(:, level%grid%north(j)), level%p(:, j), after)
          call level%boundary%yielding%limit_pressure(level%p(2:nx - 1, j), 2, j, after(2:nx - 1))
          call change_flowing(after(2:nx - 1), level%p(2:nx - 1, j))
@@ -182,15 +182,15 @@ contains
       !$omp end parallel do
    end subroutine apply_dipoles
 
-   !> The pressure of a row with them, from the changes of it and its neighbours
-   pure subroutine apply_row(shares, south, change, north, p, after)
-      real(dp), intent(in) :: shares(2)
+   !> Pressure of a row with the distributive changes of the row and its neighbours
+   pure subroutine apply_row(weights, south, change, north, p, after)
+      real(dp), intent(in) :: weights(2)
       real(dp), contiguous, intent(in) :: south(:), change(:), north(:), p(:)
       real(dp), contiguous, intent(inout) :: after(:)
       integer :: i
 
       do i = 2, size(p) - 1
-         after(i) = p(i) + change(i) - (shares(1)*(change(i - 1) + change(i + 1)) + shares(2)*south(i) + shares(2)*north(i))
+         after(i) = p(i) + change(i) - (weights(1)*(change(i - 1) + change(i + 1)) + weights(2)*south(i) + weights(2)*north(i))
       end do
    end subroutine apply_row
 end module ehl_relaxation

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Relaxation of a grid of one row: Newton's linearised Reynolds equation (reynolds.f90) for all of its nodes, with the deflection
-!> up to `row_reach` nodes away. Smooth changes, whose deflection comes from further away, are left to coarser grids.
+!> Relaxation of a grid of one row: a Newton step of the Reynolds equation (reynolds.f90) for all nodes, with the deflection
+!> up to `row_reach` nodes away. Coarser grids correct smooth errors, whose deflection reaches further.
 !>
 !> With d the changes of the pressure, r the residual, K(l) the deflection l nodes away, and per node i
 !>
@@ -23,7 +23,7 @@ module ehl_row_relaxation
    private
    public :: relax_row
 
-   !> Share of the changes that is made
+   !> Relaxation factor
    real(dp), parameter :: omega = 0.8_dp
 
 contains
@@ -34,7 +34,7 @@ contains
       type(workspace_t), intent(inout) :: space
       !> Largest change of the logarithm of a node's conductance
       real(dp), intent(in) :: max_log_change
-      !> Share of the changes that is made
+      !> Factor of all changes in addition to `omega`
       real(dp), intent(in) :: relaxation_factor
       real(dp) :: change(level%grid%nx), after(level%grid%nx)
       logical :: passing(level%grid%nx)
@@ -53,13 +53,13 @@ contains
       level%p(2:last, 1) = after(2:last)
    end subroutine relax_row
 
-   !> Right-hand side less operator at nodes 2 to `last`
+   !> Right-hand side minus operator at nodes 2 to `last`
    pure subroutine find_residual(level, last, residual, passing)
       type(level_t), intent(in) :: level
       integer, intent(in) :: last
       !> Shape (nx)
       real(dp), contiguous, intent(out) :: residual(:)
-      !> As supply.f90 has them
+      !> Whether nodes pass on all oil (supply.f90)
       logical, contiguous, intent(out) :: passing(:)
 
       call flow_operator(level, 1, residual, passing)
@@ -72,19 +72,19 @@ contains
       type(level_t), intent(in) :: level
       real(dp), intent(in) :: near(-row_reach:row_reach)
       integer, intent(in) :: last
-      !> As supply.f90 has them
+      !> Whether nodes pass on all oil (supply.f90)
       logical, contiguous, intent(in) :: passing(:)
       real(dp), contiguous, intent(inout) :: residual(:)
       real(dp), intent(inout) :: band(-row_below:row_above, level%grid%nx)
-      !> Of the changes of film and pressure at i + l
+      !> Factors of the changes of film and pressure at i + l
       real(dp) :: film(-wedge_reach:1), local(-wedge_reach:1), c(0:wedge_reach)
-      !> The kernel with zeros beside it
+      !> The kernel, padded with zeros
       real(dp) :: kernel(-row_below - 1:row_above + wedge_reach)
-      !> Per node: d ln eps/d ln H, and the film that the conductance is of
+      !> Per node: d ln eps/d ln H, and the film of the conductance
       real(dp), dimension(level%grid%nx) :: exponent, thickness
       type(line_terms_t) :: terms
-      !> Part of the flow to the upstream node that does not come back from there
-      real(dp) :: share
+      !> Fraction of the flow to the upstream node that does not return from there
+      real(dp) :: fraction
       integer :: first, i, k, l, m
 
       kernel = 0.0_dp
@@ -109,16 +109,16 @@ contains
                film(0) = -level%boundary%rate*level%rho(i, 1)
                local(0) = -level%boundary%rate*level%h_drho_dp(i, 1)
             else
-               c = level%wedge%weights(i, passing(i - 1), level%supply%share)
+               c = level%wedge%weights(i, passing(i - 1), level%supply%passed_fraction)
                do l = 0, min(wedge_reach, i - 1)
                   film(-l) = -c(l)*level%rho(i - l, 1)
                   local(-l) = -c(l)*level%h_drho_dp(i - l, 1)
                end do
                call add_neighbour(i, 1, terms%east(k), terms%east_rate(k))
-               share = merge(1.0_dp - level%supply%share, 1.0_dp, passing(i - 1))
-               if (share > 0.0_dp) call add_neighbour(i, -1, share*terms%east(k - 1), share*terms%east_rate(k - 1))
+               fraction = merge(1.0_dp - level%supply%passed_fraction, 1.0_dp, passing(i - 1))
+               if (fraction > 0.0_dp) call add_neighbour(i, -1, fraction*terms%east(k - 1), fraction*terms%east_rate(k - 1))
             end if
-            ! each number once: see solve
+            ! every element is written once: see solve
             do l = -row_below, row_above
                band(l, i) = film(-1)*kernel(l + 1) + film(-2)*kernel(l + 2) + film(0)*kernel(l) + film(1)*kernel(l - 1)
             end do
@@ -153,9 +153,9 @@ contains
       end subroutine add_neighbour
    end subroutine assemble
 
-   !> Solve the equations of nodes 2 to `last` in place, without pivoting: the diagonal dominates. A finished equation is
-   !> subtracted from all of those after it: an equation that took up one after another would be read at an offset right after it
-   !> was written, which processors wait for.
+   !> Solve the equations of nodes 2 to `last` in place, without pivoting: the diagonal dominates. Each finished equation is
+   !> subtracted from all later ones: the other order would read an equation right after it was written, at an offset, which
+   !> stalls the processor.
    pure subroutine solve(band, last, x)
       real(dp), contiguous, intent(inout) :: band(-row_below:, :), x(:)
       integer, intent(in) :: last

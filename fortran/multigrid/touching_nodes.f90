@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Nodes that touch at a boundary film in sweeps, line systems and coarse problems
+!> Touching nodes (boundary_film.f90) in sweeps, line systems and coarse problems
 submodule (ehl_boundary_film) ehl_touching_nodes
    use ehl_coarse_problem, only: weight_row
    use ehl_level, only: cavity_pressure
@@ -52,7 +52,7 @@ contains
       if (.not. self%active) return
       do l = 1, size(rows)
          touching(l, :last) = self%touching(:last, rows(l))
-         ! what yields touches as well
+         ! yielding nodes touch as well
          if (.not. any(self%touching(:last, rows(l)) > 0.0_dp)) cycle
          any_touches = .true.
          row(2:last) = residual(l, 2:last)

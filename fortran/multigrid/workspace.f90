@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Work space of a level for multigrid: that of the relaxation and of the coarse problem
+!> Work space of a level for relaxation and coarse problem
 module ehl_workspace
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_grid, only: grid_t
@@ -12,17 +12,17 @@ module ehl_workspace
 
    !> The line systems include the deflection kernel up to this distance along X
    integer, parameter :: near_reach = 2
-   !> The equations of a grid of one row include it up to this distance, and couple so many nodes before and behind a node
+   !> The equations of a grid of one row include it up to `row_reach`, and couple row_below and row_above nodes on either side
    integer, parameter :: row_reach = 15, row_below = row_reach + 2, row_above = row_reach + 1
-   !> Numbers per node that the line systems are made from
+   !> Numbers per node from which the line systems are assembled
    integer, parameter :: line_fields = 10
    !> Lines relaxed side by side
    integer, parameter :: line_width = 8
 
-   !> Cells longer than that along Y are long
+   !> Cells with a larger hy/hx are long
    real(dp), parameter :: long = 1.6_dp
 
-   !> Work space of one thread's line systems: what they are made from (line, number, node), nodes from
+   !> Work space of one thread's line systems: their input (line, number, node), nodes from
    !> -1; upper diagonals (line, diagonal, node) and changes (line, node), nodes from -3
    type :: line_work_t
       real(dp), allocatable :: fields(:, :, :), upper(:, :, :), change(:, :)
@@ -32,25 +32,25 @@ module ehl_workspace
 
    !> Arrays of shape (nx, ny) unless stated otherwise
    type :: workspace_t
-      !> 1 where a node changes distributively in the present sweep, else 0; changes of pressure in these nodes
+      !> 1 where a node changes distributively in the present sweep, else 0; changes of pressure at these nodes
       real(dp), allocatable :: dipole(:, :), change(:, :)
-      !> For time steps only: the share of a node's change that is to be free of its smooth part, these
-      !> changes in a sweep, and their smooth part after its first pass
+      !> For time steps only: the weight with which the smooth part of a node's change is removed, the weighted
+      !> changes of a sweep, and their mean along one axis
       real(dp), allocatable :: smoothing_weight(:, :), raw_change(:, :), mean_change(:, :)
-      !> A distributive change lowers the pressure of the adjacent nodes along X and along Y by these shares of its own.
-      !> On cells that are longer across the lines less goes to their far neighbours: a quarter to each would leave a
-      !> deflection that falls off slowly along them. On long cells they go with 1/h^2, so that the second moments along X and
-      !> along Y, h_x^2 times the one and h_y^2 times the other, are equal as on square cells (docs/theory/relaxation.md). On
-      !> nearly square ones, where either works, they go with 1/h. Measured on cells of 1 to 1/4, 1.41, 2, 2.8 and 4.
-      real(dp) :: shares(2) = 0.25_dp
-      !> Kernel near the source: itself, and for the distributive (dipole) change
+      !> A distributive change lowers the pressure of the adjacent nodes along X and along Y by these fractions of it.
+      !> On cells that are longer along Y the neighbours along Y receive less: with a quarter each the deflection would
+      !> decay slowly along X. On long cells the weights are proportional to 1/h^2, so that the second moments along X and
+      !> Y are equal as on square cells (docs/theory/relaxation.md); on nearly square cells, where either works, to 1/h.
+      !> Measured for hy/hx of 1/4, 1, 1.41, 2, 2.8 and 4.
+      real(dp) :: dipole_weights(2) = 0.25_dp
+      !> Kernel near the source: of a point change, and of a distributive (dipole) change
       real(dp) :: near(-near_reach:near_reach) = 0.0_dp, near_dipole(-near_reach:near_reach) = 0.0_dp
-      !> Of a grid of one row, which has no line systems: its equations (-row_below:row_above, nx), and the kernel
+      !> For a grid of one row, which has no line systems: its equations (-row_below:row_above, nx), and the kernel
       real(dp), allocatable :: band(:, :)
       real(dp) :: near_row(-row_reach:row_reach) = 0.0_dp
-      !> Line systems, one a thread
+      !> Work space of line systems, one per thread
       type(line_work_t), allocatable :: lines(:)
-      !> For coarse problems only: pressure and film that the problem of this level starts from, and their changes by its solution
+      !> For coarse problems only: restricted pressure and film, and their changes by the coarse solution
       real(dp), allocatable, dimension(:, :) :: p_start, h_start, p_change, h_change
    contains
       procedure :: setup
@@ -61,7 +61,7 @@ module ehl_workspace
 
 contains
 
-   !> For a grid, the factor k_b of its deflection and a number of threads
+   !> Allocate; factor: k_b of the deflection
    subroutine setup(self, grid, factor, threads, status)
       class(workspace_t), intent(inout) :: self
       type(grid_t), intent(in) :: grid
@@ -92,35 +92,35 @@ contains
          return
       end if
       associate (hx => grid%hx, hy => grid%hy)
-         self%shares = 0.5_dp*([max(hx, hy), hx]/(hx + max(hx, hy)))
-         if (hy > long*hx) self%shares = 0.5_dp*([hy, hx]**2/(hx**2 + hy**2))
+         self%dipole_weights = 0.5_dp*([max(hx, hy), hx]/(hx + max(hx, hy)))
+         if (hy > long*hx) self%dipole_weights = 0.5_dp*([hy, hx]**2/(hx**2 + hy**2))
          do d = -near_reach, near_reach
             self%near(d) = coefficient(grid, factor, d, 0)
-            self%near_dipole(d) = self%near(d) - (self%shares(1)*(coefficient(grid, factor, d - 1, 0) &
-                                                                + coefficient(grid, factor, d + 1, 0)) &
-                                                  + self%shares(2)*2.0_dp*coefficient(grid, factor, d, 1))
+            self%near_dipole(d) = self%near(d) - (self%dipole_weights(1)*(coefficient(grid, factor, d - 1, 0) &
+                                                                          + coefficient(grid, factor, d + 1, 0)) &
+                                                  + self%dipole_weights(2)*2.0_dp*coefficient(grid, factor, d, 1))
          end do
       end associate
    end subroutine setup
 
-   !> The kernel near the source for the equations of one row: less its value at the end of their reach, because a constant is
-   !> part of H00 and a truncated logarithm would have a step there; for smooth changes stiffer than that by a share of the
-   !> deflection by the whole contact. Without it these are made so much too large on fine grids that cycles diverge; 2 cycles a
-   !> level with this share and width, from M = 0.5 to 500 on 65 to 4097 nodes.
+   !> The kernel near the source for the equations of one row. Its value at the end of the reach is subtracted, because a constant
+   !> is part of H00 and a truncated logarithm would have a step there. A fraction of the deflection by the whole contact is
+   !> added: without it smooth changes overshoot so much on fine grids that cycles diverge. With this fraction and width 2 cycles
+   !> per level suffice from M = 0.5 to 500 on 65 to 4097 nodes.
    pure function kernel_of_row(grid, factor) result(near)
       type(grid_t), intent(in) :: grid
       real(dp), intent(in) :: factor
       real(dp) :: near(-row_reach:row_reach)
-      real(dp), parameter :: share = 0.3_dp, width = row_reach/3.0_dp
+      real(dp), parameter :: fraction = 0.3_dp, width = row_reach/3.0_dp
       integer :: d
 
       near = [(coefficient(grid, factor, d, 0), d=-row_reach, row_reach)] - coefficient(grid, factor, row_reach + 1, 0)
-      ! 4 k_b (1 - reach): sums of the kernel over its value at the edge of the contact, less what is within reach
-      near = near + share*4.0_dp*factor*max(0.0_dp, 1.0_dp - (row_reach + 1)*grid%hx) &
+      ! 4 k_b (1 - reach): sum of the kernel minus its value at the edge of the contact, without the nodes within reach
+      near = near + fraction*4.0_dp*factor*max(0.0_dp, 1.0_dp - (row_reach + 1)*grid%hx) &
              *[(exp(-(d/width)**2), d=-row_reach, row_reach)]/(width*sqrt(pi))
    end function kernel_of_row
 
-   !> Allocate what a level needs once there is a finer one
+   !> Allocate what the level needs for the coarse problem of a finer one
    subroutine prepare_coarse(self, status)
       class(workspace_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
@@ -131,7 +131,7 @@ contains
       if (stat /= 0) call status%fail(ehl_no_memory, "no memory for the coarse problem of a grid level")
    end subroutine prepare_coarse
 
-   !> Allocate what time steps need, unless that has been done
+   !> Allocate what time steps need unless it is allocated
    subroutine prepare_steps(self, status)
       class(workspace_t), intent(inout) :: self
       type(status_t), intent(inout) :: status

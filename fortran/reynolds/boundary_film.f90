@@ -5,20 +5,20 @@
 !>    P >= 0,   N <= 0,   rho H >= H_b,   one of the three an equality at every node:
 !>
 !> cavitated (P = 0), flowing (N = 0) or touching (rho H = H_b). At touching nodes the boundary film
-!> supplies the mass defect of N. H_b is a mass per area: the film is compressed as the lubricant is, and passes a zone of
-!> touching nodes unchanged. With H >= H_b instead it would be squeezed out of the first half of a contact and lift the
-!> second half by rho(P_max).
+!> supplies the mass defect of N. H_b is a mass per area: the boundary film is compressed as the lubricant is, and its mass
+!> does not change along a zone of touching nodes. With H >= H_b instead, mass would leave the first half of a contact and lift
+!> the second half by a factor of rho(P_max).
 !>
 !> A touching node has the equation
 !>
 !>    rate (H_b - rho H) = 0
 !>
-!> with the rate of the wedge term, so that its residual is one of the Reynolds equation where the conductance vanishes. Of
-!> the two residuals rhs - N and rate (rho H - H_b) the one applies that requires more pressure: the first changes with the
+!> with the factor of the wedge term, so that its residual is that of a Reynolds equation with zero conductance. Of
+!> the two residuals rhs - N and rate (rho H - H_b) the one that requires more pressure applies: the first changes with the
 !> deflection and the Poiseuille term, the second with the deflection alone.
 !>
-!> Every level has one, with the solids that may yield (yielding.f90). Without setup, or with H_b = 0, it is inactive: no node
-!> touches, and its procedures change nothing. Procedures for sweeps and coarse problems: multigrid/touching_nodes.f90.
+!> Every level has a boundary film, with the solids that may yield (yielding.f90). Without setup, or with H_b = 0, it is
+!> inactive: no node touches. Procedures for sweeps and coarse problems: multigrid/touching_nodes.f90.
 module ehl_boundary_film
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_grid, only: grid_t
@@ -29,15 +29,15 @@ module ehl_boundary_film
    private
    public :: boundary_film_t, same_film
 
-   !> A touching node lifts off by more than a share of the boundary film: behind a zone of touching nodes the lubricant
-   !> has the boundary film, too, and rounding would decide on their states. What flows on to such a node and not on from it
-   !> is lost, so the share is small. Of a steady problem that has not converged the residuals would decide; it is larger there.
+   !> A touching node becomes a flowing one if its film exceeds H_b by more than this fraction: downstream of touching nodes the
+   !> lubricant has the film H_b, too, and rounding would decide on their states. Mass that such a node receives and does not pass
+   !> on is lost, so the fraction is small; it is larger in a steady problem whose residuals have not converged.
    real(dp), parameter :: min_lift = 1.0e-4_dp, max_lift = 1.0e-2_dp
-   !> The same over the residual (rms) of a steady problem
+   !> That fraction over the residual (rms) of a steady problem
    real(dp), parameter :: lift_of_residual = 3.0_dp
 
-   !> Solid contact where the film is the boundary film to this share of it: behind a touching node the lubricant may flow with the
-   !> boundary film that it leaves, which is contact as well
+   !> Solid contact also where the film differs from the boundary film by less than this fraction: downstream of a touching node
+   !> the lubricant may flow with the film H_b
    real(dp), parameter :: same_film = 1.0e-2_dp
 
    !> Arrays of shape (nx, ny)
@@ -49,15 +49,15 @@ module ehl_boundary_film
       type(yielding_t) :: yielding
       !> Factor of the equation of touching nodes
       real(dp) :: rate = 0.0_dp
-      !> Share of the boundary film that a touching node may be lifted by, by the present residual
+      !> Fraction of H_b by which a touching node may be lifted, at the present residual
       real(dp), private :: lift = min_lift
-      !> Whether the states of the nodes stay, on a coarse level
+      !> Whether the states of the nodes are fixed, on a coarse level
       logical, private :: frozen = .false.
       !> 1 where a node is touching, else 0
       real(dp), allocatable, private :: touching(:, :)
-      !> Film that the lubricant flows through: that of an iterate may be below the boundary film
+      !> Film for the conductance, at least the boundary film; that of an iterate may be thinner
       real(dp), allocatable, private :: film(:, :)
-      !> Residuals of touching nodes, else 0, from which those of the coarse level are made
+      !> Residuals of touching nodes, else 0, for restriction to the coarse level
       real(dp), allocatable, private :: touching_residual(:, :)
    contains
       procedure :: setup
@@ -91,7 +91,7 @@ module ehl_boundary_film
 
    ! in multigrid/touching_nodes.f90
    interface
-      !> Of each node of row j and its four neighbours, in columns 2 to nx-1: the largest conductance of those that flow
+      !> Largest conductance of the flowing nodes among each node of row j and its four neighbours, in columns 2 to nx-1
       pure module subroutine max_flowing_conductance(self, p, eps, j, south, north, values)
          class(boundary_film_t), intent(in) :: self
          !> Pressure and conductance along Y, shape (nx, ny)
@@ -101,7 +101,7 @@ module ehl_boundary_film
          real(dp), contiguous, intent(inout) :: values(:)
       end subroutine max_flowing_conductance
 
-      !> Of three rows, south, j and north: the largest conductance of each column, as if nothing could flow at a touching node
+      !> Largest conductance of each column in the rows south, j and north, with zero conductance at touching nodes
       pure module subroutine max_conductance_of_rows(self, eps, j, south, north, values)
          class(boundary_film_t), intent(in) :: self
          !> Shape (nx, ny)
@@ -111,7 +111,7 @@ module ehl_boundary_film
          real(dp), contiguous, intent(inout) :: values(:)
       end subroutine max_conductance_of_rows
 
-      !> Nodes of row j that touch change distributively, beside a cavity, too
+      !> Mark touching nodes of row j as distributive, also beside cavitated nodes
       pure module subroutine mark_dipoles(self, p, j, dipole)
          class(boundary_film_t), intent(in) :: self
          !> Pressure; 1 where a node changes distributively, else 0; shape (nx)
@@ -129,19 +129,19 @@ module ehl_boundary_film
          integer :: i
       end function last_touching
 
-      !> For line systems of the rows side by side: which nodes touch, and their residuals, from node 2 to `last`
+      !> For line systems of several rows: which nodes touch, and their residuals, from node 2 to `last`
       pure module subroutine line_residuals(self, rows, last, rhs, mass_content, residual, touching, any_touches)
          class(boundary_film_t), intent(in) :: self
          integer, intent(in) :: rows(:), last
          !> Shape (nx, ny)
          real(dp), contiguous, intent(in) :: rhs(:, :), mass_content(:, :)
-         !> Shape (lines, last) and (lines, nx); the latter is not set where none touches
+         !> Shape (lines, last) and (lines, nx); `touching` is not set where no node touches
          real(dp), intent(inout) :: residual(:, :), touching(:, :)
          logical, intent(out) :: any_touches
       end subroutine line_residuals
 
-      !> States of the nodes of a coarse level while it is solved: those touch that have pressure and around which more than half
-      !> touches. None yields: where half of a coarse grid did, nothing would be left to carry a missing load.
+      !> Fix the states of the nodes of a coarse level: a node with pressure touches if the full weighting of touching fine nodes
+      !> exceeds one half. No coarse node yields: yielding nodes could not sustain a missing load.
       module subroutine begin_coarse(self, fine, coarse, step, p)
          class(boundary_film_t), intent(inout) :: self
          !> Boundary film of the fine level; coarse grid, and its mesh sizes over those of the fine one
@@ -152,14 +152,13 @@ module ehl_boundary_film
          real(dp), contiguous, intent(in) :: p(:, :)
       end subroutine begin_coarse
 
-      !> The coarse level may be a finest one next
+      !> End the coarse problem: the level may be the finest level of another cycle
       pure module subroutine end_coarse(self)
          class(boundary_film_t), intent(inout) :: self
       end subroutine end_coarse
 
-      !> Keep the residuals of touching nodes apart, and leave those of flowing nodes: touching nodes pass theirs to touching nodes
-      !> of the coarse level alone. In the equation of a flowing node they would be a source that the motion convects through the
-      !> contact.
+      !> Separate the residuals of touching nodes from those of flowing nodes: they are restricted to touching coarse nodes alone.
+      !> In the equation of a flowing node they would be a source that the motion convects through the contact.
       pure module subroutine separate_residual(self, residual)
          class(boundary_film_t), intent(inout) :: self
          !> Shape (nx, ny)
@@ -169,7 +168,7 @@ module ehl_boundary_film
       !> Put the restricted residuals of touching nodes into row j of a coarse grid
       pure module subroutine restrict_residual(self, fine, coarse, step, j, residual)
          class(boundary_film_t), intent(in) :: self
-         !> As for begin_coarse
+         !> See begin_coarse
          type(boundary_film_t), intent(in) :: fine
          type(grid_t), intent(in) :: coarse
          integer, intent(in) :: step(2), j
@@ -180,7 +179,7 @@ module ehl_boundary_film
 
 contains
 
-   !> Allocate, if there is a boundary film; thickness: H_b, max_pressure: that of the solids, or 0
+   !> Allocate if there is a boundary film; thickness: H_b; max_pressure: that of the solids, or 0
    subroutine setup(self, grid, thickness, max_pressure, status)
       class(boundary_film_t), intent(inout) :: self
       type(grid_t), intent(in) :: grid
@@ -197,7 +196,7 @@ contains
       call self%yielding%setup(grid, max_pressure, status)
    end subroutine setup
 
-   !> Row j of the film that the lubricant flows through, by film and density
+   !> Compute row j of the film for the conductance
    pure subroutine find_film(self, h, rho, j)
       class(boundary_film_t), intent(inout) :: self
       !> Shape (nx)
@@ -210,11 +209,11 @@ contains
          ! NaN stays NaN
          self%film(i, j) = merge(self%thickness/rho(i), h(i), h(i)*rho(i) < self%thickness)
       end do
-      ! by the last update
+      ! with the depth of the last update
       call self%yielding%add_depth(rho, j, self%film(:, j))
    end subroutine find_film
 
-   !> Row j of the film that the lubricant flows through
+   !> Row j of the film for the conductance
    pure function film_row(self, h, j) result(film)
       class(boundary_film_t), intent(in) :: self
       !> Shape (nx)
@@ -226,7 +225,7 @@ contains
       if (self%active) film = self%film(:, j)
    end function film_row
 
-   !> Node (i, j) of it
+   !> Film for the conductance at node (i, j)
    pure real(dp) function film_at(self, h, i, j)
       class(boundary_film_t), intent(in) :: self
       !> Shape (nx, ny)
@@ -244,14 +243,14 @@ contains
    end function follows_state
 
    !> States of the nodes of row j, by the residual of the Reynolds equation; the border does not touch
-   pure subroutine find_row(self, p, weights, elastic, share, j, residual, mass_content)
+   pure subroutine find_row(self, p, weights, elastic, fraction, j, residual, mass_content)
       class(boundary_film_t), intent(inout) :: self
       !> Pressure, and the wedge term's factors of rho H at a node and at those upstream of it, shape (nx), (0:..., nx)
       real(dp), contiguous, intent(in) :: p(:), weights(0:, :)
-      !> rho H of the elastic bodies, and the share that the deflection has in what answers the residual; shape (nx)
-      real(dp), contiguous, intent(in) :: elastic(:), share(:)
+      !> rho H of the elastic bodies; diagonal term of the deflection over that of deflection and Poiseuille term; shape (nx)
+      real(dp), contiguous, intent(in) :: elastic(:), fraction(:)
       integer, intent(in) :: j
-      !> rhs - N, and rho H, of the elastic bodies; then with the depth by which nodes yield; shape (nx)
+      !> rhs - N, and rho H: in of the elastic bodies, out with the depth by which nodes yield; shape (nx)
       real(dp), contiguous, intent(inout) :: residual(:), mass_content(:)
       real(dp) :: held
       integer :: i
@@ -262,13 +261,13 @@ contains
       self%touching(size(residual), j) = 0.0_dp
       do i = 2, size(residual) - 1
          self%touching(i, j) = merge(1.0_dp, 0.0_dp, self%rate*(elastic(i) - self%thickness) &
-                                                     < share(i)*residual(i) + held*self%touching(i, j))
+                                                     < fraction(i)*residual(i) + held*self%touching(i, j))
       end do
-      ! not coupled to its line
+      ! yielding nodes count as touching: they are not coupled to their line
       call self%yielding%set(j, 1.0_dp, self%touching(:, j))
    end subroutine find_row
 
-   !> No node touches
+   !> Set all nodes to not touching
    pure subroutine forget(self)
       class(boundary_film_t), intent(inout) :: self
 
@@ -277,7 +276,7 @@ contains
       call self%yielding%forget()
    end subroutine forget
 
-   !> Whether node (i, j) touches; without a node: whether any does
+   !> Whether node (i, j) touches; without a node: whether any node touches
    pure logical function touches(self, i, j)
       class(boundary_film_t), intent(in) :: self
       integer, intent(in), optional :: i, j
@@ -291,7 +290,7 @@ contains
       end if
    end function touches
 
-   !> Which of the n nodes of row j touch by their equation
+   !> Which of the n nodes of row j have the equation of a touching node
    pure function states(self, n, j)
       class(boundary_film_t), intent(in) :: self
       integer, intent(in) :: n, j
@@ -301,7 +300,7 @@ contains
       if (self%active) states = self%touching(:, j) > 0.0_dp
    end function states
 
-   !> Where the bodies touch in a solution
+   !> Where the bodies are in solid contact in a solution
    pure function supports(self, p, mass_content)
       class(boundary_film_t), intent(in) :: self
       !> Of a row, shape (nx)
@@ -312,14 +311,14 @@ contains
       if (self%active) supports = p > 0.0_dp .and. mass_content <= (1.0_dp + same_film)*self%thickness
    end function supports
 
-   !> Put the shear stress of the boundary film into a row where the bodies touch; the lubricant has none there
+   !> Set the shear stress of a row to that of the boundary film where the bodies touch
    pure subroutine stress_row(self, p, mass_content, friction, newtonian, stress)
       class(boundary_film_t), intent(in) :: self
       !> Of the row, shape (nx)
       real(dp), contiguous, intent(in) :: p(:), mass_content(:)
-      !> Stress over pressure
+      !> Boundary friction: stress over pressure
       real(dp), intent(in) :: friction
-      !> As stress_row of ehl_flow has them
+      !> See stress_row of ehl_flow
       real(dp), contiguous, intent(inout) :: newtonian(:), stress(:)
 
       if (.not. self%active) return
@@ -329,7 +328,7 @@ contains
       end where
    end subroutine stress_row
 
-   !> Whether the lubricant has a film to flow through; above a boundary film it always has
+   !> Whether the film is positive; with a boundary film it always is
    pure logical function has_film(self, positive)
       class(boundary_film_t), intent(in) :: self
       !> Whether the film of the elastic bodies is positive
@@ -337,7 +336,7 @@ contains
       has_film = self%active .or. positive
    end function has_film
 
-   !> Put the term of touching nodes into row j of the operator
+   !> Set row j of the operator to the equation of touching nodes where nodes touch
    pure subroutine operator_row(self, mass_content, j, values)
       class(boundary_film_t), intent(in) :: self
       !> Shape (nx)
@@ -352,10 +351,10 @@ contains
       end do
    end subroutine operator_row
 
-   !> Put the residuals of touching nodes into row j; those that yield have none
+   !> Set the residuals of touching nodes in row j; yielding nodes have none
    pure subroutine residual_row(self, rhs, mass_content, j, values)
       class(boundary_film_t), intent(in) :: self
-      !> Right-hand side, that of touching nodes too where states are frozen; shape (nx)
+      !> Right-hand side, which applies to touching nodes too if the states are frozen; shape (nx)
       real(dp), contiguous, intent(in) :: rhs(:), mass_content(:)
       integer, intent(in) :: j
       real(dp), contiguous, intent(inout) :: values(:)
@@ -378,7 +377,7 @@ contains
       if (self%active) values = values*(1.0_dp - self%touching(first:first + size(values) - 1, j))
    end subroutine without_touching
 
-   !> Largest lift of a touching node: `residual` is that of a steady problem (rms), or 0
+   !> Set the largest lift of a touching node; residual: that of a steady problem (rms), or 0
    pure subroutine set_lift(self, residual)
       class(boundary_film_t), intent(inout) :: self
       real(dp), intent(in) :: residual
@@ -387,7 +386,7 @@ contains
       self%lift = min(max_lift, max(min_lift, lift_of_residual*residual/(self%rate*self%thickness)))
    end subroutine set_lift
 
-   !> Whether no film of a solution is thinner than the boundary film by more than a share of it
+   !> Whether no film of a solution is thinner than the boundary film by more than the relative tolerance
    pure logical function holds(self, mass_content, tolerance)
       class(boundary_film_t), intent(in) :: self
       !> Shape (nx, ny)

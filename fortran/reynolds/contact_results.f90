@@ -14,28 +14,28 @@ module ehl_contact_results
    !> Largest relative error of the force balance of a solution
    real(dp), parameter :: load_tolerance = 1.0e-6_dp
 
-   !> Share of the boundary film that may be missing at a node of a solution
+   !> Largest relative deficit of the boundary film at a node of a solution
    real(dp), parameter :: film_tolerance = 1.0e-2_dp
 
    !> Results of one state. Dimensionless: films by a^2/R, pressure by p_h.
    type :: contact_results_t
       !> Film at X = Y = 0, minimum film, maximum pressure
       real(dp) :: film_central = 0.0_dp, film_minimum = 0.0_dp, pressure_maximum = 0.0_dp
-      !> Friction integral: iint tau dX dY over the Newtonian stress of eta = eta0 and H = 1. Of a Newtonian lubricant
-      !> that is iint eta/(eta0 H) dX dY, whatever the sliding speed (Zhang et al. 2019, eq. 5)
+      !> Friction integral: iint tau dX dY over the Newtonian stress of eta = eta0 and H = 1. For a Newtonian lubricant
+      !> that is iint eta/(eta0 H) dX dY at any sliding speed (Zhang et al. 2019, eq. 5)
       real(dp) :: friction = 0.0_dp
-      !> The same of a Newtonian lubricant, whatever the shear law
+      !> Friction integral of a Newtonian lubricant, without the shear law
       real(dp) :: friction_newtonian = 0.0_dp
       !> Load that the nodes have to sustain, and its relative error
       real(dp) :: load = 0.0_dp
       real(dp) :: load_error = 0.0_dp
       !> Whether every number is finite, and every film positive
       logical :: finite = .false., positive = .false.
-      !> Whether no film is thinner than the boundary film; an iterate may be
+      !> Whether no film is thinner than the boundary film; in an iterate it may be
       logical :: holds = .true.
-      !> Where the bodies touch. The friction there is that of the boundary film, or left out where that is not known.
+      !> Solid contact. Its friction is that of the boundary film, or 0 where that is not given.
       type(touching_t) :: touching
-      !> Of a starved inlet
+      !> Oil flow of a starved inlet
       type(oil_flow_t) :: oil
    contains
       procedure :: films
@@ -80,14 +80,14 @@ contains
       m%oil = measure_flow(level)
    end function measure
 
-   !> Central film and smallest film
+   !> Central film and minimum film
    pure function films(self)
       class(contact_results_t), intent(in) :: self
       real(dp) :: films(2)
       films = [self%film_central, self%film_minimum]
    end function films
 
-   !> Scale films, pressure and friction by given ratios
+   !> Scale films, pressure and friction by the ratios of `to` to `from`
    pure subroutine scale(self, from, to)
       class(contact_results_t), intent(inout) :: self
       type(contact_results_t), intent(in) :: from, to
@@ -113,7 +113,7 @@ contains
       central_row = 1 + nint((0.0_dp - grid%y0)/grid%hy)
    end function central_row
 
-   !> The same of the row at Y = 0 alone, values(nx)
+   !> Value of the row at Y = 0, values(nx), at X = 0
    pure real(dp) function central_of_row(grid, values)
       type(grid_t), intent(in) :: grid
       real(dp), intent(in) :: values(:)

@@ -1,11 +1,11 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Far field beyond the border of the domain: the pressure of a fully flooded contact, and the load that it sustains there.
 !>
-!> Far away the bodies are rigid, the lubricant is that at P = 0, and H = r^2 f/2 has no length of its own, with
-!> f = cos^2 + D sin^2 of the angle, which is counted from the inlet, so that P = lambda_bar g(angle)/r^3. The Reynolds
-!> equation then is (f^3 g')' - 9 f^3 g = -8 cos(angle) with the solution g = 4 cos(angle)/((3 + 2 D) f^2) + share u(angle),
-!> (f^3 u')' = 9 f^3 u; in a round contact f = 1 and u = cosh(3 angle). The first part is that of Kapitza (1955), exact with
-!> r/(4 H^2) in place of 1/(r^3 f^2) also where H = c + r^2 f/2; the second one lets g and g' vanish where the film
+!> Far away the bodies are rigid, the lubricant has the properties at P = 0, and H = r^2 f/2 has no length scale, with
+!> f = cos^2 + D sin^2 of the angle from the inlet direction, so that P = lambda_bar g(angle)/r^3. The Reynolds equation
+!> then is (f^3 g')' - 9 f^3 g = -8 cos(angle) with the solution g = 4 cos(angle)/((3 + 2 D) f^2) + amplitude u(angle),
+!> (f^3 u')' = 9 f^3 u; in a round contact f = 1 and u = cosh(3 angle). The first term is that of Kapitza (1955), exact with
+!> r/(4 H^2) in place of 1/(r^3 f^2) also where H = c + r^2 f/2; with the second term g and g' vanish where the film
 !> ruptures. Further terms decay with the sixth power of the distance.
 module ehl_far_field
    use ehl_contact, only: contact_t
@@ -17,20 +17,20 @@ module ehl_far_field
    private
    public :: far_field_t
 
-   !> Of a round contact: angle from the inlet at which the film ruptures, tan(angle) = -3 tanh(3 angle), and the share of
-   !> cosh(3 angle) that lets pressure and slope vanish there
-   real(dp), parameter :: round_rupture = 1.8925539054585183_dp, round_share = 1.7311986173015447e-03_dp
-   !> Steps from 0 to pi in the table of u; it grows to 1e4, and by 2e-3 a step
+   !> Round contact: angle from the inlet at which the film ruptures, tan(angle) = -3 tanh(3 angle), and the amplitude of
+   !> cosh(3 angle) for which pressure and slope vanish there
+   real(dp), parameter :: round_rupture = 1.8925539054585183_dp, round_amplitude = 1.7311986173015447e-03_dp
+   !> Steps from 0 to pi in the table of u, which increases to 1e4, by 0.2 % per step
    integer, parameter :: steps = 8000
-   !> Angles, and points along the inverse distance, of the integral beyond the border
+   !> Quadrature points of the integral beyond the border: angles, and inverse distances
    integer, parameter :: angles = 64, distances = 8
 
    type :: far_field_t
       private
-      !> Whether the contact is an infinite line, whose inlet is another (ehl_line_inlet)
+      !> Whether the contact is an infinite line (see ehl_line_inlet)
       logical :: line = .false.
-      !> D = R_x/R_y; where the film ruptures, and the share of u
-      real(dp) :: radius_ratio = 1.0_dp, rupture = round_rupture, share = round_share
+      !> D = R_x/R_y; angle at which the film ruptures; amplitude of u
+      real(dp) :: radius_ratio = 1.0_dp, rupture = round_rupture, amplitude = round_amplitude
       !> u at equal steps of the angle; not allocated in a round contact
       real(dp), allocatable :: u(:)
    contains
@@ -58,14 +58,14 @@ contains
       allocate (self%u(0:steps))
       step = pi/steps
       state = [1.0_dp, 0.0_dp]
-      self%share = 0.0_dp
+      self%amplitude = 0.0_dp
       do n = 0, steps
          angle = n*step
          self%u(n) = state(1)
-         ! g > 0 before the rupture, where share u touches what takes away from it
+         ! the smallest amplitude with g >= 0 everywhere: g and g' vanish at the rupture
          ratio = -4.0_dp*cos(angle)/((3.0_dp + 2.0_dp*self%radius_ratio)*self%opening(angle)**2*state(1))
-         if (ratio > self%share) then
-            self%share = ratio
+         if (ratio > self%amplitude) then
+            self%amplitude = ratio
             self%rupture = angle
          end if
          k(:, 1) = slope(state, angle)
@@ -77,7 +77,7 @@ contains
 
    contains
 
-      !> Change of u and of f^3 u' with the angle
+      !> Derivatives of u and of f^3 u' with respect to the angle
       pure function slope(at, angle) result(change)
          real(dp), intent(in) :: at(2), angle
          real(dp) :: change(2)
@@ -85,7 +85,7 @@ contains
       end function slope
    end subroutine setup
 
-   !> Set the pressure of a flooded contact on the border, and the load of the nodes without the one beyond the border
+   !> Set the pressure of a flooded contact on the border, and the load of the nodes: the total load minus that beyond the border
    subroutine set_border(self, level, load)
       class(far_field_t), intent(in) :: self
       type(level_t), intent(inout) :: level
@@ -117,7 +117,7 @@ contains
       pressure = 0.25_dp*hypot(x, y)/film**2*self%around(atan2(abs(y), -x))
    end function pressure
 
-   !> f^2 g: the pressure over the angle from the inlet
+   !> f^2 g as a function of the angle from the inlet
    pure real(dp) function around(self, angle)
       class(far_field_t), intent(in) :: self
       real(dp), intent(in) :: angle
@@ -131,9 +131,9 @@ contains
          n = min(int(t), steps - 1)
          t = t - n
          around = 4.0_dp/(3.0_dp + 2.0_dp*self%radius_ratio)*cos(angle) &
-                  + self%share*((1.0_dp - t)*self%u(n) + t*self%u(n + 1))*self%opening(angle)**2
+                  + self%amplitude*((1.0_dp - t)*self%u(n) + t*self%u(n + 1))*self%opening(angle)**2
       else
-         around = 0.8_dp*cos(angle) + self%share*cosh(3.0_dp*angle)
+         around = 0.8_dp*cos(angle) + self%amplitude*cosh(3.0_dp*angle)
       end if
    end function around
 

@@ -1,10 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> How the lubricant flows between the surfaces under a gradient of pressure: the conductances of the Reynolds equation,
+!> Flow of the lubricant between the surfaces under a pressure gradient: the conductances of the Reynolds equation,
 !>
 !>    q_x = -eps_x dP/dX,   q_y = -eps_y dP/dY
 !>
-!> with q the Poiseuille part of the mass flow, and how they change with P and H. The kinds of flow are in
-!> newtonian_flow.f90 and shear_thinning_flow.f90; flow_factory.f90 chooses. Other modules use this interface.
+!> with q the Poiseuille part of the mass flow, and their derivatives. The kinds of flow are in
+!> newtonian_flow.f90 and shear_thinning_flow.f90; flow_factory.f90 selects one.
 module ehl_flow
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_grid, only: grid_t
@@ -16,23 +16,23 @@ module ehl_flow
    private
    public :: flow_t, dir_x
 
-   !> Index of the flow along X in the arrays of a flow; `dir_y` of the flow is that of Y
+   !> Index of the flow along X in the arrays of a flow; that of the flow along Y is its component `dir_y`
    integer, parameter :: dir_x = 1
 
    !> Arrays of shape (nx, ny, dir_y)
    type, abstract :: flow_t
-      !> 1 where the lubricant flows alike in both directions, so that one array serves for both; else 2. The conductance
-      !> along X, the direction of the motion, is then the larger one.
+      !> 1 if the conductances along X and Y are equal, so that one array serves for both; else 2, and the conductance
+      !> along X, the direction of motion, is the larger one.
       integer :: dir_y = dir_x
       !> 1/lambda_bar: the conductance of unit film, density and viscosity
       real(dp) :: inverse_speed = 0.0_dp
       !> Conductance, and d ln(eps)/dP at constant film
       real(dp), allocatable :: eps(:, :, :), dlneps_dp(:, :, :)
-      !> Whether the conductance depends on the gradient of pressure; then -dq/d(grad P), for linear systems; else
+      !> Whether the conductance depends on the pressure gradient; in this case -dq/d(grad P) for linear systems, otherwise
       !> not allocated
       logical :: depends_on_gradient = .false.
       real(dp), allocatable :: tangent(:, :, :)
-      !> Flow factors of the nodes, if there are any
+      !> Flow factors of the nodes of a shear-thinning lubricant
       type(cached_factors_t) :: cached
       type(grid_t) :: grid
    contains
@@ -47,7 +47,7 @@ module ehl_flow
    end type flow_t
 
    abstract interface
-      !> Conductances of row j and their change with P; behind node `last` the whole row is cavitated
+      !> Conductances of row j and their derivatives with respect to P; downstream of node `last` the whole row is cavitated
       pure subroutine find_row(self, lubricant, p, h, rho, drho_dp, j, last)
          import :: dp, flow_t, lubricant_t
          implicit none (type, external)
@@ -55,7 +55,7 @@ module ehl_flow
          type(lubricant_t), intent(in) :: lubricant
          !> Pressure, shape (nx, ny)
          real(dp), contiguous, intent(in) :: p(:, :)
-         !> Of the row: film, density and its change with P, shape (nx)
+         !> Film, density and its derivative with respect to P in row j, shape (nx)
          real(dp), contiguous, intent(in) :: h(:), rho(:), drho_dp(:)
          integer, intent(in) :: j, last
       end subroutine find_row
@@ -68,8 +68,8 @@ module ehl_flow
          integer, intent(in) :: i, j, direction
       end function film_exponent
 
-      !> Shear stress of the sliding in row j, over that of a Newtonian lubricant with eta = eta0 and H = 1: of a Newtonian
-      !> lubricant with this viscosity, eta/(eta0 H), and the real one
+      !> Shear stress by sliding in row j, over that of a Newtonian lubricant with eta = eta0 and H = 1: the Newtonian stress
+      !> at the local viscosity, eta/(eta0 H), and the stress by the shear law
       pure subroutine stress_row(self, lubricant, p, h, rho, j, newtonian, stress)
          import :: dp, flow_t, lubricant_t
          implicit none (type, external)
@@ -114,12 +114,12 @@ contains
       self%inverse_speed = inverse_speed
    end subroutine rescale
 
-   !> Weaken shear thinning as if the stress of the law were 1/share times as large; no effect on a Newtonian lubricant
-   subroutine soften(self, share)
-      class(flow_t), intent(inout) :: self
-      real(dp), intent(in) :: share
+   !> Weaken shear thinning as if the stress of the law were 1/fraction times as large; no effect on a Newtonian lubricant
+   subroutine soften(self, fraction)
+   class(flow_t), intent(inout) :: self
+   real(dp), intent(in) :: fraction
 
-      associate (unused => self, too => share)
+      associate (unused => self, too => fraction)
       end associate
    end subroutine soften
 

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Makes the flow of a lubricant
+!> Creates the flow of a lubricant: Newtonian or shear-thinning
 module ehl_flow_factory
    use ehl_flow, only: flow_t
    use ehl_kinds, only: dp
@@ -12,7 +12,7 @@ module ehl_flow_factory
 
 contains
 
-   !> A flow, without its arrays yet
+   !> Create a flow; its arrays are not allocated yet
    subroutine new_flow(lubricant, speed_parameter, flow)
       type(lubricant_t), intent(in) :: lubricant
       !> lambda_bar

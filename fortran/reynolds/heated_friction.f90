@@ -1,12 +1,12 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Friction with the temperature of the film
 !>
-!> The heat of sliding q = tau |u1 - u2| warms the walls and the film (contact/wall_heat.f90), and the warmer lubricant has
-!> the shear stress tau of its law at eta(p, T). Heat is not conducted upstream: a row is solved from
-!> node to node, each by one equation f(q) = q - |u1 - u2| tau(T(q)) = 0 that has one root, for tau falls with T and T
+!> The frictional heat q = tau |u1 - u2| heats the walls and the film (contact/wall_heat.f90), and the shear stress tau
+!> follows from the shear law at eta(p, T). Heat is not conducted upstream: a row is solved from
+!> node to node, each by one equation f(q) = q - |u1 - u2| tau(T(q)) = 0 that has one root, because tau decreases with T and T
 !> increases with q. Pressure and film are those of the isothermal flow; a contact that changes in time is treated as
-!> quasi-steady. Where the bodies touch at a boundary film the stress is mu_b P whatever the temperature: its heat warms the
-!> walls as that of the film does, through a boundary film that conducts as the lubricant.
+!> quasi-steady. Where the bodies touch at a boundary film the stress is mu_b P at any temperature; its heat enters the
+!> walls as that of the film does, and the boundary film has the conductivity of the lubricant.
 module ehl_heated_friction
    use ehl_flow, only: flow_t
    use ehl_grid, only: grid_t
@@ -18,9 +18,9 @@ module ehl_heated_friction
    private
    public :: film_heat_t, heated_t, heat_film
 
-   !> Heat that warms neither film nor walls by more than this [K] is left out
+   !> Heat that raises the temperature of film and walls by less than this [K] is neglected
    real(dp), parameter :: negligible = 1.0e-4_dp
-   !> Relative error of the heat of a node, and most steps to it, some of them bisections: 27 of these would do
+   !> Relative error of the heat of a node; maximum number of steps; every so many steps one is a bisection (27 bisections suffice)
    real(dp), parameter :: tolerance = 1.0e-8_dp
    integer, parameter :: max_steps = 200, bisect_after = 6
 
@@ -28,17 +28,17 @@ module ehl_heated_friction
    type :: film_heat_t
       !> Sliding speed |u1 - u2| [m/s], thermal conductivity of the lubricant [W/(m K)]
       real(dp) :: speed = 0.0_dp, conductivity = 0.0_dp
-      !> Of wall 1 and wall 2, see wall_strength [K m^(3/2)/W]
+      !> Source strengths of wall 1 and wall 2, see wall_strength [K m^(3/2)/W]
       real(dp) :: strengths(2) = 0.0_dp
-      !> What lengths and films are scaled by: a, a^2/R [m]
+      !> Scales of lengths and films: a, a^2/R [m]
       real(dp) :: length = 0.0_dp, film = 0.0_dp
    end type film_heat_t
 
-   !> A contact with its heat
+   !> Friction and temperature of a contact
    type :: heated_t
-      !> Friction integral as in contact_results_t, and that without the heat
+      !> Friction integral as in contact_results_t, with and without heating
       real(dp) :: friction = 0.0_dp, isothermal = 0.0_dp
-      !> Maximum increase over the temperature of the inlet [K]: of the mean across the film, of wall 1, of wall 2
+      !> Maximum temperature rise above the inlet [K]: of the mean across the film, of wall 1, of wall 2
       real(dp) :: max_rise(3) = 0.0_dp
       !> Whether every node was solved
       logical :: solved = .false.
@@ -52,7 +52,7 @@ module ehl_heated_friction
 
 contains
 
-   !> Friction with the heat over that without it; NaN where it is not known
+   !> Friction with heating over that without it; NaN where it is not known
    pure real(dp) function ratio(self)
       class(heated_t), intent(in) :: self
       ratio = ieee_value(ratio, ieee_quiet_nan)
@@ -70,10 +70,10 @@ contains
       logical, intent(in) :: keep
       integer, intent(in) :: threads
       type(heated_t), intent(out) :: found
-      !> The flow with its stress of the isothermal contact, and the density (nx, ny); not given: the law at the sliding
+      !> The flow, for the isothermal stress, and the density (nx, ny); absent: the stress of the shear law in sliding alone
       class(flow_t), intent(in), optional :: flow
       real(dp), contiguous, intent(in), optional :: rho(:, :)
-      !> Where the bodies touch at the boundary film (nx, ny); not given: nowhere
+      !> Where the bodies touch at the boundary film (nx, ny); absent: nowhere
       logical, contiguous, intent(in), optional :: touching(:, :)
       type(wall_heat_t) :: walls
       real(dp), dimension(grid%ny) :: friction, isothermal
@@ -112,22 +112,22 @@ contains
       found%solved = all(solved)
    end subroutine heat_film
 
-   !> One row: rises of film and walls [K]
+   !> Temperature rises of film and walls in one row [K]
    pure subroutine heat_row(heat, walls, lubricant, p, h, solid, stress, rise, solved)
       type(film_heat_t), intent(in) :: heat
       type(wall_heat_t), intent(in) :: walls
       type(lubricant_t), intent(in) :: lubricant
       real(dp), intent(in) :: p(:), h(:)
-      !> Where the stress is that of the boundary film, whatever the temperature
+      !> Where the stress is that of the boundary film, at any temperature
       logical, intent(in) :: solid(:)
-      !> In: shear stress of the isothermal contact, over the scale of the law; out: with the heat
+      !> Shear stress over the scale of the law: in isothermal, out with heating
       real(dp), intent(inout) :: stress(:)
       !> Shape (nx, 3)
       real(dp), intent(out) :: rise(:, :)
       logical, intent(out) :: solved
       type(share_t) :: share
-      !> Heat into each wall; heat of a node over the stress that the law has at its pressure and film
-      real(dp) :: into(size(p), 2), factor(size(p)), flux, warms, before(2), left, q, difference
+      !> Heat into each wall; heat of a node over the stress of the law at its pressure and film
+      real(dp) :: into(size(p), 2), factor(size(p)), flux, wall_rise, before(2), reduction, q, difference
       logical :: good
       integer :: i, k, first, last
 
@@ -135,17 +135,17 @@ contains
       into = 0.0_dp
       solved = .true.
       flux = heat%speed*lubricant%shear%scale
-      ! what unit heat on the whole row warms the walls by
-      warms = sqrt(2.0_dp*size(p))*maxval(walls%own)
-      associate (counts => flux*stress*(warms + heat%film*h/(12.0_dp*heat%conductivity)) > negligible)
+      ! temperature rise of the walls by unit heat on the whole row
+      wall_rise = sqrt(2.0_dp*size(p))*maxval(walls%own)
+      associate (counts => flux*stress*(wall_rise + heat%film*h/(12.0_dp*heat%conductivity)) > negligible)
          first = findloc(counts, .true., dim=1)
          last = findloc(counts, .true., dim=1, back=.true.)
       end associate
       if (first == 0) return
       factor = law_stress(lubricant, p, h, rise(:, 1))
-      ! a limiting stress is none where there is no pressure
+      ! a limiting stress is 0 where the pressure is 0
       where (factor > 0.0_dp) factor = flux*stress/factor
-      left = 1.0_dp
+      reduction = 1.0_dp
       do i = first, size(p)
          do k = 1, 2
             before(k) = walls%history(k, into(:, k), first, i - 1, i)
@@ -155,11 +155,11 @@ contains
          if (solid(i)) then
             q = flux*stress(i)
          else if (i <= last) then
-            call heat_node(lubricant, p(i), h(i), factor(i), share%film, left, q, good)
+            call heat_node(lubricant, p(i), h(i), factor(i), share%film, reduction, q, good)
             solved = solved .and. good
             stress(i) = q/flux
          end if
-         ! the hotter wall warms the other one through the film, also where nothing makes heat
+         ! the hotter wall heats the other one through the film, also where there is no frictional heat
          difference = share%difference(1) + share%difference(2)*q
          into(i, :) = 0.5_dp*[q + difference, q - difference]
          rise(i, 1) = share%film(1) + share%film(2)*q
@@ -167,30 +167,29 @@ contains
       end do
    end subroutine heat_row
 
-   !> Heat q [W/m^2] of a node that is `factor` times the stress of the law at the temperature that it makes,
-   !> film(1) + film(2) q. By the secant method in a bracket, from the share of the heat without that of its own that is
-   !> left at the node before.
-   pure subroutine heat_node(lubricant, p, h, factor, film, left, q, solved)
+   !> Heat q [W/m^2] of a node: `factor` times the stress of the law at the temperature rise film(1) + film(2) q. Bracketed
+   !> secant method; reduction: heat over that at q = 0, in at the previous node as the initial guess, out at this one.
+   pure subroutine heat_node(lubricant, p, h, factor, film, reduction, q, solved)
       type(lubricant_t), intent(in) :: lubricant
       real(dp), intent(in) :: p, h, factor, film(2)
-      real(dp), intent(inout) :: left
+      real(dp), intent(inout) :: reduction
       real(dp), intent(out) :: q
       logical, intent(out) :: solved
-      real(dp) :: most, low, high, before, f, f_before, next
+      real(dp) :: q_max, low, high, before, f, f_before, next
       integer :: k
 
-      most = heat_at(0.0_dp)
-      q = most
+      q_max = heat_at(0.0_dp)
+      q = q_max
       solved = .true.
-      if (.not. most > 0.0_dp) return
+      if (.not. q_max > 0.0_dp) return
       low = 0.0_dp
-      high = most
+      high = q_max
       before = 0.0_dp
-      f_before = -most
-      q = left*most
+      f_before = -q_max
+      q = reduction*q_max
       do k = 1, max_steps
          f = q - heat_at(q)
-         solved = abs(f) <= tolerance*most
+         solved = abs(f) <= tolerance*q_max
          if (solved) exit
          if (f > 0.0_dp) then
             high = q
@@ -198,18 +197,18 @@ contains
             low = q
          end if
          next = 0.5_dp*(low + high)
-         ! a step of the secant that leaves the bracket, or many of them, are worse than half of it
+         ! bisect if the secant step leaves the bracket, and after every few secant steps
          if (abs(f - f_before) > 0.0_dp .and. mod(k, bisect_after) > 0) next = q - f*(q - before)/(f - f_before)
          if (.not. (next >= low .and. next <= high)) next = 0.5_dp*(low + high)
          before = q
          f_before = f
          q = next
       end do
-      left = q/most
+      reduction = q/q_max
 
    contains
 
-      !> Heat at the temperature that q makes
+      !> Heat at the temperature rise by q
       pure real(dp) function heat_at(q)
          real(dp), intent(in) :: q
          real(dp) :: stress(1)
@@ -218,7 +217,7 @@ contains
       end function heat_at
    end subroutine heat_node
 
-   !> Shear stress of the sliding at pressures, films and temperature increases [K], over the scale of the law
+   !> Shear stress by sliding at pressures, films and temperature rises [K], over the scale of the law
    pure function law_stress(lubricant, p, h, rise) result(stress)
       type(lubricant_t), intent(in) :: lubricant
       real(dp), intent(in) :: p(:), h(:), rise(:)

@@ -2,9 +2,9 @@
 !> One grid of the hierarchy: its fields and coefficients, and the states of its nodes.
 !>
 !> The state of a node follows from the pressure: it is cavitated where P <= 0, elsewhere the lubricant fills the gap and flows
-!> (whether it touches: boundary_film.f90). A cavitated node is inactive, and stays as it is, unless its residual requires
-!> pressure (residual < 0). A NaN is no state: it fails every comparison, and remains a NaN. Procedures take
-!> rows, since the loops of other modules would not vectorise around a call.
+!> (solid contact: boundary_film.f90). A cavitated node is inactive, and does not change, unless its residual requires
+!> pressure (residual < 0). A NaN is neither: it fails every comparison, and remains a NaN. Procedures take
+!> rows, because a call per node would prevent vectorisation of the loops of other modules.
 module ehl_level
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_boundary_film, only: boundary_film_t
@@ -24,10 +24,10 @@ module ehl_level
 
    !> Pressure in a cavity, over p_h
    real(dp), parameter :: cavity_pressure = 0.0_dp
-   !> Nodes that a search takes at a time
+   !> Number of nodes that a search tests at a time
    integer, parameter :: stride = 8
 
-   !> ln(eta/eta0) at the Hertz pressure, and lambda_bar (M = 640), below which a contact is as those of soft bodies
+   !> ln(eta/eta0) at the Hertz pressure, and lambda_bar (M = 640), below which a contact counts as soft
    real(dp), parameter :: isoviscous_below = 8.0_dp, thin_below = 2.0e-3_dp
 
    !> Fields of one level, arrays of shape (nx, ny). Dimensionless: P by p_h, lengths by a,
@@ -48,9 +48,9 @@ module ehl_level
       type(supply_t) :: supply
       !> Rigid separation H00
       real(dp) :: h00 = 0.0_dp
-      !> Value that the pressure sum must take (2 pi/3 on the finest grid)
+      !> Required value of the pressure sum (2 pi/3 on the finest grid)
       real(dp) :: load = 0.0_dp
-      !> Pressure, film, and the right-hand side of the film equation: the film less H00 and deflection
+      !> Pressure, film, and the right-hand side of the film equation: the film minus H00 and deflection
       real(dp), allocatable :: p(:, :), h(:, :), film_rhs(:, :)
       !> Right-hand side of the Reynolds equation, and the residual
       real(dp), allocatable :: rhs(:, :), residual(:, :)
@@ -58,9 +58,9 @@ module ehl_level
       real(dp), allocatable :: rho(:, :), h_drho_dp(:, :)
       !> Mass content rho H
       real(dp), allocatable :: mass_content(:, :)
-      !> Whether the film is thin though the viscosity in the contact is not far from that of the inlet
+      !> Whether the contact is soft: thin film, and viscosity close to that of the inlet
       logical :: soft = .false.
-      !> Threads that work on it, and whether they are several
+      !> Number of threads, and whether it is more than one
       integer :: threads = 1
       logical :: parallel = .false.
    contains
@@ -107,7 +107,7 @@ contains
       end do
    end function gap
 
-   !> Row j of it
+   !> Row j of `gap`
    pure function gap_row(level, j)
       type(level_t), intent(in) :: level
       integer, intent(in) :: j
@@ -117,7 +117,7 @@ contains
       call level%boundary%yielding%add_depth(level%rho(:, j), j, gap_row)
    end function gap_row
 
-   !> Allocated bytes, the engine's apart
+   !> Allocated bytes without those of the engine
    pure integer(int64) function bytes(self)
       class(level_t), intent(in) :: self
 
@@ -140,7 +140,7 @@ contains
       end do
    end function last_flowing
 
-   !> 1 where the lubricant flows in a node of a row and in its four neighbours, else 0; in columns 2 to nx-1
+   !> 1 where the lubricant flows at a node of a row and at its four neighbours, else 0; in columns 2 to nx-1
    pure subroutine flowing_around(south, p, north, values)
       !> Pressure of the row and of those beside it, shape (nx)
       real(dp), contiguous, intent(in) :: south(:), p(:), north(:)
@@ -158,14 +158,14 @@ contains
       integer :: i
 
       do i = 1, size(p)
-         ! a NaN stays one, where max(0, NaN) could be cavitation
+         ! a NaN remains a NaN; max(0, NaN) could be 0
          p(i) = merge(p(i), cavity_pressure, .not. p(i) <= cavity_pressure)
       end do
    end subroutine cavitate
 
    !> Keep cavitated nodes cavitated
    pure subroutine stay_cavitated(before, p)
-      !> Pressure that they had
+      !> Pressure before the change
       real(dp), intent(in) :: before(:)
       real(dp), contiguous, intent(inout) :: p(:)
       integer :: i
@@ -175,7 +175,7 @@ contains
       end do
    end subroutine stay_cavitated
 
-   !> Change the pressure of nodes in which the lubricant flows; where it becomes negative they cavitate
+   !> Change the pressure of flowing nodes; nodes with a negative pressure cavitate
    pure subroutine change_flowing(after, p)
       real(dp), contiguous, intent(in) :: after(:)
       real(dp), contiguous, intent(inout) :: p(:)
@@ -188,7 +188,7 @@ contains
       end do
    end subroutine change_flowing
 
-   !> No residual at inactive nodes
+   !> Set the residual of inactive nodes to 0
    pure subroutine zero_inactive_residual(p, residual)
       real(dp), contiguous, intent(in) :: p(:)
       real(dp), contiguous, intent(inout) :: residual(:)

@@ -1,11 +1,11 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The flooded inlet of a line contact beyond the border of its domain. There the viscosity increases by alpha_bar P and the density
-!> hardly, and the flow q is that of the whole contact, so that the reduced pressure I follows from the film alone:
+!> The flooded inlet of a line contact beyond the border of its domain. There the viscosity increases as exp(alpha_bar P), the
+!> density is constant, and the flow q is that of the whole contact, so that the film determines the reduced pressure I:
 !>
 !>    dI/dX = lambda_bar (H - q)/H^3,   H(X) = H_1 + (X^2 - X_1^2)/2 - (1/2) ln(X/X_1),   P = -ln(1 - alpha_bar I)/alpha_bar
 !>
-!> with the border at X_1; the last part of H is the deflection by the load, which is far away. With u = X_1/X the pressure at
-!> the border and the load that is sustained beyond it are integrals over 0 < u < 1 of smooth functions.
+!> with the border at X_1; the last term of H is the deflection by the load as a line load. With u = X_1/X the pressure at
+!> the border and the load beyond it are integrals over 0 < u < 1 of smooth functions.
 module ehl_line_inlet
    use ehl_flow, only: dir_x
    use ehl_kinds, only: dp
@@ -14,12 +14,12 @@ module ehl_line_inlet
    private
    public :: set_line_border
 
-   !> Points of the integrals
+   !> Quadrature points
    integer, parameter :: points = 64
 
 contains
 
-   !> Set the pressure of a flooded contact on the border, and the load of the nodes without the one beyond the border
+   !> Set the pressure of a flooded contact on the border, and the load of the nodes: the total load minus that beyond the border
    subroutine set_line_border(level, load)
       type(level_t), intent(inout) :: level
       !> Load of the contact, int P dX
@@ -41,7 +41,7 @@ contains
             beyond = beyond + rise*x*(1.0_dp/u - 1.0_dp)
          end do
          call level%lubricant%log_viscosity([0.0_dp], level_of, slope)
-         ! where that has no meaning the domain is far too small: see line_domain_error in contact/line_domain.f90
+         ! the logarithm is not defined if the domain is far too small: see line_domain_error in contact/line_domain.f90
          if (slope(1)*pressure > 0.0_dp .and. slope(1)*pressure < 1.0_dp) pressure = -log(1.0_dp - slope(1)*pressure)/slope(1)
          level%p(1, :) = pressure
          level%p(grid%nx, :) = 0.0_dp

@@ -1,9 +1,9 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Flow of a Newtonian lubricant, alike in both directions:
+!> Flow of a Newtonian lubricant, the same along X and Y:
 !>
 !>    eps = rho H^3/(eta lambda_bar),   d ln(eps)/dP = d ln(rho)/dP - d ln(eta)/dP,   d ln(eps)/d ln(H) = 3
 !>
-!> The viscosity itself is not kept: it is needed only where friction is measured, and the conductance holds it.
+!> The viscosity is not stored: friction, which alone needs it, computes it from the conductance.
 module ehl_newtonian_flow
    use ehl_flow, only: dir_x, flow_t
    use ehl_kinds, only: dp
@@ -21,19 +21,19 @@ module ehl_newtonian_flow
 
 contains
 
-   !> Conductances of row j and their change with P. Behind `last` the lubricant is that at P = 0.
+   !> Conductances of row j and their derivatives with respect to P. Downstream of `last` the lubricant is that at P = 0.
    pure subroutine find_row(self, lubricant, p, h, rho, drho_dp, j, last)
       class(newtonian_flow_t), intent(inout) :: self
       type(lubricant_t), intent(in) :: lubricant
       !> Pressure, shape (nx, ny)
       real(dp), contiguous, intent(in) :: p(:, :)
-      !> Of the row: film, density and its change with P, shape (nx)
+      !> Film, density and its derivative with respect to P in row j, shape (nx)
       real(dp), contiguous, intent(in) :: h(:), rho(:), drho_dp(:)
       integer, intent(in) :: j, last
       real(dp) :: rest_log(1), rest_slope(1)
       integer :: i
 
-      ! until the loop is done eps is ln(eta/eta0)
+      ! eps contains ln(eta/eta0) until the loop below
       call lubricant%log_viscosity(p(:last, j), self%eps(:last, j, dir_x), self%dlneps_dp(:last, j, dir_x))
       do i = 1, last
          self%eps(i, j, dir_x) = rho(i)*h(i)**3*exp(-self%eps(i, j, dir_x))*self%inverse_speed
@@ -55,7 +55,7 @@ contains
       film_exponent = 3.0_dp
    end function film_exponent
 
-   !> Newtonian and real shear stress of row j; the viscosity from the conductance
+   !> Shear stress of row j; the viscosity follows from the conductance
    pure subroutine stress_row(self, lubricant, p, h, rho, j, newtonian, stress)
       class(newtonian_flow_t), intent(in) :: self
       type(lubricant_t), intent(in) :: lubricant

@@ -10,17 +10,17 @@ module ehl_nine_point
    public :: nine_point_t
 
    !> Operator sum_k o_k (u_k - u) - excess u, integrated over the cell of a node. Each coupling is
-   !> stored once, at the node of lower row, or of lower column within a row; arrays of shape
+   !> stored once, at the node of the lower row, or of the lower column within a row; arrays of shape
    !> (0:nx, ny) with a column of zeros on the left.
    !>
-   !> On a folded grid the cells of row 1 are half cells: only their part Y >= 0 counts. So
-   !> the operator stays symmetric, and no coupling leads out of the grid. On a strip the row above the last one is row 1.
+   !> On a folded grid the cells of row 1 are half cells: only their part Y >= 0 counts, so that
+   !> the operator is symmetric, and no coupling leaves the grid. On a strip the row above the last one is row 1.
    type :: nine_point_t
       !> Couplings of node (i, j) to (i+1, j), (i, j+1), (i+1, j+1) and (i-1, j+1)
       real(dp), allocatable :: east(:, :), north(:, :), north_east(:, :), north_west(:, :)
-      !> What the diagonal holds beyond the sum of all couplings
+      !> Diagonal minus the sum of all couplings
       real(dp), allocatable :: excess(:, :)
-      !> No diagonal couplings and no excess: only east and north need be looked at
+      !> Whether the operator has five points: no diagonal couplings and no excess
       logical :: five = .false.
       type(grid_t) :: grid
    contains
@@ -49,7 +49,7 @@ contains
       if (stat /= 0) call status%fail(ehl_no_memory, "no memory for a nine-point operator")
    end subroutine setup
 
-   !> Row j of the operator applied to u, in columns 2 to nx-1; j is no border row
+   !> Row j of the operator applied to u, in columns 2 to nx-1; j is not a border row
    pure subroutine apply_row(self, u, j, values)
       class(nine_point_t), intent(in) :: self
       !> Shape (nx, ny)
@@ -75,7 +75,7 @@ contains
       end do
    end subroutine apply_row
 
-   !> Whether couplings of a row below row j are its own: on a folded grid those of row 1 are in its half cells
+   !> Whether row j has couplings stored in a row below: row 1 of a folded grid, with its half cells, has none
    elemental logical function has_below(self, j)
       class(nine_point_t), intent(in) :: self
       integer, intent(in) :: j

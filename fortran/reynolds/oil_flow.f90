@@ -14,27 +14,27 @@ module ehl_oil_flow
    character(len=*), parameter :: oil_names(7) = [character(len=13) :: "oil_layer", "oil_in", "oil_out", "oil_at_sides", &
                                                   "oil_content", "oil_gain", "oil_imbalance"]
 
-   !> Flows per time, int rho H dY at the mean velocity [a^3/R]; of a line per length
+   !> Flows per time, int rho H dY at the mean velocity [a^3/R]; of a line contact per length
    type :: oil_flow_t
       real(dp) :: enters = 0.0_dp, leaves = 0.0_dp, sides = 0.0_dp
       !> Imbalance over the flow that enters; 0 where the inlet is flooded. In a time step over the flow that enters at the mean
-      !> velocity of the case, if that is more.
+      !> velocity of the case if that is larger.
       real(dp) :: imbalance = 0.0_dp
-      !> Oil between the faces where it enters and leaves, int rho H dX dY [a^4/R], and the change of it with time
+      !> Oil between the faces where it enters and leaves, int rho H dX dY [a^4/R], and its time derivative
       real(dp) :: content = 0.0_dp, gain = 0.0_dp
       !> Whether the layer fills the gap at the border of the domain
       logical :: fills_border = .false.
-      !> Of a line: how much thinner than at its nodes the film may be between two of them [a^2/R]
+      !> Of a line contact: by how much the film between two nodes may be thinner than at the nodes [a^2/R]
       real(dp) :: between = 0.0_dp
    end type oil_flow_t
 
 contains
 
-   !> Balance of the present state, from behind the second column to behind last_counted
+   !> Balance of the present state, from the east face of the second column to the east face of last_counted
    function measure_flow(level) result(flow)
       type(level_t), intent(in) :: level
       type(oil_flow_t) :: flow
-      real(dp), dimension(level%grid%ny) :: first, last, side, held, gain, least
+      real(dp), dimension(level%grid%ny) :: first, last, side, held, gain, min_flow
       real(dp) :: content(level%grid%nx)
       integer :: j, n
 
@@ -44,7 +44,7 @@ contains
       side = 0.0_dp
       held = 0.0_dp
       gain = 0.0_dp
-      least = 0.0_dp
+      min_flow = 0.0_dp
       associate (grid => level%grid)
          n = last_counted(level)
          do j = grid%first_inner(), grid%last_inner()
@@ -55,7 +55,7 @@ contains
             held(j) = grid%weight(j)*sum(content(3:grid%nx - 2))
             if (level%wedge%squeeze > 0.0_dp) then
                gain(j) = grid%weight(j)*sum(level%wedge%squeeze*content(3:n) + level%rhs(3:n, j))
-               least(j) = grid%weight(j)/grid%hx*min(level%supply%layer(j), minval(level%mass_content(:, j)))
+               min_flow(j) = grid%weight(j)/grid%hx*min(level%supply%layer(j), minval(level%mass_content(:, j)))
             end if
             if (grid%is_row()) cycle
             if (grid%is_border(grid%south(j))) side(j) = side(j) &
@@ -72,22 +72,22 @@ contains
       flow%leaves = sum(last)
       flow%sides = sum(side)
       if (level%grid%is_row()) flow%between = between(level%h(:, 1))
-      ! a starved line passes all oil
+      ! a starved line contact passes all oil
       if (level%supply%held > 0) flow%enters = level%supply%layer(1)
       if (flow%fills_border .and. level%supply%held > 0) flow%enters = min(flow%enters, flow%leaves)
       flow%content = sum(held)
       flow%gain = sum(gain)
-      flow%imbalance = (flow%enters - flow%leaves - flow%sides - flow%gain)/max(flow%enters, sum(least), tiny(1.0_dp))
+      flow%imbalance = (flow%enters - flow%leaves - flow%sides - flow%gain)/max(flow%enters, sum(min_flow), tiny(1.0_dp))
    end function measure_flow
 
-   !> Column behind which oil has left. In time steps as far from its border as that behind which it enters: where the motion turns
-   !> the oil between the two is the same.
+   !> Column whose east face oil leaves through. In time steps it is as far from the outlet border as the face of entry from the
+   !> inlet border, so that a reversal of the motion does not change the oil between them.
    pure integer function last_counted(level)
       type(level_t), intent(in) :: level
       last_counted = level%grid%nx - merge(2, 1, level%wedge%squeeze > 0.0_dp)
    end function last_counted
 
-   !> Oil at the nodes of row j: rho H, less the deficit where oil does not fill the gap
+   !> Oil at the nodes of row j: rho H minus the deficit where oil does not fill the gap
    subroutine content_row(level, j, content)
       type(level_t), intent(in) :: level
       integer, intent(in) :: j
@@ -101,7 +101,7 @@ contains
       content = content - short
    end subroutine content_row
 
-   !> The same between the nodes of a row, with the curvature there
+   !> By how much a film is thinner between the nodes of a row, from its curvature
    pure real(dp) function between(h)
       real(dp), intent(in) :: h(:)
       integer :: n
@@ -110,7 +110,7 @@ contains
       between = minval(h) - minval(h(2:n - 1) - max(0.0_dp, h(:n - 2) - 2.0_dp*h(2:n - 1) + h(3:))/8.0_dp)
    end function between
 
-   !> rho H times the fill fraction behind the contact, by row
+   !> rho H times the fill fraction downstream of the contact, by row
    function leaving(level) result(layer)
       type(level_t), intent(in) :: level
       real(dp) :: layer(level%grid%ny)
@@ -123,7 +123,7 @@ contains
       end do
    end function leaving
 
-   !> Flow through row j behind the second column and behind the last one
+   !> Flow in row j through the east faces of the second column and of the last one
    subroutine ends_of_row(level, j, first, last)
       type(level_t), intent(in) :: level
       integer, intent(in) :: j
@@ -141,7 +141,7 @@ contains
 
    contains
 
-      !> Flow through the east face of node i: that of a filled gap less the deficit, and the Poiseuille flow
+      !> Flow through the east face of node i: that of a filled gap minus the deficit, plus the Poiseuille flow
       real(dp) function through(i)
          integer, intent(in) :: i
 

@@ -12,15 +12,15 @@ module ehl_poiseuille
    private
    public :: poiseuille_t, line_terms_t, max_neighbours, block_size
 
-   !> Most neighbours of a node in either form
+   !> Maximum number of neighbours of a node in either form
    integer, parameter :: max_neighbours = 8
-   !> Nodes of a row that line systems take at a time, at the most
+   !> Maximum number of nodes of a row that line systems assemble at a time
    integer, parameter :: block_size = 32
 
-   !> Fields are arrays of shape (nx, ny); rows are those of the grid. All values are per area.
+   !> Arrays of shape (nx, ny). All values are per area.
    type :: poiseuille_t
       type(grid_t), private :: grid
-      !> Whether the term is `product` over the cell, in place of the five-point difference
+      !> Whether the term is `product` over the cell area, in place of the five-point difference
       logical :: frozen = .false.
       !> Galerkin product; allocated by prepare_product
       type(nine_point_t) :: product
@@ -40,18 +40,18 @@ module ehl_poiseuille
    !> Coefficients of a line system along X for a block of a row; nodes are numbered from 1. Zero at border nodes, which have no
    !> equation.
    type :: line_terms_t
-      !> Right-hand side less the term
+      !> Right-hand side minus the term
       real(dp) :: rest(block_size) = 0.0_dp
-      !> Sum of the couplings to other rows with the excess, with a minus; its change with the node's conductance
+      !> Minus the sum of the couplings to other rows and the excess; its derivative with respect to the node's conductance
       real(dp) :: other(block_size) = 0.0_dp, other_rate(block_size) = 0.0_dp
-      !> Coupling to the next node of the row, from the node before the block on; its change with the conductance
-      !> of either node
+      !> Coupling to the next node of the row, starting with the node before the block; its derivative with respect to the
+      !> conductance of either node
       real(dp) :: east(0:block_size) = 0.0_dp, east_rate(0:block_size) = 0.0_dp
    end type line_terms_t
 
 contains
 
-   !> For a grid, as the five-point difference
+   !> Set the grid; the term is the five-point difference
    subroutine setup(self, grid)
       class(poiseuille_t), intent(inout) :: self
       type(grid_t), intent(in) :: grid
@@ -60,7 +60,7 @@ contains
       self%frozen = .false.
    end subroutine setup
 
-   !> Allocate what a Galerkin product needs, unless that has been done
+   !> Allocate the Galerkin product unless it is allocated
    subroutine prepare_product(self, status)
       class(poiseuille_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
@@ -68,7 +68,7 @@ contains
       if (.not. allocated(self%product%east)) call self%product%setup(self%grid, status)
    end subroutine prepare_product
 
-   !> Row j of the term at pressure p, in columns 2 to nx-1; j is no border row
+   !> Row j of the term at pressure p, in columns 2 to nx-1; j is not a border row
    pure subroutine apply_row(self, p, flow, j, values)
       class(poiseuille_t), intent(in) :: self
       real(dp), contiguous, intent(in) :: p(:, :)
@@ -143,8 +143,8 @@ contains
       if (flow%depends_on_gradient) call line_of_tangents(self, flow, j, first, last, terms)
    end subroutine line_row
 
-   !> The couplings of a line system where the conductances depend on the gradient of pressure, and those along and across
-   !> change differently
+   !> The couplings of a line system where the conductances depend on the pressure gradient; their derivatives along X and Y
+   !> differ
    pure subroutine line_of_tangents(self, flow, j, first, last, terms)
       type(poiseuille_t), intent(in) :: self
       class(flow_t), intent(in) :: flow
@@ -171,7 +171,7 @@ contains
       end associate
    end subroutine line_of_tangents
 
-   !> The same for a Galerkin product: the couplings as they are, and no change of them
+   !> Coefficients of a line system for a Galerkin product: its couplings, with zero derivatives
    pure subroutine frozen_line_row(self, p, rhs, j, first, last, terms)
       type(poiseuille_t), intent(in) :: self
       real(dp), contiguous, intent(in) :: p(:, :), rhs(:)
@@ -206,8 +206,8 @@ contains
       end associate
    end subroutine frozen_line_row
 
-   !> Of the linearised term: neighbours of node (i, j), the couplings to them, which conductance they are made of, their
-   !> change with that of either node, and the excess of the node over the sum of its couplings
+   !> The linearised term at node (i, j): its neighbours, the couplings to them, the direction of their conductances, their
+   !> derivatives with respect to the conductance of either node, and the excess of the diagonal over the sum of the couplings
    pure subroutine couplings(self, flow, i, j, n, neighbour, direction, coupling, rate, excess)
       class(poiseuille_t), intent(in) :: self
       class(flow_t), intent(in) :: flow
@@ -265,7 +265,7 @@ contains
          above = self%grid%north(j)
          rx = 0.5_dp*self%grid%cell(j)/self%grid%hx**2
          ry = 0.5_dp*self%grid%hx/self%grid%hy
-         ! where a strip is folded the coupling to the row above is in the half cells below
+         ! on a folded strip the half cells below contain the coupling to the row above
          if (self%grid%mirror .and. above < j) ry = 0.0_dp
          if (flow%depends_on_gradient) then
             do i = 1, self%grid%nx - 1
@@ -281,7 +281,7 @@ contains
       end do
    end subroutine integrate
 
-   !> Magnitude of the change of the term along X by a change of the pressure in row j, with the conductance of the node alone
+   !> Magnitude of the change of the term along X by a change of the pressure in row j, with the conductance of the node itself
    pure subroutine flow_row(self, flow, j, change, values)
       class(poiseuille_t), intent(in) :: self
       class(flow_t), intent(in) :: flow
@@ -301,7 +301,7 @@ contains
       end do
    end subroutine flow_row
 
-   !> Poiseuille flow through the east face of node (i, j), as discretised in the term, per width
+   !> Poiseuille flow per width through the east face of node (i, j), as discretised in the term
    pure real(dp) function through_east(self, p, flow, i, j)
       class(poiseuille_t), intent(in) :: self
       real(dp), contiguous, intent(in) :: p(:, :)
@@ -310,7 +310,7 @@ contains
       through_east = 0.5_dp*(flow%eps(i, j, dir_x) + flow%eps(i + 1, j, dir_x))*(p(i, j) - p(i + 1, j))/self%grid%hx
    end function through_east
 
-   !> The same from row j to the row `to` beside it, in columns from the third on
+   !> Total Poiseuille flow from row j to the adjacent row `to`, in columns from the third on
    pure real(dp) function across(self, p, flow, j, to)
       class(poiseuille_t), intent(in) :: self
       real(dp), contiguous, intent(in) :: p(:, :)
@@ -324,7 +324,7 @@ contains
       end associate
    end function across
 
-   !> Flow away from a node per pressure there, for equal conductances around it; a factor of eps along X
+   !> Outflow of a node per unit of its pressure, for equal conductances around it; to be multiplied by eps along X
    pure real(dp) function flow_rate(self)
       class(poiseuille_t), intent(in) :: self
       flow_rate = 2.0_dp/self%grid%hx**2

@@ -5,8 +5,8 @@
 !>
 !>    d/dX (eps_x dP/dX) + d/dY (eps_y dP/dY) - d(rho H)/dX - d(rho H)/dT = 0
 !>
-!> and P = 0 elsewhere, where the left-hand side is not positive: P >= 0 and nothing flows out of a cavity, or all the
-!> oil that flows into it does (supply.f90). P is given on the border: 0, or that of a flooded contact (far_field.f90). eps_x and
+!> and P = 0 elsewhere, where the left-hand side is not positive: nothing flows out of a cavitated node, or, with a starved
+!> inlet, all oil that it receives (supply.f90). P on the border is 0, or that of a flooded contact (far_field.f90). eps_x and
 !> eps_y are the conductances (flow.f90), for a Newtonian lubricant both rho H^3/(eta lambda_bar); rho and eta depend on P
 !> (physics/lubricant.f90), H on all of P.
 !>
@@ -28,7 +28,7 @@
 !>
 !> Zhang et al. 2019, eqs. 1, 7 and 8; the narrow scheme: Venner & Lubrecht 2000.
 !>
-!> Film, with the rigid separation H00, the gap G of the undeformed bodies less the roughness, whose peaks are positive
+!> Film, with the rigid separation H00, the gap G of the undeformed bodies minus the roughness, whose peaks are positive
 !> (X^2/2 + D Y^2/2 - RR with the ratio of radii D; on a coarse level what multigrid/coarse_problem.f90 sets), and the elastic
 !> deflection K P = k_b iint P dX' dY'/r of the level's engine:
 !>
@@ -39,8 +39,8 @@
 !>    iint P dX dY = load,   discrete: sum over the nodes of P hx hy = load
 !>
 !> (twice for nodes that have a mirror image). On the finest grid the load is that of the contact, 2 pi/3 for a ball on a
-!> flat, less what is sustained beyond the border (far_field.f90). On a coarser one it is the sum of the
-!> restricted pressure plus the finer one's error.
+!> flat, minus the load beyond the border (far_field.f90). On a coarser grid it is the sum of the restricted pressure
+!> plus the missing load of the finer grid.
 module ehl_reynolds
    use ehl_flow, only: dir_x
    use ehl_kernel, only: coefficient
@@ -55,7 +55,7 @@ module ehl_reynolds
 
 contains
 
-   !> Row j of the Reynolds operator (the left-hand side above; where nodes touch that of boundary_film.f90), zero at the
+   !> Row j of the Reynolds operator (the left-hand side above; at touching nodes that of boundary_film.f90), zero at the
    !> borders
    pure subroutine reynolds_operator(level, j, values)
       type(level_t), intent(in) :: level
@@ -67,7 +67,7 @@ contains
       call level%boundary%operator_row(level%mass_content(:, j), j, values)
    end subroutine reynolds_operator
 
-   !> The same as if no node touched
+   !> Row j of the Reynolds operator without touching nodes
    pure subroutine flow_operator(level, j, values, passing, missing, short)
       type(level_t), intent(in) :: level
       integer, intent(in) :: j
@@ -75,7 +75,7 @@ contains
       real(dp), contiguous, intent(out) :: values(:)
       !> Which nodes pass on all oil that they receive (supply.f90)
       logical, contiguous, intent(out), optional :: passing(:)
-      !> Deficit of the flow, over hx, and of the content of nodes (supply.f90)
+      !> Deficit of the flow, over hx, and of the mass content of nodes (supply.f90)
       real(dp), contiguous, intent(out), optional :: missing(:), short(:)
       integer :: nx
 
@@ -98,10 +98,10 @@ contains
                                                                level%rhs(:, j), j, values, passing, missing, short)
    end subroutine flow_operator
 
-   !> Which nodes touch, for the present pressure, film and coefficients
+   !> Find the nodes that touch for the present pressure, film and coefficients
    subroutine find_touching(level)
       type(level_t), intent(inout) :: level
-      real(dp), dimension(level%grid%nx) :: row, share, elastic
+      real(dp), dimension(level%grid%nx) :: row, fraction, elastic
       real(dp) :: weights(0:wedge_reach, level%grid%nx)
       real(dp) :: stored, flow
       integer :: i, j
@@ -112,16 +112,16 @@ contains
       do i = 1, level%grid%nx
          weights(:, i) = level%wedge%weights(i)
       end do
-      !$omp parallel do default(none) shared(level, stored, flow, weights) private(i, row, share, elastic) &
+      !$omp parallel do default(none) shared(level, stored, flow, weights) private(i, row, fraction, elastic) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = level%grid%first_inner(), level%grid%last_inner()
          call flow_operator(level, j, row)
          do i = 1, level%grid%nx
             row(i) = level%rhs(i, j) - row(i)
-            share(i) = stored/(stored + flow*level%flow%eps(i, j, dir_x))
+            fraction(i) = stored/(stored + flow*level%flow%eps(i, j, dir_x))
          end do
          elastic = level%rho(:, j)*level%h(:, j)
-         call level%boundary%find_row(level%p(:, j), weights, elastic, share, j, row, level%mass_content(:, j))
+         call level%boundary%find_row(level%p(:, j), weights, elastic, fraction, j, row, level%mass_content(:, j))
       end do
       !$omp end parallel do
    end subroutine find_touching
@@ -153,9 +153,9 @@ contains
       call level%boundary%set_lift(merge(0.0_dp, rms, level%wedge%squeeze > 0.0_dp))
    end subroutine update_residual
 
-   !> Residual (rms) as far as it affects the film: each is weighted by the share of the deflection by the node's own pressure in
-   !> the diagonal, the rest of which is the Poiseuille term. In the far inlet, where eps/h^2 is 1e8, a residual of 1
-   !> is a pressure of 1e-9. Needs the residual of the present state.
+   !> Residual (rms) weighted by its effect on the film: the weight of a node is the fraction of the diagonal that is due to
+   !> the deflection; the rest is the Poiseuille term. In the far inlet, where eps/h^2 is 1e8, a residual of 1
+   !> corresponds to a pressure error of 1e-9. Needs the residual of the present state.
    real(dp) function film_residual(level)
       type(level_t), intent(in) :: level
       real(dp) :: sums(level%grid%ny), eps(level%grid%nx), wedge, poiseuille
@@ -198,7 +198,7 @@ contains
    end subroutine update_film
 
    !> Density, mass content and conductances for the present pressure and film; a level whose Poiseuille term is frozen
-   !> keeps its conductances. Behind the last node of a row with pressure the lubricant is that at P = 0.
+   !> keeps its conductances. Downstream of the last node of a row with pressure the lubricant is that at P = 0.
    subroutine update_coefficients(level)
       type(level_t), intent(inout) :: level
       real(dp) :: rest_rho(1), rest_slope(1)
@@ -227,7 +227,7 @@ contains
       if (level%boundary%follows_state()) call find_touching(level)
    end subroutine update_coefficients
 
-   !> Where the bodies end at the border rows there is no film: the oil flows out by the conductance of the last rows within
+   !> At border rows where the bodies end there is no film: oil flows out with the conductance of the adjacent inner rows
    pure subroutine end_with_body(grid, values)
       type(grid_t), intent(in) :: grid
       !> Shape (nx, ny)
@@ -238,7 +238,7 @@ contains
       if (.not. grid%mirror) values(:, 1) = values(:, 2)
    end subroutine end_with_body
 
-   !> Load missing in the pressure of a level
+   !> Required load minus the sum of the pressure
    real(dp) function missing_load(level)
       type(level_t), intent(in) :: level
       missing_load = level%load - pressure_sum(level)
@@ -257,9 +257,9 @@ contains
       coarse%load = missing_load(fine) + pressure_sum(coarse)
    end subroutine pass_load_on
 
-   !> Correct a small relative error of the force balance by scaling the pressure within the border, of lines the part above
-   !> the pressure of the border, except where nodes yield; H00 keeps the mean film under it. Film and coefficients are up to
-   !> date before and after.
+   !> Correct a small relative error of the force balance by scaling the pressure inside the border (in line contacts the part
+   !> above the border pressure) except at yielding nodes; H00 changes so that the mean film under the pressure does not. Film
+   !> and coefficients are up to date before and after.
    subroutine balance_load(level)
       type(level_t), intent(inout) :: level
       real(dp) :: factor, border, deflection(level%grid%ny), after(level%grid%nx)
@@ -274,7 +274,7 @@ contains
       do j = 1, level%grid%ny
          deflection(j) = sum(level%p(:, j)*(level%h(:, j) - level%h00 - level%film_rhs(:, j)))*level%grid%weight(j)
          if (level%grid%is_border(j)) cycle
-         ! a step of pressure beside the border, where the conductance is largest, would be a large residual
+         ! a pressure step beside the border, where the conductance is largest, would cause a large residual
          after(2:nx - 1) = factor*level%p(2:nx - 1, j) - (factor - 1.0_dp)*min(level%p(2:nx - 1, j), border)
          call level%boundary%yielding%limit_pressure(level%p(2:nx - 1, j), 2, j, after(2:nx - 1))
          level%p(2:nx - 1, j) = after(2:nx - 1)
@@ -284,7 +284,7 @@ contains
       call refresh(level)
    end subroutine balance_load
 
-   !> Part of the load that is not scaled: the pressure at the border, of lines up to that of the border, and where nodes yield
+   !> Part of the load that is not scaled: at the border, at yielding nodes, and in line contacts up to the border pressure
    pure real(dp) function fixed_load(level, border)
       type(level_t), intent(in) :: level
       !> Pressure that is not scaled

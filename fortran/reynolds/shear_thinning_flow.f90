@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Flow of a lubricant that thins by shear:
+!> Flow of a shear-thinning lubricant:
 !>
 !>    eps_x = phi_x eps,   eps_y = phi_y eps,   eps = rho H^3/(eta lambda_bar)
 !>
@@ -26,8 +26,8 @@ module ehl_shear_thinning_flow
       private
       !> b0, s0
       real(dp) :: sliding = 0.0_dp, gradient = 0.0_dp
-      !> Factor of both
-      real(dp) :: share = 1.0_dp
+      !> Factor of both, see `soften`
+      real(dp) :: fraction = 1.0_dp
    contains
       procedure :: rescale
       procedure :: soften
@@ -47,7 +47,7 @@ contains
 
       flow%cached%law = law
       flow%sliding = sliding
-      ! how the stress of a vanishing sliding changes is not known
+      ! the derivative of the stress in the limit of vanishing sliding is not known
       flow%cached%follows = sliding > 0.0_dp
       flow%gradient = gradient
       flow%dir_y = dir_y
@@ -66,23 +66,23 @@ contains
       self%cached%follows = stress > 0.0_dp
    end subroutine rescale
 
-   !> Weaken shear thinning as if the stress of the law were 1/share times as large
-   subroutine soften(self, share)
+   !> Weaken shear thinning as if the stress of the law were 1/fraction times as large
+   subroutine soften(self, fraction)
       class(shear_thinning_flow_t), intent(inout) :: self
-      real(dp), intent(in) :: share
+      real(dp), intent(in) :: fraction
 
-      if (.not. abs(share - self%share) > 0.0_dp) return
-      self%share = share
+      if (.not. abs(fraction - self%fraction) > 0.0_dp) return
+      self%fraction = fraction
       call self%cached%forget()
    end subroutine soften
 
-   !> Conductances of row j and their changes
+   !> Conductances of row j and their derivatives
    pure subroutine find_row(self, lubricant, p, h, rho, drho_dp, j, last)
       class(shear_thinning_flow_t), intent(inout) :: self
       type(lubricant_t), intent(in) :: lubricant
       !> Pressure, shape (nx, ny)
       real(dp), contiguous, intent(in) :: p(:, :)
-      !> Of the row: film, density and its change with P, shape (nx)
+      !> Film, density and its derivative with respect to P in row j, shape (nx)
       real(dp), contiguous, intent(in) :: h(:), rho(:), drho_dp(:)
       integer, intent(in) :: j, last
       type(factor_rows_t) :: factors
@@ -104,7 +104,7 @@ contains
          do k = 1, n
             i = first + k - 1
             newtonian(k) = exp(log_eta(i))
-            b(k) = abs(self%share*self%sliding*newtonian(k)/h(i))
+            b(k) = abs(self%fraction*self%sliding*newtonian(k)/h(i))
             newtonian(k) = rho(i)*h(i)**3/newtonian(k)*self%inverse_speed
             by_density(k) = drho_dp(i)/rho(i)
          end do
@@ -129,7 +129,7 @@ contains
       end do
    end subroutine find_row
 
-   !> S at n nodes of row j from column `first` on; at the border along Y without its part along Y
+   !> S at n nodes of row j from column `first` on; its component along Y is 0 at the border along Y
    pure subroutine gradients(self, p, h, j, first, n, s)
       class(shear_thinning_flow_t), intent(in) :: self
       !> Pressure, shape (nx, ny); film of the row
@@ -140,8 +140,8 @@ contains
       real(dp) :: rx, ry
       integer :: i, k, north, south, last
 
-      rx = 0.5_dp*self%share*self%gradient/self%grid%hx
-      ry = 0.5_dp*self%share*self%gradient/self%grid%hy
+      rx = 0.5_dp*self%fraction*self%gradient/self%grid%hx
+      ry = 0.5_dp*self%fraction*self%gradient/self%grid%hy
       last = first + n - 1
       south = self%grid%south(j)
       north = self%grid%north(j)
@@ -164,7 +164,7 @@ contains
       film_exponent = self%cached%film_exponent(i, j, direction)
    end function film_exponent
 
-   !> Newtonian and real shear stress of row j, the latter by the factors that find_row left
+   !> Shear stress of row j, with the factors that find_row has stored
    pure subroutine stress_row(self, lubricant, p, h, rho, j, newtonian, stress)
       class(shear_thinning_flow_t), intent(in) :: self
       type(lubricant_t), intent(in) :: lubricant
@@ -187,10 +187,10 @@ contains
          last = min(first + self%cached%width - 1, size(p, 1))
          associate (n => last - first + 1)
             call self%gradients(p, h, j, first, n, s)
-            b(:n) = abs(self%share*self%sliding*newtonian(first:last))
+            b(:n) = abs(self%fraction*self%sliding*newtonian(first:last))
             call self%cached%stress(b(:n), s, segment, j, stress(first:last), by_sliding(:n))
             if (self%sliding > 0.0_dp) then
-               stress(first:last) = stress(first:last)/(self%share*self%sliding)
+               stress(first:last) = stress(first:last)/(self%fraction*self%sliding)
             else
                ! in the limit of vanishing sliding
                stress(first:last) = newtonian(first:last)*by_sliding(:n)

@@ -1,26 +1,26 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Starved inlet: the surfaces bring a layer of oil that is thinner than the gap. Where it does not fill the gap P = 0, and
-!> the oil is transported along X; what flows there from filled nodes is carried along. With the flow C <= G through the east face
-!> of a node, G that of a filled gap (docs/theory/starvation.md):
+!> Starved inlet: the surfaces supply a layer of oil that is thinner than the gap. Where it does not fill the gap P = 0, and
+!> the surfaces transport the oil along X. With the flow C <= G through the east face of a node, where G is that of a filled
+!> gap (docs/theory/starvation.md):
 !>
 !>    P >= 0,   C <= G,   P (G - C) = 0,   C(i)/hx = C(i-1)/hx + (Poiseuille term at i)
 !>
-!> which is Elrod's and Adams' fill fraction C/G as a complementarity. The flow that is missing, (G - C)/hx, is the mass
+!> which is the fill fraction C/G of Elrod and Adams as a complementarity problem. The missing flow (G - C)/hx is the mass
 !> defect of the Reynolds operator N at a node with P = 0, so that it follows from the operator along a row:
 !>
 !>    N(i) <- N(i) - missing(i-1),     missing(i) = -N(i) where P(i) = 0 and N(i) < 0, else 0
 !>
-!> In a time step the oil at a node changes, too. With the mean velocity U, the factor s of the squeeze term and the deficit d(i) of
-!> rho H, the mass defect of a node is
+!> In a time step the oil at a node changes, too. With the mean velocity U, the factor s of the squeeze term and the deficit
+!> d(i) of rho H, the mass defect of a node is
 !>
 !>    rhs(i) - N(i) = s d(i) + missing(i),     rhs: of earlier times,     missing(i) = (U/hx) f(i)
 !>
 !> where U (G - f) flows through the east face: the content rho H - d, of second order upstream as G is, f = (3 d(i) - d(i-1))/2.
 !> So the condition of a node is d >= 0 in place of C <= G, and the film begins at a face between two nodes, not at a node. The
-!> difference goes with the square of the mesh size; steps begin with the steady contact in their own discretisation
+!> difference is of second order in the mesh size; time steps start from the steady contact in their own discretisation
 !> (solve/transient_duty.f90).
 !>
-!> No oil is gained or lost. Every level has one; without setup it is inactive and changes nothing.
+!> The scheme conserves oil. Every level has a supply; without setup it is inactive.
 module ehl_supply
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_kinds, only: dp
@@ -30,17 +30,17 @@ module ehl_supply
 
    type :: supply_t
       logical :: active = .false.
-      !> Whether the states of the nodes stay, on a coarse level
+      !> Whether the states of the nodes are fixed, on a coarse level
       logical :: frozen = .false.
       !> Mesh size along X, mean velocity over that of the case
       real(dp), private :: hx = 0.0_dp, speed = 1.0_dp
       !> Factor of the squeeze term; 0: steady
       real(dp), private :: squeeze = 0.0_dp
-      !> Approximate share of the deficit of a node's equation that flows on from it; 1: all, in steady motion
-      real(dp) :: share = 1.0_dp
+      !> Approximate fraction of the deficit of a node's equation that it passes downstream; 1 in steady motion
+      real(dp) :: passed_fraction = 1.0_dp
       !> rho H of the layer, by row
       real(dp), allocatable :: layer(:)
-      !> Of a line: last node upstream of the film where it is fixed (solve/meniscus.f90), and the mass defect downstream of it;
+      !> Of a line contact: the fixed last node upstream of the film (solve/meniscus.f90), and the mass defect downstream of it;
       !> 0: the node follows from the pressure
       integer :: held = 0
       real(dp) :: short = 0.0_dp
@@ -53,7 +53,7 @@ module ehl_supply
 
 contains
 
-   !> A layer of rho H, the same in all rows
+   !> Set the layer rho H, the same in all rows
    pure subroutine setup(self, hx, rows, layer)
       class(supply_t), intent(inout) :: self
       real(dp), intent(in) :: hx, layer
@@ -63,14 +63,14 @@ contains
       if (.not. self%active) return
       self%hx = hx
       self%speed = 1.0_dp
-      self%share = 1.0_dp
+      self%passed_fraction = 1.0_dp
       self%squeeze = 0.0_dp
       self%held = 0
       self%frozen = .false.
       self%layer = spread(layer, 1, rows)
    end subroutine setup
 
-   !> A time step
+   !> Prepare a time step
    pure subroutine set_step(self, layer, speed, squeeze)
       class(supply_t), intent(inout) :: self
       !> Layer; mean velocity over that of the case, at least 0; factor of the squeeze term
@@ -81,7 +81,7 @@ contains
       self%layer = layer
       self%speed = speed
       self%squeeze = squeeze
-      self%share = speed/self%hx/(squeeze/1.5_dp + speed/self%hx)
+      self%passed_fraction = speed/self%hx/(squeeze/1.5_dp + speed/self%hx)
    end subroutine set_step
 
    !> Subtract the deficit upstream from row j of the operator of filled nodes
@@ -95,10 +95,10 @@ contains
       real(dp), contiguous, intent(inout) :: values(:)
       !> Whether a node passes on all oil that it receives, so that nothing flows back from the next one; shape (nx)
       logical, contiguous, intent(out), optional :: passing(:)
-      !> Deficit of the flow through the east face of a node, over hx, and of the oil at the node; shape (nx)
+      !> Deficit of the flow through the east face of a node, over hx, and of the mass content of the node; shape (nx)
       real(dp), contiguous, intent(out), optional :: missing(:), short(:)
-      real(dp) :: lack, flow, deficit, before, u
-      logical :: lacks, steps
+      real(dp) :: defect, flow, deficit, before, u
+      logical :: unfilled, steps
       integer :: i
 
       if (present(passing)) passing = .false.
@@ -109,7 +109,7 @@ contains
          values(self%held + 1) = values(self%held + 1) - self%short
          return
       end if
-      ! with it the equation of the first interior column, of first order, has the flow of the others; not where the border is full
+      ! corrects the first-order equation of the first interior column to the flow of the others; 0 where the border is filled
       flow = self%speed*max(0.0_dp, 0.5_dp*(mass_content(1) + mass_content(2)) - self%layer(j))/self%hx
       if (present(passing)) passing(1) = flow > 0.0_dp
       steps = self%squeeze > 0.0_dp .and. .not. self%frozen
@@ -118,24 +118,24 @@ contains
       do i = 2, size(values) - 1
          values(i) = values(i) - flow
          if (steps) values(i) = values(i) - 0.5_dp*u*deficit
-         ! on a coarse level what counts is the change
-         lack = merge(-values(i), rhs(i) - values(i), self%frozen)
-         lacks = cavitated(i) .and. (self%frozen .or. lack > 0.0_dp)
-         lack = merge(lack, 0.0_dp, lacks)
+         ! a coarse level transports the change of the defect alone
+         defect = merge(-values(i), rhs(i) - values(i), self%frozen)
+         unfilled = cavitated(i) .and. (self%frozen .or. defect > 0.0_dp)
+         defect = merge(defect, 0.0_dp, unfilled)
          if (self%frozen) then
-            flow = self%share*lack
+            flow = self%passed_fraction*defect
          else if (steps) then
             before = deficit
-            deficit = lack/(self%squeeze + 1.5_dp*u)
+            deficit = defect/(self%squeeze + 1.5_dp*u)
             flow = u*(1.5_dp*deficit - 0.5_dp*before)
          else
-            ! the film begins at a node, half a cell further downstream than its content is counted
-            if (present(short) .and. .not. lacks .and. i > 2) short(i - 1) = 1.5_dp*short(i - 1)
-            deficit = merge((lack/u + 0.5_dp*deficit)/1.5_dp, 0.0_dp, lacks)
-            flow = lack
+            ! the film begins at a node: the last deficit covers half a cell more
+            if (present(short) .and. .not. unfilled .and. i > 2) short(i - 1) = 1.5_dp*short(i - 1)
+            deficit = merge((defect/u + 0.5_dp*deficit)/1.5_dp, 0.0_dp, unfilled)
+            flow = defect
          end if
          if (present(short)) short(i) = deficit
-         if (present(passing)) passing(i) = lacks
+         if (present(passing)) passing(i) = unfilled
          if (present(missing)) missing(i) = flow
       end do
    end subroutine transport_row

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Results of a solution with contact at a boundary film (boundary_film.f90)
+!> Results of a solution with solid contact at a boundary film (boundary_film.f90)
 module ehl_touching
    use ehl_kinds, only: dp
    use ehl_level, only: cavity_pressure, gap_row, level_t
@@ -9,26 +9,26 @@ module ehl_touching
    private
    public :: touching_t, measure_touching, mostly_touching, much_mass_defect, touching_names, known_names, at_depth
 
-   !> Mass defect above which the model of the boundary film does not hold: share of the flow that the film would supply (chosen)
+   !> Mass defect, as a fraction of the flow, above which the model of the boundary film does not hold (chosen)
    real(dp), parameter :: much_mass_defect = 0.1_dp
 
-   !> Load share above which the films are those of the boundary film, so that a coarser grid does not give their error
+   !> Load share above which the film thicknesses are those of the boundary film, so that a coarser grid does not give their error
    real(dp), parameter :: mostly_touching = 0.5_dp
 
    !> Names of the values of `numbers`
    character(len=*), parameter :: touching_names(7) = [character(len=16) :: "load_share", "contact_area", "mass_defect", &
                                                        "hard_load_share", "hard_area", "plastic_depth", "hard_flowing"]
-   !> Which of them is the depth
+   !> Index of the depth
    integer, parameter :: at_depth = 6
 
-   !> Contact in one state; without a boundary film all values are 0
+   !> Solid contact of one state; without a boundary film all values are 0
    type :: touching_t
-      !> iint P dX dY where the bodies touch, over that of the contact; their area there [a^2]
+      !> iint P dX dY where the bodies touch, over that of the contact; area of solid contact [a^2]
       real(dp) :: load_share = 0.0_dp, area = 0.0_dp
-      !> Flow that the boundary film supplies at touching nodes, over the flow with the surfaces through the line X = 0
+      !> Flow that the boundary film supplies at touching nodes, over the Couette flow through the line X = 0
       real(dp) :: supply = 0.0_dp
-      !> Share of the load where the solids yield, their area there [a^2], the largest depth by which they yield [a^2/R], and
-      !> the part of that share where the film is above the boundary film
+      !> Load share where the solids yield, area where they yield [a^2], maximum depth of yielding [a^2/R], and the load share
+      !> where they yield with a film above the boundary film
       real(dp) :: hard_share = 0.0_dp, hard_area = 0.0_dp, depth = 0.0_dp, flowing_share = 0.0_dp
    contains
       procedure :: numbers
@@ -39,14 +39,14 @@ contains
    !> Evaluate the present state of a level whose film and coefficients are up to date
    type(touching_t) function measure_touching(level) result(m)
       type(level_t), intent(in) :: level
-      real(dp), dimension(level%grid%ny) :: load, area, given, flow, whole, hard, flowing, depth
+      real(dp), dimension(level%grid%ny) :: load, area, supplied, flow, whole, hard, flowing, depth
       real(dp) :: row(level%grid%nx)
       logical :: yield(level%grid%nx)
       integer :: j, middle
 
       middle = 1 + nint((0.0_dp - level%grid%x0)/level%grid%hx)
       if (.not. level%boundary%active) return
-      given = 0.0_dp
+      supplied = 0.0_dp
       do j = 1, level%grid%ny
          associate (touching => level%boundary%supports(level%p(:, j), level%mass_content(:, j)), weight => level%grid%weight(j))
             whole(j) = weight*sum(level%p(:, j))
@@ -61,25 +61,25 @@ contains
             if (level%grid%is_border(j)) cycle
             call flow_operator(level, j, row)
             row = level%rhs(:, j) - row
-            given(j) = weight*sum(row, mask=touching .and. level%boundary%states(level%grid%nx, j))
+            supplied(j) = weight*sum(row, mask=touching .and. level%boundary%states(level%grid%nx, j))
          end associate
       end do
       m%load_share = sum(load)/sum(whole)
       m%area = sum(area)
-      m%supply = sum(given)/sum(flow)
+      m%supply = sum(supplied)/sum(flow)
       m%hard_share = sum(hard)/sum(whole)
       m%flowing_share = sum(flowing)/sum(whole)
       m%depth = maxval(depth)
    end function measure_touching
 
-   !> Number of values: the last four belong to a hardness, and all to a boundary film
+   !> Number of values: none without a boundary film; the last four need a hardness
    pure integer function known_names(lubricant)
       type(lubricant_t), intent(in) :: lubricant
       known_names = merge(size(touching_names), 3, lubricant%boundary_limit > 0.0_dp)
       if (.not. lubricant%boundary_film > 0.0_dp) known_names = 0
    end function known_names
 
-   !> As touching_names has them
+   !> Values in the order of touching_names
    pure function numbers(self)
       class(touching_t), intent(in) :: self
       real(dp) :: numbers(size(touching_names))

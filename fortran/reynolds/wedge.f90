@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Wedge and squeeze terms d(rho H)/dX + d(rho H)/dT on one grid: an implicit part, upstream in X, and the part of
-!> earlier times. No other module contains these stencils, nor the schemes in time.
+!> earlier times. No other module contains these stencils or the time schemes.
 module ehl_wedge
    use ehl_kinds, only: dp
    implicit none (type, external)
@@ -8,21 +8,21 @@ module ehl_wedge
    public :: wedge_t, old_times, wedge_reach, line_reach
    public :: wedge_steady, wedge_narrow, wedge_separate
 
-   !> Steady, upstream of second order; a time step along the characteristic (Venner's narrow upstream: both terms
-   !> together); a time step with the two differences of the paper, second-order upstream and second-order backward.
+   !> Steady, second-order upstream; a time step along the characteristic (Venner's narrow upstream scheme for both terms
+   !> together); a time step with the two differences of Zhang et al., second-order upstream and second-order backward.
    !> All are of first order in X in the first interior column.
    integer, parameter :: wedge_steady = 0, wedge_narrow = 1, wedge_separate = 2
-   !> Earlier times that a step needs
+   !> Number of earlier times that a step needs
    integer, parameter :: old_times = 2
-   !> Upstream nodes of the implicit part
+   !> Number of upstream nodes in the implicit part
    integer, parameter :: wedge_reach = 2
-   !> Upstream nodes of it in line systems; those further upstream are in their residual alone
+   !> Number of these in line systems; nodes further upstream enter the residual alone
    integer, parameter :: line_reach = 2
 
    !> m is the mass content rho H of a row, shape (nx)
    type :: wedge_t
       integer, private :: scheme = wedge_steady
-      !> Factors of m at a node and upstream of it, and those of the first interior column
+      !> Factors of m at a node and upstream of it, in general and in the first interior column
       real(dp), private :: c(0:wedge_reach) = 0.0_dp, c_first(0:wedge_reach) = 0.0_dp
       !> The part of c(0) that is due to the squeeze term; 0: steady
       real(dp) :: squeeze = 0.0_dp
@@ -44,7 +44,7 @@ module ehl_wedge
 
 contains
 
-   !> Steady; hx: mesh size along X
+   !> Set the steady scheme; hx: mesh size along X
    pure subroutine set_steady(self, hx)
       class(wedge_t), intent(inout) :: self
       real(dp), intent(in) :: hx
@@ -56,13 +56,13 @@ contains
       self%c_first = [1.0_dp, -1.0_dp, 0.0_dp]/hx
    end subroutine set_steady
 
-   !> A time step
+   !> Set the scheme of a time step
    pure subroutine set_step(self, scheme, hx, time_step, speed, ratio)
       class(wedge_t), intent(inout) :: self
       !> wedge_narrow or wedge_separate
       integer, intent(in) :: scheme
       real(dp), intent(in) :: hx, time_step
-      !> With wedge_separate: mean velocity, at least 0, over the one that is the scale; the step over the one before it
+      !> With wedge_separate: mean velocity, at least 0, over its scale; the step over the previous one
       real(dp), intent(in), optional :: speed, ratio
       real(dp) :: u
 
@@ -136,29 +136,29 @@ contains
       i = from
    end function last_active
 
-   !> Factors of m at column i, at the column before it and so on
-   pure function weights(self, i, passing, share) result(c)
+   !> Factors of m at column i and at the columns upstream of it
+   pure function weights(self, i, passing, passed_fraction) result(c)
       class(wedge_t), intent(in) :: self
       integer, intent(in) :: i
       !> Whether the upstream node passes on all oil that it receives (supply.f90), so that its flow is not that of a filled gap
       logical, intent(in), optional :: passing
-      !> Share of the deficit of that node that flows on
-      real(dp), intent(in), optional :: share
+      !> Fraction of the deficit of that node that it passes downstream
+      real(dp), intent(in), optional :: passed_fraction
       real(dp) :: c(0:wedge_reach)
 
       c = merge(self%c_first, self%c, i == 2)
       if (.not. present(passing)) return
       if (.not. passing) return
       if (self%squeeze > 0.0_dp .and. i > 2) then
-         ! with the equations of the nodes before it, the share of each in that of the next
-         c = c + share*([0.0_dp, self%c(0), self%c(1)] + share*[0.0_dp, 0.0_dp, self%c(0)])
-      else
-         ! what is left is the flow through the east face
+         ! plus the equations of the upstream nodes, each with the fraction that is passed
+         c = c + passed_fraction*([0.0_dp, self%c(0), self%c(1)] + passed_fraction*[0.0_dp, 0.0_dp, self%c(0)])
+         else
+         ! the flow through the east face alone
          c = [self%c(0), -self%c(2), 0.0_dp]
       end if
    end function weights
 
-   !> Flow through the east face of a node of a filled gap, with m there and before it, over the mesh size
+   !> Flow through the east face of a node of a filled gap over the mesh size, from m at the node and upstream of it
    pure real(dp) function east_flow(self, m, m_before) result(flow)
       class(wedge_t), intent(in) :: self
       real(dp), intent(in) :: m, m_before
@@ -171,7 +171,7 @@ contains
       rate = self%c(0)
    end function rate
 
-   !> Those that line systems include, in the first interior column and downstream of it
+   !> Factors of m in line systems, in the first interior column and downstream of it
    pure subroutine line_weights(self, first, interior)
       class(wedge_t), intent(in) :: self
       real(dp), intent(out) :: first(0:line_reach), interior(0:line_reach)
@@ -191,7 +191,7 @@ contains
 
       r = self%inverse_step
       b = self%past
-      ! along the characteristic a step back in time is a node upstream
+      ! along the characteristic one step back in time is one node upstream
       shift = merge(1, 0, self%scheme == wedge_narrow)
       do i = 3, size(m, 1) - 1
          values(i) = r*(b(1)*m(i - shift, 1) + b(2)*m(i - 2*shift, 2))

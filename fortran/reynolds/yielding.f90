@@ -1,10 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Solids with a hardness: they sustain no more than the maximum pressure P_Y. A node yields where P = P_Y and its equation
-!> requires more: the elastic film H is below the boundary film H_b (boundary_film.f90) or what the lubricant needs. The solids
-!> yield by what is missing, D >= 0, so that rho (H + D) is that of the boundary film, or more where N = 0 then. Such a node keeps
-!> its pressure until D would be negative.
+!> Solids with a hardness: they sustain at most the pressure P_Y. A node yields where P = P_Y and its equation
+!> requires more: the elastic film H is below the boundary film H_b (boundary_film.f90) or below the film at which N = 0. The
+!> solids yield by the difference D >= 0, so that rho (H + D) is the larger of H_b and the mass content at which N = 0. Such a
+!> node keeps its pressure until D would be negative.
 !>
-!> Every boundary film has one. Without a maximum pressure no node yields, and its procedures change nothing.
+!> Without a maximum pressure no node yields.
 module ehl_yielding
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_grid, only: grid_t
@@ -17,7 +17,7 @@ module ehl_yielding
    type :: yielding_t
       !> Whether nodes may yield
       logical :: active = .false.
-      !> Whether the pressure is that of a coarse level: a mean, which the maximum is not for
+      !> Whether the level is a coarse one: the maximum does not apply to restricted pressures
       logical :: coarse = .false.
       !> P_Y [p_h]
       real(dp), private :: max_pressure = 0.0_dp
@@ -36,7 +36,7 @@ module ehl_yielding
 
 contains
 
-   !> max_pressure: that of the solids, or 0
+   !> Allocate; max_pressure: that of the solids, or 0
    subroutine setup(self, grid, max_pressure, status)
       class(yielding_t), intent(inout) :: self
       type(grid_t), intent(in) :: grid
@@ -51,11 +51,11 @@ contains
       if (stat /= 0) call status%fail(ehl_no_memory, "no memory for the solids that yield on a grid level")
    end subroutine setup
 
-   !> Nodes of row j that yield, with their mass content: that at which N = 0, but no less than that of the boundary film
-   pure subroutine find_row(self, least, p, weights, j, residual, mass_content)
+   !> Find the yielding nodes of row j and their mass content: that at which N = 0, but at least that of the boundary film
+   pure subroutine find_row(self, min_mass, p, weights, j, residual, mass_content)
       class(yielding_t), intent(inout) :: self
       !> H_b; pressure, and the wedge term's factors of rho H at a node and at those upstream of it, shape (nx), (0:..., nx)
-      real(dp), intent(in) :: least
+      real(dp), intent(in) :: min_mass
       real(dp), contiguous, intent(in) :: p(:), weights(0:, :)
       integer, intent(in) :: j
       !> rhs - N, and rho H, of the elastic bodies; shape (nx)
@@ -69,7 +69,7 @@ contains
          do k = 1, min(ubound(weights, 1), i - 1)
             residual(i) = residual(i) + weights(k, i)*added(i - k)
          end do
-         self%mass(i, j) = max(least, mass_content(i) - residual(i)/weights(0, i))
+         self%mass(i, j) = max(min_mass, mass_content(i) - residual(i)/weights(0, i))
          if (p(i) >= self%max_pressure .and. self%mass(i, j) > mass_content(i)) then
             added(i) = self%mass(i, j) - mass_content(i)
             residual(i) = residual(i) + weights(0, i)*added(i)
@@ -80,7 +80,7 @@ contains
       end do
    end subroutine find_row
 
-   !> Pressures to come of row j from column `first` on: not above the maximum, and nodes that yield keep theirs
+   !> Limit the new pressures of row j from column `first` on to the maximum; yielding nodes keep theirs
    pure subroutine limit_pressure(self, before, first, j, after)
       class(yielding_t), intent(in) :: self
       real(dp), intent(in) :: before(:)
@@ -106,7 +106,7 @@ contains
       if (self%active) film = merge(self%mass(:, j)/rho, film, self%mass(:, j) > 0.0_dp)
    end subroutine add_depth
 
-   !> Put `value` into row j where nodes yield
+   !> Set values of row j to `value` where nodes yield
    pure subroutine set(self, j, value, values)
       class(yielding_t), intent(in) :: self
       integer, intent(in) :: j
@@ -126,7 +126,7 @@ contains
       if (self%active) nodes = self%mass(:, j) > 0.0_dp
    end function nodes
 
-   !> No node yields
+   !> Set all nodes to not yielding
    pure subroutine forget(self)
       class(yielding_t), intent(inout) :: self
       if (self%active) self%mass = 0.0_dp

@@ -187,9 +187,10 @@ contains
          rows = [(k + l - 1, l=1, line_width)]
          furthest = maxval([(last_active(level, rows(l)), l=1, line_width)])
          inactive = inactive + level%grid%nx - 1 - furthest
-         call solve_lines(level, space%dipole, space%shares, space%near, space%near_dipole, rows, furthest, space%lines(1))
+         call solve_lines(level, space%dipole, space%dipole_weights, space%near, space%near_dipole, rows, furthest, space%lines(1))
          short = space%lines(1)%change
-         call solve_lines(level, space%dipole, space%shares, space%near, space%near_dipole, rows, level%grid%nx - 1, space%lines(1))
+         call solve_lines(level, space%dipole, space%dipole_weights, space%near, space%near_dipole, rows, level%grid%nx - 1, &
+                          space%lines(1))
          long = space%lines(1)%change
          call is_true(.not. any(abs(long(:, 2:furthest) - short(:, 2:furthest)) > 0.0_dp), "active nodes")
          call is_true(.not. any(abs(long(:, furthest + 1:level%grid%nx - 1)) > 0.0_dp), "inactive nodes stay")
