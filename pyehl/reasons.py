@@ -323,7 +323,7 @@ def _of_negative_film(
 
 
 def _place(d: Values, prefix: str) -> str:
-    """Name the phase of a run: smooth contact, a share of the roughness at rest, a time step."""
+    """Name the phase of a run: smooth contact, a fraction of the roughness at rest, a time step."""
     at = d[f"{prefix}at"]
     text = {
         SMOOTH: "the smooth contact",

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The command line of the program
+!> Command line of the program
 module ehl_arguments
    use ehl_status, only: ehl_bad_input, status_t
    use ehl_text, only: nearest_word, newline
@@ -7,15 +7,15 @@ module ehl_arguments
    private
    public :: arguments_t, get_arguments, help_text
 
-   !> What the command line requests
+   !> Arguments of the command line
    type :: arguments_t
       !> Case file and result folder
       character(len=:), allocatable :: case_file, folder
       !> Result folder of the run to resume; empty: none
       character(len=:), allocatable :: resume
-      !> Options '--set group.key=value', one a line
+      !> Options '--set group.key=value', one per line
       character(len=:), allocatable :: options
-      !> Whether other files may be in the result folder
+      !> Whether the result folder may hold other files
       logical :: force = .false.
       logical :: quiet = .false., version = .false., help = .false.
    end type arguments_t
@@ -73,7 +73,7 @@ contains
       end if
    end subroutine get_arguments
 
-   !> The case file, or an option that does not exist
+   !> Take the case file, or refuse an unknown option
    subroutine take_other(word, arguments, status)
       character(len=*), intent(in) :: word
       type(arguments_t), intent(inout) :: arguments
@@ -93,7 +93,7 @@ contains
       end if
    end subroutine take_other
 
-   !> The argument that belongs to an option
+   !> Take the value of an option
    subroutine next_argument(k, option, value, status)
       integer, intent(inout) :: k
       character(len=*), intent(in) :: option
@@ -128,7 +128,7 @@ contains
                        // "expected: ehl CASE.nml -o DIR [--set group.key=value ...]")
    end subroutine refuse
 
-   !> What --help prints
+   !> Text of --help
    function help_text() result(text)
       character(len=:), allocatable :: text
 

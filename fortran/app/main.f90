@@ -100,7 +100,7 @@ program ehl
    if (solver%converged()) call terminal%checkpoints%close()
    call terminal%checkpoints%release()
    if (solver%converged()) stop merge(exit_failed, exit_ok, terminal%failed), quiet=.true.
-   ! a run that would end the same way is not worth resuming
+   ! suggest to resume unless the run would end in the same way
    if (terminal%checkpoints%has_state() .and. any(solver%outcome() == [outcome_interrupted, outcome_failed, outcome_unsettled, &
                                                                        outcome_cycle_limit])) then
       note = "to resume"
@@ -113,14 +113,14 @@ program ehl
 
 contains
 
-   !> A text without the line end at its end
+   !> A text without its last newline
    pure function without_end(text) result(answer)
       character(len=*), intent(in) :: text
       character(len=:), allocatable :: answer
       answer = text(:len(text) - 1)
    end function without_end
 
-   !> End the program when its first lines could not be printed
+   !> End the program if its first lines could not be printed
    subroutine end_if_unprinted()
       if (terminal%failed) stop exit_failed, quiet=.true.
    end subroutine end_if_unprinted

@@ -1,12 +1,12 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> SIGINT and SIGTERM stop the program after the cycle at hand
+!> SIGINT and SIGTERM stop the program after the present cycle
 module ehl_signals
    use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int
    implicit none (type, external)
    private
    public :: watch_signals, stop_requested
 
-   logical, volatile :: wanted = .false.
+   logical, volatile :: received = .false.
 
    integer(c_int), parameter :: sigint = 2, sigterm = 15
 
@@ -29,21 +29,21 @@ contains
       previous = posix_signal(sigterm, c_funloc(note_signal))
    end subroutine watch_signals
 
-   !> Whether a signal has come
+   !> Whether a signal was received
    logical function stop_requested()
-      stop_requested = wanted
+      stop_requested = received
    end function stop_requested
 
-   !> What the system calls when a signal comes; a second one ends the program at once
+   !> Signal handler; a second signal ends the program at once
    subroutine note_signal(number) bind(c)
       integer(c_int), value :: number
       type(c_funptr) :: previous
 
-      wanted = .true.
+      received = .true.
       previous = posix_signal(number, default_action())
    end subroutine note_signal
 
-   !> The action that a signal has by default (SIG_DFL, a null address)
+   !> Default action of a signal (SIG_DFL, a null address)
    type(c_funptr) function default_action()
       use, intrinsic :: iso_c_binding, only: c_null_funptr
 

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What `ehl` does while a case is solved: it stops on a signal, saves states, prints lines
+!> Observer of `ehl`: stops on a signal, saves states, prints progress lines
 module ehl_terminal
    use, intrinsic :: iso_fortran_env, only: error_unit
    use ehl_checkpoint_folder, only: checkpoint_folder_t
@@ -20,8 +20,7 @@ module ehl_terminal
 
    type, extends(observer_t) :: terminal_t
       type(checkpoint_folder_t) :: checkpoints
-      !> Whether nothing is to be printed, and whether standard output could not be written: a run goes on then, and ends with a
-      !> failure
+      !> Whether to print nothing; whether writing to standard output failed: the run then continues and ends with a failure
       logical :: quiet = .false., failed = .false.
       type(clock_t) :: since_line
    contains
@@ -31,7 +30,7 @@ module ehl_terminal
 
 contains
 
-   !> Save the state if its time has come, print a line if its time has come, leave on a signal
+   !> Save the state and print a line when due, and stop on a signal
    subroutine watch(self, run, leave)
       class(terminal_t), intent(inout) :: self
       type(contact_run_t), intent(inout) :: run
@@ -39,7 +38,7 @@ contains
       type(status_t) :: saving
 
       if (self%checkpoints%is_due()) call self%checkpoints%save(run, saving)
-      ! a run does not end because that fails
+      ! a run continues if saving fails
       if (saving%failed()) write (error_unit, "(a)") saving%message
       if (self%since_line%seconds() > progress_interval) then
          call self%say(progress_line(run, run%outcome, .false.))

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Functions of the solver that complete a case in Python; for the rules see ehl_f2py_solver
+!> Functions that complete a case in Python; for the rules see ehl_f2py_solver
 module ehl_f2py_case
    use, intrinsic :: iso_c_binding, only: c_double, c_int
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
@@ -57,7 +57,7 @@ contains
       real(c_double), intent(in) :: radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, viscosity, alpha, &
                                     moes_m, moes_l
       integer(c_int), intent(in) :: border, smooth, thins, points, points_y, reverses
-      !> Of a duty: maximum size of the contact over that of the case
+      !> Domain; maximum size of the contact under a duty over that of the case
       real(c_double), intent(in) :: domain(3), widening
       integer(c_int), intent(out) :: border_out, points_out, points_y_out
       real(c_double), intent(out) :: domain_out(3)
@@ -85,7 +85,7 @@ contains
       end associate
    end subroutine grid_defaults
 
-   !> A contact by its code: 0 a point, 1 a line, by the load per length and its M and L, 2 a roller, by its own numbers
+   !> Set a contact from its code: 0 a point; 1 a line, with the load per length and its M and L; 2 a roller, with its own numbers
    pure subroutine take(input, line, roller, si, radius_ratio, angle, load, mean_velocity, radius_x, reduced_modulus, viscosity, &
                         alpha, moes_m, moes_l)
       type(case_t), intent(inout) :: input
@@ -112,8 +112,8 @@ contains
       input%lubricant%pressure_viscosity = alpha
    end subroutine take
 
-   !> Length and misalignment; for each body the place of its profile among the words, its numbers, how many places its table
-   !> has, these places and the drops there
+   !> Set a roller from its numbers: length and misalignment; for each body the index of its kind of profile, four parameters, the
+   !> number of positions in its table, the positions and the drops
    pure subroutine take_roller(contact, numbers)
       type(contact_case_t), intent(inout) :: contact
       real(c_double), intent(in) :: numbers(:)
@@ -132,7 +132,7 @@ contains
       end do
    end subroutine take_roller
 
-   !> Viscosity [Pa s], alpha [1/Pa] and -(d eta/dT)/eta [1/K] at the inlet, by the law of &lubricant
+   !> Viscosity [Pa s], alpha [1/Pa] and -(d eta/dT)/eta [1/K] at the inlet from the law of &lubricant
    subroutine inlet(group, viscosity, alpha, slope, stat, key, message)
       character(len=*), intent(in) :: group
       real(c_double), intent(out) :: viscosity, alpha, slope
@@ -152,7 +152,7 @@ contains
       call reply(status, stat, message)
    end subroutine inlet
 
-   !> Viscosity [Pa s] and -(d eta/dT)/eta [1/K] at a temperature [degC], of kinematic viscosities at 40 and 100 degC
+   !> Viscosity [Pa s] and -(d eta/dT)/eta [1/K] at a temperature [degC] from the kinematic viscosities at 40 and 100 degC
    subroutine sheet(temperature, viscosities, density_15, expansion, viscosity, slope)
       real(c_double), intent(in) :: temperature, viscosities(2), density_15, expansion
       real(c_double), intent(out) :: viscosity, slope
@@ -161,7 +161,7 @@ contains
       slope = temperature_viscosity(temperature, viscosities, density_15, expansion)
    end subroutine sheet
 
-   !> All keys with default and range, one a line with tabs between
+   !> All keys with default and range, one per line, separated by tabs
    subroutine defaults(n, bytes, length)
       integer(c_int), intent(in) :: n
       integer(c_int), intent(inout) :: bytes(n)

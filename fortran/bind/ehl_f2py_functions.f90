@@ -26,8 +26,8 @@ module ehl_f2py_functions
 
 contains
 
-   !> Case file of the run with these results, to resume it; its folder holds surface.npy, and second_surface.npy, as well
-   !> when these surfaces came from Python
+   !> Case file from which the run with these results resumes; its folder also holds surface.npy and second_surface.npy if these
+   !> surfaces came from Python
    subroutine checkpoint_case(results, path, stat, message)
       character(len=*), intent(in) :: results
       character(len=4096), intent(out) :: path
@@ -43,8 +43,8 @@ contains
       call reply(status, stat, message)
    end subroutine checkpoint_case
 
-   !> Refuse a folder for a result of some kind that must not be touched, or cannot be written; `completes`: an earlier result is
-   !> completed. Lists have a line end behind each item.
+   !> Refuse a result folder that must not be changed or cannot be written; `completes`: an earlier result is completed. Each item
+   !> of a list ends with a newline.
    subroutine check_folder(folder, kind, names, inputs, kept, force, completes, stat, message)
       character(len=*), intent(in) :: folder, kind, names, inputs, kept
       integer(c_int), intent(in) :: force, completes
@@ -58,7 +58,7 @@ contains
       call reply(status, stat, message)
    end subroutine check_folder
 
-   !> An empty folder `fresh` for a result that goes to `folder`
+   !> Make an empty folder `fresh` for a result that will be moved to `folder`
    subroutine begin_folder(folder, kind, names, inputs, kept, force, fresh, stat, message)
       character(len=*), intent(in) :: folder, kind, names, inputs, kept
       integer(c_int), intent(in) :: force
@@ -76,7 +76,7 @@ contains
       call reply(status, stat, message)
    end subroutine begin_folder
 
-   !> Move that folder to its place
+   !> Move the folder `fresh` to `folder`
    subroutine finish_folder(folder, kind, names, inputs, kept, force, fresh, stat, message)
       character(len=*), intent(in) :: folder, kind, names, inputs, kept
       integer(c_int), intent(in) :: force
@@ -97,11 +97,11 @@ contains
       type(destination_t) :: destination
 
       destination = destination_t(folder, kind, names, inputs, kept, force /= 0)
-      ! the library checks what it writes
+      ! the library knows the files that it writes
       if (kind == "solution") destination%names = result_names
    end function destination_of
 
-   !> Refuse what would not fit into the memory
+   !> Refuse a request that exceeds the free memory
    subroutine needs_memory(what, bytes, stat, message)
       character(len=*), intent(in) :: what
       real(c_double), intent(in) :: bytes
@@ -113,7 +113,7 @@ contains
       call reply(status, stat, message)
    end subroutine needs_memory
 
-   !> Bytes of memory that are free; root: folder of /proc and /sys
+   !> Bytes of free memory; root: folder of /proc and /sys
    subroutine memory_left(root, bytes)
       character(len=*), intent(in) :: root
       real(c_double), intent(out) :: bytes
@@ -121,7 +121,7 @@ contains
       bytes = free_bytes(root)
    end subroutine memory_left
 
-   !> Version of the package; compiler and its options
+   !> Version of the package; compiler with its options
    subroutine about(version_text, compiler_text)
       character(len=64), intent(out) :: version_text
       character(len=4096), intent(out) :: compiler_text
@@ -130,7 +130,7 @@ contains
       compiler_text = build_text()
    end subroutine about
 
-   !> Elastic deflection w of the pressure p by one engine, and the mean seconds of an application
+   !> Elastic deflection w under the pressure p with an engine, and mean seconds per application
    subroutine deflection(engine, nx, ny, p, w, hx, hy, mirror, accuracy, threads, repeats, &
                          seconds, bytes, stat, message)
       character(len=*), intent(in) :: engine
@@ -164,10 +164,10 @@ contains
       call reply(status, stat, message)
    end subroutine deflection
 
-   !> Friction with heat over that without it (NaN: not known), and the maximum increases of temperature of film and walls [K],
-   !> of the contact of a case with the pressure and the film p, h(nx, ny), the first node at (x0, y0); mirror: the rows are
-   !> those of Y >= 0; touching: 1 where the bodies touch at the boundary film. Whether the heat is significant, and
-   !> what a coefficient of friction is then (ehl_reason), with the estimated rise [K].
+   !> Thermal over isothermal friction (NaN: not known), and maximum temperature rises of film and walls [K], for the contact of a
+   !> case with pressure and film p, h(nx, ny), the first node at (x0, y0); mirror: rows with Y >= 0 only; touching: 1 at solid
+   !> contact. Also whether heating is significant (counts), the kind of the coefficient of friction (ehl_reason), and the estimated
+   !> temperature rise [K].
    subroutine frictional_heat(text, nx, ny, p, h, touching, x0, y0, hx, hy, mirror, counts, ratio, rises, reason, estimate, &
                               stat, message)
       character(len=*), intent(in) :: text

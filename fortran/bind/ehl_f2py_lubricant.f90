@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Lubricants for Python, and flow and stress of those that thin by shear; for the rules see ehl_f2py_solver.
+!> Lubricants for Python, and flow and stress with shear thinning; for the rules see ehl_f2py_solver.
 !>
 !> `law` is 1 for Eyring and 2 for Carreau with `exponent` n; B and S are those of flow_factors.f90.
 module ehl_f2py_lubricant
@@ -18,8 +18,8 @@ module ehl_f2py_lubricant
 
 contains
 
-   !> ln(eta/eta0) and rho/rho0 of a lubricant at pressures p [Pa] and rises of temperature over that of the inlet [K]; `group`
-   !> is &lubricant of a resolved case
+   !> ln(eta/eta0) and rho/rho0 of a lubricant at pressures p [Pa] and temperature rises above the inlet [K]; `group` is &lubricant
+   !> of a resolved case
    subroutine properties(group, n, p, rise, log_viscosity, density, stat, message)
       character(len=*), intent(in) :: group
       integer(c_int), intent(in) :: n
@@ -40,8 +40,7 @@ contains
       call reply(status, stat, message)
    end subroutine properties
 
-   !> Flow factors through the film, n times: phi_x, phi_y, and of phi_x d ln(phi)/d ln(B), d ln(phi)/d ln(S) and
-   !> d(phi S)/dS; NaNs where they are not found
+   !> n sets of flow factors: phi_x, phi_y, and for phi_x d ln(phi)/d ln(B), d ln(phi)/d ln(S) and d(phi S)/dS; NaN if not found
    subroutine flow_factors(n, law, exponent, b, gradient, found)
       integer(c_int), intent(in) :: n, law
       real(c_double), intent(in) :: exponent
@@ -56,7 +55,7 @@ contains
       end do
    end subroutine flow_factors
 
-   !> Stresses of films that slide without a gradient of pressure, in units of that of the law; NaNs where not found
+   !> Stresses of sliding films without a pressure gradient over that of the law; NaN if not found
    subroutine sliding_stresses(n, law, exponent, b, stress)
       integer(c_int), intent(in) :: n, law
       real(c_double), intent(in) :: exponent

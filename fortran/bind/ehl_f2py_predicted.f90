@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What Python predicts for a solver, by number: see ehl_f2py_solver
+!> Predictions from Python for a solver; for the rules see ehl_f2py_solver
 module ehl_f2py_predicted
    use, intrinsic :: iso_c_binding, only: c_double, c_int
    use ehl_handles, only: reply, run_of, run_t
@@ -11,8 +11,7 @@ module ehl_f2py_predicted
 
 contains
 
-   !> Set the predicted parts of mu_ratio: its parts in waves that the grid leaves out, and in those that it does not
-   !> resolve; NaN where there is no prediction
+   !> Set the predicted parts of mu_ratio due to truncated and to unresolved waves; NaN: no prediction
    subroutine take_prediction(handle, left_out, unresolved, stat, message)
       integer(c_int), intent(in) :: handle
       real(c_double), intent(in) :: left_out, unresolved
@@ -29,8 +28,7 @@ contains
       call reply(status, stat, message)
    end subroutine take_prediction
 
-   !> Positions of the fronts of n surfaces [a] for which the pressure that the roughness adds is needed, to begin time steps
-   !> with; n is 0 where it is not needed
+   !> Positions of the fronts of n surfaces [a] at which the predicted start needs the pressure of the roughness; 0: not needed
    subroutine start_fronts(handle, fronts, n, stat, message)
       integer(c_int), intent(in) :: handle
       real(c_double), intent(out) :: fronts(4, 2)
@@ -53,7 +51,7 @@ contains
       call reply(status, stat, message)
    end subroutine start_fronts
 
-   !> Pass that pressure [p_h] to the solver, on the whole finest grid, or the reason why there is none
+   !> Pass the pressure of the roughness [p_h] on the whole finest grid to the solver, or the reason why it is not predicted
    subroutine take_start(handle, why, nx, ny, pressure, stat, message)
       integer(c_int), intent(in) :: handle, nx, ny
       character(len=*), intent(in) :: why

@@ -1,10 +1,9 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Solvers for Python, by number.
+!> Interface to the solvers for Python, which identifies them by handles.
 !>
-!> The modules for Python are in the small part of Fortran that f2py reads. No arithmetic in them:
-!> every routine passes its arguments on, and returns a status and a message. Only the long
-!> routines release Python's lock (threadsafe): gfortran keeps the length of an allocatable text that
-!> a function returns in static memory, so that no such function may be reached from them.
+!> The modules for Python use the subset of Fortran that f2py reads. They do no arithmetic: every routine passes its arguments on,
+!> and returns a status and a message. Only long routines release Python's lock (threadsafe). They must not call functions that
+!> return an allocatable text, whose length gfortran keeps in static memory.
 module ehl_f2py_solver
    use, intrinsic :: iso_c_binding, only: c_double, c_int
    use ehl_case, only: case_t
@@ -24,8 +23,8 @@ module ehl_f2py_solver
 
 contains
 
-   !> Start a solver on the text of a case; with has_heights and has_second on the surfaces heights(nx, ny) and
-   !> second(mx, my) [m] in place of files
+   !> Start a solver with the text of a case; if has_heights or has_second is set, heights(nx, ny) or second(mx, my) [m] replace the
+   !> files of the surfaces
    subroutine open_case(text, origin, has_heights, nx, ny, heights, has_second, mx, my, second, handle, stat, message)
       character(len=*), intent(in) :: text, origin
       integer(c_int), intent(in) :: has_heights, nx, ny, has_second, mx, my
@@ -61,7 +60,7 @@ contains
       call reply(status, stat, message)
    end subroutine close_case
 
-   !> One cycle or step; done is 1 at the end of the run
+   !> Make one cycle or time step; done is 1 at the end of the run
    subroutine advance(handle, done, converged, stat, message)
       integer(c_int), intent(in) :: handle
       integer(c_int), intent(out) :: done, converged, stat
@@ -94,7 +93,7 @@ contains
       call reply(status, stat, message)
    end subroutine interrupt
 
-   !> Write the files of a result but its summary into an empty folder
+   !> Write the files of a result except its summary into an empty folder
    subroutine write_files(handle, folder, stat, message)
       integer(c_int), intent(in) :: handle
       character(len=*), intent(in) :: folder
@@ -108,7 +107,7 @@ contains
       call reply(status, stat, message)
    end subroutine write_files
 
-   !> Resume from the newest state of the run with these results, before the first advance; returns a note
+   !> Resume from the newest state of the run with these results, before the first advance, and return a note
    subroutine resume(handle, results, note, stat, message)
       integer(c_int), intent(in) :: handle
       character(len=*), intent(in) :: results
@@ -126,7 +125,7 @@ contains
       call reply(status, stat, message)
    end subroutine resume
 
-   !> Save the state of a run, at once or if its time has come; whether there is one then
+   !> Save the state of a run, at once or if due; if at once, return whether a state exists
    subroutine save_state(handle, at_once, has_state, stat, message)
       integer(c_int), intent(in) :: handle, at_once
       integer(c_int), intent(out) :: has_state, stat
@@ -158,9 +157,8 @@ contains
       call reply(status, stat, message)
    end subroutine clear_states
 
-   !> Keep states of the run beside its results, at the interval of the case; `resumed` names the
-   !> results of the run that is resumed; with has_heights and has_second on the surfaces of
-   !> open_case too
+   !> Start to save states of the run beside its results, at the interval of the case; `resumed`: results of the resumed run; the
+   !> surfaces as in open_case
    subroutine keep_states(handle, results, resumed, has_heights, nx, ny, heights, has_second, mx, my, second, note, stat, message)
       integer(c_int), intent(in) :: handle
       character(len=*), intent(in) :: results, resumed
@@ -184,13 +182,13 @@ contains
       call reply(status, stat, message)
    end subroutine keep_states
 
-   !> Results so far, or the plan of the run: one name a line, with a text after a tab; kinds as in ehl_record, and values
+   !> Present results, or the plan of the run: one name per line, with a text after a tab; kinds as in ehl_record; values
    subroutine results(handle, of_plan, n, bytes, m, kinds, values, length, found, stat, message)
       integer(c_int), intent(in) :: handle, of_plan
       integer(c_int), intent(in) :: n, m
       integer(c_int), intent(inout) :: bytes(n), kinds(m)
       real(c_double), intent(inout) :: values(m)
-      !> Of the names, and how many there are: the caller tries again with larger arrays where they do not fit
+      !> Length of the names, and their number; if they do not fit the caller repeats with larger arrays
       integer(c_int), intent(out) :: length, found
       integer(c_int), intent(out) :: stat
       character(len=4096), intent(out) :: message
@@ -219,7 +217,7 @@ contains
       call reply(status, stat, message)
    end subroutine results
 
-   !> One line about the state of a run
+   !> One line on the state of a run
    subroutine progress(handle, line, stat, message)
       integer(c_int), intent(in) :: handle
       character(len=512), intent(out) :: line
@@ -234,8 +232,7 @@ contains
       call reply(status, stat, message)
    end subroutine progress
 
-   !> Steps of a transient run that are done, and those until its earliest and its latest end, in time
-   !> steps; both are 0 where it is not known
+   !> Work of a transient run in time steps: done, and at the earliest and the latest end; 0 if not known
    subroutine work(handle, done, earliest, latest, stat, message)
       integer(c_int), intent(in) :: handle
       real(c_double), intent(out) :: done, earliest, latest
@@ -294,7 +291,7 @@ contains
       call reply(status, stat, message)
    end subroutine axes
 
-   !> Field 'P' or 'H' on the whole finest grid
+   !> A field by its name on the whole finest grid
    subroutine field(handle, name, nx, ny, values, stat, message)
       integer(c_int), intent(in) :: handle
       character(len=*), intent(in) :: name

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Surfaces and the waves of the prediction for Python; for the rules see ehl_f2py_solver. Single precision is enough for the waves.
+!> Surfaces and predicted waves for Python; for the rules see ehl_f2py_solver. Single precision is sufficient for the waves.
 module ehl_f2py_surfaces
    use, intrinsic :: iso_c_binding, only: c_double, c_float, c_int
    use ehl_fractal, only: fractal_t, make_fractal
@@ -32,8 +32,7 @@ contains
       call reply(status, stat, message)
    end subroutine fractal
 
-   !> Cut the spectrum of the heights of a periodic tile, heights(nx, ny), at a shortest and a longest
-   !> wavelength; 0: not
+   !> Filter the heights of a periodic tile, heights(nx, ny), at a shortest and a longest wavelength; 0: no limit
    subroutine filter_tile(nx, ny, heights, length_x, length_y, shortest, longest, gaussian, stat, message)
       integer(c_int), intent(in) :: nx, ny
       real(c_double), intent(inout) :: heights(nx, ny)
@@ -96,7 +95,7 @@ contains
       call add_polynomials(values, coefficients, place, total)
    end subroutine polynomials
 
-   !> Film with its edge moved: see moved_film
+   !> Film with a moved edge: see moved_film
    subroutine film_moved(nx, ny, points, count, all, smooth, centre, x, y, edge, share, moved, place, film)
       integer(c_int), intent(in) :: nx, ny, points, count, all
       real(c_double), intent(inout) :: smooth(ny, nx), centre(2), x(points), y(points), share(2, points), moved(count)

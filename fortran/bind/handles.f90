@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Solvers by number: what Python holds is an index into this table; how routines for Python end
+!> Table of solvers, of which Python holds the indices, and the reply of routines for Python
 module ehl_handles
    use, intrinsic :: iso_c_binding, only: c_int
    use ehl_case, only: case_t
@@ -13,7 +13,7 @@ module ehl_handles
    private
    public :: run_t, new_handle, drop_handle, run_of, reply, put_text, fitted
 
-   !> A run: the resolved input, the solver, its states on disk, the time since it was opened
+   !> A run: resolved input, solver, states on disk, time since it was opened
    type :: run_t
       type(case_t) :: input
       type(solver_t) :: solver
@@ -24,7 +24,7 @@ module ehl_handles
    !> An entry of the table
    type :: slot_t
       type(run_t), pointer :: run => null()
-      !> Handles of this entry so far; a handle is never used twice
+      !> Number of handles given for this entry; no handle is used twice
       integer :: generation = 0
    end type slot_t
 
@@ -34,7 +34,7 @@ module ehl_handles
 
 contains
 
-   !> A new run in a free place
+   !> Make a run in a free entry
    subroutine new_handle(handle, run, status)
       integer, intent(out) :: handle
       type(run_t), pointer, intent(out) :: run
@@ -60,7 +60,7 @@ contains
                                         // to_text(places))
    end subroutine new_handle
 
-   !> The run of a handle; a failure when the handle was closed or never opened
+   !> Run of a handle; fails if the handle is closed or was never opened
    subroutine run_of(handle, run, status)
       integer, intent(in) :: handle
       type(run_t), pointer, intent(out) :: run
@@ -70,7 +70,7 @@ contains
       if (.not. associated(run)) call status%fail(ehl_closed, "the solver is closed")
    end subroutine run_of
 
-   !> Free a run and its place; nothing happens when the handle is closed already
+   !> Free a run and its entry, unless the handle is closed already
    subroutine drop_handle(handle, status)
       integer, intent(in) :: handle
       type(status_t), intent(inout) :: status
@@ -82,7 +82,7 @@ contains
       deallocate (run)
    end subroutine drop_handle
 
-   !> The run of a handle, not associated when there is none; one caller alone can take it out of the table
+   !> Run of a handle, not associated if there is none. With `take` it is removed from the table, so that only one caller gets it.
    subroutine find(handle, take, run, status)
       integer, intent(in) :: handle
       logical, intent(in) :: take
@@ -102,7 +102,7 @@ contains
       call unlock(table_lock, status)
    end subroutine find
 
-   !> How routines for Python end: code and text of a status
+   !> Return the code and the text of a status to Python
    subroutine reply(status, stat, message)
       type(status_t), intent(in) :: status
       integer(c_int), intent(out) :: stat
@@ -113,7 +113,7 @@ contains
       if (status%failed()) message = fitted(status%message, len(message))
    end subroutine reply
 
-   !> A text byte by byte in an array of the caller, and its length: the caller tries again with a larger one where it does not fit
+   !> Copy a text into an array of bytes, and return its length; if it does not fit the caller repeats with a larger array
    subroutine put_text(text, bytes, length)
       character(len=*), intent(in) :: text
       integer(c_int), intent(inout) :: bytes(:)
@@ -126,7 +126,7 @@ contains
       end do
    end subroutine put_text
 
-   !> A message in a buffer of fixed length; one that does not fit ends with a mark
+   !> Fit a message into a buffer of fixed length; one that is cut ends with a mark
    pure function fitted(text, room) result(words)
       character(len=*), intent(in) :: text
       integer, intent(in) :: room

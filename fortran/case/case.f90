@@ -15,43 +15,41 @@ module ehl_case
    !> Longest file name
    integer, parameter :: path_length = 1024
 
-   ! Units and meaning of the keys are in pyehl/case, what they take in ehl_case_ranges as well. A zero that is allowed there
-   ! stands for "not given".
+   ! pyehl/case gives the units and meanings of the keys, ehl_case_ranges their ranges. A zero allowed there means "not given".
 
-   !> &contact: the operating point, by its Moes numbers or in SI units
+   !> &contact: the operating point, in Moes numbers or SI units
    type :: contact_case_t
-      !> Whether the case was given in SI: then load, mean_velocity, radius and reduced_modulus
-      !> hold, else moes_m and moes_l. Not a key; set by the reader.
+      !> Whether the case is in SI units, with load, mean_velocity, radius and reduced_modulus, or in Moes numbers. Not a key; set
+      !> by the reader.
       logical :: si = .true.
-      !> A point, an infinite line or a roller, which have keys of their own
+      !> A point, an infinite line or a roller, each with its own keys
       character(len=word_length) :: shape = "point"
       real(dp) :: moes_m = 1000.0_dp, moes_l = 10.0_dp
       real(dp) :: moes_m_line = 20.0_dp, moes_l_line = 10.0_dp
       real(dp) :: load = 600.0_dp
       real(dp) :: load_per_length = 2.0e5_dp
       real(dp) :: mean_velocity = 0.84_dp
-      !> Of a round contact
+      !> Radius of a round contact
       real(dp) :: radius = 0.018_dp
       !> Whether the case was given by `radius`. Not a key; set by the reader.
       logical :: round = .true.
-      !> Set by the reader, from `radius` where they are not given
+      !> Set by the reader from `radius` if not given
       real(dp) :: radius_x = 0.0_dp, radius_y = 0.0_dp
-      !> radius_x/radius_y, set by the reader where the case was given in SI
+      !> radius_x/radius_y, set by the reader for a case in SI units
       real(dp) :: radius_ratio = 1.0_dp
       real(dp) :: reduced_modulus = 2.26e11_dp
       !> Maximum pressure that the solids sustain
       real(dp) :: hardness = 0.0_dp
-      !> Of the plane of radius_x against that of the motion, counter-clockwise
+      !> Angle from the direction of motion to the plane of radius_x, counter-clockwise
       real(dp) :: angle = 0.0_dp
       real(dp) :: slide_to_roll = 0.02_dp
       !> Which body has &surface; the other one has &second_surface
       integer :: rough_surface = 1
-      !> Of bearing steel
+      !> Body 1, by default bearing steel
       real(dp) :: thermal_conductivity = 46.0_dp, thermal_diffusivity = 1.25e-5_dp
-      !> Of body 2
+      !> Body 2; 0: as body 1
       real(dp) :: thermal_conductivity_2 = 0.0_dp, thermal_diffusivity_2 = 0.0_dp
-      !> Of a roller: its length, its angle, the profiles of both bodies and the files of their tables, made absolute by the
-      !> reader
+      !> Roller: length, misalignment, profiles of both bodies, and files of their tables, whose paths the reader makes absolute
       real(dp) :: length = 0.0_dp, misalignment = 0.0_dp
       type(body_profile_t) :: profiles(2)
       character(len=path_length) :: profile_files(2) = ""
@@ -64,32 +62,32 @@ module ehl_case
       procedure :: moes_numbers
    end type contact_case_t
 
-   !> &bodies: what makes the reduced radii and the reduced modulus; it rules where one of its keys is given
+   !> &bodies: radii and moduli from which the reduced ones follow if one of these keys is given
    type :: bodies_case_t
-      !> Of body 1 and of body 2
+      !> Radii of body 1 and of body 2
       real(dp) :: radius_x1 = 0.0_dp, radius_y1 = 0.0_dp, radius_x2 = 0.0_dp, radius_y2 = 0.0_dp
-      !> Of steel
+      !> By default steel
       real(dp) :: modulus_1 = 2.06e11_dp, modulus_2 = 2.06e11_dp, poisson_1 = 0.3_dp, poisson_2 = 0.3_dp
-      !> Whether they hold. Not a key; set by the reader.
+      !> Whether the group is given. Not a key; set by the reader.
       logical :: given = .false.
    end type bodies_case_t
 
    !> &lubricant: viscosity and density under pressure, shear stress, temperature
    type :: lubricant_case_t
-      !> An oil whose constants are known; they rule where their keys are not given
+      !> An oil with known constants, used for keys that are not given
       character(len=word_length) :: name = ""
-      !> Measured viscosities; made absolute by the reader
+      !> File of measured viscosities, whose path the reader makes absolute
       character(len=path_length) :: table = ""
-      !> What it holds [degC], [Pa], [Pa s]: by temperature, then by pressure
+      !> Its contents [degC], [Pa], [Pa s], sorted by temperature, then by pressure
       real(dp), allocatable, dimension(:) :: table_temperature, table_pressure, table_viscosity
       !> The same as isotherms. Not a key; set by the reader.
       type(isotherm_t), allocatable :: isotherms(:)
       real(dp) :: viscosity = 0.04_dp
       real(dp) :: pressure_viscosity = 2.2e-8_dp
-      !> Whether it was given, is an estimate from a data sheet, or the default beside a viscosity that was given
+      !> Whether pressure_viscosity is given, estimated from a data sheet, or the default beside a given viscosity
       character(len=word_length) :: alpha_origin = "given"
       character(len=word_length) :: viscosity_law = "roelands"
-      !> The law that gives viscosity and pressure-viscosity coefficient at the inlet, where viscosity_law does not give it
+      !> Law of viscosity and pressure-viscosity coefficient at the inlet if viscosity_law does not give them
       character(len=word_length) :: inlet_law = ""
       !> Set by the reader
       real(dp) :: roelands_z = 0.0_dp
@@ -104,7 +102,7 @@ module ehl_case
       real(dp) :: murnaghan_modulus = 0.0_dp, murnaghan_rate = 0.0_dp, murnaghan_softening = 0.0_dp
       real(dp) :: tait_modulus = 0.0_dp, tait_rate = 0.0_dp, tait_softening = 0.0_dp, tait_expansion = 0.0_dp, &
                   tait_temperature = 0.0_dp
-      !> Where the constants of the laws were measured; all 0: not known
+      !> Range of the measurements behind the constants of the laws; all 0: not known
       real(dp) :: range_temperature_min = 0.0_dp, range_temperature_max = 0.0_dp, range_pressure_max = 0.0_dp
       character(len=word_length) :: shear_law = "newtonian"
       character(len=word_length) :: flow = "consistent"
@@ -117,28 +115,27 @@ module ehl_case
       real(dp) :: density_15 = 870.0_dp
       real(dp) :: thermal_expansion = 6.5e-4_dp
       logical :: thermal_reduction = .false.
-      !> Set by the reader where there is a data sheet
+      !> Set by the reader from a data sheet
       real(dp) :: temperature_viscosity = 0.0_dp
       real(dp) :: thermal_conductivity = 0.14_dp
       character(len=word_length) :: thermal_friction = "auto"
    end type lubricant_case_t
 
-   !> &inlet: an inlet that is short of oil
+   !> &inlet: a starved inlet
    type :: inlet_case_t
-      !> Where the oil begins, ahead of the centre [m]; the same [a], set by the reader
+      !> Distance of the meniscus ahead of the centre [m]; the same [a], set by the reader
       real(dp) :: position = 0.0_dp, position_hertz = 0.0_dp
       !> Thickness of the oil layer at the inlet [m]; the same [a^2/R], set by the reader
       real(dp) :: film = 0.0_dp, film_hertz = 0.0_dp
-      !> Contacts one after another, and the share of the missing oil that returns between them
+      !> Number of successive contacts, and fraction of the missing oil that returns between them
       integer :: passages = 1
       real(dp) :: replenishment = 0.0_dp
    end type inlet_case_t
 
-   !> &grid: the domain in Hertz radii a and its finest grid; all but target_error and max_points set by the
-   !> reader
+   !> &grid: the domain in Hertz radii a and its finest grid; all except target_error and max_points set by the reader
    type :: grid_case_t
       integer :: points = 513
-      !> As many as along X in a round contact, else by the domain
+      !> As many as along X in a round contact, otherwise by the domain
       integer :: points_y = 0
       real(dp) :: x_inlet = -2.5_dp, x_outlet = 1.5_dp, y_extent = 2.0_dp
       character(len=word_length) :: border = "zero"
@@ -149,7 +146,7 @@ module ehl_case
    !> &surface and &second_surface: the moving roughness of a body
    type :: surface_case_t
       character(len=word_length) :: kind = "smooth"
-      !> Whether `amplitude` holds and not `amplitude_over_film`. Not a key; set by the reader.
+      !> Whether `amplitude` is given instead of `amplitude_over_film`. Not a key; set by the reader.
       logical :: amplitude_given = .false.
       real(dp) :: amplitude = 0.0_dp
       real(dp) :: amplitude_over_film = 0.4_dp
@@ -160,13 +157,13 @@ module ehl_case
       real(dp) :: y_start = 0.0_dp
       real(dp) :: spacing_y = 0.0_dp
       real(dp) :: wavelength = 0.5_dp
-      !> Set by the reader: these, the velocity and the start
+      !> These, the velocity and the start are set by the reader
       real(dp) :: wavelength_x = 0.5_dp, wavelength_y = 0.5_dp
       real(dp) :: velocity_ratio = 1.01_dp
       real(dp) :: x_start = -2.5_dp
-      !> Made absolute by the reader. .npy files are read here, the rest by pyehl.
+      !> File, whose path the reader makes absolute. The solver reads .npy files, pyehl all others.
       character(len=path_length) :: file = "", channel = ""
-      !> Of a fractal surface set by the reader
+      !> Set by the reader for a fractal surface
       real(dp) :: length_x = 0.0_dp, length_y = 0.0_dp
       real(dp) :: crop_x_min = 0.0_dp, crop_x_max = 0.0_dp, crop_y_min = 0.0_dp, crop_y_max = 0.0_dp
       character(len=word_length) :: height_unit = "m"
@@ -184,7 +181,7 @@ module ehl_case
       logical :: tile_mirrored = .false.
       real(dp) :: shortest_wavelength = 0.0_dp, longest_wavelength = 0.0_dp
       character(len=word_length) :: filter = "sharp"
-      !> Set by the reader, as the keys below of a finish: by ra or rq
+      !> Set by the reader from ra or rq, like the keys of a finish below
       real(dp) :: rms_height = 0.05e-6_dp
       real(dp) :: ra = 0.0_dp, rq = 0.0_dp
       character(len=word_length) :: finish = "none"
@@ -207,14 +204,14 @@ module ehl_case
       integer :: steps = 0
    end type time_case_t
 
-   !> &duty: what changes with time; not allocated or of size 0: as in the case
+   !> &duty: quantities that change with time; not allocated or of size 0: constant
    type :: duty_case_t
-      !> A table of it, which pyehl reads; made absolute by the reader
+      !> File of the table, which pyehl reads, with an absolute path
       character(len=path_length) :: file = ""
       character(len=word_length) :: interpolation = "linear"
       logical :: periodic = .false.
       integer :: periods = 3
-      !> Time step over that by the mesh; target of the error of the films by time steps
+      !> Time step over that from the mesh size; target of the time-step error of the films
       real(dp) :: time_step = 1.0_dp, target_error = 0.0_dp
       real(dp), allocatable, dimension(:) :: time, load, u1, u2, mean_velocity, slide_to_roll, radius_x, radius_y, viscosity, &
                                              inlet_film
@@ -235,14 +232,14 @@ module ehl_case
       integer :: threads = 1
    end type solver_case_t
 
-   !> &psd: the friction prediction from the surface spectrum, made by pyehl alone
+   !> &psd: friction prediction from the surface spectrum, used only by pyehl
    type :: psd_case_t
       real(dp) :: film_thickness = 0.0_dp, film_limit = 0.0_dp
       character(len=word_length) :: reduction = "response"
       character(len=word_length) :: smooth = "solved"
       character(len=word_length) :: wavelength_convention = "components"
       character(len=word_length) :: stiffness = "exact"
-      !> Set by the reader: that of &lubricant
+      !> Set by the reader to that of &lubricant
       character(len=word_length) :: viscosity_law = ""
       logical :: load_balance = .false.
       integer :: positions = 0
@@ -282,13 +279,13 @@ contains
       is_line = self%shape == "line"
    end function is_line
 
-   !> Whether it is a roller of finite length
+   !> Whether the contact is a roller of finite length
    pure logical function is_roller(self)
       class(contact_case_t), intent(in) :: self
       is_roller = self%shape == "roller"
    end function is_roller
 
-   !> Whether it has one radius, and is not curved across the motion but by a profile
+   !> Whether the contact has a single radius, and no curvature across the motion except by a profile
    pure logical function is_cylinder(self)
       class(contact_case_t), intent(in) :: self
       is_cylinder = self%is_line() .or. self%is_roller()
@@ -302,7 +299,7 @@ contains
       profile = profile_t(self%profiles, self%length, self%misalignment)
    end function body_profile
 
-   !> Whether something changes with time
+   !> Whether the case has a duty
    pure logical function has_duty(self)
       class(duty_case_t), intent(in) :: self
       has_duty = size(self%list("time")) > 0
@@ -317,7 +314,7 @@ contains
       end if
    end function reverses
 
-   !> Numbers by their key; of size 0 where there are none
+   !> Numbers of a key; of size 0 if not given
    pure function list(self, key) result(numbers)
       class(duty_case_t), intent(in) :: self
       character(len=*), intent(in) :: key
@@ -350,13 +347,13 @@ contains
       if (.not. allocated(numbers)) allocate (numbers(0))
    end function list
 
-   !> Load [N], of a line per length [N/m]
+   !> Load [N], or load per length of a line [N/m]
    pure real(dp) function size_of_load(self)
       class(contact_case_t), intent(in) :: self
       size_of_load = merge(self%load_per_length, self%load, self%is_line())
    end function size_of_load
 
-   !> M and L, those of a line for a line
+   !> M and L of a point or line contact
    pure function moes_numbers(self) result(numbers)
       class(contact_case_t), intent(in) :: self
       real(dp) :: numbers(2)

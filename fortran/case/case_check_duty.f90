@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Duties that cannot be solved are refused
+!> Checks of a duty
 module ehl_case_check_duty
    use ehl_case, only: case_t, has_no_height
    use ehl_case_source, only: case_source_t
@@ -19,7 +19,7 @@ module ehl_case_check_duty
 
 contains
 
-   !> Refuse a duty by its keys
+   !> Refuse a duty that is incomplete or cannot be solved
    subroutine check_duty(source, input, status)
       type(case_source_t), intent(in) :: source
       type(case_t), intent(in) :: input
@@ -110,7 +110,7 @@ contains
          if (minval(numbers) <= 0.0_dp) call refuse(key, "duty."//key//" of "//to_text(minval(numbers)), "positive numbers")
       end subroutine positive
 
-      !> A variable oil layer needs one in the case, and is never below the boundary film
+      !> A variable oil layer needs a layer in the case, and must not be below the boundary film
       subroutine check_layer()
          numbers = input%duty%list("inlet_film")
          if (size(numbers) == 0) return
@@ -121,7 +121,7 @@ contains
             "layers above lubricant.boundary_film")
       end subroutine check_layer
 
-      !> A period ends with the values of its beginning
+      !> A period must end with its first values
       subroutine check_period()
          integer :: i
 
@@ -135,7 +135,7 @@ contains
          end do
       end subroutine check_period
 
-      !> Refuse a surface at rest in the case: the duty could not place it
+      !> Refuse a rough surface at rest in the case, whose start is not defined
       subroutine check_surface(group, body)
          character(len=*), intent(in) :: group
          integer, intent(in) :: body

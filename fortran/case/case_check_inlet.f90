@@ -1,8 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Keys of an inlet that is short of oil, in a complete case
+!> Checks of a starved inlet in a complete case
 module ehl_case_check_inlet
    use ehl_case, only: case_t, surface_case_t
-   use ehl_case_defaults, only: is_short_of_oil
+   use ehl_case_defaults, only: is_starved
    use ehl_case_source, only: case_source_t
    use ehl_contact, only: contact_t
    use ehl_kinds, only: dp
@@ -13,14 +13,14 @@ module ehl_case_check_inlet
    private
    public :: beyond_contact, check_inlet, rounding
 
-   !> Minimum distance of the sides of the domain from the centre, in terms of the contact
+   !> Minimum distance of the borders of the domain from the centre, over that of the edge of the contact
    real(dp), parameter :: beyond_contact = 1.05_dp
    !> Relative difference below which values are equal
    real(dp), parameter :: rounding = 1.0e-6_dp
 
 contains
 
-   !> An inlet that is short of oil has P = 0 at its border, and the oil begins ahead of the contact
+   !> A starved inlet has P = 0 at its border, and the meniscus lies ahead of the contact
    subroutine check_inlet(source, input, contact, scales, status)
       type(case_source_t), intent(in) :: source
       type(case_t), intent(in) :: input
@@ -41,7 +41,7 @@ contains
          end if
          if (inlet%passages > 1 .and. .not. inlet%film_hertz > 0.0_dp) call source%refuse("inlet.passages", &
             "inlet.passages without inlet.film", "the layer of the first passage", status)
-         if (.not. is_short_of_oil(input)) return
+         if (.not. is_starved(input)) return
          if (inlet%position > 0.0_dp) call agree("inlet.position", "inlet.position_hertz", inlet%position/scales%length, &
                                                  inlet%position_hertz)
          if (inlet%film > 0.0_dp) call agree("inlet.film", "inlet.film_hertz", inlet%film/scales%film, inlet%film_hertz)

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Refuse keys of a point with a line contact, those of a line with a point, and what a line does not have
+!> Checks of the keys of point and line contacts
 module ehl_case_check_line
    use ehl_case, only: case_t
    use ehl_case_defaults, only: line_keys, point_keys
@@ -12,7 +12,7 @@ module ehl_case_check_line
 
 contains
 
-   !> Before a case is complete
+   !> Refuse keys of a point for a line, keys of a line for a point, and options without meaning for a line
    subroutine check_line(source, input, status)
       type(case_source_t), intent(in) :: source
       type(case_t), intent(in) :: input
@@ -42,7 +42,7 @@ contains
       end if
    end subroutine check_line
 
-   !> What a point contact has in place of a key of a line
+   !> Keys of a point contact in place of a key of a line
    pure function key_of_point(key) result(words)
       character(len=*), intent(in) :: key
       character(len=:), allocatable :: words
@@ -55,7 +55,7 @@ contains
       end select
    end function key_of_point
 
-   !> What a line contact has in place of a key of a point
+   !> Keys of a line contact in place of a key of a point
    pure function key_of_line(key) result(words)
       character(len=*), intent(in) :: key
       character(len=:), allocatable :: words

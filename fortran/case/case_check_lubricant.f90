@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Laws of the lubricant of a complete case: required constants, range of pressures, contacts that they apply to
+!> Checks of the lubricant laws in a complete case: required constants, pressure range, contacts to which they apply
 module ehl_case_check_lubricant
    use ehl_case, only: case_t, word_length
    use ehl_case_defaults, only: inlet
@@ -19,15 +19,15 @@ module ehl_case_check_lubricant
 
    !> Relative difference below which values are equal
    real(dp), parameter :: rounding = 1.0e-6_dp
-   !> Maximum pressure at which a law must give a viscosity, over the Hertz pressure
+   !> Maximum pressure at which a law must be valid, over the Hertz pressure
    real(dp), parameter :: beyond_hertz = 1.5_dp
-   !> Roelands exponents of liquids: water has 0.04, mineral oils 0.6
+   !> Range of Roelands exponents of liquids: water has 0.04, mineral oils 0.6
    real(dp), parameter :: min_z = 1.0e-3_dp, max_z = 2.0_dp
    character(len=*), parameter :: si_units = "load, mean_velocity, radius and reduced_modulus"
 
 contains
 
-   !> The constants that the laws in use need
+   !> Refuse a law without its constants
    subroutine check_constants(source, input, status)
       type(case_source_t), intent(in) :: source
       type(case_t), intent(in) :: input
@@ -67,7 +67,7 @@ contains
       end subroutine need_density
    end subroutine check_constants
 
-   !> All checks of a complete case
+   !> Refuse contradictory keys of a lubricant
    subroutine check_lubricant(source, input, scales, point, status)
       type(case_source_t), intent(in) :: source
       type(case_t), intent(in) :: input
@@ -125,14 +125,14 @@ contains
 
    contains
 
-      !> Refuse the value of a key where something is so
+      !> Refuse the value of a key on a condition
       subroutine refuse(so, key, what, expected)
          logical, intent(in) :: so
          character(len=*), intent(in) :: key, what, expected
          if (so) call source%refuse(key, key//": "//what, expected, status)
       end subroutine refuse
 
-      !> Heat needs a velocity in m/s, and how the viscosity falls with temperature
+      !> Heating needs a velocity in m/s and the temperature dependence of the viscosity
       subroutine check_heat(key, or)
          character(len=*), intent(in) :: key, or
          call refuse(.not. input%contact%si, key, "with a contact by Moes numbers", si_units//", or "//or)
@@ -140,7 +140,7 @@ contains
       end subroutine check_heat
    end subroutine check_lubricant
 
-   !> Viscosity and pressure-viscosity coefficient must be those of the law or the data sheet that gives them
+   !> Viscosity and pressure-viscosity coefficient must be those of the law or the data sheet
    subroutine check_inlet(source, input, status)
       type(case_source_t), intent(in) :: source
       type(case_t), intent(in) :: input
@@ -181,7 +181,7 @@ contains
       end subroutine agree
    end subroutine check_inlet
 
-   !> Viscosity and density must rise over all pressures of the contact
+   !> Viscosity and density must increase over all pressures of the contact
    subroutine check_rise(source, input, scales, point, status)
       type(case_source_t), intent(in) :: source
       type(case_t), intent(in) :: input

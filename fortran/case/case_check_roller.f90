@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Keys of a roller: those that belong together, and those that a roller does not have
+!> Checks of the keys of a roller
 module ehl_case_check_roller
    use ehl_case, only: case_t, has_no_height
    use ehl_case_source, only: case_source_t
@@ -17,22 +17,22 @@ module ehl_case_check_roller
       "chamfer_length", "chamfer_drop", "profile_file", "profile_y", "profile_drop", "misalignment", "profile_2", &
       "crown_radius_2", "log_amplitude_2", "chamfer_length_2", "chamfer_drop_2", "profile_file_2", "profile_y_2", &
       "profile_drop_2"]
-   !> Endings of the keys of each body
+   !> Suffixes of the keys of each body
    character(len=2), parameter :: of_body(2) = ["  ", "_2"]
    character(len=15), parameter :: other_keys(9) = [character(len=15) :: "moes_m", "moes_l", "radius_ratio", "radius_x", &
       "radius_y", "angle", "load_per_length", "moes_m_line", "moes_l_line"]
-   !> Value of contact.profile and the keys that belong to it
+   !> Values of contact.profile, each with a required key
    character(len=14), parameter :: of_profile(2, 6) = reshape([character(len=14) :: "crown", "crown_radius", &
       "logarithmic", "log_amplitude", "chamfer", "chamfer_length", "chamfer", "chamfer_drop", &
       "file", "profile_y", "file", "profile_drop"], [2, 6])
    !> Largest drop of a profile over the radius
-   real(dp), parameter :: deepest = 0.1_dp
-   !> Lengths of a roller over b
-   real(dp), parameter :: shortest = 4.0_dp, longest = 400.0_dp
+   real(dp), parameter :: max_drop = 0.1_dp
+   !> Smallest and largest length of a roller over b
+   real(dp), parameter :: min_length = 4.0_dp, max_length = 400.0_dp
 
 contains
 
-   !> Checks of a case whose defaults are not set yet
+   !> Checks before the defaults are set
    subroutine check_roller(source, input, status)
       type(case_source_t), intent(in) :: source
       type(case_t), intent(in) :: input
@@ -70,7 +70,7 @@ contains
       end subroutine require
    end subroutine check_roller
 
-   !> The length must be that of a line contact, and short enough for a grid
+   !> The length must be much larger than b, and short enough for a grid
    subroutine check_length(source, input, scales, status)
       type(case_source_t), intent(in) :: source
       type(case_t), intent(in) :: input
@@ -79,14 +79,14 @@ contains
 
       if (status%failed() .or. .not. input%contact%is_roller()) return
       associate (over_b => input%contact%length/scales%length)
-         if (over_b >= shortest .and. over_b <= longest) return
+         if (over_b >= min_length .and. over_b <= max_length) return
          call source%refuse("contact.length", "contact.length is "//short(over_b)//" b, b = "//short(scales%length)//" m", &
                             "4 to 400 b: longer ones are lines, contact.shape = 'line', but for their ends; shorter ones points", &
                             status)
       end associate
    end subroutine check_length
 
-   !> Each body needs all keys of its profile and no others; the drop of both is limited
+   !> Each body needs all keys of its profile and no others; their total drop is limited
    subroutine check_profile(source, input, status)
       type(case_source_t), intent(in) :: source
       type(case_t), intent(in) :: input
@@ -106,17 +106,17 @@ contains
             if (profile%of(body)%kind == "file") drop = max(drop, maxval(abs(profile%of(body)%table)))
          end do
          drop = drop + 0.5_dp*abs(c%misalignment)*c%length
-         if (drop > deepest*max(c%radius, c%radius_x)) call source%refuse("contact.profile", "the profile drops by "// &
+         if (drop > max_drop*max(c%radius, c%radius_x)) call source%refuse("contact.profile", "the profile drops by "// &
             short(drop)//" m at the end of the roller, misalignment included", "a tenth of the radius at most", status)
       end associate
    end subroutine check_profile
 
-   !> Keys of one body, whose names have an ending
+   !> Check the keys of one body, whose names end with `ending`
    subroutine check_body(source, one, ending, length, status)
       type(case_source_t), intent(in) :: source
       type(body_profile_t), intent(in) :: one
       character(len=*), intent(in) :: ending
-      !> Of the roller [m]
+      !> Length of the roller [m]
       real(dp), intent(in) :: length
       type(status_t), intent(inout) :: status
       character(len=:), allocatable :: key, profile
@@ -145,7 +145,7 @@ contains
       if (one%kind == "file") call check_table(source, one, ending, length, status)
    end subroutine check_body
 
-   !> A table has as many drops as places; places increase and cover the roller
+   !> A table needs a drop at each position, and positions that increase and cover the roller
    subroutine check_table(source, one, ending, length, status)
       type(case_source_t), intent(in) :: source
       type(body_profile_t), intent(in) :: one
@@ -160,6 +160,6 @@ contains
       if (good) good = one%y(1) <= -0.499999_dp*length .and. one%y(size(one%y)) >= 0.499999_dp*length
       if (.not. good) call source%refuse("contact.profile_y"//ending, "contact.profile_y"//ending// &
                                          " does not cover the roller", &
-                                         "places that rise from -length/2 to length/2 [m], a drop for each", status)
+                                         "positions that increase from -length/2 to length/2 [m], with a drop each", status)
    end subroutine check_table
 end module ehl_case_check_roller

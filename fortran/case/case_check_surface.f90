@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Keys of the surfaces of a complete case that contradict each other
+!> Checks of the surfaces of a complete case
 module ehl_case_check_surface
    use ehl_case, only: case_t, contact_case_t, is_feature, surface_case_t
    use ehl_case_defaults, only: latest_start, waits
@@ -15,7 +15,7 @@ module ehl_case_check_surface
 
 contains
 
-   !> Both surfaces
+   !> Check both surfaces
    subroutine check_surfaces(source, input, status)
       type(case_source_t), intent(in) :: source
       type(case_t), intent(in) :: input
@@ -25,7 +25,7 @@ contains
       call check_surface(source, "second_surface", input%contact, input%second_surface, input%surface, status)
    end subroutine check_surfaces
 
-   !> One surface, given the other one
+   !> Check a surface; `other` is the other surface
    subroutine check_surface(source, group, contact, s, other, status)
       type(case_source_t), intent(in) :: source
       character(len=*), intent(in) :: group
@@ -61,7 +61,7 @@ contains
                   "not longer than shortest_wavelength", "a longest wavelength above the shortest one, or 0")
       call refuse(s%kind == "map" .and. trim(s%file) == "", "kind", "'map' without file", "file = '...'")
       call refuse(s%sign == 0, "sign", "0", "1 or -1")
-      ! the heights of a tile that pyehl has made come from it, or are kept beside the results
+      ! the heights of a tile made by pyehl come from Python or from the checkpoint folder
       if (s%kind == "map" .and. trim(s%file) /= "" .and. .not. s%tile_x > 0.0_dp) call refuse(.not. is_file(trim(s%file)), &
          "file", "there is no file "//trim(s%file), "a height map: .npy, text or a file of an instrument")
       if (status%failed() .or. .not. waits(s, other)) return
@@ -70,14 +70,14 @@ contains
 
    contains
 
-      !> Refuse the value of a key of the group where something is so
+      !> Refuse the value of a key of the group on a condition
       subroutine refuse(so, key, what, expected)
          logical, intent(in) :: so
          character(len=*), intent(in) :: key, what, expected
          if (so) call source%refuse(group//"."//key, group//"."//key//": "//what, expected, status)
       end subroutine refuse
 
-      !> A size is given once
+      !> Refuse two keys for the same size
       subroutine exclude(one, rival, has_one)
          character(len=*), intent(in) :: one, rival
          logical, intent(in) :: has_one

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Checks of several keys of a case together: keys that exclude each other, operating points and domains that cannot be
-!> solved, and values that pyehl has to complete
+!> Checks of combinations of keys: keys that exclude each other, operating points and domains that cannot be solved, and values that
+!> pyehl has to derive
 module ehl_case_checks
    use ehl_case, only: case_t, surface_case_t
    use ehl_case_check_duty, only: check_duty
@@ -23,7 +23,7 @@ module ehl_case_checks
    private
    public :: check_given, check_complete
 
-   !> Largest M of a round contact with the same equations
+   !> Largest M of the equivalent round contact
    real(dp), parameter :: max_m = 1.0e5_dp
    !> Minimum p_h/E' of a plausible contact: 0.1 MPa between steel bodies
    real(dp), parameter :: min_strain = 4.0e-7_dp
@@ -35,7 +35,7 @@ module ehl_case_checks
 
 contains
 
-   !> Before a case is complete: keys that contradict, and keys from which pyehl makes others
+   !> Checks before the defaults are set: contradictory keys, and keys from which pyehl derives others
    subroutine check_given(source, input, status)
       type(case_source_t), intent(in) :: source
       type(case_t), intent(in) :: input
@@ -78,7 +78,7 @@ contains
 
    contains
 
-      !> Key or ''
+      !> The key if it is given, otherwise ''
       function if_given(name) result(key)
          character(len=*), intent(in) :: name
          character(len=:), allocatable :: key
@@ -86,7 +86,7 @@ contains
          if (source%given(name)) key = name
       end function if_given
 
-      !> A key that the solver does not use by itself: the values that pyehl makes of it must stand beside it
+      !> Refuse a key that the solver does not use without the values that pyehl derives from it
       subroutine need(key, group, keys, or)
          character(len=*), intent(in) :: key, group, keys(:), or
          integer :: k
@@ -112,7 +112,7 @@ contains
       end subroutine need_height
    end subroutine check_given
 
-   !> The other checks, of a complete case
+   !> Checks of a complete case
    subroutine check_complete(source, input, status)
       type(case_source_t), intent(in) :: source
       type(case_t), intent(in) :: input
@@ -172,7 +172,7 @@ contains
       end subroutine agree
    end subroutine check_bodies
 
-   !> Refuse implausible operating points, which mistakes in the units mostly make
+   !> Refuse implausible operating points, which mostly follow from wrong units
    subroutine check_point(source, input, scales, point, status)
       type(case_source_t), intent(in) :: source
       type(case_t), intent(in) :: input
@@ -216,7 +216,7 @@ contains
       end subroutine check_largest
    end subroutine check_point
 
-   !> The domain must hold the contact
+   !> The domain must contain the contact
    subroutine check_domain(source, input, contact, status)
       type(case_source_t), intent(in) :: source
       type(case_t), intent(in) :: input
@@ -238,7 +238,7 @@ contains
       end do
    end subroutine check_domain
 
-   !> Halving of points - 1 must end at a possible coarsest grid, and points_y - 1 must be divisible as often
+   !> Halving points - 1 must lead to a possible coarsest grid, and points_y - 1 must be divisible as often
    subroutine check_points(source, input, status)
       type(case_source_t), intent(in) :: source
       type(case_t), intent(in) :: input
@@ -282,7 +282,7 @@ contains
       has_levels = levels > 0
    end function has_levels
 
-   !> Velocities of both surfaces are those of the slide-to-roll ratio
+   !> The velocities of both surfaces must follow from the slide-to-roll ratio
    subroutine check_motion(source, input, status)
       type(case_source_t), intent(in) :: source
       type(case_t), intent(in) :: input

@@ -1,9 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Values of a case that follow from others where they are not given, by the numerics alone. What needs tables, data sheets or
-!> assessment is completed by pyehl.
+!> Defaults of a case that follow from other keys. pyehl completes values that need tables or data sheets.
 module ehl_case_defaults
    use ehl_case, only: case_t, has_no_height, is_feature, lubricant_case_t, surface_case_t
-   use ehl_case_grid, only: fill_grid, grid_keys, widening_of
+   use ehl_case_grid, only: duty_widening, fill_grid, grid_keys
    use ehl_case_law, only: make_viscosity, own_law
    use ehl_case_point, only: find_contact
    use ehl_case_source, only: case_source_t
@@ -19,7 +18,7 @@ module ehl_case_defaults
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    implicit none (type, external)
    private
-   public :: complete, inlet, is_short_of_oil, latest_start, line_keys, make_isotherms, moes_keys, point_keys, si_keys, &
+   public :: complete, inlet, is_starved, latest_start, line_keys, make_isotherms, moes_keys, point_keys, si_keys, &
              sliding, velocity_ratio, &
              waits
 
@@ -27,17 +26,17 @@ module ehl_case_defaults
                                                    "moes_l_line"], &
       si_keys(7) = [character(len=16) :: "load", "load_per_length", "mean_velocity", "radius", "reduced_modulus", "radius_x", &
                     "radius_y"], &
-      !> Keys of a line, and what a point has in their place
+      !> Keys of a line, and those of a point
       line_keys(3) = [character(len=16) :: "moes_m_line", "moes_l_line", "load_per_length"], &
       point_keys(7) = [character(len=16) :: "moes_m", "moes_l", "load", "radius_ratio", "radius_x", "radius_y", "angle"]
    !> Size of the tile of Table 1 of Zhang et al. 2019 [m]
    real(dp), parameter :: fractal_length = 8.29e-4_dp
-   !> Time in which the film made in the inlet passes the contact [a/u]
-   real(dp), parameter :: through = 2.0_dp
+   !> Time in which a film from the inlet passes through the contact [a/u]
+   real(dp), parameter :: transit = 2.0_dp
 
 contains
 
-   !> Give values to all keys that were not given
+   !> Set all keys that were not given
    subroutine complete(source, input, status)
       type(case_source_t), intent(in) :: source
       type(case_t), intent(inout) :: input
@@ -54,14 +53,14 @@ contains
       call find_contact(input, contact, scales, point)
       call complete_inlet(source, scales, input)
       given = [(source%given("grid."//grid_keys(k)), k=1, size(grid_keys))]
-      ! a border that changes with time is not known
+      ! the pressure at a border is not known under a duty
       if (input%duty%active() .and. .not. given(1)) input%grid%border = "zero"
-      if (is_short_of_oil(input) .and. .not. given(1)) input%grid%border = "zero"
+      if (is_starved(input) .and. .not. given(1)) input%grid%border = "zero"
       given(2) = given(2) .or. input%inlet%position_hertz > 0.0_dp
       call fill_grid(contact, point, input%surface%kind == "smooth" .and. input%second_surface%kind == "smooth", &
                      input%lubricant%shear_law /= "newtonian" .and. input%lubricant%flow == "consistent", &
-                     [given(1) .or. input%duty%active() .or. is_short_of_oil(input), given(2:)], input%grid, &
-                     widening_of(input), input%duty%reverses())
+                     [given(1) .or. input%duty%active() .or. is_starved(input), given(2:)], input%grid, &
+                     duty_widening(input), input%duty%reverses())
       if (input%contact%is_line() .and. .not. source%given("solver.deflection")) input%solver%deflection = "fft"
       call complete_motion(source, input)
       call complete_surface(source, "surface", input%grid%x_inlet, input%surface)
@@ -71,17 +70,17 @@ contains
           .and. .not. source%given("second_surface.seed")) then
          input%second_surface%seed = input%surface%seed + merge(1, -1, input%surface%seed < huge(1))
       end if
-      if (.not. source%given("surface.x_start")) call late_start(input%surface, input%second_surface)
-      if (.not. source%given("second_surface.x_start")) call late_start(input%second_surface, input%surface)
+      if (.not. source%given("surface.x_start")) call delay_start(input%surface, input%second_surface)
+      if (.not. source%given("second_surface.x_start")) call delay_start(input%second_surface, input%surface)
    end subroutine complete
 
-   !> Whether the inlet is meant to be short of oil
-   pure logical function is_short_of_oil(input)
+   !> Whether the inlet is starved
+   pure logical function is_starved(input)
       type(case_t), intent(in) :: input
-      is_short_of_oil = max(input%inlet%position_hertz, input%inlet%film_hertz) > 0.0_dp
-   end function is_short_of_oil
+      is_starved = max(input%inlet%position_hertz, input%inlet%film_hertz) > 0.0_dp
+   end function is_starved
 
-   !> The inlet in Hertz units; P = 0 is at its border
+   !> Set the inlet in Hertz units; the border of the domain is at the meniscus
    subroutine complete_inlet(source, scales, input)
       type(case_source_t), intent(in) :: source
       type(scales_t), intent(in) :: scales
@@ -96,7 +95,7 @@ contains
       end associate
    end subroutine complete_inlet
 
-   !> SI units or Moes numbers, and both radii
+   !> Set the kind of units, and both radii
    subroutine complete_contact(source, input)
       type(case_source_t), intent(in) :: source
       type(case_t), intent(inout) :: input
@@ -114,8 +113,7 @@ contains
       end associate
    end subroutine complete_contact
 
-   !> Viscosity, pressure-viscosity coefficient and fall with temperature at the inlet by a law that gives them; exponent of
-   !> Roelands
+   !> Set viscosity, pressure-viscosity coefficient and temperature dependence at the inlet from a law, and Roelands' exponent
    subroutine complete_lubricant(source, input, status)
       type(case_source_t), intent(in) :: source
       type(case_t), intent(inout) :: input
@@ -124,7 +122,7 @@ contains
       character(len=:), allocatable :: why
 
       associate (l => input%lubricant)
-         ! its constants hold with that volume
+         ! the constants of Doolittle's law refer to Tait's equation
          if (.not. source%given("lubricant.density_law") .and. l%viscosity_law == "doolittle") l%density_law = "tait"
          call make_isotherms(l, why)
          if (why /= "") call source%refuse("lubricant.table_viscosity", "a table of viscosities "//why, &
@@ -148,20 +146,20 @@ contains
       end associate
    end subroutine complete_lubricant
 
-   !> z of Roelands' law by viscosity [Pa s], pressure-viscosity coefficient [1/Pa] and reference pressure [Pa]
+   !> z of Roelands' law from viscosity [Pa s], pressure-viscosity coefficient [1/Pa] and reference pressure [Pa]
    pure real(dp) function roelands_exponent(viscosity, alpha, p0)
       real(dp), intent(in) :: viscosity, alpha, p0
       roelands_exponent = alpha*p0/(log(viscosity) + 9.67_dp)
    end function roelands_exponent
 
-   !> Viscosity [Pa s], pressure-viscosity coefficient [1/Pa] and -(d eta/dT)/eta [1/K] at the inlet by the law that gives them
+   !> Viscosity [Pa s], pressure-viscosity coefficient [1/Pa] and -(d eta/dT)/eta [1/K] at the inlet from a law
    subroutine inlet(l, viscosity, alpha, slope, status)
       type(lubricant_case_t), intent(in) :: l
       real(dp), intent(out) :: viscosity, alpha, slope
       type(status_t), intent(inout) :: status
       class(viscosity_law_t), allocatable :: law
       real(dp) :: rise(1), level(1), at(2)
-      !> [K] the error of the difference is its square over some hundred K^2
+      !> Temperature step [K]; the relative error of the difference is its square over some hundred K^2
       real(dp), parameter :: step = 0.01_dp
 
       viscosity = 0.0_dp
@@ -178,7 +176,7 @@ contains
       slope = (at(1) - at(2))/(2.0_dp*step)
    end subroutine inlet
 
-   !> The range of the measurements is that of a table, where it is not given
+   !> Set the range of the measurements from a table if it is not given
    subroutine take_range(source, l)
       type(case_source_t), intent(in) :: source
       type(lubricant_case_t), intent(inout) :: l
@@ -197,7 +195,7 @@ contains
       end associate
    end subroutine take_range
 
-   !> The table of measured viscosities by isotherms, or why it makes none
+   !> Split the table of measured viscosities into isotherms; `why`: the reason of a failure
    subroutine make_isotherms(l, why)
       type(lubricant_case_t), intent(inout) :: l
       character(len=:), allocatable, intent(out) :: why
@@ -208,7 +206,7 @@ contains
       n = size(l%table_viscosity)
       if (n == 0) return
       if (size(l%table_temperature) /= n .or. size(l%table_pressure) /= n) then
-         why = "has not as many temperatures and pressures"
+         why = "with different numbers of temperatures and pressures"
          return
       end if
       allocate (l%isotherms(0))
@@ -221,7 +219,7 @@ contains
          end do
          associate (p => l%table_pressure(first:last), eta => l%table_viscosity(first:last))
             if (first == last .or. any(p(2:) <= p(:last - first)) .or. any([eta(2:) - eta(:last - first), eta(1)] <= 0.0_dp)) then
-               why = "does not rise with two pressures or more at each temperature"
+               why = "that does not increase with two or more pressures at each temperature"
                return
             end if
             l%isotherms = [l%isotherms, new_isotherm(l%table_temperature(first) + zero_celsius, p, eta)]
@@ -229,11 +227,11 @@ contains
          first = last + 1
       end do
       if (any(l%isotherms(2:)%temperature <= l%isotherms(:size(l%isotherms) - 1)%temperature)) then
-        why = "is not by rising temperature"
+        why = "that is not sorted by temperature"
       end if
    end subroutine make_isotherms
 
-   !> Of slide-to-roll ratio and velocities of the surfaces one gives the others
+   !> Set slide-to-roll ratio and velocities of the surfaces from the one that is given
    subroutine complete_motion(source, input)
       type(case_source_t), intent(in) :: source
       type(case_t), intent(inout) :: input
@@ -252,21 +250,21 @@ contains
       end associate
    end subroutine complete_motion
 
-   !> Velocity of body 1 or 2 over the mean one, by the slide-to-roll ratio
+   !> Velocity of body 1 or 2 over the mean velocity
    pure real(dp) function velocity_ratio(body, srr)
       integer, intent(in) :: body
       real(dp), intent(in) :: srr
       velocity_ratio = 1.0_dp + 0.5_dp*merge(1.0_dp, -1.0_dp, body == 1)*srr
    end function velocity_ratio
 
-   !> Slide-to-roll ratio by the velocity of a body, free of the rounding of the difference: 0.02 for 1.01
+   !> Slide-to-roll ratio from the velocity ratio of a body, without the rounding of the difference: 0.02 for 1.01
    pure real(dp) function sliding(body, ratio)
       integer, intent(in) :: body
       real(dp), intent(in) :: ratio
       sliding = anint(merge(1.0_dp, -1.0_dp, body == 1)*(ratio - 1.0_dp)*2.0e12_dp)/1.0e12_dp
    end function sliding
 
-   !> Defaults of a surface that depend on other keys
+   !> Set the defaults of a surface that depend on other keys
    subroutine complete_surface(source, group, x_inlet, s)
       type(case_source_t), intent(in) :: source
       character(len=*), intent(in) :: group
@@ -283,23 +281,22 @@ contains
       s%amplitude_given = source%given(group//".amplitude")
    end subroutine complete_surface
 
-   !> A feature comes when the roughness of the other surface has filled the contact, with the film that it made in the
-   !> inlet: its x_start unless it is given
-   pure subroutine late_start(s, other)
+   !> Set the default x_start of a feature: it arrives when the roughness of the other surface, with its film, fills the contact
+   pure subroutine delay_start(s, other)
       type(surface_case_t), intent(inout) :: s
       type(surface_case_t), intent(in) :: other
 
-      if (waits(s, other)) s%x_start = min(s%x_start, latest_start(s, other) - s%velocity_ratio*through)
-   end subroutine late_start
+      if (waits(s, other)) s%x_start = min(s%x_start, latest_start(s, other) - s%velocity_ratio*transit)
+   end subroutine delay_start
 
-   !> Whether one is a moving feature and the other one moving roughness
+   !> Whether `s` is a moving feature, and the other surface has moving roughness
    pure logical function waits(s, other)
       type(surface_case_t), intent(in) :: s, other
       waits = is_feature(s%kind) .and. .not. is_feature(other%kind) .and. .not. has_no_height(other) .and. &
               s%velocity_ratio > 0.0_dp .and. other%velocity_ratio > 0.0_dp
    end function waits
 
-   !> Where a feature begins that comes near the contact just when the front of the other surface leaves it
+   !> Latest start of a feature: it comes near the contact when the front of the other surface leaves it
    pure real(dp) function latest_start(s, other)
       type(surface_case_t), intent(in) :: s, other
       latest_start = x_matters - s%velocity_ratio*(x_filled - other%x_start)/other%velocity_ratio

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Border, domain and numbers of nodes that a contact needs, where a case does not give them
+!> Defaults of border, domain and numbers of nodes
 module ehl_case_grid
    use ehl_case, only: case_t, grid_case_t
    use ehl_contact, only: contact_t
@@ -10,38 +10,38 @@ module ehl_case_grid
    use ehl_moes, only: operating_t
    implicit none (type, external)
    private
-   public :: blunt_spike, high_spike, grid_keys, fill_grid, widening_of
+   public :: blunt_spike, high_spike, grid_keys, fill_grid, duty_widening
 
-   !> Keys of &grid that have a default by the contact
+   !> Keys of &grid whose defaults depend on the contact
    character(len=8), parameter :: grid_keys(5) = [character(len=8) :: "border", "x_inlet", "x_outlet", "y_extent", "points"]
-   !> Fewest and most intervals along Y of a coarsest grid
+   !> Smallest and largest number of intervals along Y on a coarsest grid
    integer, parameter :: min_rows = 8, few_rows = 32
-   !> Least and largest ratio of the sides of a cell, Y over X; the least in a smooth contact: the film of a narrow one varies
-   !> across the motion over its width
+   !> Smallest and largest ratio hy/hx of a cell; the smallest in a smooth contact, since the film of a narrow one varies across the
+   !> motion over its width
    real(dp), parameter :: min_ratio = 0.25_dp, largest_ratio = 1.41_dp, min_smooth = 0.125_dp
-   !> Largest ratio in a smooth contact, and the same over kappa: the film of a wide one varies across the motion over the length
-   !> of the contact there. Up to `blunt_spike` of alpha p_h, and an L of `high_spike` where the flow does not thin: beyond, the
-   !> pressure spike on the oblique edge is a few nodes wide, and cycles on such cells let it oscillate (docs/theory/relaxation.md).
-   real(dp), parameter :: largest_smooth = 2.8_dp, smooth_by_kappa = 0.5_dp
-   !> L above which the pressure spike is high. Coarse grids that leave it to the sweeps then pay: at L = 21 to 28 contacts take a
-   !> quarter to two thirds of the cycles, at 6 and 7 up to three times as many. Below it a roller, whose film varies along it by
-   !> its profile alone but for its ends, has the longest cells whatever alpha p_h is
+   !> Largest ratio hy/hx in a smooth contact, and the same over kappa: the film of a wide contact varies slowly across the motion.
+   !> Valid for alpha p_h up to `blunt_spike`, and without shear thinning for L up to `high_spike`: above, the pressure spike on
+   !> the oblique edge is a few nodes wide and oscillates on such cells (docs/theory/relaxation.md).
+   real(dp), parameter :: largest_smooth = 2.8_dp, smooth_per_kappa = 0.5_dp
+   !> L above which the pressure spike is high. Leaving the spike to relaxation then saves cycles: at L = 21 to 28 a quarter to two
+   !> thirds of the cycles are needed, at 6 and 7 up to three times as many. Below it a roller, whose film away from the ends
+   !> follows its profile, has the longest cells at any alpha p_h.
    real(dp), parameter :: high_spike = 15.0_dp
-   !> Largest a-priori error of H_c that the usual grid of a smooth contact may have
-   real(dp), parameter :: max_missed = 0.05_dp
+   !> Largest a-priori error of H_c on the default grid of a smooth contact
+   real(dp), parameter :: max_error = 0.05_dp
 
 contains
 
-   !> Border and each side of the domain follow from the operating point, unless they are given
+   !> Set border, domain and numbers of nodes from the operating point unless given
    pure subroutine fill_grid(contact, point, smooth, thins, given, grid, widening, reverses)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point
-      !> Whether both surfaces are smooth, and whether the flow thins
+      !> Whether both surfaces are smooth; whether the flow is shear-thinning
       logical, intent(in) :: smooth, thins
-      !> Of grid_keys
+      !> Whether each of grid_keys is given
       logical, intent(in) :: given(5)
       type(grid_case_t), intent(inout) :: grid
-      !> Of a duty: by how much the contact is larger at times, and whether the other side is the inlet at times
+      !> Duty: largest size of the contact over that of the case; whether the flow reverses
       real(dp), intent(in) :: widening
       logical, intent(in) :: reverses
       type(domain_t) :: domain
@@ -55,7 +55,7 @@ contains
       if (.not. given(4)) grid%y_extent = widening*domain%side
       if (smooth .and. .not. given(5) .and. .not. grid%target_error > 0.0_dp) then
          errors = relative_errors(contact, point, (grid%x_outlet - grid%x_inlet)/(grid%points - 1))
-         if (errors(1) > max_missed) grid%points = 2*grid%points - 1
+         if (errors(1) > max_error) grid%points = 2*grid%points - 1
       end if
       blunt = point%alpha_bar < blunt_spike(point%moes_l)
       if (contact%is_roller()) then
@@ -66,8 +66,8 @@ contains
       if (.not. grid%points_y > 0) grid%points_y = rows(contact, smooth, smooth .and. blunt, grid)
    end subroutine fill_grid
 
-   !> Largest alpha p_h of a blunt spike. With long cells a contact at 19.6 and L = 12.8 ends at the cycle limit; with L below 7
-   !> seven of seven with alpha p_h from 26 to 54 are faster (docs/evidence/machines)
+   !> Largest alpha p_h of a blunt spike. With long cells a contact with alpha p_h = 19.6 and L = 12.8 ends at the cycle limit; with
+   !> L below 7 all seven contacts with alpha p_h from 26 to 54 are faster (docs/evidence/machines).
    pure real(dp) function blunt_spike(moes_l)
       real(dp), intent(in) :: moes_l
 
@@ -76,29 +76,29 @@ contains
    end function blunt_spike
 
    !> Largest size of the dry contact under the duty over that of the case
-   pure real(dp) function widening_of(input)
+   pure real(dp) function duty_widening(input)
       type(case_t), intent(in) :: input
       real(dp), allocatable :: load(:), radius(:)
 
-      widening_of = 1.0_dp
+      duty_widening = 1.0_dp
       if (.not. input%duty%active()) return
       load = input%duty%list("load")
       radius = input%duty%list("radius_x")
       if (size(load) == 0) load = 0.0_dp*input%duty%time + input%contact%size_of_load()
       if (size(radius) == 0) radius = 0.0_dp*input%duty%time + input%contact%radius_x
       if (size(load) /= size(radius)) return
-      widening_of = max(1.0_dp, maxval(load*radius)/(input%contact%size_of_load()*input%contact%radius_x)) &
+      duty_widening = max(1.0_dp, maxval(load*radius)/(input%contact%size_of_load()*input%contact%radius_x)) &
                     **merge(1.0_dp/2.0_dp, 1.0_dp/3.0_dp, input%contact%is_cylinder())
-   end function widening_of
+   end function duty_widening
 
-   !> Nodes along Y: as many as along X in a round contact, else as many as make cells of the shape wanted
+   !> Nodes along Y: as many as along X in a round contact, otherwise from the ratio hy/hx of the cells
    pure integer function rows(contact, smooth, blunt, grid)
       class(contact_t), intent(in) :: contact
-      !> Whether both surfaces are smooth, and the pressure spike is no sharp one
+      !> Whether both surfaces are smooth; whether the pressure spike is blunt
       logical, intent(in) :: smooth, blunt
       type(grid_case_t), intent(in) :: grid
       integer :: levels, intervals(2), halved, multiple
-      real(dp) :: wanted, ratio
+      real(dp) :: target, ratio
 
       rows = merge(1, grid%points, contact%is_line())
       if (contact%is_round() .or. contact%is_line()) return
@@ -107,27 +107,27 @@ contains
       halved = (rows - 1)/intervals(1)
       ratio = cell_ratio(contact%reach(2)/contact%reach(1), smooth, blunt)
       if (contact%is_roller() .and. blunt) ratio = largest_smooth
-      wanted = 2.0_dp*grid%y_extent*intervals(1)/(ratio*(grid%x_outlet - grid%x_inlet))
-      ! cells that are short along Y are first coarsened along it alone (ehl_hierarchy)
+      target = 2.0_dp*grid%y_extent*intervals(1)/(ratio*(grid%x_outlet - grid%x_inlet))
+      ! cells short along Y are first coarsened along Y only (ehl_hierarchy)
       multiple = 2
       do while (ratio < 1.0_dp/long_x)
          ratio = 2.0_dp*ratio
          multiple = 2*multiple
       end do
-      ! many rows are halved further, until they are few
-      do while (wanted > 0.5_dp*multiple*few_rows)
+      ! many rows are halved further
+      do while (target > 0.5_dp*multiple*few_rows)
          multiple = 2*multiple
       end do
-      rows = max(min_rows, multiple*nint(wanted/multiple))*halved + 1
+      rows = max(min_rows, multiple*nint(target/multiple))*halved + 1
    end function rows
 
-   !> Side of a cell along Y over that along X: cells longer along the longer axis reach the same error with fewer nodes, as
-   !> long as multigrid converges as on square ones
+   !> Ratio hy/hx of the cells: cells elongated along the longer axis give the same error with fewer nodes, as long as multigrid
+   !> converges as on square cells
    pure real(dp) function cell_ratio(elongation, smooth, blunt)
       real(dp), intent(in) :: elongation
       logical, intent(in) :: smooth, blunt
 
       cell_ratio = min(largest_ratio, max(merge(min_smooth, min_ratio, smooth), elongation))
-      if (blunt) cell_ratio = max(cell_ratio, min(largest_smooth, smooth_by_kappa*elongation))
+      if (blunt) cell_ratio = max(cell_ratio, min(largest_smooth, smooth_per_kappa*elongation))
    end function cell_ratio
 end module ehl_case_grid

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The namelist groups of a case: every key, read into its place and written from there by the intrinsic read and write
+!> The namelist groups of a case, read and written by the intrinsic namelist statements
 module ehl_case_groups
    use ehl_case, only: bodies_case_t, case_t, contact_case_t, duty_case_t, grid_case_t, inlet_case_t, output_case_t, &
                        path_length, psd_case_t, &
@@ -14,12 +14,12 @@ module ehl_case_groups
 
    character(len=name_length), parameter :: group_names(*) = [character(len=name_length) :: "contact", "bodies", "lubricant", &
       "inlet", "grid", "surface", "second_surface", "time", "duty", "solver", "psd", "output"]
-   !> Most keys of a group, and its beginning and end
+   !> Largest number of lines of a group
    integer, parameter :: max_lines = 80
 
 contains
 
-   !> Read the text of a group, `&group ... /`; not good where the runtime refuses it
+   !> Read the text of a group, `&group ... /`; `good` is false if the runtime refuses it
    subroutine read_group(group, text, input, good)
       character(len=*), intent(in) :: group, text
       type(case_t), intent(inout) :: input
@@ -29,7 +29,7 @@ contains
       call pass_group(group, input, text, lines, good)
    end subroutine read_group
 
-   !> Keys and values of a group, in order; '' is the value of a list
+   !> Keys and values of a group, in order; the value of a list is ''
    subroutine write_group(group, input, keys, values)
       character(len=*), intent(in) :: group
       type(case_t), intent(inout) :: input
@@ -51,7 +51,7 @@ contains
       end do
    end subroutine write_group
 
-   !> A value as the intrinsic write gives it, in its shortest form
+   !> Shortest form of a value from the intrinsic write
    function plain(written) result(text)
       character(len=*), intent(in) :: written
       character(len=:), allocatable :: text
@@ -68,7 +68,7 @@ contains
       end if
    end function plain
 
-   !> A group by its name: read where there is a text of it, else written
+   !> Read a group if its text is not empty, otherwise write it
    subroutine pass_group(group, input, text, lines, good)
       character(len=*), intent(in) :: group, text
       type(case_t), intent(inout) :: input
@@ -141,7 +141,7 @@ contains
       log_amplitude => v%profiles(1)%log_amplitude; log_amplitude_2 => v%profiles(2)%log_amplitude
       chamfer_length => v%profiles(1)%chamfer_length; chamfer_length_2 => v%profiles(2)%chamfer_length
       chamfer_drop => v%profiles(1)%chamfer_drop; chamfer_drop_2 => v%profiles(2)%chamfer_drop
-      ! as many numbers as a text of this length can hold
+      ! largest number of values in a text of this length
       allocate (profile_y(len(text)/2), profile_drop(len(text)/2), profile_y_2(len(text)/2), profile_drop_2(len(text)/2), &
                 source=huge(1.0_dp))
       if (len(text) == 0) then
@@ -261,7 +261,7 @@ contains
 
       file => v%file; interpolation => v%interpolation; periodic => v%periodic; periods => v%periods
       time_step => v%time_step; target_error => v%target_error
-      ! as many numbers as a text of this length can hold
+      ! largest number of values in a text of this length
       associate (most => len(text)/2)
          allocate (time(most), load(most), u1(most), u2(most), mean_velocity(most), slide_to_roll(most), radius_x(most), &
                    radius_y(most), viscosity(most), inlet_film(most), source=huge(1.0_dp))

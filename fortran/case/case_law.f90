@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Laws of viscosity and density of a case that rest on constants of the oil, or on a table of measured values
+!> Laws of viscosity and density of a case with constants of the oil or a table of measured values
 module ehl_case_law
    use ehl_ambient_viscosity, only: ambient_viscosity_t, new_ambient_viscosity
    use ehl_case, only: lubricant_case_t
@@ -22,7 +22,7 @@ module ehl_case_law
 
 contains
 
-   !> The law that gives viscosity and pressure-viscosity coefficient at the inlet by itself; '' where these are given
+   !> Law that gives viscosity and pressure-viscosity coefficient at the inlet; '' if these are given
    pure function own_law(l) result(law)
       type(lubricant_case_t), intent(in) :: l
       character(len=len(l%viscosity_law)) :: law
@@ -31,7 +31,7 @@ contains
       if (law == "" .and. l%viscosity_law /= "roelands" .and. l%viscosity_law /= "barus") law = l%viscosity_law
    end function own_law
 
-   !> Whether a law gives the viscosity of the inlet, or how it increases with pressure
+   !> Whether a law gives the viscosity at the inlet or its pressure dependence
    pure logical function uses_law(l, name)
       type(lubricant_case_t), intent(in) :: l
       character(len=*), intent(in) :: name
@@ -44,10 +44,10 @@ contains
       knows_temperature = own_law(l) /= "" .or. l%density_law == "murnaghan" .or. l%density_law == "tait"
    end function knows_temperature
 
-   !> Viscosity and density of a case in Hertz units; the shear law is left Newtonian
+   !> Viscosity and density of a case in Hertz units, with a Newtonian shear law
    subroutine make_lubricant(l, alpha_bar, hertz_pressure, lubricant, status)
       type(lubricant_case_t), intent(in) :: l
-      !> alpha p_h; [Pa], 0: constant viscosity and density
+      !> alpha p_h; p_h [Pa], 0: constant viscosity and density
       real(dp), intent(in) :: alpha_bar, hertz_pressure
       type(lubricant_t), intent(out) :: lubricant
       type(status_t), intent(inout) :: status
@@ -78,11 +78,11 @@ contains
       end select
    end subroutine make_lubricant
 
-   !> A law with constants of the oil, by name
+   !> Make a viscosity law with constants of the oil, by name
    subroutine make_viscosity(l, name, hertz_pressure, law, status)
       type(lubricant_case_t), intent(in) :: l
       character(len=*), intent(in) :: name
-      !> [Pa]
+      !> Hertz pressure [Pa]
       real(dp), intent(in) :: hertz_pressure
       class(viscosity_law_t), allocatable, intent(out) :: law
       type(status_t), intent(inout) :: status
@@ -111,10 +111,10 @@ contains
       end select
    end subroutine make_viscosity
 
-   !> Equation of state by Tait
+   !> Tait equation of state
    pure function tait_of(l, hertz_pressure) result(state)
       type(lubricant_case_t), intent(in) :: l
-      !> [Pa]
+      !> Hertz pressure [Pa]
       real(dp), intent(in) :: hertz_pressure
       type(tait_t) :: state
 
@@ -131,7 +131,7 @@ contains
                                       [l%kinematic_viscosity_40, l%kinematic_viscosity_100], l%density_15, l%thermal_expansion)
    end function ambient_of
 
-   !> A table of a single temperature holds at that one
+   !> Refuse a table with a single temperature at another temperature
    subroutine check_single(l, isotherm, status)
       type(lubricant_case_t), intent(in) :: l
       type(isotherm_t), intent(in) :: isotherm

@@ -13,7 +13,7 @@ module ehl_case_point
 
 contains
 
-   !> Shape, scales and operating point, without the heat of the inlet
+   !> Shape, scales and operating point, without shear heating in the inlet
    subroutine find_contact(input, contact, scales, point)
       type(case_t), intent(in) :: input
       class(contact_t), allocatable, intent(out) :: contact
@@ -40,7 +40,7 @@ contains
       end associate
    end subroutine find_contact
 
-   !> Operating point of a contact in SI units with a viscosity [Pa s]
+   !> Operating point of a contact in SI units at a viscosity [Pa s]
    pure function operating_point(input, contact, scales, viscosity) result(point)
       type(case_t), intent(in) :: input
       class(contact_t), intent(in) :: contact

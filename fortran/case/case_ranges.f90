@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What the keys of a case take: numbers an interval, '(0, 10]' or '0 or [1, 5]', words a list 'this|that'. The same ranges, with
-!> units and meanings, are in pyehl/case; a test compares both.
+!> Ranges of the keys of a case: an interval of numbers, '(0, 10]' or '0 or [1, 5]', or a list of words, 'this|that'. pyehl/case has
+!> the same ranges with units and meanings; a test compares both.
 module ehl_case_ranges
    use ehl_kinds, only: dp
    implicit none (type, external)
@@ -79,7 +79,7 @@ module ehl_case_ranges
 
 contains
 
-   !> Range of a key; '' where any text will do
+   !> Range of a key; '' if any text is allowed
    pure function range_of(group, key) result(range)
       character(len=*), intent(in) :: group, key
       character(len=:), allocatable :: range, list

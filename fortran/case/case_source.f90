@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Which keys of a case were given, and refusals that name one
+!> The given keys of a case, and error messages that name a key
 module ehl_case_source
    use ehl_case_ranges, only: allows, range_of
    use ehl_kinds, only: dp
@@ -13,7 +13,7 @@ module ehl_case_source
    type :: case_source_t
       !> Name of the text, for messages and for relative file names
       character(len=:), allocatable :: origin
-      !> All keys that were given, each once
+      !> All given keys, each once
       type(piece_t), allocatable :: pieces(:)
    contains
       procedure :: find
@@ -43,7 +43,7 @@ contains
       given = self%find(trim(name)) > 0
    end function given
 
-   !> Of some keys of a group, or of all, the given one that stands first; '' when none is given
+   !> First given key of a group, or of some keys of it; '' if none is given
    pure function first_given(self, group, keys) result(name)
       class(case_source_t), intent(in) :: self
       character(len=*), intent(in) :: group
@@ -61,7 +61,7 @@ contains
       end do
    end function first_given
 
-   !> Refuse a case at a key
+   !> Refuse a case because of a key
    subroutine refuse(self, name, what, expected, status)
       class(case_source_t), intent(in) :: self
       !> group.key
@@ -80,13 +80,13 @@ contains
       call status%fail(ehl_bad_input, place//": error: "//what//newline//"expected: "//expected, trim(name))
    end subroutine refuse
 
-   !> Refuse two keys that exclude each other, at the one that stands later
+   !> Refuse two keys that exclude each other, at the later one
    subroutine contradict(self, one, other, expected, status, why)
       class(case_source_t), intent(in) :: self
       !> group.key of both
       character(len=*), intent(in) :: one, other, expected
       type(status_t), intent(inout) :: status
-      !> Values that contradict
+      !> Contradictory values
       character(len=*), intent(in), optional :: why
       character(len=:), allocatable :: what
 
@@ -99,13 +99,13 @@ contains
       call self%refuse(what(:index(what, " ") - 1), what, expected, status)
    end subroutine contradict
 
-   !> Refuse a value of a key that was not given, and that its range does not allow, at the key that it follows from
-   subroutine check_range(self, name, value, culprit, from, status)
+   !> Refuse a derived value outside its range, at the key from which it follows
+   subroutine check_range(self, name, value, source_key, from, status)
       class(case_source_t), intent(in) :: self
-      !> group.key of both
-      character(len=*), intent(in) :: name, culprit
+      !> group.key of the derived value and of its source
+      character(len=*), intent(in) :: name, source_key
       real(dp), intent(in) :: value
-      !> Text of what it follows from
+      !> Text on the source
       character(len=*), intent(in) :: from
       type(status_t), intent(inout) :: status
       character(len=:), allocatable :: range
@@ -113,7 +113,7 @@ contains
 
       dot = index(name, ".")
       range = range_of(name(:dot - 1), name(dot + 1:))
-      if (.not. allows(range, value)) call self%refuse(culprit, name//" = "//short(value)//" follows from "//from, &
+      if (.not. allows(range, value)) call self%refuse(source_key, name//" = "//short(value)//" follows from "//from, &
                                                        "a number in "//range, status)
    end subroutine check_range
 end module ehl_case_source

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Check pieces of namelist text one by one, and read each group by one intrinsic read
+!> Checks of the values in namelist text, and the intrinsic read of each group
 module ehl_case_values
    use ehl_case, only: case_t, path_length
    use ehl_case_groups, only: group_names, read_group, write_group
@@ -16,21 +16,21 @@ module ehl_case_values
 
 contains
 
-   !> Whether the key of a piece is one of those of others
+   !> Whether other pieces have the key of a piece
    pure logical function is_one_of(piece, others)
       type(piece_t), intent(in) :: piece, others(:)
       is_one_of = any(others%group == piece%group .and. others%key == piece%key)
    end function is_one_of
 
-   !> Refuse pieces with unknown names, names that stand twice, and values that their keys do not take
+   !> Refuse pieces with unknown or repeated names, and values outside their range
    subroutine check_pieces(source, status, replacing)
       type(case_source_t), intent(inout) :: source
       type(status_t), intent(inout) :: status
-      !> Pieces that will replace some: a value that is not acceptable is left out then
+      !> Pieces that replace others, whose invalid values are then dropped
       type(piece_t), intent(in), optional :: replacing(:)
       type(status_t) :: ignored
       logical, allocatable :: good(:)
-      type(case_t) :: usual
+      type(case_t) :: default_case
       character(len=name_length), allocatable :: keys(:)
       character(len=path_length + 2), allocatable :: values(:)
       character(len=name_length) :: group
@@ -45,7 +45,7 @@ contains
                call source%refuse(piece%name(), "unknown group '"//trim(piece%group)//"'", one_of(piece%group, group_names), status)
                return
             end if
-            if (piece%group /= group) call write_group(trim(piece%group), usual, keys, values)
+            if (piece%group /= group) call write_group(trim(piece%group), default_case, keys, values)
             group = piece%group
             place = findloc(keys, piece%key, dim=1)
             if (place == 0) then
@@ -67,7 +67,7 @@ contains
       call keep_pieces(source%pieces, good)
    end subroutine check_pieces
 
-   !> Suggestions for a name
+   !> Suggestion for a name
    pure function one_of(name, names) result(expected)
       character(len=*), intent(in) :: name, names(:)
       character(len=:), allocatable :: expected
@@ -84,12 +84,12 @@ contains
       end do
    end function one_of
 
-   !> Refuse a value that its key does not take, and make it one that the intrinsic read takes; names of files become absolute
-   subroutine check_value(source, piece, usual, status)
+   !> Refuse an invalid value, or convert it for the intrinsic read; paths of files become absolute
+   subroutine check_value(source, piece, default, status)
       type(case_source_t), intent(in) :: source
       type(piece_t), intent(inout) :: piece
-      !> The default as namelist text, by its kind; '': a list of numbers
-      character(len=*), intent(in) :: usual
+      !> The default as namelist text, which gives the type; '': a list of numbers
+      character(len=*), intent(in) :: default
       type(status_t), intent(inout) :: status
       character(len=:), allocatable :: range, value, expected
       character(len=name_length), allocatable :: words(:)
@@ -99,10 +99,10 @@ contains
       value = piece%value
       range = range_of(trim(piece%group), trim(piece%key))
       stat = merge(0, 1, piece%values == 1)
-      if (usual == "") then
+      if (default == "") then
          expected = "numbers with commas between them"
          stat = verify(value, "0123456789+-.eEdD, ")
-      else if (index(usual, "'") == 1) then
+      else if (index(default, "'") == 1) then
          expected = "a text between quotes"
          if (range /= "") expected = "one of '"//replaced(range, "|", "', '")//"'"
          if (scan(value, "'""") == 1 .and. len(value) > 1) then
@@ -126,19 +126,19 @@ contains
             if (value /= "") value = absolute_path(value)
          end if
          value = quoted(value)
-      else if (index(usual, ".t") + index(usual, ".f") == 1) then
+      else if (index(default, ".t") + index(default, ".f") == 1) then
          expected = ".true. or .false."
          if (all(lower_case(value) /= [character(len=7) :: ".true.", ".false.", "true", "false", "t", "f"])) stat = 1
       else
          expected = "a number in "//range
-         if (scan(usual, ".e") == 0) expected = "a whole number in "//range
+         if (scan(default, ".e") == 0) expected = "a whole number in "//range
          if (verify(value, "0123456789+-.eEdD") > 0 .or. is_huge(value)) stat = 1
          if (stat == 0) read (value, *, iostat=stat) number
          if (stat == 0) stat = merge(0, 1, allows(range, number))
-         ! smaller than any number
+         ! underflow
          if (stat == 0 .and. scan(value, "123456789") > 0 .and. .not. abs(number) > 0.0_dp) stat = 1
-         if (stat == 0 .and. scan(usual, ".e") == 0 .and. verify(value, "0123456789+-") > 0) then
-            ! an option may be 65.0
+         if (stat == 0 .and. scan(default, ".e") == 0 .and. verify(value, "0123456789+-") > 0) then
+            ! a command-line option may be 65.0
             if (abs(number - anint(number)) > 0.0_dp .or. .not. allocated(piece%option)) stat = 1
             value = to_text(nint(number))
          end if
@@ -151,7 +151,7 @@ contains
       piece%value = value
    end subroutine check_value
 
-   !> Whether reading a number might overflow: a hundred digits before the point, or three of a positive exponent
+   !> Whether reading a number may overflow: over a hundred digits before the point, or over two of a positive exponent
    pure logical function is_huge(number)
       character(len=*), intent(in) :: number
       integer :: mark
@@ -162,7 +162,7 @@ contains
       is_huge = is_huge .or. len(number) - max(mark, index(number, "+", back=.true.)) > 2
    end function is_huge
 
-   !> A text with all of its parts `old` as `new`
+   !> Replace all `old` in a text by `new`
    pure function replaced(text, old, new) result(answer)
       character(len=*), intent(in) :: text, old, new
       character(len=:), allocatable :: answer
@@ -179,7 +179,7 @@ contains
       answer = answer//text(first:)
    end function replaced
 
-   !> Read every group by one intrinsic read
+   !> Read each group with one intrinsic read
    subroutine read_pieces(source, input, status)
       type(case_source_t), intent(in) :: source
       type(case_t), intent(inout) :: input
@@ -197,7 +197,7 @@ contains
             end associate
          end do
          if (text == "") cycle
-         ! both surfaces are one group
+         ! both surfaces have the same namelist group
          call read_group(name, "&"//name(index(name, "_") + 1:)//text//" /", input, good)
          if (.not. good) call source%refuse(name, "&"//name//" cannot be read", "values of its keys", status)
       end do

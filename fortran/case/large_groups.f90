@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The two namelist groups with the most keys; see ehl_case_groups
+!> The two largest namelist groups; see ehl_case_groups
 module ehl_large_groups
    use ehl_case, only: lubricant_case_t, path_length, surface_case_t, word_length
    use ehl_kinds, only: dp
@@ -65,7 +65,7 @@ contains
       thermal_expansion => v%thermal_expansion; thermal_reduction => v%thermal_reduction
       temperature_viscosity => v%temperature_viscosity; thermal_conductivity => v%thermal_conductivity
       thermal_friction => v%thermal_friction
-      ! as many numbers as a text of this length can hold
+      ! largest number of values in a text of this length
       associate (most => len(text)/2)
          allocate (table_temperature(most), table_pressure(most), table_viscosity(most), source=huge(1.0_dp))
       end associate

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Namelist text in pieces `key = value`, each with its group and its line. The intrinsic read accepts too much: '600 N' is
-!> 600, a word without quotes nothing, a group inside a comment a group. Pieces are checked for that.
+!> Split namelist text into pieces `key = value` with group and line. The intrinsic read accepts too much: it reads '600 N' as 600,
+!> ignores a word without quotes, and finds a group inside a comment.
 module ehl_namelist_pieces
    use ehl_status, only: ehl_bad_input, status_t
    use ehl_text, only: lower_case, newline, to_text
@@ -9,15 +9,15 @@ module ehl_namelist_pieces
    public :: keep_pieces, piece_t, split_text, name_length, mark_default, mark_derived
 
    integer, parameter :: name_length = 32
-   !> Ends of the lines of keys that were not given: constant defaults, and what follows from other keys
+   !> Marks at the end of lines that were not given: constant defaults, and values derived from other keys
    character(len=*), parameter :: mark_default = "! default", mark_derived = "! derived"
 
    type :: piece_t
       character(len=name_length) :: group = "", key = ""
-      !> The values with commas between them, and how many
+      !> The values, separated by commas, and their number
       character(len=:), allocatable :: value
       integer :: values = 0
-      !> Its line, or the option as it was typed
+      !> Line number, or the option as typed
       integer :: line = 0
       character(len=:), allocatable :: option
       !> Whether the text marks it as not given
@@ -32,7 +32,7 @@ module ehl_namelist_pieces
       integer :: first = 1, last = 0
    end type token_t
 
-   !> Blanks between words, and other characters that end a word
+   !> Blanks, and all characters that end a word
    character(len=*), parameter :: blanks = " "//achar(9)//achar(13)//newline, ends = blanks//",=/!&'"""
 
 contains
@@ -45,7 +45,7 @@ contains
       name = trim(self%group)//"."//trim(self%key)
    end function piece_name
 
-   !> All pieces of a text
+   !> Split a text into pieces
    subroutine split_text(origin, text, pieces, status)
       !> Name of the text, for messages
       character(len=*), intent(in) :: origin, text
@@ -74,7 +74,7 @@ contains
          case ("&")
             if (group /= "") call refuse("&"//group//" has no end before the next group", "'/' behind its last key")
             group = lower_case(text(token%first + 1:token%last))
-            if (any(pieces(:n)%group == group)) call refuse("&"//group//" stands twice", "every group once")
+            if (any(pieces(:n)%group == group)) call refuse("&"//group//" is given twice", "every group once")
             if (group == "") call refuse("a group without a name", "&contact, for one")
          case ("/")
             if (group == "") call refuse("'/' without a group", "&group before it")
@@ -100,7 +100,7 @@ contains
             if (.not. behind_value) call refuse("a comma that follows no value in &"//group//last_key(), &
                                                 "key = value, or a list of values")
          case ("u")
-            call refuse("a text without its second quote", "'...'")
+            call refuse("a text without its closing quote", "'...'")
          case default
             call refuse("'=' without a key", "key = value")
          end select
@@ -110,7 +110,7 @@ contains
 
    contains
 
-      !> The next token, and the position behind it
+      !> Find the next token, and the position after it
       subroutine take(found, at)
          type(token_t), intent(out) :: found
          integer, intent(inout) :: at
@@ -146,14 +146,14 @@ contains
          at = found%last + 1
       end subroutine take
 
-      !> Key that stands before, if there is one
+      !> Name of the previous key, if any
       function last_key() result(words)
          character(len=:), allocatable :: words
          words = ""
          if (has_key()) words = ", behind "//pieces(n)%name()
       end function last_key
 
-      !> Whether a piece is there that values can belong to
+      !> Whether values can belong to a previous piece
       logical function has_key()
          has_key = .false.
          if (n > 0) has_key = pieces(n)%group == group
@@ -171,20 +171,20 @@ contains
       end subroutine refuse
    end subroutine split_text
 
-   !> Keep some pieces, and add others. One by one: array constructors and pack share the texts of their copies (gfortran 12).
-   subroutine keep_pieces(pieces, wanted, more)
+   !> Keep some pieces, and add others, one by one: array constructors and pack share the texts of their copies (gfortran 12)
+   subroutine keep_pieces(pieces, selected, more)
       type(piece_t), allocatable, intent(inout) :: pieces(:)
-      logical, intent(in) :: wanted(:)
+      logical, intent(in) :: selected(:)
       type(piece_t), intent(in), optional :: more(:)
       type(piece_t), allocatable :: kept(:)
       integer :: k, n
 
-      n = count(wanted)
+      n = count(selected)
       if (present(more)) n = n + size(more)
       allocate (kept(n))
       n = 0
-      do k = 1, size(wanted)
-         if (.not. wanted(k)) cycle
+      do k = 1, size(selected)
+         if (.not. selected(k)) cycle
          n = n + 1
          kept(n) = pieces(k)
       end do
@@ -194,7 +194,7 @@ contains
       call move_alloc(kept, pieces)
    end subroutine keep_pieces
 
-   !> Whether a comment ends in one of the marks
+   !> Whether a comment ends with a mark
    pure logical function is_marked(comment)
       character(len=*), intent(in) :: comment
       is_marked = index(comment, mark_default, back=.true.) > max(0, len_trim(comment) - len(mark_default)) .or. &

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> A case from a plain namelist: the one reader of the program and of the extension. Pieces of the text are checked one by one,
-!> then each group is read by one intrinsic read, completed by the defaults of the solver, and checked as a whole.
+!> Reader of a case from namelist text, for the program and the extension. It checks the pieces of the text one by one, reads each
+!> group with one intrinsic read, sets the defaults, and checks the complete case.
 module ehl_read_case
    use ehl_case, only: case_t, lubricant_case_t, path_length
    use ehl_case_check_lubricant, only: check_constants
@@ -19,15 +19,15 @@ module ehl_read_case
    public :: read_case, read_case_file, read_lubricant
 
    !> Largest size of a case file [bytes]
-   integer, parameter :: largest_file = 1000000
-   !> Keys that pyehl derives from an oil, a data sheet, two bodies or a finish, and no routine of the solver
-   character(len=name_length), parameter :: made_by_pyehl(*) = [character(len=name_length) :: "radius_x", "radius_y", &
+   integer, parameter :: max_file_size = 1000000
+   !> Keys that only pyehl derives, from an oil, a data sheet, two bodies or a finish
+   character(len=name_length), parameter :: keys_by_pyehl(*) = [character(len=name_length) :: "radius_x", "radius_y", &
       "reduced_modulus", "viscosity", "pressure_viscosity", "temperature_viscosity", "viscosity_law", "inlet_law", &
       "alpha_origin", "kind", "table_temperature", "table_pressure", "table_viscosity", &
       "profile_y", "profile_drop", "profile_y_2", "profile_drop_2"], &
       groups_by_pyehl(*) = [character(len=name_length) :: "contact", "lubricant", "surface", "second_surface"]
-   !> Prefix of an option that the user typed in a shell
-   character(len=*), parameter :: typed = "--set "
+   !> Prefix of an option from the command line
+   character(len=*), parameter :: option_prefix = "--set "
 
 contains
 
@@ -38,7 +38,7 @@ contains
       type(status_t), intent(inout) :: status
       character(len=:), allocatable :: text
 
-      call read_text(path, largest_file, text, status)
+      call read_text(path, max_file_size, text, status)
       if (status%failed()) then
          status%code = ehl_bad_input
          status%message = status%message//newline//"expected: the name of a case file"
@@ -51,9 +51,9 @@ contains
    subroutine read_case(text, origin, options, input, status)
       !> Namelist text
       character(len=*), intent(in) :: text
-      !> Name of the file it came from, for messages and for relative file names
+      !> Name of its file, for messages and relative file names
       character(len=*), intent(in) :: origin
-      !> Options group.key=value that replace values of the text, one a line, behind '--set ' where the user typed them so
+      !> Options group.key=value that replace values of the text, one per line, with '--set ' in front if from the command line
       character(len=*), intent(in) :: options
       type(case_t), intent(out) :: input
       type(status_t), intent(inout) :: status
@@ -84,7 +84,7 @@ contains
       if (.not. status%failed()) call write_case(input, input%text, source)
    end subroutine read_case
 
-   !> The group &lubricant alone, of a resolved case
+   !> Read only the group &lubricant of a resolved case
    subroutine read_lubricant(text, lubricant, status)
       character(len=*), intent(in) :: text
       type(lubricant_case_t), intent(out) :: lubricant
@@ -103,7 +103,7 @@ contains
       if (why /= "") call source%refuse("lubricant.table_viscosity", "a table of viscosities "//why, "one of isotherms", status)
    end subroutine read_lubricant
 
-   !> An option as a piece
+   !> Convert an option to a piece
    pure function option_piece(option) result(piece)
       character(len=*), intent(in) :: option
       type(piece_t) :: piece
@@ -111,7 +111,7 @@ contains
       integer :: dot, equals
 
       text = option
-      if (index(text, typed) == 1) text = text(len(typed) + 1:)
+      if (index(text, option_prefix) == 1) text = text(len(option_prefix) + 1:)
       equals = index(text//"=", "=")
       dot = index(text(:equals - 1), ".")
       piece%group = lower_case(adjustl(text(:dot - 1)))
@@ -121,12 +121,12 @@ contains
       piece%option = option
    end function option_piece
 
-   !> Drop marked values that are equal to those derived from the others: so an option on a resolved case does the same as on
-   !> the case that it was made of. A value that was changed, or that pyehl alone can make, counts as given.
+   !> Drop marked values that equal those derived from the others, so that an option has the same effect on a resolved case as on
+   !> the original. A changed value, or one that only pyehl derives, counts as given.
    subroutine drop_marked(source)
       type(case_source_t), intent(inout) :: source
       type(case_source_t) :: given
-      type(case_t) :: trial, usual
+      type(case_t) :: trial, default_case
       type(status_t) :: ignored
       character(len=name_length), allocatable :: keys(:)
       character(len=path_length + 2), allocatable :: values(:)
@@ -139,9 +139,9 @@ contains
       if (.not. any(follows)) return
       group = ""
       do k = 1, size(follows)
-         if (.not. (follows(k) .and. any(made_by_pyehl == source%pieces(k)%key) .and. &
+         if (.not. (follows(k) .and. any(keys_by_pyehl == source%pieces(k)%key) .and. &
                    any(groups_by_pyehl == source%pieces(k)%group))) cycle
-         if (source%pieces(k)%group /= group) call write_group(trim(source%pieces(k)%group), usual, keys, values)
+         if (source%pieces(k)%group /= group) call write_group(trim(source%pieces(k)%group), default_case, keys, values)
          group = source%pieces(k)%group
          follows(k) = values(findloc(keys, source%pieces(k)%key, dim=1)) == source%pieces(k)%value
       end do

@@ -1,8 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> A complete case as namelist text, and the list of keys with their defaults
+!> Writer of a complete case as namelist text, and of the list of keys with their defaults
 module ehl_write_case
    use ehl_case, only: case_t, path_length
-   use ehl_case_defaults, only: is_short_of_oil
+   use ehl_case_defaults, only: is_starved
    use ehl_case_groups, only: group_names, write_group
    use ehl_case_ranges, only: range_of
    use ehl_case_source, only: case_source_t
@@ -15,13 +15,13 @@ module ehl_write_case
 
 contains
 
-   !> A complete case as namelist text. Of keys that exclude each other only the one that holds is written; with a source,
-   !> values that were not given are marked, those that pyehl has made of others included.
+   !> Write a complete case as namelist text. Of keys that exclude each other only the valid one is written; with a source, values
+   !> that were not given are marked, including those derived by pyehl.
    subroutine write_case(input, text, source)
       type(case_t), intent(in) :: input
       character(len=:), allocatable, intent(out) :: text
       type(case_source_t), intent(in), optional :: source
-      type(case_t) :: case, usual
+      type(case_t) :: case, default_case
       character(len=name_length), allocatable :: keys(:)
       character(len=path_length + 2), allocatable :: values(:), defaults(:)
       character(len=:), allocatable :: line
@@ -32,9 +32,9 @@ contains
       text = ""
       do n = 1, size(group_names)
          call write_group(trim(group_names(n)), case, keys, values)
-         call write_group(trim(group_names(n)), usual, keys, defaults)
+         call write_group(trim(group_names(n)), default_case, keys, defaults)
          if (group_names(n) == "bodies" .and. .not. input%bodies%given) cycle
-         if (group_names(n) == "inlet" .and. .not. is_short_of_oil(input)) cycle
+         if (group_names(n) == "inlet" .and. .not. is_starved(input)) cycle
          if (group_names(n) == "duty" .and. .not. input%duty%active()) cycle
          text = text//"&"//trim(group_names(n))//newline
          do k = 1, size(keys)
@@ -55,7 +55,7 @@ contains
       end do
    end subroutine write_case
 
-   !> Numbers of the table of viscosities or of the duty by their key; '' where there is none
+   !> Line of a key of the viscosity table, the profile or the duty; '' without numbers
    pure subroutine list_text(key, input, line)
       character(len=*), intent(in) :: key
       type(case_t), intent(in) :: input
@@ -87,7 +87,7 @@ contains
       end do
    end subroutine list_text
 
-   !> Whether a key has a value, and the key that excludes it does not
+   !> Whether a key applies to the case
    pure logical function holds(name, input)
       character(len=*), intent(in) :: name
       type(case_t), intent(in) :: input
@@ -139,17 +139,17 @@ contains
 
    contains
 
-      !> Kind of the profile of the body of a key
+      !> Kind of profile of the body to which the key belongs
       pure function of_body() result(kind)
          character(len=len(input%contact%profiles%kind)) :: kind
          kind = input%contact%profiles(merge(2, 1, index(name, "_2") > 0))%kind
       end function of_body
    end function holds
 
-   !> All keys with default and range, one a line with tabs between
+   !> All keys with default and range, one per line, separated by tabs
    subroutine defaults_text(text)
       character(len=:), allocatable, intent(out) :: text
-      type(case_t) :: usual
+      type(case_t) :: default_case
       character(len=name_length), allocatable :: keys(:)
       character(len=path_length + 2), allocatable :: values(:)
       character(len=1), parameter :: tab = achar(9)
@@ -157,7 +157,7 @@ contains
 
       text = ""
       do n = 1, size(group_names)
-         call write_group(trim(group_names(n)), usual, keys, values)
+         call write_group(trim(group_names(n)), default_case, keys, values)
          do k = 1, size(keys)
             text = text//trim(group_names(n))//"."//trim(keys(k))//tab//trim(values(k))//tab// &
                    range_of(trim(group_names(n)), trim(keys(k)))//newline

@@ -1,8 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The plan of a run: all decisions on how a case is solved.
+!> Plan of a run: all decisions on how a case is solved
 module ehl_plan
    use ehl_case, only: case_t
-   use ehl_case_defaults, only: is_short_of_oil
+   use ehl_case_defaults, only: is_starved
    use ehl_contact, only: contact_t
    use ehl_cycle, only: cycle_options_t
    use ehl_domain, only: domain_error
@@ -18,7 +18,7 @@ module ehl_plan
    use ehl_plan_duty, only: plan_duty
    use ehl_plan_friction, only: sliding_t
    use ehl_plan_heat, only: heat_plan_t, may_touch, plan_contact, plan_heat
-   use ehl_plan_surface, only: check_carried, make_surfaces
+   use ehl_plan_surface, only: check_resolved, make_surfaces
    use ehl_scales, only: scales_t
    use ehl_status, only: ehl_bad_input, status_t
    use ehl_steady_options, only: steady_options_t
@@ -30,17 +30,17 @@ module ehl_plan
    private
    public :: plan_t, make_plan
 
-   !> Largest number of time steps to the friction of a rough surface: by default, and where the case gives it
+   !> Largest number of time steps of a rough surface: by default, and if the case sets time.steps
    integer, parameter :: max_steps = 100000, max_steps_asked_for = 1000000000
 
-   !> Extent of the dry contact across the motion over that along it from which on a restart is allowed on any grid: cycles
-   !> may alternate between two states there
+   !> Aspect ratio Y/X of the dry contact above which a restart is allowed on any grid, since cycles may alternate between two
+   !> states
    real(dp), parameter :: wide = 2.0_dp
-   !> Extent across the motion over that along it from which on coarse grids leave a sharp spike to the sweeps: the trailing
-   !> edge moves from column to column within a few rows
+   !> Aspect ratio Y/X above which coarse grids leave a sharp spike to relaxation, since the trailing edge moves from column to
+   !> column within a few rows
    real(dp), parameter :: oblique = 4.0_dp
 
-   !> Plan of the smooth contact, and of everything after it
+   !> Plan of the smooth contact and of the later phases
    type, extends(steady_options_t) :: plan_t
       class(contact_t), allocatable :: contact
       type(scales_t) :: scales
@@ -48,60 +48,60 @@ module ehl_plan
       type(lubricant_t) :: lubricant
       !> Whether the inlet is starved
       logical :: starved = .false.
-      !> Central film of a flooded one, by formula
+      !> Central film of the flooded contact, by formula
       real(dp) :: film_flooded = 0.0_dp
-      !> The same with the given oil layer
+      !> Central film with the given oil layer, by formula
       real(dp) :: film_starved = 0.0_dp
-      !> Whether the smooth contact may touch at the boundary film
+      !> Whether the smooth contact may have solid contact at the boundary film
       logical :: touches = .false.
       !> Data for absolute friction
       type(sliding_t) :: sliding
-      !> Its frictional heat
+      !> Data for frictional heating
       type(heat_plan_t) :: heat
       !> Coarsest and finest grid
       type(grid_t) :: coarsest, finest
-      !> Relative errors of H_c and H_min by the domain
+      !> Relative domain errors of H_c and H_min
       real(dp) :: domain_error(2) = 0.0_dp
       character(len=:), allocatable :: engine
-      !> Cycles of a time step
+      !> Options of the cycles of a time step
       type(cycle_options_t) :: step_cycle
-      !> Whether time steps may go over from classical to Alcouffe coarsening
+      !> Whether time steps may change from classical to Alcouffe coarsening
       logical :: coarsening_may_change = .false.
-      !> The cycles in letters
+      !> Letters of the cycles: V, F or W
       character(len=1) :: cycle_letter = "F", step_cycle_letter = "V"
       integer :: threads = 1
-      !> The rough surfaces, and what changes with time
+      !> The rough surfaces, and the duty
       type(moving_surfaces_t) :: surfaces
       type(duty_t) :: duty
-      !> Whether the next coarser grid resolves the surfaces too, so that the friction of both can be extrapolated
+      !> Whether the next coarser grid resolves the surfaces too, so that the friction ratio can be extrapolated
       logical :: extrapolates = .false.
       !> Scheme of the wedge and squeeze terms in time steps
       integer :: scheme = wedge_narrow
-      !> Begin the transient run when the roughness comes near the contact
+      !> Whether the time steps begin when the roughness comes near the contact
       logical :: skip_start = .true.
-      !> Begin it with the contact full of roughness, from a prediction
+      !> Whether the time steps begin with the contact filled with roughness, from a prediction
       logical :: predicted_start = .false.
-      !> Why it does not, where that was requested
+      !> Why a requested prediction is not used
       character(len=:), allocatable :: fallback_reason
-      !> Repeat the run on the next coarser grid, for the grid error of the friction ratio
+      !> Whether to repeat the run on the next coarser grid, for the grid error of the friction ratio
       logical :: coarse_run = .false.
-      !> Relative change of the mean friction ratio at which to stop, most periods, exact steps
+      !> Relative change of the mean friction ratio at which to stop; largest number of periods; exact number of steps
       real(dp) :: time_tolerance = 1.0e-3_dp
       integer :: max_periods = 0, steps = 0
-      !> Time between the frames that are kept; 0: none
+      !> Time between frames; 0: no frames
       real(dp) :: frame_interval = 0.0_dp
    contains
       procedure :: update_resolved_fraction
-      procedure :: goes_on
+      procedure :: has_next_phase
       procedure :: has_steps
    end type plan_t
 
-   !> Share of the variance that the coarser of two grids may leave unresolved where friction is extrapolated
-   real(dp), parameter :: unresolved_most = 1.0e-6_dp
+   !> Largest unresolved fraction of the variance on the coarser of two grids from which the friction ratio is extrapolated
+   real(dp), parameter :: max_unresolved_fraction = 1.0e-6_dp
 
    ! in plan_cycles.f90
    interface
-      !> Kind of cycle, for the smooth contact and for time steps
+      !> Choose the cycles of the smooth contact and of the time steps
       module subroutine pick_cycle(input, plan)
          type(case_t), intent(in) :: input
          type(plan_t), intent(inout) :: plan
@@ -110,7 +110,7 @@ module ehl_plan
 
    ! in plan_grids.f90
    interface
-      !> Half or whole domain, levels, start of the nested iteration
+      !> Choose half or whole domain, levels, and first level of nested iteration
       module subroutine pick_grids(input, plan, status)
          type(case_t), intent(in) :: input
          type(plan_t), intent(inout) :: plan
@@ -123,7 +123,7 @@ contains
    !> Decide how a case is solved
    subroutine make_plan(input, surfaces, plan, status, heights, second_heights)
       type(case_t), intent(in) :: input
-      !> The surfaces, if they have been made already; the plan takes them over
+      !> Surfaces that exist already; the plan takes them over
       type(moving_surfaces_t), intent(inout) :: surfaces
       type(plan_t), intent(out) :: plan
       type(status_t), intent(inout) :: status
@@ -137,7 +137,7 @@ contains
       plan%layer = input%inlet%film_hertz
       plan%passages = input%inlet%passages
       plan%replenishment = input%inlet%replenishment
-      plan%starved = is_short_of_oil(input)
+      plan%starved = is_starved(input)
       plan%heat = plan_heat(input, plan%contact, plan%scales, plan%sliding, plan%lubricant, film)
       film = plan%lubricant%shear%thinned_film(film, plan%point%speed_parameter)
       plan%touches = may_touch(plan%lubricant, film)
@@ -147,7 +147,7 @@ contains
       plan%film_starved = merge(min(film, plan%layer/rho), starved_film(film, plan%layer/rho), plan%contact%is_line())
       plan%film_expected = film
       if (plan%layer > 0.0_dp) plan%film_expected = plan%film_starved
-      ! a film that is thicker than the gap at the meniscus sustains no load
+      ! a film thicker than the gap at the meniscus supports no load
       if (plan%starved) plan%film_expected = min(plan%film_expected, input%grid%x_inlet**2)
       plan%film_expected = max(plan%film_expected, plan%lubricant%boundary_film)
       plan%engine = trim(input%solver%deflection)
@@ -175,7 +175,7 @@ contains
       if (input%time%start == "prediction" .and. plan%surfaces%move() .and. .not. plan%duty%active) call pick_start(plan)
       call pick_cycle(input, plan)
       call pick_grids(input, plan, status)
-      ! where the flow thins cycles that spare spikes diverge on coarse grids (kappa = 12, L = 28, Eyring)
+      ! with shear thinning cycles that leave spikes to relaxation diverge on coarse grids (kappa = 12, L = 28, Eyring)
       if (plan%lubricant%shear%thins_flow()) plan%spares_from = plan%levels
       if (plan%touches .or. plan%contact%reach(2) <= oblique*plan%contact%reach(1)) plan%spares_from = huge(plan%spares_from)
       if (status%failed() .or. .not. plan%surfaces%rough()) return
@@ -184,11 +184,11 @@ contains
       plan%coarse_run = input%time%estimate_error .and. plan%levels > 2 .and. (plan%surfaces%rest() .or. plan%steps == 0) &
                         .and. .not. plan%duty%active
       call plan%update_resolved_fraction(plan%finest)
-      call check_carried(plan%surfaces, plan%finest, status)
+      call check_resolved(plan%surfaces, plan%finest, status)
       if (.not. status%failed()) call check_steps(plan, status)
    end subroutine make_plan
 
-   !> Begin with the contact full of roughness where that can be predicted
+   !> Choose the predicted start if possible
    subroutine pick_start(plan)
       type(plan_t), intent(inout) :: plan
 
@@ -197,34 +197,34 @@ contains
       else if (plan%surfaces%some_rest()) then
          plan%fallback_reason = "one of the surfaces is at rest"
       else if (plan%target_error > 0.0_dp) then
-         plan%fallback_reason = "the grid of grid.target_error is not known before"
+         plan%fallback_reason = "the grid of grid.target_error is not known yet"
       end if
       plan%predicted_start = .not. allocated(plan%fallback_reason)
    end subroutine pick_start
 
-   !> Whether something follows the smooth contact
-   pure logical function goes_on(self)
+   !> Whether another phase follows the smooth contact
+   pure logical function has_next_phase(self)
       class(plan_t), intent(in) :: self
-      goes_on = self%surfaces%rough() .or. self%duty%active
-   end function goes_on
+      has_next_phase = self%surfaces%rough() .or. self%duty%active
+   end function has_next_phase
 
-   !> Whether there are time steps
+   !> Whether the run has time steps
    pure logical function has_steps(self)
       class(plan_t), intent(in) :: self
       has_steps = self%surfaces%move() .or. self%duty%active
    end function has_steps
 
-   !> Set the fraction of the surfaces that a grid resolves
+   !> Set the resolved fraction of the surfaces on a grid, and whether the coarser run is possible
    subroutine update_resolved_fraction(self, grid)
       class(plan_t), intent(inout) :: self
       type(grid_t), intent(in) :: grid
 
       call self%surfaces%see(grid)
       if (.not. self%coarse_run) return
-      ! the next coarser grid would resolve nothing of a surface
+      ! no coarser run if the next coarser grid resolves nothing of a surface
       self%coarse_run = self%surfaces%max_unresolved(grid%coarser(), aliased_below) < 1.0_dp
       self%extrapolates = self%coarse_run .and. .not. self%surfaces%pass_once() .and. &
-                          self%surfaces%max_unresolved(grid%coarser(), resolved_from) <= unresolved_most
+                          self%surfaces%max_unresolved(grid%coarser(), resolved_from) <= max_unresolved_fraction
    end subroutine update_resolved_fraction
 
    !> Refuse a surface so slow that its friction would need too many steps
@@ -232,25 +232,25 @@ contains
       type(plan_t), intent(in) :: plan
       type(status_t), intent(inout) :: status
       real(dp) :: steps
-      integer :: most
+      integer :: limit
       character(len=:), allocatable :: what
 
       if (.not. plan%surfaces%move() .or. plan%duty%active) return
       associate (slowest => plan%surfaces%of(plan%surfaces%slowest()))
-         most = merge(max_steps_asked_for, max_steps, plan%steps > 0)
+         limit = merge(max_steps_asked_for, max_steps, plan%steps > 0)
          steps = steps_needed(plan%surfaces, plan%finest%hx, plan%skip_start, plan%predicted_start)
-         if (steps <= most) then
-            ! steps that are skipped are counted, too
-            most = max_steps_asked_for
+         if (steps <= limit) then
+            ! skipped steps are counted too
+            limit = max_steps_asked_for
             steps = steps_needed(plan%surfaces, plan%finest%hx, .false., plan%predicted_start)
-            if (steps <= most) return
+            if (steps <= limit) return
          end if
-         what = trim(slowest%group)//".velocity_ratio = "//to_text(slowest%surface%velocity_ratio)//": so slow a surface needs "
+         what = trim(slowest%group)//".velocity_ratio = "//to_text(slowest%surface%velocity_ratio)//": this slow surface needs "
          if (plan%surfaces%repeats > 1) what = what//"by "//to_text(plan%surfaces%repeats)//" periods "
-         ! rounded up: the suggested ratio is sufficient
-         call status%fail(ehl_bad_input, what//fixed(steps, "es12.2e3")//" time steps until its friction is known, more than "// &
-                          to_text(most)//new_line("a")//"expected: a velocity ratio of at least "// &
-                          fixed(1.005_dp*steps*slowest%surface%velocity_ratio/most, "es12.2e3")// &
+         ! rounded up, so that the suggested ratio is accepted
+         call status%fail(ehl_bad_input, what//fixed(steps, "es12.2e3")//" time steps until its friction settles, more than "// &
+                          to_text(limit)//new_line("a")//"expected: a velocity ratio of at least "// &
+                          fixed(1.005_dp*steps*slowest%surface%velocity_ratio/limit, "es12.2e3")// &
                           " on this grid, or 0: a rough surface at rest is a steady contact")
       end associate
    end subroutine check_steps

@@ -1,13 +1,13 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Kinds of multigrid cycles of a plan
+!> Multigrid cycles of a plan
 submodule (ehl_plan) ehl_plan_cycles
    use ehl_case_grid, only: blunt_spike, high_spike
    use ehl_cycle, only: coarsening_alcouffe, coarsening_classical
-   use ehl_step_policy, only: damped_sweep, whole_correction
+   use ehl_step_policy, only: damped_sweep, squeeze_correction
    implicit none (type, external)
 
-   !> Extent from which on all steps under a duty are damped: 7 cycles a step instead of 80
-   real(dp), parameter :: long = 4.0_dp
+   !> Aspect ratio Y/X above which all steps under a duty are damped: 7 instead of 80 cycles per step
+   real(dp), parameter :: very_wide = 4.0_dp
 
 contains
 
@@ -18,7 +18,7 @@ contains
          plan%cycle_letter = input%solver%cycle(1:1)
          plan%step_cycle_letter = plan%cycle_letter
       end if
-      ! sweeps of one row are nearly Newton steps
+      ! line relaxation of a single row is nearly a Newton step
       row = plan%contact%is_line() .and. .not. plan%surfaces%width() > 0.0_dp
       if (row .and. input%solver%cycle == "auto") plan%cycle_letter = "V"
       plan%cycle = cycle_of(plan%cycle_letter)
@@ -26,20 +26,20 @@ contains
       plan%cycle%spare_spikes = has_sharp_spike(plan)
       plan%second_cycle = plan%cycle
       if (plan%cycle%full .and. input%solver%cycle == "auto" .and. .not. (plan%surfaces%rough() .or. plan%touches)) then
-         ! The first cycle leaves so little smooth error that one visit to the coarser levels is sufficient. Not before rough
-         ! runs: the error of the smooth friction enters the ratio.
+         ! The first cycle leaves little smooth error, so that a V cycle is sufficient. Not before rough contacts, whose friction
+         ! ratio contains the error of the smooth friction.
          plan%second_cycle = cycle_of("V")
          plan%second_cycle%spare_spikes = plan%cycle%spare_spikes
       end if
-      ! A time step begins close to its solution, so that the cheapest cycle wins; with two sweeps after the coarse
-      ! grids rather than before, more steps take a single one
+      ! A time step begins close to its solution, so that the cheapest cycle is best; with two post-relaxations instead of two
+      ! pre-relaxations more steps need a single cycle
       plan%step_cycle = cycle_of(plan%step_cycle_letter)
       plan%step_cycle%pre = 1
       plan%step_cycle%post = 2
       plan%step_cycle%finest_only = plan%duty%active .and. plan%contact%reach(2) > wide*plan%contact%reach(1)
-      if (plan%duty%active .and. plan%contact%reach(2) > long*plan%contact%reach(1)) then
+      if (plan%duty%active .and. plan%contact%reach(2) > very_wide*plan%contact%reach(1)) then
          plan%step_cycle%relaxation_factor = damped_sweep
-         plan%step_cycle%correction_factor = whole_correction
+         plan%step_cycle%correction_factor = squeeze_correction
       end if
       plan%coarsening_may_change = input%solver%coarsening == "auto" .and. .not. (row .or. input%contact%is_roller())
       plan%step_cycle%coarsening = merge(coarsening_alcouffe, coarsening_classical, &
@@ -55,7 +55,7 @@ contains
                         .not. (plan%surfaces%rough() .or. plan%touches)
    end function has_sharp_spike
 
-   !> Options of a kind of cycle
+   !> Options of the cycle with a letter
    pure function cycle_of(letter) result(options)
       character(len=1), intent(in) :: letter
       type(cycle_options_t) :: options

@@ -12,11 +12,11 @@ module ehl_plan_duty
 
 contains
 
-   !> Quantities that change with time, over those of the case; inactive where none does
+   !> Quantities that change with time, over those of the case; inactive without a duty
    pure function plan_duty(input, scales, inlet_viscosity) result(duty)
       type(case_t), intent(in) :: input
       type(scales_t), intent(in) :: scales
-      !> [Pa s] with the heat of the inlet
+      !> Viscosity in the inlet, with shear heating [Pa s]
       real(dp), intent(in) :: inlet_viscosity
       type(duty_t) :: duty
       real(dp), allocatable :: mean(:), slide(:)
@@ -32,7 +32,7 @@ contains
          duty%cubic = d%interpolation == "cubic"
          duty%periodic = d%periodic
          duty%periods = d%periods
-         duty%step_share = d%time_step
+         duty%step_factor = d%time_step
          duty%target_error = d%target_error
          duty%reference(duty_u1:duty_u2) = 1.0_dp + [0.5_dp, -0.5_dp]*c%slide_to_roll
          allocate (duty%values(n, quantities))
@@ -57,7 +57,7 @@ contains
 
    contains
 
-      !> Values of a quantity; those of the case where there are none
+      !> Set the values of a quantity; without values those of the case
       pure subroutine fill(k, ratios)
          integer, intent(in) :: k
          real(dp), intent(in) :: ratios(:)

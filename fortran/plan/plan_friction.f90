@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Data of a case for absolute friction and frictional heat
+!> Data of a case for absolute friction and frictional heating
 module ehl_plan_friction
    use ehl_case, only: case_t
    use ehl_case_point, only: operating_point
@@ -12,21 +12,21 @@ module ehl_plan_friction
    private
    public :: sliding_t, plan_sliding
 
-   !> Motion, load and heat of a contact
+   !> Motion, load and thermal data of a contact
    type :: sliding_t
       !> Name of the shear law
       character(len=32) :: law = "newtonian"
-      !> [-] slide-to-roll ratio; [m/s] mean velocity, 0 where there is none in m/s
+      !> Slide-to-roll ratio; mean velocity [m/s], 0 if not given in m/s
       real(dp) :: slide_to_roll = 0.0_dp, mean_velocity = 0.0_dp
-      !> [N] load
+      !> Load [N]
       real(dp) :: load = 0.0_dp
-      !> [Pa] oils are not Newtonian above this stress
+      !> Stress above which oils are not Newtonian [Pa]
       real(dp) :: newtonian_limit = 0.0_dp
-      !> Of body 1 and of body 2: [W/(m K)], [m^2/s]
+      !> Thermal conductivity [W/(m K)] and diffusivity [m^2/s] of bodies 1 and 2
       real(dp) :: conductivity(2) = 0.0_dp, diffusivity(2) = 0.0_dp
-      !> Film over the isothermal one, 1 where shear heating of the inlet is left out; thermal loading
+      !> Thermal reduction of the film, 1 without inlet shear heating; thermal loading parameter
       real(dp) :: reduction = 1.0_dp, loading = 0.0_dp
-      !> [Pa s] viscosity that determines the film: that of the inlet with shear heating
+      !> Viscosity in the inlet, with shear heating [Pa s]
       real(dp) :: inlet_viscosity = 0.0_dp
    contains
       procedure :: speeds
@@ -41,7 +41,7 @@ contains
       speeds = self%mean_velocity*(1.0_dp + [0.5_dp, -0.5_dp]*self%slide_to_roll)
    end function speeds
 
-   !> Motion, load and heat of a case
+   !> Motion, load and thermal data of a case
    pure function plan_sliding(input, contact, scales) result(sliding)
       type(case_t), intent(in) :: input
       class(contact_t), intent(in) :: contact
@@ -69,23 +69,23 @@ contains
       end associate
    end function plan_sliding
 
-   !> Viscosity [Pa s] at which the film formula gives a share of the film of the lubricant's own viscosity
-   pure real(dp) function inlet_viscosity(input, contact, scales, share)
+   !> Viscosity [Pa s] at which the film formula gives `ratio` times the film at the viscosity of the case
+   pure real(dp) function inlet_viscosity(input, contact, scales, ratio)
       type(case_t), intent(in) :: input
       class(contact_t), intent(in) :: contact
       type(scales_t), intent(in) :: scales
-      real(dp), intent(in) :: share
-      real(dp) :: low, high, wanted
+      real(dp), intent(in) :: ratio
+      real(dp) :: low, high, target
       integer :: k
 
       inlet_viscosity = input%lubricant%viscosity
-      if (.not. (share > 0.0_dp .and. share < 1.0_dp)) return
-      ! the film grows with viscosity, nowhere by less than its 0.4th power
+      if (.not. (ratio > 0.0_dp .and. ratio < 1.0_dp)) return
+      ! the film increases at least as the power 0.4 of the viscosity
       high = log(inlet_viscosity)
-      low = high + 2.5_dp*log(share)
-      wanted = share*film_at(input, contact, scales, high)
+      low = high + 2.5_dp*log(ratio)
+      target = ratio*film_at(input, contact, scales, high)
       do k = 1, 60
-         if (film_at(input, contact, scales, 0.5_dp*(low + high)) < wanted) then
+         if (film_at(input, contact, scales, 0.5_dp*(low + high)) < target) then
             low = 0.5_dp*(low + high)
          else
             high = 0.5_dp*(low + high)
@@ -94,7 +94,7 @@ contains
       inlet_viscosity = exp(0.5_dp*(low + high))
    end function inlet_viscosity
 
-   !> Central film by formula at the logarithm of a viscosity, over a^2/R, which does not depend on it
+   !> Central film by formula at the logarithm of a viscosity [a^2/R]
    pure real(dp) function film_at(input, contact, scales, log_viscosity)
       type(case_t), intent(in) :: input
       class(contact_t), intent(in) :: contact

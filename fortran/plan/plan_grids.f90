@@ -8,13 +8,13 @@ submodule (ehl_plan) ehl_plan_grids
    use ehl_strip_grid, only: make_strip
    implicit none (type, external)
 
-   !> Nested iteration starts on a grid of at least that many nodes a side that has a solution
-   integer, parameter :: start_fewest = 33
+   !> Smallest number of nodes along X of the first grid of nested iteration
+   integer, parameter :: min_start_points = 33
    !> Intervals of the coarsest grid of a line
    integer, parameter :: coarsest_of_line = 64
-   !> Lengths of thick films, (2 H_c)^(1/2) [a], and largest mesh of the coarsest grid in terms of them
+   !> Length (2 H_c)^(1/2) of a thick film [a], and largest mesh size of the coarsest grid over this length
    real(dp), parameter :: thick_film = 0.8_dp, coarsest_mesh = 0.9_dp
-   !> A-priori error of H_c of grids that resolve the inlet: a smooth contact that fails there is restarted with damped cycles
+   !> Largest a-priori error of H_c at which a failed smooth contact is restarted with damped cycles
    real(dp), parameter :: resolved_error = 0.1_dp
 
 contains
@@ -30,13 +30,13 @@ contains
       call find_levels(input%grid%points, merge(input%grid%points, input%grid%points_y, plan%contact%is_line()), plan%levels, &
                        intervals)
       if (plan%contact%is_line()) then
-         ! the direct solution of one row of nodes costs little on a finer grid
+         ! the direct solution of a single row is cheap on a finer grid
          do while (intervals(1) < merge(coarsest_most, coarsest_of_line, plan%surfaces%width() > 0.0_dp) .and. plan%levels > 1)
             intervals = 2*intervals
             plan%levels = plan%levels - 1
          end do
       end if
-      ! corrections by a coarsest grid that does not resolve a thick film are wrong
+      ! a coarsest grid that does not resolve a thick film gives wrong corrections
       film = sqrt(2.0_dp*plan%film_expected)
       if (plan%levels > 1 .and. 2*minval(intervals) <= coarsest_most .and. film > thick_film .and. &
           input%grid%x_outlet - input%grid%x_inlet > coarsest_mesh*film*intervals(1)) then
@@ -70,7 +70,7 @@ contains
       plan%start = 0
       do level = 1, plan%levels
          if (level > 1) grid = grid%finer()
-         if (plan%start == 0 .and. grid%nx >= start_fewest .and. &
+         if (plan%start == 0 .and. grid%nx >= min_start_points .and. &
              (plan%touches .or. has_solution(plan%contact, plan%point, grid))) plan%start = level
       end do
       if (plan%start == 0) plan%start = plan%levels

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Whether the heat of sliding is significant for the friction of a case, and the data to compute it
+!> Whether frictional heating is significant for the friction of a case, and the data to compute it
 module ehl_plan_heat
    use ehl_case, only: case_t
    use ehl_case_point, only: find_contact, operating_point
@@ -20,28 +20,28 @@ module ehl_plan_heat
    private
    public :: heat_plan_t, may_touch, plan_contact, plan_heat, plan_given
 
-   !> Relative change of the stress under the Hertz pressure below which heat is left out
+   !> Relative change of the stress at the Hertz pressure below which frictional heating is neglected
    real(dp), parameter :: min_change = 1.0e-3_dp
 
-   !> Boundary film from which on a smooth contact may touch, over its central film by formula
+   !> Boundary film over the central film by formula above which a smooth contact may have solid contact
    real(dp), parameter :: contact_from = 0.5_dp
 
-   !> The heat of friction of a contact
+   !> Frictional heating of a contact
    type :: heat_plan_t
       !> Whether it is computed
       logical :: counts = .false.
       type(film_heat_t) :: film
-      !> Rise of temperature up to which the viscosity was measured [K]; huge: not known
+      !> Temperature rise up to which the viscosity was measured [K]; huge: not known
       real(dp) :: measured_rise = huge(1.0_dp)
-      !> Whether a coefficient of friction includes it, and why (ehl_reason); rise of temperature by estimate [K]
+      !> Why the coefficient of friction includes it or not (ehl_reason); estimated temperature rise [K]
       integer :: reason = reason_none
       real(dp) :: estimate = 0.0_dp
    end type heat_plan_t
 
 contains
 
-   !> Decide by the maximum heat of the contact, at the Hertz pressure in the central film by formula, or at a boundary film that
-   !> is not much thinner: its flash temperature (Tian & Kennedy), and the additional mean rise across the film
+   !> Decide from the temperature rise at the Hertz pressure in the central film by formula, or in the boundary film if solid
+   !> contact is possible: flash temperature (Tian & Kennedy) plus the mean rise across the film
    function plan_heat(input, contact, scales, sliding, lubricant, film) result(plan)
       type(case_t), intent(in) :: input
       class(contact_t), intent(in) :: contact
@@ -51,7 +51,7 @@ contains
       !> Central film by formula [a^2/R]
       real(dp), intent(in) :: film
       type(heat_plan_t) :: plan
-      real(dp) :: stress, most, warm, rise, rest, source(2)
+      real(dp) :: stress, max_stress, heated, rise, rest_speed, source(2)
 
       associate (l => input%lubricant, heat => plan%film)
          heat%speed = abs(sliding%slide_to_roll)*sliding%mean_velocity
@@ -72,7 +72,7 @@ contains
          heat%length = scales%length
          heat%film = scales%film
          if (l%range_temperature_max > l%range_temperature_min) plan%measured_rise = l%range_temperature_max - l%temperature
-         rest = speed_of_rest(contact)
+         rest_speed = speed_of_rest(contact)
          source = heat_source(contact)
          heat%strengths = [wall(1), wall(2)]
          stress = stress_at(0.0_dp)
@@ -80,13 +80,13 @@ contains
             plan%reason = friction_newtonian
             return
          end if
-         most = stress
-         if (may_touch(lubricant, film)) most = max(stress, lubricant%boundary_stress*lubricant%shear%scale)
-         rise = flash_temperature(most*heat%speed, source(1)*scales%length, source(2), sliding%speeds(), &
+         max_stress = stress
+         if (may_touch(lubricant, film)) max_stress = max(stress, lubricant%boundary_stress*lubricant%shear%scale)
+         rise = flash_temperature(max_stress*heat%speed, source(1)*scales%length, source(2), sliding%speeds(), &
                                   sliding%conductivity, sliding%diffusivity) &
-                + most*heat%speed*film*scales%film/(12.0_dp*heat%conductivity)
-         warm = stress_at(rise)
-         plan%counts = l%thermal_friction == "always" .or. .not. stress - warm < min_change*stress
+                + max_stress*heat%speed*film*scales%film/(12.0_dp*heat%conductivity)
+         heated = stress_at(rise)
+         plan%counts = l%thermal_friction == "always" .or. .not. stress - heated < min_change*stress
          plan%estimate = rise
          plan%reason = merge(friction_with_heat, friction_small, plan%counts)
       end associate
@@ -98,10 +98,10 @@ contains
          real(dp) :: speeds(2)
 
          speeds = sliding%speeds()
-         wall = wall_strength(speeds(k), sliding%conductivity(k), sliding%diffusivity(k), rest, scales%length, source(2))
+         wall = wall_strength(speeds(k), sliding%conductivity(k), sliding%diffusivity(k), rest_speed, scales%length, source(2))
       end function wall
 
-      !> Shear stress [Pa] under the Hertz pressure at a rise of temperature [K]
+      !> Shear stress [Pa] under the Hertz pressure at a temperature rise [K]
       real(dp) function stress_at(rise)
          real(dp), intent(in) :: rise
          real(dp) :: values(1)
@@ -113,14 +113,14 @@ contains
       end function stress_at
    end function plan_heat
 
-   !> Whether the smooth contact may touch at the boundary film, by its central film by formula [a^2/R]
+   !> Whether the smooth contact may have solid contact, from its central film by formula [a^2/R]
    pure logical function may_touch(lubricant, film)
       type(lubricant_t), intent(in) :: lubricant
       real(dp), intent(in) :: film
       may_touch = lubricant%boundary_film > contact_from*film
    end function may_touch
 
-   !> plan_heat, and the lubricant, of a case whose pressure and film are known already
+   !> Heating and lubricant of a case whose pressure and film are known
    subroutine plan_given(input, plan, lubricant, status)
       type(case_t), intent(in) :: input
       type(heat_plan_t), intent(out) :: plan
@@ -161,7 +161,7 @@ contains
       film = contact%film_formula(point%moes_m, point%moes_l)/rho
    end subroutine plan_contact
 
-   !> Whether a case states how the viscosity falls with temperature
+   !> Whether the case gives the temperature dependence of the viscosity
    pure logical function knows_temperature(input)
       type(case_t), intent(in) :: input
       knows_temperature = input%contact%si .and. input%lubricant%temperature_viscosity > 0.0_dp

@@ -33,7 +33,7 @@ contains
       end if
    end subroutine plan_lubricant
 
-   !> Shear law; a contact given by its Moes numbers has no sliding speed and stays Newtonian
+   !> Shear law; a contact given by its Moes numbers has no sliding speed and is Newtonian
    pure function shear_of(input, scales) result(shear)
       type(case_t), intent(in) :: input
       type(scales_t), intent(in) :: scales

@@ -12,23 +12,23 @@ module ehl_plan_need
    private
    public :: bytes_needed, check_need, frames_kept, max_periods, seconds_needed
 
-   !> Bytes per stored node of the finest grid, those of the coarser ones included, as measured on 513 x 513 nodes: the
-   !> smooth contact; in addition the rough one; in addition Alcouffe coarsening
+   !> Bytes per stored node of the finest grid including the coarser ones, measured on 513 x 513 nodes: of the smooth contact; added
+   !> by the rough one; added by Alcouffe coarsening
    real(dp), parameter :: smooth_bytes = 190.0_dp, rough_bytes = 150.0_dp, alcouffe_bytes = 120.0_dp
-   !> Of the temperatures of film and walls
+   !> Added by the temperatures of film and walls
    real(dp), parameter :: heat_bytes = 32.0_dp
-   !> The same of a flow that thins
+   !> Added by a shear-thinning flow
    real(dp), parameter :: thinning_bytes = 165.0_dp
-   !> Bytes per node of the whole finest grid, to write a field: the field, a copy and its source
+   !> Bytes per node of the whole finest grid for writing a field: the field, a copy and its source
    real(dp), parameter :: written_bytes = 24.0_dp
    !> Bytes per node along X and thread
    real(dp), parameter :: line_bytes = 2000.0_dp
-   !> Share of the run on the next coarser grid in memory and, with half as many steps, in time
+   !> Memory and time of the run on the next coarser grid, with half the steps, over those on the finest
    real(dp), parameter :: coarser_bytes = 0.25_dp, coarser_seconds = 0.125_dp
    !> Seconds per stored node of a smooth contact and of a time step or cycle, on one thread of a processor of 2020
    real(dp), parameter :: smooth_seconds = 8.0e-7_dp, step_seconds = 3.0e-7_dp
-   !> Seconds per cube of the unknowns of the coarsest grid, which is solved directly, about ten times in a smooth contact; on
-   !> a long grid they take half of the time (0.5 s of 1.1 at kappa = 10 on 257 nodes)
+   !> Seconds per cube of the number of unknowns on the coarsest grid, for about ten direct solutions in a smooth contact; on a wide
+   !> grid half of the time (0.5 of 1.1 s at kappa = 10 on 257 nodes)
    real(dp), parameter :: direct_seconds = 1.0e-9_dp
    !> Cycles of a stationary rough contact
    real(dp), parameter :: stationary_cycles = 20.0_dp
@@ -48,12 +48,12 @@ contains
       what = what//to_text(plan%finest%nx)
       if (frames(plan, max_steps(plan)) > 0.0_dp) what = what//" with output.frame_interval = "//to_text(plan%frame_interval)
       needed = bytes_needed(plan, plan%threads)
-      ! memory of the surfaces is allocated already
+      ! the surfaces are allocated already
       needed = needed - plan%surfaces%bytes()
       call check_memory(what, needed, status)
    end subroutine check_need
 
-   !> Frames that are kept at the least and at the most
+   !> Smallest and largest number of frames
    subroutine frames_kept(plan, least, most)
       type(plan_t), intent(in) :: plan
       real(dp), intent(out) :: least, most
@@ -62,7 +62,7 @@ contains
       most = frames(plan, max_steps(plan))
    end subroutine frames_kept
 
-   !> Time steps until the run can end
+   !> Smallest number of time steps
    real(dp) function steps(plan)
       type(plan_t), intent(in) :: plan
 
@@ -73,7 +73,7 @@ contains
       if (plan%steps == 0) steps = steps_needed(plan%surfaces, plan%finest%hx, plan%skip_start, plan%predicted_start)
    end function steps
 
-   !> Time steps until it ends if its mean has not settled
+   !> Largest number of time steps, if the mean does not settle
    real(dp) function max_steps(plan)
       type(plan_t), intent(in) :: plan
 
@@ -85,19 +85,19 @@ contains
                                                      max_periods(plan))
    end function max_steps
 
-   !> Periods after which a transient run ends at the latest
+   !> Largest number of periods of a transient run
    pure real(dp) function max_periods(plan)
       type(plan_t), intent(in) :: plan
 
       associate (most => merge(plan%max_periods, automatic_periods, plan%max_periods > 0), repeats => plan%surfaces%repeats)
          max_periods = most
-         ! of several surfaces one period of all may be as long as that
+         ! the common period of several surfaces may be as long as that
          if (repeats > 1) max_periods = max(real(most, dp)/repeats, periods_compared(repeats))
       end associate
       if (plan%surfaces%pass_once()) max_periods = 1.0_dp
    end function max_periods
 
-   !> Frames that are kept in so many steps
+   !> Number of frames in a number of steps
    pure real(dp) function frames(plan, steps)
       type(plan_t), intent(in) :: plan
       real(dp), intent(in) :: steps
@@ -106,7 +106,7 @@ contains
       if (plan%frame_interval > 0.0_dp) frames = aint(steps*min(1.0_dp, plan%finest%hx/plan%frame_interval))
    end function frames
 
-   !> Stored nodes of the finest grid
+   !> Number of stored nodes of the finest grid
    pure real(dp) function nodes(plan)
       type(plan_t), intent(in) :: plan
       nodes = real(plan%finest%nx, dp)*plan%finest%ny
@@ -118,7 +118,7 @@ contains
       integer, intent(in) :: threads
 
       bytes = smooth_bytes
-      if (plan%goes_on()) bytes = bytes + rough_bytes
+      if (plan%has_next_phase()) bytes = bytes + rough_bytes
       if (plan%has_steps()) bytes = bytes + alcouffe_bytes
       if (plan%heat%counts) bytes = bytes + heat_bytes
       if (plan%lubricant%shear%thins_flow()) bytes = bytes + thinning_bytes

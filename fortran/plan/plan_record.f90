@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The numbers of a plan by name, for the text that pyehl makes of them
+!> Named numbers of a plan, for the text written by pyehl
 module ehl_plan_record
    use ehl_cycle, only: coarsening_alcouffe
    use ehl_feature, only: feature_t
@@ -18,7 +18,7 @@ module ehl_plan_record
 
 contains
 
-   !> Operating point, lubricant, surfaces, grid, cycles, need
+   !> Record of operating point, lubricant, surfaces, grid, cycles, memory and time
    function plan_record(plan) result(record)
       type(plan_t), intent(in) :: plan
       type(record_t) :: record
@@ -40,7 +40,7 @@ contains
          call record%set("thins_flow", l%shear%thins_flow())
          call record%set("boundary_film hardness boundary_friction", [l%boundary_film, l%boundary_limit, &
                                                                       l%boundary_stress*l%shear%scale/scales%pressure])
-         call record%set("inlet_in_doubt", plan%inlet%in_doubt(plan%finest%hx))
+         call record%set("inlet_in_doubt", plan%inlet%may_be_artefact(plan%finest%hx))
          call record%set("points_for_inlet", merge(points_for_inlet(plan%inlet, plan%finest), 0, l%boundary_film > 0.0_dp))
          call record%set("points_for_solution", points_for_solution(contact, point, plan%finest))
       end associate
@@ -88,7 +88,7 @@ contains
       call record%set("bytes seconds frames_min frames_max", [bytes_needed(plan, 1), seconds_needed(plan), least, most])
    end function plan_record
 
-   !> The rough surfaces, heights in a^2/R, lengths in a
+   !> Record of the rough surfaces, heights in a^2/R, lengths in a
    subroutine surfaces_record(record, surfaces)
       type(record_t), intent(inout) :: record
       type(moving_surfaces_t), intent(in) :: surfaces

@@ -18,29 +18,29 @@ module ehl_plan_surface
    use ehl_tile_filter, only: filter_t
    implicit none (type, external)
    private
-   public :: make_surfaces, check_carried
+   public :: make_surfaces, check_resolved
 
-   !> Length over which the front of a map fades [a]
+   !> Length of the ramp at the front of a map [a]
    real(dp), parameter :: map_front = 0.5_dp
 
-   !> Wavelength across the motion above which a wave on a line is transverse
+   !> Wavelength along Y above which a wave on a line is transverse
    real(dp), parameter :: transverse = 1.0e6_dp
 
 contains
 
-   !> The surfaces of a case; one of no height beside one that has some is smooth
+   !> Make the surfaces of a case; beside a rough surface one without height is smooth
    subroutine make_surfaces(input, scales, surfaces, status, heights, second_heights)
       type(case_t), intent(in) :: input
       type(scales_t), intent(in) :: scales
       type(moving_surfaces_t), intent(inout) :: surfaces
       type(status_t), intent(inout) :: status
-      !> Heights of the maps of both [m], X first, in place of files; of size 0: none
+      !> Heights of both maps [m], X first, in place of files; of size 0: none
       real(dp), intent(in), optional :: heights(:, :), second_heights(:, :)
       type(surface_case_t) :: s(2)
       logical :: none(2)
 
       s = [input%surface, input%second_surface]
-      ! a transverse wave needs one row of a strip only
+      ! a transverse wave needs only one row of a strip
       where (s%wavelength_y >= transverse .and. input%contact%is_line()) s%wavelength_y = endless
       none = [has_no_height(input%surface), has_no_height(input%second_surface)]
       if (present(heights)) none(1) = none(1) .and. size(heights) == 0
@@ -52,7 +52,7 @@ contains
                                                        second_heights)
    end subroutine make_surfaces
 
-   !> The surface of a group; none where it is smooth
+   !> Add the surface of a group unless it is smooth
    subroutine add_surface(group, s, body, si, is_line, scales, surfaces, status, heights)
       character(len=*), intent(in) :: group
       type(surface_case_t), intent(in) :: s
@@ -65,7 +65,7 @@ contains
       !> Heights of a map [m], X first, in place of a file; of size 0: none
       real(dp), intent(in), optional :: heights(:, :)
       class(surface_t), allocatable :: surface
-      !> Amplitude as a share of the smooth central film; 0: it is known already
+      !> Amplitude over the smooth central film; 0: known already
       real(dp) :: amplitude_over_film
       real(dp), allocatable :: tile(:, :)
       logical :: has_heights
@@ -99,7 +99,7 @@ contains
       call surfaces%add(group, surface, amplitude_over_film, body)
    end subroutine add_surface
 
-   !> A single feature
+   !> Make a single feature
    subroutine make_feature(group, s, is_line, scales, surface, amplitude_over_film, status)
       character(len=*), intent(in) :: group
       type(surface_case_t), intent(in) :: s
@@ -129,7 +129,7 @@ contains
       allocate (surface, source=feature)
    end subroutine make_feature
 
-   !> On a strip it repeats along Y
+   !> Repeat a feature along Y on a strip
    subroutine repeat_feature(group, s, feature, status)
       character(len=*), intent(in) :: group
       type(surface_case_t), intent(in) :: s
@@ -147,7 +147,7 @@ contains
          new_line("a")//"expected: more than that, or 0")
    end subroutine repeat_feature
 
-   !> Refuse a map that has to be prepared, or has no size
+   !> Refuse a map that pyehl has to prepare, or whose size is not given
    subroutine check_map(group, s, status)
       character(len=*), intent(in) :: group
       type(surface_case_t), intent(in) :: s
@@ -167,7 +167,7 @@ contains
       end if
    end subroutine check_map
 
-   !> Why pyehl has to prepare a map, for a message; empty when the solver can read it
+   !> Why pyehl has to prepare a map, for a message; empty if the solver can read it
    subroutine map_needs(group, s, why)
       character(len=*), intent(in) :: group
       type(surface_case_t), intent(in) :: s
@@ -207,7 +207,7 @@ contains
       end if
    end subroutine map_needs
 
-   !> Make a surface of a tile of heights [m]
+   !> Make a surface from a tile of heights [m]
    subroutine make_map(group, s, scales, heights, surface, status)
       character(len=*), intent(in) :: group
       type(surface_case_t), intent(in) :: s
@@ -230,8 +230,8 @@ contains
       call placed%setup(heights, 1.0_dp/scales%film, length, made .and. s%tile_mirrored, filter, map_front, status)
       if (status%failed()) return
       if (placed%variance_whole > 0.0_dp .and. .not. placed%variance > 1.0e-24_dp*placed%variance_whole) then
-         call status%fail(ehl_bad_input, group//".shortest_wavelength and longest_wavelength leave nothing of the "// &
-                          "surface"//new_line("a")//"expected: wavelengths [m] with waves of the surface between them")
+         call status%fail(ehl_bad_input, group//".shortest_wavelength and longest_wavelength remove all waves of "// &
+                          "the surface"//new_line("a")//"expected: wavelengths [m] with waves of the surface between them")
          return
       end if
       call move_alloc(placed, surface)
@@ -257,8 +257,8 @@ contains
       if (.not. status%failed()) tile = transpose(rows)
    end subroutine generate
 
-   !> Refuse surfaces if a grid resolves nothing of one
-   subroutine check_carried(surfaces, grid, status)
+   !> Refuse surfaces of which a grid resolves nothing
+   subroutine check_resolved(surfaces, grid, status)
       type(moving_surfaces_t), intent(in) :: surfaces
       type(grid_t), intent(in) :: grid
       type(status_t), intent(inout) :: status
@@ -268,5 +268,5 @@ contains
       call status%fail(ehl_bad_input, "all waves of the surface are shorter than two nodes of the grid of "// &
                        to_text(grid%nx)//" x "//to_text(grid%full_ny())//" nodes, in space or in the time steps: it resolves "// &
                        "nothing of them"//new_line("a")//"expected: a finer grid (grid.points), or longer waves")
-   end subroutine check_carried
+   end subroutine check_resolved
 end module ehl_plan_surface

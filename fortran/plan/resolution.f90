@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> A-priori estimates whether a grid resolves a smooth contact
+!> A-priori estimates of the grid that resolves a smooth contact
 module ehl_resolution
    use ehl_contact, only: contact_t
    use ehl_grid, only: grid_t
@@ -14,13 +14,13 @@ module ehl_resolution
 
    !> Largest half of the a-priori error of H_min at which the discrete equations have a solution (docs/robustness.md)
    real(dp), parameter :: max_unresolved = 0.6_dp
-   !> Semi-axis across the motion over that along it from which on cells a quarter as long across can be too long, and a side
-   !> of an eighth of the length of the domain is far enough
-   real(dp), parameter :: max_narrow = 0.105_dp
+   !> Aspect ratio Y/X below which cells with hy = hx/4 can be too long at the ends, and a side at an eighth of the length of the
+   !> domain is far enough
+   real(dp), parameter :: max_narrow_ratio = 0.105_dp
 
 contains
 
-   !> Whether the equations are expected to have a solution on a grid
+   !> Whether the discrete equations on a grid are expected to have a solution
    pure logical function has_solution(contact, point, grid)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point
@@ -31,7 +31,7 @@ contains
       has_solution = 0.5_dp*errors(2) <= max_unresolved
    end function has_solution
 
-   !> Nodes along X of a grid that is expected to have a solution, no fewer than those of the finest one
+   !> Nodes along X of a grid that is expected to have a solution, at least those of the finest one
    pure integer function points_for_solution(contact, point, finest) result(points)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point
@@ -45,7 +45,7 @@ contains
       points = grid%nx
    end function points_for_solution
 
-   !> Nodes along X of a grid that resolves enough of the inlet
+   !> Nodes along X of a grid that resolves the inlet
    pure integer function points_for_inlet(inlet, finest) result(points)
       type(inlet_t), intent(in) :: inlet
       type(grid_t), intent(in) :: finest
@@ -58,8 +58,8 @@ contains
       points = grid%nx
    end function points_for_inlet
 
-   !> Why there may be no solution: the grid; in a narrow contact on a grid that seems fine enough its ends, which cells half as
-   !> long across may resolve, in a domain a quarter as wide; none where nothing is known (docs/evidence/errors_ellipses)
+   !> Probable reason of a missing solution: a coarse grid; or the ends of a narrow contact, for which half of hy in a domain a
+   !> quarter as wide may be sufficient (docs/evidence/errors_ellipses); reason_none if neither applies
    pure integer function why_no_solution(contact, point, finest) result(reason)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point
@@ -68,7 +68,7 @@ contains
       reason = reason_none
       if (.not. has_solution(contact, point, finest)) then
          reason = reason_coarse_grid
-      else if (contact%reach(2) <= max_narrow*contact%reach(1) .and. 6.0_dp*finest%hy >= finest%hx) then
+      else if (contact%reach(2) <= max_narrow_ratio*contact%reach(1) .and. 6.0_dp*finest%hy >= finest%hx) then
          reason = reason_narrow
       end if
    end function why_no_solution

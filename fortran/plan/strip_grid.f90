@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The grid of a line contact: a strip as wide as its surfaces repeat along the line
+!> Grid of a line contact: a strip whose width is the period of its surfaces along the line
 module ehl_strip_grid
    use ehl_grid, only: grid_t, new_strip
    use ehl_kinds, only: dp
@@ -9,16 +9,16 @@ module ehl_strip_grid
    private
    public :: make_strip
 
-   !> Most rows of the finest grid
+   !> Largest number of rows of the finest grid
    integer, parameter :: max_rows = 16384
 
 contains
 
-   !> Coarsest grid with cells that are nearly square: an even number of rows, or one where nothing varies along Y
+   !> Make the coarsest grid, with nearly square cells: an even number of rows, or one row if nothing varies along Y
    subroutine make_strip(width, intervals, levels, x_inlet, x_outlet, mirror, alcouffe, coarsest, status)
-      !> Width; 0: nothing varies along Y, negative: the surfaces have none in common
+      !> Width; 0: nothing varies along Y; negative: the surfaces have no common period
       real(dp), intent(in) :: width
-      !> Of the coarsest grid along X, and levels
+      !> Intervals of the coarsest grid along X, and number of levels
       integer, intent(in) :: intervals, levels
       real(dp), intent(in) :: x_inlet, x_outlet
       !> Whether half of the strip is enough, and whether operator-dependent transfers are requested

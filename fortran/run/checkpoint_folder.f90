@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The folder DIR.checkpoint beside the results DIR: the data to resume a transient run that was stopped.
-!> It holds the case, the surface if it came from Python, and the last two states.
+!> The folder DIR.checkpoint beside the results DIR, with the data to resume an interrupted transient run: the case, surfaces that
+!> came from Python, and the last two states.
 module ehl_checkpoint_folder
    use ehl_case, only: case_t
    use ehl_checkpoint, only: coarser, frame_file, state_files
@@ -22,20 +22,20 @@ module ehl_checkpoint_folder
 
    character(len=*), parameter :: suffix = ".checkpoint", case_file = "case.nml", surface_file = "surface.npy", &
       second_file = "second_surface.npy", &
-      ! first line of the case, by which the folder is known
+      ! first line of the case, which identifies the folder
       mark = "! Case of a transient run whose states are beside it; removed with them"
-   !> States of the run and of that on the coarser grid, and all that belongs to them but frames
+   !> States of the run and of the run on the coarser grid; all files of the folder except frames
    character(len=*), parameter :: states(*) = [character(len=32) :: state_files, coarser//state_files], &
       files(*) = [character(len=32) :: states, surface_file, second_file, case_file]
 
    !> Writes the state at intervals
    type :: checkpoint_folder_t
       private
-      !> Ends in '/'; not allocated: nothing is kept
+      !> Ends with '/'; not allocated: no states are saved
       character(len=:), allocatable :: folder
       real(dp) :: interval = 0.0_dp
       type(clock_t) :: since
-      !> That of the results
+      !> Lock of the folder of the results
       type(folder_lock_t) :: lock
    contains
       procedure :: open => open_folder
@@ -49,15 +49,14 @@ module ehl_checkpoint_folder
 
 contains
 
-   !> The folder that belongs to results, with a '/' at its end
+   !> Checkpoint folder of a result folder; ends with '/'
    function checkpoint_path(results) result(folder)
       character(len=*), intent(in) :: results
       character(len=:), allocatable :: folder
       folder = full_path(results)//suffix//"/"
    end function checkpoint_path
 
-   !> Data to resume the run with these results: its case file, and its surfaces [m] (of size 0 when
-   !> the case has all of them)
+   !> Find the data to resume the run with these results: its case file, and its surfaces [m] (of size 0 if the case has them)
    subroutine find_checkpoint(results, path, heights, second_heights, status)
       character(len=*), intent(in) :: results
       character(len=:), allocatable, intent(out) :: path
@@ -79,17 +78,16 @@ contains
       if (file_exists(folder//second_file)) call read_npy(folder//second_file, second_heights, status)
    end subroutine find_checkpoint
 
-   !> Lock the folder of the results until `release`; make that of a transient run, unless the case has no checkpoints; refuse one
-   !> with anything else in it. States of an earlier run are backed up under the name that the note gives, unless this run resumes
-   !> from them.
+   !> Lock the folder of the results until `release`. For a transient run with checkpoints make its folder, and refuse one with
+   !> other files. States of an earlier run are backed up under the name in the note, unless this run resumes from them.
    subroutine open_folder(self, results, input, solver, resumed, heights, second_heights, note, status)
       class(checkpoint_folder_t), intent(inout) :: self
       character(len=*), intent(in) :: results
       type(case_t), intent(in) :: input
       type(solver_t), intent(in) :: solver
-      !> Results of the run that is resumed; empty: none
+      !> Result folder of the resumed run; empty: none
       character(len=*), intent(in) :: resumed
-      !> Heights of the maps of both surfaces [m] that did not come from their files; of size 0: none
+      !> Heights of both surfaces [m] that did not come from files; of size 0: none
       real(dp), intent(in) :: heights(:, :), second_heights(:, :)
       character(len=:), allocatable, intent(out) :: note
       type(status_t), intent(inout) :: status
@@ -114,7 +112,7 @@ contains
       self%interval = input%output%checkpoint_interval
       self%since = start_clock()
       call make_parents(place(:len(place) - 1))
-      ! the folder is there with all that belongs to it
+      ! the folder gets its name when its files are complete
       if (.not. is_there(place)) place = spare_path(place(:len(place) - 1)//".partial")//"/"
       if (.not. file_exists(place)) then
          if (.not. make_folder(place)) call status%fail(ehl_file, self%folder//": error: cannot make this folder")
@@ -128,14 +126,14 @@ contains
       if (.not. same) call status%fail(ehl_file, self%folder//": error: cannot make this folder")
    end subroutine open_folder
 
-   !> Whether the time has come to save the state
+   !> Whether the next save is due
    logical function is_due(self)
       class(checkpoint_folder_t), intent(in) :: self
       is_due = .false.
       if (allocated(self%folder)) is_due = self%since%seconds() >= self%interval
    end function is_due
 
-   !> Save the state of the run that is under way
+   !> Save the state of a run
    subroutine save_run(self, run, status)
       class(checkpoint_folder_t), intent(inout) :: self
       type(contact_run_t), intent(inout) :: run
@@ -146,7 +144,7 @@ contains
       self%since = start_clock()
    end subroutine save_run
 
-   !> Save the state of a case, that on the coarser grid included
+   !> Save the state of a solver, including that on the coarser grid
    subroutine save_solver(self, solver, status)
       class(checkpoint_folder_t), intent(inout) :: self
       type(solver_t), intent(inout) :: solver
@@ -157,14 +155,14 @@ contains
       self%since = start_clock()
    end subroutine save_solver
 
-   !> Whether there is a state to resume from
+   !> Whether the folder holds a state to resume from
    logical function has_state(self)
       class(checkpoint_folder_t), intent(in) :: self
       has_state = .false.
       if (allocated(self%folder)) has_state = holds_state(self%folder)
    end function has_state
 
-   !> The run has converged: its states are removed
+   !> Remove the states of a converged run
    subroutine close_folder(self)
       class(checkpoint_folder_t), intent(inout) :: self
 
@@ -190,7 +188,7 @@ contains
       end do
    end function holds_state
 
-   !> Refuse a folder that is there and holds anything but the state of a run
+   !> Refuse an existing folder that holds other files than the state of a run
    subroutine check_state_folder(folder, status)
       character(len=*), intent(in) :: folder
       type(status_t), intent(inout) :: status
@@ -204,16 +202,16 @@ contains
       do k = 1, size(names)
          if (whole .and. is_state_file(names(k)%text)) cycle
          call status%fail(ehl_bad_input, folder(:len(folder) - 1)//": error: holds '"//names(k)%text// &
-                          "', which is not of the state of a run"//newline// &
+                          "', which does not belong to the state of a run"//newline// &
                           "expected: another folder for the results, or output.checkpoint_interval = 0")
          return
       end do
       if (.not. whole) call status%fail(ehl_bad_input, folder(:len(folder) - 1)// &
-                                        ": error: this is no folder that can be read"//newline// &
+                                        ": error: cannot read this folder"//newline// &
                                         "expected: another folder for the results")
    end subroutine check_state_folder
 
-   !> Whether a file of the folder has such a name, whole or half written
+   !> Whether a file belongs to a state, complete or partly written
    logical function is_state_file(name)
       character(len=*), intent(in) :: name
       integer :: last
@@ -223,7 +221,7 @@ contains
       is_state_file = any(files == name(:last)) .or. index(name, frame_file) == 1
    end function is_state_file
 
-   !> The same for files that a killed process has left
+   !> Whether a file left by a killed process belongs to a state
    logical function is_left_over(name, list)
       character(len=*), intent(in) :: name, list
 
@@ -232,7 +230,7 @@ contains
       is_left_over = is_state_file(name)
    end function is_left_over
 
-   !> Keep the folder of an earlier run under another name
+   !> Rename the folder of an earlier run
    subroutine back_up(folder, note, status)
       character(len=*), intent(in) :: folder
       character(len=:), allocatable, intent(inout) :: note
@@ -246,11 +244,11 @@ contains
       if (rename_path(folder(:len(folder) - 1), backup)) then
          note = "the state of an earlier run is now in "//backup
       else
-         call status%fail(ehl_file, backup//": error: cannot keep the state of an earlier run here")
+         call status%fail(ehl_file, backup//": error: cannot back up the state of an earlier run here")
       end if
    end subroutine back_up
 
-   !> Write the heights of a surface; of size 0: none
+   !> Write the heights of a surface, if any
    subroutine put_heights(path, heights, status)
       character(len=*), intent(in) :: path
       real(dp), intent(in) :: heights(:, :)
@@ -261,14 +259,14 @@ contains
       if (.not. status%failed()) call put(path, status)
    end subroutine put_heights
 
-   !> A file that is written takes its name
+   !> Give a complete file its name
    subroutine put(path, status)
       character(len=*), intent(in) :: path
       type(status_t), intent(inout) :: status
       if (.not. rename_path(path//".new", path)) call status%fail(ehl_file, path//": error: cannot write")
    end subroutine put
 
-   !> Remove the files of a state from a folder, also those half written, and the folder if nothing else is in it
+   !> Remove the files of a state from a folder, also partly written ones, and the folder if it is then empty
    subroutine remove_files(folder)
       character(len=*), intent(in) :: folder
       type(name_t), allocatable :: names(:)
@@ -279,7 +277,7 @@ contains
       do k = 1, size(names)
          if (names(k)%text /= case_file .and. is_state_file(names(k)%text)) gone = remove_file(folder//names(k)%text)
       end do
-      ! last: a folder with it can be resumed from
+      ! last, since a run can be resumed from a folder with this file
       gone = remove_file(folder//case_file)
       gone = remove_folder(folder(:len(folder) - 1))
    end subroutine remove_files

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The same contact on the next coarser grid, for the grid error of its friction ratio
+!> The run on the next coarser grid, for the grid error of the friction ratio
 submodule (ehl_solver) ehl_coarser_run
    use ehl_outcome, only: outcome_failed
    use ehl_plan_need, only: max_periods
@@ -8,7 +8,7 @@ submodule (ehl_solver) ehl_coarser_run
    use ehl_stopping_criterion, only: min_periods
    implicit none (type, external)
 
-   !> Cost of a step on the next coarser grid, in steps: it has a quarter of the nodes
+   !> Cost of a step on the next coarser grid over that on the finest: a quarter of the nodes
    real(dp), parameter :: coarse_step = 0.25_dp
 
 contains
@@ -26,10 +26,10 @@ contains
       input%time%estimate_error = .false.
       allocate (self%coarse)
       associate (run => self%run, coarse => self%coarse)
-         ! the same roughness, not the same share of another film
+         ! the same roughness, not the same fraction of another film
          call run%plan%surfaces%transfer(surfaces)
          call make_plan(input, surfaces, coarse%plan, status)
-         ! a plan that failed may not have taken them
+         ! a failed plan may not have taken the surfaces
          call run%plan%surfaces%reclaim(surfaces)
          coarse%plan%heat%counts = .false.
          call coarse%begin(status)
@@ -62,7 +62,7 @@ contains
       call end_coarse(self, status)
    end procedure solve_coarse
 
-   !> Keep how the coarser run ended, and its friction ratio if it converged; without that the grid error is not known
+   !> Keep the status of the coarser run, and its friction ratio if it converged
    subroutine end_coarse(self, status)
       class(solver_t), intent(inout) :: self
       type(status_t), intent(in) :: status
@@ -79,7 +79,7 @@ contains
          end if
          self%run%other%done = coarse_step*coarse%transient%step
          self%run%other%seconds = coarse%seconds
-         ! why a film ends is read off the waves
+         ! report_end needs the waves of a failed run
          call self%run%plan%surfaces%reclaim(coarse%plan%surfaces)
       end associate
       deallocate (self%coarse)

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Absolute friction of a run, where it is defined, and its frictional heat
+!> Absolute friction of a run, if it is defined, and its frictional heating
 module ehl_friction_results
    use ehl_boundary_film, only: same_film
    use ehl_contact, only: contact_t
@@ -17,30 +17,30 @@ module ehl_friction_results
    private
    public :: friction_results_t, find_friction
 
-   !> Not a number where it is not known or means nothing
+   !> Friction and temperatures; NaN if not known or not defined
    type :: friction_results_t
-      !> Coefficients of the contact, and of the smooth one; the same without the heat of friction
+      !> Coefficients of friction of the contact and of the smooth contact; the same without frictional heating
       real(dp) :: mu(2) = not_known, mu_isothermal(2) = not_known
-      !> What the coefficients are, or why there are none; whether the film is hotter than where its viscosity was measured
+      !> Kind of the coefficients, or why they are unknown; whether the film is hotter than the measurements of its viscosity
       integer :: reason = reason_none
       logical :: beyond_measured = .false.
       !> Of the smooth contact: rolling moment [p_h a^3], mean shear rate [1/s], maximum shear stress [Pa]
       real(dp) :: rolling_moment = not_known, shear_rate = not_known, shear_stress = not_known
-      !> Flash temperature [K]; maximum rises of film and walls with the heat of friction [K]
+      !> Flash temperature [K]; maximum temperature rises of film and walls by frictional heating [K]
       real(dp) :: flash = not_known, rises(3) = not_known
    end type friction_results_t
 
 contains
 
-   !> Friction and heat of a run
+   !> Friction and frictional heating of a run
    subroutine find_friction(run, good, converged, why_none, found)
       type(contact_run_t), intent(in) :: run
-      !> Whether the smooth contact is converged, and the run
+      !> Whether the smooth contact and the run have converged
       logical, intent(in) :: good, converged
-      !> Why friction is not known where the bodies touch
+      !> Why friction is not known with solid contact
       integer, intent(in) :: why_none
       type(friction_results_t), intent(out) :: found
-      !> Friction integral of the smooth contact; the friction over it, and that of the contact with heat over it without
+      !> Friction integral of the smooth contact; ratio of the friction to it; ratio of thermal to isothermal friction
       real(dp) :: friction, ratio, heat_ratio
       real(dp) :: speed, source(2)
       logical :: known, rough
@@ -87,7 +87,7 @@ contains
             if (ieee_is_finite(found%mu_isothermal(2)) .and. .not. ieee_is_finite(found%mu(2))) then
                found%reason = friction_not_converged
             end if
-            ! mu_r/mu_s is isothermal, and the smooth contact has another heat: mu, if known, is not mu_r/mu_s of its friction
+            ! mu_r/mu_s is isothermal, and the smooth contact has another temperature: mu_smooth is not mu divided by mu_r/mu_s
             if (rough .and. found%reason == friction_with_heat .and. ieee_is_finite(found%mu(1))) then
                found%mu(2) = not_known
                found%reason = friction_of_rough
@@ -110,7 +110,7 @@ contains
       type(contact_run_t), intent(in) :: run
       type(grid_t), intent(in) :: grid
       real(dp), intent(in) :: p(:, :), h(:, :)
-      !> Of sliding [m/s]
+      !> Sliding speed [m/s]
       real(dp), intent(in) :: speed
       type(friction_results_t), intent(inout) :: found
 
@@ -120,8 +120,8 @@ contains
       found%shear_stress = max_stress(run%plan, p, h)
    end subroutine read_off
 
-   !> iint H/2 dP/dX, the moment of the pressure flow on each surface, which resists the rolling [p_h a^3]; a long inlet
-   !> makes a large part of it (Biboulet & Houpert 2010)
+   !> iint H/2 dP/dX, the moment of the Poiseuille flow on each surface, which resists rolling [p_h a^3]; a long inlet contributes
+   !> much (Biboulet & Houpert 2010)
    pure real(dp) function rolling_moment(grid, p, h)
       type(grid_t), intent(in) :: grid
       real(dp), intent(in) :: p(:, :), h(:, :)
@@ -153,7 +153,7 @@ contains
       mean_inverse = mean_inverse/area
    end function mean_inverse
 
-   !> Maximum shear stress of the lubricant [Pa]; where the bodies touch it has none
+   !> Maximum shear stress of the lubricant outside the solid contact [Pa]
    pure real(dp) function max_stress(plan, p, h)
       type(plan_t), intent(in) :: plan
       real(dp), intent(in) :: p(:, :), h(:, :)

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Progress of a run: one line about the state, the work that is done, the time left
+!> Progress of a run: one line on the state, the work done, the time left
 module ehl_progress
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_contact_run, only: contact_run_t, phase_stationary, phase_steps
@@ -14,10 +14,10 @@ module ehl_progress
 
 contains
 
-   !> One line about the state, with the time left of a transient run
+   !> One line on the state, with the time left of a transient run
    function progress_line(run, outcome, done) result(text)
       class(contact_run_t), intent(in) :: run
-      !> Its status, and whether all has ended
+      !> Status of the run, and whether the solver has ended
       integer, intent(in) :: outcome
       logical, intent(in) :: done
       character(len=:), allocatable :: text
@@ -64,14 +64,14 @@ contains
          end associate
       end if
       text = text//"  residual "//fixed(residual, "es8.1")//"  "//trim(outcome_names(outcome))
-      if (run%phase == phase_stationary .and. run%stationary%share < 1.0_dp .and. .not. run%stationary%smooth) then
-         text = text//", share of the roughness "//fixed(run%stationary%share, "f7.4")
+      if (run%phase == phase_stationary .and. run%stationary%fraction < 1.0_dp .and. .not. run%stationary%smooth) then
+         text = text//", fraction of the roughness "//fixed(run%stationary%fraction, "f7.4")
       end if
    end function state_line
 
-   !> Work of a transient run that is done, in time steps of the finest grid, those on the coarser grid by their cost; and the
-   !> work until its earliest and its latest end. All are 0 before the first step. The run on the coarser grid comes
-   !> first: until its first step it is taken to have half as many steps as the other run to its earliest end.
+   !> Work of a transient run in time steps of the finest grid, including the coarser grid: done, and at earliest and latest end.
+   !> All are 0 before the first step. The coarser run comes first: before its first step it is assumed to need half the steps of
+   !> the other run to its earliest end.
    pure subroutine work_of(run, done, earliest, latest)
       class(contact_run_t), intent(in) :: run
       real(dp), intent(out) :: done, earliest, latest
@@ -81,7 +81,7 @@ contains
       least = 0.5_dp*run%step_cost*run%other%earliest
       most = least
       if (run%phase == phase_steps .and. run%plan%duty%active) then
-         ! by time: steps are as long as the duty lets them
+         ! in proportion to time, since the steps depend on the duty
          done = run%transient%step
          associate (t => run%transient, duty => run%plan%duty)
             least = done*max(1.0_dp, (duty%end_time() - duty%begin())/max(t%time - duty%begin(), tiny(1.0_dp)))
@@ -97,7 +97,7 @@ contains
       latest = run%other%latest + most
    end subroutine work_of
 
-   !> Step that a transient run has reached after so many periods, or that it is to end after
+   !> Step of a transient run after a number of periods, or its last step if time.steps is set
    pure real(dp) function end_after(run, periods)
       class(contact_run_t), intent(in) :: run
       real(dp), intent(in) :: periods
@@ -109,7 +109,7 @@ contains
       end_after = max(end_after, real(run%transient%step, dp))
    end function end_after
 
-   !> The time left as text
+   !> Time left, as text
    function time_left(run) result(text)
       class(contact_run_t), intent(in) :: run
       character(len=:), allocatable :: text

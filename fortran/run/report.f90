@@ -1,6 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Results of a run by name: its problem, the waves of its surfaces, the rough contact in time steps, of a feature that passes,
-!> and stationary; friction
+!> Named results of a run: problem, waves of the surfaces, transient and stationary rough contact, passage of a feature, friction
 module ehl_report
    use ehl_contact_run, only: contact_run_t
    use ehl_extremes, only: extreme_film, extreme_pressure, extremes_t
@@ -17,7 +16,7 @@ module ehl_report
 
 contains
 
-   !> Operating point, grid and means
+   !> Operating point, grid and computing options
    subroutine report_problem(record, run)
       type(record_t), intent(inout) :: record
       type(contact_run_t), intent(in) :: run
@@ -48,11 +47,11 @@ contains
       end associate
    end subroutine report_problem
 
-   !> The transient run: results null unless it converged
+   !> Results of a transient run, null unless it converged
    subroutine report_transient(record, run, good, known, mean, change)
       type(record_t), intent(inout) :: record
       type(contact_run_t), intent(in) :: run
-      !> Whether it did, and whether friction is known where the bodies touch
+      !> Whether the run converged, and whether friction is known
       logical, intent(in) :: good, known
       !> Mean friction ratio, and its change at the end
       real(dp), intent(out) :: mean, change
@@ -74,7 +73,7 @@ contains
                range = t%mean%extremes()
             end if
             if (surfaces%pass_once()) then
-               ! a passage has an end, and no amplitude ratio
+               ! a passage ends by itself, and has no amplitude ratio
                change = 0.0_dp
             else
                ratio = t%mean%amplitude_ratio()
@@ -100,13 +99,13 @@ contains
       end associate
    end subroutine report_transient
 
-   !> Extremes of pressure and film over the passage, with where and when: null unless it converged
+   !> Extremes of pressure and film over a passage, with position and time; null unless the run converged
    subroutine report_passage(record, scales, extremes, good)
       type(record_t), intent(inout) :: record
       type(scales_t), intent(in) :: scales
       type(extremes_t), intent(in) :: extremes
       logical, intent(in) :: good
-      !> In the order of the extremes, and of what is found of each
+      !> Names of the extremes and suffixes of their values, in the order of extremes_t
       character(len=*), parameter :: names(4) = [character(len=11) :: "P_max_rough", "H_min_rough", "P_rise_max", &
                                                  "H_ratio_min"], parts(4) = [character(len=2) :: "", "_T", "_X", "_Y"]
       real(dp) :: found(4, 4)
@@ -136,7 +135,7 @@ contains
       end do
    end subroutine report_amplitude
 
-   !> Name of a quantity of a surface: 'second_' before that of the second one
+   !> Name of a quantity of surface k, with 'second_' in front for the second one
    function named(surfaces, k, name)
       type(moving_surfaces_t), intent(in) :: surfaces
       integer, intent(in) :: k
@@ -157,7 +156,7 @@ contains
       if (plan%scales%has_size()) call record%set("h_min_rough_m p_max_rough_Pa", values*[plan%scales%film, plan%scales%pressure])
    end subroutine report_rough_extremes
 
-   !> The roughness, the smooth film over it, and the share of it that the grid resolves
+   !> Roughness, lambda ratio, and the fractions of the variance cut off, unresolved and truncated
    subroutine report_waves(record, run)
       type(record_t), intent(inout) :: record
       type(contact_run_t), intent(in) :: run
@@ -181,11 +180,11 @@ contains
       end associate
    end subroutine report_waves
 
-   !> The contact with a stationary rough surface: results null unless there are any
+   !> Results of the contact with a stationary rough surface, null unless it converged
    subroutine report_stationary(record, run, good, known, ratio, algebraic)
       type(record_t), intent(inout) :: record
       type(contact_run_t), intent(in) :: run
-      !> Whether they are, and whether friction is known where the bodies touch
+      !> Whether the run converged, and whether friction is known
       logical, intent(in) :: good, known
       !> Friction ratio, and its algebraic error
       real(dp), intent(out) :: ratio, algebraic

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Results of a contact under a duty by name: extremes with their instants, errors
+!> Named results of a contact under a duty: extremes with their times and errors
 module ehl_report_duty
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use ehl_contact_run, only: contact_run_t
@@ -11,18 +11,19 @@ module ehl_report_duty
    private
    public :: duty_history, duty_mean, report_duty
 
-   !> Quantities of which a duty has extremes: columns of the history, and their units
+   !> Quantities whose extremes are reported: columns of the history, and units
    character(len=*), parameter :: quantities(6) = [character(len=5) :: "h_c", "h_min", "p_max", "mu", "power", "flash"], &
       units(6) = [character(len=3) :: "_m", "_m", "_Pa", "", "_W", "_K"]
 
 contains
 
-   !> History of a contact under a duty with the errors of its quantities: grid and domain as of the case, and time steps
+   !> History of a contact under a duty with the errors of its quantities: those of grid and domain from the smooth contact of the
+   !> case, and those of the time steps
    subroutine duty_history(run, history)
       type(contact_run_t), intent(in) :: run
       type(table_t), intent(out) :: history
       type(record_t) :: steady
-      !> Columns with the relative errors by time steps, and the smooth results of which the grid errors are
+      !> Columns of the relative time-step errors, and names of the smooth results with grid errors
       character(len=*), parameter :: by_steps(3) = [character(len=14) :: "c_step_error", "min_step_error", "p_step_error"], &
          smooth(3) = [character(len=5) :: "H_c", "H_min", "P_max"]
       real(dp), allocatable :: values(:), steps(:), grid(:), power(:), radius(:), size_now(:)
@@ -36,7 +37,7 @@ contains
          allocate (values, source=history%column(trim(quantities(k))//units(k)))
          allocate (steps, source=history%column(by_steps(k)))
          allocate (grid(size(values)), source=relative(trim(smooth(k))))
-         ! the error by the inlet is proportional to h^2/H^(4/3) (inlet.f90) in terms of the present size of the contact
+         ! the grid error in the inlet is proportional to h^2/H^(4/3) (inlet.f90), scaled by the present size of the contact
          if (k <= 2) grid = grid*max(1.0_dp, (steady%number(trim(quantities(k))//"_m")/(values*radius))**(4.0_dp/3.0_dp) &
                                      *size_now**(2.0_dp/3.0_dp))
          call history%add_column(trim(quantities(k))//"_error"//units(k), values*(steps + grid))
@@ -63,7 +64,7 @@ contains
       end function relative
    end subroutine duty_history
 
-   !> Extremes over the table, of a periodic one over the last period; null unless the run reached its end
+   !> Extremes over the table, or over the last period of a periodic one; null unless the run reached its end
    subroutine report_duty(record, run, converged)
       type(record_t), intent(inout) :: record
       type(contact_run_t), intent(in) :: run
@@ -97,9 +98,9 @@ contains
 
    contains
 
-      !> The extreme of a quantity with its time and error
+      !> Report an extreme of a quantity with its time and error
       subroutine report_extreme(which, name, unit, direction)
-         !> "_min", "_max" or blank, if it is part of the name
+         !> "_min", "_max", or blank if the name includes it
          character(len=*), intent(in) :: which, name, unit
          !> 1 for a maximum, -1 for a minimum
          real(dp), intent(in) :: direction
@@ -108,7 +109,7 @@ contains
 
          values = history%column(name//unit)
          extreme = not_known
-         ! not known at one instant: the extreme is not known
+         ! NaN at one time: the extreme is not known
          if (converged .and. any(counts) .and. all(.not. (ieee_is_nan(values) .and. counts))) then
             i = maxloc(direction*values, dim=1, mask=counts)
             extreme = [values(i), time(i), history%entry_of(name//"_error"//unit, i)]
@@ -118,7 +119,7 @@ contains
          end associate
       end subroutine report_extreme
 
-      !> Change of the mean central film from the last period but one to the last, relative
+      !> Relative change of the mean central film between the last two periods
       real(dp) function change()
          real(dp) :: means(2)
          integer :: n
@@ -132,7 +133,7 @@ contains
       end function change
    end subroutine report_duty
 
-   !> Mean of a column of the history over the duty, of a periodic one over its last period
+   !> Mean of a column of the history over the table, or over the last period of a periodic one
    real(dp) function duty_mean(run, column)
       type(contact_run_t), intent(in) :: run
       character(len=*), intent(in) :: column
@@ -140,7 +141,7 @@ contains
       duty_mean = mean(run%history, column, begin(run, 1), 0.5_dp*huge(1.0_dp))
    end function duty_mean
 
-   !> Where the last of so many periods begins [s]
+   !> Start of the last `periods` periods [s]
    pure real(dp) function begin(run, periods)
       type(contact_run_t), intent(in) :: run
       integer, intent(in) :: periods
@@ -151,7 +152,7 @@ contains
       end associate
    end function begin
 
-   !> Mean of a column over the times from first to last [s], by trapezia; the last row where there is one only
+   !> Mean of a column from time `first` to `last` [s] by the trapezoidal rule; with a single row the last value
    real(dp) function mean(history, column, first, last)
       type(table_t), intent(in) :: history
       character(len=*), intent(in) :: column

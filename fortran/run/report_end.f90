@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Where a run without a result ended, and data for suggestions: numbers for a sentence of pyehl
+!> Position at which a run without a result ended, and numbers for the suggestions of pyehl
 module ehl_report_end
    use ehl_contact_run, only: contact_run_t, phase_stationary, phase_steps
    use ehl_kinds, only: dp
@@ -11,17 +11,17 @@ module ehl_report_end
    private
    public :: report_end
 
-   !> Waves as high as the film need so many nodes a wavelength (docs/limits.md); what may be in shorter ones
+   !> Nodes per wavelength needed by waves as high as the film (docs/limits.md); largest fraction of the variance in shorter waves
    integer, parameter :: enough_nodes = 32
    real(dp), parameter :: little = 0.01_dp
 
 contains
 
-   !> No entries for a run that has a result, or has not ended
+   !> Report the end of a run without a result; no entries for other runs
    subroutine report_end(record, run, coarse)
       type(record_t), intent(inout) :: record
       type(contact_run_t), intent(in) :: run
-      !> The run for the grid error, while it runs
+      !> The unfinished run on the coarser grid
       type(contact_run_t), intent(in), optional :: coarse
       real(dp), allocatable :: films(:)
 
@@ -45,7 +45,7 @@ contains
       call record%set_detail("enough_wave_nodes", real(enough_nodes, dp))
    end subroutine report_end
 
-   !> Position of a run: its phase, time of the step or share of the roughness, grid, residual (rms) and cycles
+   !> Position of a run: phase, time of the step or fraction of the roughness, grid, rms residual and cycles
    subroutine report_place(record, run, prefix)
       type(record_t), intent(inout) :: record
       type(contact_run_t), intent(in) :: run
@@ -58,7 +58,7 @@ contains
          numbers(3:) = [level%residual, real(level%cycles, dp)]
       end associate
       if (run%phase == phase_stationary) then
-         numbers(2:) = [run%stationary%share, run%stationary%residual, real(run%stationary%cycles, dp)]
+         numbers(2:) = [run%stationary%fraction, run%stationary%residual, real(run%stationary%cycles, dp)]
       else if (run%phase == phase_steps) then
          associate (t => run%transient)
             numbers(2:) = [t%time + t%time_step, t%residual, real(t%cycles, dp)]
@@ -73,7 +73,7 @@ contains
       call record%set_detail(prefix//"points_y", real(run%grid%full_ny(), dp))
    end subroutine report_place
 
-   !> Nodes per wavelength of the shortest waves, a small share of the variance excepted; at most the number that is enough
+   !> Nodes per wavelength of the shortest waves except for a small fraction of the variance; at most `enough_nodes`
    integer function nodes_of_waves(run) result(nodes)
       type(contact_run_t), intent(in) :: run
       integer :: middle, over

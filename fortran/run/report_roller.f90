@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Additional results of a roller: positions of extreme pressure and film, and the pressure at its ends
+!> Additional results of a roller: positions of maximum pressure and minimum film, and the pressure at its ends
 module ehl_report_roller
    use ehl_contact_run, only: contact_run_t
    use ehl_kinds, only: dp, not_known
@@ -9,12 +9,12 @@ module ehl_report_roller
    private
    public :: report_roller
 
-   !> Pressure at an end [p_h] above which the end is under load: it is infinite in theory and increases with every finer grid
+   !> Pressure at an end [p_h] above which the end is loaded: the pressure there is infinite in theory and increases on finer grids
    real(dp), parameter :: end_pressure = 0.1_dp
 
 contains
 
-   !> Results null unless there is a solution. A quantity without a limit has no error.
+   !> Report null unless there is a solution. A quantity that does not converge has no error.
    subroutine report_roller(record, run, good)
       type(record_t), intent(inout) :: record
       type(contact_run_t), intent(in) :: run

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Results of the smooth contact by name, each with its errors by grid and domain
+!> Named results of the smooth contact, with their grid and domain errors
 module ehl_report_smooth
    use ehl_contact_results, only: contact_results_t
    use ehl_film_formula, only: starved_share
@@ -15,15 +15,15 @@ module ehl_report_smooth
    private
    public :: report_smooth, touches_for_grid
 
-   !> Increase of F by a domain of twice the size, int 2/r^2 dA = 4 pi ln 2 over a gap of r^2/2 and the viscosity of
-   !> the inlet. It matters for lubricants whose viscosity hardly increases with pressure.
+   !> Increase of F with a domain of twice the size: int 2/r^2 dA = 4 pi ln 2 with the gap r^2/2 and the inlet viscosity. It matters
+   !> for lubricants whose viscosity hardly increases with pressure.
    real(dp), parameter :: friction_beyond = 4.0_dp*pi*log(2.0_dp)
-   !> The same of a line from an inlet at 2.5 and an outlet at 1.5 on: int 2/X^2 dX over as much again on either side
+   !> The same for a line with the inlet at X = -2.5 and the outlet at 1.5: int 2/X^2 dX over the added length on both sides
    real(dp), parameter :: line_friction_beyond = 1.0_dp/2.5_dp + 1.0_dp/1.5_dp
 
 contains
 
-   !> The smooth contact: results and errors, null unless they are valid
+   !> Results and errors of the smooth contact, null unless valid
    subroutine report_smooth(record, plan, smooth, n, good)
       type(record_t), intent(inout) :: record
       type(plan_t), intent(in) :: plan
@@ -54,7 +54,7 @@ contains
          error = stated_errors(m, smooth%results, n, plan%inlet) + smooth%results(n)%algebraic
          limit = extrapolated(smooth%results, n)
       else if (good) then
-         ! one grid alone: a-priori errors
+         ! a single grid: a-priori errors
          error = single_grid_errors(plan%contact, plan%point, plan%finest%hx, m%films())
          if (m%touching%load_share > 0.0_dp) error = max(error, plan%inlet%film_errors(m, smooth%results(n)%mesh))
       end if
@@ -100,8 +100,8 @@ contains
       call record%set("restarts", smooth%restarts)
    end subroutine report_smooth
 
-   !> Errors of P_max and F, which need three grids: where a pressure spike is not resolved neither has a limit that the
-   !> grids could show, for the viscosity in it determines the friction
+   !> Errors of P_max and F from three grids. With an unresolved pressure spike neither converges, since the viscosity in the spike
+   !> determines the friction.
    subroutine report_limits(record, plan, smooth, n, good)
       type(record_t), intent(inout) :: record
       type(plan_t), intent(in) :: plan
@@ -133,7 +133,7 @@ contains
       associate (m => smooth%results(n)%m)
          error = error + [m%pressure_maximum, m%friction]*plan%domain_error(1) &
                  + [0.0_dp, merge(line_friction_beyond, friction_beyond, plan%contact%is_line())]
-         ! the load that may or may not be at the boundary film
+         ! error of the load share
          if (n > 1) error(2) = error(2) + plan%lubricant%boundary_stress*m%load*share_error(smooth%results, n, plan%inlet)
       end associate
       where (.not. known) error = not_known
@@ -144,7 +144,7 @@ contains
       call record%set_code("F_error_note", merge(reason_none, note, known(2)))
    end subroutine report_limits
 
-   !> Whether friction is known: of the boundary film, too, where the bodies touch, and that they do so on any grid
+   !> Whether friction is known: with solid contact this needs the boundary friction, and a grid that resolves the inlet
    pure logical function knows_friction(plan, smooth, n)
       type(plan_t), intent(in) :: plan
       type(smooth_contact_t), intent(in) :: smooth
@@ -154,7 +154,7 @@ contains
       if (touches_for_grid(plan, smooth, n)) knows_friction = .false.
    end function knows_friction
 
-   !> Whether the bodies touch on a grid that does not resolve the inlet, and may do so for that
+   !> Whether the solid contact may be a grid error, as the grid does not resolve the inlet
    pure logical function touches_for_grid(plan, smooth, n)
       type(plan_t), intent(in) :: plan
       type(smooth_contact_t), intent(in) :: smooth

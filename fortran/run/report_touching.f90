@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Contact at a boundary film over a run, and in the summary: its share of the load, and the lubricant from it
+!> Named results of the solid contact at a boundary film: load share with its errors, area, and mass defect
 module ehl_report_touching
    use ehl_contact_run, only: contact_run_t, phase_stationary, phase_steps
    use ehl_friction_mean, only: friction_mean_t
@@ -21,15 +21,15 @@ module ehl_report_touching
 
 contains
 
-   !> That of the rough surfaces where there are any, null unless it is good; nothing where there is no boundary film
+   !> Results of the solid contact, rough if there is roughness; null unless valid, and absent without a boundary film
    subroutine report_touching(record, run, good, converged, why_no_grid_error)
       type(record_t), intent(inout) :: record
       type(contact_run_t), intent(in) :: run
-      !> Whether the smooth contact is converged, and the run
+      !> Whether the smooth contact and the run have converged
       logical, intent(in) :: good, converged
-      !> Why the run on the next coarser grid gives no error of a rough contact
+      !> Why the run on the next coarser grid gives no grid error of a rough contact
       integer, intent(in) :: why_no_grid_error
-      !> As touching.f90 has them; the load share on the next coarser grid; its errors by the grid and by the end of the run
+      !> Numbers as in touching.f90; load share on the next coarser grid; its grid error and its error at the end of the run
       real(dp) :: numbers(size(touching_names)), coarser, error, stop_error
       integer :: note, why
       logical :: dry
@@ -49,13 +49,13 @@ contains
             stop_error = share_stop_error(run)
          end if
          if (run%coarser%outcome == outcome_converged) coarser = run%coarser%load_share
-         ! of order 1, as the edge of a touching zone lies between two nodes
+         ! order 1, since the edge of the solid contact lies between two nodes
          error = abs(numbers(1) - coarser)
          why = why_no_grid_error
       else if (good .and. (converged .or. run%phase /= phase_steps)) then
          numbers = touching_of(run)
          associate (results => run%smooth%results)
-            stop_error = max(results(n)%share_algebraic, run%plan%inlet%share_left(results(n)%m, results(n)%residual))
+            stop_error = max(results(n)%share_algebraic, run%plan%inlet%residual_share_error(results(n)%m, results(n)%residual))
             if (n > 1) then
                if (results(n - 1)%solved) coarser = results(n - 1)%m%touching%load_share
                error = share_error(results, n, run%plan%inlet)
@@ -93,7 +93,7 @@ contains
       end associate
    end subroutine report_touching
 
-   !> Why there is no friction; none where it is known: everywhere in the film, or of the boundary film, too
+   !> Why friction is not known; reason_none if there is no solid contact, or if the boundary friction is known
    integer function why_no_friction(run, converged) result(why)
       type(contact_run_t), intent(in) :: run
       logical, intent(in) :: converged
@@ -109,8 +109,8 @@ contains
       if (max(share, run%smooth%results(run%level())%m%touching%load_share) > 0.0_dp) why = reason_boundary_friction
    end function why_no_friction
 
-   !> What reynolds/touching.f90 reads off the contact of a run that has converged; in time steps means over the time of the mean
-   !> friction ratio, and the maximum depth
+   !> Numbers of reynolds/touching.f90 for a converged run; in time steps their means over the window of the mean friction ratio,
+   !> and the maximum depth
    function touching_of(run) result(numbers)
       type(contact_run_t), intent(in) :: run
       real(dp) :: numbers(size(touching_names))
@@ -138,7 +138,7 @@ contains
       end if
    end function touching_of
 
-   !> The load share alone
+   !> Load share
    real(dp) function load_share_of(run)
       type(contact_run_t), intent(in) :: run
       real(dp) :: numbers(size(touching_names))
@@ -147,7 +147,7 @@ contains
       load_share_of = numbers(1)
    end function load_share_of
 
-   !> Error of the load share by the end of the run: that of a mean over time, as of the friction ratio; else 0
+   !> Error of the load share at the end of a transient run, as that of the mean friction ratio; otherwise 0
    real(dp) function share_stop_error(run)
       type(contact_run_t), intent(in) :: run
       type(friction_mean_t) :: mean

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The files of a result, the same for both drivers
+!> Files of a result, the same for both drivers
 module ehl_result_folder
    use ehl_case, only: case_t
    use ehl_contact_run, only: phase_steps
@@ -19,7 +19,7 @@ module ehl_result_folder
    private
    public :: result_names, write_results
 
-   !> All files that a result may have, one a line
+   !> All files that a result may have, one per line
    character(len=*), parameter :: result_names = &
       "case.nml"//newline//"plan.txt"//newline//"summary.json"//newline//"history.csv"//newline// &
       "X.npy"//newline//"Y.npy"//newline//"P.npy"//newline//"H.npy"//newline//"P_smooth.npy"//newline// &
@@ -29,14 +29,14 @@ module ehl_result_folder
 
 contains
 
-   !> Write all results of a solver into an empty folder. After a failure the folder is gone.
+   !> Write all results of a solver into an empty folder, which is removed after a failure
    subroutine write_results(folder, input, solver, status, wall_seconds)
       character(len=*), intent(in) :: folder
       !> The resolved case
       type(case_t), intent(in) :: input
       type(solver_t), intent(inout) :: solver
       type(status_t), intent(inout) :: status
-      !> With it the summary of `ehl`: numbers and single words; pyehl writes its own, with sentences
+      !> If present, write the summary of `ehl`, with numbers and single words; pyehl writes its own summary, with sentences
       real(dp), intent(in), optional :: wall_seconds
       type(name_t), allocatable :: names(:)
       logical :: done
@@ -51,7 +51,7 @@ contains
       done = remove_folder(folder)
    end subroutine write_results
 
-   !> The files of a result, into a folder whose name ends in '/'
+   !> Write the files of a result into a folder whose name ends with '/'
    subroutine write_files(folder, input, solver, status, wall_seconds)
       character(len=*), intent(in) :: folder
       type(case_t), intent(in) :: input
@@ -82,7 +82,7 @@ contains
       call write_text(folder // "summary.json", summary%to_json(), status)
    end subroutine write_files
 
-   !> X and Y as vectors, fields as (nx, ny) matrices
+   !> Write X and Y as vectors, and fields as matrices of shape (nx, ny)
    subroutine write_fields(folder, solver, status)
       character(len=*), intent(in) :: folder
       type(solver_t), intent(inout) :: solver

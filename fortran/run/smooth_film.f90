@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Central film of the smooth contact, extrapolated: the reference of surface.amplitude_over_film
+!> Extrapolated central film of the smooth contact, the reference of surface.amplitude_over_film
 module ehl_smooth_film
    use ehl_case, only: case_t
    use ehl_contact_run, only: contact_run_t
@@ -18,12 +18,12 @@ module ehl_smooth_film
    private
    public :: known_film, film_by_finer_grids
 
-   !> Relative grid error from which the extrapolation is good enough
+   !> Largest relative grid error for the extrapolation
    real(dp), parameter :: film_error = 0.02_dp
 
 contains
 
-   !> The film by the grids of a solution [a^2/R]; 0 where its grid error is too large
+   !> Film extrapolated from the grids of a solution [a^2/R]; 0 if its grid error is too large
    pure real(dp) function known_film(smooth)
       type(smooth_contact_t), intent(in) :: smooth
       real(dp) :: error(2), limit(2)
@@ -38,7 +38,7 @@ contains
       end associate
    end function known_film
 
-   !> The film by a run of the smooth contact alone on as many nodes as that takes [a^2/R]
+   !> Film from a run of the smooth contact on as fine a grid as needed [a^2/R]
    real(dp) function film_by_finer_grids(rough, surfaces, status) result(film)
       type(case_t), intent(in) :: rough
       !> The rough surfaces, one of which has amplitude_over_film
@@ -55,7 +55,7 @@ contains
       input = rough
       input%surface%kind = "smooth"
       input%second_surface%kind = "smooth"
-      ! the film is extrapolated: it is better than the grid
+      ! the extrapolated film is more accurate than the grid
       input%grid%target_error = 0.9_dp*film_error
       allocate (run)
       call make_plan(input, no_surfaces, run%plan, status)
@@ -68,7 +68,7 @@ contains
       k = findloc(surfaces%of%amplitude_over_film > 0.0_dp, .true., dim=1)
       associate (member => surfaces%of(k))
          call status%fail(ehl_bad_input, trim(member%group)//".amplitude_over_film = "//to_text(member%amplitude_over_film)// &
-                          ": the film of the smooth contact is not known to "//to_text(100.0_dp*film_error)// &
+                          ": the error of the smooth film exceeds "//to_text(100.0_dp*film_error)// &
                           " % on grids of up to "//to_text(input%grid%max_points)//" points"//new_line("a")// &
                           "expected: amplitude, or a larger grid.max_points")
       end associate

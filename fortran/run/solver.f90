@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Solver of a case: plan, smooth contact, rough contact, the same on the next coarser grid, results. Both drivers use
-!> this interface alone.
+!> Solver of a case: plan, smooth contact, rough contact, the run on the next coarser grid, results. It is the only interface of
+!> both drivers.
 module ehl_solver
    use ehl_case, only: case_t
    use ehl_write_case, only: write_case
@@ -27,15 +27,14 @@ module ehl_solver
    !> Longest name of a field
    integer, parameter :: field_length = 32
 
-   !> The contact of the case, and for the grid error of its friction ratio the same one on the next coarser grid
+   !> Run of the case, and the run on the next coarser grid for the grid error of the friction ratio
    type :: solver_t
       type(case_t), private :: input
       type(contact_run_t) :: run
-      !> Allocated while it runs; the state from which it is resumed
+      !> Coarser run, allocated while it runs; the state from which it resumes
       type(contact_run_t), allocatable, private :: coarse
       type(checkpoint_t), private :: coarse_checkpoint
-      !> Whether the caller predicted the parts of mu_ratio in waves that the grid leaves out, and in those that it does
-      !> not resolve, and these parts; NaN: none
+      !> Whether the caller predicted the parts of mu_ratio due to truncated and unresolved waves; these parts, NaN: not known
       logical :: knows_waves = .false.
       real(dp) :: predicted_waves(2) = 0.0_dp
    contains
@@ -63,7 +62,7 @@ module ehl_solver
          class(solver_t), intent(inout) :: self
       end subroutine begin_coarse
 
-      !> Complete the run on the next coarser grid. Its failure is not one of this run.
+      !> Complete the run on the next coarser grid. Its failure is no failure of this run.
       module subroutine solve_coarse(self, observer, leave)
          class(solver_t), intent(inout) :: self
          class(observer_t), intent(inout) :: observer
@@ -73,23 +72,22 @@ module ehl_solver
 
    ! in solver_results.f90 and solver_fields.f90
    interface
-      !> All results but fields, by name; dimensionless but for the SI values. Only a converged run has
-      !> results: otherwise they are null, and the last iterate stands under names that begin with "last_".
-      !> Reasons are codes with numbers.
+      !> All named results except fields, dimensionless unless the name has a unit. Results of an unconverged run are null;
+      !> those of its last iterate have names that begin with "last_". Reasons are codes with numbers.
       module function results(self) result(record)
          class(solver_t), intent(in) :: self
          type(record_t) :: record
       end function results
 
-      !> Names of the fields there are: P and H; in a transient run also those of the smooth contact, the roughness
-      !> RR and the deformed roughness A_d = H_smooth - H; where the heat of friction counts the rises of temperature
+      !> Names of the available fields: P and H; of a rough contact also P and H of the smooth contact, the roughness RR and the
+      !> deformed roughness A_d = H_smooth - H; with frictional heating the temperature rises
       module subroutine field_names(self, names)
          class(solver_t), intent(in) :: self
          character(len=field_length), allocatable, intent(out) :: names(:)
       end subroutine field_names
 
-      !> A field on the whole domain, values(nx, full_ny) of the grid reached so far, or bilinear between its nodes of a
-      !> finer one; see field_names
+      !> A field on the whole domain, values(nx, full_ny) on the present grid, or interpolated bilinearly to a finer one; see
+      !> field_names
       module subroutine field(self, name, values, status)
          class(solver_t), intent(in) :: self
          character(len=*), intent(in) :: name
@@ -105,8 +103,7 @@ contains
       class(solver_t), intent(inout) :: self
       type(case_t), intent(in) :: input
       type(status_t), intent(inout) :: status
-      !> Heights of the maps of both surfaces [m], X first, in place of files; of size 0: none. They are no longer needed
-      !> afterwards.
+      !> Heights of both surfaces [m], X first, in place of files; of size 0: none. They may be deallocated afterwards.
       real(dp), intent(in), optional :: heights(:, :), second_heights(:, :)
       type(moving_surfaces_t) :: to_make
 
@@ -119,8 +116,8 @@ contains
       if (self%run%plan%has_steps()) self%run%state_text = step_text(input)
    end subroutine start
 
-   !> The smooth contact; that with the stationary roughness; both on the next coarser grid; time steps. The observer may leave
-   !> after any cycle or step; another call continues there.
+   !> Solve the smooth contact, the contact with stationary roughness, the run on the next coarser grid, and the time steps. The
+   !> observer may stop after any cycle or step; the next call continues there.
    subroutine solve(self, observer, status)
       class(solver_t), intent(inout) :: self
       class(observer_t), intent(inout) :: observer
@@ -144,7 +141,7 @@ contains
       end do
    end subroutine solve
 
-   !> One cycle or one time step
+   !> Make one cycle or one time step
    subroutine advance(self, status)
       class(solver_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
@@ -153,7 +150,7 @@ contains
       call self%solve(observer, status)
    end subroutine advance
 
-   !> The present phase of a contact, to its end
+   !> Solve the present phase of a run
    subroutine solve_phase(run, observer, leave, status)
       type(contact_run_t), intent(inout) :: run
       class(observer_t), intent(inout) :: observer
@@ -170,7 +167,7 @@ contains
       end select
    end subroutine solve_phase
 
-   !> After a phase: the next one, and before time steps, or after all of a stationary surface, the run on the next coarser grid
+   !> Start the next phase, and before the time steps or after a stationary rough contact the run on the next coarser grid
    subroutine next_phase(self, status)
       class(solver_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
@@ -186,8 +183,8 @@ contains
       if (allocated(self%run%predicted%pressure)) deallocate (self%run%predicted%pressure)
    end subroutine next_phase
 
-   !> The amplitude that was given as a share of the film. It belongs to the case and not to the grid: a grid error of
-   !> the film would be one of the roughness, and of a sign that extrapolation does not expect.
+   !> Set an amplitude given as a fraction of the film. The film is extrapolated, since its grid error would change the roughness
+   !> from grid to grid, and so spoil the extrapolation of the results.
    subroutine set_amplitude(self, status)
       type(solver_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
@@ -198,14 +195,14 @@ contains
       call self%run%plan%surfaces%take_film(film)
    end subroutine set_amplitude
 
-   !> Status of the run; a run with a stationary surface ends when its error is known
+   !> Status of the run, which with stationary roughness ends with the coarser run
    pure integer function outcome(self)
       class(solver_t), intent(in) :: self
       outcome = self%run%outcome
       if (outcome == outcome_converged .and. allocated(self%coarse)) outcome = outcome_running
    end function outcome
 
-   !> Whether the run has ended, with or without a solution
+   !> Whether the run has ended, converged or not
    pure logical function done(self)
       class(solver_t), intent(in) :: self
       done = self%outcome() /= outcome_running
@@ -217,14 +214,14 @@ contains
       converged = self%outcome() == outcome_converged
    end function converged
 
-   !> Interrupt the run. A coarser run is kept: its state may have to be saved.
+   !> Interrupt the run. A coarser run is kept, so that its state can be saved.
    subroutine interrupt(self)
       class(solver_t), intent(inout) :: self
 
       if (.not. self%done()) self%run%outcome = outcome_interrupted
    end subroutine interrupt
 
-   !> One line about the state, with the time left of a transient run
+   !> One line on the state, with the time left of a transient run
    function progress(self) result(text)
       class(solver_t), intent(in) :: self
       character(len=:), allocatable :: text
@@ -236,8 +233,8 @@ contains
       end if
    end function progress
 
-   !> Work of a transient run that is done, in time steps of the finest grid, those on the coarser grid by their cost;
-   !> and the work until its earliest and its latest end. All are 0 before the first step.
+   !> Work of a transient run in time steps of the finest grid, including the coarser grid: done, and at earliest and latest end.
+   !> All are 0 before the first step.
    subroutine work(self, done, earliest, latest)
       class(solver_t), intent(in) :: self
       real(dp), intent(out) :: done, earliest, latest
@@ -249,8 +246,8 @@ contains
       end if
    end subroutine work
 
-   !> The grid that fields refer to: the finest one of the plan; with grid.target_error, whose last grid is not known in
-   !> advance, the finest one so far
+   !> Grid of the fields: the finest one of the plan, or with grid.target_error, whose last grid is not known in advance, the finest
+   !> one so far
    pure function finest(self) result(grid)
       class(solver_t), intent(in) :: self
       type(grid_t) :: grid
@@ -259,7 +256,7 @@ contains
       if (self%run%plan%target_error > 0.0_dp) grid = self%run%grid
    end function finest
 
-   !> Write the state into a folder (its name ends in '/')
+   !> Write the state into a folder, whose name ends with '/'
    subroutine save_state(self, folder, status)
       class(solver_t), intent(inout) :: self
       character(len=*), intent(in) :: folder
@@ -269,8 +266,8 @@ contains
       call self%run%save(folder, status)
    end subroutine save_state
 
-   !> After start and before the first advance: resume from the newest state in a folder (its name ends in '/').
-   !> The smooth contact is solved again, to the same bits, before the first time step.
+   !> Resume from the newest state in a folder, whose name ends with '/', after start and before the first advance. The smooth
+   !> contact is solved again, to the same bits, before the time steps.
    subroutine resume(self, folder, note, status)
       class(solver_t), intent(inout) :: self
       character(len=*), intent(in) :: folder
@@ -283,8 +280,8 @@ contains
       call self%coarse_checkpoint%find(folder//coarser, step_text(self%input), note, status)
    end subroutine resume
 
-   !> The case as text, with the defaults of all keys that change no step: when to stop, threads, what to
-   !> write. A run may be resumed with other values of these.
+   !> The case as text, with defaults for the keys that change no step: end of the run, threads, output. A run may be resumed with
+   !> other values of these.
    function step_text(input) result(text)
       type(case_t), intent(in) :: input
       character(len=:), allocatable :: text

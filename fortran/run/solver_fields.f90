@@ -29,7 +29,7 @@ contains
       call self%field_names(names)
       if (all(names /= name)) then
          call status%fail(ehl_bad_input, "field '"//name//"' is not known: 'P' or 'H' was expected, with a rough "// &
-                          "surface also 'P_smooth', 'H_smooth', 'RR' or 'A_d'; where the heat of friction counts also '"// &
+                          "surface also 'P_smooth', 'H_smooth', 'RR' or 'A_d'; with frictional heating also '"// &
                           trim(temperatures(1))//"', '"//trim(temperatures(2))//"' or '"//trim(temperatures(3))//"'")
          return
       end if
@@ -68,7 +68,7 @@ contains
       call refine(own, values)
    end procedure field
 
-   !> Values on a grid of the same extent that has as many or more nodes, bilinear in between
+   !> Interpolate bilinearly to a grid of the same extent with as many or more nodes
    pure subroutine refine(coarse, fine)
       real(dp), intent(in) :: coarse(:, :)
       real(dp), intent(out) :: fine(:, :)

@@ -18,13 +18,13 @@ submodule (ehl_solver) ehl_solver_results
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    implicit none (type, external)
 
-   !> Smaller shares of a variance are rounding errors
+   !> Fractions of a variance below this are rounding errors
    real(dp), parameter :: rounding = 1.0e-14_dp
-   !> Largest change of mu_ratio from grid to grid, over mu_ratio, with which it has a limit; and its largest increase with a
-   !> single wave or feature, which is the same on both grids: a larger increase is due to pressure peaks that neither resolves
+   !> Largest relative change of mu_ratio between two grids that converge; and its largest increase with a single wave or feature,
+   !> which is the same on both grids: a larger increase is due to unresolved pressure peaks
    real(dp), parameter :: max_change = 0.5_dp, max_rise = 0.05_dp
 
-   !> Version of the names, units and meanings of results, as `VERSION` of pyehl/schema.py: it changes with any of them
+   !> Version of the names, units and meanings of results, equal to `VERSION` of pyehl/schema.py
    integer, parameter :: schema_version = 3
 
 contains
@@ -47,7 +47,7 @@ contains
          call report_end(record, self%run)
       end if
       call record%set("converged", converged)
-      ! the smooth results are final as soon as the rough contact has begun
+      ! the smooth results are final once the rough contact has started
       good = rough .or. self%run%smooth%solved .or. self%run%outcome == outcome_target_missed
       call report_problem(record, self%run)
       call report_smooth(record, self%run%plan, self%run%smooth, self%run%level(), good)
@@ -88,13 +88,13 @@ contains
       end if
    end subroutine report_start
 
-   !> The friction ratio, that in the limit of fine grids, and its error: the sum of its parts, not known unless all parts are
+   !> Report the friction ratio, its extrapolated value, and its error, the sum of several parts that is known only if all parts are
    subroutine report_ratio(self, record, ratio, stop_error, why_none)
       type(solver_t), intent(in) :: self
       type(record_t), intent(inout) :: record
-      !> NaN where they are not known
+      !> NaN if not known
       real(dp), intent(in) :: ratio, stop_error
-      !> Why friction is not known where the bodies touch
+      !> Why friction is not known with solid contact
       integer, intent(in) :: why_none
       character(len=*), parameter :: names(5) = [character(len=8) :: "grid", "stop", "window", "left_out", "domain"]
       real(dp) :: limit, waves(2), parts(5)
@@ -143,7 +143,7 @@ contains
       if (allocated(self%run%coarser%message)) call record%set_note("coarser_message", self%run%coarser%message)
    end subroutine report_ratio
 
-   !> Whether two grids give a limit of the friction ratio, and three one of the smooth contact
+   !> Whether the friction ratio converges on two grids, and the smooth contact on three
    logical function has_limit(self, ratio)
       type(solver_t), intent(in) :: self
       real(dp), intent(in) :: ratio
@@ -154,8 +154,8 @@ contains
       if (self%run%plan%surfaces%same_on_grids()) has_limit = has_limit .and. change <= max_rise
    end function has_limit
 
-   !> Error of the friction ratio by its grid: two grids do not show that they have reached order 2, so that of order 1
-   !> (Roache 1994: three times that of order 2); and at least the effect of the error of the smooth film
+   !> Grid error of the friction ratio for order 1, since two grids do not show that order 2 is reached (Roache 1994: three times
+   !> that for order 2); at least the effect of the error of the smooth film
    real(dp) function grid_error(self, ratio)
       type(solver_t), intent(in) :: self
       real(dp), intent(in) :: ratio
@@ -170,8 +170,8 @@ contains
       grid_error = max(grid_error, ratio_error(error(1), ratio))
    end function grid_error
 
-   !> Parts of mu_ratio by the waves that the grid leaves out, and by those that it does not resolve, or why they are not known.
-   !> Only tiles have waves that are left out: a single wave or a feature is entirely on the grid.
+   !> Parts of mu_ratio due to truncated and to unresolved waves, or why they are not known. Only tiles have truncated waves: a
+   !> single wave or a feature is entirely on the grid.
    subroutine waves_of(self, waves, why)
       type(solver_t), intent(in) :: self
       real(dp), intent(out) :: waves(2)
@@ -188,7 +188,7 @@ contains
       end associate
    end subroutine waves_of
 
-   !> Why two grids give no error; none where they do
+   !> Why two grids give no grid error; reason_none if they do
    pure integer function why_no_grid_error(self) result(why)
       type(solver_t), intent(in) :: self
 

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The state of a transient run on disk, so that a run killed at any instant can go on from the last good one: the newest
-!> state and the one before it, each whole or not there, with a version and a checksum. A frame never changes: each is
-!> written once, into a file of its own beside them.
+!> The state of a transient run on disk, from which a run killed at any instant resumes: the newest state and the one before it,
+!> each with a version and a checksum, and replaced by renaming so that it is complete or absent. Each frame is written once, into
+!> its own file.
 module ehl_checkpoint
    use ehl_duty_steps, only: kept_numbers
    use ehl_files, only: file_exists, remove_file, rename_path
@@ -18,24 +18,24 @@ module ehl_checkpoint
    private
    public :: checkpoint_t, coarser, coarser_t, frame_file, state_files
 
-   !> Files of the newest state and of the one before it; prefix of the names of frames; prefix of the states of the run on
-   !> the coarser grid
+   !> File names of the newest state and of the one before it; prefix of the frames; prefix of the states of the run on the
+   !> coarser grid
    character(len=*), parameter :: state_files(2) = ["checkpoint.a", "checkpoint.b"], frame_file = "checkpoint.frame-", &
       coarser = "coarser-"
-   !> First bytes of a state: `family` and the number of the layout
+   !> First bytes of a state: `family` and the version of the format
    character(len=*), parameter :: family = "ehl checkpoint v", magic = family//"16"
-   !> Codes of a file; otherwise the step of its state
+   !> Codes of a file without a valid state; otherwise its code is the step
    integer, parameter :: missing = -1, damaged = -2, other_version = -3
 
-   !> Head of a state after these bytes
+   !> Header of a state, after `magic`
    type :: head_t
       integer :: step = 0, frames = 0
-      !> The case
+      !> Text of the case
       character(len=:), allocatable :: text
    end type head_t
 
-   !> What is known of the same contact on the next coarser grid: how it ended (outcome_running: it has not), the error that ended
-   !> it, and if it converged its friction ratio and load share
+   !> Result of the same contact on the next coarser grid: its status (outcome_running: unfinished), the message of its error, and
+   !> if it converged its friction ratio and load share
    type :: coarser_t
       integer :: outcome = outcome_running
       character(len=:), allocatable :: message
@@ -43,13 +43,13 @@ module ehl_checkpoint
    end type coarser_t
 
    type :: checkpoint_t
-      !> State to go on from
+      !> File of the state to resume from
       character(len=:), allocatable :: path
-      !> What it begins with
+      !> Its header
       type(head_t), private :: head
-      !> Folder with its '/', and what the names begin with; empty: nothing is known of any files
+      !> Folder with its '/' and prefix of the file names; empty: no files known
       character(len=:), allocatable, private :: prefix
-      !> Step of the newest state, frames beside it
+      !> Step of the newest state, number of frames on disk
       integer, private :: newest = missing, frames = 0
    contains
       procedure :: write => write_state
@@ -62,15 +62,15 @@ module ehl_checkpoint
 
 contains
 
-   !> Write the state after a step; the newest so far becomes the one before it
+   !> Write the state after a step; the newest file so far becomes the older one
    subroutine write_state(self, prefix, text, transient, history, frames, seconds, coarse, fallback_reason, status)
       class(checkpoint_t), intent(inout) :: self
-      !> Folder with its '/', and what the names begin with; the case that the state belongs to
+      !> Folder with its '/' and prefix of the file names; text of the case
       character(len=*), intent(in) :: prefix, text
       type(transient_t), intent(in) :: transient
       type(table_t), intent(in) :: history
       type(frames_t), intent(in) :: frames
-      !> Seconds spent on the steps; the same contact on the coarser grid; why the steps did not begin from a prediction
+      !> Seconds spent on the steps; result on the coarser grid; why the steps did not start from a prediction
       real(dp), intent(in) :: seconds
       type(coarser_t), intent(in) :: coarse
       character(len=:), allocatable, intent(in) :: fallback_reason
@@ -105,20 +105,20 @@ contains
       second = ""
       if (allocated(coarse%message)) first = coarse%message
       if (allocated(fallback_reason)) second = fallback_reason
-      ! as it is read in read_head and read_state
+      ! the same order as in read_head and read_state
       associate (t => transient, mean => transient%mean)
          write (lun, iostat=stat, iomsg=reason) magic, t%step, frames%n, len(text), text, &
             t%skipped, t%time, t%time_step, t%residual, t%cycles, t%total_cycles, t%policy%coarsening, &
             t%policy%changed_at, t%h00_before, t%friction_smooth, t%mass_content, t%p_before, t%predictor%weights, &
-            t%accuracy%rise, t%accuracy%sensitivity, t%accuracy%largest, t%film_checksum, t%extremes%found, mean%filled, mean%lag, &
-            mean%transit, t%duty_steps%pack(), t%duty_error%films, t%duty_error%error, t%film_errors, &
+            t%accuracy%increase, t%accuracy%sensitivity, t%accuracy%largest, t%film_checksum, t%extremes%found, mean%filled, &
+            mean%lag, mean%transit, t%duty_steps%pack(), t%duty_error%films, t%duty_error%error, t%film_errors, &
             seconds, coarse%ratio, real(coarse%outcome, dp), coarse%load_share, &
             len(first), first, len(second), second, &
             (history%row(k), mean%values(k), mean%film(k), mean%roughness(k), k=1, t%step)
       end associate
       call end_checksummed(lun, path//".new", stat, reason, status)
       if (.not. status%failed()) then
-         ! one that is damaged must not take the place of the one before it
+         ! a damaged file must not replace the older state
          if (self%newest /= missing) done = rename_path(path, prefix//state_files(2))
          if (rename_path(path//".new", path)) then
             self%newest = transient%step
@@ -129,8 +129,8 @@ contains
       done = remove_file(path//".new")
    end subroutine write_state
 
-   !> Find the newest valid state of a case. It is an error if there are files of which none is valid, or if the state
-   !> belongs to another case.
+   !> Find the newest valid state of a case. It is an error if files exist but none is valid, or if the state belongs to another
+   !> case.
    subroutine find_state(self, prefix, text, note, status)
       class(checkpoint_t), intent(inout) :: self
       character(len=*), intent(in) :: prefix, text
@@ -146,7 +146,7 @@ contains
          if (state >= 0) exit
       end do
       if (self%newest == missing .and. state == missing) return
-      ! without an older state the fault of the newest one is reported
+      ! without an older state, report the fault of the newest one
       if (state == missing) then
          state = self%newest
          k = 1
@@ -170,20 +170,20 @@ contains
       self%frames = self%head%frames
    end subroutine find_state
 
-   !> Whether there is a state to go on from
+   !> Whether a state to resume from was found
    pure logical function found(self)
       class(checkpoint_t), intent(in) :: self
       found = allocated(self%path)
    end function found
 
-   !> Read the state that was found into a run that has started
+   !> Read the found state into a run after its start
    subroutine read_state(self, transient, history, frames, grid, seconds, coarse, fallback_reason, status)
       class(checkpoint_t), intent(in) :: self
       type(transient_t), intent(inout) :: transient
       type(table_t), intent(inout) :: history
       type(frames_t), intent(inout) :: frames
       type(grid_t), intent(in) :: grid
-      !> As write_state has them
+      !> As in write_state
       real(dp), intent(out) :: seconds
       type(coarser_t), intent(out) :: coarse
       character(len=:), allocatable, intent(inout) :: fallback_reason
@@ -204,7 +204,7 @@ contains
          if (stat == 0) read (lun, iostat=stat, iomsg=reason) &
             t%skipped, t%time, t%time_step, t%residual, t%cycles, t%total_cycles, t%policy%coarsening, &
             t%policy%changed_at, t%h00_before, t%friction_smooth, t%mass_content, t%p_before, t%predictor%weights, &
-            t%accuracy%rise, t%accuracy%sensitivity, t%accuracy%largest, t%film_checksum, t%extremes%found, t%mean%filled, &
+            t%accuracy%increase, t%accuracy%sensitivity, t%accuracy%largest, t%film_checksum, t%extremes%found, t%mean%filled, &
             t%mean%lag, t%mean%transit, numbers, t%duty_error%films, t%duty_error%error, t%film_errors, seconds, &
             coarse%ratio, outcome, coarse%load_share
          if (stat == 0) call t%duty_steps%unpack(numbers)
@@ -230,7 +230,7 @@ contains
       end do
    end subroutine read_state
 
-   !> Step of the state in a file if it is complete and unchanged, else the code of its fault
+   !> Step of the state in a file if it is valid, otherwise the code of its fault
    integer function what_is(prefix, name, head)
       character(len=*), intent(in) :: prefix, name
       type(head_t), intent(out) :: head
@@ -261,7 +261,7 @@ contains
       if (stat == 0) what_is = head%step
    end function what_is
 
-   !> Read the head of a state
+   !> Read the header of a state
    subroutine read_head(lun, head, stat)
       integer, intent(in) :: lun
       type(head_t), intent(out) :: head
@@ -276,7 +276,7 @@ contains
       if (stat /= 0) head%text = ""
    end subroutine read_head
 
-   !> Read a text; of no length: it stays
+   !> Read a text; an empty one leaves `text` unchanged
    subroutine read_text(lun, text, stat)
       integer, intent(in) :: lun
       character(len=:), allocatable, intent(inout) :: text
@@ -291,13 +291,13 @@ contains
       if (stat /= 0) text = ""
    end subroutine read_text
 
-   !> The run has resumed: states that it saves from here on are its own
+   !> The run has resumed: later states no longer belong to the one that was read
    subroutine end_resuming(self)
       class(checkpoint_t), intent(inout) :: self
       if (allocated(self%path)) deallocate (self%path)
    end subroutine end_resuming
 
-   !> The run starts from the beginning: earlier states and frames are not part of it
+   !> The run starts from the beginning: delete earlier states and overwrite earlier frames
    subroutine forget(self)
       class(checkpoint_t), intent(inout) :: self
       logical :: gone
@@ -319,7 +319,7 @@ contains
       path = prefix//frame_file//to_text(k)
    end subroutine name_frame
 
-   !> Where two cases differ for the first time
+   !> First line in which two cases differ
    function first_difference(theirs, ours) result(text)
       character(len=*), intent(in) :: theirs, ours
       character(len=:), allocatable :: text

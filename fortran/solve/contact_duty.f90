@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> A row of the history of a contact under a duty
+!> Row of the history of a contact under a duty, with the errors of the time steps (docs/evidence/duty)
 submodule (ehl_contact_run) ehl_contact_duty
    use ehl_duty, only: duty_state_t
    use ehl_heat, only: flash_temperature
@@ -9,12 +9,12 @@ submodule (ehl_contact_run) ehl_contact_duty
    use ehl_wall_heat, only: heat_source
    implicit none (type, external)
 
-   !> Error of a quantity by its second difference, and its decay per step (docs/evidence/duty)
-   real(dp), parameter :: by_difference = 2.0_dp, left = 0.8_dp
+   !> Error of a quantity over its second difference, and decay of the error per step (docs/evidence/duty)
+   real(dp), parameter :: difference_factor = 2.0_dp, error_decay = 0.8_dp
    !> Relative error of the friction over that of the pressure (docs/evidence/duty, random duties)
-   real(dp), parameter :: by_pressure = 2.0_dp
-   !> Power of the speed in the central film (Hamrock & Dowson 1977)
-   real(dp), parameter :: film_by_speed = 0.67_dp
+   real(dp), parameter :: pressure_factor = 2.0_dp
+   !> Exponent of the speed in the central film (Hamrock & Dowson 1977)
+   real(dp), parameter :: speed_exponent = 0.67_dp
 
 contains
 
@@ -44,21 +44,21 @@ contains
       end associate
    end procedure duty_row
 
-   !> Error of the load share at the boundary film by that of the film: of the inlet, whose film falls with the speed, and of the
-   !> time steps; or of BDF2 in a share that changes at once
+   !> Error of the load share: from the film error of the inlet (the film decreases with the speed) and of the time steps, or from
+   !> BDF2 where the load share changes abruptly
    real(dp) function load_share_error(self) result(error)
       class(contact_run_t), intent(in) :: self
       type(inlet_t) :: inlet
 
       associate (t => self%transient, share => self%transient%m%touching%load_share)
          inlet = self%plan%inlet
-         inlet%film = inlet%film*abs(t%now%mean_velocity())**film_by_speed
+         inlet%film = inlet%film*abs(t%now%mean_velocity())**speed_exponent
          error = max(inlet%share_error(t%m, self%grid%hx) + share*min(1.0_dp, share_by_film*maxval(t%film_errors)), &
                      remaining(self, "load_share_error"), squeeze_error(self, "load_share", share))
       end associate
    end function load_share_error
 
-   !> Relative error of the maximum pressure by time steps: that of the films, or of the squeeze of a thick film
+   !> Relative time-step error of the maximum pressure: that of the films, or of the squeeze of a thick film
    real(dp) function pressure_error(self, pressure)
       class(contact_run_t), intent(in) :: self
       real(dp), intent(in) :: pressure
@@ -67,33 +67,33 @@ contains
                            squeeze_error(self, "p_max_Pa", pressure)/pressure)
    end function pressure_error
 
-   !> Error of the coefficient of friction by time steps: it follows the pressure, to which viscosity is sensitive, and the load
-   !> at the boundary film, and changes at once in the squeeze
+   !> Time-step error of the coefficient of friction: from the errors of the pressure (through the viscosity) and of the load share,
+   !> or from BDF2 in an abrupt squeeze
    real(dp) function friction_error(self, mu, pressure, share)
       class(contact_run_t), intent(in) :: self
       real(dp), intent(in) :: mu
-      !> Relative error of the maximum pressure, at least that of the films, and error of the load share
+      !> Relative error of the maximum pressure (not below that of the films), and error of the load share
       real(dp), intent(in) :: pressure, share
 
-      friction_error = abs(mu)*by_pressure*pressure
+      friction_error = abs(mu)*pressure_factor*pressure
       associate (stress => self%plan%lubricant%boundary_stress, m => self%transient%m)
          if (stress > 0.0_dp) friction_error = friction_error + share*abs(mu)*stress*m%load/m%friction
       end associate
       friction_error = max(friction_error, remaining(self, "mu_step_error"), squeeze_error(self, "mu", mu))
    end function friction_error
 
-   !> What is left of the error in the row before
+   !> Error in the previous row, decayed by one step
    real(dp) function remaining(self, column)
       class(contact_run_t), intent(in) :: self
       character(len=*), intent(in) :: column
 
       remaining = 0.0_dp
       associate (n => self%history%n_rows())
-         if (n > 1) remaining = left*self%history%entry_of(column, n)
+         if (n > 1) remaining = error_decay*self%history%entry_of(column, n)
       end associate
    end function remaining
 
-   !> Error of BDF2 in the squeeze, which changes a quantity at once: by its second difference
+   !> Error of BDF2 where the squeeze changes a quantity abruptly: from its second difference
    real(dp) function squeeze_error(self, column, now) result(error)
       class(contact_run_t), intent(in) :: self
       character(len=*), intent(in) :: column
@@ -111,11 +111,11 @@ contains
          x(k) = self%history%entry_of(column, n - 2 + k)
       end do
       associate (slope => (now - x(2))/(time - t(2)), slope_before => (x(2) - x(1))/(t(2) - t(1)))
-         error = by_difference*(time - t(2))**2*abs(slope - slope_before)/(time - t(1))
+         error = difference_factor*(time - t(2))**2*abs(slope - slope_before)/(time - t(1))
       end associate
    end function squeeze_error
 
-   !> Place of the minimum film [a]
+   !> Position of the minimum film [a]
    subroutine find_minimum(level, place)
       type(level_t), intent(in) :: level
       real(dp), intent(out) :: place(2)
@@ -125,8 +125,8 @@ contains
       place = [level%grid%x(at(1)), level%grid%y(at(2))]
    end subroutine find_minimum
 
-   !> Coefficient of friction, its power, and the flash temperature of walls that have come to a steady state. Not known where the
-   !> Newtonian stress exceeds that at which oils are Newtonian.
+   !> Coefficient of friction, its power, and flash temperature of walls in a steady state. Not known where the Newtonian stress
+   !> exceeds the limit up to which oils are Newtonian.
    subroutine find_friction(self, level, mu, power, flash)
       class(contact_run_t), intent(in) :: self
       type(level_t), intent(in) :: level
@@ -153,7 +153,7 @@ contains
          mu = force/load
          speed = abs(t%now%speeds(1) - t%now%speeds(2))*s%mean_velocity
          power = force*speed
-         ! the size of the dry contact now
+         ! present size of the dry contact
          size = plan%scales%length*t%growth()
          source = heat_source(plan%contact)
          speeds = abs(t%now%speeds)*s%mean_velocity

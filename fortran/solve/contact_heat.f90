@@ -1,12 +1,12 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The heat of friction in a run: of the smooth contact, and of the rough one at its end and in some of its steps
+!> Frictional heating in a run: of the smooth contact, and of the rough one at its end and in some of its steps
 submodule (ehl_contact_run) ehl_contact_heat
    use ehl_heated_friction, only: heat_film
    use ehl_kinds, only: not_known
    use ehl_status, only: ehl_no_memory
    implicit none (type, external)
 
-   !> Steps in a period after which it is computed: the reduction of friction by heat changes slowly
+   !> Steps per period at which it is computed: the reduction of friction by heating changes slowly
    integer, parameter :: samples = 32
 
 contains
@@ -38,7 +38,7 @@ contains
 
       step_heat = not_known
       if (mod(self%transient%step, interval(self)) > 0) return
-      ! of no field: nothing that could fail
+      ! without a stored field this cannot fail
       call add_heat(self, self%smooth%n, .false., found, status)
       step_heat = found%ratio()
    end procedure step_heat
@@ -55,14 +55,14 @@ contains
       isothermal = self%history%column("mu_ratio")
       step = self%history%column("step")
       associate (first => self%transient%mean%first_of_mean())
-         ! not a number as soon as the temperature of one of them was not solved
+         ! NaN if the temperature of any of these steps was not solved
          associate (due => mod(nint(step(first:)), interval(self)) == 0)
             if (any(due)) heat_ratio = sum(ratio(first:)*isothermal(first:), mask=due)/sum(isothermal(first:), mask=due)
          end associate
       end associate
    end procedure heat_ratio
 
-   !> Steps from one in which the heat is computed to the next
+   !> Steps between two computations of the heating
    pure integer function interval(self)
       class(contact_run_t), intent(in) :: self
 

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Run of a planned contact: smooth, then with the rough surface, stationary or in time steps. Its state after every cycle and
-!> step, and the order of the phases; the phases themselves are ehl_fmg, ehl_stationary_rough, ehl_transient.
+!> Run of a planned contact: state, history and order of the phases. The phases are the smooth contact (ehl_fmg), stationary
+!> roughness (ehl_stationary_rough) and time steps (ehl_transient).
 module ehl_contact_run
    use ehl_checkpoint, only: checkpoint_t, coarser_t
    use ehl_frames, only: frames_t
@@ -12,10 +12,10 @@ module ehl_contact_run
    use ehl_outcome, only: outcome_converged, outcome_running, outcome_target_missed
    use ehl_level, only: gap, level_t
    use ehl_plan, only: plan_t
-   use ehl_plan_surface, only: check_carried
+   use ehl_plan_surface, only: check_resolved
    use ehl_predicted_start, only: predicted_start_t
    use ehl_smooth_contact, only: smooth_contact_t
-   use ehl_stationary_share, only: stationary_t
+   use ehl_stationary_state, only: stationary_t
    use ehl_status, only: ehl_no_memory, status_t
    use ehl_stopping_criterion, only: transient_outcome
    use ehl_table, only: table_t
@@ -26,10 +26,10 @@ module ehl_contact_run
    public :: contact_run_t
    public :: phase_smooth, phase_stationary, phase_steps
 
-   !> What is being solved: the smooth contact, that with a stationary rough surface, time steps
+   !> Phases: the smooth contact, the contact with a stationary rough surface, time steps
    integer, parameter :: phase_smooth = 1, phase_stationary = 2, phase_steps = 3
 
-   !> Time steps of the finest grid: done, and until the earliest and the latest end; seconds spent on them
+   !> Work in time steps of the finest grid: done, and left until the earliest and the latest end; seconds spent
    type :: work_t
       real(dp) :: done = 0.0_dp, earliest = 0.0_dp, latest = 0.0_dp, seconds = 0.0_dp
    end type work_t
@@ -38,29 +38,29 @@ module ehl_contact_run
       type(plan_t) :: plan
       !> Status, and the present phase
       integer :: outcome = outcome_running, phase = phase_smooth
-      !> Finest grid reached so far
+      !> Finest grid so far
       type(grid_t) :: grid
       type(hierarchy_t) :: hierarchy
       type(smooth_contact_t) :: smooth
       type(stationary_t) :: stationary
       type(transient_t) :: transient
-      !> What time steps begin with where the plan says so, and why they do not
+      !> Predicted start of the time steps if planned, and the reason if it is not used
       type(predicted_start_t) :: predicted
       character(len=:), allocatable :: fallback_reason
-      !> A row per cycle or time step; seconds spent on those of the rough contact
+      !> One row per cycle or time step; seconds spent on the rough contact
       type(table_t) :: history
       real(dp) :: seconds = 0.0_dp
-      !> Pressure, film and separation of the smooth contact, kept where there is a rough one; frames of the transient run
+      !> Pressure, film and separation of the smooth contact, kept for the rough one; frames of the transient run
       real(dp), allocatable :: p_smooth(:, :), h_smooth(:, :)
       real(dp) :: h00_smooth = 0.0_dp
       type(frames_t) :: frames
-      !> Heat of the smooth contact, and of the rough one at the end
+      !> Frictional heating of the smooth contact, and of the rough contact at the end
       type(heated_t) :: smooth_heat, rough_heat
-      !> State on disk, and to go on from when the smooth contact is solved; the case that it belongs to, what its names begin with
+      !> State on disk, from which a run resumes once the smooth contact is solved; text of its case, prefix of its file names
       type(checkpoint_t) :: checkpoint
       character(len=:), allocatable :: state_text, state_prefix
-      !> The same contact on the next coarser grid; whether this is the run on it, what the other run has done and is to do, and
-      !> the cost of a step, in steps of the finest grid
+      !> Result on the next coarser grid; whether this run is the coarser one, the work of the other run, and the cost of a step
+      !> of this run in steps of the finest grid
       type(coarser_t) :: coarser
       logical :: is_coarser = .false.
       type(work_t) :: other
@@ -69,7 +69,7 @@ module ehl_contact_run
       procedure :: begin
       procedure, private :: begin_history
       procedure :: record_cycle
-      procedure :: record_share
+      procedure :: record_rough_cycle
       procedure :: record_step
       procedure :: next_phase
       procedure :: is_filling
@@ -83,13 +83,13 @@ module ehl_contact_run
 
    ! in contact_duty.f90
    interface
-      !> Columns of the history of a contact under a duty
+      !> Names of the columns of the history under a duty
       module subroutine duty_names(self, names)
          class(contact_run_t), intent(in) :: self
          character(len=16), allocatable, intent(out) :: names(:)
       end subroutine duty_names
 
-      !> Its row after a step
+      !> Row of the history after a step under a duty
       module subroutine duty_row(self, level, row)
          class(contact_run_t), intent(in) :: self
          type(level_t), intent(in) :: level
@@ -99,16 +99,16 @@ module ehl_contact_run
 
    ! in contact_start.f90
    interface
-      !> From the contact, smooth or with what is stationary, to time steps, or to the state that was kept
+      !> Start the time steps from the steady contact, or resume from a saved state
       module subroutine begin_steps(self, status)
          class(contact_run_t), intent(inout) :: self
          type(status_t), intent(inout) :: status
       end subroutine begin_steps
 
-      !> Where the first steps from a prediction fail: all of them again behind a front
+      !> Restart with a front after the first steps from a prediction failed
       module subroutine restart_behind_front(self, outcome, status)
          class(contact_run_t), intent(inout) :: self
-         !> How they failed
+         !> Status of the failed step
          integer, intent(in) :: outcome
          type(status_t), intent(inout) :: status
       end subroutine restart_behind_front
@@ -116,7 +116,7 @@ module ehl_contact_run
 
    ! in contact_heat.f90
    interface
-      !> Friction and temperature of the present contact on a level; the temperature at every node if it is to be kept
+      !> Friction and temperature of the present contact on level n; with `keep` the temperature field is stored
       module subroutine add_heat(self, n, keep, found, status)
          class(contact_run_t), intent(in) :: self
          integer, intent(in) :: n
@@ -125,12 +125,12 @@ module ehl_contact_run
          type(status_t), intent(inout) :: status
       end subroutine add_heat
 
-      !> Friction with heat over that without it after a step; NaN where it is not computed
+      !> Thermal over isothermal friction after a step; NaN if not computed
       module real(dp) function step_heat(self)
          class(contact_run_t), intent(in) :: self
       end function step_heat
 
-      !> The same of the rough contact of a run that has converged, over the time of its mean; NaN where it is not known
+      !> Thermal over isothermal friction of the converged rough contact, averaged as the friction ratio; NaN if unknown
       module real(dp) function heat_ratio(self)
          class(contact_run_t), intent(in) :: self
       end function heat_ratio
@@ -154,7 +154,7 @@ contains
       call self%begin_history()
    end subroutine begin
 
-   !> A history without a row
+   !> Start an empty history
    subroutine begin_history(self)
       class(contact_run_t), intent(inout) :: self
       character(len=16), allocatable :: columns(:)
@@ -181,17 +181,17 @@ contains
    subroutine record_cycle(self, n, outcome, status)
       class(contact_run_t), intent(inout) :: self
       integer, intent(in) :: n
-      !> Of the smooth contact
+      !> Status of the smooth contact
       integer, intent(in) :: outcome
       type(status_t), intent(inout) :: status
       real(dp), allocatable :: row(:)
 
       self%grid = self%hierarchy%levels(n)%grid
-      if (.not. (self%plan%goes_on() .and. outcome == outcome_converged)) self%outcome = outcome
+      if (.not. (self%plan%has_next_phase() .and. outcome == outcome_converged)) self%outcome = outcome
       if (self%plan%heat%counts .and. any(outcome == [outcome_converged, outcome_target_missed])) then
-         call add_heat(self, n, .not. self%plan%goes_on(), self%smooth_heat, status)
+         call add_heat(self, n, .not. self%plan%has_next_phase(), self%smooth_heat, status)
       end if
-      if (self%plan%goes_on()) return
+      if (self%plan%has_next_phase()) return
       associate (result => self%smooth%results(n))
          row = [real(dp) :: n, self%grid%nx, result%cycles, result%m%film_central, result%m%film_minimum, &
                 result%m%pressure_maximum, result%m%friction, result%m%load_error, result%residual, result%algebraic(1)]
@@ -200,12 +200,12 @@ contains
       end associate
    end subroutine record_cycle
 
-   !> Record a cycle with a share of the stationary roughness; with moving roughness, too, it only leads to the time steps
-   subroutine record_share(self, outcome, seconds, status)
+   !> Record a cycle with stationary roughness. If the other surface moves, only a failure is recorded.
+   subroutine record_rough_cycle(self, outcome, seconds, status)
       class(contact_run_t), intent(inout) :: self
-      !> Of the contact with all of the roughness
+      !> Status of the contact with all of the roughness
       integer, intent(in) :: outcome
-      !> Spent on the cycle
+      !> Time spent on the cycle
       real(dp), intent(in) :: seconds
       type(status_t), intent(inout) :: status
 
@@ -219,12 +219,12 @@ contains
          call add_heat(self, self%smooth%n, .true., self%rough_heat, status)
       end if
       associate (rough => self%stationary, m => self%stationary%m)
-         call self%history%append([real(dp) :: rough%total_cycles, rough%share, rough%mu_ratio(), m%film_central, &
+         call self%history%append([real(dp) :: rough%total_cycles, rough%fraction, rough%mu_ratio(), m%film_central, &
                                    m%film_minimum, m%pressure_maximum, m%load_error, rough%residual], status)
       end associate
-   end subroutine record_share
+   end subroutine record_rough_cycle
 
-   !> Record a time step that is solved
+   !> Record a solved time step
    subroutine record_step(self, status)
       class(contact_run_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
@@ -255,7 +255,7 @@ contains
       end associate
    end subroutine record_step
 
-   !> The present phase is solved: add the roughness, first the stationary one, then the moving one
+   !> Start the next phase: add the stationary roughness first, then the moving one
    subroutine next_phase(self, status)
       class(contact_run_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
@@ -272,7 +272,7 @@ contains
       end associate
    end subroutine next_phase
 
-   !> Prepare the surfaces for the grid reached, and keep what results need of the smooth contact
+   !> Prepare the surfaces for the final grid, and keep the fields of the smooth contact for the results
    subroutine keep_smooth(self, status)
       class(contact_run_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
@@ -280,7 +280,7 @@ contains
 
       if (self%plan%surfaces%rough()) then
          call self%plan%update_resolved_fraction(self%grid)
-         call check_carried(self%plan%surfaces, self%grid, status)
+         call check_resolved(self%plan%surfaces, self%grid, status)
          call self%plan%surfaces%prepare(self%grid, status)
       end if
       if (status%failed()) return
@@ -297,7 +297,7 @@ contains
       end associate
    end subroutine keep_smooth
 
-   !> Whether the steps from a predicted start still precede those of the mean
+   !> Whether a run from a predicted start has not reached the steps of the mean
    pure logical function is_filling(self)
       class(contact_run_t), intent(in) :: self
       is_filling = self%transient%mean%transit > 0.0_dp .and. self%transient%mean%n < self%transient%mean%filled
@@ -309,7 +309,7 @@ contains
       is_rough = self%phase /= phase_smooth
    end function is_rough
 
-   !> Level of the results: the present one, or the last one that has been worked on
+   !> Level of the results: the present one, or the one before it if no cycle was made on the present one
    pure integer function level(self)
       class(contact_run_t), intent(in) :: self
       level = self%smooth%n
@@ -318,7 +318,7 @@ contains
       end if
    end function level
 
-   !> Friction ratio of a run that has converged
+   !> Friction ratio of a converged run
    pure real(dp) function mu_ratio(self)
       class(contact_run_t), intent(in) :: self
       if (self%phase == phase_stationary) then
@@ -328,10 +328,10 @@ contains
       end if
    end function mu_ratio
 
-   !> Write the state into a folder. Before the first time step there is nothing to keep.
+   !> Write the state into a folder. Before the first time step no state exists.
    subroutine save(self, folder, status)
       class(contact_run_t), intent(inout) :: self
-      !> With its '/'
+      !> Ends with '/'
       character(len=*), intent(in) :: folder
       type(status_t), intent(inout) :: status
 

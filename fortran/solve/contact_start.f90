@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Start of the time steps: the smooth contact before a front, a prediction, or a saved state
+!> Start of the time steps: from the steady contact ahead of the front of the roughness, from a prediction or from a saved state
 submodule (ehl_contact_run) ehl_contact_start
    use ehl_grid_error, only: relative_errors
    use ehl_level_result, only: friction_error
@@ -14,11 +14,11 @@ contains
    module procedure begin_steps
       real(dp) :: errors(2)
 
-      ! the friction goes with the inverse of the film: 20 % where it is 19 % (line, M = 100, L = 10, 257 nodes)
+      ! friction is inversely proportional to the film: 20 % error of friction at 19 % of film (line, M = 100, L = 10, 257 nodes)
       errors = 0.0_dp
       if (self%plan%line) errors = relative_errors(self%plan%contact, self%plan%point, self%grid%hx)
       associate (plan => self%plan, transient => self%transient, n => self%smooth%n, m => self%smooth%results(self%smooth%n)%m)
-         ! where a feature passes once, maximum pressure and minimum film are results, not the mean friction alone
+         ! if a feature passes once, the maximum pressure and the minimum film are results besides the mean friction
          call transient%accuracy%set(self%grid%hx, plan%accuracy, m%friction_newtonian, &
                                      merge(0.0_dp, friction_error(self%smooth%results, n, errors(1)), &
                                            plan%surfaces%pass_once() .or. plan%duty%active))
@@ -27,7 +27,7 @@ contains
                               m%friction, status)
          transient%residual = self%smooth%results(n)%residual
          if (status%failed()) return
-         if (plan%predicted_start) call begin_filled(self, n, status)
+         if (plan%predicted_start) call begin_predicted(self, n, status)
          if (status%failed()) return
          call self%hierarchy%prepare_steps(plan%scheme, transient%time_step, status)
       end associate
@@ -37,8 +37,8 @@ contains
       if (self%checkpoint%found()) call take_state(self, status)
    end procedure begin_steps
 
-   !> The predicted start, unless there is a reason against it
-   subroutine begin_filled(self, n, status)
+   !> Start from the prediction, unless a reason for the fallback is known
+   subroutine begin_predicted(self, n, status)
       class(contact_run_t), intent(inout) :: self
       integer, intent(in) :: n
       type(status_t), intent(inout) :: status
@@ -53,7 +53,7 @@ contains
       call self%transient%fill(self%hierarchy%levels(n), self%plan%surfaces, self%predicted, done, status)
       if (status%failed()) return
       if (.not. done) self%fallback_reason = "the film would be negative"
-   end subroutine begin_filled
+   end subroutine begin_predicted
 
    module procedure restart_behind_front
       call self%checkpoint%forget()
@@ -70,7 +70,7 @@ contains
       self%outcome = outcome_running
    end procedure restart_behind_front
 
-   !> Start the transient run from the saved state
+   !> Resume the time steps from the saved state
    subroutine take_state(self, status)
       class(contact_run_t), intent(inout) :: self
       type(status_t), intent(inout) :: status

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Rejected, damped and accelerated cycles (docs/theory/coarse-grids.md)
+!> Rejection, damping and acceleration of cycles (docs/theory/coarse-grids.md)
 submodule (ehl_smooth_contact) ehl_cycle_guard
    use ehl_cycle, only: max_damping
    use ehl_outcome, only: outcome_diverged, outcome_negative_film
@@ -9,15 +9,15 @@ submodule (ehl_smooth_contact) ehl_cycle_guard
 
    !> Cycles after which the damping is reduced, and cycles within which the residual must halve
    integer, parameter :: undamped_after = 3, patience = 8
-   !> Cycles of a level stall if they leave more than this share of the residual, after so many of them
+   !> Cycles stall if the residual decreases by less than this factor; number of cycles before acceleration may begin
    real(dp), parameter :: stalled = 0.6_dp
    integer, parameter :: stalls_after = 5
    !> A cycle is rejected if the residual exceeds that of a solution and increases by this factor. Of five hard contacts
    !> with L from 17 to 37 all converge with 1.05 and 1.2; with 2 and 4 one ends at the cycle limit (tests/cases/test_machines.py)
    real(dp), parameter :: max_growth = 1.2_dp
-   !> Share of the sliding and of the gradient that a softened flow begins with, and by how much it grows where the residual is
-   !> near that of a solution
-   real(dp), parameter :: least_share = 0.1_dp, share_growth = 3.0_dp
+   !> First fraction of the sliding and of the pressure gradient in the shear-thinning law, and the factor by which it increases
+   !> when the residual is near that of a solution
+   real(dp), parameter :: min_shear_fraction = 0.1_dp, fraction_growth = 3.0_dp
 
 contains
 
@@ -42,48 +42,48 @@ contains
 
    module procedure guard_cycle
       real(dp) :: limit
-      logical :: lost
+      logical :: rejected
 
       if (status%failed() .or. .not. self%guarded) return
       associate (guard => self%guard)
          guard%since = guard%since + 1
-         lost = any(outcome == [outcome_diverged, outcome_negative_film])
+         rejected = any(outcome == [outcome_diverged, outcome_negative_film])
          limit = max_residual
          if (guard%residual_kept > 0.0_dp) limit = max(residual_tolerance, max_growth*guard%residual_kept)
-         if (outcome == outcome_running) lost = self%residual > limit
-         if (.not. lost) guard%residual_kept = self%residual
-         if (lost) then
+         if (outcome == outcome_running) rejected = self%residual > limit
+         if (.not. rejected) guard%residual_kept = self%residual
+         if (rejected) then
             if (self%cycles >= self%max_cycles) return
             if (may_soften(self, hierarchy, outcome)) then
                guard%softened = .true.
-               guard%share = least_share
-               guard%share_before = least_share
-               call hierarchy%soften(least_share)
+               guard%shear_fraction = min_shear_fraction
+               guard%shear_fraction_before = min_shear_fraction
+               call hierarchy%soften(min_shear_fraction)
                call go_back(self, hierarchy)
                outcome = outcome_running
                return
             end if
-            if (guard%share > 1.05_dp*guard%share_before .and. guard%since <= 2) then
-               guard%share = sqrt(guard%share*guard%share_before)
-               call hierarchy%soften(guard%share)
+            if (guard%shear_fraction > 1.05_dp*guard%shear_fraction_before .and. guard%since <= 2) then
+               guard%shear_fraction = sqrt(guard%shear_fraction*guard%shear_fraction_before)
+               call hierarchy%soften(guard%shear_fraction)
                call go_back(self, hierarchy)
                outcome = outcome_running
                guard%since = 0
                return
             end if
             if (guard%damping == max_damping) return
-            ! otherwise the same amount would be tried repeatedly
+            ! otherwise the same degree would be tried repeatedly
             if (guard%since == 1 .and. guard%was_damped > 0) guard%lasting = guard%was_damped
             guard%damping = max(guard%damping + 1, guard%lasting)
             guard%was_damped = guard%damping
             guard%since = 0
             call go_back(self, hierarchy)
             outcome = outcome_running
-         else if (guard%share < 1.0_dp .and. self%residual < near_solution) then
-            guard%share_before = guard%share
-            guard%share = min(1.0_dp, share_growth*guard%share)
+         else if (guard%shear_fraction < 1.0_dp .and. self%residual < near_solution) then
+            guard%shear_fraction_before = guard%shear_fraction
+            guard%shear_fraction = min(1.0_dp, fraction_growth*guard%shear_fraction)
             guard%since = 0
-            call hierarchy%soften(guard%share)
+            call hierarchy%soften(guard%shear_fraction)
             call update_coefficients(hierarchy%levels(self%n))
             guard%residual_kept = 0.0_dp
          else if (guard%damping > guard%lasting .and. guard%since >= undamped_after) then
@@ -103,8 +103,8 @@ contains
       if (self%stall > stalled) call self%mixing%begin(hierarchy%levels(self%n), status)
    end procedure guard_cycle
 
-   !> Whether a cycle from a guess left no numbers for the gradient at its edge, which a flow that thins lets through: factors grow
-   !> exponentially with it
+   !> Whether to start with a reduced shear-thinning law: a cycle from the Hertz pressure diverged, since the flow factors increase
+   !> exponentially with the pressure gradient at its edge
    pure logical function may_soften(self, hierarchy, outcome)
       class(smooth_contact_t), intent(in) :: self
       type(hierarchy_t), intent(in) :: hierarchy
@@ -114,7 +114,7 @@ contains
                    .not. (self%guard%softened .or. has_coarser(self%results, self%n))
    end function may_soften
 
-   !> The state before the last cycle
+   !> Restore the state before the last cycle
    subroutine go_back(self, hierarchy)
       class(smooth_contact_t), intent(inout) :: self
       type(hierarchy_t), intent(inout) :: hierarchy

@@ -14,8 +14,8 @@ module ehl_fmg
 
 contains
 
-   !> Levels from the coarsest on, cycles on each until its algebraic error is a share of its discretisation error. The observer
-   !> may leave after any cycle; another call continues there.
+   !> Solve the levels from the coarsest on, each until its algebraic error is a fraction of its discretisation error. The observer
+   !> may stop after any cycle; the next call continues there.
    subroutine full_multigrid(run, observer, leave, status)
       type(contact_run_t), intent(inout) :: run
       class(observer_t), intent(inout) :: observer
@@ -40,7 +40,7 @@ contains
       end do levels
    end subroutine full_multigrid
 
-   !> A cycle on level n of the smooth contact, and whether the level is solved
+   !> Make a cycle on level n of the smooth contact and test its convergence
    subroutine one_cycle(smooth, hierarchy, outcome, status)
       type(smooth_contact_t), intent(inout) :: smooth
       type(hierarchy_t), intent(inout) :: hierarchy
@@ -58,7 +58,7 @@ contains
          call smooth%estimate_errors(before)
          if (smooth%may_scale_load()) call smooth%balance(hierarchy)
       end if
-      outcome = smooth%verdict(smooth%converged())
+      outcome = smooth%cycle_status(smooth%converged())
       call smooth%guard_cycle(hierarchy, outcome, status)
       call smooth%record()
       if (outcome == outcome_running .and. smooth%drifts()) call smooth%balance(hierarchy)

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Iteration of a state to its tolerance: one multigrid cycle and its evaluation. The problems (a level of the smooth contact, a
-!> share of a stationary roughness, a time step) extend iteration_t by their estimate of the error.
+!> One multigrid cycle and the evaluation of the state after it. The problems (a level of the smooth contact, a fraction of a
+!> stationary roughness, a time step) extend iteration_t by their error estimates.
 module ehl_iteration
    use ehl_anderson, only: anderson_t
    use ehl_contact_results, only: contact_results_t, load_tolerance, measure
@@ -18,12 +18,12 @@ module ehl_iteration
    real(dp), parameter :: min_reduction = 0.3_dp, max_reduction = 0.95_dp
 
    type :: iteration_t
-      !> Level, most cycles, and how the next one is made
+      !> Level, maximum number of cycles, and options of the next cycle
       integer :: n = 0, max_cycles = huge(1)
       type(cycle_options_t) :: next_cycle
-      !> Whether the residual is the one that concerns the film
+      !> Whether `residual` is the residual of the film (film_residual)
       logical :: of_film = .false.
-      !> Cycles made; results and residual after the last one
+      !> Number of cycles; results and residual after the last cycle
       integer :: cycles = 0
       type(contact_results_t) :: m
       real(dp) :: residual = 0.0_dp
@@ -33,7 +33,7 @@ module ehl_iteration
       procedure, non_overridable :: iterate
       procedure, non_overridable :: balance
       procedure, non_overridable :: failure_status
-      procedure, non_overridable :: verdict
+      procedure, non_overridable :: cycle_status
       procedure, non_overridable, private :: evaluate
    end type iteration_t
 
@@ -72,7 +72,7 @@ contains
    subroutine evaluate(self, level, residual)
       class(iteration_t), intent(inout) :: self
       type(level_t), intent(in) :: level
-      !> Residual (rms)
+      !> Rms residual
       real(dp), intent(in) :: residual
 
       self%m = measure(level)
@@ -83,7 +83,7 @@ contains
       end if
    end subroutine evaluate
 
-   !> Status of a state that is no solution whatever its residual; outcome_running: no such failure
+   !> Status of a state with a negative film or without finite values; outcome_running: neither
    pure integer function failure_status(self)
       class(iteration_t), intent(in) :: self
 
@@ -92,27 +92,27 @@ contains
    end function failure_status
 
    !> Status after a cycle; outcome_running: another one is needed
-   pure integer function verdict(self, converged)
+   pure integer function cycle_status(self, converged)
       class(iteration_t), intent(in) :: self
       !> Whether it meets its tolerances
       logical, intent(in) :: converged
 
-      verdict = self%failure_status()
-      if (verdict /= outcome_running) return
-      if (self%cycles >= self%max_cycles) verdict = outcome_cycle_limit
-      if (converged) verdict = outcome_converged
-   end function verdict
+      cycle_status = self%failure_status()
+      if (cycle_status /= outcome_running) return
+      if (self%cycles >= self%max_cycles) cycle_status = outcome_cycle_limit
+      if (converged) cycle_status = outcome_converged
+   end function cycle_status
 
-   !> Reduction q of the error per cycle, by the changes of the last two: q/(1 - q) of the last change is left. The first cycle
-   !> also makes up for the grid or the problem that the state comes from, so that its change is no measure of the next.
+   !> Reduction q of the error per cycle, the ratio of the last two changes: the remaining error is q/(1 - q) times the last change.
+   !> The change of the first cycle includes the change of grid or problem, and is no measure of the next.
    pure real(dp) function reduction(change, change_before, cycles, fall, least) result(q)
       real(dp), intent(in) :: change(:), change_before(:)
       !> Cycles made
       integer, intent(in) :: cycles
-      !> Residual over that before the last cycle, if it is to bound q: a change can be tiny by chance, and the next one is
-      !> then many times as large
+      !> Ratio of the residuals after and before the last cycle, as an upper bound of q: after a change that is small by chance
+      !> the ratio of changes is too large
       real(dp), intent(in), optional :: fall
-      !> Least reduction; without it `min_reduction`
+      !> Lower bound of q, default `min_reduction`
       real(dp), intent(in), optional :: least
       real(dp) :: lower
 

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Position of the meniscus of a line with a given layer of oil. A line has no side flow, so the flow is that of the layer. Just
-!> below the flooded flow it hardly depends on the meniscus, and a free meniscus moves from cycle to cycle. Here the meniscus is
-!> fixed while the contact is solved as with `inlet.position`; the resulting flow gives the next position:
+!> Position of the meniscus of a line contact with a given oil layer. Without side flow the flow through the contact equals that of
+!> the layer. Just below the flooded flow it hardly depends on the meniscus, so that a free meniscus moves from cycle to cycle. Here
+!> it is fixed while the contact is solved as with `inlet.position`; the resulting flow gives the next position:
 !>
 !>    node k with P(k) = 0, and the mass defect s downstream of it, 0 <= s <= (G(k) - layer)/hx, such that the flow is the layer's
 !>
@@ -14,26 +14,26 @@ module ehl_meniscus
    private
    public :: meniscus_t
 
-   !> A flow is known when its change in a cycle is this share of its deviation, and after so many cycles
-   real(dp), parameter :: settled_share = 0.1_dp
-   integer, parameter :: fewest_cycles = 3
-   !> Largest s over (G(k) - layer)/hx: the film at the meniscus changes with s
-   real(dp), parameter :: largest = 1.2_dp
-   !> Brackets of s narrower than this are closed: the film has changed since, and the search is restarted
+   !> The flow is accepted when its change per cycle is below this fraction of its deviation, after a minimum number of cycles
+   real(dp), parameter :: settled_change = 0.1_dp
+   integer, parameter :: min_cycles = 3
+   !> Upper bound of s over (G(k) - layer)/hx: the film at the meniscus changes with s
+   real(dp), parameter :: s_margin = 1.2_dp
+   !> Relative width of the bracket of s below which the search is restarted, since the film has changed
    real(dp), parameter :: same = 1.0e-12_dp
 
    type :: meniscus_t
       logical :: active = .false.
-      !> Node, and the share of the largest s; the largest s [of the operator]
+      !> Node k; s over its upper bound; the upper bound [as the Reynolds operator]
       integer :: node = 1
-      real(dp) :: share = 0.0_dp
-      real(dp), private :: most = 0.0_dp
-      !> Nodes between which it is; 0: not known. Length of the next step.
+      real(dp) :: fraction = 0.0_dp
+      real(dp), private :: s_max = 0.0_dp
+      !> Bracket of the node; 0: not known. Length of the next step [nodes].
       integer, private :: low = 0, high = 0, step = 1
-      !> Shares between which it is, and how much too much flows with them; which of them stayed in the last step
-      real(dp), private :: shares(2) = [0.0_dp, 1.0_dp], over(2) = 0.0_dp
+      !> Bracket of `fraction`, and the excess flow at its ends; the end that was kept in the last step
+      real(dp), private :: fractions(2) = [0.0_dp, 1.0_dp], excess(2) = 0.0_dp
       integer, private :: stayed = 0
-      !> Flow after the last cycle, cycles since the meniscus moved
+      !> Flow after the last cycle; cycles since the meniscus moved
       real(dp), private :: flow = 0.0_dp
       integer, private :: cycles = 0
    contains
@@ -42,44 +42,44 @@ module ehl_meniscus
       procedure :: follow
       procedure, private :: restart_search
       procedure, private :: search_node
-      procedure, private :: search_share
+      procedure, private :: search_fraction
       procedure, private :: pin
    end type meniscus_t
 
 contains
 
-   !> Ready for a level, from where it was on one of half the nodes
+   !> Start on a level, from the node on the next coarser one if it was solved
    pure subroutine begin(self, from_coarser)
       class(meniscus_t), intent(inout) :: self
       logical, intent(in) :: from_coarser
 
       self%active = .true.
-      self%node = merge(2*self%node - merge(0, 1, self%share > 0.5_dp), 1, from_coarser)
+      self%node = merge(2*self%node - merge(0, 1, self%fraction > 0.5_dp), 1, from_coarser)
       call self%restart_search()
    end subroutine begin
 
-   !> Restart the search from a node
+   !> Restart the search from the present node
    pure subroutine restart_search(self)
       class(meniscus_t), intent(inout) :: self
 
-      self%share = 0.0_dp
+      self%fraction = 0.0_dp
       self%low = 0
       self%high = 0
       self%step = 1
       self%cycles = 0
    end subroutine restart_search
 
-   !> Keep the meniscus at its node
+   !> Fix the meniscus at its node
    subroutine hold(self, level)
       class(meniscus_t), intent(inout) :: self
       type(level_t), intent(inout) :: level
 
       level%supply%held = self%node
-      level%supply%short = self%share*self%most
+      level%supply%short = self%fraction*self%s_max
       level%p(:self%node, 1) = 0.0_dp
    end subroutine hold
 
-   !> After a cycle: go on if the flow is known and is not that of the layer
+   !> Move the meniscus after a cycle if the flow has converged and is not that of the layer
    subroutine follow(self, level, flow, moved)
       class(meniscus_t), intent(inout) :: self
       type(level_t), intent(inout) :: level
@@ -93,12 +93,12 @@ contains
       change = abs(flow - self%flow)
       self%flow = flow
       self%cycles = self%cycles + 1
-      if (self%cycles < fewest_cycles .or. change > settled_share*abs(off)) return
+      if (self%cycles < min_cycles .or. change > settled_change*abs(off)) return
       if (abs(off) <= 0.5_dp*flow_tolerance*level%supply%layer(1)) return
       ! flooded
-      if (self%node == 1 .and. off < 0.0_dp .and. .not. self%share > 0.0_dp) return
+      if (self%node == 1 .and. off < 0.0_dp .and. .not. self%fraction > 0.0_dp) return
       if (self%high == self%low + 1 .and. self%low > 0) then
-         call self%search_share(off)
+         call self%search_fraction(off)
       else
          call self%search_node(level, off)
       end if
@@ -107,7 +107,7 @@ contains
       call self%hold(level)
    end subroutine follow
 
-   !> The next node to try; where it is found between two the first of them, and with s
+   !> Choose the next node; once two neighbours bracket the solution, the upstream one, with s
    subroutine search_node(self, level, off)
       class(meniscus_t), intent(inout) :: self
       type(level_t), intent(in) :: level
@@ -115,10 +115,10 @@ contains
 
       if (off > 0.0_dp) then
          self%low = self%node
-         self%over(1) = off
+         self%excess(1) = off
       else
          self%high = self%node
-         self%over(2) = off
+         self%excess(2) = off
       end if
       if (self%low == 0) then
          self%node = max(1, self%node - self%step)
@@ -131,35 +131,35 @@ contains
       if (self%low > 0 .and. self%high == self%low + 1) call self%pin(level)
    end subroutine search_node
 
-   !> The node is known: s lies between 0 and the value at which the next node downstream has zero pressure
+   !> Fix the node. s lies between 0 and the value at which the next node downstream has zero pressure.
    subroutine pin(self, level)
       class(meniscus_t), intent(inout) :: self
       type(level_t), intent(in) :: level
 
       self%node = self%low
-      self%most = largest*(full_flow(level, self%node) - level%supply%layer(1))/level%grid%hx
-      self%shares = [0.0_dp, 1.0_dp]
+      self%s_max = s_margin*(full_flow(level, self%node) - level%supply%layer(1))/level%grid%hx
+      self%fractions = [0.0_dp, 1.0_dp]
       self%stayed = 0
-      self%share = self%over(1)/(self%over(1) - self%over(2))/largest
+      self%fraction = self%excess(1)/(self%excess(1) - self%excess(2))/s_margin
    end subroutine pin
 
-   !> The next share, by the Illinois method; a closed bracket restarts the search
-   subroutine search_share(self, off)
+   !> Next value of s by the Illinois method; too narrow a bracket restarts the search
+   subroutine search_fraction(self, off)
       class(meniscus_t), intent(inout) :: self
       real(dp), intent(in) :: off
       integer :: side
 
       side = merge(1, 2, off > 0.0_dp)
-      self%shares(side) = self%share
-      self%over(side) = off
-      if (self%stayed == 3 - side) self%over(3 - side) = 0.5_dp*self%over(3 - side)
+      self%fractions(side) = self%fraction
+      self%excess(side) = off
+      if (self%stayed == 3 - side) self%excess(3 - side) = 0.5_dp*self%excess(3 - side)
       self%stayed = 3 - side
-      if (self%shares(2) - self%shares(1) <= same) then
+      if (self%fractions(2) - self%fractions(1) <= same) then
          call self%restart_search()
          return
       end if
-      self%share = (self%shares(1)*self%over(2) - self%shares(2)*self%over(1))/(self%over(2) - self%over(1))
-   end subroutine search_share
+      self%fraction = (self%fractions(1)*self%excess(2) - self%fractions(2)*self%excess(1))/(self%excess(2) - self%excess(1))
+   end subroutine search_fraction
 
    !> Flow of a filled gap through the east face of node i
    pure real(dp) function full_flow(level, i)
@@ -172,7 +172,7 @@ contains
       end associate
    end function full_flow
 
-   !> The next node on whose gap is half as large: a film that begins too near breaks down
+   !> Next node downstream with at most half the gap: a film that begins too close to the contact breaks down
    pure integer function next_gap(level, node) result(i)
       type(level_t), intent(in) :: level
       integer, intent(in) :: node

@@ -1,26 +1,25 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The next cycle of a smooth contact: its kind, the largest number of cycles, and the meniscus of a starved line
+!> The next cycle of a smooth contact: its options, the cycle limit, and the meniscus of a starved line
 submodule (ehl_smooth_contact) ehl_next_cycle
    use ehl_cycle, only: cycle_options_t, damped_cycle
-   use ehl_level_tolerance, only: counts_share
+   use ehl_level_tolerance, only: share_counts
    implicit none (type, external)
 
-   !> Largest number of cycles of a contact with solid contact, over that of others: the edge of a touching zone moves by a node
-   !> in several cycles
+   !> Factors of the cycle limit. With solid contact: the edge of the solid contact needs several cycles to move by one node
    integer, parameter :: touching_cycles = 3
-   !> The same of a roller: sweeps remove the errors of coarse grids at its ends slowly (47 to 89 cycles)
+   !> Rollers: relaxation slowly removes the errors that coarse grids leave at the ends (47 to 89 cycles)
    integer, parameter :: roller_cycles = 4
-   !> The same of a starved contact: the flow back from the contact and around it balances slowly
+   !> Starved contacts: the flow back from the contact and around it balances slowly
    integer, parameter :: starved_cycles = 3
-   !> The same of a line with a fixed meniscus: several cycles for each of its positions
+   !> Lines with a fixed meniscus: each position needs several cycles
    integer, parameter :: held_cycles = 10
-   !> Largest number of cycles of a level within which a softened flow must become that of the law
+   !> Cycle limit of a level with a reduced shear-thinning law
    integer, parameter :: softened_cycles = 20
-   !> Smallest relative algebraic error that a light cycle reaches: for a smaller one it would cost one more cycle
+   !> Smallest relative algebraic error that a reduced cycle reaches; a smaller one would cost another cycle
    real(dp), parameter :: light_error = 3.0e-4_dp
-   !> near_solution of the last attempt at a wide contact
+   !> The value of `near_solution` in the last attempt at a wide contact
    real(dp), parameter :: near_spared = 0.5_dp
-   !> Few cycles: on a level that began from a coarser one, and from the Hertz pressure
+   !> Few cycles of a level that started from a coarser one, and from the Hertz pressure
    integer, parameter :: min_cycles = 2, cycles_from_guess = 3
 
 contains
@@ -30,21 +29,21 @@ contains
       if (self%meniscus%active) call follow_meniscus(self, level)
       self%cycle_passage = self%passage
       if (level%supply%active) self%layer_central = level%supply%layer(1 + nint(-level%grid%y0/level%grid%hy))
-      self%next_cycle = cycle_to_make(self)
+      self%next_cycle = cycle_options(self)
       if (self%residual > near_solution .or. self%n < self%options%spares_from) self%next_cycle%spare_spikes = .false.
       if (self%spares .and. self%residual > 0.0_dp) self%next_cycle%spare_spikes = self%residual < near_spared
       self%max_cycles = self%options%max_cycles
       if (self%contact%is_roller()) self%max_cycles = roller_cycles*self%max_cycles
-      if (is_end(self%options, self%n) .and. counts_share(self%options, self%m)) then
+      if (is_end(self%options, self%n) .and. share_counts(self%options, self%m)) then
          self%max_cycles = touching_cycles*self%max_cycles
       end if
-      if (self%guard%share < 1.0_dp) self%max_cycles = min(self%max_cycles, softened_cycles)
+      if (self%guard%shear_fraction < 1.0_dp) self%max_cycles = min(self%max_cycles, softened_cycles)
       if (self%options%layer > 0.0_dp) self%max_cycles = starved_cycles*self%options%max_cycles
       if (self%meniscus%active) self%max_cycles = held_cycles*self%options%max_cycles
       if (self%guarded) call keep_state(self, level, status)
    end procedure begin_cycle
 
-   !> Move the meniscus of a line if its flow is known and differs from that of its layer
+   !> Move the meniscus of a line if its flow has converged and differs from that of its layer
    subroutine follow_meniscus(self, level)
       class(smooth_contact_t), intent(inout) :: self
       type(level_t), intent(inout) :: level
@@ -59,9 +58,9 @@ contains
       call self%mixing%finish()
    end subroutine follow_meniscus
 
-   !> Options of the next cycle. On a level that began from a coarser one the second cycle is a light one if its error is
-   !> small enough, with one sweep less before the coarse grids where the coarser level was solved in few cycles
-   pure function cycle_to_make(self) result(options)
+   !> Options of the next cycle. On a level that started from a coarser one the second cycle is reduced if the allowed error
+   !> permits, with one pre-relaxation less if the coarser level was solved in few cycles.
+   pure function cycle_options(self) result(options)
       class(smooth_contact_t), intent(in) :: self
       type(cycle_options_t) :: options
       logical :: first
@@ -77,5 +76,5 @@ contains
       first = self%n == 2
       if (.not. first) first = .not. self%results(self%n - 2)%solved
       if (self%results(self%n - 1)%cycles <= merge(cycles_from_guess, min_cycles, first)) options%pre = options%pre - 1
-   end function cycle_to_make
+   end function cycle_options
 end submodule ehl_next_cycle

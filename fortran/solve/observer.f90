@@ -1,19 +1,19 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Observer of the loops, called after every cycle of a steady contact and after every time step: it decides whether the loop is
-!> left. A loop that was left continues where it was when it is called again.
+!> Observer, called after every cycle of a steady contact and after every time step, which may stop the loop. A stopped loop
+!> continues at the next call.
 module ehl_observer
    use ehl_contact_run, only: contact_run_t
    implicit none (type, external)
    private
    public :: observer_t, single_step_t
 
-   !> Default observer: never leaves
+   !> Default observer: never stops
    type :: observer_t
    contains
       procedure :: watch
    end type observer_t
 
-   !> Leaves after one cycle or time step
+   !> Stops after one cycle or time step
    type, extends(observer_t) :: single_step_t
    contains
       procedure :: watch => watch_one
@@ -21,7 +21,7 @@ module ehl_observer
 
 contains
 
-   !> Never leave
+   !> Never stop
    subroutine watch(self, run, leave)
       class(observer_t), intent(inout) :: self
       !> After the cycle or step; its state may be saved
@@ -33,7 +33,7 @@ contains
       leave = .false.
    end subroutine watch
 
-   !> Leave after one
+   !> Always stop
    subroutine watch_one(self, run, leave)
       class(single_step_t), intent(inout) :: self
       type(contact_run_t), intent(inout) :: run

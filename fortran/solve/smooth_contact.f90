@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The smooth, steady contact: what full multigrid knows of its levels, and when one of them is solved (the loop: ehl_fmg)
+!> The smooth, steady contact: state of nested iteration, and the convergence of each level (the loop: ehl_fmg)
 module ehl_smooth_contact
    use ehl_contact, only: contact_t
    use ehl_contact_results, only: contact_results_t, load_tolerance, measure
@@ -22,72 +22,72 @@ module ehl_smooth_contact
    private
    public :: smooth_contact_t
 
-   !> Largest reduction per cycle that its error estimate assumes: where the film is close to the boundary film the edge of a
-   !> touching zone moves by a node in several cycles
+   !> Largest reduction per cycle in the error estimate of the load share: near the boundary film the edge of the solid contact
+   !> needs several cycles to move by one node
    real(dp), parameter :: max_share_reduction = 0.99_dp
-   !> Change of the film per relative error of the load: the deflection by the Hertz pressure differs from its
-   !> mean under it by 1/5 at the centre and by 3/10 at the edge [a^2/R]
+   !> Change of the film per relative error of the load: the deflection by the Hertz pressure differs from its mean over the
+   !> contact by 1/5 at the centre and by 3/10 at the edge [a^2/R]
    real(dp), parameter :: film_per_load = 0.3_dp
-   !> A residual that no state on the way to a solution has, unless the one before it was nearly as large
+   !> Residual above which a cycle is rejected, unless the previous residual was nearly as large
    real(dp), parameter :: max_residual = 2.0_dp
-   !> Residual from which on coarse grids change sharp pressure spikes too: sweeps alone do not find one that is far off
+   !> Residual above which coarse grids also correct sharp pressure spikes: relaxation alone does not move a distant spike
    !> (kappa = 11, L = 26)
    real(dp), parameter :: near_solution = 0.05_dp
-   !> Cycles after which the load of a roller may drift, and a relative error of it that is a drift
+   !> Cycles after which the load of a roller may drift; largest relative load error treated as drift
    integer, parameter :: drifts_after = 6
    real(dp), parameter :: small_drift = 1.0e-3_dp
 
-   !> Record of the cycles of a level, to reject those that leave no state of the contact
+   !> Record of the cycles of a level, used to reject failed ones
    type :: guard_t
-      !> Degree of damping of the next cycle, 0: none; the degree of the last rejected cycle, and the one that is kept
+      !> Degree of damping of the next cycle (0: none), of the last rejected cycle, and the minimum for the rest of the level
       integer :: damping = 0, was_damped = 0, lasting = 0
-      !> Cycles made since the degree was changed
+      !> Cycles since the degree was changed
       integer :: since = 0
       !> State before the last cycle
       real(dp), allocatable :: p_before(:, :)
       real(dp) :: h00_before = 0.0_dp
-      !> Share of the sliding and of the gradient in the shear-thinning law, and whether it was ever less than 1
-      real(dp) :: share = 1.0_dp, share_before = 1.0_dp
+      !> Fraction of the sliding and of the pressure gradient in the shear-thinning law; whether it was ever less than 1
+      real(dp) :: shear_fraction = 1.0_dp, shear_fraction_before = 1.0_dp
       logical :: softened = .false.
-      !> Residual after the last accepted cycle, and some cycles before it
+      !> Residual after the last accepted cycle, and some cycles earlier
       real(dp) :: residual_kept = 0.0_dp, residual_then = huge(1.0_dp)
    end type guard_t
 
-   !> The state of the iteration is that of level n
+   !> Iteration on level n
    type, extends(iteration_t) :: smooth_contact_t
       class(contact_t), allocatable, private :: contact
       !> Dry pressure of a roller
       type(dry_start_t), private :: dry
       type(steady_options_t), private :: options
-      !> When a level ends
+      !> Convergence rule of a level
       type(end_rule_t), private :: rule = rule_of_circles
       !> Pressure at a flooded border
       type(far_field_t), private :: far_field
       !> Whether level n has its first approximation, and whether the last level is solved
       logical :: begun = .false., solved = .false.
-      !> Whether the levels are solved again with damped cycles
+      !> Whether the levels are being solved again with damped cycles
       logical, private :: damped = .false.
-      !> Whether a cycle that leaves no state of the contact is rejected, and cycles that stall are accelerated
+      !> Whether failed cycles are rejected and stalling ones accelerated
       logical, private :: guarded = .false.
-      !> Whether cycles spare spikes on all levels: the last attempt at a wide contact
+      !> Whether coarse grids leave spikes to relaxation on all levels: the last attempt at a wide contact
       logical, private :: spares = .false.
       type(guard_t), private :: guard
-      !> Whether as much oil arrives as the gap holds. A line lets all oil through that arrives, for nothing flows around it:
-      !> first it is solved so, and the layer counts where that takes more.
+      !> Whether the inlet is flooded. A line, which has no side flow, is first solved flooded; the layer limits the flow only if
+      !> the flooded contact needs more.
       logical, private :: floods = .false.
       !> Meniscus of a starved line, fixed if cycles with a free one have failed
       type(meniscus_t), private :: meniscus
-      !> Passage, that of the last cycle, and its layer in the middle
+      !> Present passage, passage of the last cycle, and its layer at Y = 0
       integer :: passage = 1, cycle_passage = 1
       real(dp) :: layer_central = 0.0_dp
-      !> Central film of the passage before
+      !> Central film of the previous passage
       real(dp), private :: film_before = 0.0_dp
-      !> Restarts: on a finer grid after a failure on a coarse one, with damping after one on the finest
+      !> Restarts: on a finer grid after a failure on a coarse one, with damping after a failure on the finest
       integer :: restarts = 0
       type(level_result_t), allocatable :: results(:)
       !> Changes of H_c and H_min in the last cycle, and the residual after it
       real(dp), private :: change(2) = 0.0_dp, residual_before = 0.0_dp
-      !> Residual over that before the last cycle
+      !> Ratio of the residuals after and before the last cycle
       real(dp), private :: stall = 0.0_dp
       !> Change of the load share of a boundary film in the last cycle
       real(dp), private :: share_change = 0.0_dp
@@ -106,23 +106,23 @@ module ehl_smooth_contact
 
    ! in cycle_guard.f90
    interface
-      !> Begin with the cycles of a level
+      !> Start the record of a level
       module subroutine begin_guard(self)
          class(smooth_contact_t), intent(inout) :: self
       end subroutine begin_guard
 
-      !> The state before a cycle
+      !> Keep the state before a cycle
       module subroutine keep_state(self, level, status)
          class(smooth_contact_t), intent(inout) :: self
          type(level_t), intent(in) :: level
          type(status_t), intent(inout) :: status
       end subroutine keep_state
 
-      !> Reject a cycle that has left no state of the contact, and make smaller changes; accelerate cycles that stall
+      !> Reject a failed cycle and damp the next ones; accelerate stalling cycles
       module subroutine guard_cycle(self, hierarchy, outcome, status)
          class(smooth_contact_t), intent(inout) :: self
          type(hierarchy_t), intent(inout) :: hierarchy
-         !> Of the cycle
+         !> Status of the cycle
          integer, intent(inout) :: outcome
          type(status_t), intent(inout) :: status
       end subroutine guard_cycle
@@ -130,7 +130,7 @@ module ehl_smooth_contact
 
    ! in next_cycle.f90
    interface
-      !> Before a cycle on level n: the pressure at a flooded border, the kind of cycle, the state to restore
+      !> Prepare a cycle on level n: the pressure at a flooded border, the options of the cycle, the state to restore
       module subroutine begin_cycle(self, level, status)
          class(smooth_contact_t), intent(inout) :: self
          type(level_t), intent(inout) :: level
@@ -140,16 +140,16 @@ module ehl_smooth_contact
 
    ! in smooth_restart.f90
    interface
-      !> What leaves the contact is the inlet of the next one, unless it changes nothing any more. Errors are those of the first
-      !> passage over its values: what coarser grids have found is scaled.
+      !> Start the next passage with the layer that leaves the contact, unless the film is steady. Relative errors are those of the
+      !> first passage: the results of coarser grids are scaled.
       module subroutine next_passage(self, level, outcome)
          class(smooth_contact_t), intent(inout) :: self
          type(level_t), intent(inout) :: level
          integer, intent(inout) :: outcome
       end subroutine next_passage
 
-      !> A level has no solution: begin anew on the next finer one, where the discrete problem is better posed; from the first level
-      !> on after a failure on the finest one, once with damped cycles and once with guarded ones, or with ones that spare spikes
+      !> Restart after a failed level: on the next finer one, where the discrete problem is better posed; after a failure on the
+      !> finest one from the first level, once with damped and once with guarded cycles, or with spikes left to relaxation
       module subroutine restart(self, finest, outcome)
          class(smooth_contact_t), intent(inout) :: self
          logical, intent(in) :: finest
@@ -159,7 +159,7 @@ module ehl_smooth_contact
 
 contains
 
-   !> Ready for the first level
+   !> Prepare the first level
    subroutine start(self, contact, options)
       class(smooth_contact_t), intent(out) :: self
       class(contact_t), intent(in) :: contact
@@ -199,7 +199,7 @@ contains
          level%load = self%contact%load
          if (has_coarser(self%results, self%n)) then
             call prolong_solution(hierarchy%levels(self%n - 1), level)
-            if (self%contact%is_roller()) call self%dry%mend_ends(hierarchy%levels(self%n - 1)%grid, level)
+            if (self%contact%is_roller()) call self%dry%correct_ends(hierarchy%levels(self%n - 1)%grid, level)
             self%m = self%results(self%n - 1)%m
          else
             do j = 1, grid%ny
@@ -229,7 +229,7 @@ contains
       call begin_guard(self)
    end subroutine begin_level
 
-   !> Algebraic errors by the changes in a cycle
+   !> Estimate the algebraic errors from the changes in the last cycle
    subroutine estimate_errors(self, before)
       class(smooth_contact_t), intent(inout) :: self
       !> Results before the cycle
@@ -249,7 +249,7 @@ contains
       self%results(self%n)%algebraic = self%results(self%n)%algebraic + film_per_load*abs(self%m%load_error)
    end subroutine estimate_errors
 
-   !> Whether only an error of the load remains, so small that scaling the pressure costs no accuracy
+   !> Whether only a load error remains, small enough for scaling of the pressure
    pure logical function may_scale_load(self)
       class(smooth_contact_t), intent(in) :: self
       real(dp) :: error
@@ -262,8 +262,8 @@ contains
                                            minval(allowed_errors(self%options, self%results, self%n, self%m))
    end function may_scale_load
 
-   !> Whether the load of a roller drifts away in cycles that leave the rest solved: what coarse grids change at its ends and the
-   !> sweeps take back. The next cycle begins with the right load.
+   !> Whether only the load of a roller drifts, as coarse grids change its ends and relaxation reverses that. The load is then
+   !> corrected before the next cycle.
    pure logical function drifts(self)
       class(smooth_contact_t), intent(in) :: self
 
@@ -271,7 +271,7 @@ contains
                self%residual <= residual_tolerance .and. abs(self%m%load_error) <= small_drift
    end function drifts
 
-   !> Algebraic error of the load share by its change in a cycle, as that of the films
+   !> Estimate the algebraic error of the load share from its change in the last cycle, as for the films
    pure subroutine estimate_share_error(self, change)
       class(smooth_contact_t), intent(inout) :: self
       real(dp), intent(in) :: change
@@ -284,17 +284,17 @@ contains
       self%share_change = change
    end subroutine estimate_share_error
 
-   !> Whether the level is solved; the load must be right where the solution may end
+   !> Whether the level is solved; where the solution may end this includes the load
    pure logical function converged(self)
       class(smooth_contact_t), intent(in) :: self
-      converged = self%failure_status() == outcome_running .and. self%m%holds .and. .not. self%guard%share < 1.0_dp .and. &
+      converged = self%failure_status() == outcome_running .and. self%m%holds .and. .not. self%guard%shear_fraction < 1.0_dp .and. &
                   (max(abs(self%m%load_error)/load_tolerance, abs(self%m%oil%imbalance)/flow_tolerance) <= 1.0_dp &
                    .or. .not. is_end(self%options, self%n))
       if (converged) converged = accurate(self%options, self%results, self%n, self%m, self%residual, &
                                           self%cycles < self%max_cycles)
    end function converged
 
-   !> The results of level n so far
+   !> Record the results of level n
    subroutine record(self)
       class(smooth_contact_t), intent(inout) :: self
       integer :: k
@@ -311,12 +311,12 @@ contains
       end associate
    end subroutine record
 
-   !> After the last cycle of a level: on to the next one, back to the first one, or to the end. A coarse level that runs out
-   !> of cycles is a beginning for the next one still.
+   !> After the last cycle of a level: continue on the next one, restart, or end. A coarse level at its cycle limit still gives
+   !> a first approximation on the next one.
    subroutine end_level(self, hierarchy, outcome)
       class(smooth_contact_t), intent(inout) :: self
       type(hierarchy_t), intent(inout) :: hierarchy
-      !> Of the level; then of the smooth contact: outcome_running while a level is to follow
+      !> On entry the status of the level; on return that of the smooth contact: outcome_running if another level follows
       integer, intent(inout) :: outcome
       logical :: finest, met
 
@@ -324,7 +324,7 @@ contains
       associate (result => self%results(self%n))
          result%solved = outcome == outcome_converged .or. (outcome == outcome_cycle_limit .and. .not. finest)
          if (self%guarded .and. outcome == outcome_cycle_limit) then
-            result%solved = result%solved .and. self%residual <= max_residual .and. .not. self%guard%share < 1.0_dp
+            result%solved = result%solved .and. self%residual <= max_residual .and. .not. self%guard%shear_fraction < 1.0_dp
          end if
          if (.not. result%solved) then
             call restart(self, finest, outcome)

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Restarts of the smooth contact: the next passage of a starved one, and levels without a solution
+!> Restarts of the smooth contact: for the next passage of a starved one, and after a failed level
 submodule (ehl_smooth_contact) ehl_smooth_restart
    use ehl_oil_flow, only: leaving
    implicit none (type, external)

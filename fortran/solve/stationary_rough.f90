@@ -7,7 +7,7 @@ module ehl_stationary_rough
    use ehl_hierarchy, only: hierarchy_t
    use ehl_observer, only: observer_t
    use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_running
-   use ehl_stationary_share, only: stationary_t
+   use ehl_stationary_state, only: stationary_t
    use ehl_status, only: status_t
    implicit none (type, external)
    private
@@ -15,9 +15,8 @@ module ehl_stationary_rough
 
 contains
 
-   !> Cycles with a share of the roughness until all of it is in: first none, the smooth contact to the accuracy of the friction,
-   !> then all, or where that has no solution half of what is left. The observer may leave after any cycle; another call continues
-   !> there.
+   !> Solve with an increasing fraction of the roughness: first 0 (the smooth contact to the accuracy of the friction), then 1, or,
+   !> where the cycles fail, half of the remaining step. The observer may stop after any cycle; the next call continues there.
    subroutine solve_stationary(run, observer, leave, status)
       type(contact_run_t), intent(inout) :: run
       class(observer_t), intent(inout) :: observer
@@ -31,7 +30,7 @@ contains
       do
          clock = start_clock()
          outcome = outcome_running
-         if (run%stationary%due) call run%stationary%add_share(run%hierarchy%levels(n), outcome)
+         if (run%stationary%due) call run%stationary%add_roughness(run%hierarchy%levels(n), outcome)
          if (outcome == outcome_running) then
             call one_cycle(run%stationary, run%hierarchy, outcome)
             if (outcome == outcome_converged) then
@@ -41,14 +40,14 @@ contains
                call run%stationary%reject(run%hierarchy%levels(n), outcome)
             end if
          end if
-         call run%record_share(outcome, clock%seconds(), status)
+         call run%record_rough_cycle(outcome, clock%seconds(), status)
          if (status%failed() .or. outcome /= outcome_running) return
          call observer%watch(run, leave)
          if (leave) return
       end do
    end subroutine solve_stationary
 
-   !> A cycle with the present share of the roughness, and whether the share is solved
+   !> Make a cycle at the present fraction of the roughness and test its convergence
    subroutine one_cycle(rough, hierarchy, outcome)
       type(stationary_t), intent(inout) :: rough
       type(hierarchy_t), intent(inout) :: hierarchy
@@ -64,7 +63,7 @@ contains
          call rough%estimate_error(before)
          if (rough%may_scale_load()) call rough%balance(hierarchy)
       end if
-      outcome = rough%verdict(rough%converged())
-      if (outcome == outcome_running .and. rough%lost(hierarchy%levels(rough%n))) outcome = outcome_cycle_limit
+      outcome = rough%cycle_status(rough%converged())
+      if (outcome == outcome_running .and. rough%load_diverged(hierarchy%levels(rough%n))) outcome = outcome_cycle_limit
    end subroutine one_cycle
 end module ehl_stationary_rough

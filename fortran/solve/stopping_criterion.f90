@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> When a transient run ends
+!> Stopping criterion of a transient run
 module ehl_stopping_criterion
    use ehl_friction_mean, only: friction_mean_t
    use ehl_kinds, only: dp
@@ -11,13 +11,13 @@ module ehl_stopping_criterion
    private
    public :: transient_outcome, min_periods
 
-   !> Rounding of the time at the end of a duty
+   !> Relative rounding of the end time of a duty
    real(dp), parameter :: end_rounding = 1.0e-9_dp
 
 contains
 
-   !> Status of a transient run after a step that converged. One that ends by its number of steps is converged only if it
-   !> has settled by then.
+   !> Status of a transient run after a converged step. A run that ends by its number of steps has converged only if the mean
+   !> has settled.
    integer function transient_outcome(plan, transient) result(outcome)
       type(plan_t), intent(in) :: plan
       type(transient_t), intent(in) :: transient
@@ -40,7 +40,7 @@ contains
       if (ends) outcome = merge(outcome_converged, outcome_unsettled, settled)
    end function transient_outcome
 
-   !> Periods after which a transient run can end first
+   !> Minimum number of periods of a transient run
    pure real(dp) function min_periods(plan, mean)
       type(plan_t), intent(in) :: plan
       type(friction_mean_t), intent(in) :: mean

@@ -10,7 +10,7 @@ module ehl_transient
    use ehl_observer, only: observer_t
    use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_running
    use ehl_status, only: status_t
-   use ehl_step_policy, only: step_begins_again, step_ends
+   use ehl_step_policy, only: step_restarts, step_ends
    use ehl_transient_state, only: transient_t
    implicit none (type, external)
    private
@@ -18,7 +18,7 @@ module ehl_transient
 
 contains
 
-   !> Time steps until the mean friction has settled. The observer may leave after any step; another call continues there.
+   !> Make time steps until the run ends. The observer may stop after any step; the next call continues there.
    subroutine solve_transient(run, observer, leave, status)
       type(contact_run_t), intent(inout) :: run
       class(observer_t), intent(inout) :: observer
@@ -46,13 +46,13 @@ contains
       end do steps
    end subroutine solve_transient
 
-   !> One time step. Under a duty it is cut where it has no solution, or its error is too large. Where there is none the last
-   !> good state remains.
+   !> Make one time step. Under a duty it is halved if it fails or its error is too large. After a failure the last accepted state
+   !> is restored.
    subroutine time_step(transient, hierarchy, surfaces, outcome, status)
       type(transient_t), intent(inout) :: transient
       type(hierarchy_t), intent(inout) :: hierarchy
       class(moving_surfaces_t), intent(inout) :: surfaces
-      !> outcome_converged, or why the step has no solution
+      !> outcome_converged, or the reason of the failure
       integer, intent(out) :: outcome
       type(status_t), intent(inout) :: status
       type(contact_results_t) :: first
@@ -77,7 +77,7 @@ contains
                call transient%settle(level)
                cycle
             end if
-            if (good .and. duty%active) call transient%judge_duty(level, good)
+            if (good .and. duty%active) call transient%assess_duty(level, good)
             if (good) call transient%accept(level, first, residual_first, status)
             call transient%end_duty(level)
             if (good) return
@@ -88,7 +88,7 @@ contains
       end associate
    end subroutine time_step
 
-   !> The problem of a step: attempts, cycles of each, until one is solved
+   !> Solve the problem of a step: attempts of several cycles each, until one converges
    subroutine solve_step(transient, hierarchy, surfaces, first, residual_first, outcome, status)
       type(transient_t), intent(inout) :: transient
       type(hierarchy_t), intent(inout) :: hierarchy
@@ -114,14 +114,14 @@ contains
             call transient%begin_cycle(hierarchy%levels(n))
             call transient%iterate(hierarchy)
             if (transient%may_scale_load()) call transient%balance(hierarchy)
-            outcome = transient%verdict(transient%converged())
+            outcome = transient%cycle_status(transient%converged())
             call transient%policy%after_cycle(transient%step + 1, transient%converged(), before, transient%residual, next)
             if (next == step_ends) exit attempts
             if (transient%cycles == 1) then
                first = transient%m
                residual_first = transient%residual
             end if
-            if (next == step_begins_again) exit cycles
+            if (next == step_restarts) exit cycles
          end do cycles
       end do attempts
       if (outcome == outcome_running) outcome = outcome_cycle_limit

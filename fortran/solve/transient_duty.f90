@@ -1,12 +1,12 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> A time step under a duty: its length, the conditions at its end, the direction of the flow, its error
+!> A time step under a duty: its length, the conditions at its end, the direction of the flow, and its error
 submodule (ehl_transient_state) ehl_transient_duty
    use ehl_contact_results, only: central_row
    use ehl_level, only: gap
    use ehl_wedge, only: wedge_separate
    implicit none (type, external)
 
-   !> Length of a step in which nothing moves, whose end is steady [a/u]
+   !> Length of the first step, at constant conditions, whose end is steady [a/u]
    real(dp), parameter :: steady_time = 16.0_dp
 
 contains
@@ -17,7 +17,7 @@ contains
 
       associate (level => hierarchy%levels(self%n))
          self%time_step = self%duty_steps%next(self%duty, self%time, level%grid%hx, surfaces%rough())
-         ! no step is needed up to the row of the table where the motion starts
+         ! before the surfaces start to move no step is solved
          associate (row => self%duty%next_knot(self%time))
             if (self%duty%rests(row(1))) self%time_step = row(1) - self%time
          end associate
@@ -66,20 +66,20 @@ contains
       if (rests) rests = self%duty%rests(self%time + self%time_step)
    end procedure rests
 
-   module procedure judge_duty
+   module procedure assess_duty
       integer :: j
 
       j = central_row(level%grid)
-      call self%duty_steps%judge(self%duty, self%time_step, self%now%mean_velocity(), &
+      call self%duty_steps%assess(self%duty, self%time_step, self%now%mean_velocity(), &
                                  self%duty_error%worst(level%grid%columns(), level%h(:, j), &
                                                        self%duty_steps%before(self%time_step), half_width(self), j), good)
-   end procedure judge_duty
+   end procedure assess_duty
 
    module procedure growth
       growth = self%contact%growth(self%now%load, self%now%curvatures(1))
    end procedure growth
 
-   !> Half width of the dry contact along X now [a]
+   !> Present half width of the dry contact along X [a]
    pure real(dp) function half_width(self)
       class(transient_t), intent(in) :: self
       half_width = self%contact%reach(1)*self%growth()
@@ -107,7 +107,7 @@ contains
       call refresh(level)
    end procedure end_duty
 
-   !> The fields of the last steps as their mirror image
+   !> Mirror the fields of the last steps if the flow is reversed
    subroutine turn(self)
       class(transient_t), intent(inout) :: self
       integer :: k

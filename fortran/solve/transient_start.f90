@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Start of time steps: the steady contact, or a prediction with roughness in all of the contact
+!> Start of the time steps: from the steady contact, or from a prediction of the contact filled with roughness
 submodule (ehl_transient_state) ehl_transient_start
    use ehl_level, only: cavitate
    use ehl_oil_flow, only: content_row
@@ -54,7 +54,7 @@ contains
          self%mass_content(:, :, k) = level%rho*(level%h - self%rr)
       end do
       if (level%supply%active) then
-         ! the film of a line may have been computed in another way
+         ! the steady line may have been solved with a fixed meniscus
          call level%supply%setup(level%grid%hx, level%grid%ny, duty%layer)
          do k = 1, level%grid%ny
             call content_row(level, k, self%mass_content(:, k, 1))
@@ -67,7 +67,7 @@ contains
       self%h00_before = level%h00
       self%m = measure(level)
       if (duty%active) then
-         ! a duty has no mean
+         ! no mean under a duty
          call self%mean%start(huge(1.0_dp), 1, 0.0_dp, self%time_step, 0.0_dp)
       else
          call self%mean%start(surfaces%period, surfaces%repeats, surfaces%mismatch, self%time_step, &
@@ -90,7 +90,7 @@ contains
          call status%fail(ehl_no_memory, "no memory for the time levels")
          return
       end if
-      ! the latest pressure last: until then it is that of the smooth contact
+      ! the latest pressure last, since it holds the smooth pressure until then
       do k = size(self%p_before, 3), 1, -1
          call surfaces%roughness(level%grid, from%time - (k - 1)*self%time_step, self%rr)
          call set_geometry(level, self%contact, self%rr)
@@ -125,7 +125,7 @@ contains
 
    module procedure heights_of
       if (surfaces%rough()) then
-         call surfaces%roughness(level%grid, 0.0_dp, rr, ways=state%ways)
+         call surfaces%roughness(level%grid, 0.0_dp, rr, ways=state%displacements)
       else
          rr = 0.0_dp
       end if

@@ -1,6 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The contact with a moving rough surface: its state after a time step, and the start, the end and the rejection of a step
-!> (the loops: ehl_transient)
+!> State of a transient contact after a time step, and the start, end and rejection of a step (the loops: ehl_transient)
 module ehl_transient_state
    use ehl_contact, only: contact_t
    use ehl_cycle, only: coarsening_alcouffe, coarsening_classical
@@ -27,51 +26,52 @@ module ehl_transient_state
    private
    public :: transient_t
 
-   !> Relative errors of the force balance that a step may correct by scaling its pressure, and those of lines. With the
-   !> larger one on circles small increases of friction lose their second order (tests/cases/test_two_surfaces.py), and under a
-   !> duty what it leaves in the film is no noise about a mean.
+   !> Largest relative errors of the force balance that scaling the pressure may correct: in general, and in lines. The larger one
+   !> would remove the second order of small increases of friction on circles (tests/cases/test_two_surfaces.py), and bias the
+   !> film under a duty.
    real(dp), parameter :: small_load_error = 1.0e-5_dp, of_lines = 1.0e-4_dp
 
-   !> The state of the iteration is that of a step
+   !> Iteration of a time step
    type, extends(iteration_t) :: transient_t
       class(contact_t), allocatable, private :: contact
-      !> Steps made, steps not needed at the start, the present time, the time step
+      !> Steps made, steps skipped at the start, present time, time step
       integer :: step = 0, skipped = 0
       real(dp) :: time = 0.0_dp, time_step = 0.0_dp
-      !> How the cycles of a step are made, and how exactly it is solved
+      !> Options of the cycles of a step, and its tolerance
       type(step_policy_t) :: policy
       type(step_accuracy_t) :: accuracy
       !> Friction of the smooth contact on the same grid
       real(dp) :: friction_smooth = 1.0_dp
       integer :: total_cycles = 0
       type(friction_mean_t) :: mean
-      !> Of a feature that passes once
+      !> Extremes during the passage of a single feature
       type(extremes_t) :: extremes
-      !> Mass content of the last two steps, see ehl_time_levels, pressure and H00 of the last three, the roughness now
+      !> Mass content of the last two steps (ehl_time_levels), pressure and H00 of the last three, present roughness
       real(dp), allocatable :: mass_content(:, :, :), p_before(:, :, :), rr(:, :)
       real(dp) :: h00_before(3) = 0.0_dp
-      !> Sum of 1/H after the last step, to know the film by
+      !> Sum of 1/H after the last step: a checksum of the film
       real(dp) :: film_checksum = 0.0_dp
       type(predictor_t) :: predictor
-      !> The duty, the lengths of its steps, the conditions at the end of the present one
+      !> The duty, the lengths and the errors of its steps
       type(duty_t) :: duty
       type(duty_steps_t) :: duty_steps
       type(duty_error_t) :: duty_error
-      !> Relative errors of H_c and H_min by the time steps so far
+      !> Relative time-step errors of H_c and H_min
       real(dp) :: film_errors(2) = 0.0_dp
+      !> Conditions at the end of the present step
       type(duty_state_t) :: now
       !> 1/lambda_bar of the case
       real(dp), private :: inverse_speed = 0.0_dp
-      !> Whether the lubricant flows the other way in the present step, which is solved as its mirror image
+      !> Whether the flow is reversed in the present step, which is then solved as its mirror image
       logical, private :: reversed = .false.
-      !> Whether the step is that before the first one, in which nothing moves; whether it has been made
+      !> Whether the present step is the first one, at constant conditions; whether that one has been made
       logical :: settling = .false.
       logical, private :: settled = .false.
    contains
       procedure :: begin_duty
       procedure :: end_duty
       procedure :: rests
-      procedure :: judge_duty
+      procedure :: assess_duty
       procedure :: growth
       procedure, private :: accept_duty
       procedure :: settle
@@ -90,8 +90,8 @@ module ehl_transient_state
 
    ! in transient_start.f90
    interface
-      !> Begin from the solution of level n, smooth or with what is stationary, the roughness on the move riding on its film.
-      !> Where the film is thick it changes nothing: solving begins when the front, with half its length, reaches x_matters.
+      !> Start from the steady solution of level n; the moving roughness is added to its film. In a thick film roughness has no
+      !> effect: the steps begin when the front, with half its length, reaches x_matters.
       module subroutine start(self, level, n, contact, surfaces, duty, skip, friction_smooth, status)
          class(transient_t), intent(inout) :: self
          type(level_t), intent(inout) :: level
@@ -99,14 +99,14 @@ module ehl_transient_state
          class(contact_t), intent(in) :: contact
          class(moving_surfaces_t), intent(inout) :: surfaces
          type(duty_t), intent(in) :: duty
-         !> Begin when the roughness comes near the contact, not when it enters the domain
+         !> Whether to begin when the roughness comes near the contact, instead of when it enters the domain
          logical, intent(in) :: skip
          real(dp), intent(in) :: friction_smooth
          type(status_t), intent(inout) :: status
       end subroutine start
 
-      !> Begin with the contact full of roughness instead, from the pressure that it is expected to add. Where the film would
-      !> not be positive all is as it was.
+      !> Start from the contact filled with roughness and its predicted pressure. If the film would not be positive the state
+      !> remains unchanged.
       module subroutine fill(self, level, surfaces, from, done, status)
          class(transient_t), intent(inout) :: self
          type(level_t), intent(inout) :: level
@@ -127,45 +127,45 @@ module ehl_transient_state
 
    ! in transient_duty.f90
    interface
-      !> A step under a duty: its length, and all that the duty has changed by its end
+      !> Start a step under a duty: its length, and the conditions at its end
       module subroutine begin_duty(self, hierarchy, surfaces)
          class(transient_t), intent(inout) :: self
          type(hierarchy_t), intent(inout) :: hierarchy
          class(moving_surfaces_t), intent(in) :: surfaces
       end subroutine begin_duty
 
-      !> The fields that a step leaves, as they are in space again
+      !> End a step under a duty: restore the orientation of mirrored fields
       module subroutine end_duty(self, level)
          class(transient_t), intent(inout) :: self
          type(level_t), intent(inout) :: level
       end subroutine end_duty
 
-      !> Whether nothing has moved until the end of the step, so that the contact is the steady one
+      !> Whether nothing moves until the end of the step, so that the contact remains steady
       pure module function rests(self)
          class(transient_t), intent(in) :: self
          logical :: rests
       end function rests
 
-      !> Half width of the dry contact along X now over that of the case
+      !> Ratio of the present half width of the dry contact along X to that of the case
       pure module function growth(self)
          class(transient_t), intent(in) :: self
          real(dp) :: growth
       end function growth
 
-      !> Whether the film of a step has the required accuracy
-      module subroutine judge_duty(self, level, good)
+      !> Whether the film of a step under a duty has the required accuracy
+      module subroutine assess_duty(self, level, good)
          class(transient_t), intent(inout) :: self
          type(level_t), intent(in) :: level
          logical, intent(out) :: good
-      end subroutine judge_duty
+      end subroutine assess_duty
 
-      !> The steady contact in the discretisation of the steps is solved: it is what they begin with
+      !> Keep the steady contact in the discretisation of the steps as their initial state
       module subroutine settle(self, level)
          class(transient_t), intent(inout) :: self
          type(level_t), intent(in) :: level
       end subroutine settle
 
-      !> The error that a step leaves
+      !> Update the time-step errors of the films after an accepted step
       module subroutine accept_duty(self, level)
          class(transient_t), intent(inout) :: self
          type(level_t), intent(in) :: level
@@ -174,7 +174,7 @@ module ehl_transient_state
 
 contains
 
-   !> The problem of the next time step: roughness at its place, mass content of the steps before, the residual wanted
+   !> Set up the problem of the next time step: roughness, mass content of the last steps, tolerance of the residual
    subroutine begin_step(self, level, surfaces)
       class(transient_t), intent(inout) :: self
       type(level_t), intent(inout) :: level
@@ -191,19 +191,19 @@ contains
       end if
       call set_history(level, self%mass_content)
       tolerance = self%accuracy%tolerance(self%mean%n >= self%mean%filled)
-      ! in a shorter step the same residual has less effect
+      ! the same residual has less effect in a shorter step
       if (self%duty%active) tolerance = tolerance*max(1.0_dp, level%grid%hx/self%time_step)
       call self%policy%begin(tolerance, self%accuracy%measures(self%step + 1))
       self%cycles = 0
    end subroutine begin_step
 
-   !> First approximation of an attempt at a step, and what its cycles need
+   !> Set the first approximation of an attempt at a step, and prepare its cycles
    subroutine begin_attempt(self, hierarchy, status)
       class(transient_t), intent(inout) :: self
       type(hierarchy_t), intent(inout) :: hierarchy
       type(status_t), intent(inout) :: status
 
-      ! nothing but the fields kept here passes from step to step, so that a run can be resumed
+      ! only the fields of this type pass from step to step, so that a run can be resumed
       call hierarchy%forget()
       associate (level => hierarchy%levels(self%n))
          if (self%policy%attempt == attempt_predicted) then
@@ -221,7 +221,7 @@ contains
       if (self%policy%options%coarsening == coarsening_alcouffe) call hierarchy%prepare_coarsening(status)
    end subroutine begin_attempt
 
-   !> The kind of cycle
+   !> Choose the options of the next cycle
    subroutine begin_cycle(self, level)
       class(transient_t), intent(inout) :: self
       type(level_t), intent(in) :: level
@@ -231,7 +231,7 @@ contains
       if (self%policy%touching) self%next_cycle%coarsening = coarsening_classical
    end subroutine begin_cycle
 
-   !> Whether only a small error of the load remains
+   !> Whether only a small load error remains
    pure logical function may_scale_load(self)
       class(transient_t), intent(in) :: self
       may_scale_load = self%residual <= self%policy%tolerance .and. abs(self%m%load_error) <= &
@@ -245,11 +245,11 @@ contains
                   .and. abs(self%m%oil%imbalance) <= flow_tolerance
    end function converged
 
-   !> The step is solved: it becomes the last one
+   !> Accept a solved step
    subroutine accept(self, level, first, residual_first, status)
       class(transient_t), intent(inout) :: self
       type(level_t), intent(in) :: level
-      !> Results and residual after its first cycle
+      !> Results and residual after the first cycle
       type(contact_results_t), intent(in) :: first
       real(dp), intent(in) :: residual_first
       type(status_t), intent(inout) :: status
@@ -265,7 +265,7 @@ contains
       call keep(level, self%mass_content, self%p_before)
    end subroutine accept
 
-   !> The time at the end of a step that is solved, and what is kept of every one
+   !> Advance the time to the end of a solved step, and record its mean values
    subroutine count_step(self, level, status)
       class(transient_t), intent(inout) :: self
       type(level_t), intent(in) :: level
@@ -282,8 +282,8 @@ contains
       self%film_checksum = sum(1.0_dp/level%h)
    end subroutine count_step
 
-   !> Go on with a state that was read into this run. `same`: whether its film follows from its pressure: it does
-   !> not when the surface, or the program, is another one.
+   !> Resume from a state that was read. `same`: whether its film follows from its pressure, which fails if the surface or the
+   !> program differs.
    subroutine restore(self, level, surfaces, same)
       class(transient_t), intent(inout) :: self
       type(level_t), intent(inout) :: level

@@ -134,7 +134,7 @@ contains
       call fault("points = 65 /", "", "text:1: error", "&group")
       call fault("&grid points = 65.0 /", "", "text:1: error: grid.points = 65.0", "a whole number in [17, 4097]")
       call fault("&grid points = 512 /", "", "text:1: error", "513")
-      call fault("&grid points = 65 / &grid max_points = 65 /", "", "text:1: error: &grid stands twice", "once")
+      call fault("&grid points = 65 / &grid max_points = 65 /", "", "text:1: error: &grid is given twice", "once")
       call fault("&grid points = 65 points = 65 /", "", "text:1: error", "every key once")
       call fault("&surface kind = harmonic /", "", "text:1: error: surface.kind", "'harmonic'")
       call fault("&surface kind = 'harmonic"//lf//"' /", "", "text:1: error", "'...'")

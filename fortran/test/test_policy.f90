@@ -4,8 +4,8 @@ module test_policy
    use check, only: is_equal, is_true
    use ehl_cycle, only: coarsening_alcouffe, cycle_options_t
    use ehl_kinds, only: dp
-   use ehl_step_policy, only: attempt_limited, attempt_damped, attempt_last, attempt_predicted, step_begins_again, step_ends, &
-                              step_goes_on, step_policy_t
+   use ehl_step_policy, only: attempt_limited, attempt_damped, attempt_last, attempt_predicted, step_restarts, step_ends, &
+                              step_continues, step_policy_t
    implicit none (type, external)
    private
    public :: run_policy
@@ -30,9 +30,9 @@ contains
       do k = 1, 300
          attempts(k) = policy%attempt
          call policy%after_cycle(1, .false., 1.0e-4_dp, 1.0e-4_dp, next)
-         if (any(k == [5, 14, 23])) call is_equal(next, step_begins_again, "the residual does not fall")
-         if (k < 300 .and. all(k /= [5, 14, 23])) call is_equal(next, step_goes_on, "a cycle more")
-         if (next == step_begins_again) call policy%begin_attempt(1.0_dp)
+         if (any(k == [5, 14, 23])) call is_equal(next, step_restarts, "the residual does not fall")
+         if (k < 300 .and. all(k /= [5, 14, 23])) call is_equal(next, step_continues, "a cycle more")
+         if (next == step_restarts) call policy%begin_attempt(1.0_dp)
       end do
       call is_equal(next, step_ends, "no more cycles")
       call is_true(all(attempts(:5) == attempt_predicted) .and. all(attempts(6:14) == attempt_last) .and. &
@@ -48,12 +48,12 @@ contains
       call policy%begin(1.0e-4_dp, .false.)
       call policy%begin_attempt(1.0_dp)
       call policy%after_cycle(3, .false., 1.0_dp, 0.5_dp, next)
-      call is_equal(next, step_begins_again, "a slow cycle")
+      call is_equal(next, step_restarts, "a slow cycle")
       call is_equal(policy%changed_at, 3, "changes the coarsening")
       call policy%begin_attempt(1.0_dp)
       call is_equal(policy%options%coarsening, coarsening_alcouffe, "to Alcouffe's")
       call policy%after_cycle(3, .false., 1.0_dp, 0.5_dp, next)
-      call is_equal(next, step_goes_on, "another slow cycle")
+      call is_equal(next, step_continues, "another slow cycle")
       call is_equal(policy%options%pre, options%pre + 1, "is followed by a sweep more")
       call policy%set(options, .true., 30)
       call is_equal(policy%changed_at, 0, "a run that begins anew has not changed it")
@@ -72,7 +72,7 @@ contains
       call is_equal(policy%options%pre, 0, "no sweep before the coarse grids")
       call is_equal(policy%options%post, options%pre + options%post, "as many sweeps as in the usual cycle")
       call policy%after_cycle(1, .false., 3.0e-4_dp, 2.9e-4_dp, next)
-      call is_equal(next, step_goes_on, "it was too little")
+      call is_equal(next, step_continues, "it was too little")
       call is_equal(policy%options%pre, options%pre, "the usual cycle follows")
       call is_equal(policy%options%post, options%post, "with its sweeps after the coarse grids")
       call is_equal(policy%changed_at, 0, "the coarsening stays")
@@ -83,7 +83,7 @@ contains
       call policy%begin(1.0e-4_dp, .true.)
       call policy%begin_attempt(3.0e-4_dp)
       call policy%after_cycle(2, .true., 3.0e-4_dp, 0.5e-4_dp, next)
-      call is_equal(next, step_goes_on, "one cycle more to measure")
+      call is_equal(next, step_continues, "one cycle more to measure")
       call policy%after_cycle(2, .true., 0.5e-4_dp, 0.1e-4_dp, next)
       call is_equal(next, step_ends, "and no more")
    end subroutine cheap_first_cycle

@@ -31,7 +31,7 @@ contains
 
    subroutine run_transient()
       call failed_step_leaves_the_last_state()
-      call step_begins_again()
+      call step_restarts()
       call sweeps_alone_do_not_diverge()
       call changes_are_limited()
       call smooth_part_is_a_whole_mean()
@@ -82,7 +82,7 @@ contains
    end subroutine failed_step_leaves_the_last_state
 
    !> A prediction that leads nowhere is dropped: the step restarts from the last one and comes to the same end
-   subroutine step_begins_again()
+   subroutine step_restarts()
       type(contact_run_t) :: run
       type(status_t) :: status
       real(dp) :: p(65, 33)
@@ -112,7 +112,7 @@ contains
       call is_true(run%transient%cycles > cycles, "after more cycles")
       call is_close(maxval(abs(run%hierarchy%levels(n)%p - p)), 0.0_dp, 2.0e-5_dp, "to the same pressure")
       call is_true(.not. status%failed(), "transient run")
-   end subroutine step_begins_again
+   end subroutine step_restarts
 
    !> Sweeps of a time step make no error grow, whatever coarse grids do about it: here the conductance in all of
    !> the contact is of the order of the squeeze term's share in the lines

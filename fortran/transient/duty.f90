@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The duty of a contact: load, speeds, radii, viscosity and layer of oil over time, each over its value in the case, which fixes
+!> The duty of a contact: load, speeds, radii, viscosity and oil layer over time, each divided by its value in the case, which sets
 !> the scales (docs/theory/duty.md)
 module ehl_duty
    use ehl_kinds, only: dp
@@ -8,52 +8,52 @@ module ehl_duty
    public :: duty_t, duty_state_t, duty_load, duty_u1, duty_u2, duty_radius_x, duty_radius_y, duty_viscosity, &
              duty_layer, quantities
 
-   !> Places of the quantities
+   !> Indices of the quantities
    integer, parameter :: duty_load = 1, duty_u1 = 2, duty_u2 = 3, duty_radius_x = 4, duty_radius_y = 5, duty_viscosity = 6, &
                          duty_layer = 7
    integer, parameter :: quantities = 7
-   !> Before the table: time in which all quantities change from the case to its first row, and in which the film follows
+   !> Times before the table: in which the quantities change from the case to the first row, and in which the film adapts to it
    !> [a/u of the first row]
-   real(dp), parameter :: ramp = 2.0_dp, settling = 4.0_dp
-   !> Mean velocity of the first row over that of the case below which the film does not follow
+   real(dp), parameter :: ramp = 2.0_dp, follow = 4.0_dp
+   !> Mean velocity of the first row over that of the case below which no time to adapt is added
    real(dp), parameter :: at_rest = 0.05_dp
-   !> Relative difference below which a value is that of the case
+   !> Relative difference below which values are equal
    real(dp), parameter :: same = 1.0e-12_dp
 
-   !> Conditions at a time, over the values of the case; speeds over the mean velocity of the case
+   !> Conditions at a time over those of the case; speeds over the mean velocity of the case
    type :: duty_state_t
       real(dp) :: load = 1.0_dp, speeds(2) = 1.0_dp, viscosity = 1.0_dp, layer = 1.0_dp
-      !> Curvatures along the motion and across it
+      !> Curvatures along X and Y
       real(dp) :: curvatures(2) = 1.0_dp
-      !> Displacements of the surfaces since the beginning of the table [a]
-      real(dp) :: ways(2) = 0.0_dp
+      !> Displacements of the surfaces since the first row of the table [a]
+      real(dp) :: displacements(2) = 0.0_dp
    contains
       procedure :: mean_velocity
    end type duty_state_t
 
    type :: duty_t
-      !> Whether there is one
+      !> Whether the case has a duty
       logical :: active = .false.
-      !> Whether rough surfaces move all the time
+      !> Whether rough surfaces move throughout
       logical :: rough = .false.
-      !> Times [a/u] from 0 on, and values at them over those of the case (times, quantities)
+      !> Times [a/u], from 0, and values over those of the case, shape (times, quantities)
       real(dp), allocatable :: time(:), values(:, :)
       logical :: cubic = .false., periodic = .false.
       integer :: periods = 1
-      !> Time step over that by the mesh, target of the error of films by steps (0: none)
-      real(dp) :: step_share = 1.0_dp, target_error = 0.0_dp
-      !> [Pa] Newtonian stress of eta0 and H = 1 that slides with the mean velocity of the case
+      !> Time step over that from the mesh size, target of the time-step error of the films (0: none)
+      real(dp) :: step_factor = 1.0_dp, target_error = 0.0_dp
+      !> Newtonian stress of eta0 at H = 1 and a sliding speed equal to the mean velocity of the case [Pa]
       real(dp) :: stress = 0.0_dp
       !> Oil layer rho H of the case; 0: the inlet is flooded
       real(dp) :: layer = 0.0_dp
-      !> [s] a/u
+      !> a/u [s]
       real(dp) :: time_scale = 0.0_dp
-      !> The case itself
+      !> Values of the case
       real(dp) :: reference(quantities) = 1.0_dp
-      !> Change with time at the nodes, for cubic interpolation; displacements of the surfaces there
-      real(dp), allocatable, private :: slopes(:, :), way(:, :)
-      !> Time until which all is as in the case, from the beginning on; before it: the first row is another state
-      real(dp), private :: rest_ends = -1.0_dp
+      !> Time derivatives at the rows of the table, for cubic interpolation; displacements of the surfaces there
+      real(dp), allocatable, private :: slopes(:, :), displacement(:, :)
+      !> Time until which all quantities are those of the case; negative if the first row differs
+      real(dp), private :: constant_until = -1.0_dp
    contains
       procedure :: setup
       procedure :: at
@@ -70,7 +70,7 @@ module ehl_duty
 
 contains
 
-   !> Mean velocity over that of the case; it may be negative
+   !> Mean velocity over that of the case, possibly negative
    pure real(dp) function mean_velocity(self)
       class(duty_state_t), intent(in) :: self
       mean_velocity = 0.5_dp*(self%speeds(1) + self%speeds(2))
@@ -84,10 +84,10 @@ contains
 
       n = size(self%time)
       self%active = .true.
-      allocate (self%slopes(n, quantities), self%way(n, 2), source=0.0_dp)
+      allocate (self%slopes(n, quantities), self%displacement(n, 2), source=0.0_dp)
       if (self%cubic) then
          do k = 1, n
-            ! of the parabola through a node and its neighbours
+            ! slope of the parabola through a row and its neighbours
             if (k > 1 .and. k < n) then
                before = self%time(k) - self%time(k - 1)
                behind = self%time(k + 1) - self%time(k)
@@ -99,7 +99,7 @@ contains
             end if
          end do
          if (.not. self%periodic) then
-            ! of the parabola through a node and the two beside it
+            ! slope at the end of the parabola through three rows
             if (n == 2) then
                self%slopes = spread((self%values(2, :) - self%values(1, :))/self%time(2), 1, 2)
             else
@@ -110,30 +110,30 @@ contains
          end if
       end if
       do k = 2, n
-         self%way(k, :) = self%way(k - 1, :) + part(self, k - 1, self%time(k) - self%time(k - 1))
+         self%displacement(k, :) = self%displacement(k - 1, :) + displacement_from(self, k - 1, self%time(k) - self%time(k - 1))
       end do
       do k = 1, n
          if (any(abs(self%values(k, :) - self%reference) > same) .or. any(abs(self%slopes(k, :)) > same)) exit
       end do
-      if (k > n) self%rest_ends = self%end_time()
-      if (k > 1 .and. k <= n) self%rest_ends = self%time(k - 1)
+      if (k > n) self%constant_until = self%end_time()
+      if (k > 1 .and. k <= n) self%constant_until = self%time(k - 1)
    end subroutine setup
 
    !> Whether all quantities are those of the case up to and at a time
    pure logical function rests(self, time)
       class(duty_t), intent(in) :: self
       real(dp), intent(in) :: time
-      rests = .not. self%rough .and. self%rest_ends >= 0.0_dp .and. time <= self%rest_ends*(1.0_dp + 1.0e-9_dp)
+      rests = .not. self%rough .and. self%constant_until >= 0.0_dp .and. time <= self%constant_until*(1.0_dp + 1.0e-9_dp)
    end function rests
 
-   !> Slope at the middle of three nodes
+   !> Slope of a parabola at the middle of three rows
    elemental real(dp) function parabola(a, b, c, before, behind)
       real(dp), intent(in) :: a, b, c, before, behind
       parabola = ((b - a)/before*behind + (c - b)/behind*before)/(before + behind)
    end function parabola
 
-   !> Displacements of the surfaces from node k on in a time
-   pure function part(self, k, time) result(way)
+   !> Displacements of the surfaces in a time after row k
+   pure function displacement_from(self, k, time) result(way)
       class(duty_t), intent(in) :: self
       integer, intent(in) :: k
       real(dp), intent(in) :: time
@@ -150,9 +150,9 @@ contains
             way = step*s*(a + 0.5_dp*s*(b - a))
          end if
       end associate
-   end function part
+   end function displacement_from
 
-   !> Values and displacements by the table, at a time within it
+   !> Values and displacements interpolated at a time within the table
    pure subroutine raw(self, time, values, way)
       class(duty_t), intent(in) :: self
       real(dp), intent(in) :: time
@@ -182,28 +182,28 @@ contains
             values = a + s*(b - a)
          end if
       end associate
-      way = self%way(k, :) + part(self, k, time - self%time(k))
+      way = self%displacement(k, :) + displacement_from(self, k, time - self%time(k))
    end subroutine raw
 
-   !> Conditions at a time; before the table they change from the case to its first row
+   !> Conditions at a time; before the table they change linearly from the case to the first row
    pure function at(self, time) result(state)
       class(duty_t), intent(in) :: self
       real(dp), intent(in) :: time
       type(duty_state_t) :: state
-      real(dp) :: values(quantities), share, whole
+      real(dp) :: values(quantities), fraction, whole
       integer :: n
 
       n = size(self%time)
       if (time < 0.0_dp) then
-         share = min(1.0_dp, (time - self%begin())/ramp_time(self))
-         values = self%reference + share*(self%values(1, :) - self%reference)
-         state%ways = 0.0_dp
+         fraction = min(1.0_dp, (time - self%begin())/ramp_time(self))
+         values = self%reference + fraction*(self%values(1, :) - self%reference)
+         state%displacements = 0.0_dp
       else if (self%periodic) then
          whole = aint(time/self%length())
-         call self%raw(time - whole*self%length(), values, state%ways)
-         state%ways = state%ways + whole*self%way(n, :)
+         call self%raw(time - whole*self%length(), values, state%displacements)
+         state%displacements = state%displacements + whole*self%displacement(n, :)
       else
-         call self%raw(min(time, self%time(n)), values, state%ways)
+         call self%raw(min(time, self%time(n)), values, state%displacements)
       end if
       state%load = values(duty_load)
       state%speeds = values(duty_u1:duty_u2)
@@ -212,13 +212,13 @@ contains
       state%layer = values(duty_layer)
    end function at
 
-   !> Time of the ramp before the table
+   !> Length of the ramp before the table
    pure real(dp) function ramp_time(self)
       class(duty_t), intent(in) :: self
       ramp_time = ramp/max(1.0_dp, abs(0.5_dp*sum(self%values(1, duty_u1:duty_u2))))
    end function ramp_time
 
-   !> Time at which the run begins: 0, or before where the first row is not the case
+   !> Start time of the run: 0, or negative if the first row is not the case
    pure real(dp) function begin(self)
       class(duty_t), intent(in) :: self
       real(dp) :: speed
@@ -227,16 +227,16 @@ contains
       if (all(abs(self%values(1, :) - self%reference) <= same)) return
       begin = -ramp_time(self)
       speed = abs(0.5_dp*sum(self%values(1, duty_u1:duty_u2)))
-      if (speed > at_rest) begin = begin - settling/speed
+      if (speed > at_rest) begin = begin - follow/speed
    end function begin
 
-   !> Time from the first row to the last
+   !> Time between the first and the last row
    pure real(dp) function length(self)
       class(duty_t), intent(in) :: self
       length = self%time(size(self%time))
    end function length
 
-   !> Time at which the run ends
+   !> End time of the run
    pure real(dp) function end_time(self)
       class(duty_t), intent(in) :: self
       end_time = merge(self%periods, 1, self%periodic)*self%length()
@@ -254,18 +254,18 @@ contains
       fastest = maxval(abs(0.5_dp*(self%values(:, duty_u1) + self%values(:, duty_u2))))
    end function fastest
 
-   !> About how many time steps there are on a mesh
+   !> Approximate number of time steps on a mesh
    pure real(dp) function steps_expected(self, mesh)
       class(duty_t), intent(in) :: self
       real(dp), intent(in) :: mesh
       real(dp) :: time
 
       time = self%begin()
-      if (self%rests(self%rest_ends)) time = max(time, self%rest_ends)
-      steps_expected = (self%end_time() - time)*self%fastest()/(self%step_share*mesh)
+      if (self%rests(self%constant_until)) time = max(time, self%constant_until)
+      steps_expected = (self%end_time() - time)*self%fastest()/(self%step_factor*mesh)
    end function steps_expected
 
-   !> Time of the next row after a given time, and of the one after that; a very late one after the last
+   !> Times of the next two rows after a given time; huge after the last row
    pure function next_knot(self, time) result(knots)
       class(duty_t), intent(in) :: self
       real(dp), intent(in) :: time

@@ -1,6 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Error of the film by the time steps under a duty: the error that each adds at a node, convected with the flow
-!> (docs/theory/duty.md)
+!> Time-step error of the film under a duty: the error added by each step at a node, convected with the flow (docs/theory/duty.md)
 module ehl_duty_error
    use ehl_kinds, only: dp
    use ehl_status, only: ehl_no_memory, status_t
@@ -8,13 +7,13 @@ module ehl_duty_error
    private
    public :: duty_error_t
 
-   !> Upstream of so many half widths of the contact the pressure flow evens out the error of a step
+   !> Distance upstream of the centre [half widths of the contact] beyond which the Poiseuille flow removes the error of a step
    real(dp), parameter :: ahead = 1.25_dp
-   !> Films before a step from which its error is estimated
+   !> Number of previous films in the error estimate of a step
    integer, parameter :: films_before = 3
 
    type :: duty_error_t
-      !> Films before the present step, the latest first, (nx, ny, 3), and the error of the last one, (nx, ny)
+      !> Previous films, the latest first, shape (nx, ny, 3), and the error of the latest, shape (nx, ny)
       real(dp), allocatable :: films(:, :, :), error(:, :)
    contains
       procedure :: start
@@ -26,7 +25,7 @@ module ehl_duty_error
 
 contains
 
-   !> Before the first step all is steady
+   !> Start from a steady film
    subroutine start(self, film, active, status)
       class(duty_error_t), intent(inout) :: self
       real(dp), intent(in) :: film(:, :)
@@ -45,8 +44,8 @@ contains
       end if
    end subroutine start
 
-   !> The steady film in the discretisation of the steps: its difference from the one before counts as an error, which the flow
-   !> transports away
+   !> Start again from the steady film in the discretisation of the steps. Its difference from the previous film counts as an error,
+   !> which is convected with the flow.
    subroutine settle(self, film)
       class(duty_error_t), intent(inout) :: self
       !> Shape (nx, ny)
@@ -56,9 +55,9 @@ contains
       self%films = spread(film, 3, films_before)
    end subroutine settle
 
-   !> Factors of the films after a step and before it in the error that the step adds: the third difference, which BDF2 leaves out
+   !> Factors of the films after and before a step in the error added by it: the truncation error of BDF2, a third difference
    pure function factors_of(steps) result(factors)
-      !> The step, and those before it
+      !> The step and the previous ones
       real(dp), intent(in) :: steps(films_before)
       real(dp) :: t(0:films_before), factors(0:films_before)
       integer :: i, k
@@ -67,17 +66,17 @@ contains
       do k = 1, films_before
          t(k) = t(k - 1) - steps(k)
       end do
-      ! of the third divided difference
+      ! third divided difference
       do k = 0, films_before
          factors(k) = 1.0_dp/product(pack(t(k) - t, [(i /= k, i=0, films_before)]))
       end do
       factors = factors*steps(1)**2*(steps(1) + steps(2))
    end function factors_of
 
-   !> Error of the film that a step adds in a row
+   !> Error of the film in row j added by a step
    pure function added(self, film, factors, j) result(error)
       class(duty_error_t), intent(in) :: self
-      !> Row j after the step
+      !> Film of row j after the step
       real(dp), intent(in) :: film(:)
       real(dp), intent(in) :: factors(0:films_before)
       integer, intent(in) :: j
@@ -87,7 +86,7 @@ contains
                   + factors(3)*self%films(:, j, 3))
    end function added
 
-   !> Largest error that a step adds within the contact along a row, over the film there
+   !> Largest relative error of the film added by a step within the contact along row j
    pure real(dp) function worst(self, x, film, steps, half_width, j)
       class(duty_error_t), intent(in) :: self
       real(dp), intent(in) :: x(:), film(:), steps(films_before), half_width
@@ -95,7 +94,7 @@ contains
       worst = maxval(added(self, film, factors_of(steps), j)/film, mask=abs(x) <= half_width)
    end function worst
 
-   !> Accept a step: errors move with the flow, towards larger X, and its own are added
+   !> Accept a step: move the errors with the flow, towards larger X, and add that of the step
    subroutine add(self, x, film, steps, displacement, half_width)
       class(duty_error_t), intent(inout) :: self
       real(dp), intent(in) :: x(:), film(:, :), steps(films_before)
@@ -121,7 +120,7 @@ contains
       end do
    end subroutine add
 
-   !> Largest error in a row up to a node, which it may reach earlier or later than with the mean velocity
+   !> Largest error in row j up to node i, since errors may move faster or slower than the mean velocity
    pure real(dp) function upstream(self, i, j)
       class(duty_error_t), intent(in) :: self
       integer, intent(in) :: i, j

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Time steps under a changing duty: how long they are
+!> Length of the time steps under a duty (docs/theory/duty.md)
 module ehl_duty_steps
    use ehl_duty, only: duty_state_t, duty_t
    use ehl_kinds, only: dp
@@ -7,34 +7,34 @@ module ehl_duty_steps
    private
    public :: duty_steps_t, kept_numbers
 
-   !> Longest step: that by the mesh and the largest speed over this share
-   real(dp), parameter :: slowest = 0.1_dp
+   !> Smallest speed, over the largest, from which the step is computed
+   real(dp), parameter :: min_speed = 0.1_dp
    !> Largest change of load, curvature, viscosity, layer (of the larger value) and of mean velocity (of the largest) in a step
    real(dp), parameter :: max_change = 0.1_dp
-   !> A step is at most so many times the one before: with more than 2.4 backward differences are not stable
+   !> Largest ratio of a step to the previous one; above 2.4 BDF2 is unstable
    real(dp), parameter :: growth = 1.5_dp
-   !> Steps that do not converge are cut by half so many times, those that miss the error so many
-   integer, parameter :: max_cuts = 8, max_for_error = 5
-   !> Share of the target error that a step may have, however short it is: smaller errors are below those of the residual and of
-   !> the minimum film, which jumps from node to node
-   real(dp), parameter :: min_share = 0.05_dp
-   !> Time in which the film passes the contact [a/u]: errors of its steps add up
+   !> Maximum number of halvings of a step that does not converge, and of one with too large an error
+   integer, parameter :: max_cuts = 8, max_error_cuts = 5
+   !> Fraction of the target error allowed in a step of any length: smaller errors are below those of the residual and of the
+   !> minimum film, which jumps from node to node
+   real(dp), parameter :: min_fraction = 0.05_dp
+   !> Time in which the film passes through the contact and the errors of its steps add up [a/u]
    real(dp), parameter :: transit = 2.0_dp
-   !> With a target error steps may be so many times as long as by the mesh
-   real(dp), parameter :: longest = 4.0_dp
-   !> Numbers of it in a saved state
+   !> Largest step with a target error, over that from the mesh size
+   real(dp), parameter :: max_step_factor = 4.0_dp
+   !> Size of the saved state
    integer, parameter :: kept_numbers = 5
 
    type :: duty_steps_t
-      !> Last steps, the latest first; 0: none yet
+      !> Previous steps, the latest first; 0: none yet
       real(dp) :: steps(3) = 0.0_dp
-      !> Factor for the next step by the error of the last one
-      real(dp) :: wanted = 1.0_dp
-      !> Times that the present step was cut
+      !> Factor of the next step from the error of the last one
+      real(dp) :: next_factor = 1.0_dp
+      !> Number of halvings of the present step
       integer :: cuts = 0
    contains
       procedure :: next
-      procedure :: judge
+      procedure :: assess
       procedure :: before
       procedure :: keep
       procedure :: cut
@@ -50,25 +50,25 @@ contains
       class(duty_steps_t), intent(in) :: self
       type(duty_t), intent(in) :: duty
       real(dp), intent(in) :: time, mesh
-      !> Whether rough surfaces move, so that the faster one counts
+      !> Whether rough surfaces move, so that the speed of the faster one counts
       logical, intent(in) :: moves
       type(duty_state_t) :: now, then
-      real(dp) :: speed, slow, share, knots(2)
+      real(dp) :: speed, slow, factor, knots(2)
       integer :: k
 
       now = duty%at(time)
-      slow = slowest*duty%fastest()
-      share = duty%step_share
-      step = share*mesh/max(slow, speed_of(now))
+      slow = min_speed*duty%fastest()
+      factor = duty%step_factor
+      step = factor*mesh/max(slow, speed_of(now))
       if (self%steps(1) > 0.0_dp) then
-         if (duty%target_error > 0.0_dp) share = longest*share
-         step = min(share*mesh/max(slow, speed_of(now)), self%steps(1)*min(growth, self%wanted))
+         if (duty%target_error > 0.0_dp) factor = max_step_factor*factor
+         step = min(factor*mesh/max(slow, speed_of(now)), self%steps(1)*min(growth, self%next_factor))
       end if
       do k = 1, max_cuts
          then = duty%at(time + step)
          speed = max(slow, speed_of(then))
-         if (step > 1.001_dp*share*mesh/speed) then
-            step = max(0.5_dp*step, share*mesh/speed)
+         if (step > 1.001_dp*factor*mesh/speed) then
+            step = max(0.5_dp*step, factor*mesh/speed)
          else if (changes(now, then)) then
             step = 0.5_dp*step
          else
@@ -76,14 +76,14 @@ contains
          end if
       end do
       step = step*0.5_dp**self%cuts
-      ! a step ends at a row of the table, unless rows are as close as steps
+      ! end the step at a row of the table unless the rows are as close as the steps
       knots = duty%next_knot(time)
       if (knots(2) - knots(1) > step .or. knots(1) > duty%end_time() - 1.0e-9_dp*duty%length()) then
-         associate (left => knots(1) - time)
-            if (left < 1.001_dp*step) then
-               step = left
-            else if (left < 2.0_dp*step) then
-               step = 0.5_dp*left
+         associate (remaining => knots(1) - time)
+            if (remaining < 1.001_dp*step) then
+               step = remaining
+            else if (remaining < 2.0_dp*step) then
+               step = 0.5_dp*remaining
             end if
          end associate
       end if
@@ -96,7 +96,7 @@ contains
          if (moves) speed_of = max(speed_of, maxval(abs(state%speeds)))
       end function speed_of
 
-      !> Whether too much changes in a step
+      !> Whether the conditions change too much in a step
       pure logical function changes(a, b)
          type(duty_state_t), intent(in) :: a, b
          real(dp) :: before(5), after(5)
@@ -108,7 +108,7 @@ contains
       end function changes
    end function next
 
-   !> Step over the one before it; 1 at the beginning, before which all is steady
+   !> Ratio of a step to the previous one; 1 for the first, before which the contact is steady
    pure real(dp) function ratio(self, step)
       class(duty_steps_t), intent(in) :: self
       real(dp), intent(in) :: step
@@ -117,24 +117,24 @@ contains
       if (self%steps(1) > 0.0_dp) ratio = step/self%steps(1)
    end function ratio
 
-   !> Assess the error that a step adds: not good if it exceeds the target and the step can be cut
-   subroutine judge(self, duty, step, speed, error, good)
+   !> Test the error added by a step: not good if it exceeds the target and the step may be halved
+   subroutine assess(self, duty, step, speed, error, good)
       class(duty_steps_t), intent(inout) :: self
       type(duty_t), intent(in) :: duty
-      !> Mean velocity; error of the films, relative
+      !> Mean velocity; relative error of the films
       real(dp), intent(in) :: step, speed, error
       logical, intent(out) :: good
       real(dp) :: allowed
 
       good = .true.
-      self%wanted = growth
+      self%next_factor = growth
       if (.not. duty%target_error > 0.0_dp) return
-      allowed = duty%target_error*max(min_share, step*max(abs(speed), slowest*duty%fastest())/transit)
-      self%wanted = min(growth, max(0.5_dp, 0.8_dp*(allowed/max(error, tiny(1.0_dp)))**(1.0_dp/3.0_dp)))
-      good = error <= allowed .or. self%cuts >= max_for_error
-   end subroutine judge
+      allowed = duty%target_error*max(min_fraction, step*max(abs(speed), min_speed*duty%fastest())/transit)
+      self%next_factor = min(growth, max(0.5_dp, 0.8_dp*(allowed/max(error, tiny(1.0_dp)))**(1.0_dp/3.0_dp)))
+      good = error <= allowed .or. self%cuts >= max_error_cuts
+   end subroutine assess
 
-   !> A step of this length, and those before it; before the first one all is steady, so that they may be as long as it
+   !> A step and the previous ones; before the first one the contact is steady, so that they may have its length
    pure function before(self, step) result(steps)
       class(duty_steps_t), intent(in) :: self
       real(dp), intent(in) :: step
@@ -153,7 +153,7 @@ contains
       self%cuts = 0
    end subroutine keep
 
-   !> Cut the step; whether that is still possible
+   !> Halve the step; false if the maximum number of halvings is reached
    logical function cut(self)
       class(duty_steps_t), intent(inout) :: self
 
@@ -165,7 +165,7 @@ contains
    pure function pack_numbers(self) result(numbers)
       class(duty_steps_t), intent(in) :: self
       real(dp) :: numbers(kept_numbers)
-      numbers = [self%steps, self%wanted, real(self%cuts, dp)]
+      numbers = [self%steps, self%next_factor, real(self%cuts, dp)]
    end function pack_numbers
 
    !> Restore the state from numbers
@@ -174,7 +174,7 @@ contains
       real(dp), intent(in) :: numbers(kept_numbers)
 
       self%steps = numbers(1:3)
-      self%wanted = numbers(4)
+      self%next_factor = numbers(4)
       self%cuts = nint(numbers(5))
    end subroutine unpack_numbers
 end module ehl_duty_steps

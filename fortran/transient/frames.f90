@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Frames of a transient run: pressure and film at intervals of time
+!> Frames of a transient run: pressure and film at time intervals
 module ehl_frames
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
@@ -11,9 +11,9 @@ module ehl_frames
    public :: frames_t
 
    type :: frames_t
-      !> Frames so far
+      !> Number of frames
       integer :: n = 0
-      !> Time [a/u] of each; P and H on the whole domain, (nx, full_ny). Places behind the last frame are spare.
+      !> Time [a/u] of each; P and H on the whole domain, shape (nx, full_ny). The arrays may be longer than n.
       real(dp), allocatable :: times(:)
       type(matrix_t), allocatable :: p(:), h(:)
    contains
@@ -24,7 +24,7 @@ module ehl_frames
 
 contains
 
-   !> No frame yet
+   !> Start without frames
    subroutine start(self)
       class(frames_t), intent(inout) :: self
 
@@ -33,17 +33,17 @@ contains
       allocate (self%times(16), self%p(16), self%h(16))
    end subroutine start
 
-   !> Keep P and H after a step if a frame is due: after every step where the interval is no longer than a step
+   !> Keep P and H after a step if a frame is due: after every step if the interval is at most a step
    subroutine keep(self, level, time, time_step, interval, status)
       class(frames_t), intent(inout) :: self
       type(level_t), intent(in) :: level
       real(dp), intent(in) :: time, time_step
-      !> Time from frame to frame; 0: none
+      !> Time between frames; 0: no frames
       real(dp), intent(in) :: interval
       type(status_t), intent(inout) :: status
 
       if (interval <= 0.0_dp) return
-      ! no integers: the number of intervals may exceed the largest
+      ! real numbers, as the number of intervals may exceed the largest integer
       if (interval > time_step .and. .not. aint(time/interval) > aint((time - time_step)/interval)) return
       call self%add(level%grid, status)
       if (status%failed()) return
@@ -52,7 +52,7 @@ contains
       call level%grid%unfold(gap(level), self%h(self%n)%values)
    end subroutine keep
 
-   !> Room for one more frame
+   !> Allocate another frame
    subroutine add(self, grid, status)
       class(frames_t), intent(inout) :: self
       type(grid_t), intent(in) :: grid
@@ -74,7 +74,7 @@ contains
       end if
    end subroutine add
 
-   !> Twice as many places; the matrices stay where they are
+   !> Double the size of the array without copying the matrices
    subroutine double(matrices)
       type(matrix_t), allocatable, intent(inout) :: matrices(:)
       type(matrix_t), allocatable :: more(:)

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The mean of the friction ratio over whole periods, and whether it has settled
+!> Mean of the friction ratio over whole periods, and the criterion that it has settled
 module ehl_friction_mean
    use ehl_kinds, only: dp
    use ehl_status, only: ehl_no_memory, status_t
@@ -8,32 +8,30 @@ module ehl_friction_mean
    private
    public :: friction_mean_t, periods_compared, automatic_periods
 
-   !> The last period is compared with those that end earlier, one by one, by these shares of the longest lag: half a
-   !> period, where a period holds several ones of the slowest surface half of such a one, or what a run that begins with
-   !> the contact full of roughness asks for
+   !> The mean of the last period is compared with those of periods that end earlier by these fractions of the longest lag, which
+   !> is half a period of the slowest surface unless a predicted start sets a shorter one
    real(dp), parameter :: lags(*) = [0.25_dp, 0.5_dp, 0.75_dp, 1.0_dp]
    real(dp), parameter :: longest_lag = 0.5_dp
-   !> The mean is that of one period. Where it has not settled after so many of them it is that of all periods but the
-   !> first ones, in which the effect of the start decays: pressure peaks of single nodes determine the friction then, and
-   !> since a period is no whole number of steps, each period samples other phases of them
-   real(dp), parameter :: several = 20.0_dp
+   !> The mean is taken over one period, or after this many periods over all but the first `start_up` ones, in which the effect of
+   !> the start decays. A mean that settles so late is dominated by pressure peaks of single nodes, of which each period samples
+   !> other phases, as it is not a whole number of steps.
+   real(dp), parameter :: many_periods = 20.0_dp
    integer, parameter :: start_up = 2
-   !> Periods of the slowest surface after which a run whose mean has not settled is stopped; the slowest known one settled
-   !> after 21
+   !> Periods of the slowest surface after which an unsettled run is stopped; the slowest known run settled after 21
    integer, parameter :: automatic_periods = 36
 
    !> Friction ratio at equidistant times
    type :: friction_mean_t
-      !> Period and time between values
+      !> Period, and time between values
       real(dp) :: period = 0.0_dp, time_step = 0.0_dp
-      !> Periods of the slowest surface in it, and the part of a period by which another one misses its start after it
+      !> Periods of the slowest surface in a period, and the mismatch of the other surface after it as a fraction of its period
       integer :: repeats = 1
       real(dp) :: mismatch = 0.0_dp
-      !> Longest time between means that are compared, in periods
+      !> Longest lag between means that are compared, in periods
       real(dp) :: lag = longest_lag
-      !> Time after which the start has no effect; 0: not considered
+      !> Time after which the start has no effect; 0: not used
       real(dp) :: transit = 0.0_dp
-      !> Steps before the roughness fills the contact: they belong to no mean
+      !> Steps before the roughness fills the contact, which belong to no mean
       integer :: filled = 0
       integer :: n = 0
       real(dp), allocatable :: values(:)
@@ -58,23 +56,23 @@ module ehl_friction_mean
 
 contains
 
-   !> Periods until a mean can be compared with earlier ones
+   !> Number of periods until a mean can be compared with earlier ones
    pure real(dp) function periods_compared(repeats)
       !> Periods of the slowest surface in a period
       integer, intent(in) :: repeats
       periods_compared = 1.0_dp + longest_lag/repeats
    end function periods_compared
 
-   !> Forget all values; the roughness fills the contact after time_filled
+   !> Start without values; the roughness fills the contact after time_filled
    subroutine start(self, period, repeats, mismatch, time_step, time_filled, lag, transit)
       class(friction_mean_t), intent(inout) :: self
       real(dp), intent(in) :: period, time_step, time_filled
-      !> Periods of the slowest surface in a period, and the part of a period by which another one misses its start after it
+      !> As in friction_mean_t
       integer, intent(in) :: repeats
       real(dp), intent(in) :: mismatch
-      !> Longest time between means that are compared; half a period of the slowest at the most, which is the default
+      !> Longest lag [a/u]; the default and the maximum are half a period of the slowest surface
       real(dp), intent(in), optional :: lag
-      !> Time after which nothing is left of what the run began with
+      !> Time after which the start has no effect
       real(dp), intent(in), optional :: transit
 
       self%period = period
@@ -90,7 +88,7 @@ contains
       if (.not. allocated(self%values)) allocate (self%values(1024), self%film(1024), self%roughness(1024))
    end subroutine start
 
-   !> Add the values of the next step: friction ratio, film and roughness at X = Y = 0
+   !> Append the values of a step: friction ratio, film and roughness at X = Y = 0
    subroutine append(self, value, film, roughness, status)
       class(friction_mean_t), intent(inout) :: self
       real(dp), intent(in) :: value, film, roughness
@@ -108,7 +106,7 @@ contains
       self%roughness(self%n) = roughness
    end subroutine append
 
-   !> Twice as many places
+   !> Double the size of an array
    subroutine double(values, status)
       real(dp), allocatable, intent(inout) :: values(:)
       type(status_t), intent(inout) :: status
@@ -124,8 +122,7 @@ contains
       call move_alloc(more, values)
    end subroutine double
 
-   !> A_d/A_i at X = Y = 0: the standard deviation of the film there over the last period, over that of
-   !> the roughness that passes
+   !> A_d/A_i at X = Y = 0: ratio of the standard deviations of film and roughness there over the last period
    pure real(dp) function amplitude_ratio(self)
       class(friction_mean_t), intent(in) :: self
       integer :: first
@@ -139,17 +136,17 @@ contains
       deviation = sqrt(sum((v - sum(v)/size(v))**2)/size(v))
    end function deviation
 
-   !> Periods since the contact was filled
+   !> Number of periods since the contact was filled
    pure real(dp) function periods(self)
       class(friction_mean_t), intent(in) :: self
       periods = (self%n - max(self%filled, 1))*self%time_step/self%period
    end function periods
 
-   !> Length of the whole periods that the mean is taken over [a/u]
+   !> Length of the averaging window, whole periods [a/u]
    pure real(dp) function window(self)
       class(friction_mean_t), intent(in) :: self
       window = self%period
-      if (self%periods() >= several) window = self%period*int(self%periods() - start_up)
+      if (self%periods() >= many_periods) window = self%period*int(self%periods() - start_up)
    end function window
 
    !> Whether a whole period has passed since the contact was filled
@@ -164,8 +161,7 @@ contains
       has_change = self%periods() >= 1.0_dp + self%lag
    end function has_change
 
-   !> Mean over the whole periods that end `lag` before the last value: the exact integral of the
-   !> polygon through the values
+   !> Mean over the window that ends `lag` before the last value: the exact integral of the polygon through the values
    pure real(dp) function mean(self, lag)
       class(friction_mean_t), intent(in) :: self
       real(dp), intent(in) :: lag
@@ -176,8 +172,8 @@ contains
       mean = integral(self%values(:self%n), last - length, last)/length
    end function mean
 
-   !> Integral of the polygon through values between two positions in steps, the first value at 1. Values outside
-   !> have no effect, however large.
+   !> Integral of the polygon through values between two positions [steps], the first value at 1. Values outside have no effect,
+   !> even if not finite.
    pure real(dp) function integral(values, from, to)
       real(dp), intent(in) :: values(:), from, to
       integer :: first, last
@@ -193,7 +189,7 @@ contains
                  + 0.5_dp*(values(last) + at(values, to))*(to - last)
    end function integral
 
-   !> The polygon through values at a position in steps
+   !> Polygon through values at a position [steps]
    pure real(dp) function at(values, position)
       real(dp), intent(in) :: values(:), position
       integer :: k
@@ -202,7 +198,7 @@ contains
       at = values(k) + (position - k)*(values(k + 1) - values(k))
    end function at
 
-   !> Smallest and largest value of the periods that the mean is taken over
+   !> Smallest and largest value in the averaging window
    pure function extremes(self) result(range)
       class(friction_mean_t), intent(in) :: self
       real(dp) :: range(2)
@@ -212,21 +208,21 @@ contains
       end associate
    end function extremes
 
-   !> First of the values that the mean is taken over; it ends with the last one
+   !> Index of the first value in the averaging window, which ends with the last value
    pure integer function first_of_mean(self)
       class(friction_mean_t), intent(in) :: self
       first_of_mean = max(1, self%n - int(self%window()/self%time_step))
    end function first_of_mean
 
-   !> Largest difference between the last mean and the earlier ones; of a mean over several periods half of the
-   !> largest difference to its first, middle and last half, for it comes nearer with its length
+   !> Largest difference between the last mean and the earlier ones; of a mean over many periods half of the largest difference to
+   !> the means over its first, middle and last half
    pure real(dp) function change(self)
       class(friction_mean_t), intent(in) :: self
       real(dp) :: length, last, half
       integer :: k
 
       change = 0.0_dp
-      if (self%periods() < several) then
+      if (self%periods() < many_periods) then
          do k = 1, size(lags)
             change = max(change, abs(self%mean(lags(k)*(self%lag*self%period)) - self%mean(0.0_dp)))
          end do
@@ -240,14 +236,14 @@ contains
       end do
    end function change
 
-   !> Error of the mean by the end of the run: its change, as often as it can recur until the start has no effect
+   !> Error of the mean at the end of the run: its change, times the number of lags until the start has no effect
    pure real(dp) function uncertainty(self)
       class(friction_mean_t), intent(in) :: self
       uncertainty = self%change()*max(1.0_dp, (self%transit + self%window() - self%n*self%time_step)/(self%lag*self%period))
    end function uncertainty
 
-   !> Whether the mean changes no more than by this share of it; a mean over several periods, of what has peaks
-   !> of many times itself, by this share of the largest value; without a common period, than by its window too
+   !> Whether the relative change of the mean is within the tolerance. The scale is the mean, or over many periods, with peaks far
+   !> above the mean, the largest value. Without a common period the error of the window is added.
    pure logical function settled(self, tolerance)
       class(friction_mean_t), intent(in) :: self
       real(dp), intent(in) :: tolerance
@@ -256,16 +252,16 @@ contains
       settled = .false.
       if (.not. self%has_change()) return
       scale = self%mean(0.0_dp)
-      if (self%periods() >= several) then
+      if (self%periods() >= many_periods) then
          range = self%extremes()
          scale = range(2)
       end if
       settled = self%change() <= tolerance*scale + self%window_error()
    end function settled
 
-   !> Error of a mean over a time that is no common period of two surfaces. The worst case is a product of waves
-   !> with one period in that time, of which it holds 1 - m or 1 + m, m being the mismatch. At most
-   !> sin(pi m)/(pi (1 - m)) of the amplitude is left, which is less than m times the range for m up to a quarter.
+   !> Error of a mean over a window that is no common period of two surfaces. The worst case is a product of waves of which the
+   !> window holds 1 - m or 1 + m periods, with the mismatch m. At most sin(pi m)/(pi (1 - m)) of the amplitude remains in the
+   !> mean, which is less than m times the range for m up to a quarter.
    pure real(dp) function window_error(self)
       class(friction_mean_t), intent(in) :: self
       real(dp) :: range(2)

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Predicted start: time steps begin with the contact full of roughness, with a predicted pressure increase by it. The steps
-!> correct its errors: a wrong film leaves the contact with the mean velocity.
+!> Predicted start: the time steps begin with the contact filled with roughness and a predicted pressure increase. The error of the
+!> predicted film leaves the contact with the mean velocity.
 module ehl_predicted_start
    use ehl_friction_mean, only: periods_compared
    use ehl_grid, only: grid_t
@@ -10,16 +10,16 @@ module ehl_predicted_start
    private
    public :: predicted_start_t, steps_needed, start_fronts, first_mean, start_lag, transit
 
-   !> The times, in steps before the start: the last three of this run and of the one on the next coarser grid
+   !> Times [steps before the start]: the last three of this run and of the run on the next coarser grid
    integer, parameter :: steps_ago(4) = [0, 1, 2, 4]
-   !> Time after which the friction may belong to a mean, when the film of the start has come from X = -1 to 0.5, beyond
-   !> which there is little friction; time between means that are compared then; time after which it has left the contact [a/u]
+   !> Times [a/u]: after which the friction counts in the mean, as the initial film has moved from X = -1 to 0.5, beyond which
+   !> there is little friction; between means that are compared; after which the initial film has left the contact
    real(dp), parameter :: first_mean = 1.5_dp, start_lag = 0.125_dp, transit = 2.0_dp
 
    type :: predicted_start_t
       !> Time of the start
       real(dp) :: time = 0.0_dp
-      !> Pressure that the roughness adds at the times of `steps_ago`, (nx, ny, 4), scaled by p_h
+      !> Predicted pressure increase by the roughness at the times of `steps_ago` [p_h], shape (nx, ny, 4)
       real(dp), allocatable :: pressure(:, :, :)
    contains
       procedure :: take
@@ -28,13 +28,13 @@ module ehl_predicted_start
 
 contains
 
-   !> Time steps until the mean friction over a period can be compared with an earlier one, or the passage ends
+   !> Number of time steps until the mean friction over a period can be compared with an earlier one, or the passage ends
    real(dp) function steps_needed(surfaces, time_step, skip, filled, periods)
       class(moving_surfaces_t), intent(in) :: surfaces
       real(dp), intent(in) :: time_step
-      !> Whether the steps before the roughness comes near the contact are not made; whether it fills the contact at the start
+      !> Whether the steps before the roughness comes near the contact are skipped; whether it fills the contact at the start
       logical, intent(in) :: skip, filled
-      !> Periods after which the run ends if its mean has not settled: the steps until then
+      !> Periods after which the run ends if its mean has not settled; if present, the steps until then
       real(dp), intent(in), optional :: periods
       real(dp) :: from, time
 
@@ -50,8 +50,8 @@ contains
       steps_needed = (max(0.0_dp, surfaces%time_to_mean(from)) + time)/time_step
    end function steps_needed
 
-   !> Time at which the roughness fills the domain, as it does at the earlier times of `steps_ago`; a whole number of steps of
-   !> the next coarser grid
+   !> Start time at which the roughness fills the domain, also at the earlier times of `steps_ago`; a whole number of steps of the
+   !> next coarser grid
    pure real(dp) function start_time(surfaces, grid)
       class(moving_surfaces_t), intent(in) :: surfaces
       type(grid_t), intent(in) :: grid
@@ -61,7 +61,7 @@ contains
       start_time = step*(ceiling(max(0.0_dp, surfaces%time_filled(grid%x(grid%nx)))/step) + maxval(steps_ago)/2)
    end function start_time
 
-   !> Positions of the front of each surface at the times that a pressure is needed at [a], (4, surfaces)
+   !> Positions of the front of each surface at the times of `steps_ago` [a], shape (4, surfaces)
    pure function start_fronts(surfaces, grid) result(fronts)
       class(moving_surfaces_t), intent(in) :: surfaces
       type(grid_t), intent(in) :: grid
@@ -78,7 +78,7 @@ contains
       class(predicted_start_t), intent(inout) :: self
       class(moving_surfaces_t), intent(in) :: surfaces
       type(grid_t), intent(in) :: grid
-      !> On the whole of the grid, (nx, full_ny, 4), scaled by p_h
+      !> On the whole grid [p_h], shape (nx, full_ny, 4)
       real(dp), intent(in) :: pressure(:, :, :)
       integer :: j
 

@@ -1,10 +1,9 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> First approximation of the pressure of a time step: a weighted mean of several extrapolations in time. Each node
-!> weights them by their errors around it in the previous step, measured by their effect in the equation:
-!> where the lubricant flows, a small rough error is a large residual. The extrapolation of first order is for nodes where
-!> the algebraic error of a step is larger than the change from step to step: the second order would double it.
-!> The weights must not change steeply from node to node: between candidates that differ this would make the
-!> pressure rough.
+!> First approximation of the pressure of a time step: a weighted mean of several extrapolations in time. The weights at a node
+!> depend on their errors around it in the previous step, measured by their effect in the Reynolds equation: where the conductance
+!> is high, a small rough error gives a large residual. First-order extrapolation is for nodes where the algebraic error of a step
+!> exceeds the change per step, which second order would double. The weights vary smoothly, since steep changes between different
+!> candidates would roughen the pressure.
 module ehl_predictor
    use ehl_kinds, only: dp
    use ehl_level, only: cavitate, level_t, stay_cavitated
@@ -13,20 +12,20 @@ module ehl_predictor
    private
    public :: predictor_t
 
-   !> Errors are compared over squares of (2 reach + 1)^2 nodes
+   !> Errors are summed over (2 reach + 1)^2 nodes
    integer, parameter :: reach = 2
-   !> Negligible errors
+   !> Negligible error, which avoids a division by zero
    real(dp), parameter :: min_error = 1.0e-60_dp
 
    type :: predictor_t
-      !> Extrapolations: of second order at the node, for what is stationary, and at the nodes upstream along each moving
-      !> surface, for what moves with it; of first order at the node
+      !> Number of extrapolations: of second order at the node, for stationary fields; of second order at the nodes upstream, for
+      !> fields that move with each surface; of first order at the node
       integer, private :: candidates = 3
-      !> Weights of the candidates but the first, which has the rest; (nx, ny, candidates - 1)
+      !> Weights of the candidates 2 and on, shape (nx, ny, candidates - 1); the first candidate has the rest
       real(dp), allocatable :: weights(:, :, :)
-      !> Errors of the candidates in the last step by their weight in the equation; (nx, ny, candidates)
+      !> Squared errors of the candidates in the last step, weighted by their effect, shape (nx, ny, candidates)
       real(dp), allocatable, private :: error(:, :, :)
-      !> Nodes that the surfaces move in a step
+      !> Displacements of the surfaces in a step [nodes]
       real(dp), allocatable :: shifts(:)
    contains
       procedure :: setup
@@ -41,7 +40,7 @@ contains
    subroutine setup(self, nx, ny, shifts, status)
       class(predictor_t), intent(inout) :: self
       integer, intent(in) :: nx, ny
-      !> Nodes that the surfaces move in a step
+      !> Displacements of the surfaces in a step [nodes]
       real(dp), intent(in) :: shifts(:)
       type(status_t), intent(inout) :: status
       integer :: stat
@@ -56,10 +55,10 @@ contains
       if (stat /= 0) call status%fail(ehl_no_memory, "no memory for the predictor of a time step")
    end subroutine setup
 
-   !> Pressure expected from that of the last three steps; nodes that were cavitated stay so
+   !> Extrapolate the pressure from the last three steps; cavitated nodes stay cavitated
    subroutine predict(self, before, level)
       class(predictor_t), intent(in) :: self
-      !> Pressures of the last three steps, the latest first, (nx, ny, 3)
+      !> Pressures of the last three steps, the latest first, shape (nx, ny, 3)
       real(dp), contiguous, intent(in) :: before(:, :, :)
       type(level_t), intent(inout) :: level
       real(dp) :: c(level%grid%nx, self%candidates), p(level%grid%nx)
@@ -80,7 +79,7 @@ contains
       !$omp end parallel do
    end subroutine predict
 
-   !> Update the weights of the candidates by their errors in the solved step
+   !> Update the weights of the candidates from their errors in the solved step
    subroutine learn(self, before, level)
       class(predictor_t), intent(inout) :: self
       !> Pressures of the three steps before that of the level
@@ -107,7 +106,7 @@ contains
       !$omp end parallel do
    end subroutine learn
 
-   !> The candidates of a row
+   !> Candidates in a row
    pure subroutine extrapolate(shifts, p1, p2, p3, c)
       real(dp), intent(in) :: shifts(:)
       !> Pressures of the row in the last three steps, the latest first, shape (nx)
@@ -123,7 +122,7 @@ contains
       former = p2 - p3
       c(:, 1) = p1 + 2.0_dp*last - former
       c(:, size(shifts) + 2) = p1 + last
-      ! from one step and from two steps up a surface's way, linear between nodes
+      ! from one and from two steps upstream along the path of a surface, linear between nodes
       do k = 1, size(shifts)
          c(:, k + 1) = p1
          n = int(shifts(k))
@@ -152,7 +151,7 @@ contains
       weight = weight + flow**2
    end subroutine weigh
 
-   !> Weights of row j: the inverse squared errors around
+   !> Weights of row j: the inverse squared errors in the neighbourhood
    subroutine compare(self, level, j)
       class(predictor_t), intent(inout) :: self
       type(level_t), intent(in) :: level

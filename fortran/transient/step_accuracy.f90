@@ -1,40 +1,37 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Accuracy of the time steps: their algebraic error changes mu_r/mu_s by less than a share of its grid error. Both are
-!> measured in the run, with the friction of a Newtonian lubricant whatever its shear law: that friction is the most
-!> sensitive to the pressure. Where the flow thins, pressure and film are those of the law; the friction of the
-!> law itself is not used: it may hardly differ from the smooth one where pressures still do. Steps that go on after their
-!> first cycle show by how much mu_r/mu_s would have been wrong with the residual after it. The grid error of mu_r/mu_s is
-!> taken to be at least a share of its rise over 1, that of the smooth friction on this grid being the measure; see
-!> docs/design.md.
+!> Tolerance of the time steps: their algebraic error changes mu_r/mu_s by less than a fraction of its grid error (docs/design.md).
+!> Both errors are estimated during the run from the Newtonian friction, which is most sensitive to the pressure, also with a
+!> shear-thinning law. Steps of more than one cycle show the change of mu_r/mu_s due to the residual after the first cycle. The grid
+!> error of mu_r/mu_s is at least a fraction of its increase above 1, times the relative grid error of the smooth friction.
 module ehl_step_accuracy
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
-   public :: step_accuracy_t, step_tolerance, loosest
+   public :: step_accuracy_t, step_tolerance, max_tolerance_ratio
 
-   !> Least grid error of mu_r/mu_s, as a share of its distance from 1 and of the relative error of the smooth friction
-   real(dp), parameter :: rise_share = 0.25_dp
-   !> That distance at the least for steps that belong to no mean yet
-   real(dp), parameter :: rise_before = 0.3_dp
-   !> Steps over which that distance is taken (rms, fading)
+   !> Smallest grid error of mu_r/mu_s over |mu_r/mu_s - 1| times the relative error of the smooth friction
+   real(dp), parameter :: min_error_fraction = 0.25_dp
+   !> Smallest increase assumed in steps that belong to no mean
+   real(dp), parameter :: min_increase = 0.3_dp
+   !> Time constant of the rms of the increase [steps]
    real(dp), parameter :: memory = 64.0_dp
-   !> Interval of steps with an additional cycle, to measure
+   !> Interval of steps with an additional cycle that measures the sensitivity
    integer, parameter :: measured_steps = 30
-   !> Factor by which the weight of an earlier measurement decreases with every new one
+   !> Decay of the largest sensitivity with each measurement
    real(dp), parameter :: fading = 0.9_dp
-   !> Largest tolerance, in strict ones
-   real(dp), parameter :: loosest = 40.0_dp
+   !> Largest tolerance over `strict`
+   real(dp), parameter :: max_tolerance_ratio = 40.0_dp
 
    type :: step_accuracy_t
-      !> Residual (rms) that is small enough for every case
+      !> Rms residual that is small enough for every case
       real(dp) :: strict = 0.0_dp
       !> Newtonian friction of the smooth contact on the same grid
       real(dp) :: friction_smooth = 1.0_dp
-      !> Error of mu_r/mu_s allowed, as a share of its distance from 1; 0: it is not known
+      !> Allowed error of mu_r/mu_s over its increase; 0: not known
       real(dp) :: allowed = 0.0_dp
-      !> Mean square of that distance
-      real(dp) :: rise = 0.0_dp
-      !> Change of mu_r/mu_s by a residual; 0: it is not known
+      !> Mean square of mu_r/mu_s - 1, with Newtonian friction
+      real(dp) :: increase = 0.0_dp
+      !> Change of mu_r/mu_s per residual; 0: not known
       real(dp) :: sensitivity = 0.0_dp
       !> Largest tolerance so far
       real(dp) :: largest = 0.0_dp
@@ -48,8 +45,8 @@ module ehl_step_accuracy
 
 contains
 
-   !> Residual (rms) that leaves the algebraic error of mu_r/mu_s below a tenth of the discretisation error in all cases:
-   !> 8e-5 on h = 1/128 and in proportion to h elsewhere; see docs/design.md
+   !> Rms residual at which the algebraic error of mu_r/mu_s is below a tenth of the discretisation error in all cases: 8e-5 at
+   !> h = 1/128, proportional to h (docs/design.md)
    pure real(dp) function step_tolerance(mesh, accuracy)
       real(dp), intent(in) :: mesh, accuracy
       step_tolerance = 8.0e-4_dp*accuracy*(128.0_dp*mesh)
@@ -58,42 +55,42 @@ contains
    !> Set up for a run
    pure subroutine set(self, mesh, accuracy, friction_smooth, friction_error)
       class(step_accuracy_t), intent(inout) :: self
-      !> Mesh size; allowed algebraic error as a share of the grid error
+      !> Mesh size; allowed algebraic error over the grid error
       real(dp), intent(in) :: mesh, accuracy
-      !> Newtonian friction of the smooth contact, and its relative grid error; 0: that is not known
+      !> Newtonian friction of the smooth contact, and its relative grid error (0: not known)
       real(dp), intent(in) :: friction_smooth, friction_error
 
       self%strict = step_tolerance(mesh, accuracy)
       self%friction_smooth = friction_smooth
-      self%allowed = accuracy*rise_share*friction_error
-      self%rise = 0.0_dp
+      self%allowed = accuracy*min_error_fraction*friction_error
+      self%increase = 0.0_dp
       self%sensitivity = 0.0_dp
       self%largest = self%strict
    end subroutine set
 
-   !> Largest residual (rms) of a step
+   !> Tolerance of the rms residual of a step
    real(dp) function tolerance(self, in_mean)
       class(step_accuracy_t), intent(inout) :: self
-      !> Whether the step counts in the mean of mu_r/mu_s
+      !> Whether the step belongs to the mean of mu_r/mu_s
       logical, intent(in) :: in_mean
-      real(dp) :: rise
+      real(dp) :: increase
 
       tolerance = self%strict
       if (.not. self%sensitivity > 0.0_dp) return
-      rise = sqrt(self%rise)
-      if (.not. in_mean) rise = max(rise, rise_before)
-      tolerance = min(max(self%strict, self%allowed*rise/self%sensitivity), loosest*self%strict)
+      increase = sqrt(self%increase)
+      if (.not. in_mean) increase = max(increase, min_increase)
+      tolerance = min(max(self%strict, self%allowed*increase/self%sensitivity), max_tolerance_ratio*self%strict)
       self%largest = max(self%largest, tolerance)
    end function tolerance
 
-   !> Whether the step makes a cycle more than it needs
+   !> Whether the step makes an additional cycle that measures the sensitivity
    pure logical function measures(self, step)
       class(step_accuracy_t), intent(in) :: self
       integer, intent(in) :: step
       measures = self%sensitivity > 0.0_dp .and. mod(step, measured_steps) == 0
    end function measures
 
-   !> A step that had more than one cycle: Newtonian friction and residual after the first one, and at its end
+   !> Update the sensitivity from Newtonian friction and residual after the first cycle and at the end of a step
    pure subroutine learn(self, friction_first, residual_first, friction, residual)
       class(step_accuracy_t), intent(inout) :: self
       real(dp), intent(in) :: friction_first, residual_first, friction, residual
@@ -104,11 +101,11 @@ contains
       self%sensitivity = max(change/(residual_first - residual), fading*self%sensitivity)
    end subroutine learn
 
-   !> Newtonian friction of a step
+   !> Update the increase from the Newtonian friction of a step
    pure subroutine follow(self, friction)
       class(step_accuracy_t), intent(inout) :: self
       real(dp), intent(in) :: friction
 
-      self%rise = self%rise + ((friction/self%friction_smooth - 1.0_dp)**2 - self%rise)/memory
+      self%increase = self%increase + ((friction/self%friction_smooth - 1.0_dp)**2 - self%increase)/memory
    end subroutine follow
 end module ehl_step_accuracy

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Data that a time step takes from the earlier ones and passes to the next
+!> Geometry of a time step, and the fields passed from step to step
 module ehl_time_levels
    use ehl_contact, only: contact_t
    use ehl_flow, only: dir_x
@@ -11,13 +11,13 @@ module ehl_time_levels
    private
    public :: set_geometry, set_history, keep, mirror
 
-   !> A residual changes partly the squeeze of the film, partly the Poiseuille flow. Half of it is passed on to the next step
-   !> where the flow is so many times the squeeze.
-   real(dp), parameter :: flows_away = 1.0e4_dp
+   !> A residual changes the squeeze of the film and the Poiseuille flow. Ratio of flow to squeeze at which half of the residual is
+   !> passed to the next step.
+   real(dp), parameter :: flow_to_squeeze = 1.0e4_dp
 
 contains
 
-   !> Gap of the undeformed bodies, less the roughness
+   !> Gap of the undeformed bodies minus the roughness
    subroutine set_geometry(level, contact, rr, curvatures)
       type(level_t), intent(inout) :: level
       class(contact_t), intent(in) :: contact
@@ -42,7 +42,7 @@ contains
       !$omp end parallel do
    end subroutine set_geometry
 
-   !> Mirror image of a field, for the reversed motion
+   !> Mirror a field along X, for reversed flow
    subroutine mirror(values)
       real(dp), contiguous, intent(inout) :: values(:, :)
       integer :: j
@@ -52,7 +52,7 @@ contains
       end do
    end subroutine mirror
 
-   !> The part of earlier times in the right-hand side
+   !> Contribution of earlier times to the right-hand side
    subroutine set_history(level, mass_content)
       type(level_t), intent(inout) :: level
       !> Mass content at the earlier times, the latest first, (nx, ny, old_times); see keep
@@ -67,10 +67,10 @@ contains
       !$omp end parallel do
    end subroutine set_history
 
-   !> The present fields become the last ones. The stored mass content is not rho H but the one by the balance of the flow: the
-   !> two differ by the residual of the step, which the next step corrects, so that residuals do not accumulate while they are
-   !> convected through the contact. In the inlet nothing accumulates: the pressure flow evens it out within the step, and
-   !> residuals of sweeps would only be noise in the next steps. Where oil does not fill the gap its content is stored.
+   !> Store the present fields. The stored mass content is not rho H but that of the flow balance, which differs by the residual of
+   !> the step: the next step corrects it, so that residuals do not accumulate while they are convected through the contact. In the
+   !> inlet the Poiseuille flow removes them within the step, and stored ones would only add noise. In a partially filled gap the
+   !> oil content is stored.
    subroutine keep(level, mass_content, p_before)
       type(level_t), intent(in) :: level
       !> Mass content of the last two steps and pressure of the last three, the latest first
@@ -79,7 +79,7 @@ contains
       integer :: i, j
 
       time = 1.0_dp/level%wedge%squeeze
-      ! by a change of pressure at one node, with rho = 1; of it flows away, with eps = 1
+      ! squeeze per change of pressure at one node, with rho = 1; flow per change, with eps = 1
       stored = level%wedge%squeeze*coefficient(level%grid, level%kernel_factor, 0, 0)
       flow = level%poiseuille%flow_rate()
       !$omp parallel do default(none) shared(level, mass_content, p_before, time, stored, flow) private(i, content) &
@@ -90,7 +90,7 @@ contains
             mass_content(i, j, 2) = mass_content(i, j, 1)
             mass_content(i, j, 1) = content(i) &
                                     - time*level%residual(i, j)*stored &
-                                    /(stored + level%flow%eps(i, j, dir_x)*flow/flows_away)
+                                    /(stored + level%flow%eps(i, j, dir_x)*flow/flow_to_squeeze)
             p_before(i, j, 3) = p_before(i, j, 2)
             p_before(i, j, 2) = p_before(i, j, 1)
             p_before(i, j, 1) = level%p(i, j)

@@ -193,7 +193,7 @@ class Inlet:
     )
 
     @property
-    def is_short_of_oil(self) -> bool:
+    def is_starved(self) -> bool:
         """Whether the inlet is meant to be short of oil."""
         return max(self.position_hertz, self.film_hertz) > 0.0
 

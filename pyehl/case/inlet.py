@@ -41,7 +41,7 @@ def check(draft: Draft) -> None:
     if inlet.passages > 1 and not film > 0.0:
         what = "inlet.passages without inlet.film"
         draft.refuse("inlet.passages", what, "the layer of the first passage")
-    if not inlet.is_short_of_oil:
+    if not inlet.is_starved:
         return
     point = physics.point(s)
     scale = point.length**2 / s.contact.radius_x if s.contact.si else 0.0

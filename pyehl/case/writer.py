@@ -93,7 +93,7 @@ def _unwritten(settings: Settings, group: str) -> frozenset[str]:
     if group == "contact":
         return frozenset(_of_contact(settings))
     if group in ("bodies", "inlet"):
-        holds = settings.bodies.given if group == "bodies" else settings.inlet.is_short_of_oil
+        holds = settings.bodies.given if group == "bodies" else settings.inlet.is_starved
         return frozenset(() if holds else (key.key for key in GROUPS[group]))
     if group == "lubricant":
         return frozenset(_of_lubricant(settings))

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> A stationary rough surface: the steady contact with a share of the roughness at its place in the film equation, and when it is
-!> solved (the loop: ehl_stationary_rough)
-module ehl_stationary_share
+!> The steady contact with a stationary rough surface: a fraction of the roughness in the film equation, increased to 1, and the
+!> convergence at each fraction (the loop: ehl_stationary_rough)
+module ehl_stationary_state
    use ehl_contact, only: contact_t
    use ehl_contact_results, only: contact_results_t, load_tolerance, measure
    use ehl_cycle, only: cycle_options_t, damped_cycle
@@ -20,41 +20,41 @@ module ehl_stationary_share
    private
    public :: stationary_t
 
-   !> Relative algebraic error of a friction integral, as a share of the required accuracy; that of an intermediate share of
+   !> Algebraic error of the friction integral over the required accuracy; relative error allowed at an intermediate fraction of
    !> the roughness
-   real(dp), parameter :: friction_tolerance = 1.0e-3_dp, share_tolerance = 3.0e-2_dp
-   !> Relative errors of the force balance that scaling of the pressure may correct, at a boundary film
+   real(dp), parameter :: friction_tolerance = 1.0e-3_dp, fraction_tolerance = 3.0e-2_dp
+   !> Largest relative error of the force balance that scaling the pressure may correct at a boundary film
    real(dp), parameter :: small_load_error = 1.0e-5_dp
-   !> At a boundary film lubricant that is left between touching nodes goes on by some three nodes a cycle, through half of
-   !> the nodes along X at most: so many cycles for each of these, at least, are a share's
-   real(dp), parameter :: cycles_a_node = 0.5_dp
-   !> Error of the load after some cycles from which no share of the roughness there converges
-   real(dp), parameter :: lost_load = 1.0_dp
-   integer, parameter :: lost_after = 10
-   !> Smallest part of the roughness that is tried
+   !> Smallest cycle limit of a fraction at a boundary film, per node along X: lubricant trapped between nodes in solid contact
+   !> moves about three nodes per cycle, through at most half of the nodes
+   real(dp), parameter :: cycles_per_node = 0.5_dp
+   !> Relative error of the load at a boundary film above which the cycles are stopped, and the cycles made before this test
+   real(dp), parameter :: max_load_error = 1.0_dp
+   integer, parameter :: load_test_after = 10
+   !> Smallest step of the fraction
    real(dp), parameter :: min_step = 1.0_dp/64.0_dp
 
-   !> The state of the iteration is that with the present share of the roughness
+   !> Iteration at the present fraction of the roughness
    type, extends(iteration_t) :: stationary_t
       class(contact_t), allocatable, private :: contact
-      !> Whether the smooth contact is still being solved, to the accuracy of the friction
+      !> Whether the smooth contact is still being solved to the accuracy required of the friction
       logical :: smooth = .true.
-      !> Whether the next share of the roughness is to be added before the next cycle
+      !> Whether to increase the fraction before the next cycle
       logical :: due = .false.
-      !> Share of the roughness in the film now, the last share that was solved, and the next step
-      real(dp) :: share = 0.0_dp, share_done = 0.0_dp, share_step = 1.0_dp
-      !> Shares begun, cycles in all
+      !> Fraction of the roughness in the film, the last fraction that was solved, and the next step
+      real(dp) :: fraction = 0.0_dp, fraction_done = 0.0_dp, fraction_step = 1.0_dp
+      !> Number of fractions started; total cycles
       integer :: parts = 0, total_cycles = 0
-      !> Relative algebraic error of the friction integral, as estimated, and the last change of it
+      !> Estimated relative algebraic error of the friction integral, and its last relative change
       real(dp) :: algebraic = 0.0_dp, change = 0.0_dp
       !> Friction integral of the smooth contact
       real(dp) :: friction_smooth = 1.0_dp
       real(dp), private :: tolerance = 1.0e-4_dp
-      !> Its cycles, unless bodies touch
+      !> Options of cycles without solid contact
       type(cycle_options_t), private :: cycle
-      !> Whether the error of a contact that touches at a boundary film is that of its load share, and not of the friction
+      !> Whether the convergence with solid contact is judged by the load share instead of the friction
       logical, private :: by_load_share = .false.
-      !> The roughness [a^2/R], pressure of the smooth contact and of the last share solved, (nx, ny)
+      !> The roughness [a^2/R], and the pressure at the last fraction that was solved, shape (nx, ny)
       real(dp), allocatable :: rr(:, :), p_done(:, :)
       real(dp) :: h00_done = 0.0_dp
    contains
@@ -63,23 +63,23 @@ module ehl_stationary_share
       procedure :: estimate_error
       procedure :: may_scale_load
       procedure :: converged
-      procedure :: lost
+      procedure :: load_diverged
       procedure :: accept
       procedure :: reject
-      procedure :: add_share
+      procedure :: add_roughness
       procedure :: mu_ratio
    end type stationary_t
 
 contains
 
-   !> Begin from the smooth solution of level n
+   !> Start from the smooth solution of level n
    subroutine start(self, level, n, contact, surfaces, options, status)
       class(stationary_t), intent(inout) :: self
       type(level_t), intent(inout) :: level
       integer, intent(in) :: n
       class(contact_t), intent(in) :: contact
       class(moving_surfaces_t), intent(inout) :: surfaces
-      !> As the smooth contact; the most cycles are those for a share of the roughness
+      !> As for the smooth contact; the cycle limit applies to each fraction of the roughness
       type(steady_options_t), intent(in) :: options
       type(status_t), intent(inout) :: status
       integer :: stat
@@ -89,7 +89,7 @@ contains
       self%n = n
       self%cycle = options%cycle
       self%max_cycles = options%max_cycles
-      if (level%boundary%active) self%max_cycles = max(options%max_cycles, int(cycles_a_node*level%grid%nx))
+      if (level%boundary%active) self%max_cycles = max(options%max_cycles, int(cycles_per_node*level%grid%nx))
       self%tolerance = friction_tolerance*options%accuracy
       if (allocated(self%rr)) deallocate (self%rr, self%p_done)
       allocate (self%rr(level%grid%nx, level%grid%ny), self%p_done(level%grid%nx, level%grid%ny), stat=stat)
@@ -103,7 +103,7 @@ contains
       self%by_load_share = .not. level%lubricant%boundary_stress > 0.0_dp
    end subroutine start
 
-   !> The kind of cycle
+   !> Choose the options of the next cycle
    subroutine begin_cycle(self, level)
       class(stationary_t), intent(inout) :: self
       type(level_t), intent(in) :: level
@@ -112,7 +112,7 @@ contains
       if (level%boundary%touches()) self%next_cycle = damped_cycle(self%cycle)
    end subroutine begin_cycle
 
-   !> Algebraic error by the change of the friction or of the load share in a cycle
+   !> Estimate the algebraic error from the change of the friction, or of the load share, in the last cycle
    subroutine estimate_error(self, before)
       class(stationary_t), intent(inout) :: self
       !> Results before the cycle
@@ -120,7 +120,7 @@ contains
       real(dp) :: change, q
 
       change = abs(self%m%friction - before%friction)/self%m%friction
-      ! without the friction of the boundary film hardly any friction is left
+      ! without boundary friction the friction nearly vanishes
       if (self%by_load_share .and. self%m%touching%load_share > 0.0_dp) then
          change = abs(self%m%touching%load_share - before%touching%load_share)
       end if
@@ -129,73 +129,73 @@ contains
       self%change = change
    end subroutine estimate_error
 
-   !> Whether a small error of the load may be corrected: nodes that lift off and touch again from cycle to cycle leave one.
-   !> Without a boundary film the load is left to the cycles.
+   !> Whether scaling the pressure may correct a small load error, which remains where nodes enter and leave solid contact from
+   !> cycle to cycle. Without solid contact the cycles correct the load.
    pure logical function may_scale_load(self)
       class(stationary_t), intent(in) :: self
       may_scale_load = self%m%touching%load_share > 0.0_dp .and. self%residual <= residual_tolerance .and. &
                        abs(self%m%load_error) <= small_load_error
    end function may_scale_load
 
-   !> Whether the present share is solved; the first cycle does not show it
+   !> Whether the present fraction is solved; one cycle is too few for the error estimate
    pure logical function converged(self)
       class(stationary_t), intent(in) :: self
       real(dp) :: wanted
 
       converged = self%failure_status() == outcome_running
       if (.not. converged) return
-      wanted = merge(share_tolerance, self%tolerance, .not. self%smooth .and. self%share < 1.0_dp)
+      wanted = merge(fraction_tolerance, self%tolerance, .not. self%smooth .and. self%fraction < 1.0_dp)
       converged = self%algebraic <= wanted .and. abs(self%m%load_error) <= load_tolerance &
                   .and. self%residual <= residual_tolerance .and. self%cycles > 1 .and. self%m%holds
    end function converged
 
-   !> Whether the load at a boundary film is so wrong that no share of the roughness converges from it
-   pure logical function lost(self, level)
+   !> Whether the load error at a boundary film is too large for the cycles to converge
+   pure logical function load_diverged(self, level)
       class(stationary_t), intent(in) :: self
       type(level_t), intent(in) :: level
-      lost = level%boundary%active .and. self%cycles > lost_after .and. abs(self%m%load_error) > lost_load
-   end function lost
+      load_diverged = level%boundary%active .and. self%cycles > load_test_after .and. abs(self%m%load_error) > max_load_error
+   end function load_diverged
 
-   !> The present share is solved
+   !> Keep the solution at the present fraction
    subroutine accept(self, level)
       class(stationary_t), intent(inout) :: self
       type(level_t), intent(in) :: level
 
       if (self%smooth) self%friction_smooth = self%m%friction
       self%smooth = .false.
-      self%share_done = self%share
+      self%fraction_done = self%fraction
       self%p_done = level%p
       self%h00_done = level%h00
-      self%due = self%share < 1.0_dp
+      self%due = self%fraction < 1.0_dp
    end subroutine accept
 
-   !> The present share was too large: start a smaller one, if there is one
+   !> The cycles failed at the present fraction: halve the step and start again from the last solution
    subroutine reject(self, level, outcome)
       class(stationary_t), intent(inout) :: self
       type(level_t), intent(inout) :: level
-      !> Why it failed; outcome_running: a smaller one is started
+      !> Reason of the failure; outcome_running once a smaller fraction is started
       integer, intent(inout) :: outcome
 
-      self%share_step = 0.5_dp*min(self%share_step, self%share - self%share_done)
-      if (.not. (self%smooth .or. self%share_step < min_step)) call self%add_share(level, outcome)
+      self%fraction_step = 0.5_dp*min(self%fraction_step, self%fraction - self%fraction_done)
+      if (.not. (self%smooth .or. self%fraction_step < min_step)) call self%add_roughness(level, outcome)
    end subroutine reject
 
-   !> The next share of the roughness, whose film must be positive under the pressure of the last one: halve the step until it is
-   subroutine add_share(self, level, outcome)
+   !> Increase the fraction, halving the step until the film under the last pressure is positive
+   subroutine add_roughness(self, level, outcome)
       class(stationary_t), intent(inout) :: self
       type(level_t), intent(inout) :: level
       integer, intent(out) :: outcome
 
       self%due = .false.
       do
-         self%share = min(1.0_dp, self%share_done + self%share_step)
+         self%fraction = min(1.0_dp, self%fraction_done + self%fraction_step)
          level%p = self%p_done
          level%h00 = self%h00_done
-         call set_geometry(level, self%contact, self%share*self%rr)
+         call set_geometry(level, self%contact, self%fraction*self%rr)
          call refresh(level)
          if (level%boundary%has_film(minval(level%h) > 0.0_dp)) exit
-         self%share_step = 0.5_dp*self%share_step
-         if (self%share_step < min_step) then
+         self%fraction_step = 0.5_dp*self%fraction_step
+         if (self%fraction_step < min_step) then
             self%m = measure(level)
             outcome = outcome_negative_film
             return
@@ -205,11 +205,11 @@ contains
       self%parts = self%parts + 1
       self%cycles = 0
       self%m = measure(level)
-   end subroutine add_share
+   end subroutine add_roughness
 
-   !> Friction over that of the smooth contact
+   !> Friction ratio rough/smooth
    pure real(dp) function mu_ratio(self)
       class(stationary_t), intent(in) :: self
       mu_ratio = self%m%friction/self%friction_smooth
    end function mu_ratio
-end module ehl_stationary_share
+end module ehl_stationary_state
