@@ -146,7 +146,7 @@ def test_heights_in_memory_start_there_too(tile: dict[str, Any]):
         ),
         (WAVE | SECOND | {"contact.slide_to_roll": 2.0}, "one of the surfaces is at rest"),
         (WAVE | WIDE | {"contact.angle": 20.0}, "contact.angle = 20"),
-        (WAVE | {"grid.target_error": 0.1}, "the grid of grid.target_error is not known in advance"),
+        (WAVE | {"grid.target_error": 0.1}, "the grid of grid.target_error is not known yet"),
         (WAVE | {"surface.amplitude": 0.1}, "the pressures are beyond a linear response"),
     ],
     ids=["M", "dent", "rest", "turned", "target", "amplitude"],
