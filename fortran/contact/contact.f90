@@ -1,7 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The macroscopic contact: shape of the two bodies and the load on them. The base type is a ball on a flat (Hertz 1881);
-!> other shapes extend it, and only ehl_contact_factory names them. Lengths, films and pressures by the
-!> scales of the contact (ehl_scales).
+!> other shapes extend it, and only ehl_contact_factory names them. Lengths, films and pressures are scaled (ehl_scales).
 module ehl_contact
    use ehl_film_formula, only: film_central_formula
    use ehl_kinds, only: dp, pi
@@ -12,7 +11,7 @@ module ehl_contact
    public :: contact_t
 
    type :: contact_t
-      !> Integrals over the contact are in a^2, or for a line in b
+      !> Integrals over the contact are in a^2, or for a line contact in b
       integer :: dimensions = 2
       !> Semi-axis of the dry contact across the motion over that along it; D = R_x/R_y
       real(dp) :: ellipticity = 1.0_dp, radius_ratio = 1.0_dp
@@ -20,7 +19,7 @@ module ehl_contact
       real(dp) :: angle = 0.0_dp, reach(2) = 1.0_dp
       !> iint P dX dY; k_b of the deflection k_b iint P/r; H00 of the dry contact
       real(dp) :: load = 2.0_dp*pi/3.0_dp, kernel_factor = circle_factor, dry_separation = -1.0_dp
-      !> Of the contact with the same curvatures along the motion and across it, and its axes there: radius along the motion
+      !> Equivalent contact, with axes along X and Y and the same curvatures along them: radius along X
       !> over R_x, ratio of the radii, kappa k_b over that of a circle
       real(dp) :: radius = 1.0_dp, ratio = 1.0_dp, kernel_ratio = 1.0_dp
    contains
@@ -53,7 +52,7 @@ contains
       is_even = .not. abs(self%angle) > 0.0_dp
    end function is_even
 
-   !> Whether it is an infinite line, and all values are per length of it
+   !> Whether it is an infinite line contact, whose values are per length
    pure logical function is_line(self)
       class(contact_t), intent(in) :: self
       is_line = self%dimensions == 1
@@ -68,7 +67,7 @@ contains
       is_roller = .false.
    end function is_roller
 
-   !> Half width of the dry contact along X over that of the case, at a load and a curvature over those of the case
+   !> Half width of the dry contact along X, at a load and a curvature, all over the values of the case
    elemental real(dp) function growth(self, load, curvature)
       class(contact_t), intent(in) :: self
       real(dp), intent(in) :: load, curvature
@@ -79,17 +78,17 @@ contains
    !> The scales of the contact in SI units
    pure function scales(self, load, radius, reduced_modulus)
       class(contact_t), intent(in) :: self
-      !> Load [N], of a line per length [N/m]; reduced radius R_x in the plane of the motion [m], reduced modulus E' [Pa] with
+      !> Load [N], of a line contact per length [N/m]; reduced radius R_x in the plane of the motion [m], reduced modulus E' [Pa],
       !> 2/E' = sum (1 - nu^2)/E
       real(dp), intent(in) :: load, radius, reduced_modulus
       type(scales_t) :: scales
       scales = scales_from_si(load, radius, reduced_modulus, self%ellipticity, self%kernel_factor)
    end function scales
 
-   !> Moes load parameter M by R_x
+   !> Moes load parameter M with R_x
    pure real(dp) function moes_load(self, load, radius, reduced_modulus, speed)
       class(contact_t), intent(in) :: self
-      !> As for scales; U = eta0 u/(E' R)
+      !> As in `scales`; U = eta0 u/(E' R)
       real(dp), intent(in) :: load, radius, reduced_modulus, speed
 
       associate (unused => self)
@@ -97,7 +96,7 @@ contains
       moes_load = load/(reduced_modulus*radius**2)*(2.0_dp*speed)**(-0.75_dp)
    end function moes_load
 
-   !> Operating point by M and L
+   !> Operating point from M and L
    pure function operating(self, moes_m, moes_l) result(point)
       class(contact_t), intent(in) :: self
       real(dp), intent(in) :: moes_m, moes_l
@@ -111,7 +110,7 @@ contains
       area = pi*self%ellipticity
    end function area
 
-   !> Area over which the mean of a Hertz pressure is 2/3 of its maximum, for a scale of lengths [m]
+   !> Area [m^2] over which the mean of a Hertz pressure is 2/3 of its maximum; length: scale of lengths [m]
    pure real(dp) function flash_area(self, length)
       class(contact_t), intent(in) :: self
       real(dp), intent(in) :: length
@@ -142,8 +141,8 @@ contains
       values = sqrt(max(0.0_dp, 1.0_dp - x**2 - y**2))
    end subroutine pressure_row
 
-   !> Central film of an incompressible lubricant by Nijenbanning, Venner & Moes (1994), with the curvatures along the motion and
-   !> across it: M goes with R^(-5/4), L with R^(-1/4), and films with a^2/R
+   !> Central film of an incompressible lubricant by Nijenbanning, Venner & Moes (1994) for the equivalent contact: M is
+   !> proportional to R^(-5/4), L to R^(-1/4), and films to a^2/R
    pure real(dp) function film_formula(self, moes_m, moes_l)
       class(contact_t), intent(in) :: self
       real(dp), intent(in) :: moes_m, moes_l

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Makes a contact from its bodies. No other module names a shape.
+!> Creates a contact from its bodies. No other module names a shape.
 module ehl_contact_factory
    use ehl_contact, only: contact_t
    use ehl_elliptical, only: new_elliptical
@@ -12,12 +12,12 @@ module ehl_contact_factory
 
 contains
 
-   !> A line contact, a round one where both radii are equal, or an elliptical one
+   !> Create a line contact, a round one if both radii are equal, or an elliptical one
    subroutine new_contact(radius_ratio, angle, contact, line)
       !> D = R_x/R_y; angle of the plane of R_x against that of the motion [rad]
       real(dp), intent(in) :: radius_ratio, angle
       class(contact_t), allocatable, intent(out) :: contact
-      !> Whether it is an infinite line, whatever the ratio
+      !> Whether it is an infinite line contact, whatever the ratio
       logical, intent(in), optional :: line
       logical :: infinite
 
@@ -32,7 +32,7 @@ contains
       end if
    end subroutine new_contact
 
-   !> A roller of finite length under a load [N]
+   !> Create the contact of a roller of finite length under a load [N]
    subroutine new_roller_contact(profile, load, radius, reduced_modulus, contact)
       type(profile_t), intent(in) :: profile
       !> Reduced radius along the motion [m], reduced modulus [Pa]

@@ -1,14 +1,14 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The domain that a contact needs, and the error of the film by a finite domain.
+!> The domain that a contact needs, and the error of the film due to a finite domain.
 !>
-!> Either the border has the pressure that a fully flooded contact has there (ehl_far_field). The error of that falls
-!> with the third power of the distance in thick films, where it is one of the load, and with the fifth in thin ones, where
-!> it is one of the inlet.
+!> The pressure on the border is either that of a fully flooded contact (ehl_far_field): the error decreases with
+!> the third power of the distance in thick films, where the load determines it, and with the fifth in thin films, where
+!> the inlet does.
 !>
-!> Or P = 0, without the pressure that a flooded inlet would have: it increases by dP/dX ~ (H - H_c)/H^3, H = H_c + g,
-!> with the gap g of the dry contact. Up to a distance x from the centre it has reached the share q(x) = Q(x)/Q(1),
-!> Q(x) = int_x^inf g/(H_c + g)^3 dX, and the film falls by a fixed multiple of that share at the border. In thick films the
-!> pressure beyond the border supports load too: a share of about lambda_bar/x, which changes the film as a change of the load does.
+!> Or it is P = 0, and the pressure of the inlet beyond the border is missing: it increases as dP/dX ~ (H - H_c)/H^3, H = H_c + g,
+!> with the gap g of the dry contact. At a distance x from the centre it has reached the fraction q(x) = Q(x)/Q(1),
+!> Q(x) = int_x^inf g/(H_c + g)^3 dX, and the relative error of the film is a fixed multiple of q at the border. In thick films
+!> the pressure beyond the border also supports a fraction of about lambda_bar/x of the load.
 !>
 !> Data of the fitted factors: docs/evidence/errors.
 module ehl_domain
@@ -26,44 +26,44 @@ module ehl_domain
       real(dp) :: inlet = -2.5_dp, outlet = 1.5_dp, side = 2.0_dp
    end type domain_t
 
-   !> Largest relative error of H_c by a default domain
+   !> Largest relative error of H_c due to a default domain
    real(dp), parameter :: tolerance = 0.002_dp
-   !> From that M on border and domain are those of Zhang et al. 2019, unless the case states otherwise or the contact is so
-   !> wide that P = 0 there would change the film by per cents
+   !> From this M on border and domain are those of Zhang et al. 2019, unless the case states otherwise or the contact is wider
+   !> than this ratio, where P = 0 on the border would change the film by several per cent
    real(dp), parameter :: first_usual = 500.0_dp, too_wide = 4.0_dp
-   !> With a flooded border. Thick films: error of the load by sides and inlet, over lambda_bar s^2/r^3 with the length
-   !> s = (2 H_c)^(1/2); maximum and minimum change of the film by load, and the M where it is half of the maximum. Thin films:
-   !> error by an inlet of 2.5 a, its power of s, and the maximum of s for that. Error of H_min over that of H_c.
+   !> Flooded border. Thick films: error of the load due to sides and inlet, over lambda_bar s^2/r^3 with the length
+   !> s = (2 H_c)^(1/2); maximum and minimum sensitivity of the film to load, and the M at half of the maximum. Thin films:
+   !> error due to an inlet of 2.5 a, its power of s, and the maximum of s for that. Error of H_min over that of H_c.
    real(dp), parameter :: load_by_sides = 0.025_dp, load_by_inlet = 0.05_dp, by_load = 2.0_dp, min_by_load = 0.5_dp, &
                           half_by_load = 8.0_dp, by_inlet = 0.0042_dp, inlet_power = 1.3_dp, thin = 0.75_dp, &
                           minimum_over_central = 1.5_dp
-   !> With P = 0: errors of H_c by inlet and sides, and the additional one of H_min by the sides, over q; film below which the
-   !> error by the inlet is larger, with its power of the film
+   !> P = 0: errors of H_c due to inlet and sides, and the additional error of H_min due to the sides, over q; film below which
+   !> the error due to the inlet is larger, and its power of the film
    real(dp), parameter :: of_inlet = 0.46_dp, of_sides = 0.06_dp, of_sides_at_minimum = 0.15_dp, &
                           thin_film = 0.06_dp, thin_power = 0.25_dp
-   !> Decay of the error by the sides of a wide contact with their distance from its ends, in half lengths along the motion, over
-   !> that around a round contact: at kappa = 1.5 to 16 and 1.15 to 2 half widths the changes fall with 1.2 at the least in thin
-   !> films (docs/evidence/machines); none for thicker films, for which it was not measured
+   !> Additional decay, relative to a round contact, of the error due to the sides of a wide contact with their distance from its
+   !> ends, in half lengths along the motion: at least 1.2 in thin films at kappa = 1.5 to 16 and 1.15 to 2 half widths
+   !> (docs/evidence/machines); not measured, and 0, above the second value of the film
    real(dp), parameter :: end_decay = 1.2_dp, thick_for_decay = 0.2_dp
    !> Load beyond inlet and sides, over lambda_bar; minimum sensitivity of the film to load around M = 5, where the
-   !> film formula has none and the elastic deflection matters
+   !> sensitivity of the film formula vanishes and the elastic deflection matters
    real(dp), parameter :: load_beyond_inlet = 1.0_dp, load_beyond_sides = 0.25_dp, min_sensitivity = 0.5_dp, &
                           dented_below = 5.5_dp
-   !> Around an ellipse the deflection extends further, by kappa k_b over that of a round contact: maximum of this factor of
-   !> the error with a flooded border, and its power with P = 0, where it is larger for a narrow contact, too
+   !> Around an ellipse the deflection extends further, by the factor kappa k_b over that of a round contact: maximum of this
+   !> factor of the error with a flooded border, and its power with P = 0, where a narrow contact has a larger error, too
    real(dp), parameter :: max_wide = 4.0_dp, wide_power = 0.4_dp
-   !> Sides of a wide contact in terms of its half width, and length s of a film above which they are further out; with a flooded
-   !> border at most one half length along the motion beyond its ends, but at least `least_beyond` half widths: sides half as far
-   !> again change H_c by 0.02 % and H_min by up to 0.13 % (docs/evidence/machines)
-   real(dp), parameter :: beyond_ends = 1.3_dp, thick_at_ends = 0.95_dp, least_beyond = 1.08_dp
-   !> Sides of a narrow contact in terms of the length over which its gap opens across the motion (side_scale); the errors of
+   !> Sides of a wide contact in half widths, and length s of a film above which they are further out; with a flooded
+   !> border at most one half length along the motion beyond its ends, but at least `min_beyond` half widths: a distance 1.5 times
+   !> as large changes H_c by 0.02 % and H_min by up to 0.13 % (docs/evidence/machines)
+   real(dp), parameter :: beyond_ends = 1.3_dp, thick_at_ends = 0.95_dp, min_beyond = 1.08_dp
+   !> Sides of a narrow contact over the length on which its gap opens across the motion (side_scale); the errors of
    !> H_c and H_min at twice that, with a flooded border and with P = 0, and their decay with the distance: upper limits of 21
    !> random contacts with either border (docs/evidence/machines/narrow_sides.csv)
    real(dp), parameter :: beyond_narrow = 4.0_dp, flooded_narrow(2) = [0.009_dp, 0.0125_dp], &
                           of_narrow(2) = [0.02_dp, 0.032_dp], narrow_decay = 4.0_dp
    !> An inlet so far away that its error vanishes
    real(dp), parameter :: far = 1.0e6_dp
-   !> Points of the midpoint rule
+   !> Number of points of the midpoint rule
    integer, parameter :: points = 100
 
 contains
@@ -77,8 +77,8 @@ contains
       flooded_by_default = contact%is_line() .or. point%round_m < first_usual .or. elongation(contact) > too_wide
    end function flooded_by_default
 
-   !> The domain of a contact: that of Zhang et al. 2019, its sides further out around an ellipse, or with a flooded border
-   !> one of its shape that is larger as the film is thick. Cells are square, and X = 0 is a node of every grid of 32 n + 1 nodes.
+   !> The domain of a contact: that of Zhang et al. 2019, with sides further out around an ellipse; with a flooded border a domain
+   !> of that shape that increases with the film. Cells are square, and X = 0 is a node of every grid of 32 n + 1 nodes.
    pure function needed_domain(contact, point, flooded) result(domain)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point
@@ -92,7 +92,7 @@ contains
          return
       end if
       if (contact%is_roller()) then
-         ! the line where the load per length is largest; X = 0 stays a node
+         ! for the width at the maximum load per length; X = 0 remains a node
          ends = line_ends(contact, point)*contact%reach(1)
          do while (line_domain_error(contact, point, ends(1)/contact%reach(1), .false.) > tolerance)
             ends = 1.1_dp*ends
@@ -115,8 +115,7 @@ contains
       domain%side = min(domain%side, side_of_wide(contact, point, flooded), side_of_narrow(contact, point))
    end function needed_domain
 
-   !> Distance of the sides of a wide contact from the centre. Its ends are as far from one another as it is wide, and the
-   !> domain beyond an end affects the film there alone.
+   !> Distance of the sides of a wide contact from the centre; the domain beyond an end affects only the film at that end
    pure real(dp) function side_of_wide(contact, point, flooded) result(side)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point
@@ -126,15 +125,15 @@ contains
       wide = elongation(contact)
       side = huge(side)
       if (.not. wide > 1.0_dp) return
-      ! in terms of the half length along the motion, where the bodies have the radius of this curvature
+      ! over the half length along the motion, with the radius of curvature along it
       length = sqrt(2.0_dp*contact%film_formula(point%moes_m, point%moes_l)*contact%radius)/contact%reach(1)
       beyond = beyond_ends + (2.0_dp - beyond_ends)/wide**2
-      if (flooded) beyond = min(beyond, max(least_beyond, 1.0_dp + 1.0_dp/wide))
+      if (flooded) beyond = min(beyond, max(min_beyond, 1.0_dp + 1.0_dp/wide))
       side = contact%reach(2)*beyond*max(1.0_dp, length/thick_at_ends)
    end function side_of_wide
 
-   !> Distance of the sides of a narrow contact from the centre: short in terms of its length along the motion, because the gap
-   !> opens with the radius across the motion
+   !> Distance of the sides of a narrow contact from the centre: small compared with its length along the motion, because the gap
+   !> opens with the smaller radius across the motion
    pure real(dp) function side_of_narrow(contact, point) result(side)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point
@@ -143,8 +142,7 @@ contains
       if (elongation(contact) < 1.0_dp) side = beyond_narrow*side_scale(contact, point)
    end function side_of_narrow
 
-   !> Length over which the gap opens across the motion: that of the dry contact and that of a film between bodies that are not
-   !> deflected
+   !> Length over which the gap opens across the motion: that of the dry contact plus that of a film between rigid bodies
    pure real(dp) function side_scale(contact, point)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point
@@ -158,20 +156,20 @@ contains
       elongation = contact%reach(2)/contact%reach(1)
    end function elongation
 
-   !> Distance of the sides over that around a round contact: as the ends of a wide contact; not less around a narrow one,
-   !> because in terms of its semi-axis the gap opens slowly there
+   !> Distance of the sides over that around a round contact: that of the ends in a wide contact; at least 1 in a narrow one,
+   !> because its gap opens slowly relative to the semi-axis
    pure real(dp) function sides_over_round(contact)
       class(contact_t), intent(in) :: contact
       sides_over_round = maxval(contact%reach)
    end function sides_over_round
 
-   !> Relative errors of H_c and H_min by the domain, against the flooded contact, as an upper estimate; 1 and more: unknown
+   !> Upper estimates of the relative errors of H_c and H_min due to the domain, against the flooded contact; 1 or more: unknown
    pure recursive function domain_error(contact, point, domain, flooded, starved) result(error)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point
       type(domain_t), intent(in) :: domain
       logical, intent(in) :: flooded
-      !> Whether the inlet border is the position of the meniscus, so that only the sides have an error; not if absent
+      !> Whether the inlet border is the position of the meniscus, so that only the sides have an error; absent: false
       logical, intent(in), optional :: starved
       real(dp) :: error(2)
       real(dp) :: at_sides(2), film, length, whole, inlet, load, sides, side, wide, width
@@ -222,7 +220,7 @@ contains
       error = error + at_sides
    end function domain_error
 
-   !> Thickness of the oil layer that fills the gap from a position X < 0 on
+   !> Thickness of the oil layer that fills the gap downstream of a position X < 0
    pure real(dp) function layer_that_floods(contact, point, x) result(layer)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point
@@ -238,8 +236,8 @@ contains
       end if
    end function layer_that_floods
 
-   !> Error of a friction ratio by a relative error of H_c: the increase of friction by waves of a fixed height goes with about
-   !> the square of their height over the film, and exponentially where they increase the pressure much (docs/evidence/errors)
+   !> Error of a friction ratio due to a relative error of H_c: the increase of friction by waves of a fixed height is about
+   !> proportional to (height/film)^2, and exponential where they change the pressure strongly (docs/evidence/errors)
    pure real(dp) function ratio_error(error, ratio)
       real(dp), intent(in) :: error, ratio
       ratio_error = 2.0_dp*error*abs(ratio - 1.0_dp)*max(1.0_dp, log(max(ratio, 1.0_dp)))
@@ -251,7 +249,7 @@ contains
       type(operating_t), intent(in) :: point
       real(dp), parameter :: step = 1.05_dp
 
-      ! H is h over a^2/R, and a^2 goes with the load to the power 2/3
+      ! H is h over a^2/R, and a^2 is proportional to the load to the power 2/3
       sensitivity = -log(contact%film_formula(point%moes_m*step, point%moes_l) &
                          /contact%film_formula(point%moes_m/step, point%moes_l))/(2.0_dp*log(step)) - 2.0_dp/3.0_dp
    end function sensitivity

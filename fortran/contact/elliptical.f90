@@ -1,13 +1,13 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The elliptical contact of bodies with two radii (Hertz 1881; Johnson 1985, section 4.2)
 !>
-!> Lengths are scaled by the semi-axis a along the motion, or along the axis that is turned against it by an angle; the other
-!> one is kappa a. The Hertz pressure on this ellipse has
-!> the potential iint P/r = l - c_x X^2 - c_y Y^2 on it, with
+!> Lengths are scaled by the semi-axis a along the motion, or along the axis at an angle to it; the other
+!> one is kappa a. The potential of the Hertz pressure on this ellipse
+!> is iint P/r = l - c_x X^2 - c_y Y^2 inside it, with
 !>
 !>    c_x = pi kappa/3 R_D(0, kappa^2, 1),  c_y = pi kappa/3 R_D(0, 1, kappa^2),  l = pi kappa R_F(0, 1, kappa^2),
 !>
-!> and fills the gap X^2/2 + D Y^2/2 where the factor of the deflection is k_b = 1/(2 c_x) and R_x/R_y is D = c_y/c_x.
+!> so that the deflection closes the gap X^2/2 + D Y^2/2 if k_b = 1/(2 c_x) and D = R_x/R_y = c_y/c_x.
 module ehl_elliptical
    use ehl_contact, only: contact_t
    use ehl_elliptic, only: complete_rd, complete_rf
@@ -19,7 +19,7 @@ module ehl_elliptical
 
    type, extends(contact_t) :: elliptical_t
       private
-      !> Direction of the axis of R_x
+      !> Cosine and sine of the angle of the axis of R_x
       real(dp) :: along = 1.0_dp, across = 0.0_dp
    contains
       procedure :: gap_row
@@ -28,7 +28,7 @@ module ehl_elliptical
 
 contains
 
-   !> The contact of a ratio of radii
+   !> The contact from the ratio of its radii
    pure function new_elliptical(radius_ratio, angle) result(contact)
       !> D = R_x/R_y; angle of the plane of R_x against that of the motion [rad], counter-clockwise
       real(dp), intent(in) :: radius_ratio, angle
@@ -52,13 +52,13 @@ contains
       end associate
    end function new_elliptical
 
-   !> kappa of D = R_D(0, 1, kappa^2)/R_D(0, kappa^2, 1), which falls with it: bisection of its logarithm
+   !> kappa from D = R_D(0, 1, kappa^2)/R_D(0, kappa^2, 1), which decreases with kappa: bisection in ln(kappa)
    pure real(dp) function ellipticity_of(radius_ratio)
       real(dp), intent(in) :: radius_ratio
       real(dp) :: low, high, middle
       integer :: k
 
-      ! kappa is D^(-2/3) within a factor of 4 for all D that the keys allow
+      ! kappa is D^(-2/3) within a factor of 4 for all D that the case allows
       middle = -2.0_dp/3.0_dp*log(radius_ratio)
       low = middle - log(4.0_dp)
       high = middle + log(4.0_dp)

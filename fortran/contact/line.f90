@@ -1,9 +1,9 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The infinite line contact: a cylinder on a flat (Hertz 1882; Johnson 1985, section 4.2 c), all values per length of it.
+!> The infinite line contact: a cylinder on a flat (Hertz 1882; Johnson 1985, section 4.2 c), all values per length.
 !>
 !> Lengths are scaled by the half width b = sqrt(8 w R/(pi E')), w the load per length; p_h = 2 w/(pi b). The deflection is
-!> -(1/pi) int P ln|X - X'| dX', the mean over Y of k_b iint P/r with k_b = 1/(2 pi), and H00 counts from its zero at
-!> |X - X'| = 1. M and L are those of a line (Moes 2000), other numbers than those of a point:
+!> -(1/pi) int P ln|X - X'| dX', the mean over Y of k_b iint P/r with k_b = 1/(2 pi), and H00 is relative to its zero at
+!> |X - X'| = 1. M and L are those of a line contact (Moes 2000), defined differently from those of a point contact:
 !>
 !>    M = w/(E' R) (2U)^(-1/2),  L = G (2U)^(1/4),  alpha_bar = L sqrt(M/(2 pi)),  lambda_bar = 3 pi^2/(8 M^2)
 module ehl_line
@@ -42,7 +42,7 @@ contains
       contact%dry_separation = -0.25_dp - 0.5_dp*log(2.0_dp)
    end function new_line_contact
 
-   !> b, b^2/R and p_h by the load per length [N/m]
+   !> b, b^2/R and p_h from the load per length [N/m]
    pure function scales(self, load, radius, reduced_modulus)
       class(line_t), intent(in) :: self
       real(dp), intent(in) :: load, radius, reduced_modulus
@@ -55,7 +55,7 @@ contains
       scales%film = scales%length**2/radius
    end function scales
 
-   !> M by the load per length [N/m]
+   !> M from the load per length [N/m]
    pure real(dp) function moes_load(self, load, radius, reduced_modulus, speed)
       class(line_t), intent(in) :: self
       real(dp), intent(in) :: load, radius, reduced_modulus, speed
@@ -65,7 +65,7 @@ contains
       moes_load = load/(reduced_modulus*radius)*(2.0_dp*speed)**(-0.5_dp)
    end function moes_load
 
-   !> Operating point by M and L of the line
+   !> Operating point from M and L of the line contact
    pure function operating(self, moes_m, moes_l) result(point)
       class(line_t), intent(in) :: self
       real(dp), intent(in) :: moes_m, moes_l
@@ -100,7 +100,7 @@ contains
       film_formula = film_formula**(1.0_dp/s)*pi/(8.0_dp*moes_m)
    end function film_formula
 
-   !> Of the dry contact, 2 b per length
+   !> Area of the dry contact, 2 b per length
    pure real(dp) function area(self)
       class(line_t), intent(in) :: self
 
@@ -109,7 +109,7 @@ contains
       area = 2.0_dp
    end function area
 
-   !> The mean over it is 2/3 of the maximum of the Hertz pressure, as on a circle
+   !> Area over which the mean of the Hertz pressure is 2/3 of its maximum, as on a circle
    pure real(dp) function flash_area(self, length)
       class(line_t), intent(in) :: self
       real(dp), intent(in) :: length

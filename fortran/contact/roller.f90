@@ -1,17 +1,16 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The contact of a roller of finite length: lengths, films and pressures by the line contact (ehl_line) under the mean load per
-!> length. With b and R of that, the profile g of both bodies together and the misalignment theta the gap is
+!> The contact of a roller of finite length, scaled by the line contact (ehl_line) under the mean load per length. With its b
+!> and R, the sum g of both profiles and the misalignment theta the gap is
 !>
 !>    G = X^2/2 + (R/b^2) (g(bY) + theta b Y),    |Y| <= L/2,    L = length/b
 !>
 !>    crown        g = y^2/(2 R_crown)
-!>    logarithmic  g = -A ln(1 - (2y/length)^2)  (Johns & Gohar 1981, as in ISO/TS 16281), no more than its value a thousandth of
+!>    logarithmic  g = -A ln(1 - (2y/length)^2)  (Johns & Gohar 1981, as in ISO/TS 16281), constant within a thousandth of
 !>                 the length from the end
 !>    chamfer      g = slope of a straight chamfer times the distance from its beginning
-!>    file         a table, straight between its points
+!>    file         a table, interpolated linearly
 !>
-!> Of two bodies with a profile the drops are added. The domain ends with the
-!> roller: P = 0 there. The half-space that is deflected goes on.
+!> The domain ends at the ends of the roller, where P = 0; the elastic half-space continues beyond them.
 module ehl_roller
    use ehl_contact, only: contact_t
    use ehl_kinds, only: dp, pi
@@ -25,9 +24,9 @@ module ehl_roller
    !> Profile of one body, in metres
    type :: body_profile_t
       character(len=16) :: kind = "none"
-      !> Radius of a crown; A; length of each chamfer and the drop at its end
+      !> Radius of a crown; A; length of each chamfer and drop at its end
       real(dp) :: crown_radius = 0.0_dp, log_amplitude = 0.0_dp, chamfer_length = 0.0_dp, chamfer_drop = 0.0_dp
-      !> A table, by rising y
+      !> A table, in increasing y
       real(dp), allocatable :: y(:), table(:)
    contains
       procedure :: drop => drop_of_body
@@ -59,11 +58,11 @@ module ehl_roller
       procedure :: pressure_row
    end type roller_t
 
-   !> Share of half the length at which the logarithm ends
+   !> Fraction of the half length at which the logarithm ends
    real(dp), parameter :: last = 0.998_dp
-   !> Gap beyond the end, where no body is [b^2/R], and the rounding of Y
+   !> Gap beyond the ends of the body [b^2/R], and tolerance of Y for rounding
    real(dp), parameter :: open = 2.0_dp, rounding = 1.0e-9_dp
-   !> Slices that the load is shared by
+   !> Number of slices for the load distribution
    integer, parameter :: slices = 200
 
 contains
@@ -83,14 +82,14 @@ contains
       contact%ellipticity = 0.5_dp*profile%length/scales%length
       contact%load = pi*contact%ellipticity
       contact%kernel_factor = 0.5_dp/pi
-      ! that of a line, whose deflection counts from |X - X'| = 1, and 2 asinh(L/2) in the middle for its factor 2
+      ! that of a line, relative to |X - X'| = 1, plus the difference of the kernels in the middle: 2 asinh(L/2) for its factor 2
       contact%dry_separation = -0.25_dp - 0.5_dp*log(2.0_dp) - 0.5_dp*log(2.0_dp*contact%ellipticity)
-      contact%reach = [sqrt(largest_share(contact)), contact%ellipticity]
+      contact%reach = [sqrt(max_load_ratio(contact)), contact%ellipticity]
    end function new_roller
 
-   !> Largest load per length over its mean, where slices of the roller carry in proportion to their approach (Palmgren):
+   !> Maximum load per length over its mean if the load of each slice of the roller is proportional to its approach (Palmgren):
    !> 1 + (mean of the drop - drop)/d over the slices in contact, d the approach of bodies without a profile
-   pure real(dp) function largest_share(contact)
+   pure real(dp) function max_load_ratio(contact)
       type(roller_t), intent(in) :: contact
       real(dp) :: gap(slices), row(1), low, high, approach
       integer :: k
@@ -109,17 +108,17 @@ contains
             low = approach
          end if
       end do
-      largest_share = max(1.0_dp, (approach - minval(gap))/abs(contact%dry_separation))
-   end function largest_share
+      max_load_ratio = max(1.0_dp, (approach - minval(gap))/abs(contact%dry_separation))
+   end function max_load_ratio
 
-   !> Drop of both bodies together at y [m]
+   !> Sum of the drops of both bodies at y [m]
    pure real(dp) function drop(self, y)
       class(profile_t), intent(in) :: self
       real(dp), intent(in) :: y
       drop = self%of(1)%drop(self%length, y) + self%of(2)%drop(self%length, y)
    end function drop
 
-   !> Drop of one body at y [m], of a roller of a length [m]
+   !> Drop [m] of one body at y [m]; length of the roller [m]
    pure real(dp) function drop_of_body(self, length, y) result(drop)
       class(body_profile_t), intent(in) :: self
       real(dp), intent(in) :: length, y
@@ -146,7 +145,7 @@ contains
       end select
    end function drop_of_body
 
-   !> Whether both halves are the same
+   !> Whether the profile is symmetric about the middle
    pure logical function is_symmetric(self)
       class(profile_t), intent(in) :: self
       integer :: body, k
@@ -168,7 +167,7 @@ contains
       is_even = self%profile%is_symmetric()
    end function is_even
 
-   !> The bodies end
+   !> Whether the bodies end at the sides of the domain
    pure logical function is_roller(self)
       class(roller_t), intent(in) :: self
 
@@ -177,7 +176,7 @@ contains
       is_roller = .true.
    end function is_roller
 
-   !> b, b^2/R and p_h by the mean load per length
+   !> b, b^2/R and p_h from the mean load per length
    pure function scales(self, load, radius, reduced_modulus)
       class(roller_t), intent(in) :: self
       real(dp), intent(in) :: load, radius, reduced_modulus
@@ -188,7 +187,7 @@ contains
       end associate
    end function scales
 
-   !> M of the line
+   !> M of the line contact
    pure real(dp) function moes_load(self, load, radius, reduced_modulus, speed)
       class(roller_t), intent(in) :: self
       real(dp), intent(in) :: load, radius, reduced_modulus, speed
@@ -198,7 +197,7 @@ contains
       end associate
    end function moes_load
 
-   !> Operating point by M and L of the line
+   !> Operating point from M and L of the line contact
    pure function operating(self, moes_m, moes_l) result(point)
       class(roller_t), intent(in) :: self
       real(dp), intent(in) :: moes_m, moes_l
@@ -209,7 +208,7 @@ contains
       end associate
    end function operating
 
-   !> That of the line
+   !> Film formula of the line contact
    pure real(dp) function film_formula(self, moes_m, moes_l)
       class(roller_t), intent(in) :: self
       real(dp), intent(in) :: moes_m, moes_l
@@ -219,20 +218,20 @@ contains
       end associate
    end function film_formula
 
-   !> 2 b by the length
+   !> Area of the dry contact: 2 b times the length
    pure real(dp) function area(self)
       class(roller_t), intent(in) :: self
       area = 4.0_dp*self%ellipticity
    end function area
 
-   !> The mean over it is 2/3 of the maximum of the Hertz pressure of the line
+   !> Area over which the mean of the Hertz pressure of the line contact is 2/3 of its maximum
    pure real(dp) function flash_area(self, length)
       class(roller_t), intent(in) :: self
       real(dp), intent(in) :: length
       flash_area = 1.5_dp*pi*self%ellipticity*length**2
    end function flash_area
 
-   !> X^2/2, profile and misalignment
+   !> Gap: X^2/2 + profile + misalignment
    pure subroutine gap_row(self, x, y, values)
       class(roller_t), intent(in) :: self
       real(dp), intent(in) :: x(:), y
@@ -244,7 +243,7 @@ contains
       end associate
    end subroutine gap_row
 
-   !> sqrt(1 - X^2): the roller without a profile, its ends apart
+   !> Pressure sqrt(1 - X^2) of a roller without a profile, without the effect of its ends
    pure subroutine pressure_row(self, x, y, values)
       class(roller_t), intent(in) :: self
       real(dp), intent(in) :: x(:), y

@@ -22,7 +22,7 @@ module ehl_ambient_viscosity
 
 contains
 
-   !> The law by the constants of Vogel (K [Pa s], B [K], C [degC]), or by a data sheet, which rules where it is given:
+   !> The law from the constants of Vogel (K [Pa s], B [K], C [degC]), or from a data sheet, which takes precedence:
    !> [mm^2/s] at 40 and 100 degC, density at 15 degC [kg/m^3], thermal expansion [1/K]
    pure function new_ambient_viscosity(vogel, sheet, density, expansion) result(law)
       real(dp), intent(in) :: vogel(3), sheet(2), density, expansion
@@ -35,7 +35,7 @@ contains
       law%expansion = expansion
    end function new_ambient_viscosity
 
-   !> ln(eta/Pa s) at a temperature [degC]; that of the least number where there is no viscosity
+   !> ln(eta/Pa s) at a temperature [degC]; that of the smallest positive number where the viscosity is not positive
    pure real(dp) function log_viscosity(self, temperature)
       class(ambient_viscosity_t), intent(in) :: self
       real(dp), intent(in) :: temperature

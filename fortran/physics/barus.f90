@@ -27,7 +27,7 @@ contains
       slope = self%alpha_bar
    end subroutine log_viscosity
 
-   !> ln(eta/eta0) at temperature increases [K]
+   !> ln(eta/eta0) at temperature rises above the inlet [K]
    pure subroutine log_viscosity_at(self, p, rise, values)
       class(barus_t), intent(in) :: self
       real(dp), intent(in) :: p(:), rise(:)

@@ -1,8 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Flow factors (factor_rows.f90) of the nodes of a grid, cached with their changes: near the sliding B and the gradient
-!> S that they were found at, factors and stress follow to first order, with an error below 1e-4 beside that of factor_rows.f90.
-!> Sweeps and cycles change most nodes by less. So factors depend on what is cached, until that is forgotten. Where the
-!> lubricant flows as a Newtonian one nothing is cached: reading and writing takes longer than the test that it is not needed.
+!> Flow factors (factor_rows.f90) of the nodes of a grid, cached with their derivatives: near the cached sliding B and gradient
+!> S, factors and stress are extrapolated to first order, with an error below 1e-4 in addition to that of factor_rows.f90.
+!> Sweeps and cycles change most nodes by less. So factors depend on the history of the cache, until `forget`. Where the
+!> lubricant flows as a Newtonian one nothing is cached: memory access would take longer than the test for it.
 module ehl_cached_factors
    use, intrinsic :: iso_fortran_env, only: int64, real32
    use ehl_factor_rows, only: factor_rows_t, find_factors, flows_newtonian
@@ -12,31 +12,31 @@ module ehl_cached_factors
    private
    public :: cached_factors_t
 
-   !> Changes that are small: of B, relative to B and this much more; of S, for Carreau relative to 1 + |S|. They are smaller
-   !> the other way round where the curvature of F is above `straight`; held by test/test_flow.f90
-   real(dp), parameter :: small = 0.01_dp, slight = 0.1_dp, straight = 0.15_dp
-   !> Changes that a correction may make are so many times as large: an error of a few per mille of the factors is nothing to it
-   real(dp), parameter :: wider = 5.0_dp
-   !> A part of S much below this changes the factors by its square only: quotients by it would be those of rounding
-   real(dp), parameter :: faint = 0.05_dp
-   !> B of a node without factors, near no other: all nodes of a segment have factors, or none
+   !> Largest changes for extrapolation: of B relative to B + sliding_offset; of S, for Carreau relative to 1 + |S|. Where the
+   !> curvature of F exceeds `weak_curvature` they are inversely proportional to it. Verified by test/test_flow.f90
+   real(dp), parameter :: max_change = 0.01_dp, sliding_offset = 0.1_dp, weak_curvature = 0.15_dp
+   !> Factor of these changes in a coarse-grid correction, where errors of a few per mille of the factors do not matter
+   real(dp), parameter :: correction_factor = 5.0_dp
+   !> A component of S much below this changes the factors only by its square: a quotient by it would be dominated by rounding
+   real(dp), parameter :: min_component = 0.05_dp
+   !> B of a node without factors, different from any B >= 0: all nodes of a segment have factors, or none
    real(dp), parameter :: none = -1.0_dp
-   !> What is cached of a node: B, S, phi and the stress; and in single precision, because memory limits the speed,
-   !> the changes of phi and of the stress: those of ln(phi) with ln(B), and of ln(phi_x) and ln(phi_y) with S_x, with S_y
+   !> Cached values of a node: B, S, phi and the stress; and in single precision, because memory bandwidth limits the speed,
+   !> derivatives of phi and of the stress: of ln(phi) with respect to ln(B), of ln(phi_x) and ln(phi_y) to S_x and S_y
    integer, parameter :: f_b = 1, f_s = 2, f_phi = 4, f_stress = 6, fields = 6
    integer, parameter :: c_by_sliding = 1, c_by_x = 3, c_by_y = 5, c_tangent = 7, c_stress_by_sliding = 9, &
                          c_stress_by_gradient = 10, change_fields = 11
 
    type :: cached_factors_t
       type(thinning_t) :: law
-      !> Whether factors follow small changes, and the largest of these
+      !> Whether factors are extrapolated for small changes, and the largest of these
       logical :: follows = .true.
       real(dp), private :: reach = 0.0_dp
-      !> Whether the level is solved for a correction to a finer one: factors follow larger changes then
+      !> Whether the level is solved for a correction of a finer one, which allows larger changes
       logical :: correcting = .false.
-      !> Nodes of a row that are found together, at most `most`
+      !> Number of nodes in a segment of a row, at most `most`
       integer :: width = 0
-      !> By node of such a segment, field, segment and row
+      !> Shape (node of the segment, field, segment, row)
       real(dp), allocatable, private :: values(:, :, :, :)
       real(real32), allocatable, private :: changes(:, :, :, :)
    contains
@@ -50,17 +50,17 @@ module ehl_cached_factors
 
 contains
 
-   !> Allocate what a grid needs
+   !> Allocate the cache of a grid
    subroutine setup(self, nx, ny, stat)
       class(cached_factors_t), intent(inout) :: self
       integer, intent(in) :: nx, ny
-      !> 0: there was memory
+      !> 0 if the allocation succeeded
       integer, intent(out) :: stat
       integer :: blocks
 
       blocks = (nx - 1)/most + 1
       self%width = (nx - 1)/blocks + 1
-      self%reach = merge(small/max(1.0_dp, self%law%curvature()/straight), 0.0_dp, self%follows)
+      self%reach = merge(max_change/max(1.0_dp, self%law%curvature()/weak_curvature), 0.0_dp, self%follows)
       allocate (self%values(self%width, fields, blocks, ny), source=none, stat=stat)
       if (stat == 0) allocate (self%changes(self%width, change_fields, blocks, ny), source=0.0_real32, stat=stat)
       if (stat /= 0) self%width = 0
@@ -72,33 +72,33 @@ contains
       if (allocated(self%values)) self%values(:, f_b, :, :) = none
    end subroutine forget
 
-   !> Factors of a segment of row j, of size(b) nodes, their changes with the sliding, and that of the flow
+   !> Factors of a segment of row j of size(b) nodes, their derivatives with respect to the sliding, and the tangent
    pure subroutine find(self, b, s, segment, j, rows, newtonian)
       class(cached_factors_t), intent(inout) :: self
       !> B >= 0, and S along X and along Y of as many nodes, or more, shape (nodes, 2)
       real(dp), contiguous, intent(in) :: b(:), s(:, :)
       integer, intent(in) :: segment, j
       type(factor_rows_t), intent(inout) :: rows
-      !> Whether the whole segment flows as a Newtonian lubricant; `rows` is then as it was
+      !> Whether the whole segment flows as a Newtonian lubricant; `rows` is not changed in this case
       logical, intent(out) :: newtonian
       type(factor_rows_t) :: found
-      real(dp) :: beyond(most), ss(most, 2), reach, share, bound
+      real(dp) :: beyond(most), ss(most, 2), reach, relative, bound
       integer :: i, n, outside, from, to
 
       n = size(b)
       newtonian = flows_newtonian(self%law, b, s)
       if (newtonian) then
-         ! values cached of another state would be used for this one (film_exponent)
+         ! film_exponent would use the cached values of another state
          if (self%values(1, f_b, segment, j) > none) self%values(:n, f_b, segment, j) = none
          return
       end if
-      reach = self%reach*merge(wider, 1.0_dp, self%correcting)
-      share = merge(0.0_dp, reach, self%law%law == eyring)
+      reach = self%reach*merge(correction_factor, 1.0_dp, self%correcting)
+      relative = merge(0.0_dp, reach, self%law%law == eyring)
       associate (cached => self%values(:, :, segment, j))
          do i = 1, n
-            bound = reach + share*(abs(cached(i, f_s)) + abs(cached(i, f_s + 1)))
-            beyond(i) = max(abs(b(i) - cached(i, f_b)) - reach*(cached(i, f_b) + slight), abs(s(i, 1) - cached(i, f_s)) - bound, &
-                            abs(s(i, 2) - cached(i, f_s + 1)) - bound)
+            bound = reach + relative*(abs(cached(i, f_s)) + abs(cached(i, f_s + 1)))
+            beyond(i) = max(abs(b(i) - cached(i, f_b)) - reach*(cached(i, f_b) + sliding_offset), &
+            abs(s(i, 1) - cached(i, f_s)) - bound, abs(s(i, 2) - cached(i, f_s + 1)) - bound)
          end do
          outside = 0
          do i = 1, n
@@ -122,8 +122,8 @@ contains
       type(factor_rows_t), intent(in) :: found
       real(dp), intent(inout) :: cached(:, :)
       real(real32), intent(inout) :: changes(:, :)
-      !> d ln|S_x|/dS_x, d ln|S_y|/dS_y; d ln(phi)/d ln|S| of a direction, by its own part of S and by the other;
-      !> 1 along X and 0 across, and the other way round
+      !> d ln|S_x|/dS_x, d ln|S_y|/dS_y; d ln(phi)/d ln|S| of a direction, by its own component of S and by the other;
+      !> along: 1 in direction X, 0 in direction Y; across: 0 and 1
       real(dp) :: per_x, per_y, own, other, along, across
       integer :: i, d
 
@@ -131,8 +131,8 @@ contains
          along = merge(1.0_dp, 0.0_dp, d == 1)
          across = 1.0_dp - along
          do i = 1, size(b)
-            per_x = s(i, 1)/(s(i, 1)**2 + faint**2)
-            per_y = s(i, 2)/(s(i, 2)**2 + faint**2)
+            per_x = s(i, 1)/(s(i, 1)**2 + min_component**2)
+            per_y = s(i, 2)/(s(i, 2)**2 + min_component**2)
             own = found%tangent(i, d)/found%phi(i, d) - 1.0_dp
             other = found%by_gradient(i, d) - own
             cached(i, f_s + d - 1) = s(i, d)
@@ -151,7 +151,7 @@ contains
       end do
    end subroutine store
 
-   !> Factors to first order
+   !> Extrapolate the cached factors to first order
    pure subroutine follow(b, s, cached, changes, rows)
       real(dp), contiguous, intent(in) :: b(:), s(:, :)
       real(dp), contiguous, intent(in) :: cached(:, :)
@@ -175,7 +175,7 @@ contains
       end do
    end subroutine follow
 
-   !> Mean stress of a segment of row j, and its change with B, by what is cached
+   !> Mean stress of a segment of row j, and its derivative with respect to B, from the cache
    pure subroutine stress(self, b, s, segment, j, values, by_sliding)
       class(cached_factors_t), intent(in) :: self
       !> As in `find`
@@ -199,7 +199,7 @@ contains
       end associate
    end subroutine stress
 
-   !> d ln(eps)/d ln(H) at node (i, j), as cached
+   !> d ln(eps)/d ln(H) at node (i, j), from the cache
    pure real(dp) function film_exponent(self, i, j, direction)
       class(cached_factors_t), intent(in) :: self
       integer, intent(in) :: i, j, direction
@@ -212,9 +212,9 @@ contains
       if (.not. self%values(k, f_b, segment, j) > none) return
       associate (cached => self%values(k, :, segment, j), changes => self%changes(k, :, segment, j))
          s = cached(f_s:f_s + 1)
-         ! as `store` has them
+         ! as in `store`
          s = sign(max(abs(s), real(tiny(1.0_real32), dp)), s)
-         by_gradient = [changes(c_by_x + direction - 1), changes(c_by_y + direction - 1)]*(s + faint**2/s)
+         by_gradient = [changes(c_by_x + direction - 1), changes(c_by_y + direction - 1)]*(s + min_component**2/s)
          film_exponent = 3.0_dp - changes(c_by_sliding + direction - 1) + sum(by_gradient)
       end associate
    end function film_exponent

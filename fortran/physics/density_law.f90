@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Interface of the laws of density under pressure and temperature, row by row
+!> Interface of the laws of density as a function of pressure and temperature, row by row
 module ehl_density_law
    use ehl_kinds, only: dp
    implicit none (type, external)
@@ -23,8 +23,8 @@ module ehl_density_law
          real(dp), intent(out) :: rho(:), slope(:)
       end subroutine density
 
-      !> rho/rho0 at pressures p over the Hertz pressure and temperature increases over that of the inlet [K]; without a
-      !> rise the values of density, bit by bit
+      !> rho/rho0 at pressures p over the Hertz pressure and temperature rises above the inlet [K]; for a zero
+      !> rise equal to `density` to the bit
       pure subroutine density_at(self, p, rise, rho)
          import :: density_law_t, dp
          implicit none (type, external)

@@ -3,7 +3,7 @@
 !>
 !>    eta = eta(theta) exp{p/[a1 + a2 theta + (b1 + b2 theta) p]},   theta in degC
 !>
-!> Where the bracket is not positive, which takes b1 + b2 theta < 0, the oil is solid, and the viscosity infinite.
+!> Where the bracket is not positive, which requires b1 + b2 theta < 0, the oil is solid and its viscosity infinite.
 module ehl_dicke
    use ehl_ambient_viscosity, only: ambient_viscosity_t
    use ehl_kinds, only: dp
@@ -26,7 +26,7 @@ module ehl_dicke
 
 contains
 
-   !> The law by a1 [Pa], a2 [Pa/K], b1, b2 [1/K], the Hertz pressure [Pa] and the temperature of the inlet [degC]
+   !> The law from a1 [Pa], a2 [Pa/K], b1, b2 [1/K], the Hertz pressure [Pa] and the temperature of the inlet [degC]
    pure function new_dicke(ambient, a, b, hertz_pressure, temperature) result(law)
       type(ambient_viscosity_t), intent(in) :: ambient
       real(dp), intent(in) :: a(2), b(2), hertz_pressure, temperature
@@ -63,7 +63,7 @@ contains
       end do
    end subroutine log_viscosity
 
-   !> ln(eta/eta0) at temperature increases [K]
+   !> ln(eta/eta0) at temperature rises above the inlet [K]
    pure subroutine log_viscosity_at(self, p, rise, values)
       class(dicke_t), intent(in) :: self
       real(dp), intent(in) :: p(:), rise(:)

@@ -3,8 +3,8 @@
 !>
 !>    eta = eta_R exp{B R0 [v/(V/V_R - R0 v) - 1/(1 - R0)]},   v = 1 + eps (T - T_R)
 !>
-!> v is the volume that the molecules occupy over that at T_R, and V_R the whole volume at T_R and ambient pressure. Where no
-!> volume is free the oil is solid, and the viscosity infinite.
+!> v is the occupied volume over that at T_R, and V_R the total volume at T_R and ambient pressure. Where the free volume is
+!> not positive the oil is solid and its viscosity infinite.
 module ehl_doolittle
    use ehl_kinds, only: dp
    use ehl_tait, only: tait_t
@@ -16,7 +16,7 @@ module ehl_doolittle
    type, extends(viscosity_law_t) :: doolittle_t
       private
       type(tait_t) :: state
-      !> V/V_R of this law over that of `state`, whose T_R may be another one
+      !> V/V_R of this law over that of `state`, whose T_R may be different
       real(dp) :: scale = 1.0_dp
       !> B R0, R0, eps [1/K]
       real(dp) :: strength = 0.0_dp, occupied = 0.5_dp, growth = 0.0_dp
@@ -31,7 +31,7 @@ module ehl_doolittle
 
 contains
 
-   !> The law by eta_R [Pa s], B, R0, eps [1/K], T_R [K], the equation of state and the temperature of the inlet [K]
+   !> The law from eta_R [Pa s], B, R0, eps [1/K], T_R [K], the equation of state and the temperature of the inlet [K]
    pure function new_doolittle(reference_viscosity, b, occupied, growth, reference, state, temperature) result(law)
       real(dp), intent(in) :: reference_viscosity, b, occupied, growth, reference, temperature
       type(tait_t), intent(in) :: state
@@ -47,7 +47,7 @@ contains
       law%ambient_viscosity = reference_viscosity*exp(law%level)
    end function new_doolittle
 
-   !> Free volume over V_R at a pressure over the Hertz pressure and a temperature increase over that of the inlet [K]
+   !> Free volume over V_R at a pressure over the Hertz pressure and a temperature rise above the inlet [K]
    elemental real(dp) function free_volume(self, p, rise)
       class(doolittle_t), intent(in) :: self
       real(dp), intent(in) :: p, rise
@@ -55,7 +55,7 @@ contains
       free_volume = self%scale*self%state%volume(p, rise) - self%occupied*(1.0_dp + self%growth*(self%above + rise))
    end function free_volume
 
-   !> ln(eta/eta_R) at a pressure and a temperature increase [K]
+   !> ln(eta/eta_R) at a pressure and a temperature rise [K]
    elemental real(dp) function above_reference(self, p, rise)
       class(doolittle_t), intent(in) :: self
       real(dp), intent(in) :: p, rise
@@ -85,7 +85,7 @@ contains
       end do
    end subroutine log_viscosity
 
-   !> ln(eta/eta0) at temperature increases [K]
+   !> ln(eta/eta0) at temperature rises above the inlet [K]
    pure subroutine log_viscosity_at(self, p, rise, values)
       class(doolittle_t), intent(in) :: self
       real(dp), intent(in) :: p(:), rise(:)

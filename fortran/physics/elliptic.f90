@@ -26,15 +26,15 @@ contains
    !> R_D(0, y, z) for y, z > 0 by duplication (Carlson 1995, Numer. Algorithms 10; DLMF 19.36.2)
    pure real(dp) function complete_rd(y, z)
       real(dp), intent(in) :: y, z
-      real(dp) :: p(3), root(3), mean, far, lambda, power, total, d(3), e2, e3, e4, e5
+      real(dp) :: p(3), root(3), mean, spread, lambda, power, total, d(3), e2, e3, e4, e5
 
       p = [0.0_dp, y, z]
       mean = (y + 3.0_dp*z)/5.0_dp
-      ! the series below is then left by less than rounding
-      far = (0.25_dp*epsilon(1.0_dp))**(-1.0_dp/6.0_dp)*maxval(abs(mean - p))
+      ! limits the truncation error of the series below to rounding
+      spread = (0.25_dp*epsilon(1.0_dp))**(-1.0_dp/6.0_dp)*maxval(abs(mean - p))
       total = 0.0_dp
       power = 1.0_dp
-      do while (power*far >= abs(mean))
+      do while (power*spread >= abs(mean))
          root = sqrt(p)
          lambda = root(1)*root(2) + root(1)*root(3) + root(2)*root(3)
          total = total + power/(root(3)*(p(3) + lambda))

@@ -1,9 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Flow factors (flow_factors.f90) of several nodes side by side, each by the cheapest sufficient formula: 1 where they differ
-!> from it by less than `negligible`, second order in the gradient where that is right to `tolerance`, else through the film.
-!>
-!> The mean stress through the film begins with that of second order; Newton steps correct it, and the factors are corrected to
-!> first order for the remaining residual, with an error of its square. Where that is not small enough flow_factors.f90 iterates.
+!> Flow factors (flow_factors.f90) of several nodes at once, each by the cheapest sufficient formula: 1 where they differ
+!> from 1 by less than `negligible`, second order in the gradient where its error is below `tolerance`, else by integrals
+!> through the film. The latter start from the mean stress of second order; Newton steps correct it, and a first-order
+!> correction of the factors for the remaining residual has an error of its square. Otherwise flow_factors.f90 iterates.
 module ehl_factor_rows
    use ehl_flow_factors, only: exact_factors, factors_t, half, min_gradient, upper, weight
    use ehl_kinds, only: dp
@@ -12,19 +11,19 @@ module ehl_factor_rows
    private
    public :: factor_rows_t, find_factors, flows_newtonian, second_order
 
-   !> Factors that differ less from 1 than this are 1; relative error of factors of second order
+   !> Factors that differ from 1 by less than this are set to 1; maximum relative error of second-order factors
    real(dp), parameter :: negligible = 1.0e-6_dp, tolerance = 1.0e-4_dp
-   !> Evaluations of the integrals before the iteration; relative error of B whose square is negligible
+   !> Number of evaluations of the integrals before the iteration; relative error of B whose square is negligible
    integer, parameter :: passes = 3
    real(dp), parameter :: enough = 1.0e-3_dp
-   !> Two squares of stresses that differ less than this have a slope of F in common
+   !> The divided difference of F between two squared stresses closer than this is replaced by the mean of its slopes
    real(dp), parameter :: close = 1.0e-4_dp
 
-   !> As factors_t, by node
+   !> factors_t (flow_factors.f90) by node
    type :: factor_rows_t
       real(dp), dimension(most, 2) :: phi, by_sliding, by_gradient, tangent, stress_by_gradient
       real(dp), dimension(most) :: stress, stress_by_sliding
-      !> Relative error of factors of second order, and a mean stress near that through the film
+      !> Relative error of second-order factors, and an estimate of the mean stress through the film
       real(dp) :: error(most), near(most, 2)
    end type factor_rows_t
 
@@ -66,7 +65,7 @@ contains
       if (count > 0) call through_film(law, b, s, list(:count), rows)
    end subroutine find_factors
 
-   !> Whether the factors of size(b) nodes are all 1 but for `negligible`
+   !> Whether the factors of size(b) nodes all differ from 1 by less than `negligible`
    pure logical function flows_newtonian(law, b, s)
       type(thinning_t), intent(in) :: law
       !> As in `find_factors`
@@ -77,26 +76,26 @@ contains
       flows_newtonian = .not. any(rise*(20.0_dp*b**2 + s(:size(b), 1)**2 + s(:size(b), 2)**2) >= negligible)
    end function flows_newtonian
 
-   !> Factors of films that slide under a small gradient: to second order in S, their change with the sliding to none
+   !> Factors at a small gradient: to second order in S, their derivative with respect to the sliding to zeroth order
    pure subroutine second_order(law, b, s, rows)
       type(thinning_t), intent(in) :: law
       real(dp), contiguous, intent(in) :: b(:), s(:, :)
       type(factor_rows_t), intent(inout) :: rows
       !> F and its slopes in tau^2 at the stress t of the sliding alone
       real(dp) :: t(most), f(most, 0:slopes)
-      !> t^2, S^2; 3 f1 + 2 f2 t^2; tau_mx/t - 1 and phi less that of the sliding alone, each over the squares of S
-      real(dp) :: q, sx, sy, g, less_x, less_y, xx, xy, yx, yy, phi_x, phi_y, error, eyring_share
+      !> t^2, S^2; 3 f1 + 2 f2 t^2; tau_mx/t - 1, and phi minus its value by sliding alone, each over the squares of S
+      real(dp) :: q, sx, sy, g, less_x, less_y, xx, xy, yx, yy, phi_x, phi_y, error, is_eyring
       integer :: i
 
       call law%slide(b, t(:size(b)), f)
       error = law%second_order_error()
-      eyring_share = merge(1.0_dp, 0.0_dp, law%law == eyring)
+      is_eyring = merge(1.0_dp, 0.0_dp, law%law == eyring)
       do i = 1, size(b)
          q = t(i)**2
          sx = s(i, 1)**2
          sy = s(i, 2)**2
          g = 3.0_dp*f(i, 1) + 2.0_dp*f(i, 2)*q
-         rows%error(i) = error*((sx + sy)/(1.0_dp + (1.0_dp - eyring_share)*q))**2
+         rows%error(i) = error*((sx + sy)/(1.0_dp + (1.0_dp - is_eyring)*q))**2
          phi_x = f(i, 0) + 2.0_dp*f(i, 1)*q
          phi_y = f(i, 0)
          rows%stress_by_sliding(i) = 1.0_dp/phi_x
@@ -111,7 +110,7 @@ contains
          rows%stress(i) = t(i)*(1.0_dp + (less_x*sx + less_y*sy))
          rows%stress_by_gradient(i, 1) = 2.0_dp*t(i)*less_x*s(i, 1)
          rows%stress_by_gradient(i, 2) = 2.0_dp*t(i)*less_y*s(i, 2)
-         ! positive whatever S is
+         ! positive for any S
          rows%near(i, 1) = t(i)/(1.0_dp - (less_x*sx + less_y*sy))
          rows%near(i, 2) = -s(i, 2)*f(i, 1)/(6.0_dp*phi_y)*rows%near(i, 1)*s(i, 1)
          rows%tangent(i, 1) = phi_x + 3.0_dp*xx*sx + xy*sy
@@ -123,7 +122,7 @@ contains
       end do
    end subroutine second_order
 
-   !> Factors of the nodes of a list, through the film
+   !> Factors of the nodes of a list, by integrals through the film
    pure subroutine through_film(law, b, s, list, rows)
       type(thinning_t), intent(in) :: law
       real(dp), contiguous, intent(in) :: b(:), s(:, :)
@@ -131,7 +130,7 @@ contains
       type(factor_rows_t), intent(inout) :: rows
       type(film_t) :: film
       type(factor_rows_t) :: new
-      !> Of the nodes that are not done yet: B, S and mean stress
+      !> B, S and mean stress of the nodes that have not converged
       real(dp) :: bb(most), ss(most, 2), mean(most, 2)
       integer :: nodes(most), pass, n, i, k
 
@@ -221,7 +220,7 @@ contains
          call law%thinness(down(:n), f_down(:n), slope_down(:n))
          do i = 1, size(b)
             both = w*(f_up(i) + f_down(i))
-            ! of F in tau^2 between the two points
+            ! divided difference of F in tau^2 between the two points
             along = 4.0_dp*z*(mean(i, 1)*s(i, 1) + mean(i, 2)*s(i, 2))
             middle = 0.25_dp*(slope_up(i) + slope_down(i))
             difference = (flat(i)*middle + (1.0_dp - flat(i))*(f_up(i) - f_down(i)))/(flat(i) + (1.0_dp - flat(i))*along)
@@ -265,17 +264,17 @@ contains
       end do
    end subroutine integrate
 
-   !> Factors and their changes, corrected to first order for the residual of B
+   !> Factors and their derivatives, corrected to first order for the residual of B
    pure subroutine evaluate(b, s, mean, film, rows)
       real(dp), contiguous, intent(in) :: b(:), s(:, :), mean(:, :)
       type(film_t), intent(in) :: film
       type(factor_rows_t), intent(inout) :: rows
-      !> Change of the mean stress; by B; A^-1 C
+      !> Change of the mean stress (dx, dy); its derivative with respect to B (bx, by); A^-1 C (xx to yy)
       real(dp) :: q, pivot, dx, dy, bx, by, xx, xy, yx, yy, moment, m1, m2, m3
       integer :: i
 
       do i = 1, size(b)
-         ! by elimination: the determinant of A may overflow
+         ! by elimination, because the determinant of A may overflow
          q = film%a(i, 2)/film%a(i, 1)
          pivot = 1.0_dp/(film%a(i, 3) - q*film%a(i, 2))
          dy = (film%off(i, 2) - q*film%off(i, 1))*pivot

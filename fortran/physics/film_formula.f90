@@ -8,8 +8,8 @@ module ehl_film_formula
 
 contains
 
-   !> Central film scaled by a^2/R_x, for an incompressible lubricant. Blends the rigid/elastic,
-   !> isoviscous/piezoviscous asymptotes, all in the Moes film H^M = (h/R_x)(2U)^(-1/2). Shown accurate for
+   !> Central film scaled by a^2/R_x, for an incompressible lubricant: a blend of the rigid/elastic and
+   !> isoviscous/piezoviscous asymptotes, all in the Moes film H^M = (h/R_x)(2U)^(-1/2). Validated for
    !> radius_ratio <= 1.
    pure real(dp) function film_central_formula(moes_m, moes_l, radius_ratio, kernel_ratio) result(film)
       real(dp), intent(in) :: moes_m, moes_l
@@ -36,7 +36,7 @@ contains
       film = film**(1.0_dp/s)*(1.5_dp*moes_m/kernel_ratio)**(-2.0_dp/3.0_dp)
    end function film_central_formula
 
-   !> The same with an oil layer rho H at the inlet, if there is one: less than both, by Chevalier, Lubrecht, Cann, Colin & Dalmaz
+   !> Central film with an oil layer rho H at the inlet (0: flooded): below both, by Chevalier, Lubrecht, Cann, Colin & Dalmaz
    !> (1998, J. Tribol. 120, 126), whose exponent is between 2 and 5
    pure real(dp) function starved_film(flooded, layer) result(film)
       real(dp), intent(in) :: flooded, layer
@@ -46,7 +46,7 @@ contains
       if (layer > 0.0_dp) film = (flooded**(-exponent) + layer**(-exponent))**(-1.0_dp/exponent)
    end function starved_film
 
-   !> Central film of a point contact over the flooded one where the oil begins at a distance m from the centre:
+   !> Central film of a point contact over the flooded one if the oil meniscus is at a distance m from the centre:
    !> ((m - 1)/(m* - 1))^0.29 with m* = 1 + 3.06 H^0.58 (Hamrock & Dowson 1977, part IV; at an ellipticity of 6)
    pure real(dp) function starved_share(flooded, position) result(share)
       !> Flooded film [a^2/R_x], distance [a]

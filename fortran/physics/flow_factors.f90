@@ -1,9 +1,9 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Flow factors of a shear-thinning lubricant, exact through the film: its flow by a gradient of pressure along X, the direction
-!> of the sliding, and along Y over that of a Newtonian lubricant of its low-shear viscosity.
+!> Flow factors of a shear-thinning lubricant by integrals through the film: its flow under a pressure gradient along X, the
+!> direction of sliding, and along Y, over that of a Newtonian lubricant with its low-shear viscosity.
 !>
-!> With xi = z/h from -1/2 to 1/2 and stresses in units of the law's, the stress is tau(xi) = tau_m + xi S, where
-!> S = (h/stress) grad p. Its mean part follows from the sliding,
+!> With xi = z/h from -1/2 to 1/2 and stresses over that of the law, the stress is tau(xi) = tau_m + xi S, where
+!> S = (h/stress) grad p. The mean stress follows from the sliding,
 !>
 !>    int F(|tau|) tau_x dxi = B,   int F(|tau|) tau_y dxi = 0,   B = eta |u1 - u2|/(h stress),
 !>
@@ -13,10 +13,10 @@
 !>
 !>    phi_x = 12 [J2 + tau_mx^2 K J0/(J0 + S_y^2 K)],   phi_y = 12 [J2 - J0 (S_x tau_mx K/(J0 + S_y^2 K))^2],
 !>
-!> which holds for S_x = 0 and S_y = 0 too; K is made of divided differences of F. Limits: S -> 0 (sliding alone)
+!> which holds for S_x = 0 and S_y = 0 too; K is a sum of divided differences of F. Limits: S -> 0 (sliding alone)
 !> phi_x = dB/dtau, phi_y = B/tau; B = 0, one direction, Eyring: 3 (s cosh s - sinh s)/s^3, s = S/2 (Conry 1981).
 !>
-!> Changes: with A, C, D = int (1, xi, xi^2) d(F tau)/dtau dxi (2 x 2) and M = D - C A^-1 C,
+!> Derivatives: with A, C, D = int (1, xi, xi^2) d(F tau)/dtau dxi (2 x 2) and M = D - C A^-1 C,
 !> dtau_m = A^-1 [(dB, 0) - C dS],   dQ = C A^-1 (dB, 0) + M dS.
 module ehl_flow_factors
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
@@ -27,23 +27,23 @@ module ehl_flow_factors
    public :: factors_t, exact_factors
    public :: half, upper, weight, min_gradient
 
-   !> Gauss points through the film, those of one half before their mirror images, and their weights
+   !> Gauss points through the film, those of one half before their mirror images, and weights
    integer, parameter :: half = 3, points = 2*half
    real(dp), parameter :: upper(half) = 0.5_dp*[0.238619186083196909_dp, 0.661209386466264514_dp, 0.932469514203152028_dp]
    real(dp), parameter :: weight(half) = 0.5_dp*[0.467913934572691047_dp, 0.360761573048138608_dp, 0.171324492379170345_dp]
    real(dp), parameter :: z(points) = [upper, -upper], w(points) = [weight, weight]
-   !> Steps of the Newton iteration for the mean stress; relative error of B at which it ends: the next step would leave its
-   !> square
+   !> Maximum number of Newton steps for the mean stress; relative error of B before the last step, whose error is the square
+   !> of it
    integer, parameter :: max_steps = 200
    real(dp), parameter :: tolerance = 1.0e-7_dp
-   !> A step is halved where the slope at its end has the opposite sign, and more than this share of the size at its start
+   !> A step is halved if the slope at its end has the opposite sign and more than this fraction of the magnitude at its start
    real(dp), parameter :: overshoot = 0.5_dp
-   !> Maximum step where the stress is smaller than it
+   !> Maximum step at smaller stresses; otherwise the stress itself
    real(dp), parameter :: max_step = 4.0_dp
-   !> Two stresses that are closer than this, or than this share of their sum, have a slope of F in common
+   !> The divided difference of F between two stresses closer than this, absolutely or relative to their sum, is replaced by
+   !> the mean of its slopes
    real(dp), parameter :: close = 1.0e-4_dp
-   !> A smaller component of S is replaced by this, which changes the factors by its square only, so that their derivatives are
-   !> not 0/0
+   !> Smallest component of S, so that derivatives are not 0/0; it changes the factors by its square only
    real(dp), parameter :: min_gradient = 1.0e-4_dp
 
    !> Stress along X and along Y at the points of a film, its square, F and its slope (thinning.f90)
@@ -58,13 +58,13 @@ module ehl_flow_factors
       real(dp) :: by_sliding(2) = 0.0_dp, by_gradient(2) = 0.0_dp
       !> d(phi_x S_x)/dS_x, d(phi_y S_y)/dS_y
       real(dp) :: tangent(2) = 1.0_dp
-      !> Mean stress along X, and its change with B, with S_x and with S_y
+      !> Mean stress along X, and its derivatives with respect to B, S_x and S_y
       real(dp) :: stress = 0.0_dp, stress_by_sliding = 1.0_dp, stress_by_gradient(2) = 0.0_dp
    end type factors_t
 
 contains
 
-   !> Factors through the film for B >= 0 and a gradient S; NaNs where the mean stress is not found
+   !> Factors by integrals through the film for B >= 0 and a gradient S; NaN if the mean stress does not converge
    pure function exact_factors(law, b, gradient) result(r)
       type(thinning_t), intent(in) :: law
       real(dp), intent(in) :: b, gradient(2)
@@ -85,11 +85,11 @@ contains
          if (.not. b > 0.0_dp) exit
          off = [b, 0.0_dp] - mean*j0 - s*k*dot_product(mean, s)
          if (all(abs(off) <= tolerance*b)) then
-            ! the last step, small as it is
+            ! the last, small step
             mean = mean + solve(a, off)
             exit
          end if
-         ! the equations are the slope of a convex function: too far along the change is where that increases steeply
+         ! the equations are the gradient of a convex function: if it increases steeply along the change the step was too long
          if (dot_product(off, change) < -overshoot*slope) then
             change = 0.5_dp*change
             slope = 0.5_dp*slope
@@ -122,7 +122,7 @@ contains
 
       ends = 0.5_dp*abs(s)
       if (law%law == eyring) then
-         ! exact where S has no part along Y: int sinh(t + xi S) dxi = sinh(t) sinh(S/2)/(S/2)
+         ! exact for S_y = 0: int sinh(t + xi S) dxi = sinh(t) sinh(S/2)/(S/2)
          call law%thinness([ends(1)**2], f, slope)
          first_guess = law%sliding_stress(b/f(1))
          if (ends(2) < first_guess) then
@@ -137,7 +137,7 @@ contains
       end if
    end function first_guess
 
-   !> Stress and F at the points of the film, for a mean stress
+   !> Stress and F at the points of the film for a given mean stress
    pure subroutine through_film(law, mean, s, film)
       type(thinning_t), intent(in) :: law
       real(dp), intent(in) :: mean(2), s(2)
@@ -161,7 +161,7 @@ contains
       associate (up => film%f(:half), down => film%f(half + 1:))
          apart = t(:half) - t(half + 1:)
          far = abs(apart) > close*max(1.0_dp, t(:half) + t(half + 1:))
-         ! of F in tau^2 between two points
+         ! divided difference of F in tau^2 between two points
          difference = merge(up - down, 0.25_dp*(film%slope(:half) + film%slope(half + 1:)), far) &
                       /merge(apart*(t(:half) + t(half + 1:)), 1.0_dp, far)
       end associate
@@ -188,7 +188,7 @@ contains
       real(dp), intent(in) :: a(3), v(2)
       real(dp) :: x(2), q
 
-      ! by elimination: the determinant of A may overflow
+      ! by elimination, because the determinant of A may overflow
       q = a(2)/a(1)
       x(2) = (v(2) - q*v(1))/(a(3) - q*a(2))
       x(1) = (v(1) - a(2)*x(2))/a(1)

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Temperature: viscosity of an oil from its data sheet, shear heating of the inlet, flash temperature of the surfaces
+!> Thermal effects: viscosity of an oil from its data sheet, shear heating of the inlet, flash temperature of the surfaces
 module ehl_heat
    use ehl_kinds, only: dp, pi
    implicit none (type, external)
@@ -9,11 +9,11 @@ module ehl_heat
 
    !> 0 degC in kelvin, and the temperatures of data sheets [degC]
    real(dp), parameter :: zero_celsius = 273.15_dp, sheet(2) = [40.0_dp, 100.0_dp], sheet_density = 15.0_dp
-   !> Power of the potential of a narrow contact in raised_speed, by integrals over moving sources: within 6 % of their
-   !> maximum rise where the semi-axis across the motion is 1/15 to 30 times that along it, 1 % for a circle
+   !> Power of the potential of a narrow contact in raised_speed, fitted to integrals over moving sources: error of the
+   !> maximum rise 6 % for semi-axes across the motion of 1/15 to 30 times that along it, 1 % for a circle
    real(dp), parameter :: narrow = 0.38_dp
 
-   !> Viscosity of a data sheet over temperature: constants of the Walther line, computed once for many temperatures
+   !> Viscosity of a data sheet as a function of temperature: constants of the Walther line
    type :: walther_t
       private
       !> log T [ln K] and log log Z at the temperatures of the sheet
@@ -62,7 +62,7 @@ contains
       viscosity = line%viscosity(temperature)
    end function kinematic_viscosity
 
-   !> Viscosity [Pa s] at a temperature [degC]; density at 15 degC [kg/m^3], its relative fall per kelvin
+   !> Viscosity [Pa s] at a temperature [degC]; density at 15 degC [kg/m^3], its relative decrease per kelvin
    pure real(dp) function dynamic_viscosity(temperature, points, density, expansion)
       real(dp), intent(in) :: temperature, points(2), density, expansion
       type(walther_t) :: line
@@ -71,8 +71,8 @@ contains
       dynamic_viscosity = line%dynamic(temperature, density, expansion)
    end function dynamic_viscosity
 
-   !> The same of a line. NaN where the linear density is not positive, above 1000 degC: only
-   !> rough estimates of the heat get there.
+   !> Viscosity [Pa s] of a line. NaN where the linear density is not positive, above 1000 degC, which only
+   !> rough estimates of the heat reach.
    pure real(dp) function dynamic_of_line(line, temperature, density, expansion) result(viscosity)
       class(walther_t), intent(in) :: line
       real(dp), intent(in) :: temperature, density, expansion
@@ -83,7 +83,7 @@ contains
    !> Temperature-viscosity coefficient -(d eta/dT)/eta [1/K] of the same oil
    pure real(dp) function temperature_viscosity(temperature, points, density, expansion)
       real(dp), intent(in) :: temperature, points(2), density, expansion
-      !> [K] the error of the difference is its square over some hundred K^2
+      !> [K]; the relative error of the difference is its square over a few hundred K^2
       real(dp), parameter :: step = 0.01_dp
 
       temperature_viscosity = log(dynamic_viscosity(temperature - step, points, density, expansion) &
@@ -97,7 +97,7 @@ contains
       thermal_loading = coefficient*viscosity*velocity**2/conductivity
    end function thermal_loading
 
-   !> Film with shear heating of the inlet over the isothermal one: Gupta, Cheng, Zhu, Forster & Schrand 1992,
+   !> Film with shear heating of the inlet over the isothermal film: Gupta, Cheng, Zhu, Forster & Schrand 1992,
    !> Tribol. Trans. 35, 269. Not positive far outside its range.
    pure real(dp) function thermal_reduction(loading, pressure, slide_to_roll)
       !> Thermal loading [-], p_h/E' [-], slide-to-roll ratio [-]
@@ -107,10 +107,10 @@ contains
                           /(1.0_dp + 0.213_dp*(1.0_dp + 2.23_dp*abs(slide_to_roll)**0.83_dp)*loading**0.64_dp)
    end function thermal_reduction
 
-   !> Maximum temperature rise [K] of two surfaces that move at `speeds` [m/s] through the heat of a Hertz contact,
-   !> semi-elliptic over its ellipse: Tian & Kennedy 1994, J. Tribol. 116, 167, for one surface and a circle; the heat
-   !> is shared so that both become as hot (Blok 1937). On an ellipse a fast surface is as hot as on a circle of the same
-   !> length along the motion, and one at rest from the potential of the ellipse.
+   !> Maximum temperature rise [K] of two surfaces that move at `speeds` [m/s] through the semi-ellipsoidal heat source of a
+   !> Hertz contact: Tian & Kennedy 1994, J. Tribol. 116, 167, for one surface and a circle; the heat partition equates both
+   !> maxima (Blok 1937). On an ellipse the rise of a fast surface is that on a circle of the same
+   !> length along the motion, and the rise of a surface at rest follows from the potential of the ellipse.
    pure real(dp) function flash_temperature(flux, half, potential, speeds, conductivity, diffusivity)
       !> Mean heat flux [W/m^2]; half the length of the contact along the motion, through its centre [m]; iint P/r at the
       !> centre over that of a circle of this radius [-], 1 for a circle; of the solids: conductivity [W/(m K)],
@@ -119,16 +119,16 @@ contains
       real(dp) :: peclet(2)
 
       peclet = abs(speeds)*half/(2.0_dp*diffusivity)
-      ! each surface by itself would have 2.32 flux half/(k sqrt(pi (1.234 + Pe))), on a circle
+      ! on a circle each surface alone would have 2.32 flux half/(k sqrt(pi (1.234 + Pe)))
       flash_temperature = 2.32_dp*flux*half/sum(conductivity*sqrt(pi*raised_speed(peclet, 1.234_dp/potential**2, potential)))
    end function flash_temperature
 
-   !> Speed at which heat conduction normal to the surface alone gives the maximum temperature rise with conduction in all
-   !> directions: from that of the surface and the equivalent one of a surface at rest. On a circle
-   !> and a wide contact both speeds add up; under a narrow one heat flows across the motion at speeds at which it does not yet
-   !> flow ahead.
+   !> Speed at which heat conduction normal to the surface alone has the maximum temperature rise of conduction in all
+   !> directions: from the speed of the surface and the equivalent one of a surface at rest. On a circle
+   !> and a wide contact the two add up; in a narrow contact conduction across the motion matters at speeds at which conduction
+   !> along it does not.
    elemental real(dp) function raised_speed(speed, rest, potential)
-      !> Both speeds in any unit; iint P/r at the centre over that of a circle as long along the motion [-]
+      !> Both speeds in any unit; iint P/r at the centre over that of a circle of the same length along the motion [-]
       real(dp), intent(in) :: speed, rest, potential
       real(dp) :: power
 

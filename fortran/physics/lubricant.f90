@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The lubricant: viscosity and density under pressure and temperature, and shear stress
+!> The lubricant: viscosity and density as functions of pressure and temperature, and shear stress
 module ehl_lubricant
    use ehl_barus, only: barus_t
    use ehl_density_law, only: density_law_t
@@ -22,9 +22,9 @@ module ehl_lubricant
       class(density_law_t), allocatable :: compression
       !> Shear stress
       type(shear_law_t) :: shear
-      !> Boundary film, which pressure does not squeeze out, at P = 0 [a^2/R]; 0: none
+      !> Boundary film H_b at P = 0 [a^2/R]; 0: none
       real(dp) :: boundary_film = 0.0_dp
-      !> Its shear stress at P = 1 over the Newtonian stress of eta = eta0 and H = 1; 0: not known, or there is no sliding
+      !> Its shear stress at P = 1 over the Newtonian stress of eta = eta0 and H = 1; 0: not given, or no sliding
       real(dp) :: boundary_stress = 0.0_dp
       !> Hardness of the solids, the maximum pressure between them; 0: no limit
       real(dp) :: boundary_limit = 0.0_dp
@@ -37,7 +37,7 @@ module ehl_lubricant
 
 contains
 
-   !> Lubricant with laws that need no constants of an oil but alpha and beta
+   !> Lubricant with laws whose only oil constants are alpha and beta
    function new_lubricant(viscosity_law, density_law, alpha_bar, hertz_pressure, z, roelands_p0, beta, expansion, &
                           temperature) result(lubricant)
       integer, intent(in) :: viscosity_law, density_law
@@ -47,8 +47,8 @@ contains
       !> means a lubricant of constant viscosity and density
       real(dp), intent(in) :: hertz_pressure, roelands_p0
       real(dp), intent(in) :: z
-      !> beta = -(d eta/dT)/eta and thermal expansion [1/K], temperature of the inlet [K]; not given: the temperature
-      !> changes nothing
+      !> beta = -(d eta/dT)/eta and thermal expansion [1/K], temperature of the inlet [K]; absent: no dependence on
+      !> temperature
       real(dp), intent(in), optional :: beta, expansion, temperature
       type(lubricant_t) :: lubricant
       real(dp) :: with_beta, with_expansion, inlet
@@ -79,7 +79,7 @@ contains
       call self%viscosity%log_viscosity(p, values, slope)
    end subroutine log_viscosity
 
-   !> ln(eta/eta0) at pressures p and temperature increases over that of the inlet [K]
+   !> ln(eta/eta0) at pressures p and temperature rises above the inlet [K]
    pure subroutine log_viscosity_at(self, p, rise, values)
       class(lubricant_t), intent(in) :: self
       real(dp), intent(in) :: p(:), rise(:)
@@ -95,7 +95,7 @@ contains
       call self%compression%density(p, rho, slope)
    end subroutine density
 
-   !> Density rho/rho0 at pressures p and temperature increases over that of the inlet [K]
+   !> Density rho/rho0 at pressures p and temperature rises above the inlet [K]
    pure subroutine density_at(self, p, rise, rho)
       class(lubricant_t), intent(in) :: self
       real(dp), intent(in) :: p(:), rise(:)

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The operating point of a contact: Moes parameters and the groups of the dimensionless Reynolds equation. Those of an
-!> ellipse are those of a circle with other M and L (Biboulet & Houpert 2010).
+!> The operating point of a contact: Moes parameters and the groups of the dimensionless Reynolds equation. The groups of an
+!> elliptical contact are those of a circular one with different M and L (Biboulet & Houpert 2010).
 module ehl_moes
    use ehl_kinds, only: dp, pi
    use ehl_scales, only: circle_factor
@@ -22,7 +22,7 @@ module ehl_moes
 
 contains
 
-   !> Operating point from M and L by R_x
+   !> Operating point from M and L with R_x
    pure function operating_from_moes(moes_m, moes_l, ellipticity, kernel_factor) result(point)
       !> kappa and k_b of the contact
       real(dp), intent(in) :: moes_m, moes_l, ellipticity, kernel_factor

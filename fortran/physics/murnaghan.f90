@@ -3,7 +3,7 @@
 !>
 !>    rho/rho(T) = (1 + K0' p/K0)^(1/K0'),   K0 = K00 exp(-beta_K T) with T in K
 !>
-!> under pressure, linear with temperature at ambient pressure
+!> with a density rho(T) at ambient pressure that is linear in temperature
 module ehl_murnaghan
    use ehl_density_law, only: density_law_t
    use ehl_kinds, only: dp
@@ -15,7 +15,7 @@ module ehl_murnaghan
       private
       !> K0' and, at the temperature of the inlet, K0/p_h
       real(dp) :: rate = 1.0_dp, modulus = 1.0_dp
-      !> beta_K and relative fall of the density with temperature [1/K]
+      !> beta_K and relative decrease of the density with temperature [1/K]
       real(dp) :: softening = 0.0_dp, expansion = 0.0_dp
    contains
       procedure :: density
@@ -24,7 +24,7 @@ module ehl_murnaghan
 
 contains
 
-   !> The law by K00 [Pa], K0', beta_K [1/K], the thermal expansion [1/K], the Hertz pressure [Pa] and the temperature of the
+   !> The law from K00 [Pa], K0', beta_K [1/K], the thermal expansion [1/K], the Hertz pressure [Pa] and the temperature of the
    !> inlet [K]
    pure function new_murnaghan(modulus, rate, softening, expansion, hertz_pressure, temperature) result(law)
       real(dp), intent(in) :: modulus, rate, softening, expansion, hertz_pressure, temperature
@@ -51,7 +51,7 @@ contains
       end do
    end subroutine density
 
-   !> rho/rho0 at temperature increases [K]
+   !> rho/rho0 at temperature rises above the inlet [K]
    pure subroutine density_at(self, p, rise, rho)
       class(murnaghan_t), intent(in) :: self
       real(dp), intent(in) :: p(:), rise(:)

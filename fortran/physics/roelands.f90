@@ -3,7 +3,7 @@
 !>
 !>    ln(eta/eta0) = A {(1 + p/p0)^z [(T - 138 K)/(T0 - 138 K)]^(-S0) - 1},   A = alpha p0/z,   S0 = beta (T0 - 138 K)/A
 !>
-!> With the exponent z that follows from alpha A is ln(eta0/Pa s) + 9.67.
+!> If z follows from alpha, A is ln(eta0/Pa s) + 9.67.
 module ehl_roelands
    use ehl_kinds, only: dp
    use ehl_viscosity_law, only: viscosity_law_t
@@ -26,7 +26,7 @@ module ehl_roelands
 
 contains
 
-   !> The law by alpha p_h, p0/p_h and z; beta = -(d eta/dT)/eta [1/K] at ambient pressure and the temperature of the inlet
+   !> The law from alpha p_h, p0/p_h and z; beta = -(d eta/dT)/eta [1/K] at ambient pressure and the temperature of the inlet
    !> T0 [K]
    pure function new_roelands(alpha_bar, p0, z, beta, temperature) result(law)
       real(dp), intent(in) :: alpha_bar, p0, z, beta, temperature
@@ -56,7 +56,7 @@ contains
       end do
    end subroutine log_viscosity
 
-   !> ln(eta/eta0) at temperature increases [K]
+   !> ln(eta/eta0) at temperature rises above the inlet [K]
    pure subroutine log_viscosity_at(self, p, rise, values)
       class(roelands_t), intent(in) :: self
       real(dp), intent(in) :: p(:), rise(:)

@@ -11,9 +11,9 @@ module ehl_scales
 
    type :: scales_t
       !> Lengths: semi-axis a of the dry contact along the motion [m]; films: a^2/R_x [m]; 0: the contact is given by
-      !> numbers without dimension
+      !> dimensionless parameters
       real(dp) :: length = 0.0_dp, film = 0.0_dp
-      !> Pressures: Hertz pressure p_h [Pa]; 0 where neither viscosity nor density varies
+      !> Pressures: Hertz pressure p_h [Pa]; 0 if viscosity and density are constant
       real(dp) :: pressure = 0.0_dp
    contains
       procedure :: has_size

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Shear stress of the lubricant in the contact, for friction; whether the flow that makes the film obeys the same law
+!> Shear stress of the lubricant in the contact, for friction; whether the Reynolds equation obeys the same law
 module ehl_shear
    use, intrinsic :: iso_c_binding, only: c_double
    use ehl_kinds, only: dp
@@ -20,11 +20,11 @@ module ehl_shear
       real(dp) :: coefficient = 0.0_dp
       !> [-] power-law exponent n of Carreau
       real(dp) :: exponent = 1.0_dp
-      !> [Pa] Newtonian stress eta0 |u1 - u2|/(a^2/R) of eta = eta0 and H = 1; 0: not known, or no sliding
+      !> [Pa] Newtonian stress eta0 |u1 - u2|/(a^2/R) of eta = eta0 and H = 1; 0: not given, or no sliding
       real(dp) :: scale = 0.0_dp
       !> [Pa] Hertz pressure
       real(dp) :: hertz_pressure = 0.0_dp
-      !> Whether the flow obeys the law (Eyring and Carreau), and [Pa] p_h a/R: the stress that dP/dX = 1 makes across H = 1
+      !> Whether the flow obeys the law (Eyring and Carreau), and [Pa] p_h a/R: the stress due to dP/dX = 1 across H = 1
       logical :: in_flow = .false.
       real(dp) :: gradient_scale = 0.0_dp
    contains
@@ -46,7 +46,7 @@ module ehl_shear
 
 contains
 
-   !> Shear stress [Pa] at the stress eta |u1 - u2|/h [Pa] that a Newtonian lubricant would have and a pressure [Pa].
+   !> Shear stress [Pa] from the Newtonian stress tau_N = eta |u1 - u2|/h [Pa] and the pressure p [Pa].
    !>
    !>    Eyring    tau_0 asinh(tau_N/tau_0)                    (Johnson & Tevaarwerk 1977)
    !>    limiting  tau_L (1 - exp(-tau_N/tau_L))               (Bair & Winer 1979), tau_L constant or coefficient times p
@@ -86,27 +86,27 @@ contains
       end select
    end subroutine shear_stress
 
-   !> Whether the stress differs from the Newtonian one. Without sliding it does not: friction is then the limit of vanishing
-   !> sliding, in which every law here is Newtonian.
+   !> Whether the stress differs from the Newtonian one. Without sliding it does not: friction is the limit of vanishing
+   !> sliding, in which every law is Newtonian.
    pure logical function thins(self)
       class(shear_law_t), intent(in) :: self
       thins = self%law /= shear_newtonian .and. self%scale > 0.0_dp
    end function thins
 
-   !> Whether the lubricant thins in the flow; without sliding it does by the gradient of pressure
+   !> Whether the flow is shear-thinning; without sliding the pressure gradient alone thins it
    pure logical function thins_flow(self)
       class(shear_law_t), intent(in) :: self
       thins_flow = self%in_flow .and. (self%law == shear_eyring .or. (self%law == shear_carreau .and. self%exponent < 1.0_dp))
    end function thins_flow
 
-   !> Estimate of the central film of a shear-thinning lubricant, from that of a Newtonian one, as a start for solvers: h goes with
-   !> eta^(2/3), the viscosity is that in the inlet, where alpha p = 1, at the shear rate (u + |u1 - u2|)/h. It tends to be low:
-   !> solvers should not start with a film that is much too thick.
+   !> Initial estimate of the central film of a shear-thinning lubricant, from that of a Newtonian one: h is proportional to
+   !> eta^(2/3), with the viscosity of the inlet, where alpha p = 1, at the shear rate (u + |u1 - u2|)/h. The estimate is rather
+   !> too low, because the solver should not start with a film that is much too thick.
    pure real(dp) function thinned_film(self, newtonian, speed_parameter) result(film)
       class(shear_law_t), intent(in) :: self
-      !> [a^2/R]; lambda_bar = 12 eta0 u/(a^2/R) over gradient_scale
+      !> Newtonian film [a^2/R]; lambda_bar = 12 eta0 u/(a^2/R) over gradient_scale
       real(dp), intent(in) :: newtonian, speed_parameter
-      !> The film changes by less than 0.7 of what it did before
+      !> Number of fixed-point steps; each reduces the change of the film by a factor of less than 0.7
       integer, parameter :: steps = 30
       real(dp), parameter :: inlet_viscosity = exp(1.0_dp)
       type(thinning_t) :: thinning
@@ -122,13 +122,13 @@ contains
       end do
    end function thinned_film
 
-   !> The law of a lubricant that thins
+   !> The shear-thinning law
    pure type(thinning_t) function thinning(self)
       class(shear_law_t), intent(in) :: self
       thinning = thinning_t(merge(carreau, eyring, self%law == shear_carreau), self%exponent)
    end function thinning
 
-   !> From eta/(eta0 H) to the shear stress over `scale`, at pressures scaled by the Hertz pressure
+   !> Convert eta/(eta0 H) to the shear stress over `scale`, at pressures scaled by the Hertz pressure
    pure subroutine reduce(self, p, values)
       class(shear_law_t), intent(in) :: self
       real(dp), intent(in) :: p(:)

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Densities without constants of the oil: none under pressure, and that of Dowson & Higginson 1966,
-!> rho/rho0 = (5.9e8 Pa + 1.34 p)/(5.9e8 Pa + p); both fall linearly with temperature
+!> Density laws without oil constants: incompressible, and Dowson & Higginson 1966,
+!> rho/rho0 = (5.9e8 Pa + 1.34 p)/(5.9e8 Pa + p); both decrease linearly with temperature
 module ehl_simple_density
    use ehl_density_law, only: density_law_t
    use ehl_kinds, only: dp
@@ -8,11 +8,11 @@ module ehl_simple_density
    private
    public :: incompressible_t, dowson_higginson_t, new_dowson_higginson
 
-   !> Pressure [Pa] and maximum density under pressure
+   !> Constants of Dowson & Higginson: pressure [Pa] and limit of rho/rho0
    real(dp), parameter :: dowson_pressure = 5.9e8_dp, dowson_limit = 1.34_dp
 
    type, extends(density_law_t) :: incompressible_t
-      !> Relative fall of the density with temperature [1/K]
+   !> Relative decrease of the density with temperature [1/K]
       real(dp) :: expansion = 0.0_dp
    contains
       procedure :: density => density_incompressible
@@ -23,7 +23,7 @@ module ehl_simple_density
       private
       !> 5.9e8 Pa/p_h
       real(dp) :: d0 = 1.0_dp
-      !> Relative fall of the density with temperature [1/K]
+      !> Relative decrease of the density with temperature [1/K]
       real(dp) :: expansion = 0.0_dp
    contains
       procedure :: density
@@ -32,7 +32,7 @@ module ehl_simple_density
 
 contains
 
-   !> The law by the Hertz pressure [Pa] and the thermal expansion [1/K]
+   !> The law from the Hertz pressure [Pa] and the thermal expansion [1/K]
    pure function new_dowson_higginson(hertz_pressure, expansion) result(law)
       real(dp), intent(in) :: hertz_pressure, expansion
       type(dowson_higginson_t) :: law
@@ -56,7 +56,7 @@ contains
       end do
    end subroutine density
 
-   !> rho/rho0 at temperature increases [K]
+   !> rho/rho0 at temperature rises above the inlet [K]
    pure subroutine density_at(self, p, rise, rho)
       class(dowson_higginson_t), intent(in) :: self
       real(dp), intent(in) :: p(:), rise(:)
@@ -67,7 +67,7 @@ contains
       rho = rho*(1.0_dp - self%expansion*rise)
    end subroutine density_at
 
-   !> The same without pressure
+   !> rho/rho0 at the temperature of the inlet, 1, and its slope
    pure subroutine density_incompressible(self, p, rho, slope)
       class(incompressible_t), intent(in) :: self
       real(dp), intent(in) :: p(:)
@@ -79,7 +79,7 @@ contains
       slope = 0.0_dp
    end subroutine density_incompressible
 
-   !> The same without pressure
+   !> rho/rho0 at temperature rises above the inlet [K]
    pure subroutine density_at_incompressible(self, p, rise, rho)
       class(incompressible_t), intent(in) :: self
       real(dp), intent(in) :: p(:), rise(:)

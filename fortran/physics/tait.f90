@@ -26,7 +26,7 @@ module ehl_tait
 
 contains
 
-   !> The law by K00 [Pa], K0', beta_K [1/K], a_V [1/K], T_R [K], the Hertz pressure [Pa] and the temperature of the inlet [K]
+   !> The law from K00 [Pa], K0', beta_K [1/K], a_V [1/K], T_R [K], the Hertz pressure [Pa] and the temperature of the inlet [K]
    pure function new_tait(modulus, rate, softening, expansion, reference, hertz_pressure, temperature) result(law)
       real(dp), intent(in) :: modulus, rate, softening, expansion, reference, hertz_pressure, temperature
       type(tait_t) :: law
@@ -39,7 +39,7 @@ contains
       law%ambient = 1.0_dp + expansion*law%above
    end function new_tait
 
-   !> V/V_R at a pressure over the Hertz pressure and a temperature increase over that of the inlet [K]
+   !> V/V_R at a pressure over the Hertz pressure and a temperature rise above the inlet [K]
    elemental real(dp) function volume(self, p, rise)
       class(tait_t), intent(in) :: self
       real(dp), intent(in) :: p, rise
@@ -48,7 +48,7 @@ contains
                *(1.0_dp - log(1.0_dp + self%rate*p/(self%modulus*exp(-self%softening*rise)))/self%rate)
    end function volume
 
-   !> Slope of V/V_R over the pressure at the temperature of the inlet
+   !> Derivative of V/V_R with respect to the pressure at the temperature of the inlet
    elemental real(dp) function volume_slope(self, p)
       class(tait_t), intent(in) :: self
       real(dp), intent(in) :: p
@@ -69,7 +69,7 @@ contains
       end do
    end subroutine density
 
-   !> rho/rho0 at temperature increases [K]
+   !> rho/rho0 at temperature rises above the inlet [K]
    pure subroutine density_at(self, p, rise, rho)
       class(tait_t), intent(in) :: self
       real(dp), intent(in) :: p(:), rise(:)

@@ -1,14 +1,14 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Lubricants that thin by shear: the shear rate is
+!> Shear-thinning lubricants: the shear rate is
 !>
 !>    rate = tau F(|tau|)/eta
 !>
-!> with the stress tau in units of a stress of the law and eta the viscosity at low shear:
+!> with the stress tau over that of the law and the low-shear viscosity eta:
 !>
 !>    Eyring    F = sinh|tau|/|tau|                        (Eyring stress; Johnson & Tevaarwerk 1977)
 !>    Carreau   F = (1 + tau^2)^((1 - n)/(2 n))            (stress G; Bair 2007, single Newtonian plateau, in stress form)
 !>
-!> In a film that only slides, B = eta |u1 - u2|/(h stress) = tau F(tau).
+!> In sliding without a pressure gradient B = eta |u1 - u2|/(h stress) = tau F(tau).
 module ehl_thinning
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use ehl_kinds, only: dp
@@ -17,14 +17,14 @@ module ehl_thinning
    public :: thinning_t, eyring, carreau, slopes, most
 
    integer, parameter :: eyring = 1, carreau = 2
-   !> Below this stress the Eyring law is summed as a series
+   !> Below this stress the Eyring law is evaluated as a series
    real(dp), parameter :: series_below = 0.5_dp
-   !> Most steps of an iteration; error before the last step at which it ends, which leaves the cube of it
+   !> Maximum number of steps of an iteration; error before the last step, whose error is the cube of it
    integer, parameter :: max_steps = 50
    real(dp), parameter :: enough = 1.0e-4_dp
-   !> Films side by side, at the most
+   !> Maximum number of films evaluated at once
    integer, parameter :: most = 64
-   !> Slopes of F in the square of the stress
+   !> Number of derivatives of F with respect to the square of the stress
    integer, parameter :: slopes = 3
 
    !> A law with its parameter
@@ -58,7 +58,7 @@ contains
             slope(i) = 2.0_dp*m*f(i)/x
          end do
       else
-         ! here and below: sums with shares of 0 and 1, where compilers would branch around a choice
+         ! here and below: sums with weights of 0 and 1, because compilers would branch at a `merge`
          near(:size(square)) = merge(1.0_dp, 0.0_dp, square < series_below**2)
          do i = 1, size(square)
             x = max(square(i), series_below**2)
@@ -75,7 +75,7 @@ contains
       end if
    end subroutine thinness
 
-   !> Stress of films that only slide, and F there with its slopes in the square of the stress, d^k F/d(tau^2)^k
+   !> Stress in sliding without a pressure gradient, and F with its derivatives d^k F/d(tau^2)^k there
    pure subroutine slide(self, b, t, f)
       class(thinning_t), intent(in) :: self
       !> B >= 0 of at most `most` films
@@ -93,9 +93,9 @@ contains
    pure subroutine slide_eyring(b, t, f)
       real(dp), contiguous, intent(in) :: b(:)
       real(dp), contiguous, intent(out) :: t(:), f(:, 0:)
-      !> 1/3, 1/(3 5), 1/(3 5 7): the slopes of Eyring at 0, times 2^k
+      !> 1/3, 1/(3 5), 1/(3 5 7): the derivatives of Eyring at 0, times 2^k
       real(dp), parameter :: at_zero(slopes) = [1.0_dp/3.0_dp, 1.0_dp/15.0_dp, 1.0_dp/105.0_dp]
-      !> Below the first cosh(tau) = sqrt(1 + B^2) is needed in full; below the second the logarithm loses digits
+      !> Above `large`, cosh(tau) = sqrt(1 + B^2) equals B; below `small` the logarithm loses digits
       real(dp), parameter :: large = 1.0e9_dp, small = 1.0e-2_dp
       real(dp), dimension(most) :: cosh_t, short, near
       real(dp) :: x, y, far(0:slopes)
@@ -132,9 +132,9 @@ contains
       class(thinning_t), intent(in) :: self
       real(dp), contiguous, intent(in) :: b(:)
       real(dp), contiguous, intent(out) :: t(:), f(:, 0:)
-      !> Below it there is no sliding; the square of the second does not overflow
+      !> Smaller B count as no sliding; the square of `large` does not overflow
       real(dp), parameter :: none = 1.0e-100_dp, large = 1.0e100_dp
-      !> Steps of the iteration at the most, enough for all but extreme exponents
+      !> Number of steps that suffices for all but extreme exponents
       integer, parameter :: usual_steps = 3
       real(dp), dimension(most) :: wanted, u, error
       real(dp) :: m, x, slope
@@ -147,7 +147,7 @@ contains
          x = min(x, large)
          u(i) = wanted(i) + 0.5_dp*(self%exponent - 1.0_dp)*log(1.0_dp + x**2)
       end do
-      ! as sliding_stress
+      ! as in sliding_stress
       do k = 1, usual_steps
          do i = 1, size(b)
             x = exp(2.0_dp*u(i))
@@ -171,8 +171,8 @@ contains
       end do
    end subroutine slide_carreau
 
-   !> Relative error of factors of second order in the gradient S at the stress of the sliding alone, at the most, over
-   !> (S^2/(1 + stress^2))^2, Carreau, or S^4, Eyring; measured, and verified by test/test_flow.f90
+   !> Maximum relative error of second-order factors in the gradient S, over (S^2/(1 + stress^2))^2 (Carreau) or S^4 (Eyring),
+   !> with the stress in sliding alone; measured, and verified by test/test_flow.f90
    pure real(dp) function second_order_error(self) result(error)
       class(thinning_t), intent(in) :: self
       real(dp) :: m
@@ -182,14 +182,14 @@ contains
       if (self%law == carreau) error = 0.04_dp*m + 0.17_dp*m**3
    end function second_order_error
 
-   !> Of F at small stresses: F = 1 + curvature tau^2
+   !> Curvature of F at small stresses: F = 1 + curvature tau^2
    pure real(dp) function curvature(self)
       class(thinning_t), intent(in) :: self
       curvature = 1.0_dp/6.0_dp
       if (self%law == carreau) curvature = 0.5_dp*(1.0_dp - self%exponent)/self%exponent
    end function curvature
 
-   !> Stress of a film that only slides; a NaN where it is not found
+   !> Stress in sliding without a pressure gradient; NaN if the iteration does not converge
    elemental real(dp) function sliding_stress(self, b) result(t)
       class(thinning_t), intent(in) :: self
       real(dp), intent(in) :: b

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Interface of the laws of viscosity under pressure and temperature, row by row: the law is chosen once per row, and
+!> Interface of the laws of viscosity as a function of pressure and temperature, row by row: one dispatch per row, so that
 !> the loops of the laws vectorise
 module ehl_viscosity_law
    use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_value
@@ -27,8 +27,8 @@ module ehl_viscosity_law
          real(dp), intent(out) :: values(:), slope(:)
       end subroutine log_viscosity
 
-      !> ln(eta/eta0) at pressures p over the Hertz pressure and temperature increases over that of the inlet [K]; without
-      !> a rise the values of log_viscosity, bit by bit
+      !> ln(eta/eta0) at pressures p over the Hertz pressure and temperature rises above the inlet [K]; for a zero
+      !> rise equal to `log_viscosity` to the bit
       pure subroutine log_viscosity_at(self, p, rise, values)
          import :: dp, viscosity_law_t
          implicit none (type, external)
@@ -40,7 +40,7 @@ module ehl_viscosity_law
 
 contains
 
-   !> ln(eta/eta0) beyond the pole of a law, where the oil is solid and does not flow
+   !> ln(eta/eta0) beyond the pole of a law, where the oil is solid
    pure real(dp) function solid()
       solid = ieee_value(0.0_dp, ieee_positive_inf)
    end function solid

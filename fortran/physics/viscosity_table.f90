@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Viscosity interpolated in a table of measured values: ln(eta) over pressure on each isotherm by monotone cubics (Fritsch &
-!> Butland 1984), between isotherms linear in 1/T. Beyond the table it is extrapolated with its last slope, which the
+!> Viscosity interpolated in a table of measured values: ln(eta) along each isotherm by monotone cubics in pressure (Fritsch &
+!> Butland 1984), between isotherms linear in 1/T. Beyond the table it is extrapolated linearly, which the
 !> plan and the summary report.
 module ehl_viscosity_table
    use ehl_kinds, only: dp
@@ -9,7 +9,7 @@ module ehl_viscosity_table
    private
    public :: isotherm_t, viscosity_table_t, new_isotherm, new_viscosity_table
 
-   !> Pressures in order, ln of the viscosities [Pa s] and their slopes
+   !> Pressures in increasing order, ln of the viscosities [Pa s] and their slopes
    type :: isotherm_t
       !> [K]
       real(dp) :: temperature = 0.0_dp
@@ -19,7 +19,7 @@ module ehl_viscosity_table
    end type isotherm_t
 
    type, extends(viscosity_law_t) :: viscosity_table_t
-      !> By rising temperature, pressures over the Hertz pressure
+      !> In increasing temperature, pressures over the Hertz pressure
       type(isotherm_t), allocatable :: isotherms(:)
       !> Temperature of the inlet [K]; ln(eta0/Pa s); -(d eta/dT)/eta [1/K] of a table of a single isotherm
       real(dp) :: inlet = 0.0_dp, level = 0.0_dp, beta = 0.0_dp
@@ -31,7 +31,7 @@ module ehl_viscosity_table
 
 contains
 
-   !> An isotherm by its temperature [K], two pressures or more [Pa] in rising order and viscosities [Pa s]
+   !> An isotherm from its temperature [K], two or more pressures [Pa] in increasing order and viscosities [Pa s]
    pure function new_isotherm(temperature, p, viscosity) result(isotherm)
       real(dp), intent(in) :: temperature, p(:), viscosity(:)
       type(isotherm_t) :: isotherm
@@ -52,7 +52,7 @@ contains
       end do
    end function new_isotherm
 
-   !> Weighted harmonic mean of the slopes of two intervals; 0 where they differ in sign
+   !> Weighted harmonic mean of the slopes of two intervals; 0 if they differ in sign
    pure real(dp) function harmonic(left, right, before, behind)
       real(dp), intent(in) :: left, right, before, behind
 
@@ -60,7 +60,7 @@ contains
       if (before*behind > 0.0_dp) harmonic = 3.0_dp*(left + right)/((2.0_dp*right + left)/before + (right + 2.0_dp*left)/behind)
    end function harmonic
 
-   !> The law of some isotherms with pressures in Pa, by the Hertz pressure [Pa], the temperature of the inlet [K] and beta
+   !> The law from isotherms with pressures in Pa, the Hertz pressure [Pa], the temperature of the inlet [K] and beta
    !> [1/K], which only a single isotherm needs
    pure function new_viscosity_table(isotherms, hertz_pressure, temperature, beta) result(law)
       type(isotherm_t), intent(in) :: isotherms(:)
@@ -114,12 +114,12 @@ contains
       end associate
    end subroutine evaluate
 
-   !> ln(eta/Pa s) and its slope at a pressure and a temperature increase [K]
+   !> ln(eta/Pa s) and its slope at a pressure and a temperature rise [K]
    pure subroutine at(self, p, rise, value, slope)
       class(viscosity_table_t), intent(in) :: self
       real(dp), intent(in) :: p, rise
       real(dp), intent(out) :: value, slope
-      real(dp) :: warm, warm_slope, share
+      real(dp) :: warm, warm_slope, weight
       integer :: k
 
       if (size(self%isotherms) == 1) then
@@ -132,12 +132,12 @@ contains
          k = k + 1
       end do
       associate (cold => self%isotherms(k), hot => self%isotherms(k + 1))
-         share = (1.0_dp/cold%temperature - 1.0_dp/(self%inlet + rise))/(1.0_dp/cold%temperature - 1.0_dp/hot%temperature)
+         weight = (1.0_dp/cold%temperature - 1.0_dp/(self%inlet + rise))/(1.0_dp/cold%temperature - 1.0_dp/hot%temperature)
          call cold%evaluate(p, value, slope)
          call hot%evaluate(p, warm, warm_slope)
       end associate
-      value = value + share*(warm - value)
-      slope = slope + share*(warm_slope - slope)
+      value = value + weight*(warm - value)
+      slope = slope + weight*(warm_slope - slope)
    end subroutine at
 
    !> ln(eta/eta0) at the temperature of the inlet, and its slope
@@ -153,7 +153,7 @@ contains
       end do
    end subroutine log_viscosity
 
-   !> ln(eta/eta0) at temperature increases [K]
+   !> ln(eta/eta0) at temperature rises above the inlet [K]
    pure subroutine log_viscosity_at(self, p, rise, values)
       class(viscosity_table_t), intent(in) :: self
       real(dp), intent(in) :: p(:), rise(:)

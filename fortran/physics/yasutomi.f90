@@ -4,7 +4,7 @@
 !>    eta = eta_g exp{-ln(10) C1 (T - T_g) F/[C2 + (T - T_g) F]},
 !>    T_g = T_g0 + A1 ln(1 + A2 p),   F = (1 + b1 p)^b2
 !>
-!> Where C2 + (T - T_g) F is not positive the oil is solid, and the viscosity infinite.
+!> Where C2 + (T - T_g) F is not positive the oil is solid and its viscosity infinite.
 module ehl_yasutomi
    use ehl_kinds, only: dp
    use ehl_viscosity_law, only: solid, viscosity_law_t
@@ -16,7 +16,7 @@ module ehl_yasutomi
       private
       !> A1 [K], A2 p_h, b1 p_h, b2, C1, C2 [K]
       real(dp) :: a1 = 0.0_dp, a2 = 0.0_dp, b1 = 0.0_dp, b2 = 0.0_dp, c1 = 0.0_dp, c2 = 1.0_dp
-      !> Temperature of the inlet over that of the glass at ambient pressure [K], ln(eta_0/eta_g)
+      !> Temperature of the inlet minus T_g at ambient pressure [K], ln(eta_0/eta_g)
       real(dp) :: above = 0.0_dp, level = 0.0_dp
    contains
       procedure :: log_viscosity
@@ -26,7 +26,7 @@ module ehl_yasutomi
 
 contains
 
-   !> The law by T_g0 [degC], A1 [K], A2 [1/Pa], b1 [1/Pa], b2, C1, C2 [K], eta_g [Pa s], the Hertz pressure [Pa] and the
+   !> The law from T_g0 [degC], A1 [K], A2 [1/Pa], b1 [1/Pa], b2, C1, C2 [K], eta_g [Pa s], the Hertz pressure [Pa] and the
    !> temperature of the inlet [degC]
    pure function new_yasutomi(tg0, a1, a2, b1, b2, c1, c2, glass, hertz_pressure, temperature) result(law)
       real(dp), intent(in) :: tg0, a1, a2, b1, b2, c1, c2, glass, hertz_pressure, temperature
@@ -43,7 +43,7 @@ contains
       law%ambient_viscosity = glass*exp(law%level)
    end function new_yasutomi
 
-   !> ln(eta/eta_g) at a pressure and a temperature increase [K]
+   !> ln(eta/eta_g) at a pressure and a temperature rise [K]
    elemental real(dp) function below_glass(self, p, rise)
       class(yasutomi_t), intent(in) :: self
       real(dp), intent(in) :: p, rise
@@ -72,7 +72,7 @@ contains
       end do
    end subroutine log_viscosity
 
-   !> ln(eta/eta0) at temperature increases [K]
+   !> ln(eta/eta0) at temperature rises above the inlet [K]
    pure subroutine log_viscosity_at(self, p, rise, values)
       class(yasutomi_t), intent(in) :: self
       real(dp), intent(in) :: p(:), rise(:)

@@ -181,8 +181,8 @@ contains
       if (status%failed() .or. .not. plan%surfaces%rough()) return
       call plan%surfaces%use_threads(plan%threads)
       call plan%surfaces%find_period(merge(plan%max_periods, automatic_periods, plan%max_periods > 0))
-      plan%coarse_run = input%time%estimate_error .and. plan%levels > 2 .and. (plan%surfaces%rest() .or. plan%steps == 0) &
-                        .and. .not. plan%duty%active
+      plan%coarse_run = input%time%estimate_error .and. plan%levels > 2 .and. &
+                        (plan%surfaces%all_stationary() .or. plan%steps == 0) .and. .not. plan%duty%active
       call plan%update_resolved_fraction(plan%finest)
       call check_resolved(plan%surfaces, plan%finest, status)
       if (.not. status%failed()) call check_steps(plan, status)
@@ -194,7 +194,7 @@ contains
 
       if (plan%surfaces%pass_once()) then
          plan%fallback_reason = "a single feature passes once"
-      else if (plan%surfaces%some_rest()) then
+      else if (plan%surfaces%some_stationary()) then
          plan%fallback_reason = "one of the surfaces is at rest"
       else if (plan%target_error > 0.0_dp) then
          plan%fallback_reason = "the grid of grid.target_error is not known yet"
@@ -219,7 +219,7 @@ contains
       class(plan_t), intent(inout) :: self
       type(grid_t), intent(in) :: grid
 
-      call self%surfaces%see(grid)
+      call self%surfaces%update_resolution(grid)
       if (.not. self%coarse_run) return
       ! no coarser run if the next coarser grid resolves nothing of a surface
       self%coarse_run = self%surfaces%max_unresolved(grid%coarser(), aliased_below) < 1.0_dp

@@ -134,7 +134,7 @@ contains
       real(dp) :: cycles
 
       cycles = steps(plan)
-      if (plan%surfaces%rest()) cycles = stationary_cycles
+      if (plan%surfaces%all_stationary()) cycles = stationary_cycles
       if (plan%coarse_run) cycles = cycles*(1.0_dp + coarser_seconds)
       seconds = nodes(plan)*(smooth_seconds + cycles*step_seconds) + direct_seconds*(real(plan%coarsest%nx, dp)*plan%coarsest%ny)**3
    end function seconds_needed

@@ -97,7 +97,7 @@ contains
       call record%set("surfaces", surfaces%count())
       if (.not. surfaces%rough()) return
       call record%set("move", surfaces%move())
-      call record%set("some_rest", surfaces%some_rest())
+      call record%set("some_rest", surfaces%some_stationary())
       call record%set("pass_once", surfaces%pass_once())
       call record%set("meets", surfaces%meets)
       call record%set("has_spectrum", surfaces%has_spectrum())

@@ -12,7 +12,7 @@ module ehl_heated_friction
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
    use ehl_lubricant, only: lubricant_t
-   use ehl_wall_heat, only: share_t, wall_heat_t
+   use ehl_wall_heat, only: heat_response_t, wall_heat_t
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    implicit none (type, external)
    private
@@ -125,7 +125,7 @@ contains
       !> Shape (nx, 3)
       real(dp), intent(out) :: rise(:, :)
       logical, intent(out) :: solved
-      type(share_t) :: share
+      type(heat_response_t) :: response
       !> Heat into each wall; heat of a node over the stress of the law at its pressure and film
       real(dp) :: into(size(p), 2), factor(size(p)), flux, wall_rise, before(2), reduction, q, difference
       logical :: good
@@ -150,19 +150,19 @@ contains
          do k = 1, 2
             before(k) = walls%history(k, into(:, k), first, i - 1, i)
          end do
-         share = walls%share(before, heat%film*h(i), heat%conductivity)
+         response = walls%response(before, heat%film*h(i), heat%conductivity)
          q = 0.0_dp
          if (solid(i)) then
             q = flux*stress(i)
          else if (i <= last) then
-            call heat_node(lubricant, p(i), h(i), factor(i), share%film, reduction, q, good)
+            call heat_node(lubricant, p(i), h(i), factor(i), response%film, reduction, q, good)
             solved = solved .and. good
             stress(i) = q/flux
          end if
          ! the hotter wall heats the other one through the film, also where there is no frictional heat
-         difference = share%difference(1) + share%difference(2)*q
+         difference = response%difference(1) + response%difference(2)*q
          into(i, :) = 0.5_dp*[q + difference, q - difference]
-         rise(i, 1) = share%film(1) + share%film(2)*q
+         rise(i, 1) = response%film(1) + response%film(2)*q
          rise(i, 2:) = before + walls%own*into(i, :)
       end do
    end subroutine heat_row

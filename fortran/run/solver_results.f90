@@ -181,7 +181,7 @@ contains
          why = reason_prediction
          waves = self%predicted_waves
          if (.not. self%knows_waves) then
-            why = merge(reason_moving_alone, reason_not_predicted, surfaces%rest())
+            why = merge(reason_moving_alone, reason_not_predicted, surfaces%all_stationary())
             waves = merge(not_known, 0.0_dp, surfaces%unresolved > rounding)
          end if
          if (.not. (surfaces%left_out > rounding .and. surfaces%has_spectrum())) waves(1) = 0.0_dp

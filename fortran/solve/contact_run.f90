@@ -163,7 +163,7 @@ contains
          call duty_names(self, columns)
          if (self%plan%layer > 0.0_dp) columns = [character(len=16) :: columns, oil_names]
          columns = [character(len=16) :: columns, touching_names(:known_names(self%plan%lubricant))]
-      else if (self%plan%surfaces%rest()) then
+      else if (self%plan%surfaces%all_stationary()) then
          columns = [character(len=16) :: "cycle", "share", "mu_ratio", "H_c", "H_min", "P_max", "load_error", "residual"]
       else if (self%plan%surfaces%move()) then
          columns = [character(len=16) :: "step", "T", "mu_ratio", "H_c", "H_min", "P_max", "load_error", "cycles", "residual"]
@@ -263,7 +263,8 @@ contains
       if (self%phase == phase_smooth) call keep_smooth(self, status)
       if (status%failed()) return
       associate (surfaces => self%plan%surfaces, n => self%smooth%n)
-         if (self%phase == phase_smooth .and. .not. self%plan%duty%active .and. (surfaces%rest() .or. surfaces%some_rest())) then
+         if (self%phase == phase_smooth .and. .not. self%plan%duty%active .and. &
+             (surfaces%all_stationary() .or. surfaces%some_stationary())) then
             call self%stationary%start(self%hierarchy%levels(n), n, self%plan%contact, surfaces, self%plan%steady_options_t, status)
             self%phase = phase_stationary
          else

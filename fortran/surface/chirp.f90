@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Fourier sums at equidistant points that are not those of the series, exactly and in O(n log n): the chirp-z transform
+!> Fourier sums at equidistant points of any start and spacing, exactly and in O(n log n): the chirp-z transform
 !> (Bluestein 1970; Rabiner, Schafer & Rader 1969)
 module ehl_chirp
    use, intrinsic :: iso_c_binding, only: c_double_complex, c_null_ptr, c_ptr

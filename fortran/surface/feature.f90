@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> A single feature that passes the contact once: dent, bump, ridge, groove
+!> A single feature that passes the contact once: dent, bump, ridge or groove
 module ehl_feature
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp, pi
@@ -8,14 +8,14 @@ module ehl_feature
    private
    public :: feature_t, new_feature
 
-   !> Half of a feature over its width: beyond it less than 3e-4 of its height is left
+   !> Half the extent of a feature over its width; beyond it the height is less than 3e-4 of the amplitude
    real(dp), parameter :: reach_over_width = 0.6_dp
-   !> Square of the distance over the width beyond which the height is 0: 10^(-10 s^2) is below the rounding
+   !> Value of s^2 above which the height is set to 0: 10^(-10 s^2) is below rounding
    real(dp), parameter :: vanished = 1.6_dp
-   !> Distance of the features of a strip: at least, and over their size along Y
+   !> Distance between the features of a strip: minimum [a], and over their size along Y
    real(dp), parameter :: min_spacing = 4.0_dp, apart = 4.0_dp
 
-   !> With xi across the feature and eta along it, turned by the angle from X and Y,
+   !> With xi across the feature and eta along it, rotated by the angle from X and Y,
    !>
    !>     RR = +-A 10^(-10 s^2) cos(2 pi s),
    !>
@@ -31,7 +31,7 @@ module ehl_feature
       logical :: is_line = .false.
       !> Cosine and sine of the angle
       real(dp) :: turn(2) = [1.0_dp, 0.0_dp]
-      !> Position of the centre across the motion, and its distance from both ends along the motion [a]
+      !> Y of the centre, and distance from the centre to either end along X [a]
       real(dp) :: y_start = 0.0_dp, reach = 0.0_dp
    contains
       procedure :: height
@@ -45,13 +45,13 @@ module ehl_feature
 
 contains
 
-   !> A feature; lengths in Hertz radii, amplitude scaled by a^2/R. On the move its front end is at x_start at time 0, at
-   !> rest its centre.
+   !> A feature; lengths in Hertz radii, amplitude scaled by a^2/R. At time 0 the front end of a moving feature, or the centre of
+   !> a stationary one, is at x_start.
    pure function new_feature(is_raised, is_line, amplitude, width, length, angle, y_start, velocity_ratio, x_start) &
       result(self)
       !> Bump or ridge, not dent or groove; ridge or groove, not dent or bump
       logical, intent(in) :: is_raised, is_line
-      !> Counter-clockwise [degrees]; at 0 width is along X
+      !> Angle counter-clockwise [degrees]; at 0 the width is along X
       real(dp), intent(in) :: amplitude, width, length, angle, y_start, velocity_ratio, x_start
       type(feature_t) :: self
 
@@ -62,7 +62,7 @@ contains
       self%length = length
       if (.not. self%is_line .and. .not. length > 0.0_dp) self%length = width
       self%turn = cosine_sine(angle)
-      ! a round one does not depend on the angle
+      ! a round feature does not depend on the angle
       if (.not. self%is_line .and. .not. abs(self%length - width) > 0.0_dp) self%turn = [1.0_dp, 0.0_dp]
       self%y_start = y_start
       self%velocity_ratio = velocity_ratio
@@ -74,7 +74,7 @@ contains
       if (velocity_ratio > 0.0_dp) self%period = velocity_ratio*passage_time(self)
    end function new_feature
 
-   !> Exact at whole quarter turns
+   !> Cosine and sine of an angle [degrees], exact at multiples of 90
    pure function cosine_sine(angle) result(turn)
       real(dp), intent(in) :: angle
       real(dp) :: turn(2), rest
@@ -84,7 +84,7 @@ contains
       if (.not. abs(modulo(rest, 90.0_dp)) > 0.0_dp) turn = anint(turn)
    end function cosine_sine
 
-   !> Half of its length along the motion; of a line the part within the contact
+   !> Half of its length along the motion; of a ridge or groove the part within the contact
    pure real(dp) function reach_of(self) result(reach)
       type(feature_t), intent(in) :: self
       real(dp) :: half, endless
@@ -102,8 +102,8 @@ contains
       end associate
    end function reach_of
 
-   !> Time from when its front end comes near the contact until it has left, with the film that it has made in the
-   !> inlet, which moves with the mean velocity
+   !> Time from when its front end approaches the contact until both the feature and the film perturbation that it has caused in
+   !> the inlet, which moves with the mean velocity, have left
    pure real(dp) function passage_time(self) result(time)
       type(feature_t), intent(in) :: self
       real(dp) :: out, in
@@ -113,7 +113,7 @@ contains
       time = max(out, in + 2.0_dp*x_filled)
    end function passage_time
 
-   !> Repeat it along Y, on a strip of a line contact: after a distance, or 0 for one at which its neighbours hardly matter
+   !> Repeat the feature along Y, on a strip of a line contact, at a distance; 0: a distance at which its neighbours hardly matter
    pure subroutine repeat_along_y(self, distance)
       class(feature_t), intent(inout) :: self
       real(dp), intent(in) :: distance
@@ -123,13 +123,13 @@ contains
       if (.not. distance > 0.0_dp) self%period_y = max(min_spacing, apart*self%size_y())
    end subroutine repeat_along_y
 
-   !> Whether it does not vary along Y
+   !> Whether the feature does not vary along Y
    pure logical function is_endless_across(self)
       class(feature_t), intent(in) :: self
       is_endless_across = self%is_line .and. .not. self%length > 0.0_dp .and. .not. abs(self%turn(2)) > 0.0_dp
    end function is_endless_across
 
-   !> Length along Y; 0: it has no end there
+   !> Length along Y; 0: endless
    pure real(dp) function size_y(self)
       class(feature_t), intent(in) :: self
 
@@ -192,9 +192,9 @@ contains
       end associate
    end function wavelengths
 
-   !> Share of the variance of its profile in waves with fewer nodes a period than that, in the worse of both
-   !> directions: the spectrum of exp(-c s^2) cos(k s) is closed. Nothing is left out, but one that is no wider than
-   !> two nodes is not resolved at all.
+   !> Fraction of the variance of its profile in waves with fewer nodes per period than `nodes`, in the worse of both
+   !> directions: the spectrum of exp(-c s^2) cos(k s) is known in closed form. No wave is truncated, but a feature no wider than
+   !> two mesh sizes counts as not resolved.
    pure real(dp) function unresolved(self, grid, nodes)
       class(feature_t), intent(in) :: self
       type(grid_t), intent(in) :: grid

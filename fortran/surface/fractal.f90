@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Self-affine surfaces with random phases: C2D proportional to max(|q|, q_r)^(-2 - 2 Hurst) up to the Nyquist
-!> wavenumbers of the tile, zero at q = 0; zero mean, exact rms height, periodic. The phases are those of the raw words
-!> of PCG64, component by component (q_x slowest): a seed is the same surface in every program.
+!> wavenumbers of the tile, zero at q = 0; zero mean, exact rms height, periodic. The phases are the raw words
+!> of PCG64, component by component (q_x slowest): a seed defines the same surface in every program.
 module ehl_fractal
    use, intrinsic :: iso_c_binding, only: c_double_complex
    use, intrinsic :: iso_fortran_env, only: int32
@@ -24,15 +24,15 @@ module ehl_fractal
       real(dp) :: hurst = 0.8_dp, rolloff_wavenumber = 0.0_dp
       !> Seed as 32-bit words, the lowest first
       integer(int32), allocatable :: seed(:)
-      !> Modulus of the components: of a Gaussian random field, or exactly on the power law
+      !> Modulus of the components: that of a Gaussian random field, or exactly the power law
       logical :: gaussian = .false.
-      !> Length of correlation along X over that along Y; the roll-off is that of the shorter one
+      !> Correlation length along X over that along Y; the roll-off applies to the shorter one
       real(dp) :: lay_ratio = 1.0_dp
    end type fractal_t
 
 contains
 
-   !> Heights [m] of a surface, heights(ny, nx): Y first, as components are counted
+   !> Heights [m] of a surface, heights(ny, nx): Y first, in the order of the components
    subroutine make_fractal(what, heights, status)
       type(fractal_t), intent(in) :: what
       real(dp), intent(out) :: heights(:, :)
@@ -61,7 +61,7 @@ contains
       if (what%gaussian) then
          do i = 1, nx
             do j = 1, ny/2 + 1
-               ! exact: the number is a multiple of 2^-53
+               ! 1 - u is exact: the number is a multiple of 2^-53
                component(j, i) = component(j, i)*sqrt(-log(1.0_dp - bits%uniform()))
             end do
          end do
@@ -92,9 +92,9 @@ contains
       end do
    end subroutine make_fractal
 
-   !> The symmetry of a real surface for the rows q_y = 0 and Nyquist of a half spectrum: component (q_x, q_y) there is
-   !> the partner of (-q_x, q_y). The up to four components that are their own partner are real: a random sign at the
-   !> given modulus, or, of a Gaussian field, a real normal number of the same mean square.
+   !> Impose the symmetry of a real surface on the rows q_y = 0 and Nyquist of a half spectrum: component (q_x, q_y) there is
+   !> the conjugate of (-q_x, q_y). The up to four self-conjugate components are real: a random sign at the
+   !> given modulus or, for a Gaussian field, a normal random number of the same mean square.
    subroutine make_hermitian(component, ny, gaussian)
       complex(c_double_complex), intent(inout) :: component(:, :)
       integer, intent(in) :: ny

@@ -8,7 +8,7 @@ module ehl_harmonic
    private
    public :: new_harmonic, endless
 
-   !> Wavelength across the motion of a wave that does not vary there [a]
+   !> Wavelength along Y of a wave that does not vary along Y [a]
    real(dp), parameter :: endless = 1.0e30_dp
 
    !> RR = A_i 10^(-10 max(0, (X - X_f)/lambda_x)^2) cos(2 pi (X - X_f)/lambda_x) cos(2 pi Y/lambda_y)
@@ -40,7 +40,7 @@ contains
       self%front_length = wavelength_x
    end function new_harmonic
 
-   !> One wave: all of it or nothing
+   !> Unresolved fraction of the variance: 0 or 1, because there is one wave
    pure real(dp) function unresolved(self, grid, nodes)
       class(harmonic_t), intent(in) :: self
       type(grid_t), intent(in) :: grid
@@ -52,14 +52,14 @@ contains
       if (any(has < nodes) .or. any(has <= aliased_below)) unresolved = 1.0_dp
    end function unresolved
 
-   !> Of a product of two cosines, or of one
+   !> Rms height of a product of two cosines, or of one cosine
    pure real(dp) function rms_height(self)
       class(harmonic_t), intent(in) :: self
       rms_height = 0.5_dp*self%amplitude
       if (.not. self%wavelength_y < endless) rms_height = sqrt(2.0_dp)*rms_height
    end function rms_height
 
-   !> Of two equal waves by their distance along X; 0 for different waves
+   !> Correlation of two equal waves from their distance along X; 0 for different waves
    pure function correlation(self, other) result(both)
       class(harmonic_t), intent(in) :: self
       class(surface_t), intent(in) :: other
@@ -74,7 +74,7 @@ contains
       end select
    end function correlation
 
-   !> Of a product of two cosines
+   !> Rms slope of a product of two cosines
    pure real(dp) function rms_slope(self)
       class(harmonic_t), intent(in) :: self
       rms_slope = self%rms_height()*hypot(2.0_dp*pi/self%wavelength_x, 2.0_dp*pi/self%wavelength_y)
@@ -91,7 +91,7 @@ contains
 
       do i = 1, grid%nx
          distance = grid%x(i) - self%front_position(time)
-         along(i) = self%amplitude*self%share(distance)*cos(2.0_dp*pi*distance/self%wavelength_x)
+         along(i) = self%amplitude*self%front_factor(distance)*cos(2.0_dp*pi*distance/self%wavelength_x)
       end do
       do j = 1, grid%ny
          rr(:, j) = along*cos(2.0_dp*pi*grid%y(j)/self%wavelength_y)

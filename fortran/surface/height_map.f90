@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> A height map as a periodic tile that moves through the contact, or lies in it. Of the tile its waves are kept
-!> alone, in the memory of one copy; for a grid, the heights of the waves that the grid resolves are summed on the rows
-!> of the grid, exactly, at points along X from which those between them are interpolated.
+!> A height map as a periodic tile that moves through the contact or is stationary. Only the waves of the tile are stored, in
+!> the memory of one copy; for a grid, the waves that it resolves are summed exactly on the rows of the grid at points along X,
+!> and interpolated between these points.
 module ehl_height_map
    use, intrinsic :: iso_c_binding, only: c_double_complex, c_ptr
    use ehl_chirp, only: chirp_t
@@ -18,20 +18,19 @@ module ehl_height_map
    private
    public :: height_map_t
 
-   !> The tile is refined along X to so many points for each of its pixels by its Fourier series, and between these
-   !> points a polynomial of degree 5 is used: its error is 2e-5 of the amplitude of the shortest wave (two pixels),
-   !> and falls with the sixth power of the wavelength. Where the grid resolves fewer waves, the pixels that resolve
-   !> them are enough.
+   !> The Fourier series of the tile is evaluated at `refinement` points per pixel along X, and interpolated between these
+   !> points by a polynomial of degree 5: its error is 2e-5 of the amplitude of the shortest wave (two pixels),
+   !> and decreases with the sixth power of the wavelength. If the grid resolves fewer waves, pixels that resolve
+   !> them suffice.
    integer, parameter :: refinement = 8
    integer, parameter :: points = 6
 
-   !> Tile of heights; pixel (1, 1) lies on the front, at Y = 0
+   !> Tile of heights; pixel (1, 1) is on the front, at Y = 0
    type, extends(surface_t) :: height_map_t
       private
-      !> Its waves [a^2/R], lengths in a, without the mean, cut
+      !> Its filtered waves [a^2/R] without the mean, lengths in a
       type(tile_waves_t) :: waves
-      !> Refined heights on the rows of the grid: (refinement*pixels + points - 1, ny), the
-      !> first of them repeated at the end
+      !> Refined heights on the rows of the grid, (refinement*pixels + points - 1, ny); the first points are repeated at the end
       real(dp), allocatable :: refined(:, :)
    contains
       procedure :: setup
@@ -49,7 +48,7 @@ module ehl_height_map
 
 contains
 
-   !> Take the heights of a tile of size length [a], or of a map whose tile is it with its mirror images; the front
+   !> Set the heights of a tile of size length [a], or of a map that becomes a tile with its mirror images; the front
    !> fades over front_length
    subroutine setup(self, heights, scale, length, mirrored, filter, front_length, status)
       class(height_map_t), intent(inout) :: self
@@ -58,7 +57,7 @@ contains
       real(dp), intent(in) :: scale
       real(dp), intent(in) :: length(2)
       logical, intent(in) :: mirrored
-      !> Cut of the spectrum, lengths in a
+      !> Filter of the spectrum, lengths in a
       type(filter_t), intent(in) :: filter
       real(dp), intent(in) :: front_length
       type(status_t), intent(inout) :: status
@@ -82,7 +81,7 @@ contains
       if (allocated(self%refined)) deallocate (self%refined)
    end subroutine setup
 
-   !> Transfer the waves to a surface of the same kind on another grid, which needs them later: one copy in memory
+   !> Transfer the waves to a surface of the same kind on another grid, so that memory contains one copy
    subroutine transfer(self, other)
       class(height_map_t), intent(inout) :: self
       class(surface_t), allocatable, intent(out) :: other
@@ -110,7 +109,7 @@ contains
       end select
    end subroutine reclaim
 
-   !> Most periods in the tile, along X and Y, of waves that have at least so many nodes a period, or more than that
+   !> Maximum number of periods in the tile, along X and Y, of waves with at least `nodes` nodes per period (more: more than that)
    pure function resolved_waves(self, grid, nodes, more) result(most)
       class(height_map_t), intent(in) :: self
       type(grid_t), intent(in) :: grid
@@ -124,7 +123,7 @@ contains
                      0.5_dp*self%waves%pixels))
    end function resolved_waves
 
-   !> Correlation of two tiles of one size
+   !> Correlation of two tiles of the same size
    pure function correlation(self, other) result(both)
       class(height_map_t), intent(in) :: self
       class(surface_t), intent(in) :: other
@@ -139,7 +138,7 @@ contains
       end select
    end function correlation
 
-   !> Share of the variance in waves that have fewer nodes than that along X or along Y
+   !> Fraction of the variance in waves with fewer nodes per period than `nodes` along X or along Y
    pure real(dp) function unresolved(self, grid, nodes)
       class(height_map_t), intent(in) :: self
       type(grid_t), intent(in) :: grid
@@ -159,7 +158,7 @@ contains
       if (allocated(self%refined)) bytes = bytes + 8.0_dp*size(self%refined, 1)*real(size(self%refined, 2), dp)
    end function bytes
 
-   !> Points along X that the tile is refined to, for waves of at most so many periods in it
+   !> Number of points along X of the refined tile, for waves of at most `most` periods in it
    pure integer function refined_points(self, most)
       class(height_map_t), intent(in) :: self
       integer, intent(in) :: most
@@ -178,7 +177,7 @@ contains
       bytes_on = self%waves%bytes() + 8.0_dp*grid%ny*(self%refined_points(most(1)) + 2.0_dp*most(1))
    end function bytes_on
 
-   !> Heights on the rows of a grid, refined along X, of the waves that have more than two nodes a period
+   !> Compute the refined heights on the rows of a grid, from the waves with more than two nodes per period
    subroutine prepare(self, grid, status)
       class(height_map_t), intent(inout) :: self
       type(grid_t), intent(in) :: grid
@@ -218,7 +217,7 @@ contains
       call drop_plan(plan)
    end subroutine prepare
 
-   !> Roughness at the nodes, at time T; the same shift for every row, so that the
+   !> Roughness at the nodes, at time T; the shift is the same for every row, so that the
    !> weights of the interpolation are computed once
    subroutine height(self, grid, time, rr)
       class(height_map_t), intent(inout) :: self
@@ -235,7 +234,7 @@ contains
          first(i) = modulo(int(t) - 2, n) + 1
          t = t - int(t) + 2.0_dp
          do k = 1, points
-            weight(k, i) = lagrange(t, k - 1)*self%share(distance)
+            weight(k, i) = lagrange(t, k - 1)*self%front_factor(distance)
          end do
       end do
       !$omp parallel do default(none) shared(self, grid, rr, first, weight) private(i) &

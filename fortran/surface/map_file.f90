@@ -12,7 +12,7 @@ module ehl_map_file
 
 contains
 
-   !> Heights of a map [m], X first; finite, at least 4 x 4 pixels
+   !> Read the heights of a map [m], X first; they must be finite, at least 4 x 4 pixels
    subroutine read_map(path, heights, status)
       character(len=*), intent(in) :: path
       real(dp), allocatable, intent(out) :: heights(:, :)
@@ -35,14 +35,14 @@ contains
       end if
    end subroutine read_map
 
-   !> Refuse a map that would not fit. It needs memory for the heights and their spectrum; FFTW aborts without it.
+   !> Fail if the memory does not suffice for the heights of a map and their spectrum; FFTW would abort
    subroutine check_heights(what, n, status)
-      !> What needs the memory
+      !> Name of the map, for messages
       character(len=*), intent(in) :: what
       !> Pixels along X and Y
       integer, intent(in) :: n(2)
       type(status_t), intent(inout) :: status
-      !> Bytes that FFTW takes to plan and make a transform, as measured on 1024 x 1024 and 1500 x 1500 heights
+      !> Bytes that FFTW needs to plan and execute a transform, measured on 1024 x 1024 and 1500 x 1500 heights
       real(dp), parameter :: fftw_bytes = 3.0e6_dp
 
       call check_memory(what//": a map of "//to_text(n(1))//" x "//to_text(n(2))//" heights", &

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The rough surfaces of a contact on the move: when they come near it, fill it, repeat and leave it
+!> The moving rough surfaces of a contact: times at which they approach it, fill it, repeat and leave it
 module ehl_moving_surfaces
    use ehl_kinds, only: dp
    use ehl_rough_surfaces, only: rough_surfaces_t
@@ -7,31 +7,31 @@ module ehl_moving_surfaces
    private
    public :: moving_surfaces_t
 
-   !> Difference of periods, as a part of one, and of velocity ratios below which they are equal
+   !> Relative difference of periods, and difference of velocity ratios, below which they are equal
    real(dp), parameter :: same = 1.0e-9_dp
-   !> Where there is no common period: part of a period by which surfaces should miss their start, and may at the most
-   real(dp), parameter :: near = 0.02_dp, farthest = 0.25_dp
-   !> Least number of positions in which they meet, those of both: n periods of one and m of the other, without a common
-   !> factor, take the mean of all products of their waves but those of order n + m
-   integer, parameter :: fewest = 5
-   !> Longest common period that is searched for a message
+   !> Without a common period: desired and maximum mismatch of the surfaces after the averaging time, as a fraction of a period
+   real(dp), parameter :: good_mismatch = 0.02_dp, max_mismatch = 0.25_dp
+   !> Minimum number of relative positions: with n periods of one surface and m of the other, without a common
+   !> factor, the mean includes all products of their waves except those of order n + m
+   integer, parameter :: min_positions = 5
+   !> Longest common period, in periods of the slowest surface, that a message names
    integer, parameter :: max_named = 10000
 
    !> Motion of all surfaces of a run
    type, extends(rough_surfaces_t) :: moving_surfaces_t
-      !> Time in which the friction repeats, see find_period; of what passes once the time of the passage
+      !> Time in which the friction repeats, see find_period; of features the time of the passage
       real(dp) :: period = 0.0_dp
-      !> Periods of the slowest surface in it, and by what part of a period another one misses its start then
+      !> Number of periods of the slowest surface in it, and mismatch of the others after it, as a fraction of their period
       integer :: repeats = 1
       real(dp) :: mismatch = 0.0_dp
-      !> Whether they meet in enough positions in that time for a mean; how many periods of the slowest would hold whole
-      !> ones of all, where that is known and more; 0: it is not
+      !> Whether there are enough relative positions in that time for a mean; number of periods of the slowest surface that would be
+      !> a common period, if that is longer; 0: not known
       logical :: meets = .true.
       integer :: whole = 0
    contains
       procedure :: move
-      procedure :: rest
-      procedure :: some_rest
+      procedure :: all_stationary
+      procedure :: some_stationary
       procedure :: pass_once
       procedure :: velocities
       procedure :: slowest
@@ -44,7 +44,7 @@ module ehl_moving_surfaces
 
 contains
 
-   !> Whether a rough surface is on the move: time steps
+   !> Whether a rough surface moves: time steps
    pure logical function move(self)
       class(moving_surfaces_t), intent(in) :: self
       integer :: k
@@ -52,20 +52,20 @@ contains
    end function move
 
    !> Whether there is a rough surface and none moves: a steady contact
-   pure logical function rest(self)
+   pure logical function all_stationary(self)
       class(moving_surfaces_t), intent(in) :: self
-      rest = self%rough() .and. .not. self%move()
-   end function rest
+      all_stationary = self%rough() .and. .not. self%move()
+   end function all_stationary
 
-   !> Whether one is at rest while another one moves: the steady contact with the roughness at rest comes first
-   pure logical function some_rest(self)
+   !> Whether some surfaces are stationary and others move: the steady contact with the stationary roughness is solved first
+   pure logical function some_stationary(self)
       class(moving_surfaces_t), intent(in) :: self
       integer :: k
 
-      some_rest = self%move() .and. any([(self%of(k)%surface%at_rest(), k=1, self%count())])
-   end function some_rest
+      some_stationary = self%move() .and. any([(self%of(k)%surface%at_rest(), k=1, self%count())])
+   end function some_stationary
 
-   !> Whether something passes the contact once: the run ends when it has left
+   !> Whether a feature passes the contact once: the run ends when it has left
    pure logical function pass_once(self)
       class(moving_surfaces_t), intent(in) :: self
       integer :: k
@@ -73,7 +73,7 @@ contains
                         k=1, self%count())])
    end function pass_once
 
-   !> Different velocities over the mean velocity of what moves, the least first
+   !> Distinct velocities of the moving surfaces over the mean velocity, in increasing order
    pure function velocities(self) result(ratios)
       class(moving_surfaces_t), intent(in) :: self
       real(dp), allocatable :: ratios(:)
@@ -83,14 +83,14 @@ contains
       do k = 1, self%count()
          associate (surface => self%of(k)%surface)
             if (surface%at_rest() .or. any(abs(ratios - surface%velocity_ratio) <= same)) cycle
-            ! in an order that does not depend on which surface is the first
+            ! the order does not depend on that of the surfaces
             ratios = [pack(ratios, ratios < surface%velocity_ratio), surface%velocity_ratio, &
                       pack(ratios, ratios > surface%velocity_ratio)]
          end associate
       end do
    end function velocities
 
-   !> Number of the slowest of those that move
+   !> Index of the slowest moving surface
    pure integer function slowest(self)
       class(moving_surfaces_t), intent(in) :: self
       integer :: k
@@ -99,7 +99,7 @@ contains
                        mask=[(.not. self%of(k)%surface%at_rest(), k=1, self%count())])
    end function slowest
 
-   !> Time at which the first of them comes near the contact, and not before 0; steps until then change nothing
+   !> Time, at least 0, at which the first surface approaches the contact; earlier steps would change nothing
    pure real(dp) function begin(self)
       class(moving_surfaces_t), intent(in) :: self
       integer :: k
@@ -113,7 +113,7 @@ contains
       begin = max(0.0_dp, begin)
    end function begin
 
-   !> Time at which the fronts of all that move have passed X
+   !> Time at which the fronts of all moving surfaces have passed X
    pure real(dp) function time_filled(self, x)
       class(moving_surfaces_t), intent(in) :: self
       real(dp), intent(in) :: x
@@ -127,7 +127,7 @@ contains
       end do
    end function time_filled
 
-   !> Time from a given time until the friction is part of a mean; negative if that was earlier
+   !> Time from a given time until friction counts for the mean; negative if that was earlier
    pure real(dp) function time_to_mean(self, time)
       class(moving_surfaces_t), intent(in) :: self
       real(dp), intent(in) :: time
@@ -145,7 +145,7 @@ contains
       end if
    end function time_to_mean
 
-   !> Time at which what passes once has left the contact
+   !> Time at which all features have left the contact
    pure real(dp) function end_of_passage(self)
       class(moving_surfaces_t), intent(in) :: self
       end_of_passage = self%time_to_mean(0.0_dp) + self%period
@@ -158,13 +158,13 @@ contains
       counts = .not. self%of(k)%surface%at_rest() .and. (self%of(k)%surface%passes_once .or. .not. self%pass_once())
    end function counts
 
-   !> Find the time in which the friction repeats: the smallest one that holds whole periods of all surfaces. Where none
-   !> with so many periods of the slowest one does, a time after which all are nearly where they began; `mismatch` is
-   !> by how much they are not. Of what passes once, the time from when it comes near until it has left, in whole periods
-   !> of roughness on the other body.
+   !> Find the time in which the friction repeats: the smallest common period of all surfaces. If there is none within `most`
+   !> periods of the slowest one, a time after which all are nearly in phase again, with a `mismatch`. For features, the time
+   !> from when the first approaches the contact until the last has left, rounded up to whole periods of roughness on
+   !> the other body.
    pure subroutine find_period(self, most)
       class(moving_surfaces_t), intent(inout) :: self
-      !> Most periods of the slowest surface
+      !> Maximum number of periods of the slowest surface
       integer, intent(in) :: most
       real(dp), allocatable :: periods(:), others(:)
       real(dp) :: passage
@@ -206,19 +206,19 @@ contains
       self%period = self%repeats*maxval(periods)
    end subroutine find_period
 
-   !> Least number of the longest of some periods that holds whole periods of all; 0: none up to so many
+   !> Smallest number of the longest period that is a common period of all; 0: none up to `most`
    pure integer function common(periods, most)
       real(dp), intent(in) :: periods(:)
       integer, intent(in) :: most
 
       do common = 1, most
-         if (missed(common*maxval(periods), periods) <= common*same) return
+         if (phase_mismatch(common*maxval(periods), periods) <= common*same) return
       end do
       common = 0
    end function common
 
-   !> A number of the longest period after which all are nearly where they began, and have met in several positions: with 4
-   !> periods to 4 of nearly the same length their relative motion is small
+   !> Find a number of the longest period after which all are nearly in phase again and have had several relative positions: with
+   !> 4 periods each of nearly the same length their relative motion is small
    pure subroutine find_near(self, periods, most)
       class(moving_surfaces_t), intent(inout) :: self
       real(dp), intent(in) :: periods(:)
@@ -227,20 +227,20 @@ contains
       integer :: n
 
       self%repeats = most
-      self%mismatch = farthest
+      self%mismatch = max_mismatch
       self%meets = .false.
       do n = 1, most
-         mismatch = missed(n*maxval(periods), periods)
-         if (positions(n, nint(n*maxval(periods)/minval(periods))) < fewest .or. mismatch >= self%mismatch) cycle
+         mismatch = phase_mismatch(n*maxval(periods), periods)
+         if (positions(n, nint(n*maxval(periods)/minval(periods))) < min_positions .or. mismatch >= self%mismatch) cycle
          self%repeats = n
          self%mismatch = mismatch
          self%meets = .true.
-         if (mismatch <= near) exit
+         if (mismatch <= good_mismatch) exit
       end do
       self%whole = common(periods, max_named)
    end subroutine find_near
 
-   !> Positions in which one surface meets another one in so many periods of both
+   !> Number of relative positions of two surfaces in n periods of one and m of the other
    pure integer function positions(n, m)
       integer, intent(in) :: n, m
       integer :: a, b, rest
@@ -255,9 +255,9 @@ contains
       positions = (n + m)/a
    end function positions
 
-   !> By what part of a period one of them misses its start after a time
-   pure real(dp) function missed(time, periods)
-      real(dp), intent(in) :: time, periods(:)
-      missed = maxval(abs(time/periods - anint(time/periods)))
-   end function missed
+   !> Maximum phase difference from the start after a time, as a fraction of a period
+   pure real(dp) function phase_mismatch(time, periods)
+   real(dp), intent(in) :: time, periods(:)
+   phase_mismatch = maxval(abs(time/periods - anint(time/periods)))
+   end function phase_mismatch
 end module ehl_moving_surfaces

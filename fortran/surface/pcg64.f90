@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The random bits of numpy.random.PCG64: PCG XSL RR 128/64 (O'Neill 2014), seeded by numpy's SeedSequence, so that a
-!> seed makes the same surface in every program. Unsigned integers are kept in limbs of 32 bits in int64.
+!> seed defines the same surface in every program. Unsigned integers are stored in limbs of 32 bits in int64.
 module ehl_pcg64
    use, intrinsic :: iso_fortran_env, only: int32, int64
    use ehl_kinds, only: dp
@@ -29,14 +29,14 @@ module ehl_pcg64
 
 contains
 
-   !> Seed the generator: a non-negative integer as 32-bit words, the lowest first
+   !> Seed the generator with a non-negative integer, as 32-bit words, the lowest first
    pure subroutine seed(self, words)
       class(pcg64_t), intent(inout) :: self
       integer(int32), intent(in) :: words(:)
       integer(ik) :: values(0:7)
 
       values = seed_sequence(words)
-      ! of four 64-bit words the first two are the state, the others the sequence, the high one first
+      ! of four 64-bit words the first two are the state, the others the sequence, the high word first
       self%increment = [values(6), values(7), values(4), values(5)]
       self%increment = sum_of(self%increment, self%increment)
       self%increment(0) = ior(self%increment(0), 1_ik)
@@ -66,7 +66,7 @@ contains
       columns = 0
       do i = 0, 3
          do j = 0, 3 - i
-            ! products of 16 by 32 bits: no sum of these overflows
+            ! products of 16 by 32 bits, whose sums do not overflow
             low = iand(self%state(i), half_mask)*multiplier(j)
             high = ishft(self%state(i), -16)*multiplier(j)
             columns(i + j) = columns(i + j) + low + ishft(iand(high, half_mask), 16)
@@ -125,7 +125,7 @@ contains
       end do
    end function seed_sequence
 
-   !> A word, hashed; the constant changes from call to call
+   !> Hash a word; the constant changes from call to call
    pure subroutine hash(value, constant, factor, answer)
       integer(ik), intent(in) :: value, factor
       integer(ik), intent(inout) :: constant

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The rough surfaces of a contact: the sum of their heights, its share on a grid, composite roughness
+!> The rough surfaces of a contact: sum of their heights, fraction resolved by a grid, composite roughness
 module ehl_rough_surfaces
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
@@ -12,26 +12,26 @@ module ehl_rough_surfaces
    !> Difference below which velocity ratios are equal
    real(dp), parameter :: same = 1.0e-9_dp
 
-   !> One of them
+   !> One rough surface
    type :: member_t
-      !> Group of the case that describes it
+   !> Group of the case that defines it
       character(len=16) :: group = ""
-      !> The body that has it
+      !> Body to which it belongs
       integer :: body = 1
       class(surface_t), allocatable :: surface
-      !> Amplitude as a share of the smooth central film; 0: it is known already
+      !> Amplitude over the smooth central film; 0: the surface has its amplitude
       real(dp) :: amplitude_over_film = 0.0_dp
    end type member_t
 
-   !> A number of rough surfaces, whose heights are added; none: the contact is smooth
+   !> Rough surfaces, whose heights are added; none: the contact is smooth
    type :: rough_surfaces_t
       type(member_t), allocatable :: of(:)
-      !> Shares of the variance: in waves that the grid would alias, which are left out; in waves with fewer than eight
-      !> nodes a period, those included
+      !> Fractions of the variance: in waves that the grid would alias, which are omitted; in waves with fewer than eight
+      !> nodes per period, including the former
       real(dp) :: left_out = 0.0_dp, unresolved = 0.0_dp
       !> Correlation of the heights of the first two, and of their gradients, if they move together
       real(dp) :: correlation(2) = 0.0_dp
-      !> Heights of one of several, (nx, ny)
+      !> Heights of one of several surfaces, (nx, ny)
       real(dp), allocatable, private :: part(:, :)
    contains
       procedure :: add
@@ -43,7 +43,7 @@ module ehl_rough_surfaces
       procedure :: has_spectrum
       procedure :: same_on_grids
       procedure :: use_threads
-      procedure :: see
+      procedure :: update_resolution
       procedure :: max_unresolved
       procedure :: prepare
       procedure :: transfer
@@ -59,13 +59,13 @@ module ehl_rough_surfaces
 
 contains
 
-   !> Take over another surface
+   !> Add a surface, which is moved
    subroutine add(self, group, surface, amplitude_over_film, body)
       class(rough_surfaces_t), intent(inout) :: self
-      !> Group of the case that describes it
+      !> Group of the case that defines it
       character(len=*), intent(in) :: group
       class(surface_t), allocatable, intent(inout) :: surface
-      !> Amplitude as a share of the smooth central film; 0: it is known already
+      !> Amplitude over the smooth central film; 0: the surface has its amplitude
       real(dp), intent(in) :: amplitude_over_film
       integer, intent(in) :: body
       type(member_t), allocatable :: more(:)
@@ -100,14 +100,14 @@ contains
       rough = self%count() > 0
    end function rough
 
-   !> Whether half the domain is enough
+   !> Whether half the domain suffices
    pure logical function even_in_y(self)
       class(rough_surfaces_t), intent(in) :: self
       integer :: k
       even_in_y = all([(self%of(k)%surface%even_in_y, k=1, self%count())])
    end function even_in_y
 
-   !> Width of a strip of all of them, which repeats along Y; 0: nothing varies along Y, negative: they have none in common
+   !> Common period along Y of all surfaces, the width of a strip; 0: nothing varies along Y, negative: there is none
    pure real(dp) function width(self)
       class(rough_surfaces_t), intent(in) :: self
       real(dp), parameter :: rounding = 1.0e-9_dp
@@ -123,14 +123,14 @@ contains
       end do
    end function width
 
-   !> Whether there are two that are at one velocity, or at rest
+   !> Whether there are two surfaces with the same velocity, or both stationary
    pure logical function move_together(self)
       class(rough_surfaces_t), intent(in) :: self
       move_together = .false.
       if (self%count() == 2) move_together = abs(self%of(1)%surface%velocity_ratio - self%of(2)%surface%velocity_ratio) <= same
    end function move_together
 
-   !> Whether one has waves that a grid can leave out
+   !> Whether a surface has waves that a grid can omit
    pure logical function has_spectrum(self)
       class(rough_surfaces_t), intent(in) :: self
       integer :: k
@@ -144,7 +144,7 @@ contains
       same_on_grids = all([(self%of(k)%surface%amplitude > 0.0_dp, k=1, self%count())])
    end function same_on_grids
 
-   !> Threads for heights; they do not depend on it
+   !> Set the number of threads for heights, which do not depend on it
    subroutine use_threads(self, threads)
       class(rough_surfaces_t), intent(inout) :: self
       integer, intent(in) :: threads
@@ -155,34 +155,33 @@ contains
       end do
    end subroutine use_threads
 
-   !> What of the surfaces a grid resolves: `left_out` and `unresolved`
-   subroutine see(self, grid)
+   !> Update the fractions that a grid does not resolve: `left_out` and `unresolved`
+   subroutine update_resolution(self, grid)
       class(rough_surfaces_t), intent(inout) :: self
       type(grid_t), intent(in) :: grid
 
-      self%left_out = share_unresolved(self, grid, aliased_below)
-      self%unresolved = share_unresolved(self, grid, resolved_from)
-   end subroutine see
+      self%left_out = unresolved_fraction(self, grid, aliased_below)
+      self%unresolved = unresolved_fraction(self, grid, resolved_from)
+   end subroutine update_resolution
 
-   !> Share of the variance of all in waves with fewer nodes a period than that; where a variance is not known the
-   !> largest share of one
-   pure real(dp) function share_unresolved(self, grid, nodes)
+   !> Fraction of the total variance in waves with fewer nodes per period than `nodes`; if a variance is not known the
+   !> largest fraction of one surface
+   pure real(dp) function unresolved_fraction(self, grid, nodes)
       class(rough_surfaces_t), intent(in) :: self
       type(grid_t), intent(in) :: grid
       real(dp), intent(in) :: nodes
-      real(dp) :: variance(self%count()), share(self%count())
+      real(dp) :: variance(self%count()), fraction(self%count())
       integer :: k
 
       do k = 1, self%count()
-         share(k) = self%of(k)%surface%unresolved(grid, nodes)
+         fraction(k) = self%of(k)%surface%unresolved(grid, nodes)
          variance(k) = self%of(k)%surface%rms_height()**2
       end do
-      share_unresolved = maxval(share)
-      if (self%count() > 1 .and. all(variance > 0.0_dp)) share_unresolved = sum(variance*share)/sum(variance)
-   end function share_unresolved
+      unresolved_fraction = maxval(fraction)
+      if (self%count() > 1 .and. all(variance > 0.0_dp)) unresolved_fraction = sum(variance*fraction)/sum(variance)
+   end function unresolved_fraction
 
-   !> Share of the variance in waves with fewer nodes a period than that, see surface_t: that of the surface with the
-   !> largest share
+   !> Largest fraction over the surfaces of the variance in waves with fewer nodes per period than `nodes`, see surface_t
    pure real(dp) function max_unresolved(self, grid, nodes)
       class(rough_surfaces_t), intent(in) :: self
       type(grid_t), intent(in) :: grid
@@ -195,7 +194,7 @@ contains
       end do
    end function max_unresolved
 
-   !> Prepare for a grid: once, before heights are computed
+   !> Prepare for a grid; call once before heights are computed
    subroutine prepare(self, grid, status)
       class(rough_surfaces_t), intent(inout) :: self
       type(grid_t), intent(in) :: grid
@@ -211,7 +210,7 @@ contains
       if (stat /= 0) call status%fail(ehl_no_memory, "no memory for the heights of several surfaces")
    end subroutine prepare
 
-   !> Copies of the surfaces for another grid; these remain prepared for theirs
+   !> Make copies of the surfaces for another grid; the originals remain prepared for theirs
    subroutine transfer(self, other)
       class(rough_surfaces_t), intent(inout) :: self
       !> Empty before the call
@@ -241,9 +240,9 @@ contains
       type(grid_t), intent(in) :: grid
       real(dp), intent(in) :: time
       real(dp), intent(out) :: rr(:, :)
-      !> Of those alone that move, or that are at rest; at least one
+      !> Only the moving (true) or the stationary (false) surfaces, at least one
       logical, intent(in), optional :: moving
-      !> Displacements of body 1 and of body 2, instead of the time
+      !> Displacements of body 1 and of body 2, in place of the time
       real(dp), intent(in), optional :: ways(2)
       logical :: wanted(self%count())
       integer :: k, first
@@ -268,7 +267,7 @@ contains
       end function time_of
    end subroutine roughness
 
-   !> Bytes of their arrays
+   !> Allocated bytes
    pure real(dp) function bytes(self)
       class(rough_surfaces_t), intent(in) :: self
       integer :: k
@@ -277,7 +276,7 @@ contains
       if (allocated(self%part)) bytes = bytes + 8.0_dp*size(self%part)
    end function bytes
 
-   !> Bytes that they will take when they are prepared for a grid
+   !> Bytes required when prepared for a grid
    pure real(dp) function bytes_on(self, grid)
       class(rough_surfaces_t), intent(in) :: self
       type(grid_t), intent(in) :: grid
@@ -287,14 +286,14 @@ contains
       if (self%count() > 1) bytes_on = bytes_on + 8.0_dp*grid%nx*grid%ny
    end function bytes_on
 
-   !> Whether an amplitude was given as a share of the smooth central film
+   !> Whether an amplitude was given relative to the smooth central film
    pure logical function needs_film(self)
       class(rough_surfaces_t), intent(in) :: self
       needs_film = .false.
       if (self%rough()) needs_film = any(self%of%amplitude_over_film > 0.0_dp)
    end function needs_film
 
-   !> The smooth central film [a^2/R], for amplitudes that are a share of it
+   !> Set the amplitudes that are given relative to the smooth central film [a^2/R]
    subroutine take_film(self, film)
       class(rough_surfaces_t), intent(inout) :: self
       real(dp), intent(in) :: film
@@ -307,8 +306,8 @@ contains
       end do
    end subroutine take_film
 
-   !> Root mean square of the composite heights [a^2/R]; 0 where it is not known or not defined. Surfaces that do not
-   !> move together are uncorrelated in the mean.
+   !> Root mean square of the composite heights [a^2/R]; 0 if it is not known or not defined. Surfaces that do not
+   !> move together are uncorrelated on average.
    pure real(dp) function rms_height(self)
       class(rough_surfaces_t), intent(in) :: self
       integer :: k
@@ -321,7 +320,7 @@ contains
                                       self%of(1)%surface%rms_height()*self%of(2)%surface%rms_height()))
    end function rms_height
 
-   !> Root mean square slope of the composite heights [a/R], as rms_height
+   !> Root mean square slope of the composite heights [a/R], see rms_height
    pure real(dp) function rms_slope(self)
       class(rough_surfaces_t), intent(in) :: self
       integer :: k

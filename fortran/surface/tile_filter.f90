@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The cut of a spectrum at a shortest and a longest wavelength, sharp or Gaussian
+!> Filter of a spectrum with a shortest and a longest cut-off wavelength, sharp or Gaussian
 module ehl_tile_filter
    use, intrinsic :: iso_c_binding, only: c_double_complex
    use ehl_fftw_planner, only: to_heights, to_spectrum
@@ -9,12 +9,12 @@ module ehl_tile_filter
    private
    public :: filter_t, filter_spectrum, filter_heights
 
-   !> Cut-offs of a filter. Lengths in any unit, the same for all.
+   !> Cut-offs of a filter. Lengths in any common unit.
    type :: filter_t
-      !> Shortest and longest wavelength 2 pi/|q| that is left; 0: no limit
+      !> Shortest and longest wavelength 2 pi/|q| that passes; 0: no limit
       real(dp) :: shortest = 0.0_dp, longest = 0.0_dp
-      !> Whether the filters are areal Gaussian ones (ISO 16610-61): half of the amplitude passes at the cut-off. Otherwise
-      !> all of it passes up to the cut-off, and nothing beyond it.
+      !> Whether the filters are areal Gaussian filters (ISO 16610-61), which pass half of the amplitude at the cut-off. Otherwise
+      !> they are sharp.
       logical :: gaussian = .false.
    contains
       procedure :: transmission
@@ -23,27 +23,27 @@ module ehl_tile_filter
 
 contains
 
-   !> Share of the amplitude of waves of wavenumber |q| [rad per length] that passes.
+   !> Fraction of the amplitude of waves of wavenumber |q| [rad per length] that passes.
    !> Sharp: 1 for 2 pi/longest <= |q| <= 2 pi/shortest, else 0. Gaussian: exp(-pi (alpha shortest/l)^2) times
-   !> 1 - exp(-pi (alpha longest/l)^2) with l = 2 pi/|q| and alpha = sqrt(ln 2/pi). The mean (q = 0) goes with `longest`.
+   !> 1 - exp(-pi (alpha longest/l)^2) with l = 2 pi/|q| and alpha = sqrt(ln 2/pi). The mean (q = 0) is removed by `longest`.
    elemental real(dp) function transmission(self, q)
       class(filter_t), intent(in) :: self
       real(dp), intent(in) :: q
       !> pi alpha^2
       real(dp), parameter :: exponent = log(2.0_dp)
-      !> A wave at the cut-off passes, whatever the rounding of its wavenumber
+      !> Tolerance for rounding of the wavenumber, so that a wave at the cut-off passes
       real(dp), parameter :: slack = 1.0e-12_dp
-      real(dp) :: share(2)
+      real(dp) :: ratio(2)
 
       ! wavelengths of the cut-offs over that of the wave
-      share = [self%shortest, self%longest]*q/(2.0_dp*pi)
+      ratio = [self%shortest, self%longest]*q/(2.0_dp*pi)
       transmission = 1.0_dp
       if (self%gaussian) then
-         if (self%shortest > 0.0_dp) transmission = exp(-exponent*share(1)**2)
-         if (self%longest > 0.0_dp) transmission = transmission*(1.0_dp - exp(-exponent*share(2)**2))
+         if (self%shortest > 0.0_dp) transmission = exp(-exponent*ratio(1)**2)
+         if (self%longest > 0.0_dp) transmission = transmission*(1.0_dp - exp(-exponent*ratio(2)**2))
       else
-         if (self%shortest > 0.0_dp .and. share(1) > 1.0_dp + slack) transmission = 0.0_dp
-         if (self%longest > 0.0_dp .and. share(2) < 1.0_dp - slack) transmission = 0.0_dp
+         if (self%shortest > 0.0_dp .and. ratio(1) > 1.0_dp + slack) transmission = 0.0_dp
+         if (self%longest > 0.0_dp .and. ratio(2) < 1.0_dp - slack) transmission = 0.0_dp
       end if
    end function transmission
 

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The waves of a periodic tile of heights, in the memory of one copy of the heights that are given: the spectrum of a
-!> tile; of a map whose tile is it with its mirror images the cosine transform, a quarter of the spectrum of that tile
+!> The waves of a periodic tile of heights, in the memory of one copy of the given heights: the spectrum of a
+!> tile; for a map that becomes a tile with its mirror images the cosine transform, a quarter of the spectrum of that tile
 module ehl_tile_waves
    use, intrinsic :: iso_c_binding, only: c_double_complex
    use ehl_fftw_planner, only: to_cosines, to_spectrum
@@ -16,12 +16,12 @@ module ehl_tile_waves
       !> Pixels of the tile along X and Y, and its size; mirror images included
       integer :: pixels(2) = 0
       real(dp) :: length(2) = 0.0_dp
-      !> Whether the tile is the same at y and -y
+      !> Whether the tile is symmetric, the same at y and -y
       logical :: even_in_y = .false.
       logical, private :: mirrored = .false.
       !> Half spectrum (pixels/2 + 1, pixels), X first, see to_spectrum
       complex(c_double_complex), allocatable, private :: spectrum(:, :)
-      !> Mirrored: amplitudes of the waves with k, l = 0, 1, ... (pixels/2), whose phases are known
+      !> Mirrored: amplitudes of the cosine waves with k, l = 0, 1, ... (pixels/2)
       real(dp), allocatable, private :: cosines(:, :)
    contains
       procedure :: take
@@ -37,8 +37,8 @@ module ehl_tile_waves
 
 contains
 
-   !> The waves of heights times a scale, without the mean. Mirrored: the tile is the map with its mirror images, twice
-   !> as long each way, and the middle column of the map (the one behind it for an even number) is the tile's first.
+   !> Compute the waves of heights times a scale, without the mean. Mirrored: the tile is the map with its mirror images, twice
+   !> as long along X and Y, and its first column is the middle column of the map (the one after the middle for an even number).
    subroutine take(self, heights, scale, length, mirrored, status)
       class(tile_waves_t), intent(inout) :: self
       !> X first
@@ -76,7 +76,7 @@ contains
       end if
    end subroutine take
 
-   !> Column of the heights that are given, from 1, at column j of the tile, from 0
+   !> Column of the given heights, counted from 1, at column j of the tile, counted from 0
    elemental integer function of_map(self, j)
       class(tile_waves_t), intent(in) :: self
       integer, intent(in) :: j
@@ -89,7 +89,7 @@ contains
       end if
    end function of_map
 
-   !> Cut them at a shortest and a longest wavelength
+   !> Filter the waves
    subroutine cut(self, filter)
       class(tile_waves_t), intent(inout) :: self
       type(filter_t), intent(in) :: filter
@@ -108,7 +108,7 @@ contains
       end do
    end subroutine cut
 
-   !> Variance of the waves with at most so many periods in the tile along X and along Y
+   !> Variance of the waves with at most `most` periods in the tile along X and along Y
    pure real(dp) function variance(self, most)
       class(tile_waves_t), intent(in) :: self
       integer, intent(in) :: most(2)
@@ -165,15 +165,15 @@ contains
 
    contains
 
-      !> |q|^2 of a wave with so many periods in the tile along X and along Y
+      !> |q|^2 of a wave with k and l periods in the tile along X and along Y
       pure real(dp) function square(k, l)
          integer, intent(in) :: k, l
          square = (2.0_dp*pi)**2*((k/self%length(1))**2 + (l/self%length(2))**2)
       end function square
    end function mean_square_slope
 
-   !> Correlation of the heights of two tiles of one size, and of their gradients, in [-1, 1]: the other one lies ahead
-   !> by so much along X. Of the waves that both have.
+   !> Correlation of the heights of two tiles of the same size, and of their gradients, in [-1, 1], from the waves that both have;
+   !> ahead: distance along X by which the other tile is ahead
    pure function correlation(self, other, ahead) result(both)
       class(tile_waves_t), intent(in) :: self
       type(tile_waves_t), intent(in) :: other
@@ -201,8 +201,8 @@ contains
       where (sums(2, :)*sums(3, :) > 0.0_dp) both = sums(1, :)/(sqrt(sums(2, :))*sqrt(sums(3, :)))
    end function correlation
 
-   !> The waves with k periods along X and -most ... most along Y; of the shortest one, which travels half with q and
-   !> half with -q, a half
+   !> The waves with k periods along X and -most ... most along Y; half of the shortest (Nyquist) wave, which belongs to both q
+   !> and -q
    pure subroutine column(self, k, most, values)
       class(tile_waves_t), intent(in) :: self
       integer, intent(in) :: k, most
@@ -212,7 +212,7 @@ contains
 
       if (self%mirrored) then
          values = (0.0_dp, 0.0_dp)
-         ! a cosine has no shortest wave
+         ! a cosine series has no Nyquist wave
          if (2*k >= self%pixels(1)) return
          along = real(k, dp)/self%pixels(1)
          do l = -min(most, self%pixels(2)/2 - 1), min(most, self%pixels(2)/2 - 1)
@@ -233,7 +233,7 @@ contains
       turned = cmplx(cos(pi*modulo(t, 2.0_dp)), sin(pi*modulo(t, 2.0_dp)), c_double_complex)
    end function turned
 
-   !> Transfer them to another tile
+   !> Transfer the waves to another tile
    subroutine transfer_to(self, other)
       class(tile_waves_t), intent(inout) :: self
       type(tile_waves_t), intent(inout) :: other
@@ -246,13 +246,13 @@ contains
       call move_alloc(self%cosines, other%cosines)
    end subroutine transfer_to
 
-   !> Whether they have not been transferred
+   !> Whether the waves have not been transferred
    pure logical function are_present(self)
       class(tile_waves_t), intent(in) :: self
       are_present = allocated(self%spectrum) .or. allocated(self%cosines)
    end function are_present
 
-   !> Bytes in use, or, after a transfer, those before it
+   !> Allocated bytes; after a transfer those before it
    pure real(dp) function bytes(self)
       class(tile_waves_t), intent(in) :: self
 

@@ -1,8 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Film and pressure waves of a rough tile at the points of a contact: the inner loop of the prediction.
 !>
-!> Driven waves move with the tile; free waves are read between the points of a finer table, at places that
-!> follow from slip, along lines or line by line. The first dimension of a tile and of a sum: loss of film and gain of pressure.
+!> Driven waves move with the tile; free waves are interpolated in a finer table, at positions that follow from the
+!> slip, the same for all lines or per line. The first dimension of a tile and of a sum: film reduction and pressure increase.
 module ehl_wave_sum
    use, intrinsic :: iso_fortran_env, only: int32, real32, real64
    implicit none (type, external)
@@ -11,7 +11,7 @@ module ehl_wave_sum
 
 contains
 
-   !> Add weight(s, i) tile(:, col(j), row(i) - shift, s) to total(:, j, i); rows wrap, rows and columns are from 0
+   !> Add weight(s, i) tile(:, col(j), row(i) - shift, s) to total(:, j, i); rows are periodic, rows and columns start at 0
    subroutine add_driven(tile, rows, columns, weight, shift, total)
       real(real32), intent(in), contiguous :: tile(:, 0:, 0:, :), weight(:, :)
       integer(int32), intent(in), contiguous :: rows(:), columns(:)
@@ -30,7 +30,7 @@ contains
       end do
    end subroutine add_driven
 
-   !> The same between the rows low(i) and the next, `between` of the way
+   !> Add tiles interpolated between rows low(i) and low(i) + 1; between: fraction of the distance
    subroutine add_between(tile, low, columns, between, weight, total)
       real(real32), intent(in), contiguous :: tile(:, 0:, 0:, :), between(:), weight(:, :)
       integer(int32), intent(in), contiguous :: low(:), columns(:)
@@ -52,8 +52,8 @@ contains
       end do
    end subroutine add_between
 
-   !> The same between the rows low(j, i) - shift and the next; a first dimension of 1 of low and between: the same for
-   !> all lines. beside(:, j, :) is added to the stations, and the sum is taken `expansion` times
+   !> Add tiles interpolated between row low(j, i) - shift and the next; first dimension 1 of low and between: the same for
+   !> all lines. beside(:, j, :) is added to the stations, and the sum is multiplied by `expansion`
    subroutine add_free(tile, beside, low, columns, between, weight, expansion, shift, total)
       real(real32), intent(in), contiguous :: tile(:, 0:, 0:, :), beside(:, :, 0:)
       real(real32), intent(in), contiguous :: between(:, :), weight(:, :), expansion(:, :)
@@ -65,7 +65,7 @@ contains
 
       start = modulo(shift, size(tile, 3))
       do i = 1, size(low, 2)
-         ! a place has weights of the stations before and after it alone
+         ! a position has nonzero weights only of the adjacent stations
          first = findloc(abs(weight(:, i)) > 0.0, .true., 1)
          last = findloc(abs(weight(:, i)) > 0.0, .true., 1, back=.true.)
          do j = 1, size(columns)
@@ -83,7 +83,7 @@ contains
       end do
    end subroutine add_free
 
-   !> Row modulo the number of rows; without a division where it is the next one below 0
+   !> Row modulo the number of rows; without a division for a row just outside
    pure integer function wrapped(row, count)
       integer, intent(in) :: row, count
 
@@ -92,12 +92,12 @@ contains
       if (wrapped < 0 .or. wrapped >= count) wrapped = modulo(wrapped, count)
    end function wrapped
 
-   !> Sums over k of coefficients(k) polynomials(i, k) are added to total(2, place(i)), places from 0
+   !> Add sum over k of coefficients(k) polynomials(i, k) to total(2, place(i)); places start at 0
    subroutine add_polynomials(polynomials, coefficients, place, total)
       real(real32), intent(in), contiguous :: polynomials(:, :), coefficients(:)
       integer(int32), intent(in), contiguous :: place(:)
       real(real32), intent(inout), contiguous :: total(:, 0:)
-      ! points at a time: their sum stays in the cache
+      ! number of points per block, whose sums stay in the cache
       integer, parameter :: block = 1024
       real(real32) :: found(block)
       integer :: first, n, i, k
@@ -114,20 +114,20 @@ contains
       end do
    end subroutine add_polynomials
 
-   !> Film of the smooth contact, on nodes smooth(y, x), with its edge moved outwards: film(place(p)), from 0, is that at
-   !> a point x(p), y(p) brought nearer to the centre, all in nodes from the first one. By the share of its distance
-   !> share(1, p) moved(edge(p)) + share(2, p) moved(edge(p) + 1); `moved` is periodic
-   subroutine moved_film(smooth, centre, x, y, edge, share, moved, place, film)
-      real(real64), intent(in), contiguous :: smooth(0:, 0:), centre(:), x(:), y(:), share(:, :), moved(0:)
+   !> Film of the smooth contact, on nodes smooth(y, x), with its edge moved outwards: film(place(p)), from 0, is the film at
+   !> point x(p), y(p) moved towards the centre, all in nodes from the first one, by the fraction of its distance
+   !> weight(1, p) moved(edge(p)) + weight(2, p) moved(edge(p) + 1); `moved` is periodic
+   subroutine moved_film(smooth, centre, x, y, edge, weight, moved, place, film)
+      real(real64), intent(in), contiguous :: smooth(0:, 0:), centre(:), x(:), y(:), weight(:, :), moved(0:)
       integer(int32), intent(in), contiguous :: edge(:), place(:)
       real(real64), intent(inout), contiguous :: film(0:)
-      real(real64) :: left, u, v
+      real(real64) :: factor, u, v
       integer :: p, i, j
 
       do p = 1, size(place)
-         left = 1.0_real64 - (share(1, p)*moved(edge(p)) + share(2, p)*moved(modulo(edge(p) + 1, size(moved))))
-         u = centre(1) + left*(x(p) - centre(1))
-         v = centre(2) + left*(y(p) - centre(2))
+         factor = 1.0_real64 - (weight(1, p)*moved(edge(p)) + weight(2, p)*moved(modulo(edge(p) + 1, size(moved))))
+         u = centre(1) + factor*(x(p) - centre(1))
+         v = centre(2) + factor*(y(p) - centre(2))
          i = max(0, min(int(u), size(smooth, 2) - 2))
          j = max(0, min(int(v), size(smooth, 1) - 2))
          u = max(0.0_real64, min(u - i, 1.0_real64))

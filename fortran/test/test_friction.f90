@@ -16,7 +16,7 @@ module test_friction
    use ehl_shear, only: shear_carreau, shear_eyring, shear_law_t, shear_limiting, shear_newtonian, shear_stress
    use ehl_status, only: status_t
    use ehl_text, only: to_text
-   use ehl_wall_heat, only: heat_source, share_t, speed_of_rest, wall_heat_t, wall_strength
+   use ehl_wall_heat, only: heat_source, heat_response_t, speed_of_rest, wall_heat_t, wall_strength
    implicit none (type, external)
    private
    public :: run_friction
@@ -238,20 +238,20 @@ contains
    !> the film as by hand
    subroutine heat_in_proportion()
       type(wall_heat_t) :: walls
-      type(share_t) :: share
+      type(heat_response_t) :: response
       real(dp), parameter :: film = 2.0e-7_dp, k = 0.14_dp, q = 2.0e8_dp, before(2) = [3.0_dp, 8.0_dp]
       real(dp) :: into(2), rise(2)
 
       call walls%start(9, 1.0e-6_dp, [3.0e-6_dp, 3.0e-6_dp])
-      share = walls%share([7.0_dp, 7.0_dp], film, k)
-      call is_close(share%difference(1) + share%difference(2)*q, 0.0_dp, 1.0e-6_dp, "like walls take the same")
-      call is_close(share%film(1), 7.0_dp, 1.0e-12_dp, "the film between warm walls")
+      response = walls%response([7.0_dp, 7.0_dp], film, k)
+      call is_close(response%difference(1) + response%difference(2)*q, 0.0_dp, 1.0e-6_dp, "like walls take the same")
+      call is_close(response%film(1), 7.0_dp, 1.0e-12_dp, "the film between warm walls")
       call walls%start(9, 1.0e-6_dp, [1.0e-6_dp, 9.0e-6_dp])
-      share = walls%share(before, film, k)
-      into = 0.5_dp*(q + [1.0_dp, -1.0_dp]*(share%difference(1) + share%difference(2)*q))
+      response = walls%response(before, film, k)
+      into = 0.5_dp*(q + [1.0_dp, -1.0_dp]*(response%difference(1) + response%difference(2)*q))
       rise = before + walls%own*into
       call is_close((into(1) - 0.5_dp*q)/(k*(rise(2) - rise(1))/film), 1.0_dp, 1.0e-12_dp, "heat through the film")
-      call is_close((share%film(1) + share%film(2)*q)/(0.5_dp*sum(rise) + q*film/(12.0_dp*k)), 1.0_dp, 1.0e-12_dp, &
+      call is_close((response%film(1) + response%film(2)*q)/(0.5_dp*sum(rise) + q*film/(12.0_dp*k)), 1.0_dp, 1.0e-12_dp, &
                     "mean across the film")
       call is_true(into(1) > into(2), "the wall that conducts takes more")
    end subroutine heat_in_proportion
