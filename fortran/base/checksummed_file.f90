@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Binary files that end with a checksum of what stands before it
+!> Binary files that end with a checksum of the preceding bytes
 module ehl_checksummed_file
    use, intrinsic :: iso_fortran_env, only: int64, int8
    use ehl_files, only: file_bytes, flush_file
@@ -9,15 +9,15 @@ module ehl_checksummed_file
    private
    public :: open_checksummed, end_checksummed, end_reading, has_checksum
 
-   !> Bytes that are read at a time, those of a checksum
+   !> Number of bytes read at a time, and bytes of a checksum
    integer, parameter :: block = 65536, of_checksum = 8
-   !> The checksum of nothing, and the bits by which it is turned for each byte
+   !> Initial value of the checksum, and number of bits by which each byte rotates it
    integer(int64), parameter :: nothing = 1234567890123456789_int64
    integer, parameter :: turn = 7
 
 contains
 
-   !> Open a file to "write" it, in place of what was there, or to "read" it
+   !> Open a file to "write" it, replacing an existing one, or to "read" it
    subroutine open_checksummed(path, action, lun, status)
       character(len=*), intent(in) :: path, action
       integer, intent(out) :: lun
@@ -30,7 +30,7 @@ contains
       if (stat /= 0) call status%fail(ehl_file, path//": error: cannot "//action//": "//trim(reason))
    end subroutine open_checksummed
 
-   !> Append the checksum and close a file that was written. It is flushed to the disk: a power failure does not lose it.
+   !> Append the checksum and close a file that was written. It is flushed to the disk, so that it survives a power failure.
    subroutine end_checksummed(lun, path, stat, reason, status)
       integer, intent(in) :: lun
       character(len=*), intent(in) :: path
@@ -84,7 +84,7 @@ contains
       if (stat == 0) has_checksum = theirs == checksum(path, bytes)
    end function has_checksum
 
-   !> Of so many bytes of a file; of those that can be read
+   !> Checksum of the first `bytes` bytes of a file, as far as they can be read
    integer(int64) function checksum(path, bytes)
       character(len=*), intent(in) :: path
       integer(int64), intent(in) :: bytes

@@ -10,7 +10,7 @@ module ehl_clock
    !> A stopwatch
    type :: clock_t
       private
-      integer(int64) :: began = 0
+      integer(int64) :: started = 0
    contains
       procedure :: seconds
    end type clock_t
@@ -21,7 +21,7 @@ contains
    function start_clock() result(clock)
       type(clock_t) :: clock
 
-      call system_clock(clock%began)
+      call system_clock(clock%started)
    end function start_clock
 
    !> Seconds since the start
@@ -30,6 +30,6 @@ contains
       integer(int64) :: now, rate
 
       call system_clock(now, rate)
-      seconds = real(now - self%began, dp)/real(rate, dp)
+      seconds = real(now - self%started, dp)/real(rate, dp)
    end function seconds
 end module ehl_clock

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Dense systems of equations by LU factors with partial pivoting
+!> Dense linear systems by LU factorisation with partial pivoting
 module ehl_dense_lu
    use ehl_kinds, only: dp
    implicit none (type, external)
@@ -8,8 +8,8 @@ module ehl_dense_lu
 
 contains
 
-   !> Factors of a matrix, in its place, and the row exchanges. Column by column; each is updated by those before it, four at
-   !> a time.
+   !> Factor a matrix in place, and return the row exchanges. Column by column; each column is updated by the previous ones, four
+   !> at a time.
    pure subroutine factor(a, pivot)
       real(dp), contiguous, intent(inout) :: a(:, :)
       integer, intent(out) :: pivot(:)

@@ -1,14 +1,14 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Where a result goes: which folder may take it, and how it gets there.
+!> The folder of a result: which folder is accepted, and how the result is put in place.
 !>
-!> A folder takes a result of one kind if it is empty, or holds an earlier result of this kind and nothing else. A result
-!> names its kind and its files in summary.json. Pictures and exports of a result, which name their kind, are replaced with
-!> it. All else is refused; with `force` other files stay, if none of them has a name that the result needs.
+!> A folder is accepted for a result of one kind if it is empty, or contains only an earlier result of this kind. A result
+!> lists its kind and its files in summary.json. Pictures and exports of a result, which contain a mark, are replaced with
+!> it. Otherwise the folder is refused; with `force` other files are kept, if the result needs none of their names.
 !>
-!> A result is whole at every instant: it is written beside the folder and changes places with the one before it.
+!> The folder always contains a complete result: the new one is written beside it and then exchanged with the earlier one.
 module ehl_destination
    use, intrinsic :: iso_c_binding, only: c_ptr
-   use ehl_earlier_result, only: command_of, found_t, gives_way, read_result, summary
+   use ehl_earlier_result, only: command_of, found_t, is_replaceable, read_result, summary
    use ehl_files, only: absolute_path, file_exists, make_folder, may_write, real_path, remove_file, remove_folder, rename_path
    use ehl_folders, only: change_places, folder_above, full_path, is_here, is_movable, is_there, link_text, list_folder, &
                           lock_folder, make_link, make_parents, move_new, spare_path, unlock_folder, name_t
@@ -23,12 +23,12 @@ module ehl_destination
 
    !> A folder for a result
    type :: destination_t
-      !> As the user wrote it, and what kind of result it is for
+      !> Path as the user wrote it, and kind of the result
       character(len=:), allocatable :: folder, kind
-      !> Lists, each item with a line end: names that the result may need, paths that the command reads, and other
+      !> Lists with one item per line: names that the result may need, paths that the command reads, and other
       !> names that belong to this kind
       character(len=:), allocatable :: names, inputs, kept
-      !> Whether the folder may hold other files
+      !> Whether the folder may contain other files
       logical :: force = .false.
    contains
       procedure :: check
@@ -37,22 +37,22 @@ module ehl_destination
    end type destination_t
 
    character(len=*), parameter :: any_other = "expected: another folder", &
-      ! how names of unfinished results begin; those of a killed command stay
+      ! beginnings of the names of unfinished results; a killed command leaves them behind
       partial = ".partial", leftover = partial//"-"
-   !> Names for a new folder that are tried
+   !> Number of names that are tried for a new folder
    integer, parameter :: tries = 3
 
 contains
 
-   !> Refuse a folder that must not be touched, or cannot be written
+   !> Refuse a folder that must not be changed or cannot be written
    subroutine check(self, status, resumes)
       class(destination_t), intent(in) :: self
       type(status_t), intent(inout) :: status
-      !> Whether an earlier result stays, and is completed
+      !> Whether an earlier result is kept and completed
       logical, intent(in), optional :: resumes
       type(found_t) :: found
 
-      call look(self, found, status)
+      call inspect(self, found, status)
       if (.not. status%failed() .and. found%exists) call try_folder(self%folder, fresh_path(found), status)
       if (status%failed() .or. found%kind == "") return
       if (present(resumes)) then
@@ -68,7 +68,7 @@ contains
       end if
    end subroutine check
 
-   !> Check, and make an empty folder for the files of the result
+   !> Check the folder, and make an empty temporary folder for the files of the result
    subroutine begin(self, fresh, status)
       class(destination_t), intent(in) :: self
       character(len=:), allocatable, intent(out) :: fresh
@@ -79,7 +79,7 @@ contains
 
       fresh = ""
       call self%check(status)
-      if (.not. status%failed()) call look(self, found, status)
+      if (.not. status%failed()) call inspect(self, found, status)
       if (status%failed()) return
       call make_parents(found%path)
       call remove_stale_locks(folder_above(found%path), ended)
@@ -89,19 +89,20 @@ contains
       end do
       do k = 1, tries
          fresh = fresh_path(found)
-         ! on another machine a process of the same number may have taken the name
+         ! a process with the same number on another machine may use the name
          if (make_folder(fresh)) return
       end do
       call status%fail(ehl_file, self%folder//": error: cannot be written")
    end subroutine begin
 
-   !> Names of such a result, and no others. No internal procedure: passed on, one would ask for an executable stack.
+   !> Whether a name is in the list of the result's names. Not an internal procedure: as an argument it would need an executable
+   !> stack.
    logical function is_of_result(name, list)
       character(len=*), intent(in) :: name, list
       is_of_result = listed(name, list) .or. name == summary
    end function is_of_result
 
-   !> A folder for the files of the result until they are in place
+   !> Path of the temporary folder for the files of the result
    function fresh_path(found) result(path)
       type(found_t), intent(in) :: found
       character(len=:), allocatable :: path
@@ -110,7 +111,7 @@ contains
       if (.not. found%movable) path = spare_path(found%path//"/"//leftover(:len(leftover) - 1))
    end function fresh_path
 
-   !> Check again, and put the files in a folder made by `begin` in place. After a failure they are still there.
+   !> Check again, and put the files from a folder made by `begin` in place. After a failure they are still in that folder.
    subroutine finish(self, fresh, status)
       class(destination_t), intent(in) :: self
       character(len=*), intent(in) :: fresh
@@ -120,7 +121,7 @@ contains
       logical :: done
 
       lock = lock_folder(folder_above(fresh))
-      call look(self, found, status)
+      call inspect(self, found, status)
       if (.not. status%failed()) then
          if (.not. found%exists) then
             done = move_new(fresh, found%path)
@@ -128,7 +129,7 @@ contains
             done = replaced(found, fresh)
          else
             done = .false.
-            ! the working directory stays the folder that it is
+            ! the working directory cannot be exchanged
             if (.not. is_here(found%path)) done = rename_path(fresh, found%path)
             if (.not. done) done = filled(found%path, fresh)
          end if
@@ -138,8 +139,8 @@ contains
       if (status%failed()) status%message = status%message//newline//"the new result is in "//fresh
    end subroutine finish
 
-   !> Read what the folder holds, and apply the rule
-   subroutine look(self, found, status)
+   !> Read the contents of the folder, and apply the rule above
+   subroutine inspect(self, found, status)
       class(destination_t), intent(in) :: self
       type(found_t), intent(out) :: found
       type(status_t), intent(inout) :: status
@@ -170,13 +171,13 @@ contains
       else
          found%movable = is_movable(found%path)
          call read_result(found)
-         call judge()
+         call apply_rule()
       end if
 
    contains
 
-      !> The rule above, for a folder that can be written
-      subroutine judge()
+      !> Apply the rule above to a folder that can be written
+      subroutine apply_rule()
          logical :: ours, read_from
          integer :: k
 
@@ -186,7 +187,7 @@ contains
          end if
          do k = 1, size(found%entries)
             associate (name => found%entries(k)%text)
-               ours = gives_way(found, name, found%path)
+               ours = is_replaceable(found, name, found%path)
                read_from = is_input(self, found, name)
                if (ours .and. read_from) then
                   call refuse("'"//name//"' in it is read by this command", any_other)
@@ -202,17 +203,17 @@ contains
             end associate
             if (status%failed()) return
          end do
-      end subroutine judge
+      end subroutine apply_rule
 
       subroutine refuse(what, way_out)
          character(len=*), intent(in) :: what, way_out
 
          call status%fail(ehl_bad_input, self%folder//": error: "//what//newline//way_out)
       end subroutine refuse
-   end subroutine look
+   end subroutine inspect
 
-   !> The earlier result and the new one change places; other files are moved over. A link holds the place of each
-   !> until it is there.
+   !> Exchange the earlier result and the new one, and move other files over. A symbolic link represents each of them until
+   !> it is moved.
    logical function replaced(found, fresh)
       type(found_t), intent(in) :: found
       character(len=*), intent(in) :: fresh
@@ -232,7 +233,7 @@ contains
       end do
       replaced = change_places(fresh, found%path)
       if (.not. replaced) return
-      ! what cannot be moved or removed now stays where its link points to
+      ! what cannot be moved or removed now remains where its link points to
       do k = 1, size(found%entries)
          associate (name => found%entries(k)%text)
             gone = removable(name, fresh)
@@ -248,16 +249,16 @@ contains
 
    contains
 
-      !> Whether a file, now in a folder, is of the earlier result
+      !> Whether a file in a folder belongs to the earlier result
       logical function removable(name, folder)
          character(len=*), intent(in) :: name, folder
 
          removable = .not. file_exists(folder//"/"//name//"/.")
-         if (removable) removable = gives_way(found, name, folder)
+         if (removable) removable = is_replaceable(found, name, folder)
       end function removable
    end function replaced
 
-   !> Move the files of a result into a folder that holds none, the summary last
+   !> Move the files of a result into a folder without a result, the summary last
    logical function filled(path, fresh)
       character(len=*), intent(in) :: path, fresh
       type(name_t), allocatable :: names(:)
@@ -277,7 +278,7 @@ contains
       if (filled) filled = remove_folder(fresh)
    end function filled
 
-   !> Whether a name in a folder is something that the command reads
+   !> Whether the command reads a file of this name in the folder
    logical function is_input(self, found, name)
       class(destination_t), intent(in) :: self
       type(found_t), intent(in) :: found
@@ -295,7 +296,7 @@ contains
       end do
    end function is_input
 
-   !> Whether a name is in a list with one a line
+   !> Whether a name is in a list with one name per line
    pure logical function listed(name, list)
       character(len=*), intent(in) :: name, list
 

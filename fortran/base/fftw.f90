@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The interface of FFTW 3, as FFTW ships it
+!> The Fortran interface of FFTW 3, as distributed with FFTW
 module ehl_fftw
    use, intrinsic :: iso_c_binding
    implicit none

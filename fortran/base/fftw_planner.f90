@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> FFTW's planner, which one thread at a time may use, and the transforms of tiles. Executing plans needs no lock.
+!> FFTW's planner, which only one thread may use at a time, and the transforms of tiles. Executing plans needs no lock.
 module ehl_fftw_planner
    use, intrinsic :: iso_c_binding, only: c_associated, c_double_complex, c_f_pointer, c_int, c_loc, c_null_ptr, c_ptr
    use ehl_fftw, only: fftw_destroy_plan, fftw_estimate, fftw_execute_dft_c2r, fftw_execute_dft_r2c, fftw_execute_r2r, &
@@ -18,7 +18,7 @@ module ehl_fftw_planner
 
 contains
 
-   !> No other thread may plan from here on; after a failure the caller may not either
+   !> Reserve the planner for this thread; after a failure the caller must not plan either
    subroutine lock_planner(status)
       type(status_t), intent(inout) :: status
       call lock(planner, status)
@@ -29,7 +29,7 @@ contains
       call unlock(planner, status)
    end subroutine unlock_planner
 
-   !> Destroy a plan, if it is one; without the lock it stays, as it is safe to leave it
+   !> Destroy a plan if there is one; if the lock fails it is left allocated, which is safe
    subroutine drop_plan(plan)
       type(c_ptr), intent(inout) :: plan
       type(status_t) :: status
@@ -41,10 +41,10 @@ contains
       plan = c_null_ptr
    end subroutine drop_plan
 
-   !> Let others plan; a failure if FFTW has made no plan
+   !> Release the planner; an error if FFTW has made no plan
    subroutine take_plan(plan, what, status)
       type(c_ptr), intent(in) :: plan
-      !> What the plan is for
+      !> Purpose of the plan, for the message
       character(len=*), intent(in) :: what
       type(status_t), intent(inout) :: status
 
@@ -52,7 +52,7 @@ contains
       if (.not. c_associated(plan)) call status%fail(ehl_internal, "FFTW made no plan for "//what)
    end subroutine take_plan
 
-   !> Complex transform in place
+   !> Plan of a complex transform in place
    subroutine plan_complex(plan, n, work, direction, status)
       type(c_ptr), intent(out) :: plan
       integer, intent(in) :: n
@@ -70,7 +70,7 @@ contains
       call take_plan(plan, "a complex transform", status)
    end subroutine plan_complex
 
-   !> From half a spectrum to n real values
+   !> Plan of a transform from half a spectrum to n real values
    subroutine plan_to_real(plan, n, spectrum, values, status)
       type(c_ptr), intent(out) :: plan
       integer, intent(in) :: n
@@ -87,7 +87,7 @@ contains
    end subroutine plan_to_real
 
    !> Half spectrum (n1/2 + 1, n2) of values (n1, n2), divided by n1 n2: amplitudes of exp(i(k1 x1 + k2 x2)).
-   !> Takes no memory but the spectrum.
+   !> Needs no memory except that of the spectrum.
    subroutine to_spectrum(values, spectrum, status)
       real(dp), intent(in) :: values(:, :)
       complex(c_double_complex), allocatable, target, intent(out) :: spectrum(:, :)
@@ -120,7 +120,7 @@ contains
    end subroutine to_spectrum
 
    !> Cosine transform (DCT-II) of values (n1, n2), divided by 4 n1 n2: amplitudes of the waves of the values with their
-   !> mirror images, (2 n1, 2 n2), about half a pixel before the first. Takes no memory but the result.
+   !> mirror images, (2 n1, 2 n2), about half a pixel before the first. Needs no memory except that of the result.
    subroutine to_cosines(values, cosines, status)
       real(dp), intent(in) :: values(:, :)
       real(dp), allocatable, target, intent(out) :: cosines(:, :)
@@ -152,7 +152,7 @@ contains
       end do
    end subroutine to_cosines
 
-   !> The inverse of to_spectrum; the spectrum is lost
+   !> The inverse of to_spectrum; overwrites the spectrum
    subroutine to_heights(spectrum, values, status)
       complex(c_double_complex), allocatable, target, intent(inout) :: spectrum(:, :)
       real(dp), intent(out) :: values(:, :)

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Files and folders by the few POSIX calls that Fortran lacks
+!> Files and folders by POSIX calls, which standard Fortran lacks
 module ehl_files
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_null_char, c_ptr, c_size_t
    use, intrinsic :: iso_fortran_env, only: int64
@@ -24,7 +24,7 @@ module ehl_files
       end function of_two_paths
    end interface
 
-   ! not where an argument is passed by value: gfortran 12 takes its address in some of the calls
+   ! not for arguments passed by value: gfortran 12 passes an address in some of the calls
    procedure(of_path), bind(c, name="rmdir") :: posix_rmdir
    procedure(of_path), bind(c, name="unlink") :: posix_unlink
    procedure(of_two_paths), bind(c, name="rename") :: posix_rename
@@ -100,7 +100,7 @@ module ehl_files
 
 contains
 
-   !> Flush a file to the disk, so that a power failure does not lose it; false when that fails
+   !> Flush a file to the disk, so that it survives a power failure; false if that fails
    logical function flush_file(path)
       character(len=*), intent(in) :: path
       integer(c_int), parameter :: to_write = 1
@@ -113,7 +113,7 @@ contains
       if (posix_close(descriptor) /= 0) flush_file = .false.
    end function flush_file
 
-   !> Whether a file or folder is there
+   !> Whether a file or folder exists
    logical function file_exists(path)
       character(len=*), intent(in) :: path
       integer(c_int), parameter :: there = 0
@@ -121,7 +121,7 @@ contains
       file_exists = posix_access(c_text(path), there) == 0
    end function file_exists
 
-   !> Length of a file; 0 when it is not there
+   !> Length of a file [bytes]; 0 if it does not exist
    integer(int64) function file_bytes(path)
       character(len=*), intent(in) :: path
 
@@ -137,8 +137,8 @@ contains
       may_write = posix_access(c_text(path), to_write) == 0
    end function may_write
 
-   !> Whether a path is a file: no folder, device or pipe, which might never end, or never begin. One that cannot be
-   !> opened counts as a file: reading it reports why.
+   !> Whether a path is a file: not a folder, device or pipe, which might block or never end. A path that cannot be
+   !> opened counts as a file: reading it reports the reason.
    logical function is_file(path)
       character(len=*), intent(in) :: path
       !> Do not wait for the other end of a pipe (Linux)
@@ -153,7 +153,7 @@ contains
       if (descriptor < 0) return
       length = posix_lseek(descriptor, 0_c_size_t, from_end)
       is_file = length >= 0
-      ! a device has no length but bytes, or no position after its end; `.and.` may evaluate both operands
+      ! a device of length 0 contains bytes, or has no position after its end; `.and.` may evaluate both operands
       if (length == 0) then
          is_file = posix_lseek(descriptor, 1_c_size_t, from_start) == 1
          if (is_file) is_file = posix_lseek(descriptor, 0_c_size_t, from_start) == 0
@@ -163,7 +163,7 @@ contains
       if (closed /= 0) is_file = .false.
    end function is_file
 
-   !> Make a folder; false when that is not possible or it is there already
+   !> Make a folder; false if that is not possible or it exists
    logical function make_folder(path)
       character(len=*), intent(in) :: path
       integer(c_int), parameter :: for_all = int(o"777", c_int)
@@ -171,28 +171,28 @@ contains
       make_folder = posix_mkdir(c_text(path), for_all) == 0
    end function make_folder
 
-   !> Remove an empty folder; false when it is not empty or not there
+   !> Remove an empty folder; false if it is not empty or does not exist
    logical function remove_folder(path)
       character(len=*), intent(in) :: path
 
       remove_folder = posix_rmdir(c_text(path)) == 0
    end function remove_folder
 
-   !> Remove a file; false when it is not there
+   !> Remove a file; false if it does not exist
    logical function remove_file(path)
       character(len=*), intent(in) :: path
 
       remove_file = posix_unlink(c_text(path)) == 0
    end function remove_file
 
-   !> Rename a file or folder in one step. A folder replaces another only when that is empty.
+   !> Rename a file or folder in one step. A folder replaces another only if that is empty.
    logical function rename_path(from, to)
       character(len=*), intent(in) :: from, to
 
       rename_path = posix_rename(c_text(from), c_text(to)) == 0
    end function rename_path
 
-   !> The path from the root: relative ones start at the working directory
+   !> Absolute path; relative paths start at the working directory
    function absolute_path(path) result(absolute)
       character(len=*), intent(in) :: path
       character(len=:), allocatable :: absolute
@@ -208,7 +208,7 @@ contains
       absolute = fortran_text(buffer) // "/" // path
    end function absolute_path
 
-   !> The path of what is there, without links and dots; the path itself when nothing is there
+   !> Path of an existing file or folder without links and dots; the path itself if it does not exist
    function real_path(path) result(real_one)
       character(len=*), intent(in) :: path
       character(len=:), allocatable :: real_one
@@ -218,7 +218,7 @@ contains
       if (c_associated(posix_realpath(c_text(path), buffer))) real_one = fortran_text(buffer)
    end function real_path
 
-   !> The folder part of a path with its '/'; empty when there is none
+   !> The folder part of a path with its '/'; empty if there is none
    pure function folder_of(path) result(folder)
       character(len=*), intent(in) :: path
       character(len=:), allocatable :: folder
@@ -233,7 +233,7 @@ contains
       mark = to_text(int(posix_getpid()))
    end function process_mark
 
-   !> The text in a buffer that C has filled
+   !> Text from a null-terminated buffer
    pure function fortran_text(buffer) result(text)
       character(kind=c_char), intent(in) :: buffer(:)
       character(len=:), allocatable :: text
@@ -245,7 +245,7 @@ contains
       end do
    end function fortran_text
 
-   !> A text as C takes it
+   !> Null-terminated text for C
    pure function c_text(text) result(answer)
       character(len=*), intent(in) :: text
       character(kind=c_char) :: answer(len(text) + 1)

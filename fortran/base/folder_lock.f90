@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Who writes into a folder: a file DIR.lock beside it, with process and machine, while a run writes into it. The lock of
-!> a process that has ended is taken over, and removed by the next result that is written beside it.
+!> Lock of a folder while a run writes into it: a file DIR.lock beside it, with process and machine. The lock of
+!> a process that has ended is taken over, or removed with the next result that is written beside it.
 module ehl_folder_lock
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char, c_size_t
    use ehl_files, only: file_exists, fortran_text, may_write, process_mark, remove_file, rename_path
@@ -14,7 +14,7 @@ module ehl_folder_lock
    public :: folder_lock_t, remove_stale_locks
 
    type :: folder_lock_t
-      !> The file; not allocated: nothing is locked
+      !> Path of the lock file; not allocated: nothing is locked
       character(len=:), allocatable, private :: path
    contains
       procedure :: take
@@ -36,8 +36,8 @@ module ehl_folder_lock
 
 contains
 
-   !> Lock a folder; refuse one that another run or another solver of this process has locked. No lock where no file can be
-   !> written beside the folder.
+   !> Lock a folder; refuse one that another run or another solver of this process has locked. There is no lock if no file can
+   !> be written beside the folder.
    subroutine take(self, folder, status)
       class(folder_lock_t), intent(inout) :: self
       character(len=*), intent(in) :: folder
@@ -56,7 +56,7 @@ contains
       call make_parents(path)
       if (.not. may_write(folder_above(path))) return
       fresh = spare_path(path)
-      ! whole before it has its name
+      ! write the complete file before it gets its name
       call write_text(fresh, mark//newline//process_mark()//" "//start_of(process_mark())//" "//machine()//newline, status)
       do k = 1, 3
          if (status%failed()) exit
@@ -66,7 +66,7 @@ contains
          end if
          reading = status_t()
          call read_text(path, longest, text, reading)
-         ! its run may have ended meanwhile
+         ! the other run may have ended meanwhile
          if (.not. is_there(path)) cycle
          call refuse_if_held(folder, path, text, status)
          if (.not. status%failed()) call take_away(path, text)
@@ -85,10 +85,10 @@ contains
       deallocate (self%path)
    end subroutine release
 
-   !> Remove the locks that ended runs of this machine have left in a folder
+   !> Remove the locks that runs of this machine which have ended left in a folder
    subroutine remove_stale_locks(folder, ended)
       character(len=*), intent(in) :: folder
-      !> What their runs wrote into, from the root
+      !> Absolute paths of the folders of these runs
       type(name_t), allocatable, intent(out) :: ended(:)
       type(name_t), allocatable :: names(:)
       character(len=:), allocatable :: path, text
@@ -107,15 +107,15 @@ contains
          if (.not. reading%failed()) call refuse_if_held(folder, path, text, held)
          if (reading%failed() .or. held%failed()) cycle
          call take_away(path, text)
-         ! of a variable: gfortran 12 gives a component that is made of an expression one byte
+         ! via a variable: gfortran 12 gives a component that is set to an expression a length of one byte
          path = path(:len(path) - len(suffix))
          ended = [ended, name_t(path)]
       end do
    end subroutine remove_stale_locks
 
-   !> Refuse the lock of a process that is alive, or may be
+   !> Refuse the lock of a process that runs, or may run
    subroutine refuse_if_held(folder, path, text, status)
-      !> As the user wrote it; the lock and its content
+      !> Folder as the user wrote it; path of the lock and its content
       character(len=*), intent(in) :: folder, path, text
       type(status_t), intent(inout) :: status
       character(len=256) :: process, start, host
@@ -130,7 +130,7 @@ contains
       if (stat /= 0) return
       if (host == machine()) then
          if (.not. process_is_there(trim(process))) return
-         ! the number may have gone to another process
+         ! another process may have got the number
          if (start_of(trim(process)) /= start) return
       end if
       call status%fail(ehl_bad_input, folder//": error: process "//trim(process)//" on "//trim(host)// &
@@ -138,7 +138,7 @@ contains
                        "expected: another folder, or wait until it has ended; if it no longer runs, remove "//path)
    end subroutine refuse_if_held
 
-   !> Remove a lock with this content, and no other one that may have come in its place
+   !> Remove a lock if it still has this content: another run may have replaced it
    subroutine take_away(path, text)
       character(len=*), intent(in) :: path, text
       character(len=:), allocatable :: backup, found
@@ -153,7 +153,7 @@ contains
       if (.not. done) done = remove_file(backup)
    end subroutine take_away
 
-   !> Name of this machine, one word
+   !> Name of this machine
    function machine() result(name)
       character(len=:), allocatable :: name
       character(kind=c_char) :: buffer(257)
@@ -164,7 +164,7 @@ contains
       if (buffer(1) /= c_null_char) name = fortran_text(buffer)
    end function machine
 
-   !> When a process was started, as Linux counts it; '0' where it is not known
+   !> Start time of a process in the units of Linux; '0' if it is not known
    function start_of(process) result(start)
       character(len=*), intent(in) :: process
       character(len=:), allocatable :: start
@@ -179,7 +179,7 @@ contains
       read (lun, "(a)", iostat=stat) line
       close (lun)
       if (stat /= 0) return
-      ! behind the name of the program in parentheses the start is the 20th word
+      ! the start time is the 20th word after the name of the program in parentheses
       read (line(index(line, ")", back=.true.) + 1:), *, iostat=stat) words
       if (stat == 0) start = trim(words(20))
    end function start_of

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Whether the folders that a result will need can be made, before it is computed: they are made and removed
+!> Check before a computation whether the folders of its result can be made, by making and removing them
 module ehl_folder_trial
    use ehl_files, only: file_exists, make_folder, remove_folder
    use ehl_folders, only: is_there, spare_path
@@ -10,14 +10,14 @@ module ehl_folder_trial
    public :: try_folder, try_path
 
    character(len=*), parameter :: any_other = "expected: another folder"
-   !> Longest path to a result that leaves room for the names of its files
+   !> Maximum length of the path of a result, so that the names of its files fit
    integer, parameter :: longest = 3900
 
 contains
 
    !> Refuse a folder if `fresh`, beside it or in it, cannot be made
    subroutine try_folder(folder, fresh, status)
-      !> As the user wrote it
+      !> Folder as the user wrote it; path of its temporary folder
       character(len=*), intent(in) :: folder, fresh
       type(status_t), intent(inout) :: status
 
@@ -28,7 +28,7 @@ contains
 
    !> Refuse a missing folder that cannot be made: no permission in the existing part of its path, or names that are too long
    subroutine try_path(folder, path, more, status)
-      !> As the user wrote it; absolute; suffix of its name while it is written
+      !> Folder as the user wrote it; absolute path; suffix of its temporary name
       character(len=*), intent(in) :: folder, path, more
       type(status_t), intent(inout) :: status
       character(len=:), allocatable :: above, why
@@ -57,7 +57,7 @@ contains
       if (why /= "") call status%fail(ehl_bad_input, folder//": error: cannot be made: "//why//newline//any_other)
    end subroutine try_path
 
-   !> Whether a folder can be made; it is removed
+   !> Whether a folder can be made; it is removed again
    logical function tried(path)
       character(len=*), intent(in) :: path
       tried = make_folder(path)

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Folders by the calls of Linux: what is in one, and two that change places in one step
+!> Folders by Linux system calls: their contents, and the exchange of two in one step
 module ehl_folders
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_f_procpointer, c_funptr, &
                                           c_int, c_int64_t, c_null_char, c_null_ptr, c_ptr, c_short, c_size_t
@@ -94,7 +94,7 @@ module ehl_folders
 
 contains
 
-   !> Why the last call of the system failed
+   !> Error number of the last system call
    integer(c_int) function error_number()
       integer(c_int), pointer :: reason
 
@@ -102,11 +102,11 @@ contains
       error_number = reason
    end function error_number
 
-   !> What is in a folder, sorted; false when it cannot be read
+   !> Names in a folder, sorted; false if it cannot be read
    logical function list_folder(path, names, containing)
       character(len=*), intent(in) :: path
       type(name_t), allocatable, intent(out) :: names(:)
-      !> Names with this text alone: sorting takes the square of their number
+      !> Only names that contain this text: the time of sorting is quadratic in their number
       character(len=*), intent(in), optional :: containing
       type(c_ptr) :: folder, place
       type(entry_t), pointer :: entry
@@ -137,7 +137,7 @@ contains
       stat = posix_closedir(folder)
    end function list_folder
 
-   !> Wait until no other process changes what is in a folder; ends with `unlock_folder`, or with the process
+   !> Lock a folder, after other processes have finished their changes; ends with `unlock_folder`, or with the process
    function lock_folder(path) result(lock)
       character(len=*), intent(in) :: path
       type(c_ptr) :: lock
@@ -150,12 +150,12 @@ contains
          if (posix_flock(posix_dirfd(lock), alone) == 0) return
          if (error_number() /= interrupted) exit
       end do
-      ! on a file system without locks no process waits: there is none to release
+      ! the file system has no locks
       stat = posix_closedir(lock)
       lock = c_null_ptr
    end function lock_folder
 
-   !> Let others change what is in a folder
+   !> Release the lock of a folder
    subroutine unlock_folder(lock)
       type(c_ptr), intent(in) :: lock
       integer(c_int) :: stat
@@ -163,7 +163,7 @@ contains
       if (c_associated(lock)) stat = posix_closedir(lock)
    end subroutine unlock_folder
 
-   !> Exchange two files or folders, in one step where the file system can do that. False: nothing
+   !> Exchange two files or folders, in one step if the file system supports that. False: nothing
    !> has changed.
    logical function change_places(one, other)
       character(len=*), intent(in) :: one, other
@@ -182,7 +182,7 @@ contains
       end if
    end function change_places
 
-   !> Rename a file or folder; false when the new name is taken
+   !> Rename a file or folder; false if the new name exists
    logical function move_new(from, to)
       character(len=*), intent(in) :: from, to
 
@@ -191,7 +191,7 @@ contains
       if (.not. is_there(to)) move_new = rename_path(from, to)
    end function move_new
 
-   !> Rename with flags, as not all systems and file systems can
+   !> Rename with flags, which not all systems and file systems support
    logical function renamed(from, to, flags)
       character(len=*), intent(in) :: from, to
       integer(c_int), intent(in) :: flags
@@ -205,14 +205,14 @@ contains
       renamed = call_it(here, c_text(from), here, c_text(to), flags) == 0
    end function renamed
 
-   !> Make a symbolic link; false when the name is taken
+   !> Make a symbolic link; false if the name exists
    logical function make_link(target_path, path)
       character(len=*), intent(in) :: target_path, path
 
       make_link = posix_symlink(c_text(target_path), c_text(path)) == 0
    end function make_link
 
-   !> Target of a symbolic link; empty when there is none
+   !> Target of a symbolic link; empty if there is none
    function link_text(path) result(text)
       character(len=*), intent(in) :: path
       character(len=:), allocatable :: text
@@ -224,7 +224,7 @@ contains
       text = fortran_text(buffer)
    end function link_text
 
-   !> Whether a name is taken, also by a link to nothing
+   !> Whether a name exists, also as a broken link
    logical function is_there(path)
       character(len=*), intent(in) :: path
 
@@ -232,18 +232,18 @@ contains
       if (.not. is_there) is_there = link_text(path) /= ""
    end function is_there
 
-   !> Whether a folder can change places with one beside it: it is no mount point, and the folder above can be written
+   !> Whether a folder can be exchanged with one beside it: it is not a mount point, and the folder above can be written
    logical function is_movable(path)
       character(len=*), intent(in) :: path
       integer(c_int), parameter :: other_device = 18
 
       is_movable = may_write(folder_above(path))
-      ! a folder has no second name; between file systems the reason is another one
+      ! a hard link to a folder always fails; the error differs if it would cross file systems
       if (posix_link(c_text(path), c_text(spare_path(path//".partial"))) == 0) return
       if (error_number() == other_device) is_movable = .false.
    end function is_movable
 
-   !> An unused path with this beginning
+   !> A path that does not exist, with this beginning
    function spare_path(beginning) result(path)
       character(len=*), intent(in) :: beginning
       character(len=:), allocatable :: path
@@ -264,7 +264,7 @@ contains
       is_here = path == real_path(absolute_path("."))
    end function is_here
 
-   !> The folder from the root without a '/' at its end; empty when it cannot be used
+   !> Absolute path of a folder without a final '/'; empty if it cannot be used
    function full_path(folder) result(path)
       character(len=*), intent(in) :: folder
       character(len=:), allocatable :: path
@@ -277,7 +277,7 @@ contains
       if (path == "/") path = ""
    end function full_path
 
-   !> The folder that a path from the root is in
+   !> The folder that contains an absolute path
    pure function folder_above(path) result(folder)
       character(len=*), intent(in) :: path
       character(len=:), allocatable :: folder

@@ -8,7 +8,7 @@ module ehl_kinds
 
    !> Real numbers of every field and scalar
    integer, parameter :: dp = c_double
-   !> The quiet NaN, for what is not known
+   !> The quiet NaN, for unknown values
    real(dp), parameter :: not_known = transfer(int(z"7FF8000000000000", c_int64_t), 1.0_dp)
    real(dp), parameter :: pi = 3.141592653589793238462643383279502884_dp
 end module ehl_kinds

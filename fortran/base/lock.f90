@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Locks that hold between all threads of a process, OpenMP's and others, and in a build without OpenMP: POSIX mutexes
+!> Locks between all threads of a process, also those that OpenMP does not know, by POSIX mutexes
 module ehl_lock
    use, intrinsic :: iso_c_binding, only: c_int, c_int64_t
    use ehl_status, only: ehl_internal, status_t
@@ -8,8 +8,8 @@ module ehl_lock
    private
    public :: lock_t, lock, unlock
 
-   !> A mutex, open at first: the GNU and musl libraries call one open that is all zero. More room than any of them
-   !> takes (40 bytes). To be a module's variable, with the attribute target.
+   !> A mutex, initially unlocked: all zero in the GNU and musl libraries. It is larger than in any of them
+   !> (40 bytes). It must be a module variable with the attribute target.
    type, bind(c) :: lock_t
       integer(c_int64_t) :: mutex(16) = 0
    end type lock_t
@@ -30,7 +30,7 @@ module ehl_lock
 
 contains
 
-   !> Wait until the lock is free, and take it. After a failure, also an earlier one, the caller does not hold it.
+   !> Wait until the lock is free, and acquire it. After a failure, also an earlier one, the caller does not hold it.
    subroutine lock(self, status)
       type(lock_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
@@ -38,14 +38,14 @@ contains
       call check(pthread_mutex_lock(self), status)
    end subroutine lock
 
-   !> Open it
+   !> Release the lock
    subroutine unlock(self, status)
       type(lock_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
       call check(pthread_mutex_unlock(self), status)
    end subroutine unlock
 
-   !> A failure where the system refuses
+   !> Fail if a system call returned an error
    subroutine check(code, status)
       integer(c_int), intent(in) :: code
       type(status_t), intent(inout) :: status

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> How much memory is free, and whether something fits: the one rule of both drivers
+!> Free memory, and the check of a memory requirement, for both drivers
 module ehl_memory
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_kinds, only: dp
@@ -9,14 +9,14 @@ module ehl_memory
    private
    public :: check_memory, free_bytes, amount
 
-   !> Longest line of the files read here
+   !> Maximum length of a line of the files read here
    integer, parameter :: longest = 4096
 
 contains
 
-   !> Refuse what would not fit, before memory is taken
+   !> Fail if a memory requirement exceeds the free memory
    subroutine check_memory(what, needed, status)
-      !> What needs the memory
+      !> Name of what needs the memory, for the message
       character(len=*), intent(in) :: what
       real(dp), intent(in) :: needed
       type(status_t), intent(inout) :: status
@@ -35,9 +35,9 @@ contains
       text = amount_buffer(bytes)
    end function amount
 
-   !> Bytes that the machine, the control groups of the process and its address space still have; huge where none is reported
+   !> Free bytes of the machine, of the control groups of the process and of its address space; huge if none is reported
    real(dp) function free_bytes(root) result(free)
-      !> Folder that /proc and /sys are in: empty, but in tests
+      !> Folder that contains /proc and /sys: empty except in tests
       character(len=*), intent(in) :: root
       character(len=longest) :: line
       real(dp) :: limit, used
@@ -63,7 +63,7 @@ contains
       close (lun)
    end function free_bytes
 
-   !> What a control group and those that it is in leave; pages of files that are not in use count as free
+   !> Reduce `free` to the free bytes of a control group and its parents; inactive pages of files count as free
    subroutine limit_by_groups(root, path, limit_name, used_name, cache_name, free)
       character(len=*), intent(in) :: root, path, limit_name, used_name, cache_name
       real(dp), intent(inout) :: free
@@ -85,7 +85,7 @@ contains
       end do
    end subroutine limit_by_groups
 
-   !> The number behind a word at the beginning of a line of a file; huge when there is none
+   !> The number after a word at the beginning of a line of a file; huge if there is none
    real(dp) function number_in(path, word) result(number)
       character(len=*), intent(in) :: path, word
       character(len=longest) :: line

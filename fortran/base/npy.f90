@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Arrays of real(dp) as .npy files (NumPy format 1.0), the file that both drivers share
+!> Arrays of real(dp) as .npy files (NumPy format 1.0)
 module ehl_npy
    use, intrinsic :: iso_fortran_env, only: int32, int64, int8, real32
    use ehl_whole_file, only: end_writing, open_to_write
@@ -10,7 +10,7 @@ module ehl_npy
    private
    public :: matrix_t, write_npy, read_npy, npy_shape
 
-   !> One of several matrices
+   !> One matrix of a stack
    type :: matrix_t
       real(dp), allocatable :: values(:, :)
    end type matrix_t
@@ -45,7 +45,7 @@ contains
                                      // to_text(size(values, 2)) // ")"), values, status)
    end subroutine write_matrix
 
-   !> A stack of matrices of one shape: stack(k)%values(i, j) is values[i - 1, j - 1, k - 1] in Python
+   !> A stack of matrices of the same shape: stack(k)%values(i, j) is values[i - 1, j - 1, k - 1] in Python
    subroutine write_stack(path, stack, status)
       character(len=*), intent(in) :: path
       type(matrix_t), intent(in) :: stack(:)
@@ -75,7 +75,7 @@ contains
       character(len=*), intent(in) :: path, head
       real(dp), intent(in) :: values(:, :)
       type(status_t), intent(inout) :: status
-      !> Matrices of the same shape that come next
+      !> Further matrices of the same shape
       type(matrix_t), intent(in), optional :: behind(:)
       character(len=256) :: reason
       integer :: lun, stat, k, more
@@ -113,7 +113,7 @@ contains
       character(len=*), intent(in) :: path
       real(dp), allocatable, intent(inout) :: values(:, :)
       type(status_t), intent(inout) :: status
-      !> Rows of the file, or columns where its order is Fortran's, that are read at a time
+      !> Number of rows, or for Fortran order columns, read at a time
       integer, parameter :: block = 64
       real(dp), allocatable :: rows(:, :)
       real(real32), allocatable :: short(:)
@@ -144,10 +144,10 @@ contains
       close (lun)
    end subroutine read_npy
 
-   !> The next numbers of a file, by columns
+   !> Read the next numbers of a file, column by column
    subroutine read_values(lun, short, values, stat)
       integer, intent(in) :: lun
-      !> Room for a column of single precision; of size 0: they are of double precision
+      !> Buffer for a column of single precision; size 0: the file is in double precision
       real(real32), intent(inout) :: short(:)
       real(dp), contiguous, intent(inout) :: values(:, :)
       integer, intent(out) :: stat
@@ -165,11 +165,11 @@ contains
       end do
    end subroutine read_values
 
-   !> Open a file and read its header, as far as the first number
+   !> Open a file and read its header, up to the first number
    subroutine open_npy(path, lun, n, by_rows, single, status)
       character(len=*), intent(in) :: path
       integer, intent(out) :: lun, n(2)
-      !> Whether the last index of the array runs fastest; whether its numbers are of single precision
+      !> Whether the last index of the array varies fastest; whether its numbers are in single precision
       logical, intent(out) :: by_rows, single
       type(status_t), intent(inout) :: status
       character(len=:), allocatable :: head, problem
@@ -213,7 +213,7 @@ contains
       close (lun)
    end subroutine open_npy
 
-   !> Shape of the array that a header describes; problem becomes empty when it can be read
+   !> Shape of the array from its header; problem: empty if the array can be read
    subroutine read_header(head, n, problem)
       character(len=*), intent(in) :: head
       integer, intent(out) :: n(2)

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Numbers as text padded with blanks. ehl_text trims them; its results have a length that these functions give, so that they
-!> must be in a module of their own.
+!> Numbers as text padded with blanks. ehl_text trims them; these functions define the length of its results, which requires a
+!> separate module.
 module ehl_number_text
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use, intrinsic :: iso_fortran_env, only: int64
@@ -9,7 +9,7 @@ module ehl_number_text
    private
    public :: amount_buffer, real_buffer, fixed_buffer, rounded_buffer, integer_buffer
 
-   !> Length of the text of any number; formats by the number of digits
+   !> Maximum length of the text of a number; formats by the number of digits
    integer, parameter :: longest_number = 32
    character(len=*), parameter :: forms(17) = [character(len=11) :: &
                                                "(es32.0e3)", "(es32.1e3)", "(es32.2e3)", "(es32.3e3)", "(es32.4e3)", &
@@ -19,7 +19,7 @@ module ehl_number_text
 
 contains
 
-   !> Shortest decimal text that reads back as exactly x: '0.4', '2.2e-8', '600.0'; 'nan', 'inf' or '-inf' where x is not finite
+   !> Shortest decimal text that reads back as exactly x: '0.4', '2.2e-8', '600.0'; 'nan', 'inf' or '-inf' if x is not finite
    pure function real_buffer(x) result(text)
       real(dp), intent(in) :: x
       character(len=longest_number) :: text
@@ -39,8 +39,8 @@ contains
          text = "0.0"
          return
       end if
-      ! 15 digits without trailing zeros are the shortest text that reads back, if they do; not so for subnormal numbers, and
-      ! the largest numbers would overflow if rounded up
+      ! if 15 digits read back, they are the shortest text once trailing zeros are removed; except for subnormal numbers, and the
+      ! largest numbers would overflow if rounded up
       first = merge(15, 1, abs(x) >= tiny(x))
       if (abs(x) > nearly_huge) first = 17
       do n = first, 17
@@ -57,7 +57,7 @@ contains
       if (x < 0.0_dp) text = "-"//trim(text)
    end function real_buffer
 
-   !> A number by an edit descriptor, as `fixed` of ehl_text has it
+   !> A number by an edit descriptor, see `fixed` of ehl_text
    pure function fixed_buffer(x, form) result(text)
       real(dp), intent(in) :: x
       character(len=*), intent(in) :: form
@@ -70,7 +70,7 @@ contains
       if (text(1:1) == "*") write (text, "(es12.5)") x
       text = adjustl(text)
       read (text, *, iostat=stat) shown
-      ! three decimals and more mean three digits
+      ! descriptors with three or more decimals promise three digits
       most = merge(0.005_dp, 0.05_dp, form(1:1) == "f" .and. scan(form, "3456789", back=.true.) == len(form))
       if (stat == 0 .and. abs(shown - x) > most*abs(x)) then
          if (abs(x) < 1.0e-3_dp) then
@@ -100,7 +100,7 @@ contains
       if (text(last:last) == ".") text(last:last) = " "
    end function rounded_buffer
 
-   !> d.ddd * 10**exponent written plainly where that is short, else with an exponent
+   !> Text of d.ddd * 10**exponent, without an exponent if that is short
    pure function place_point(digits, exponent) result(text)
       character(len=*), intent(in) :: digits
       integer, intent(in) :: exponent

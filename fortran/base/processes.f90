@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Processes that run, and files that ended ones have left
+!> Running processes, and files left behind by processes that have ended
 module ehl_processes
    use, intrinsic :: iso_c_binding, only: c_int
    use ehl_files, only: remove_file, remove_folder
@@ -18,10 +18,10 @@ module ehl_processes
 
 contains
 
-   !> Whether a process of this number runs on this machine
+   !> Whether a process with this number runs on this machine
    logical function process_is_there(process)
       character(len=*), intent(in) :: process
-      !> No signal; processes of other users may not be signalled
+      !> No signal, only a check; error number for processes of other users
       integer(c_int), parameter :: none = 0, not_permitted = 1
       integer(c_int) :: number
       integer :: stat
@@ -36,15 +36,15 @@ contains
       process_is_there = error_number() == not_permitted
    end function process_is_there
 
-   !> Remove what killed processes have left beside a path, in folders `path//between//number`: files of these names, and the
-   !> folder if it holds nothing else
+   !> Remove what killed processes have left beside a path, in folders `path//between//number`: files that may be removed, and the
+   !> folder if it is then empty
    subroutine remove_left_over(path, between, list, may_remove)
-      !> From the root, without a '/' at its end
+      !> Absolute path without a final '/', and beginning of the suffix
       character(len=*), intent(in) :: path, between
-      !> Names that may_remove is called with
+      !> List that is passed to may_remove
       character(len=*), intent(in) :: list
       interface
-         !> Whether a file of that name may be removed
+         !> Whether a file with this name may be removed
          logical function may_remove(name, list)
             implicit none (type, external)
             character(len=*), intent(in) :: name, list
@@ -61,7 +61,7 @@ contains
       do k = 1, size(beside)
          associate (name => beside(k)%text)
             if (index(name, beginning) /= 1) cycle
-            ! the number of the process, and behind it that of another try
+            ! the number of the process, followed by that of the attempt
             number = name(len(beginning) + 1:)
             number = number(:scan(number//"-", "-") - 1)
             if (number == "" .or. verify(number, "0123456789") > 0 .or. process_is_there(number)) cycle

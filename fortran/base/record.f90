@@ -8,8 +8,8 @@ module ehl_record
    private
    public :: record_t, kind_real, kind_integer, kind_logical, kind_code, kind_detail, kind_text, kind_list, kind_note
 
-   !> What a value is: a result; the code of a status or a reason (ehl_reason); a number that the words of a reason need; a word; a
-   !> list of texts as JSON has it; a text that these words need
+   !> Kind of a value: a result (first three); the code of a status or a reason (ehl_reason); a number in the text of a reason; a
+   !> text; a list of texts in JSON; a text in that of a reason
    integer, parameter :: kind_real = 1, kind_integer = 2, kind_logical = 3, kind_code = 4, kind_detail = 5, kind_text = 6, &
                          kind_list = 7, kind_note = 8
 
@@ -27,7 +27,7 @@ module ehl_record
       type(item_t), allocatable :: items(:)
    contains
       !> call record%set(name, value): real(dp), integer, logical or character, a list of character, or several real(dp) under names
-      !> with blanks between them; a name that is there already gets the new value
+      !> separated by blanks; replaces the value of an existing name
       generic :: set => set_real, set_reals, set_integer, set_logical, set_text, set_texts
       procedure, private :: set_real, set_reals, set_integer, set_logical, set_text, set_texts
       procedure :: set_code
@@ -48,10 +48,10 @@ contains
       call self%put(name, kind_real, value)
    end subroutine set_real
 
-   !> Set several real values, one for each of the names
+   !> Set several real values, one per name
    subroutine set_reals(self, names, values)
       class(record_t), intent(inout) :: self
-      !> With one blank between two of them
+      !> Names, separated by one blank
       character(len=*), intent(in) :: names
       real(dp), intent(in) :: values(:)
       integer :: first, next, k
@@ -102,7 +102,7 @@ contains
       call self%put(name, kind_list, 0.0_dp, "["//list//"]")
    end subroutine set_texts
 
-   !> Set the code of a status or a reason, which has no place in JSON
+   !> Set the code of a status or a reason, which is not written to JSON
    subroutine set_code(self, name, code)
       class(record_t), intent(inout) :: self
       character(len=*), intent(in) :: name
@@ -110,7 +110,7 @@ contains
       call self%put(name, kind_code, real(code, dp))
    end subroutine set_code
 
-   !> Set a number that the words of a reason need, which has no place in JSON
+   !> Set a number in the text of a reason, which is not written to JSON
    subroutine set_detail(self, name, value)
       class(record_t), intent(inout) :: self
       character(len=*), intent(in) :: name
@@ -118,7 +118,7 @@ contains
       call self%put(name, kind_detail, value)
    end subroutine set_detail
 
-   !> Set a text that the words of a reason need, which has no place in JSON
+   !> Set a text in that of a reason, which is not written to JSON
    subroutine set_note(self, name, text)
       class(record_t), intent(inout) :: self
       character(len=*), intent(in) :: name
@@ -147,7 +147,7 @@ contains
       self%items = [self%items, item]
    end subroutine put
 
-   !> The number under a name; NaN where there is none
+   !> The number under a name; NaN if there is none
    pure real(dp) function number(self, name)
       class(record_t), intent(in) :: self
       character(len=*), intent(in) :: name
@@ -160,7 +160,7 @@ contains
       end do
    end function number
 
-   !> Everything for a caller in another language: names one a line, with a text behind a tab; kinds and values
+   !> All values for a caller in another language: names, one per line, with a text after a tab; kinds and values
    subroutine list(self, names, kinds, values)
       class(record_t), intent(in) :: self
       character(len=:), allocatable, intent(out) :: names
@@ -180,7 +180,7 @@ contains
       end do
    end subroutine list
 
-   !> A text in one line
+   !> A text with its line ends replaced by blanks
    pure function one_line(text)
       character(len=*), intent(in) :: text
       character(len=len(text)) :: one_line
@@ -192,7 +192,7 @@ contains
       end do
    end function one_line
 
-   !> Results and texts as a JSON object, one value a line. Reals have as many digits as they need to read back as the same
+   !> Results and texts as a JSON object, one value per line. Reals have the digits that they need to read back as the same
    !> number; nan and inf are null.
    function to_json(self) result(text)
       class(record_t), intent(in) :: self

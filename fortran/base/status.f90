@@ -23,9 +23,9 @@ module ehl_status
    type :: status_t
       !> One of the codes above
       integer :: code = ehl_ok
-      !> What went wrong, for a person to read; empty when all is well
+      !> Error message for the user; empty without an error
       character(len=:), allocatable :: message
-      !> group.key of the value of a case that is refused, if it is one
+      !> group.key of the refused value of a case, if there is one
       character(len=:), allocatable :: key
    contains
       procedure :: failed
@@ -34,13 +34,13 @@ module ehl_status
 
 contains
 
-   !> Whether something went wrong
+   !> Whether there is an error
    pure logical function failed(self)
       class(status_t), intent(in) :: self
       failed = self%code /= ehl_ok
    end function failed
 
-   !> Record a failure; the first one is kept
+   !> Record an error unless there is an earlier one
    subroutine fail(self, code, message, key)
       class(status_t), intent(inout) :: self
       integer, intent(in) :: code

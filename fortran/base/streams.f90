@@ -26,8 +26,8 @@ module ehl_streams
 
 contains
 
-   !> Refuse a standard output that is closed: the first file that is opened would take its place, and what is printed. A closed
-   !> standard input and error go nowhere.
+   !> Refuse a closed standard output: the first file that is opened would receive what is printed. Closed standard input and
+   !> error are redirected to nowhere.
    subroutine guard_streams(status)
       type(status_t), intent(inout) :: status
       integer(c_int), parameter :: to_read_and_write = 2
@@ -44,7 +44,7 @@ contains
       end do
    end subroutine guard_streams
 
-   !> Write a line to standard output; false where that fails, which the library of gfortran does not report
+   !> Write a line to standard output; false if that fails, which gfortran's runtime library does not report
    logical function put_line(text)
       character(len=*), intent(in) :: text
       integer(c_int), parameter :: output = 1

@@ -12,14 +12,14 @@ module ehl_table
    private
    public :: table_t
 
-   !> Longest name of a column
+   !> Maximum length of a column name
    integer, parameter :: column_name_length = 32
 
    !> Rows of real numbers under named columns
    type :: table_t
       private
       character(len=column_name_length), allocatable :: names(:)
-      !> Stored column-major: values(column, row); rows beyond the last one are spare
+      !> values(column, row); allocated with spare rows
       real(dp), allocatable :: values(:, :)
       integer :: rows = 0
    contains
@@ -36,7 +36,7 @@ module ehl_table
 
 contains
 
-   !> Name the columns and drop all rows
+   !> Name the columns and delete all rows
    subroutine init(self, names)
       class(table_t), intent(inout) :: self
       character(len=*), intent(in) :: names(:)
@@ -73,7 +73,7 @@ contains
       self%values(:, self%rows) = values
    end subroutine append
 
-   !> Add a column behind the others; values(:) has one number per row
+   !> Add a column after the others; values(:) has one number per row
    subroutine add_column(self, name, values)
       class(table_t), intent(inout) :: self
       character(len=*), intent(in) :: name
@@ -109,7 +109,7 @@ contains
       values = self%values(:, k)
    end function row
 
-   !> Values of the column with this name, one per row; no values when there is no such column
+   !> Values of the column with this name, one per row; empty if there is no such column
    pure function column(self, name) result(values)
       class(table_t), intent(in) :: self
       character(len=*), intent(in) :: name
@@ -125,7 +125,7 @@ contains
       allocate (values(0))
    end function column
 
-   !> The entry of a column in a row; the column exists
+   !> The entry of a column in a row; the column must exist
    pure real(dp) function entry_of(self, name, row)
       class(table_t), intent(in) :: self
       character(len=*), intent(in) :: name
@@ -179,7 +179,7 @@ contains
       call end_writing(lun, path, length, stat, reason, status)
    end subroutine write_csv
 
-   !> Whether a number has no fraction (and fits an integer)
+   !> Whether a number is whole (and fits an integer)
    elemental logical function is_whole(x)
       real(dp), intent(in) :: x
 
@@ -198,7 +198,7 @@ contains
       if (whole) then
          line = line//to_text(nint(x))
       else if (ieee_is_finite(x)) then
-         ! to_text would make it twice, once for its length
+         ! to_text would convert it twice, once for its length
          line = line//trim(real_buffer(x))
       end if
    end subroutine add_cell

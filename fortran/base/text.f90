@@ -1,8 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Text: numbers as text, lower case, lines, and the nearest of several words
 !>
-!> Threads make texts side by side. The length of a function's result that is allocatable is in static memory (gfortran), so
-!> numbers as text have a length that follows from their arguments. tests/core/test_threads.py refuses the others where they matter.
+!> Several threads make texts. gfortran stores the length of an allocatable function result in static memory, so the
+!> length of numbers as text follows from their arguments. tests/core/test_threads.py detects the other kind where it matters.
 module ehl_text
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_kinds, only: dp
@@ -14,7 +14,7 @@ module ehl_text
    !> Line separator in texts and files
    character(len=*), parameter :: newline = new_line("a")
 
-   !> A number or a truth value as the shortest text that reads back as the same value
+   !> A number or a logical value as the shortest text that reads back as the same value
    interface to_text
       module procedure real_to_text
       module procedure integer_to_text
@@ -22,7 +22,7 @@ module ehl_text
       module procedure logical_to_text
    end interface to_text
 
-   !> A number to three digits, or so many
+   !> A number to three, or a given number of, digits
    interface rounded
       module procedure rounded_to_three
       module procedure rounded_to
@@ -31,15 +31,15 @@ module ehl_text
 contains
 
    !> Shortest decimal text that reads back as exactly x: '0.4', '2.2e-8', '600.0';
-   !> 'nan', 'inf' or '-inf' where x is not finite
+   !> 'nan', 'inf' or '-inf' if x is not finite
    pure function real_to_text(x) result(text)
       real(dp), intent(in) :: x
       character(len=len_trim(real_buffer(x))) :: text
       text = real_buffer(x)
    end function real_to_text
 
-   !> A number by an edit descriptor such as 'f8.4', without blanks around it; by 'es12.5' where it does not fit, and to three
-   !> digits where rounding would take or add too much: 2.64E-06, not 0.0000
+   !> A number by an edit descriptor such as 'f8.4', without blanks; by 'es12.5' if it does not fit, and to three
+   !> digits if rounding would change it too much: 2.64E-06, not 0.0000
    pure function fixed(x, form) result(text)
       real(dp), intent(in) :: x
       character(len=*), intent(in) :: form
@@ -47,7 +47,7 @@ contains
       text = fixed_buffer(x, form)
    end function fixed
 
-   !> Four digits of a number, for messages
+   !> A number to four digits, for messages
    pure function short(x) result(text)
       real(dp), intent(in) :: x
       character(len=len_trim(fixed_buffer(x, "es10.3"))) :: text
@@ -61,7 +61,7 @@ contains
       text = rounded_buffer(x, 3)
    end function rounded_to_three
 
-   !> A number to so many digits
+   !> A number to a given number of digits
    pure function rounded_to(x, digits) result(text)
       real(dp), intent(in) :: x
       integer, intent(in) :: digits
@@ -69,11 +69,11 @@ contains
       text = rounded_buffer(x, digits)
    end function rounded_to
 
-   !> A share in per cent
-   pure function percent(share) result(text)
-      real(dp), intent(in) :: share
-      character(len=len_trim(rounded_buffer(100.0_dp*share, 2)) + 2) :: text
-      text = trim(rounded_buffer(100.0_dp*share, 2))//" %"
+   !> A fraction in per cent
+   pure function percent(fraction) result(text)
+      real(dp), intent(in) :: fraction
+      character(len=len_trim(rounded_buffer(100.0_dp*fraction, 2)) + 2) :: text
+      text = trim(rounded_buffer(100.0_dp*fraction, 2))//" %"
    end function percent
 
    !> Integer without blanks
@@ -127,7 +127,7 @@ contains
    end function lower_case
 
    !> The word of the list with the fewest edits from the given one (insertion,
-   !> deletion, substitution, swap of neighbours); empty when none is near
+   !> deletion, substitution, transposition); empty if none is near
    pure function nearest_word(word, list) result(answer)
       character(len=*), intent(in) :: word
       character(len=*), intent(in) :: list(:)
@@ -147,7 +147,7 @@ contains
       end do
    end function nearest_word
 
-   !> Edit distance with swaps of neighbours (Damerau, restricted form)
+   !> Edit distance with transpositions (Damerau, restricted form)
    pure integer function edits(a, b)
       character(len=*), intent(in) :: a, b
       integer :: d(-1:len(a), -1:len(b))

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Whole text files, read and written, and the check of every file that was written
+!> Reading and writing of complete text files, and the check of every file that was written
 module ehl_whole_file
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_files, only: file_exists, is_file
@@ -13,7 +13,7 @@ module ehl_whole_file
 
 contains
 
-   !> The whole text of a file of at most `largest` bytes, without the mark that editors put before UTF-8
+   !> The text of a file of at most `largest` bytes, without a byte order mark
    subroutine read_text(path, largest, text, status)
       character(len=*), intent(in) :: path
       integer, intent(in) :: largest
@@ -31,7 +31,7 @@ contains
       else if (.not. is_file(path)) then
          call status%fail(ehl_file, path // ": error: this is a device or a pipe, not a file")
       else if (len_trim(path) < len(path)) then
-         ! open takes blanks away, and would find another file
+         ! `open` removes trailing blanks, and would open another file
          call status%fail(ehl_file, "'"//path//"': error: the name ends with a blank; files of such names are not read here")
       end if
       if (status%failed()) return
@@ -57,7 +57,7 @@ contains
       close (lun)
    end subroutine read_text
 
-   !> Whether a file holds a word near its beginning or its end
+   !> Whether a file contains a word near its beginning or its end
    logical function holds_text(path, word)
       character(len=*), intent(in) :: path, word
       integer(int64), parameter :: near = 64*1024_int64
@@ -79,7 +79,7 @@ contains
       close (lun)
    end function holds_text
 
-   !> Open a file to write it, "formatted" or "unformatted", in place of what was there
+   !> Open a file to write it, "formatted" or "unformatted", replacing an existing one
    subroutine open_to_write(path, form, lun, status)
       character(len=*), intent(in) :: path, form
       integer, intent(out) :: lun
@@ -91,7 +91,7 @@ contains
       if (stat /= 0) call status%fail(ehl_file, path // ": cannot write: " // trim(reason))
    end subroutine open_to_write
 
-   !> Write a text to a file, replacing what was there
+   !> Write a text to a file, replacing an existing one
    subroutine write_text(path, text, status)
       character(len=*), intent(in) :: path, text
       type(status_t), intent(inout) :: status
@@ -104,12 +104,12 @@ contains
       call end_writing(lun, path, len(text, kind=int64), stat, reason, status)
    end subroutine write_text
 
-   !> Close a file that was written. A failure if a write or the closing failed, or the file is not whole: a write to
-   !> a full disk that takes a part is no error for the library of gfortran
+   !> Close a file that was written. Fails if a write or the closing failed, or the file is incomplete: gfortran's
+   !> runtime library does not report a partial write to a full disk
    subroutine end_writing(lun, path, length, stat, reason, status)
       integer, intent(in) :: lun
       character(len=*), intent(in) :: path
-      !> Bytes that were written
+      !> Number of bytes written
       integer(int64), intent(in) :: length
       !> iostat and iomsg of the last write
       integer, intent(in) :: stat
@@ -124,7 +124,7 @@ contains
          close (lun, iostat=failed, iomsg=why)
       else
          why = reason
-         ! after a failure, too, the unit is closed
+         ! close the unit also after a failure
          close (lun, iostat=closing)
          if (closing /= 0) failed = closing
       end if

@@ -43,8 +43,8 @@ module ehl_wall_heat
 
    !> Response to the heat q [W/m^2] of a cell at this cell; a value v is linear in q: v(1) + v(2) q
    type :: heat_response_t
-   !> Heat into wall 1 minus that into wall 2 [W/m^2], mean temperature rise across the film [K]
-   real(dp) :: difference(2) = 0.0_dp, film(2) = 0.0_dp
+      !> Heat into wall 1 minus that into wall 2 [W/m^2], mean temperature rise across the film [K]
+      real(dp) :: difference(2) = 0.0_dp, film(2) = 0.0_dp
    end type heat_response_t
 
 contains
@@ -145,7 +145,7 @@ contains
       associate (own => self%own)
          response%difference = g*[before(2) - before(1), 0.5_dp*(own(2) - own(1))]/divisor
          response%film = 0.25_dp*(own(1) - own(2))*response%difference + &
-         [0.5_dp*sum(before), 0.25_dp*sum(own) + film/(12.0_dp*conductivity)]
-         end associate
-         end function response
+                         [0.5_dp*sum(before), 0.25_dp*sum(own) + film/(12.0_dp*conductivity)]
+      end associate
+   end function response
 end module ehl_wall_heat

@@ -3,7 +3,7 @@
 !>
 !> The sum over n nodes a side is a circular convolution of length 2(n-1): the offsets -(n-1)
 !> and n-1 coincide, but the kernel is even, so the result is exact for any P on
-!> the border. The kernel's transform is real. Padded rows are never transformed in X: rows
+!> the border. The kernel's transform is real. Rows of zeros that pad Y are never transformed in X: rows
 !> 1..ny are transformed to spectra, then a few columns at a time are gathered, padded, transformed along
 !> Y, multiplied and transformed back while they are in the cache, and only the rows needed
 !> are transformed back in X. Rows of zero pressure are skipped. On a folded grid columns are completed by

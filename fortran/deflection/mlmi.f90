@@ -39,8 +39,8 @@ module ehl_mlmi
    integer, parameter :: max_stages = 64
    !> Range of accuracies in which the estimate of the error holds
    real(dp), parameter :: coarse_limit = 2.0e-4_dp, fine_limit = 1.0e-10_dp
-   !> Accuracy above which the tolerance of neglected corrections is proportional to it rather than to coarse_limit: that of mesh
-   !> sizes above a/4, which only thick films have. With coarse_limit a patch would be wider than `reach` there.
+   !> Accuracy above which the tolerance of neglected corrections increases in proportion to it: that of mesh sizes above a/4,
+   !> which only thick films have. Without the increase a patch would be wider than `reach` there.
    real(dp), parameter :: loose = 2.4e-3_dp
    !> Neglected corrections on the finest grid, in units of the accuracy, and their ratio from
    !> one grid to the next, with the kernel and the sources of each grid
@@ -166,8 +166,8 @@ contains
       type(status_t), intent(inout) :: status
 
       call status%fail(ehl_bad_input, "deflection by 'mlmi' to a relative accuracy of " &
-      //fixed(accuracy, "es9.2")//" was requested, at least " &
-      //fixed(fine_limit, "es9.2")//" was expected; 'fft' is exact to rounding")
+                       //fixed(accuracy, "es9.2")//" was requested, at least " &
+                       //fixed(fine_limit, "es9.2")//" was expected; 'fft' is exact to rounding")
    end subroutine refuse
 
    !> W = K P

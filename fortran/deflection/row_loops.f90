@@ -159,8 +159,8 @@ contains
       end select
    end subroutine add_centred
 
-   !> w(i) = w(i) + sum over k = x..x_last of s(i+m - k, k-x+1) + s(i+m + k, k-x+1), the
-   !> middle (k = 0) once; up to three at a time
+   !> w(i) = w(i) + sum over k = x..x_last of s(i+m - k, k-x+1) + s(i+m + k, k-x+1), with the
+   !> middle (k = 0) counted once; at most three values of k
    pure subroutine add_shifted(n, m, x, x_last, stride, s, w)
       integer, intent(in) :: n, m, x, x_last, stride
       real(dp), intent(in) :: s(stride, 3)

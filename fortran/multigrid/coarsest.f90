@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Newton solution of the coarsest level with the force balance, the only equation that changes H00 within a cycle
+!> Newton solution of the coarsest level, with the force balance; only this solution changes H00 within a cycle
 module ehl_coarsest
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_dense_lu, only: back_substitute, factor
@@ -104,7 +104,7 @@ contains
    end function unknown
 
    !> Newton iteration with an active set of cavitated nodes, from the level's present state until
-   !> the residual is reduced by the factor `reduction`, for at most `max_steps` steps. The LU
+   !> the residual is `reduction` times its start value, for at most `max_steps` steps. The LU
    !> factors are used again in later steps and calls as long as they reduce the residual enough.
    subroutine solve(self, level)
       class(coarsest_t), intent(inout) :: self

@@ -40,7 +40,7 @@ module ehl_line_system
    integer, parameter :: nr = near_reach
    !> Smaller pivots count as zero; those of nodes that may change are of the order of the wedge term's factor
    real(dp), parameter :: min_pivot = 1.0e-100_dp
-   !> Data of a node: pressure, density, H d rho/dP, the change of the conductance with pressure, 1 if
+   !> Data of a node: pressure, density, H d rho/dP, the derivative of the conductance with respect to P, 1 if
    !> distributive, the residual; and of the Poiseuille term, see line_terms_t
    integer, parameter :: f_p = 1, f_rho = 2, f_h_drho_dp = 3, f_gain = 4, f_dipole = 5, f_residual = 6, &
                          f_other = 7, f_other_rate = 8, f_east = 9, f_east_rate = 10
@@ -58,7 +58,7 @@ contains
       real(dp), intent(in) :: weights(2), near(-nr:nr), near_dipole(-nr:nr)
       !> Rows of the grid; unused elements repeat a row
       integer, intent(in) :: rows(line_width)
-      !> Last node that may change, see last_active; changes of the nodes behind it are not set
+      !> Last node that may change, see last_active; changes of the nodes downstream of it are not set
       integer, intent(in) :: last
       type(line_work_t), intent(inout) :: work
       logical :: any_touches

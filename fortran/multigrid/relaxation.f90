@@ -151,7 +151,7 @@ contains
 
    !> Limit changes of pressure where the logarithm of the conductance would change by more than `max_log_change`
    pure subroutine limit_changes(slope, max_log_change, change)
-   !> Derivative of that logarithm with respect to P, same shape as the changes
+      !> Derivative of that logarithm with respect to P, same shape as the changes
       real(dp), contiguous, intent(in) :: slope(:)
       real(dp), intent(in) :: max_log_change
       real(dp), contiguous, intent(inout) :: change(:)

@@ -67,7 +67,7 @@ contains
       call level%boundary%residual_row(level%rhs(:, 1), level%mass_content(:, 1), 1, residual)
    end subroutine find_residual
 
-   !> Equations of nodes 2 to `last`: those of band(l, i) belong to the changes at i + l
+   !> Equations of nodes 2 to `last`: band(l, i) is the coefficient of the change at i + l in the equation of node i
    subroutine assemble(level, near, last, passing, residual, band)
       type(level_t), intent(in) :: level
       real(dp), intent(in) :: near(-row_reach:row_reach)
@@ -134,7 +134,7 @@ contains
 
    contains
 
-      !> The coupling of node i to that at i + m, and its changes
+      !> Add the coupling of node i to node i + m, linearised
       subroutine add_neighbour(i, m, coupling, rate)
          integer, intent(in) :: i, m
          real(dp), intent(in) :: coupling, rate

@@ -98,7 +98,7 @@ contains
          do i = 1, n
             bound = reach + relative*(abs(cached(i, f_s)) + abs(cached(i, f_s + 1)))
             beyond(i) = max(abs(b(i) - cached(i, f_b)) - reach*(cached(i, f_b) + sliding_offset), &
-            abs(s(i, 1) - cached(i, f_s)) - bound, abs(s(i, 2) - cached(i, f_s + 1)) - bound)
+                            abs(s(i, 1) - cached(i, f_s)) - bound, abs(s(i, 2) - cached(i, f_s + 1)) - bound)
          end do
          outside = 0
          do i = 1, n

@@ -2,7 +2,7 @@
 !> Flow factors (flow_factors.f90) of several nodes at once, each by the cheapest sufficient formula: 1 where they differ
 !> from 1 by less than `negligible`, second order in the gradient where its error is below `tolerance`, else by integrals
 !> through the film. The latter start from the mean stress of second order; Newton steps correct it, and a first-order
-!> correction of the factors for the remaining residual has an error of its square. Otherwise flow_factors.f90 iterates.
+!> correction of the factors for the remaining residual has an error of its square. If that is too large flow_factors.f90 iterates.
 module ehl_factor_rows
    use ehl_flow_factors, only: exact_factors, factors_t, half, min_gradient, upper, weight
    use ehl_kinds, only: dp

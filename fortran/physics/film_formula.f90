@@ -36,7 +36,7 @@ contains
       film = film**(1.0_dp/s)*(1.5_dp*moes_m/kernel_ratio)**(-2.0_dp/3.0_dp)
    end function film_central_formula
 
-   !> Central film with an oil layer rho H at the inlet (0: flooded): below both, by Chevalier, Lubrecht, Cann, Colin & Dalmaz
+   !> Central film with an oil layer rho H at the inlet (0: flooded), thinner than both: Chevalier, Lubrecht, Cann, Colin & Dalmaz
    !> (1998, J. Tribol. 120, 126), whose exponent is between 2 and 5
    pure real(dp) function starved_film(flooded, layer) result(film)
       real(dp), intent(in) :: flooded, layer

@@ -38,7 +38,7 @@ module ehl_flow_factors
    real(dp), parameter :: tolerance = 1.0e-7_dp
    !> A step is halved if the slope at its end has the opposite sign and more than this fraction of the magnitude at its start
    real(dp), parameter :: overshoot = 0.5_dp
-   !> Maximum step at smaller stresses; otherwise the stress itself
+   !> Maximum step, or the stress itself if that is larger
    real(dp), parameter :: max_step = 4.0_dp
    !> The divided difference of F between two stresses closer than this, absolutely or relative to their sum, is replaced by
    !> the mean of its slopes

@@ -11,7 +11,7 @@ module ehl_roelands
    private
    public :: roelands_t, new_roelands
 
-   !> [K]
+   !> Temperature origin of the law [K]
    real(dp), parameter :: temperature_origin = 138.0_dp
 
    !> In Hertz units: z, p0/p_h, A and alpha p_h; S0 and T0 - 138 K

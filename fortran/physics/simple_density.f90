@@ -12,7 +12,7 @@ module ehl_simple_density
    real(dp), parameter :: dowson_pressure = 5.9e8_dp, dowson_limit = 1.34_dp
 
    type, extends(density_law_t) :: incompressible_t
-   !> Relative decrease of the density with temperature [1/K]
+      !> Relative decrease of the density with temperature [1/K]
       real(dp) :: expansion = 0.0_dp
    contains
       procedure :: density => density_incompressible

@@ -116,8 +116,8 @@ contains
 
    !> Weaken shear thinning as if the stress of the law were 1/fraction times as large; no effect on a Newtonian lubricant
    subroutine soften(self, fraction)
-   class(flow_t), intent(inout) :: self
-   real(dp), intent(in) :: fraction
+      class(flow_t), intent(inout) :: self
+      real(dp), intent(in) :: fraction
 
       associate (unused => self, too => fraction)
       end associate

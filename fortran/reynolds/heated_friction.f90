@@ -20,11 +20,11 @@ module ehl_heated_friction
 
    !> Heat that raises the temperature of film and walls by less than this [K] is neglected
    real(dp), parameter :: negligible = 1.0e-4_dp
-   !> Relative error of the heat of a node; maximum number of steps; every so many steps one is a bisection (27 bisections suffice)
+   !> Relative tolerance of the heat of a node; maximum number of steps, of which every sixth is a bisection (27 of these suffice)
    real(dp), parameter :: tolerance = 1.0e-8_dp
    integer, parameter :: max_steps = 200, bisect_after = 6
 
-   !> Input of the heat of a contact
+   !> Input of the heat calculation of a contact
    type :: film_heat_t
       !> Sliding speed |u1 - u2| [m/s], thermal conductivity of the lubricant [W/(m K)]
       real(dp) :: speed = 0.0_dp, conductivity = 0.0_dp

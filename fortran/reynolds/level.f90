@@ -152,7 +152,7 @@ contains
       end do
    end subroutine flowing_around
 
-   !> Make nodes with a negative pressure cavitated
+   !> Cavitate nodes with a negative pressure
    pure subroutine cavitate(p)
       real(dp), contiguous, intent(inout) :: p(:)
       integer :: i

@@ -152,7 +152,7 @@ contains
       if (self%squeeze > 0.0_dp .and. i > 2) then
          ! plus the equations of the upstream nodes, each with the fraction that is passed
          c = c + passed_fraction*([0.0_dp, self%c(0), self%c(1)] + passed_fraction*[0.0_dp, 0.0_dp, self%c(0)])
-         else
+      else
          ! the flow through the east face alone
          c = [self%c(0), -self%c(2), 0.0_dp]
       end if

@@ -206,7 +206,7 @@ contains
       self%period = self%repeats*maxval(periods)
    end subroutine find_period
 
-   !> Smallest number of the longest period that is a common period of all; 0: none up to `most`
+   !> Smallest n such that n times the longest period is a common period of all; 0: none up to `most`
    pure integer function common(periods, most)
       real(dp), intent(in) :: periods(:)
       integer, intent(in) :: most
@@ -217,7 +217,7 @@ contains
       common = 0
    end function common
 
-   !> Find a number of the longest period after which all are nearly in phase again and have had several relative positions: with
+   !> Find a number n of the longest periods after which all are nearly in phase again, with several relative positions: with
    !> 4 periods each of nearly the same length their relative motion is small
    pure subroutine find_near(self, periods, most)
       class(moving_surfaces_t), intent(inout) :: self
@@ -257,7 +257,7 @@ contains
 
    !> Maximum phase difference from the start after a time, as a fraction of a period
    pure real(dp) function phase_mismatch(time, periods)
-   real(dp), intent(in) :: time, periods(:)
-   phase_mismatch = maxval(abs(time/periods - anint(time/periods)))
+      real(dp), intent(in) :: time, periods(:)
+      phase_mismatch = maxval(abs(time/periods - anint(time/periods)))
    end function phase_mismatch
 end module ehl_moving_surfaces

@@ -14,7 +14,7 @@ module ehl_rough_surfaces
 
    !> One rough surface
    type :: member_t
-   !> Group of the case that defines it
+      !> Group of the case that defines it
       character(len=16) :: group = ""
       !> Body to which it belongs
       integer :: body = 1

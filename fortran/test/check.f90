@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Checks for the unit tests: a failed one is printed and counted
+!> Checks for the unit tests: failed checks are printed and counted
 module check
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use, intrinsic :: iso_fortran_env, only: error_unit
@@ -8,12 +8,12 @@ module check
    private
    public :: is_true, is_close, is_equal, is_text, has_text, n_checks, n_failures
 
-   !> How many checks were made, and how many failed
+   !> Number of checks, and of failed checks
    integer, protected :: n_checks = 0, n_failures = 0
 
 contains
 
-   !> The condition holds
+   !> Check that the condition holds
    subroutine is_true(condition, what)
       logical, intent(in) :: condition
       character(len=*), intent(in) :: what
@@ -24,7 +24,7 @@ contains
       write (error_unit, "(2a)") "FAILED: ", what
    end subroutine is_true
 
-   !> |value - wanted| <= tolerance; nan is never close
+   !> Check that |value - wanted| <= tolerance; NaN is never close
    subroutine is_close(value, wanted, tolerance, what)
       real(dp), intent(in) :: value, wanted, tolerance
       character(len=*), intent(in) :: what
@@ -37,7 +37,7 @@ contains
       call is_true(good, what // trim(numbers))
    end subroutine is_close
 
-   !> Two integers are the same
+   !> Check that two integers are equal
    subroutine is_equal(value, wanted, what)
       integer, intent(in) :: value, wanted
       character(len=*), intent(in) :: what
@@ -47,7 +47,7 @@ contains
       call is_true(value == wanted, what // trim(numbers))
    end subroutine is_equal
 
-   !> Two texts are the same
+   !> Check that two texts are equal
    subroutine is_text(value, wanted, what)
       character(len=*), intent(in) :: value, wanted, what
 
@@ -55,7 +55,7 @@ contains
                    what // " is '" // value // "' wanted '" // wanted // "'")
    end subroutine is_text
 
-   !> A text holds another one
+   !> Check that a text contains another one
    subroutine has_text(value, part, what)
       character(len=*), intent(in) :: value, part, what
 

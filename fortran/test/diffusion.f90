@@ -1,8 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> A model problem: -div(D grad p) = 0 with D that varies strongly, p = 0 on the border.
+!> A model problem: -div(D grad p) = 0 with strongly varying D, p = 0 on the border.
 !>
 !> Unit square, 129 x 129 nodes, six levels (129 to 5), five-point operator with arithmetic means of D at
-!> the nodes, V(2,1) cycles with Gauss-Seidel sweeps in the order of storage, from a random start.
+!> the nodes, V(2,1) cycles with lexicographic Gauss-Seidel sweeps, from a random start.
 !> Classical: bilinear interpolation, its transpose, coarse operators from D at every second node.
 !> Alcouffe: operator-dependent interpolation, its transpose, P^T A P.
 module diffusion
@@ -34,11 +34,11 @@ module diffusion
 
 contains
 
-   !> Levels of a square or of a strip that repeats along Y, whole or folded
+   !> Levels of a square or of a strip that is periodic along Y, whole or folded
    subroutine new_problem(p, mirror, rows, strip)
       type(problem_t), allocatable, intent(out) :: p(:)
       logical, intent(in) :: mirror
-      !> Nodes along Y, if they are others than along X
+      !> Number of nodes along Y if it differs from that along X
       integer, intent(in), optional :: rows
       logical, intent(in), optional :: strip
       type(status_t) :: status
@@ -67,7 +67,7 @@ contains
       call is_true(.not. status%failed(), "set-up of a test problem")
    end subroutine new_problem
 
-   !> (1 + 0.9 cos cos)^3 with so many points per wave
+   !> D = (1 + 0.9 cos cos)^3 with `wave` points per wavelength
    subroutine cosine(p, wave)
       type(problem_t), intent(inout) :: p
       real(dp), intent(in) :: wave
@@ -81,7 +81,7 @@ contains
       end do
    end subroutine cosine
 
-   !> Grooves one node wide that hardly conduct, along Y and along X, seven nodes apart
+   !> Grooves of small D, one node wide, along Y and along X, seven nodes apart
    subroutine grooves(p)
       type(problem_t), intent(inout) :: p
 
@@ -90,7 +90,7 @@ contains
       p%d(:, 4::7) = 1.0e-4_dp
    end subroutine grooves
 
-   !> 8 x 8 fields of 1 and 1000
+   !> D = 1 and 1000 on 8 x 8 fields
    subroutine checkerboard(p)
       type(problem_t), intent(inout) :: p
       integer :: i, j
@@ -102,7 +102,7 @@ contains
       end do
    end subroutine checkerboard
 
-   !> Logarithm normally distributed, standard deviation 2, no correlation between nodes
+   !> Uncorrelated D whose logarithm has a normal distribution with standard deviation 2
    subroutine noise(p)
       type(problem_t), intent(inout) :: p
       real(dp) :: u(2)
@@ -118,7 +118,7 @@ contains
       end do
    end subroutine noise
 
-   !> Uniform in (0, 1): minimal standard generator (Park & Miller 1988)
+   !> Uniform random number in (0, 1): minimal standard generator (Park & Miller 1988)
    real(dp) function uniform(seed)
       integer, intent(inout) :: seed
       integer, parameter :: a = 16807, m = 2147483647, q = 127773, r = 2836
@@ -186,7 +186,7 @@ contains
       end do
    end subroutine coarsen
 
-   !> Reduction of the residual (Euclidean norm) per cycle, geometric mean of cycles 11 to 20
+   !> Convergence factor: reduction of the residual (Euclidean norm) per cycle, geometric mean of cycles 11 to 20
    real(dp) function factor(p)
       type(problem_t), intent(inout) :: p(:)
       real(dp) :: norm, before

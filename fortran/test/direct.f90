@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Deflection by the plain double sum, the reference for the engines: O(n^2) in the number n of points
+!> Deflection by direct summation, the reference for the engines: O(n^2) in the number n of nodes
 module direct
    use ehl_grid, only: grid_t
    use ehl_kernel, only: kernel_coefficient

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The library from a program of one's own: solve a case, take a field and the results
+!> Example of a program that uses the library: solve a case, get a field and the results
 program example
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use ehl_case, only: case_t
@@ -20,7 +20,7 @@ program example
    type(record_t) :: results
    real(dp), allocatable :: pressure(:, :)
 
-   ! namelist text, a name for messages, options group.key=value, one a line
+   ! namelist text, a name for messages, options group.key=value, one per line
    call read_case(text, "example", "solver.threads=1", input, status)
    call end_if_failed()
    call solver%start(input, status)
@@ -41,7 +41,7 @@ program example
 
 contains
 
-   !> Errors are values: whoever calls decides
+   !> Errors are values: the calling program decides
    subroutine end_if_failed()
       if (.not. status%failed()) return
       write (error_unit, "(a)") status%message

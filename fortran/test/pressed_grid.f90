@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Grids and pressures of all sorts, for the tests of the deflection
+!> Grids and pressures for the tests of the deflection
 module pressed_grid
    use ehl_grid, only: grid_t, new_grid
    use ehl_kinds, only: dp
@@ -11,12 +11,12 @@ module pressed_grid
    integer, parameter :: hertz = 1, inlet = 2, random = 3, patch = 4
    character(len=*), parameter :: kind_name(4) = [character(len=6) :: &
       "Hertz", "inlet", "random", "patch"]
-   !> Grids there are
+   !> Number of grids
    integer, parameter :: grids = 11
 
 contains
 
-   !> A pressure p of some kind
+   !> A pressure p of a given kind
    subroutine press(which, grid, p)
       integer, intent(in) :: which
       type(grid_t), intent(in) :: grid
@@ -48,7 +48,7 @@ contains
       end do
    end subroutine press
 
-   !> Grids of all sorts: odd and even halvings, meshes that are not square, sides of
+   !> Different grids: odd and even numbers of halvings, hx /= hy, sides of
    !> different lengths and numbers of nodes, whole and folded
    type(grid_t) function some_grid(number)
       integer, intent(in) :: number
@@ -76,7 +76,7 @@ contains
       end select
    end function some_grid
 
-   !> A grid in words
+   !> Description of a grid
    function named(grid) result(name)
       type(grid_t), intent(in) :: grid
       character(len=:), allocatable :: name

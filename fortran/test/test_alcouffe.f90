@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Operator-dependent coarsening: its parts, and the cycles of a model problem with it and without
+!> Operator-dependent coarsening: its parts, and convergence factors of a model problem with and without it
 module test_alcouffe
    use check, only: is_close, is_true
    use diffusion, only: alcouffe, checkerboard, classical, coarsen, cosine, factor, grooves, levels, new_problem, noise, &
@@ -19,14 +19,14 @@ contains
       call factors()
    end subroutine run_alcouffe
 
-   !> Factors of convergence, against those of classical transfers
+   !> Convergence factors, compared with those of classical transfers
    subroutine factors()
       type(problem_t), allocatable :: p(:)
       real(dp) :: f(0:1)
       integer :: wave
 
-      ! measured 0.111 and 0.131 where the classical factor is 0.75 and 0.78; six points a wave, which no
-      ! coarser grid represents, 0.24 against 0.46
+      ! measured 0.111 and 0.131 with Alcouffe, 0.75 and 0.78 with classical transfers; with six points per wavelength, which no
+      ! coarser grid represents, 0.24 and 0.46
       do wave = 4, 8, 4
          call new_problem(p, .false.)
          call cosine(p(levels), real(wave, dp))
@@ -49,7 +49,7 @@ contains
       call is_true(f(1) < 0.85_dp .and. f(0) > 1.0_dp, "Alcouffe on white noise")
    end subroutine factors
 
-   !> Factors with classical and with Alcouffe transfers
+   !> Convergence factors with classical and with Alcouffe transfers
    function both(p) result(f)
       type(problem_t), intent(inout) :: p(:)
       real(dp) :: f(0:1)
@@ -60,7 +60,7 @@ contains
       f(1) = factor(p)
    end function both
 
-   !> P^T (A (P u)) by the transfers and the operator one after the other, for two products in a row
+   !> The Galerkin product equals P^T (A (P u)) by transfers and operator in turn, for two successive products
    !> (five-point and nine-point operators), with nodes that are not free, whole and folded, on as many rows as columns
    !> and on more, and on a strip, whole and folded
    subroutine product_is_the_product()
@@ -99,7 +99,7 @@ contains
       end do
    end subroutine product_is_the_product
 
-   !> Away from the border a constant stays one, whatever the coefficient
+   !> Away from the border the interpolation of a constant is exact for any coefficient
    subroutine interpolation_keeps_constants()
       type(problem_t), allocatable :: p(:)
       real(dp) :: row(points), largest
@@ -117,7 +117,7 @@ contains
       call is_close(largest, 0.0_dp, 1.0e-12_dp, "interpolation of a constant")
    end subroutine interpolation_keeps_constants
 
-   !> A constant coefficient makes the interpolation bilinear, next to the border too
+   !> For a constant coefficient the interpolation is bilinear, also beside the border
    subroutine constant_coefficient_is_bilinear()
       type(problem_t), allocatable :: p(:)
 
@@ -132,7 +132,7 @@ contains
       end associate
    end subroutine constant_coefficient_is_bilinear
 
-   !> A coefficient that is even in Y: the operators of the half domain are those of the whole one
+   !> For a coefficient that is even in Y the operators of half the domain are those of the whole domain
    subroutine folded_is_whole()
       type(problem_t), allocatable :: half(:), whole(:)
       integer :: k, middle

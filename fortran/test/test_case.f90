@@ -21,10 +21,10 @@ contains
       call options_win()
       call faults_have_places()
       call options_move_what_follows()
-      call what_pyehl_makes_is_asked_for()
+      call derived_values_are_required()
    end subroutine run_case
 
-   !> On a case that was written with all that follows, an option moves what follows from it
+   !> An option on a written case also changes the derived values
    subroutine options_move_what_follows()
       type(case_t) :: first, resolved, direct
       type(status_t) :: status
@@ -36,13 +36,13 @@ contains
       call is_true(.not. status%failed(), "options on a written case")
       call is_text(resolved%text, direct%text, "an option on a written case does what it does on the case itself")
       call is_true(resolved%grid%x_inlet < first%grid%x_inlet .and. resolved%grid%points_y == 65, "domain and nodes follow")
-      ! a changed value counts, whatever the mark of its line
+      ! a changed value is used although its line is marked as derived
       call read_case("&grid x_inlet = -3.7 ! derived"//lf//"/", "changed", "", direct, status)
       call is_close(direct%grid%x_inlet, -3.7_dp, 0.0_dp, "a changed value with a mark")
    end subroutine options_move_what_follows
 
-   !> Keys that the solver does not read need what pyehl makes of them
-   subroutine what_pyehl_makes_is_asked_for()
+   !> Keys that the solver does not read need the values that pyehl derives from them
+   subroutine derived_values_are_required()
       type(case_t) :: input
       type(status_t) :: status
 
@@ -63,7 +63,7 @@ contains
       call is_true(.not. status%failed(), "a table of viscosities")
       call is_close(input%lubricant%viscosity, 0.06_dp, 1.0e-3_dp, "the viscosity of the table")
       call is_equal(size(input%lubricant%isotherms), 2, "its isotherms")
-   end subroutine what_pyehl_makes_is_asked_for
+   end subroutine derived_values_are_required
 
    subroutine defaults_are_the_papers()
       type(case_t) :: input
@@ -151,7 +151,7 @@ contains
       call fault("&contact load = 1e4 radius = 1e-4 /", "", "text:1: error: the Hertz", "SI units")
    end subroutine faults_have_places
 
-   !> A case that must be refused with a message that begins and goes on as wanted
+   !> Check that a case is refused with a message that has this beginning and contains `part`
    subroutine fault(text, options, beginning, part)
       character(len=*), intent(in) :: text, options, beginning, part
       type(case_t) :: input

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Files with a checksum: what is written is read again, and damage is seen
+!> Files with a checksum: written values are read back, and damage is detected
 module test_checksum
    use, intrinsic :: iso_fortran_env, only: int8
    use check, only: has_text, is_close, is_true
@@ -41,7 +41,7 @@ contains
       read (lun, pos=1000) stat
       write (lun, pos=1000) ieor(stat, 1)
       close (lun)
-      call is_true(.not. has_checksum(path), "one other bit is seen")
+      call is_true(.not. has_checksum(path), "one changed bit is detected")
       open (newunit=lun, file=path, access="stream", form="unformatted", status="replace")
       write (lun) 1_int8
       close (lun)

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Deflection engines: against each other, the analytic solution, and themselves
+!> Deflection engines, compared with each other and with analytic solutions
 module test_deflection
    use check, only: is_true, is_close, is_equal, has_text
    use, intrinsic :: iso_fortran_env, only: int64
@@ -15,7 +15,7 @@ module test_deflection
    private
    public :: run_deflection
 
-   !> Of the circular contact
+   !> k_b of the circular contact
    real(dp), parameter :: factor = 2.0_dp/pi**2
 
 contains
@@ -37,7 +37,7 @@ contains
       call bad_requests_are_refused()
    end subroutine run_deflection
 
-   !> Closed form at the origin, symmetry, and cells made of smaller cells, near and far
+   !> Closed form at the origin, symmetry, and a cell as the sum of smaller cells, near and far
    subroutine kernel_is_exact()
       real(dp) :: whole, parts
       integer :: a, i, j
@@ -58,7 +58,7 @@ contains
       end do
    end subroutine kernel_is_exact
 
-   !> Under the Hertz pressure of a line W + X^2/2 does not vary, order 1.5; sum and FFT give the same
+   !> Under the Hertz pressure of a line contact W + X^2/2 is constant but for an error of order 1.5; direct summation and FFT agree
    subroutine row_is_hertz()
       class(deflection_t), allocatable :: engine
       type(grid_t) :: grid
@@ -90,8 +90,8 @@ contains
       call is_true(error(2) < 0.4_dp*error(1), "row: Hertz converges")
    end subroutine row_is_hertz
 
-   !> On a strip its mean over Y is that of a row, and a wave of one period across an endless length is deflected by
-   !> 2 pi k_b/q, to the second order of the cells: (q h)^2/24
+   !> The mean over Y of the deflection of a strip is that of a row, and the deflection of a wave of one period along Y is
+   !> 2 pi k_b/q, to second order in the mesh size: (q h)^2/24
    subroutine strip_is_periodic()
       class(deflection_t), allocatable :: engine
       type(grid_t) :: grid, row
@@ -113,7 +113,7 @@ contains
       call engine%apply(p, w)
       call is_close(maxval(abs(w(257, :)/p(257, :) - 2.0_dp*pi*factor/q), mask=abs(p(257, :)) > 0.5_dp), 0.0_dp, &
                     2.0_dp*pi*factor/q*(q*grid%hy)**2/20.0_dp, "strip: a wave across")
-      call is_close(sum(w)/size(w), 0.0_dp, 1.0e-14_dp, "strip: no mean")
+      call is_close(sum(w)/size(w), 0.0_dp, 1.0e-14_dp, "strip: zero mean")
       do j = 1, grid%ny
          p(:, j) = (1.0_dp + 0.9_dp*p(:, j))*max(0.0_dp, 1.0_dp - grid%columns()**2)
       end do
@@ -125,7 +125,7 @@ contains
       call is_true(.not. status%failed(), "engines of a strip")
    end subroutine strip_is_periodic
 
-   !> Half a strip whose pressure is even in Y has the deflection of the whole one
+   !> Half a strip with a pressure that is even in Y has the deflection of the whole strip
    subroutine folded_strip_is_a_strip()
       class(deflection_t), allocatable :: engine
       type(grid_t) :: grid(2)
@@ -155,9 +155,9 @@ contains
       call is_true(.not. status%failed(), "engines of half a strip")
    end subroutine folded_strip_is_a_strip
 
-   !> W = 1 - r^2/2 inside the contact, its continuation outside. A pressure that is constant
-   !> in each cell errs most at the edge of the contact, where its slope is infinite: by 7.7e-4
-   !> on 257 x 257, with order 1.4; well inside by a tenth of that, with order 2.
+   !> W = 1 - r^2/2 inside the contact, and its continuation outside. The error of the piecewise-constant
+   !> pressure is largest at the edge of the contact, where its slope is infinite: 7.7e-4
+   !> on 257 x 257, with order 1.4; well inside it is a tenth of that, with order 2.
    subroutine engines_give_hertz()
       real(dp) :: worst(2), inside(2)
       integer :: e, n
@@ -202,7 +202,7 @@ contains
       end do
    end subroutine hertz_error
 
-   !> The FFT is exact, whatever the pressure is on the border
+   !> The FFT is exact for any pressure on the border
    subroutine fft_is_direct()
       type(grid_t) :: grid
       integer :: g
@@ -214,7 +214,7 @@ contains
       end do
    end subroutine fft_is_direct
 
-   !> MLMI keeps the accuracy asked for
+   !> MLMI reaches the requested accuracy
    subroutine mlmi_is_direct()
       type(grid_t) :: grid
       real(dp), parameter :: accuracy(4) = [1.0e-3_dp, 2.0e-5_dp, 1.0e-7_dp, 1.0e-10_dp]
@@ -232,7 +232,7 @@ contains
       end do
    end subroutine mlmi_is_direct
 
-   !> Half a symmetric contact gives the same as the whole
+   !> Half a symmetric contact has the deflection of the whole contact
    subroutine folded_is_whole()
       type(grid_t) :: half, whole
       real(dp), allocatable :: p(:, :), p_whole(:, :), w(:, :), w_whole(:, :)
@@ -255,7 +255,7 @@ contains
       end do
    end subroutine folded_is_whole
 
-   !> The same bits from any number of threads
+   !> The result does not depend on the number of threads, to the bit
    subroutine threads_do_not_matter()
       type(grid_t) :: grid
       real(dp), allocatable :: p(:, :), one(:, :), more(:, :)
@@ -275,7 +275,7 @@ contains
       end do
    end subroutine threads_do_not_matter
 
-   !> What was applied before leaves no trace, on the same grid or on another
+   !> An earlier application has no effect, on the same grid or on another
    subroutine history_does_not_matter()
       class(deflection_t), allocatable :: engine
       type(grid_t) :: grid
@@ -296,15 +296,15 @@ contains
          call press(patch, grid, p)
          call engine%apply(p, w)
          call deflect(trim(deflection_engines(e)), grid, p, 1.0e-5_dp, 1, fresh)
-         call is_true(all(abs(w - fresh) <= 0.0_dp), deflection_engines(e)//": no trace of before")
+         call is_true(all(abs(w - fresh) <= 0.0_dp), deflection_engines(e)//": no effect of earlier pressures")
          zero = 0.0_dp*p
          call engine%apply(zero, w)
-         call is_true(all(abs(w) <= 0.0_dp), deflection_engines(e)//": nothing from nothing")
+         call is_true(all(abs(w) <= 0.0_dp), deflection_engines(e)//": zero for zero pressure")
          deallocate (w)
       end do
    end subroutine history_does_not_matter
 
-   !> Small pressures are deflected as well as large ones
+   !> The deflection is linear in the scale of the pressure
    subroutine scale_does_not_matter()
       type(grid_t) :: grid
       real(dp), allocatable :: p(:, :), w(:, :), tiny_w(:, :)
@@ -321,7 +321,7 @@ contains
       end do
    end subroutine scale_does_not_matter
 
-   !> Memory grows with the number of points, and is that of a few fields
+   !> Memory is proportional to the number of nodes, and is that of a few fields
    subroutine memory_is_linear()
       class(deflection_t), allocatable :: engine
       type(status_t) :: status
@@ -343,7 +343,7 @@ contains
       end do
    end subroutine memory_is_linear
 
-   !> Unknown engines and accuracies out of reach
+   !> Unknown engines and unreachable accuracies are refused
    subroutine bad_requests_are_refused()
       class(deflection_t), allocatable :: engine
       type(status_t) :: unknown, out_of_reach
@@ -359,7 +359,7 @@ contains
       call has_text(out_of_reach%message, "1.00E-13", "accuracy out of reach")
    end subroutine bad_requests_are_refused
 
-   !> Largest difference of an engine from the direct sum, relative to the largest deflection
+   !> Largest difference between an engine and direct summation, relative to the largest deflection
    real(dp) function difference(engine, grid, which, accuracy)
       character(len=*), intent(in) :: engine
       type(grid_t), intent(in) :: grid
@@ -374,7 +374,7 @@ contains
       difference = maxval(abs(w - exact))/maxval(abs(exact))
    end function difference
 
-   !> Deflection w by a fresh engine
+   !> Deflection w by a new engine
    subroutine deflect(name, grid, p, accuracy, threads, w)
       character(len=*), intent(in) :: name
       type(grid_t), intent(in) :: grid

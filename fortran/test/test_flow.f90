@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Flow factors of lubricants that thin: values by quadrature (docs/theory/thinning.md), closed forms, limits, and changes against
-!> differences
+!> Flow factors of shear-thinning lubricants: values by quadrature (docs/theory/thinning.md), closed forms, limits, and
+!> derivatives compared with differences
 module test_flow
    use check, only: is_close, is_true
    use ehl_factor_rows, only: factor_rows_t, find_factors, second_order
@@ -36,7 +36,7 @@ contains
       call agree(by_carreau, 50.0_dp, [3.0_dp, 1.0_dp], [13.9482_dp, 6.96058_dp, 6.97932_dp])
    end subroutine values
 
-   !> Factors of second order of one node, and their relative error at the most
+   !> Second-order factors of one node, and their maximum relative error
    function sliding_factors(law, b, s, error) result(r)
       type(thinning_t), intent(in) :: law
       real(dp), intent(in) :: b, s(2)
@@ -58,7 +58,7 @@ contains
                     rows%stress_by_sliding(i), rows%stress_by_gradient(i, :))
    end function of_node
 
-   !> Nodes side by side, each with what it needs, have the factors of one node through the film
+   !> The factors of several nodes at once, each by the formula that suffices, agree with integrals through the film
    subroutine side_by_side()
       type(thinning_t), parameter :: laws(5) = [thinning_t(eyring, 1.0_dp), thinning_t(carreau, 0.1_dp), &
                                                 thinning_t(carreau, 0.3_dp), thinning_t(carreau, 0.5_dp), &
@@ -93,7 +93,7 @@ contains
       end do
    end subroutine side_by_side
 
-   !> Kept factors follow small changes to first order; larger ones, and what is forgotten, are found anew
+   !> Cached factors are extrapolated for small changes; for larger changes, and after `forget`, they are computed again
    subroutine cached()
       type(thinning_t), parameter :: laws(4) = [thinning_t(eyring, 1.0_dp), thinning_t(carreau, 0.3_dp), &
                                                 thinning_t(carreau, 0.5_dp), thinning_t(carreau, 0.8_dp)]
@@ -121,7 +121,7 @@ contains
             associate (n => store%width)
                call store%find(b(:n), s, 2, 1, rows, newtonian)
                call find_factors(laws(l), b(:n), s, anew)
-               call is_close(maxval(abs(rows%phi(:n, :)/anew%phi(:n, :) - 1.0_dp)), 0.0_dp, 0.0_dp, "beyond reach: found anew")
+               call is_close(maxval(abs(rows%phi(:n, :)/anew%phi(:n, :) - 1.0_dp)), 0.0_dp, 0.0_dp, "beyond reach: computed again")
                do i = 1, n
                   phase = real(i*k, dp)
                   b(i) = b(i)*(1.0_dp + reach*sign(1.0_dp, sin(phase)))
@@ -149,14 +149,14 @@ contains
                if (modulo(k, 2) == 0) cycle
                call store%forget()
                call store%find(b(:n), s, 2, 1, rows, newtonian)
-               call is_close(maxval(abs(rows%phi(:n, :)/anew%phi(:n, :) - 1.0_dp)), 0.0_dp, 0.0_dp, "forgotten: found anew")
+               call is_close(maxval(abs(rows%phi(:n, :)/anew%phi(:n, :) - 1.0_dp)), 0.0_dp, 0.0_dp, "forgotten: computed again")
             end associate
          end do
-         call is_close(worst(1), 0.0_dp, 2.0e-4_dp, "factors that follow")
-         call is_close(worst(2), 0.0_dp, 2.0e-4_dp, "stress that follows")
-         call is_true(worst(3) > 1.0e-6_dp, "they are not found anew")
+         call is_close(worst(1), 0.0_dp, 2.0e-4_dp, "extrapolated factors")
+         call is_close(worst(2), 0.0_dp, 2.0e-4_dp, "extrapolated stress")
+         call is_true(worst(3) > 1.0e-6_dp, "they are not computed again")
          call is_close(worst(4), 0.0_dp, 5.0e-3_dp, "factors of a correction")
-         call is_true(worst(4) > worst(3), "they follow larger changes")
+         call is_true(worst(4) > worst(3), "they are extrapolated for larger changes")
       end do
    end subroutine cached
 
@@ -182,7 +182,7 @@ contains
          h = 0.5_dp*s(k)
          do i = 1, size(b)
             stress = asinh(b(i)*h/sinh(h))
-            ! six points: the last digits go as S increases
+            ! six points: the error increases with S
             phi = 3.0_dp*(h*cosh(h) - sinh(h))/h**3*cosh(stress)
             r = exact_factors(by_eyring, b(i), [s(k), 0.0_dp])
             call is_close(r%stress, stress, 1.0e-7_dp, "mean stress, Eyring, one direction")
@@ -196,7 +196,7 @@ contains
       call is_close(r%stress, 7.0_dp, 1.0e-10_dp, "nor is its stress less")
    end subroutine closed_forms
 
-   !> Little gradient: the sliding alone decides; whatever the numbers, nothing overflows and factors are at least 1
+   !> At a small gradient the factors are those of sliding alone; nothing overflows for any input, and factors are at least 1
    subroutine limits()
       real(dp), parameter :: b(6) = [0.0_dp, 1.0e-6_dp, 0.3_dp, 20.0_dp, 1.0e6_dp, 1.0e12_dp]
       real(dp), parameter :: s(5) = [0.0_dp, 1.0e-9_dp, 1.0_dp, 30.0_dp, 300.0_dp]
@@ -217,8 +217,8 @@ contains
             do k = 1, size(s)
                do m = 1, size(s)
                   exact = exact_factors(law, b(i), [s(k), s(m)])
-                  call is_true(all(exact%phi > 1.0_dp - 1.0e-12_dp) .and. maxval(exact%phi) < 1.0e95_dp, "a lubricant that thins")
-                  call is_true(exact%phi(1) > exact%phi(2)*(1.0_dp - 1.0e-9_dp), "it flows the easiest along the sliding")
+                  call is_true(all(exact%phi > 1.0_dp - 1.0e-12_dp) .and. maxval(exact%phi) < 1.0e95_dp, "shear thinning")
+                  call is_true(exact%phi(1) > exact%phi(2)*(1.0_dp - 1.0e-9_dp), "it flows most easily along the sliding")
                   call is_true(all(exact%tangent > 0.0_dp), "more gradient, more flow")
                end do
             end do
@@ -226,7 +226,7 @@ contains
       end do
    end subroutine limits
 
-   !> Factors of second order in the gradient are as right as they say
+   !> Second-order factors in the gradient have at most the stated error
    subroutine of_second_order()
       type(thinning_t), parameter :: laws(4) = [thinning_t(eyring, 1.0_dp), thinning_t(carreau, 0.2_dp), &
                                                 thinning_t(carreau, 0.5_dp), thinning_t(carreau, 0.9_dp)]
@@ -257,7 +257,7 @@ contains
       end do
    end subroutine of_second_order
 
-   !> Changes of ln(phi), of the flow and of the stress
+   !> Derivatives of ln(phi), of the flow and of the stress
    subroutine changes_against_differences()
       real(dp), parameter :: b(3) = [0.4_dp, 5.0_dp, 1.0e4_dp], step = 1.0e-4_dp
       real(dp), parameter :: s(2, 4) = reshape([1.0_dp, 2.0_dp, -3.0_dp, 0.5_dp, 4.0_dp, 0.0_dp, 0.0_dp, 3.0_dp], [2, 4])

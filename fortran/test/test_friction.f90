@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Friction integrals of uniform films, shear laws, and the heat of friction
+!> Friction integrals of uniform films, shear laws, and frictional heating
 module test_friction
    use check, only: is_close, is_true
    use ehl_contact, only: contact_t
@@ -79,7 +79,7 @@ contains
                     "a uniform film, Carreau")
    end subroutine uniform_films
 
-   !> Slow: Newtonian; fast: the limit
+   !> Limits of the shear laws: Newtonian for slow sliding, the limiting stress for fast sliding
    subroutine limits()
       real(dp), parameter :: slow = 1.0e-12_dp, fast = 1.0e9_dp
       real(dp) :: stress(2)
@@ -121,19 +121,19 @@ contains
                    "sliding of either sense heats the inlet")
    end subroutine data_sheet
 
-   !> Exact limits of a source that is semi-elliptic over its circle
+   !> Exact limits of a semi-ellipsoidal heat source on a circle
    subroutine flash()
       real(dp), parameter :: flux = 1.0e8_dp, a = 2.0e-4_dp, k = 46.0_dp, kappa = 1.25e-5_dp, fast = 1.0e6_dp
-      !> Largest over s of the integral of sqrt(1 - x^2)/sqrt(s - x) over x from -1 to s, by quadrature
+      !> Maximum over s of the integral of sqrt(1 - x^2)/sqrt(s - x) over x from -1 to s, by quadrature
       real(dp), parameter :: integral = 2.18830_dp, both(2) = 1.0_dp, rest(2) = 0.0_dp
 
       call is_close(rise(rest, k*both)/(0.5_dp*flux*a/k), 1.5_dp*pi/4.0_dp, 2.0e-3_dp, "two surfaces at rest under the same heat")
       call is_close(rise(fast*both, k*both)/(0.75_dp*flux/k*sqrt(kappa*a/(pi*fast))*integral), 1.0_dp, 2.0e-3_dp, &
                     "two fast surfaces")
       call is_close(rise(fast*both, [k, 4.0_dp*k]), 0.4_dp*rise(fast*both, k*both), 1.0e-12_dp, "two materials")
-      ! shared so that both are as hot: 1/T is the sum of those of each surface under all the heat
+      ! heat partition with equal maxima: 1/T is the sum of 1/T of each surface under all the heat
       call is_close(1.0_dp/rise([0.0_dp, fast], k*both), 0.5_dp/rise(rest, k*both) + 0.5_dp/rise(fast*both, k*both), 1.0e-10_dp, &
-                    "the heat is shared")
+                    "heat partition")
 
    contains
 
@@ -143,7 +143,7 @@ contains
       end function rise
    end subroutine flash
 
-   !> A row through the centre of a Hertz ellipse of heat becomes as hot as the formula for the ellipse says, at any speed
+   !> The maximum temperature of a row through the centre of an elliptical heat source is that of the formula, at any speed
    subroutine flash_of_rows()
       integer, parameter :: n = 2001
       real(dp), parameter :: a = 2.0e-4_dp, k = 46.0_dp, kappa = 1.25e-5_dp, flux = 1.0e8_dp, none = 1.0e-30_dp
@@ -176,7 +176,7 @@ contains
       end do
    end subroutine flash_of_rows
 
-   !> Behind the heat two unlike walls tend to the same temperature, and the film between them has their mean
+   !> Downstream of the heat source two different walls tend to the same temperature, and the film has their mean
    subroutine walls_behind()
       integer, parameter :: n = 129
       type(level_t) :: level
@@ -194,13 +194,13 @@ contains
                      pressure, films, .true., 1, found)
       apart = found%rise(:, 2, 3) - found%rise(:, 2, 2)
       call is_true(apart(40) > 1.0_dp, "the wall that conducts less is hotter under the heat")
-      call is_true(all(apart(60:) < apart(59:n - 1)) .and. apart(n) > 0.0_dp, "the walls come nearer to each other")
+      call is_true(all(apart(60:) < apart(59:n - 1)) .and. apart(n) > 0.0_dp, "the difference of the walls decreases")
       do i = 45, n
-         call is_close(found%rise(i, 2, 1)/(0.5_dp*sum(found%rise(i, 2, 2:))), 1.0_dp, 1.0e-12_dp, "film behind the heat")
+         call is_close(found%rise(i, 2, 1)/(0.5_dp*sum(found%rise(i, 2, 2:))), 1.0_dp, 1.0e-12_dp, "film downstream of the heat")
       end do
    end subroutine walls_behind
 
-   !> Even heat on a strip: 2 A q sqrt(x - x_1) behind its front, and that of a strip that is missing behind its end
+   !> Uniform heat on a strip: 2 A q sqrt(x - x_1) downstream of its beginning, minus the same for its end
    subroutine strip()
       integer, parameter :: n = 65, first = 9, last = 40
       real(dp), parameter :: step = 1.0e-6_dp, strengths(2) = [2.0e-6_dp, 5.0e-6_dp], q = 3.0e8_dp
@@ -216,11 +216,11 @@ contains
          from_end = step*(i - last - 0.5_dp)
          expected = 2.0_dp*strengths(2)*q*(sqrt(from_front) - sqrt(max(0.0_dp, from_end)))
          call is_close((walls%history(2, heat, first, min(i - 1, last), i) + walls%own(2)*merge(q, 0.0_dp, i <= last))/expected, &
-                       1.0_dp, 1.0e-12_dp, "even heat on a strip, node "//to_text(i))
+                       1.0_dp, 1.0e-12_dp, "uniform heat on a strip, node "//to_text(i))
       end do
    end subroutine strip
 
-   !> Under a Hertz contact a wall at rest is as hot as the formula of Tian & Kennedy says, round or not
+   !> Under a Hertz contact the temperature of a wall at rest is that of Tian & Kennedy, round or not
    subroutine speed_at_rest()
       class(contact_t), allocatable :: contact
       real(dp) :: wide
@@ -229,13 +229,13 @@ contains
       call is_close(speed_of_rest(contact), 2.0_dp*1.234_dp, 2.0e-3_dp*2.468_dp, "a wall at rest, circle")
       call new_contact(0.05_dp, 0.0_dp, contact)
       wide = speed_of_rest(contact)
-      call is_true(wide < 2.0_dp, "more heat flows together under a wide contact")
+      call is_true(wide < 2.0_dp, "less conduction across the motion under a wide contact")
       call new_contact(0.05_dp, 0.5_dp*pi, contact)
-      call is_close(speed_of_rest(contact)/contact%ellipticity, wide, 1.0e-9_dp*wide, "the same, turned, is as hot at rest")
+      call is_close(speed_of_rest(contact)/contact%ellipticity, wide, 1.0e-9_dp*wide, "the same contact, turned")
    end subroutine speed_at_rest
 
-   !> What a wall takes: half of the heat between like walls, the more the better it conducts; T_2 - T_1 and the mean across
-   !> the film as by hand
+   !> Heat into a wall: half of the heat between equal walls, more into the better conductor; T_2 - T_1 and the mean across
+   !> the film by hand
    subroutine heat_in_proportion()
       type(wall_heat_t) :: walls
       type(heat_response_t) :: response
@@ -244,7 +244,7 @@ contains
 
       call walls%start(9, 1.0e-6_dp, [3.0e-6_dp, 3.0e-6_dp])
       response = walls%response([7.0_dp, 7.0_dp], film, k)
-      call is_close(response%difference(1) + response%difference(2)*q, 0.0_dp, 1.0e-6_dp, "like walls take the same")
+      call is_close(response%difference(1) + response%difference(2)*q, 0.0_dp, 1.0e-6_dp, "equal walls receive the same heat")
       call is_close(response%film(1), 7.0_dp, 1.0e-12_dp, "the film between warm walls")
       call walls%start(9, 1.0e-6_dp, [1.0e-6_dp, 9.0e-6_dp])
       response = walls%response(before, film, k)
@@ -253,10 +253,10 @@ contains
       call is_close((into(1) - 0.5_dp*q)/(k*(rise(2) - rise(1))/film), 1.0_dp, 1.0e-12_dp, "heat through the film")
       call is_close((response%film(1) + response%film(2)*q)/(0.5_dp*sum(rise) + q*film/(12.0_dp*k)), 1.0_dp, 1.0e-12_dp, &
                     "mean across the film")
-      call is_true(into(1) > into(2), "the wall that conducts takes more")
+      call is_true(into(1) > into(2), "the better conductor receives more")
    end subroutine heat_in_proportion
 
-   !> A row of even pressure and film without walls that warm: every node has the temperature of its own film,
+   !> A row of uniform pressure and film between walls of constant temperature: every node has the temperature of its own film,
    !> tau = G exp(-beta q h/(12 k_f)) for a Newtonian lubricant of Barus, q = tau u
    subroutine heated_film()
       real(dp), parameter :: beta = 0.04_dp, speed = 2.0_dp, conductivity = 0.14_dp, film = 1.0e-4_dp
@@ -280,9 +280,9 @@ contains
       do k = 1, 60
          q = q - (q - q0*exp(-w*q))/(1.0_dp + w*q0*exp(-w*q))
       end do
-      call is_true(found%solved, "a film that heats itself")
-      call is_true(w*q > 0.5_dp, "the heat counts")
-      call is_close(found%ratio()*q0/q, 1.0_dp, 1.0e-7_dp, "friction of a film that heats itself")
+      call is_true(found%solved, "a film with frictional heating")
+      call is_true(w*q > 0.5_dp, "the heating is significant")
+      call is_close(found%ratio()*q0/q, 1.0_dp, 1.0e-7_dp, "friction of a film with frictional heating")
       call is_close(maxval(found%rise(:, :, 1))*beta/(w*q), 1.0_dp, 1.0e-7_dp, "its temperature")
       call is_close(found%max_rise(1)*beta/(w*q), 1.0_dp, 1.0e-7_dp, "its maximum temperature")
       level%lubricant = new_lubricant(viscosity_barus, density_dowson_higginson, alpha_bar, hertz_pressure, 0.6_dp, 1.96e8_dp)
@@ -290,7 +290,7 @@ contains
       pressure(20:24, :) = 0.0_dp
       call heat_film(film_heat_t(speed, conductivity, [1.0e-6_dp, 2.0e-6_dp], 1.0e-3_dp, film), level%grid, level%lubricant, &
                      pressure, films, .false., 2, found)
-      call is_close(found%ratio(), 1.0_dp, 1.0e-7_dp, "a viscosity that no temperature changes")
+      call is_close(found%ratio(), 1.0_dp, 1.0e-7_dp, "a viscosity that does not depend on temperature")
       call is_true(found%max_rise(3) > found%max_rise(2) .and. .not. allocated(found%rise), "the wall that conducts less is hotter")
    end subroutine heated_film
 end module test_friction

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Locks that fail
+!> Locks, also such that fail
 module test_lock
    use check, only: is_equal, is_true
    use ehl_lock, only: lock, lock_t, unlock
@@ -8,12 +8,12 @@ module test_lock
    private
    public :: run_lock
 
-   !> Open, and no mutex at all
+   !> A valid lock, and one that is no mutex
    type(lock_t), target :: good, none
 
 contains
 
-   !> The message of the system is passed on, and the lock is not held then
+   !> A system error is reported, and the lock is not held
    subroutine run_lock()
       type(status_t) :: fine, bad
 
@@ -25,7 +25,7 @@ contains
       none%mutex = -1
       call lock(none, bad)
       call is_equal(bad%code, ehl_internal, "lock that is no mutex")
-      ! after a failure it is not taken: were it, this would wait for ever
+      ! after a failure the lock is not acquired: otherwise this would wait for ever
       call lock(good, bad)
       call lock(good, fine)
       call unlock(good, fine)

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Laws of viscosity and density under pressure and temperature
+!> Laws of viscosity and density as functions of pressure and temperature
 module test_lubricant
    use check, only: is_close, is_true
    use ehl_ambient_viscosity, only: ambient_viscosity_t, new_ambient_viscosity
@@ -28,7 +28,7 @@ contains
       call measured_values()
    end subroutine run_lubricant
 
-   !> What every law must obey: its slopes, eta0 at ambient pressure, the same bits without a rise of temperature
+   !> Properties of every law: correct slopes, eta0 at ambient pressure, the same bits for a zero temperature rise
    subroutine check_law(law, name)
       class(viscosity_law_t), intent(in) :: law
       character(len=*), intent(in) :: name
@@ -44,7 +44,7 @@ contains
       call is_close(maxval(abs(at - values)), 0.0_dp, 0.0_dp, name//": no rise, no other viscosity")
    end subroutine check_law
 
-   !> A pole between two pressures: finite before it, infinite behind, with a rise of temperature of zero as well
+   !> A pole between two pressures: finite below it, infinite above, also for a zero temperature rise
    subroutine check_solid(law, before, behind, name)
       class(viscosity_law_t), intent(in) :: law
       real(dp), intent(in) :: before, behind
@@ -53,12 +53,12 @@ contains
 
       call law%log_viscosity([before, behind, 3.0_dp*behind], values, slope)
       call law%log_viscosity_at([before, behind, 3.0_dp*behind], [0.0_dp, 0.0_dp, 0.0_dp], at)
-      call is_true(values(1) > 20.0_dp .and. values(1) < huge(1.0_dp), name//" before its pole")
-      call is_true(all(values(2:) > huge(1.0_dp)) .and. all(at(2:) > huge(1.0_dp)), name//" behind its pole")
+      call is_true(values(1) > 20.0_dp .and. values(1) < huge(1.0_dp), name//" below its pole")
+      call is_true(all(values(2:) > huge(1.0_dp)) .and. all(at(2:) > huge(1.0_dp)), name//" above its pole")
       call is_true(all(abs(slope(2:)) <= 0.0_dp), name//" does not change there")
    end subroutine check_solid
 
-   !> FVA 3 by Table A1 of Wingertszahn et al. 2023, by hand at 40 and 60 degC and 1 GPa
+   !> FVA 3 with Table A1 of Wingertszahn et al. 2023, by hand at 40 and 60 degC and 1 GPa
    subroutine reference_oil()
       real(dp), parameter :: a(2) = [327.7918e5_dp, 2.9862e5_dp], b(2) = [4.419e-3_dp, 3.0115e-4_dp]
       type(ambient_viscosity_t) :: ambient
@@ -86,7 +86,7 @@ contains
       end associate
    end subroutine reference_oil
 
-   !> At the temperature of the glass the viscosity is that of the glass, whatever the pressure
+   !> At the glass transition temperature the viscosity is that of the glass at any pressure
    subroutine glass()
       real(dp) :: values(1)
 
@@ -113,7 +113,7 @@ contains
       call is_close(maxval(abs(modulus - k0 - 10.545_dp*[0.0_dp, 0.5_dp, 1.0_dp]*hertz)/k0), 0.0_dp, 1.0e-13_dp, &
                     "bulk modulus under pressure")
       call check_density(law, "Murnaghan")
-      ! by Tait it is [K0 + (1 + K0') p] times the volume, so that it increases by K0' at ambient pressure
+      ! for Tait it is [K0 + (1 + K0') p] times the volume, so that its slope is K0' at ambient pressure
       volume = new_tait(9.234e9_dp, 10.545_dp, 6.09e-3_dp, 8.0e-4_dp, 298.15_dp, hertz, 313.15_dp)
       call volume%density([0.0_dp, step, 1.0_dp], rho, slope)
       modulus = rho/slope*hertz
@@ -125,7 +125,7 @@ contains
       call check_density(volume, "Tait")
    end subroutine bulk_modulus
 
-   !> What every density must obey: its slope, rho0 at ambient pressure, the same bits without a rise of temperature
+   !> Properties of every density law: correct slope, rho0 at ambient pressure, the same bits for a zero temperature rise
    subroutine check_density(law, name)
       class(density_law_t), intent(in) :: law
       character(len=*), intent(in) :: name
@@ -140,7 +140,7 @@ contains
       call is_close(maxval(abs(at - rho)), 0.0_dp, 0.0_dp, name//": no rise, no other density")
    end subroutine check_density
 
-   !> Doolittle: Vogel's law at ambient pressure where the occupied volume does not change, the pole where no volume is free
+   !> Doolittle: Vogel's law at ambient pressure with a constant occupied volume, the pole where the free volume vanishes
    subroutine free_volume()
       real(dp), parameter :: eta = 0.02_dp, b = 4.5_dp, r0 = 0.66_dp, expansion = 8.0e-4_dp, reference = 313.15_dp, &
                              inlet = 333.15_dp, rise(3) = [-40.0_dp, 10.0_dp, 80.0_dp], zero(3) = 0.0_dp
@@ -160,7 +160,7 @@ contains
          solid = 9.0_dp*exp(-6.0e-3_dp*inlet)/12.0_dp*(exp(12.0_dp*(1.0_dp - 0.6501_dp/1.016_dp)) - 1.0_dp)
          call check_solid(law, solid*(1.0_dp - 1.0e-9_dp), solid*(1.0_dp + 1.0e-9_dp), "doolittle")
       end associate
-      ! the volume by another reference is the same liquid
+      ! the volume with another reference temperature is the same liquid
       state = new_tait(9.0e9_dp, 11.0_dp, 6.0e-3_dp, expansion/(1.0_dp - 20.0_dp*expansion), reference - 20.0_dp, 1.0e9_dp, inlet)
       associate (law => new_doolittle(eta, b, r0, 0.0_dp, reference, state, inlet))
          call law%log_viscosity_at(zero, rise, values)
@@ -169,7 +169,7 @@ contains
       end associate
    end subroutine free_volume
 
-   !> A table of values: these at their places, rising between them, straight on behind them
+   !> A table of values: exact at its pressures, monotonic between them, linear beyond them
    subroutine measured_values()
       real(dp), parameter :: p(4) = [0.0_dp, 1.0e8_dp, 4.0e8_dp, 5.0e8_dp], eta(4) = [0.1_dp, 0.9_dp, 1.0_dp, 80.0_dp]
       type(isotherm_t) :: isotherms(2)
@@ -184,7 +184,7 @@ contains
       call law%log_viscosity([(0.6_dp*k/200, k=1, 200)], values, slope)
       call is_true(maxval(values(2:) - values(:199)) < 0.2_dp, "a table has no jumps")
       call is_true(minval(values(2:) - values(:199)) > 0.0_dp, "a table increases with pressure")
-      call is_close(values(200) - values(199), slope(200)*0.003_dp, 1.0e-12_dp, "straight on behind the table")
+      call is_close(values(200) - values(199), slope(200)*0.003_dp, 1.0e-12_dp, "linear beyond the table")
       rise = 60.0_dp
       call law%log_viscosity_at(p/1.0e9_dp, rise, at)
       call is_close(maxval(abs(at - log(eta))), 0.0_dp, 1.0e-12_dp, "a table at its other temperature")
@@ -194,7 +194,7 @@ contains
                     "linear in 1/T between temperatures")
    end subroutine measured_values
 
-   !> Roelands' viscosity against his own form, ln eta + 9.67; slopes; the same bits without a rise of temperature
+   !> Roelands' viscosity compared with his original form, ln eta + 9.67; slopes; the same bits for a zero temperature rise
    subroutine classical_laws_under_temperature()
       real(dp), parameter :: eta0 = 0.04_dp, alpha = 2.2e-8_dp, beta = 0.04_dp, inlet = 313.15_dp, p0 = 1.96e8_dp
       real(dp), parameter :: hertz = 1.66e9_dp, warm = 60.0_dp, small = 1.0e-4_dp

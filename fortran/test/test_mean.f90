@@ -11,7 +11,7 @@ module test_mean
 
    real(dp), parameter :: pi = acos(-1.0_dp), tolerance = 1.0e-3_dp
    type(status_t) :: status
-   !> A wave 0.25 long that moves by 1.01 of 1/128 a step: no whole number of steps is a period
+   !> A wave of length 0.25 that moves by 1.01/128 per step: a period is no whole number of steps
    real(dp), parameter :: time_step = 1.0_dp/128.0_dp, period = 0.25_dp/1.01_dp
 
 contains
@@ -23,8 +23,8 @@ contains
       call two_periods_that_do_not_meet()
    end subroutine run_mean
 
-   !> A product of two waves whose beat the window holds 1 - 0.2 or 1 + 0.2 times, at every phase of it: the stated error
-   !> covers what is left of it, and the mean counts as settled within that
+   !> A product of two waves, with 1 - 0.2 or 1 + 0.2 beats in the window, at every phase: the stated error
+   !> covers the error of the mean, which counts as settled within it
    subroutine two_periods_that_do_not_meet()
       type(friction_mean_t) :: mean
       real(dp), parameter :: mismatch = 0.2_dp
@@ -44,11 +44,11 @@ contains
             stated = min(stated, mean%window_error())
             call is_true(mean%settled(1.0e-12_dp), "settled within the error of its window")
          end do
-         call is_true(worst > 0.01_dp .and. worst <= stated .and. stated < 4.0_dp*worst, "what is left is stated")
+         call is_true(worst > 0.01_dp .and. worst <= stated .and. stated < 4.0_dp*worst, "the error is stated")
       end do
    end subroutine two_periods_that_do_not_meet
 
-   !> A peak of the start, be it larger than the mean by more than the digits of a number, leaves the mean as it is
+   !> A peak before the window does not change the mean, even if it exceeds the mean by more than 1/epsilon
    subroutine values_before_the_window_have_no_part()
       type(friction_mean_t) :: mean
       integer :: k
@@ -58,20 +58,20 @@ contains
       do k = 1, nint(1.6_dp*period/time_step)
          call mean%append(1.0_dp, 0.0_dp, 0.0_dp, status)
       end do
-      call is_close(mean%mean(0.0_dp), 1.0_dp, 1.0e-12_dp, "mean of a constant behind a peak")
+      call is_close(mean%mean(0.0_dp), 1.0_dp, 1.0e-12_dp, "mean of a constant after a peak")
       call is_true(mean%settled(1.0e-12_dp), "and it has settled")
    end subroutine values_before_the_window_have_no_part
 
-   !> What a step resolves is known after one and a half periods, from one period
+   !> The mean of a signal that steps resolve is known after one and a half periods, from one period
    subroutine smooth_signal_settles_at_once()
       type(friction_mean_t) :: mean
 
       call run(0.0_dp, mean)
-      call is_close(mean%periods(), 1.5_dp, time_step/period, "judged for the first time")
+      call is_close(mean%periods(), 1.5_dp, time_step/period, "first assessment")
       call is_close(mean%mean(0.0_dp), 1.0_dp, tolerance, "mean of a smooth signal")
    end subroutine smooth_signal_settles_at_once
 
-   !> Peaks of a fifth of a step: each period meets them elsewhere, only a mean over several is right
+   !> Peaks a fifth of a step wide: every period samples them differently, and only a mean over several is correct
    subroutine peaks_between_steps_take_several_periods()
       type(friction_mean_t) :: mean
       real(dp), parameter :: height = 50.0_dp
@@ -86,7 +86,7 @@ contains
       call is_true(mean%change() <= 0.01_dp*exact, "and it no longer changes much")
       range = mean%extremes()
       call is_true(range(2) > 0.9_dp*height, "largest value of all these periods")
-      ! a single period would not have done
+      ! a single period would not suffice
       mean%n = mean%filled + nint(2.0_dp*period/time_step)
       worst = 0.0_dp
       do k = 0, 31
@@ -96,7 +96,7 @@ contains
       call is_true(worst > 0.1_dp*exact, "means of one period are wrong")
    end subroutine peaks_between_steps_take_several_periods
 
-   !> Until the mean has settled, 40 periods at the most
+   !> Run until the mean has settled, at most 40 periods
    subroutine run(height, mean)
       real(dp), intent(in) :: height
       type(friction_mean_t), intent(out) :: mean

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> How the cycles of a time step follow one another
+!> The sequence of cycles in a time step
 module test_policy
    use check, only: is_equal, is_true
    use ehl_cycle, only: coarsening_alcouffe, cycle_options_t
@@ -17,8 +17,8 @@ contains
       call cheap_first_cycle()
    end subroutine run_policy
 
-   !> A step that does not converge is attempted from the predicted pressure, from the last one, with care, and damped;
-   !> a slow cycle changes the coarsening for good where that is allowed
+   !> A step that does not converge is attempted from the predicted pressure, from the last one, with limited changes, and
+   !> damped; a slow cycle changes the coarsening permanently if that is allowed
    subroutine attempts_in_order()
       type(step_policy_t) :: policy
       type(cycle_options_t) :: options
@@ -31,7 +31,7 @@ contains
          attempts(k) = policy%attempt
          call policy%after_cycle(1, .false., 1.0e-4_dp, 1.0e-4_dp, next)
          if (any(k == [5, 14, 23])) call is_equal(next, step_restarts, "the residual does not fall")
-         if (k < 300 .and. all(k /= [5, 14, 23])) call is_equal(next, step_continues, "a cycle more")
+         if (k < 300 .and. all(k /= [5, 14, 23])) call is_equal(next, step_continues, "one more cycle")
          if (next == step_restarts) call policy%begin_attempt(1.0_dp)
       end do
       call is_equal(next, step_ends, "no more cycles")
@@ -39,7 +39,7 @@ contains
                    all(attempts(15:23) == attempt_limited) .and. all(attempts(24:) == attempt_damped), "attempts in their order")
       call policy%begin(1.0e-4_dp, .false.)
       call policy%begin_attempt(1.0_dp)
-      call is_equal(policy%attempt, attempt_predicted, "the next step begins from the predicted pressure")
+      call is_equal(policy%attempt, attempt_predicted, "the next step starts from the predicted pressure")
       call policy%after_cycle(2, .true., 1.0e-3_dp, 1.0e-5_dp, next)
       call is_equal(next, step_ends, "tolerances are met")
       call is_equal(policy%changed_at, 0, "no change of the coarsening")
@@ -54,13 +54,13 @@ contains
       call is_equal(policy%options%coarsening, coarsening_alcouffe, "to Alcouffe's")
       call policy%after_cycle(3, .false., 1.0_dp, 0.5_dp, next)
       call is_equal(next, step_continues, "another slow cycle")
-      call is_equal(policy%options%pre, options%pre + 1, "is followed by a sweep more")
+      call is_equal(policy%options%pre, options%pre + 1, "is followed by one more sweep")
       call policy%set(options, .true., 30)
-      call is_equal(policy%changed_at, 0, "a run that begins anew has not changed it")
+      call is_equal(policy%changed_at, 0, "a new run has not changed it")
    end subroutine attempts_in_order
 
-   !> A good prediction needs no sweep before the coarse grids; where that was too little, the cycles after it have them
-   !> and are not called slow. A step that measures makes a second cycle though the first one meets the tolerance.
+   !> A good prediction needs no sweep before the coarse grids; if that did not suffice, the next cycles have these sweeps
+   !> and do not count as slow. A step that measures makes a second cycle even if the first one meets the tolerance.
    subroutine cheap_first_cycle()
       type(step_policy_t) :: policy
       type(cycle_options_t) :: options
@@ -72,10 +72,10 @@ contains
       call is_equal(policy%options%pre, 0, "no sweep before the coarse grids")
       call is_equal(policy%options%post, options%pre + options%post, "as many sweeps as in the usual cycle")
       call policy%after_cycle(1, .false., 3.0e-4_dp, 2.9e-4_dp, next)
-      call is_equal(next, step_continues, "it was too little")
+      call is_equal(next, step_continues, "it did not suffice")
       call is_equal(policy%options%pre, options%pre, "the usual cycle follows")
       call is_equal(policy%options%post, options%post, "with its sweeps after the coarse grids")
-      call is_equal(policy%changed_at, 0, "the coarsening stays")
+      call is_equal(policy%changed_at, 0, "the coarsening does not change")
       call policy%begin(1.0e-4_dp, .false.)
       call policy%begin_attempt(1.0e-2_dp)
       call is_equal(policy%options%pre, options%pre, "a prediction that is far off")

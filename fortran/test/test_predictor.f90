@@ -18,7 +18,7 @@ contains
       call predictor_of_stationary_and_moving_patterns()
    end subroutine run_predictor
 
-   !> Where nothing flows, a moving pattern is convected and a stationary one extrapolated in time, to second order
+   !> Without Poiseuille flow a moving pattern is convected and a stationary one extrapolated in time, to second order
    subroutine predictor_of_stationary_and_moving_patterns()
       type(predictor_t) :: predictor
       type(level_t) :: level
@@ -49,7 +49,7 @@ contains
          call is_close(maxval(abs(level%p(6:31, :) - p(6:31, :, 3))), 0.0_dp, 1.0e-12_dp, &
                        merge("moving pattern    ", "stationary pattern", moves))
       end do
-      ! where the lubricant flows, a smooth error of 0.04 weighs less than a ripple of 0.005, elsewhere more
+      ! with Poiseuille flow a smooth error of 0.04 counts less than a ripple of 0.005, without it more
       do i = 1, 33
          p(i, :, 1) = 1.0_dp - 0.02_dp*i + 0.25_dp*ripple*(-1)**i
          p(i, :, 0) = 1.0_dp

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The discrete Reynolds equation: its Poiseuille term, also of a lubricant that flows differently along and across, and the
+!> The discrete Reynolds equation: its Poiseuille term, also with different conductances along X and Y, and the
 !> Jacobian of the coarsest grid
 module test_reynolds
    use check, only: is_close, is_true
@@ -19,14 +19,14 @@ module test_reynolds
    private
    public :: run_reynolds
 
-   !> A lubricant that flows twice as easily along, and less steeply with the film than a Newtonian one
+   !> A flow with different conductances along X and Y, which increase less with the film than Newtonian ones
    type, extends(flow_t) :: uneven_flow_t
    contains
       procedure :: find_row
       procedure :: film_exponent
       procedure :: stress_row
    end type uneven_flow_t
-   !> d ln(eps)/d ln(H) along and across
+   !> d ln(eps)/d ln(H) along X and Y
    real(dp), parameter :: powers(2) = [2.0_dp, 2.5_dp]
 
 contains
@@ -37,7 +37,7 @@ contains
       call jacobian_against_differences()
    end subroutine run_reynolds
 
-   !> Where the conductances are linear and the pressure is quadratic the five-point difference is exact
+   !> For linear conductances and a quadratic pressure the five-point difference is exact
    subroutine term_of_polynomials()
       type(poiseuille_t) :: poiseuille
       type(uneven_flow_t) :: flow
@@ -72,7 +72,7 @@ contains
       call is_true(.not. status%failed(), "an uneven flow")
    end subroutine term_of_polynomials
 
-   !> The term of a row, its part in a line system, the couplings of single nodes and the frozen operator are the same
+   !> The term of a row, its part in a line system, the couplings of single nodes and the frozen operator agree
    subroutine forms_agree()
       type(poiseuille_t) :: poiseuille, product
       class(flow_t), allocatable :: flow
@@ -127,7 +127,7 @@ contains
       call is_true(.not. status%failed(), "operators")
    end subroutine forms_agree
 
-   !> The coarsest grid's Jacobian times a random change against the change of the residual, force balance included
+   !> The coarsest grid's Jacobian times a random change equals the change of the residual, with the force balance
    subroutine jacobian_against_differences()
       type(level_t) :: level
       type(coarsest_t) :: coarsest
@@ -168,7 +168,7 @@ contains
 
    contains
 
-      !> Residual where the unknowns are changed by a multiple of `change`
+      !> Residual with the unknowns changed by part*change
       subroutine residual_at(part)
          real(dp), intent(in) :: part
          integer :: j
@@ -263,7 +263,7 @@ contains
       stress = newtonian
    end subroutine stress_row
 
-   !> Numbers between 0 and 1 without a pattern
+   !> Pseudo-random numbers between 0 and 1
    subroutine scatter(values)
       real(dp), intent(out) :: values(:, :)
       integer :: j

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Whole solutions on small grids, smooth and in time: with run-time checks and traps they execute every line
+!> Complete solutions on small grids, smooth and transient: with run-time checks and traps they execute every line
 !> of the solver
 module test_solver
    use, intrinsic :: ieee_arithmetic, only: ieee_get_halting_mode, ieee_invalid, ieee_is_nan, ieee_quiet_nan, &
@@ -73,7 +73,7 @@ contains
       call is_close(point%speed_parameter, 1.0978e-3_dp, 1.0e-7_dp, "speed parameter")
    end subroutine operating_point_of_table_1
 
-   !> The pressure of the dry contact balances its load, and the deflection that it causes fills its gap
+   !> The pressure of the dry contact balances its load, and its deflection closes the gap
    subroutine shapes_are_consistent(radius_ratio, angle)
       real(dp), intent(in) :: radius_ratio, angle
       class(contact_t), allocatable :: contact
@@ -99,7 +99,7 @@ contains
       call is_true(minval(w) > -2.0e-3_dp, "bodies do not overlap")
    end subroutine shapes_are_consistent
 
-   !> M = 20, L = 10 on 129 x 129 nodes: H_c = 0.42872, H_min = 0.29094, by two independent solvers that agree
+   !> M = 20, L = 10 on 129 x 129 nodes: H_c = 0.42872, H_min = 0.29094, from two independent solvers that agree
    !> within 0.2 %
    subroutine smooth_against_reference()
       type(solver_t) :: mlmi, fft
@@ -116,7 +116,7 @@ contains
       call is_close(maxval(abs(h_fft - h)), 0.0_dp, 1.0e-4_dp, "mlmi against fft")
    end subroutine smooth_against_reference
 
-   !> A problem that is symmetric in Y on half and on whole domain
+   !> A problem that is symmetric in Y has the same solution on half and on the whole domain
    subroutine half_is_whole(more, tolerance)
       character(len=*), intent(in) :: more
       real(dp), intent(in) :: tolerance
@@ -145,11 +145,11 @@ contains
       call get(solver, "H", h)
       call get(solver, "H_smooth", h_smooth)
       call get(solver, "RR", rr)
-      ! where the pressure is low the roughness rides on the film, and a peak thins it
-      call is_close(maxval(abs(h(2:20, :) - h_smooth(2:20, :) + rr(2:20, :))), 0.0_dp, 0.01_dp, "roughness rides, "//scheme)
+      ! where the pressure is low the bodies do not deform, so that roughness peaks reduce the film
+      call is_close(maxval(abs(h(2:20, :) - h_smooth(2:20, :) + rr(2:20, :))), 0.0_dp, 0.01_dp, "undeformed roughness, "//scheme)
    end subroutine steps_converge
 
-   !> The same bits with one thread and with three
+   !> One thread and three have the same result, to the bit
    subroutine threads_change_nothing()
       type(solver_t) :: one, three
       ! enough nodes for all threads
@@ -164,7 +164,7 @@ contains
       call is_true(.not. any(abs(p - p_three) > 0.0_dp), "threads change no bit")
    end subroutine threads_change_nothing
 
-   !> Lines solved as far as last_active and to their end: the same bits, and no change behind it
+   !> Lines solved up to last_active and to their end have the same changes, to the bit, and no change downstream of it
    subroutine inactive_nodes_do_not_change()
       type(level_t) :: level
       type(workspace_t) :: space
@@ -193,12 +193,12 @@ contains
                           space%lines(1))
          long = space%lines(1)%change
          call is_true(.not. any(abs(long(:, 2:furthest) - short(:, 2:furthest)) > 0.0_dp), "active nodes")
-         call is_true(.not. any(abs(long(:, furthest + 1:level%grid%nx - 1)) > 0.0_dp), "inactive nodes stay")
+         call is_true(.not. any(abs(long(:, furthest + 1:level%grid%nx - 1)) > 0.0_dp), "inactive nodes do not change")
       end do
       call is_true(inactive > 0, "some nodes are inactive")
    end subroutine inactive_nodes_do_not_change
 
-   !> What is not a number stays so in a sweep: it must not look like a cavitated node
+   !> A NaN remains a NaN in a sweep: it must not become a cavitated node
    subroutine nan_is_no_cavitation()
       type(level_t) :: level
       type(workspace_t) :: space
@@ -218,12 +218,12 @@ contains
          level%rhs(15, 15) = ieee_value(1.0_dp, ieee_quiet_nan)
          call update_coefficients(level)
          call relax(level, space, usual_log_change, 1.0_dp)
-         call is_true(ieee_is_nan(level%p(15, 15)), "not a number stays so")
+         call is_true(ieee_is_nan(level%p(15, 15)), "a NaN remains a NaN")
       end do
       call ieee_set_halting_mode(ieee_invalid, halting)
    end subroutine nan_is_no_cavitation
 
-   !> A level of so many nodes a side, and its work space
+   !> A level with `points` nodes a side, and its work space
    subroutine some_level(points, level, space, status)
       integer, intent(in) :: points
       type(level_t), intent(inout) :: level
@@ -253,7 +253,7 @@ contains
       call is_true(.not. status%failed(), "solve")
    end subroutine solve
 
-   !> A field of a solver
+   !> Get a field of a solver
    subroutine get(solver, name, values)
       type(solver_t), intent(in) :: solver
       character(len=*), intent(in) :: name

@@ -20,15 +20,15 @@ contains
       call is_text(to_text(1234567.0_dp), "1234567.0", "seven digits")
       call is_text(to_text(0.1_dp + 0.2_dp), "0.30000000000000004", "17 digits")
       call is_text(to_text(5.0e-324_dp), "5e-324", "smallest number")
-      call is_text(to_text(1.2e-310_dp), "1.2e-310", "a number that has lost digits")
+      call is_text(to_text(1.2e-310_dp), "1.2e-310", "a subnormal number")
       call is_text(to_text(-huge(1.0_dp)), "-1.7976931348623157e308", "largest number")
       call is_text(to_text(-12)//to_text(12345678901_int64)//".", "-1212345678901.", "integers")
-      call is_text(to_text(.true.)//to_text(.false.), ".true..false.", "truth values")
+      call is_text(to_text(.true.)//to_text(.false.), ".true..false.", "logical values")
       call is_text(fixed(-0.5_dp, "f8.3")//short(2.0_dp/3.0_dp), "-0.5006.667E-01", "by edit descriptors")
       call is_text(fixed(2.6435e-6_dp, "f10.4")//" "//fixed(0.0123_dp, "f8.1")//" "//fixed(0.2_dp, "f4.1")// &
                    " "//fixed(3.157e-4_dp, "f10.4")//" "// &
                    fixed(0.0_dp, "f4.1"), "2.64E-06 0.0123 0.2 3.16E-04 0.0", "small numbers")
-      call is_text(fixed(1.0e10_dp, "f4.1"), "1.00000E+10", "by one in which it does not fit")
+      call is_text(fixed(1.0e10_dp, "f4.1"), "1.00000E+10", "by a descriptor that is too narrow")
       call is_text(rounded(9.996_dp)//" "//rounded(123456.0_dp)//" "//rounded(0.012346_dp, 4), "10.0 123456 0.01235", "rounded")
       call is_text(percent(0.0123456_dp), "1.2 %", "per cent")
       call is_text(quoted("it's"), "'it''s'", "quoted text")
@@ -40,7 +40,7 @@ contains
       call is_text(nearest_word("zzzzzz", [character(len=8) :: "x_inlet", "points"]), "", "nothing near")
    end subroutine run_text
 
-   !> Every number reads back as itself
+   !> Every number reads back as the same number
    subroutine round_trips()
       integer, parameter :: samples = 2000
       character(len=:), allocatable :: text
@@ -55,7 +55,7 @@ contains
          read (text, *, iostat=stat) back
          if (stat /= 0 .or. abs(back - x) > 0.0_dp) wrong = wrong + 1
       end do
-      call is_equal(wrong, 0, "numbers that do not read back as themselves")
+      call is_equal(wrong, 0, "numbers that do not read back as the same number")
       call is_true(to_text(tiny(1.0_dp)) /= "0.0", "the smallest number is not zero")
    end subroutine round_trips
 end module test_text

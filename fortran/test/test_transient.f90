@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Parts of a transient run: a step that fails, one that restarts, sweeps, and what is allocated for it
+!> Parts of a transient run: a step that fails, one that restarts, sweeps, and memory
 module test_transient
    use check, only: is_close, is_equal, is_true
    use ehl_case, only: case_t
@@ -35,11 +35,11 @@ contains
       call sweeps_alone_do_not_diverge()
       call changes_are_limited()
       call smooth_part_is_a_whole_mean()
-      call transfers_when_asked_for()
+      call transfers_when_needed()
    end subroutine run_transient
 
-   !> A step that runs out of cycles leaves the fields of the last good one, from which more cycles lead to the
-   !> same bits as if nothing had happened
+   !> A step that exceeds its number of cycles restores the fields of the last good one, from which more cycles lead to the
+   !> same result, to the bit, as without the failure
    subroutine failed_step_leaves_the_last_state()
       type(contact_run_t) :: run
       type(status_t) :: status
@@ -81,7 +81,7 @@ contains
       call is_true(.not. status%failed(), "transient run")
    end subroutine failed_step_leaves_the_last_state
 
-   !> A prediction that leads nowhere is dropped: the step restarts from the last one and comes to the same end
+   !> A bad prediction is rejected: the step restarts from the last state and has the same result
    subroutine step_restarts()
       type(contact_run_t) :: run
       type(status_t) :: status
@@ -114,8 +114,8 @@ contains
       call is_true(.not. status%failed(), "transient run")
    end subroutine step_restarts
 
-   !> Sweeps of a time step make no error grow, whatever coarse grids do about it: here the conductance in all of
-   !> the contact is of the order of the squeeze term's share in the lines
+   !> Sweeps of a time step do not amplify errors, even without coarse grids: here the conductance in all of
+   !> the contact is of the order of the squeeze term in the line systems
    subroutine sweeps_alone_do_not_diverge()
       type(contact_run_t) :: run
       type(status_t) :: status
@@ -138,8 +138,8 @@ contains
       call is_true(.not. status%failed(), "transient run")
    end subroutine sweeps_alone_do_not_diverge
 
-   !> However wrong a pressure is, in a sweep of a time step a node changes its conductance by e^3 at the most; seen at
-   !> nodes that neither dipoles nor the mean of smooth changes touch
+   !> In a sweep of a time step a node changes its conductance by at most a factor of e^3, however wrong the pressure is; checked
+   !> at nodes that neither dipoles nor the filter of smooth changes affects
    subroutine changes_are_limited()
       type(contact_run_t) :: run
       type(status_t) :: status
@@ -165,12 +165,12 @@ contains
             end do
          end do
       end associate
-      call is_true(largest > 2.0_dp, "a large change is wanted")
-      call is_true(largest < 3.0_dp*(1.0_dp + 1.0e-12_dp), "no change is larger than can be trusted")
+      call is_true(largest > 2.0_dp, "the linear system requires a large change")
+      call is_true(largest < 3.0_dp*(1.0_dp + 1.0e-12_dp), "the limit of changes holds")
       call is_true(.not. status%failed(), "transient run")
    end subroutine changes_are_limited
 
-   !> The mean along X of the changes that may be taken back is the same whether it is formed everywhere or only
+   !> The mean along X of the raw changes is the same whether it is computed everywhere or only
    !> where it is not zero
    subroutine smooth_part_is_a_whole_mean()
       type(contact_run_t) :: run
@@ -193,13 +193,13 @@ contains
             end do
          end do
       end associate
-      call is_true(largest > 0.0_dp, "something smooth is taken back")
+      call is_true(largest > 0.0_dp, "a smooth change is removed")
       call is_close(difference, 0.0_dp, 1.0e-12_dp*largest, "mean along X")
       call is_true(.not. status%failed(), "transient run")
    end subroutine smooth_part_is_a_whole_mean
 
-   !> Operator-dependent transfers cost no memory before they are used
-   subroutine transfers_when_asked_for()
+   !> Operator-dependent transfers need no memory before they are used
+   subroutine transfers_when_needed()
       type(contact_run_t) :: run
       type(status_t) :: status
       integer :: n
@@ -213,7 +213,7 @@ contains
          call is_true(run%hierarchy%bytes() > before, "transfers take memory")
       end associate
       call is_true(.not. status%failed(), "transfers")
-   end subroutine transfers_when_asked_for
+   end subroutine transfers_when_needed
 
    !> One time step
    subroutine step(run, status)
@@ -225,7 +225,7 @@ contains
       call solve_transient(run, observer, leave, status)
    end subroutine step
 
-   !> Solve the smooth contact of a case and let the roughness in
+   !> Solve the smooth contact of a case and start the transient run
    subroutine begin(text, run, n, status)
       character(len=*), intent(in) :: text
       type(contact_run_t), intent(out) :: run
